@@ -1,0 +1,152 @@
+/// libwiggly: splines that oscillate, overshoot and follow through.
+///
+/// After "Interactive Spacetime Constraints: Wiggly Splines" (Kass, Anderson). A spline is a displacement x from an
+/// equilibrium y, sampled at N equidistant times; the curve that is keyed and shown is the total y + Re x. Of all curves
+/// through the knots it is the one that needs the smallest "jet engine" force beside that of a damped oscillator.
+///
+/// Memory: one wiggly_create() for a solver, caller's arrays for the curve; nothing is allocated after that.
+/// Threads: no globals. One solver must not be used by two threads at once; a finished curve may be read by any number.
+/// Units: time in seconds, frequency in Hz, angles in radians, values in whatever the animator keys.
+#ifndef WIGGLY_H
+#define WIGGLY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define WIGGLY_VERSION "0.1.0"
+
+/// What a call returns. From WIGGLY_ERROR_ARGUMENT on nothing was solved and the curve was not touched.
+typedef enum wiggly_status {
+    WIGGLY_OK = 0,
+    WIGGLY_CALMED,         ///< singular as asked: solved with calm 0.05 in place of 0
+    WIGGLY_LEVELLED,       ///< singular as asked: solved with a level slope at the earliest knot
+    WIGGLY_INEXACT,        ///< solved, but the error estimate is above the tolerance (see wiggly_curve.error)
+    WIGGLY_SINGULAR,       ///< singular whatever was tried: knots joined by straight lines
+    WIGGLY_ERROR_ARGUMENT, ///< a pointer is missing or a count is out of range
+    WIGGLY_ERROR_CAPACITY, ///< more samples or knots than the solver was created for
+    WIGGLY_ERROR_NUMBER,   ///< a number is NaN or infinite, a stiffness not above 0, or calm outside 0 … 1
+    WIGGLY_ERROR_KNOT,   ///< two knots on one sample, or a knot outside the domain (a loop's last sample is outside)
+    WIGGLY_ERROR_LOOP,   ///< a loop of one sample
+    WIGGLY_ERROR_SPRING, ///< spring and friction in complex mode
+    WIGGLY_ERROR_MEMORY, ///< out of memory
+    WIGGLY_STATUS_COUNT
+} wiggly_status;
+
+/// A sentence for people, without full stop; never NULL.
+const char *wiggly_status_text(wiggly_status status);
+
+typedef enum wiggly_mode {
+    WIGGLY_COMPLEX = 0, ///< two poles on one side of the axis: a band-pass (section 5)
+    WIGGLY_REAL,        ///< a conjugate or real pair of poles: the damped spring (section 3)
+    WIGGLY_CUBIC        ///< both poles at 1: the classical spline (section 2)
+} wiggly_mode;
+
+typedef enum wiggly_start {
+    WIGGLY_FREE =
+        0,       ///< from the earliest knot on; its swing costs what it would have taken to build it up, times calm
+    WIGGLY_REST, ///< from rest at sample 0
+    WIGGLY_LOOP  ///< the last sample is the first one again
+} wiggly_start;
+
+/// A parameter: a number, or where `track` is set one number a sample (N of them, caller's, read during the solve only).
+/// Values out of range are clamped.
+typedef struct wiggly_param {
+    double value;
+    const double *track;
+} wiggly_param;
+
+/// A knot fixes the total, never the phase: Im x stays free.
+typedef struct wiggly_knot {
+    int sample;
+    bool has_slope;
+    double value;
+    double slope;     ///< value per second (eq. 9); read where has_slope
+    double stiffness; ///< > 0, 1/s: what missing the slope costs; 1000 is firm
+} wiggly_knot;
+
+/// What to solve. Start from wiggly_default_desc().
+typedef struct wiggly_desc {
+    int samples; ///< N, at least 1
+    double step; ///< h, seconds between samples, > 0
+    wiggly_mode mode;
+    wiggly_start start;
+    wiggly_param frequency;   ///< Hz, undamped natural frequency; 0 is the cubic
+    wiggly_param damping;     ///< ratio; 1 is critical, above 1 (real mode only) overdamped
+    wiggly_param bandwidth;   ///< fraction of the frequency, 0 … 1; complex mode only
+    bool spring_friction;     ///< real mode: use the next two in place of frequency and damping
+    wiggly_param spring;      ///< k, 1/s² (eq. 12)
+    wiggly_param friction;    ///< gamma, 1/s (eq. 12)
+    wiggly_param equilibrium; ///< y (eq. 25)
+    double calm;              ///< 0 … 1; 0 is the paper's formula to the letter
+    const wiggly_knot *knots; ///< any order
+    int knot_count;
+} wiggly_desc;
+
+/// Bandwidth 0.1, calm 1, complex, free, step 1/24; everything else 0.
+wiggly_desc wiggly_default_desc(void);
+
+/// A solved spline: the caller's arrays of N numbers each, filled by wiggly_solve().
+typedef struct wiggly_curve {
+    double *total; ///< y + Re x; at knots exactly the knot's value
+    double *y;     ///< equilibrium
+    double *re;    ///< Re x
+    double *im;    ///< Im x; 0 outside complex mode
+    double *omega; ///< band centre, rad/s, for values between samples
+    int samples;   ///< N of the last solve
+    double step;   ///< h, seconds
+    int first;     ///< before this sample x is constant
+    wiggly_mode mode;
+    wiggly_start start;
+    double error;    ///< estimated largest error, relative to the larger of the total's range and magnitude
+    int refinements; ///< sweeps of iterative refinement that were taken
+} wiggly_curve;
+
+/// A solver's memory: factors and right-hand sides. Reusable for any number of splines.
+typedef struct wiggly_solver wiggly_solver;
+
+/// A solver for up to `samples` samples and `knots` knots. WIGGLY_ERROR_ARGUMENT, WIGGLY_ERROR_MEMORY.
+wiggly_status wiggly_create(int samples, int knots, wiggly_solver **solver);
+
+/// Bytes that wiggly_create_at() needs, or 0 where samples < 1 or knots < 0 or the size does not fit.
+size_t wiggly_memsize(int samples, int knots);
+
+/// The same in the caller's memory (aligned for double, `size` bytes); never destroyed, only forgotten.
+wiggly_status wiggly_create_at(void *memory, size_t size, int samples, int knots, wiggly_solver **solver);
+
+/// Frees what wiggly_create() made; NULL is fine.
+void wiggly_destroy(wiggly_solver *solver);
+
+/// Solves one spline, O(samples), allocating nothing. Deterministic: the same description gives the same bits.
+wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve);
+
+/// What a curve is at a time, in parts.
+typedef struct wiggly_value {
+    double y, re, im;
+} wiggly_value;
+
+/// The curve at a real-valued sample position, clamped to the domain (a loop wraps). Exact at samples.
+wiggly_value wiggly_evaluate(const wiggly_curve *curve, double position);
+
+/// y + Re(e^{−j·lag} x): the value of a part that lags behind by `lag` radians (eq. 27).
+double wiggly_lagged(wiggly_value value, double lag);
+
+/// Float view for graphics: total at `count` positions from `from` in steps of `by` samples, written `stride` floats apart.
+void wiggly_evaluate_float(const wiggly_curve *curve, double from, double by, int count, float *out, size_t stride);
+
+/// The two continuous poles of constant parameters, 1/s, and the discrete ones λ = exp(s·h), each (re, im).
+typedef struct wiggly_poles {
+    double s[2][2];
+    double z[2][2];
+} wiggly_poles;
+
+/// Poles of the description at a sample (section 4 and 5 of the paper).
+wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

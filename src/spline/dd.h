@@ -1,0 +1,52 @@
+/// Double-double arithmetic: an unevaluated sum hi + lo with |lo| ≤ ulp(hi)/2, about 106 bits (Dekker 1971, Knuth).
+///
+/// Needs round-to-nearest and no contraction or reassociation: built with -ffp-contract=off, never with -ffast-math.
+#ifndef SPLINE_DD_H
+#define SPLINE_DD_H
+
+#include <math.h>
+
+typedef struct dd {
+    double hi, lo;
+} dd;
+
+/// a + b exactly.
+static inline dd dd_sum(double a, double b)
+{
+    double s = a + b;
+    double t = s - a;
+    return (dd){s, (a - (s - t)) + (b - t)};
+}
+
+/// a − b exactly.
+static inline dd dd_difference(double a, double b) { return dd_sum(a, -b); }
+
+/// a·b exactly (where it neither overflows nor underflows).
+static inline dd dd_product(double a, double b)
+{
+    double p = a * b;
+    return (dd){p, fma(a, b, -p)};
+}
+
+static inline dd dd_add(dd a, dd b)
+{
+    dd s = dd_sum(a.hi, b.hi);
+    double lo = s.lo + (a.lo + b.lo);
+    double hi = s.hi + lo;
+    return (dd){hi, lo - (hi - s.hi)};
+}
+
+static inline dd dd_negate(dd a) { return (dd){-a.hi, -a.lo}; }
+
+static inline dd dd_subtract(dd a, dd b) { return dd_add(a, dd_negate(b)); }
+
+/// a·b for a double a.
+static inline dd dd_scale(double a, dd b)
+{
+    dd p = dd_product(a, b.hi);
+    return (dd){p.hi, p.lo + a * b.lo};
+}
+
+static inline dd dd_from(double a) { return (dd){a, 0.0}; }
+
+#endif

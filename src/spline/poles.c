@@ -1,0 +1,109 @@
+#include "spline/poles.h"
+#include <math.h>
+
+static const double pi = 3.14159265358979323846;
+
+/// Nothing beyond this is told apart from it (λ has long been 0), and products of two stay finite.
+static const double largest = 1e140;
+
+static double at_sample(wiggly_param param, int sample, double maximum)
+{
+    double value = param.track ? param.track[sample] : param.value;
+    return value > 0 ? fmin(value, maximum) : 0.0;
+}
+
+/// Roots of s² + 2σs + ω² = 0.
+static poles real_poles(double sigma, double omega)
+{
+    poles at = {.natural = omega};
+    if (sigma <= omega) {
+        double d = sqrt(omega - sigma) * sqrt(omega + sigma);
+        at.s[0] = (cplx){-sigma, d};
+        at.s[1] = (cplx){-sigma, -d};
+        at.centre = d;
+    } else {
+        double d = sigma + sqrt(sigma - omega) * sqrt(sigma + omega);
+        at.s[0] = (cplx){-omega * (omega / d), 0};
+        at.s[1] = (cplx){-d, 0};
+    }
+    return at;
+}
+
+poles poles_at(const wiggly_desc *desc, int sample, double floor)
+{
+    if (desc->mode == WIGGLY_CUBIC) return (poles){0};
+    if (desc->spring_friction) {
+        double omega = sqrt(at_sample(desc->spring, sample, largest));
+        double sigma = 0.5 * at_sample(desc->friction, sample, largest);
+        return real_poles(fmax(sigma, floor * omega), omega);
+    }
+    double omega = 2 * pi * at_sample(desc->frequency, sample, sqrt(largest));
+    double zeta = fmax(at_sample(desc->damping, sample, sqrt(largest)), floor);
+    if (desc->mode == WIGGLY_REAL) return real_poles(zeta * omega, omega);
+    zeta = fmin(zeta, 1.0);
+    double centre = omega * sqrt((1 - zeta) * (1 + zeta));
+    double turn = omega * at_sample(desc->bandwidth, sample, 1.0);
+    return (poles){
+        .s = {{-zeta * omega, centre + turn}, {-zeta * omega, centre - turn}},
+        .natural = omega,
+        .centre = centre,
+    };
+}
+
+bool poles_are_constant(const wiggly_desc *desc)
+{
+    if (desc->mode == WIGGLY_CUBIC) return true;
+    if (desc->spring_friction) return !desc->spring.track && !desc->friction.track;
+    return !desc->frequency.track && !desc->damping.track && (desc->mode == WIGGLY_REAL || !desc->bandwidth.track);
+}
+
+/// exp(z) − 1 without cancellation.
+static cplx expm1_complex(cplx z)
+{
+    double half = sin(0.5 * z.im);
+    return (cplx){expm1(z.re) * cos(z.im) - 2 * half * half, exp(z.re) * sin(z.im)};
+}
+
+coefficients poles_coefficients(const poles *at, double step)
+{
+    cplx mu0 = expm1_complex((cplx){at->s[0].re * step, at->s[0].im * step});
+    cplx mu1 = expm1_complex((cplx){at->s[1].re * step, at->s[1].im * step});
+    double size = exp(0.5 * step * (at->s[0].re + at->s[1].re));
+    double angle = 0.5 * step * (at->s[0].im + at->s[1].im);
+    return (coefficients){
+        .m = cplx_add(mu0, mu1),
+        .p = cplx_mul(mu0, mu1),
+        .g = {size * cos(angle), size * sin(angle)},
+    };
+}
+
+/// |1 − exp(z)|².
+static double distance_from_one(cplx z) { return cplx_norm(expm1_complex(z)); }
+
+start_cost poles_start_cost(const poles *at, double step)
+{
+    const cplx *s = at->s;
+    double h00 = -expm1(2 * step * (s[0].re + s[1].re)); // 1 − |b|²
+    if (!(h00 > 0)) return (start_cost){0};
+    // H₁₀ = −(a + a* b) = m + m* + 2p + |m|² + m* p, so H₀₀ + H₁₀ = 2j Im p − m p* − |p|²: no term of order 1 is left.
+    coefficients c = poles_coefficients(at, step);
+    cplx mp = cplx_mul(c.m, cplx_conj(c.p));
+    cplx sum = {-mp.re - cplx_norm(c.p), 2 * c.p.im - mp.im};
+    double det = -expm1(2 * step * s[0].re) * -expm1(2 * step * s[1].re) *
+                 distance_from_one((cplx){step * (s[0].re + s[1].re), step * (s[0].im - s[1].im)});
+    return (start_cost){.h00 = h00, .d = det / h00, .e = {sum.re / h00, -sum.im / h00}};
+}
+
+wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample)
+{
+    poles at = poles_at(desc, sample, 0);
+    wiggly_poles out;
+    for (int k = 0; k < 2; k++) {
+        double size = exp(at.s[k].re * desc->step), angle = at.s[k].im * desc->step;
+        out.s[k][0] = at.s[k].re;
+        out.s[k][1] = at.s[k].im;
+        out.z[k][0] = size * cos(angle);
+        out.z[k][1] = size * sin(angle);
+    }
+    return out;
+}

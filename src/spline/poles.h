@@ -1,0 +1,47 @@
+/// Where the animator's parameters put the two poles, and the filter's coefficients (spec: "Parameters"; paper, section 4, 5).
+#ifndef SPLINE_POLES_H
+#define SPLINE_POLES_H
+
+#include <wiggly/wiggly.h>
+
+typedef struct cplx {
+    double re, im;
+} cplx;
+
+static inline cplx cplx_add(cplx a, cplx b) { return (cplx){a.re + b.re, a.im + b.im}; }
+static inline cplx cplx_mul(cplx a, cplx b) { return (cplx){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re}; }
+static inline cplx cplx_conj(cplx a) { return (cplx){a.re, -a.im}; }
+static inline double cplx_norm(cplx a) { return a.re * a.re + a.im * a.im; }
+
+/// Continuous poles in 1/s, natural frequency and band centre in rad/s.
+typedef struct poles {
+    cplx s[2];
+    double natural; ///< ω_n
+    double centre;  ///< ω_c
+} poles;
+
+/// Coefficients of r_i = x_{i+1} − a x_i − b x_{i−1} + g ÿ, kept as distances from the cubic's a = 2, b = −1:
+///     r_i = (x_{i+1} − 2x_i + x_{i−1}) − m (x_i − x_{i−1}) + p x_{i−1} + g ÿ,   m = μ₀ + μ₁, p = μ₀μ₁, μ = λ − 1,
+/// because at high sample rates a and b themselves hold no digit of the frequency.
+typedef struct coefficients {
+    cplx m, p; ///< a = 2 + m, −b = 1 + m + p
+    cplx g;    ///< exp((s₀+s₁)h/2): the drive in phase with the filter
+} coefficients;
+
+/// What swing at the start costs, as |√h00 (x₀ + (−1+e) x₁)|² + d |x₁|²: the factored information matrix H of the stationary
+/// process, without the cancellation of its plain form. All 0 where both poles are 0.
+typedef struct start_cost {
+    double h00, d;
+    cplx e;
+} start_cost;
+
+/// Poles at a sample. `floor` is the least damping ratio (0 but for loops and the start's cost).
+poles poles_at(const wiggly_desc *desc, int sample, double floor);
+
+/// True where no pole parameter that the mode uses has a track.
+bool poles_are_constant(const wiggly_desc *desc);
+
+coefficients poles_coefficients(const poles *at, double step);
+start_cost poles_start_cost(const poles *at, double step);
+
+#endif

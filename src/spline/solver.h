@@ -1,0 +1,29 @@
+/// Inside of a wiggly_solver: one block of memory, carved at creation.
+#ifndef SPLINE_SOLVER_H
+#define SPLINE_SOLVER_H
+
+#include "spline/system.h"
+
+struct wiggly_solver {
+    int samples, knots; ///< capacity
+    bool owned;
+    system_rows rows;
+    pentadiagonal matrix;
+    int *knot_at; ///< index of the knot on each sample, or -1
+};
+
+/// How a minimisation went.
+typedef struct minimum {
+    bool solved;    ///< false: the factorisation broke down or a number overflowed
+    double largest; ///< max |x|
+    double error;   ///< estimated error of x, absolute
+    int sweeps;
+} minimum;
+
+/// Minimises the rows' energy over the unknowns that are not fixed; rows->x holds the fixed ones and 0 elsewhere.
+minimum solver_minimise(wiggly_solver *solver);
+
+/// x of a spline that nothing constrains and that starts from rest: the filter run forward (r_i = 0, Figure 5).
+void solver_run_forward(wiggly_solver *solver);
+
+#endif
