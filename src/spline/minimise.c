@@ -22,7 +22,9 @@ minimum solver_minimise(wiggly_solver *solver)
     system_rows *rows = &solver->rows;
     minimum result = {0};
     system_matrix(rows, &solver->matrix);
-    if (!pentadiagonal_factor(&solver->matrix)) return result;
+    pentadiagonal_rank rank = pentadiagonal_factor(&solver->matrix);
+    if (rank == RANK_BROKEN) return result;
+    result.weak = rank == RANK_WEAK;
     int unknowns = rows->count * (rows->complex ? 2 : 1);
     double before = INFINITY;
     while (result.sweeps < MAX_SWEEPS) {

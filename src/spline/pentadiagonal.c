@@ -11,8 +11,12 @@
 // are taken out as a border B with corner C, the rest is factored as above, and the border is solved through its Schur
 // complement C − Bᵀ A⁻¹ B. (Periodic tridiagonal solvers do the same with Sherman–Morrison.)
 #include "spline/pentadiagonal.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
+
+/// A pivot below this part of its diagonal entry is rounding; those of a knot-free stretch of G samples are about G⁻³ of it.
+static const double rounding = 8 * DBL_EPSILON;
 
 typedef struct block {
     double a, b, c, d; ///< [a b; c d]
@@ -36,8 +40,9 @@ static inline block times_symmetric(block x, const double *s)
                    x.c * s[1] + x.d * s[2]};
 }
 
-static bool factor_blocks(const pentadiagonal *m, int rows)
+static pentadiagonal_rank factor_blocks(const pentadiagonal *m, int rows)
 {
+    pentadiagonal_rank rank = RANK_FULL;
     const block zero = {0, 0, 0, 0};
     block l1 = zero, u = zero, l2 = zero, f = zero; // of row k−1
     block l2_before = zero, f_before = zero;        // of row k−2
@@ -46,7 +51,8 @@ static bool factor_blocks(const pentadiagonal *m, int rows)
         block s = {d[0], d[1], d[1], d[2]};
         s = minus_product(minus_product(s, l1, u), l2_before, f_before); // S_k
         double det = s.a * s.d - s.b * s.b;
-        if (!(s.a > 0 && det > 0 && det < INFINITY)) return false;
+        if (!(s.a > 0 && det > 0 && det < INFINITY)) return RANK_BROKEN;
+        if (s.a < rounding * d[0] || det < rounding * d[2] * s.a) rank = RANK_WEAK;
         d[0] = s.d / det, d[1] = -s.b / det, d[2] = s.a / det;
         block next_u = minus_product(load(below), l2, u); // U_k
         l2_before = l2, f_before = f;
@@ -55,22 +61,24 @@ static bool factor_blocks(const pentadiagonal *m, int rows)
         store(below, l1);
         store(below2, l2);
     }
-    return true;
+    return rank;
 }
 
-static bool factor_scalars(const pentadiagonal *m, int rows)
+static pentadiagonal_rank factor_scalars(const pentadiagonal *m, int rows)
 {
+    pentadiagonal_rank rank = RANK_FULL;
     double l1 = 0, u = 0, l2 = 0, f = 0, l2_before = 0, f_before = 0;
     for (int k = 0; k < rows; k++) {
         double s = m->diagonal[k] - l1 * u - l2_before * f_before;
-        if (!(s > 0 && s < INFINITY)) return false;
+        if (!(s > 0 && s < INFINITY)) return RANK_BROKEN;
+        if (s < rounding * m->diagonal[k]) rank = RANK_WEAK;
         double inverse = 1 / s, next_u = m->below[k] - l2 * u;
         l2_before = l2, f_before = f;
         u = next_u, f = m->below2[k];
         l1 = u * inverse, l2 = f * inverse;
         m->diagonal[k] = inverse, m->below[k] = l1, m->below2[k] = l2;
     }
-    return true;
+    return rank;
 }
 
 static void solve_blocks(const pentadiagonal *m, int rows, double *x)
@@ -116,7 +124,7 @@ static void solve_scalars(const pentadiagonal *m, int rows, double *x)
     }
 }
 
-static bool factor_rows(const pentadiagonal *m, int rows)
+static pentadiagonal_rank factor_rows(const pentadiagonal *m, int rows)
 {
     return m->width == 2 ? factor_blocks(m, rows) : factor_scalars(m, rows);
 }
@@ -182,10 +190,29 @@ static void split_border(pentadiagonal *m)
     }
 }
 
+/// corner ← its Cholesky factor; `entry` are the diagonal entries before the border was taken off.
+static pentadiagonal_rank factor_corner(pentadiagonal *m, const double *entry)
+{
+    pentadiagonal_rank rank = RANK_FULL;
+    int size = 2 * m->width;
+    for (int c = 0; c < size; c++) {
+        for (int r = c; r < size; r++) {
+            double sum = m->corner[r][c];
+            for (int k = 0; k < c; k++) sum -= m->corner[r][k] * m->corner[c][k];
+            if (r == c && !(sum > 0 && sum < INFINITY)) return RANK_BROKEN;
+            if (r == c && sum < rounding * entry[c]) rank = RANK_WEAK;
+            m->corner[r][c] = r == c ? sqrt(sum) : sum / m->corner[c][c];
+        }
+    }
+    return rank;
+}
+
 /// Border columns ← interior⁻¹ B; corner ← Cholesky factor of C − Bᵀ interior⁻¹ B.
-static bool factor_border(pentadiagonal *m)
+static pentadiagonal_rank factor_border(pentadiagonal *m)
 {
     int w = m->width, size = 2 * w, interior = m->count - 2;
+    double entry[BORDER_MAX];
+    for (int c = 0; c < size; c++) entry[c] = m->corner[c][c];
     for (int c = 0; c < size; c++) {
         double *column = m->border + (size_t)c * (size_t)(w * m->count);
         memset(column, 0, sizeof *column * (size_t)(w * interior));
@@ -199,22 +226,17 @@ static bool factor_border(pentadiagonal *m)
             }
         }
     }
-    for (int c = 0; c < size; c++) {
-        for (int r = c; r < size; r++) {
-            double sum = m->corner[r][c];
-            for (int k = 0; k < c; k++) sum -= m->corner[r][k] * m->corner[c][k];
-            if (r == c && !(sum > 0 && sum < INFINITY)) return false;
-            m->corner[r][c] = r == c ? sqrt(sum) : sum / m->corner[c][c];
-        }
-    }
-    return true;
+    return factor_corner(m, entry);
 }
 
-bool pentadiagonal_factor(pentadiagonal *m)
+pentadiagonal_rank pentadiagonal_factor(pentadiagonal *m)
 {
     if (!m->cyclic) return factor_rows(m, m->count);
     split_border(m);
-    return factor_rows(m, m->count - 2) && factor_border(m);
+    pentadiagonal_rank inner = factor_rows(m, m->count - 2);
+    if (inner == RANK_BROKEN) return inner;
+    pentadiagonal_rank border = factor_border(m);
+    return border < inner ? border : inner;
 }
 
 void pentadiagonal_solve(const pentadiagonal *m, double *b)

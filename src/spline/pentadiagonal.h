@@ -21,8 +21,14 @@ typedef struct pentadiagonal {
     double corner[BORDER_MAX][BORDER_MAX]; ///< Cholesky factor of the border's Schur complement
 } pentadiagonal;
 
-/// Factors. false where a pivot is not positive: singular to rounding. cyclic needs count ≥ 3.
-bool pentadiagonal_factor(pentadiagonal *matrix);
+typedef enum pentadiagonal_rank {
+    RANK_BROKEN, ///< a pivot is not positive: there is no factor
+    RANK_WEAK,   ///< a pivot is lost in the rounding of its diagonal entry: what it solves for may be anything
+    RANK_FULL,
+} pentadiagonal_rank;
+
+/// Factors. cyclic needs count ≥ 3.
+pentadiagonal_rank pentadiagonal_factor(pentadiagonal *matrix);
 
 /// b ← A⁻¹ b, width·count numbers; after a successful factor.
 void pentadiagonal_solve(const pentadiagonal *matrix, double *b);

@@ -6,6 +6,9 @@ static const double pi = 3.14159265358979323846;
 /// Nothing beyond this is told apart from it (λ has long been 0), and products of two stay finite.
 static const double largest = 1e140;
 
+/// A start cost below this (N⁻⁴ of the longest spline) holds nothing.
+static const double negligible = 1e-30;
+
 static double at_sample(wiggly_param param, int sample, double maximum)
 {
     double value = param.track ? param.track[sample] : param.value;
@@ -84,7 +87,7 @@ start_cost poles_start_cost(const poles *at, double step)
 {
     const cplx *s = at->s;
     double h00 = -expm1(2 * step * (s[0].re + s[1].re)); // 1 − |b|²
-    if (!(h00 > 0)) return (start_cost){0};
+    if (!(h00 > negligible)) return (start_cost){0};
     // H₁₀ = −(a + a* b) = m + m* + 2p + |m|² + m* p, so H₀₀ + H₁₀ = 2j Im p − m p* − |p|²: no term of order 1 is left.
     coefficients c = poles_coefficients(at, step);
     cplx mp = cplx_mul(c.m, cplx_conj(c.p));

@@ -11,6 +11,8 @@ static const double implied_stiffness = 1000;
 static const double fallback_calm = 0.05;
 static const double least_damping = 0.05; ///< of the start's cost, and times calm of a loop
 static const double blow_up = 1e4;
+static const double stiffest =
+    1e20; ///< a slope row heavier than this is met to the last digit anyway, and could overflow
 
 wiggly_desc wiggly_default_desc(void)
 {
@@ -218,7 +220,7 @@ static void add_slope(system_rows *rows, const problem *p, int sample, double sl
 {
     int k = sample - p->first;
     bool last = !rows->loop && k == rows->count - 1;
-    slope_row row = {.p = last ? k - 1 : k, .weight = stiffness * p->desc->step};
+    slope_row row = {.p = last ? k - 1 : k, .weight = fmin(stiffness * p->desc->step, stiffest)};
     row.q = rows->loop ? (row.p + 1) % rows->count : row.p + 1;
     row.target = p->desc->step * slope - (y_at(p, rows, row.q) - y_at(p, rows, row.p));
     if (row.p >= 0) rows->slopes[rows->slope_count++] = row;
@@ -300,8 +302,8 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, minimum 
     for (;;) {
         *result = attempt(solver, p);
         bool may_be_singular = p->start == WIGGLY_LOOP ? p->calm == 0 : p->free_end;
-        bool blown_up = may_be_singular && scale > 0 && result->largest > blow_up * scale;
-        if (result->solved && !blown_up) return status;
+        bool blown_up = scale > 0 && result->largest > blow_up * scale;
+        if (result->solved && !(may_be_singular && (result->weak || blown_up))) return status;
         if (may_be_singular && p->calm == 0) {
             p->calm = fallback_calm;
             status = WIGGLY_CALMED;

@@ -1,0 +1,144 @@
+#include "app/app.h"
+#include "app/state.h"
+#include "platform/process.h"
+#include "scene/load.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, HEADLESS_FRAMES = 1200, WARM_UP = 10, REFERENCE_FRAMES = 21 };
+enum { LOG_ROWS = 200000 };
+
+static bool open_platform(struct app *app, bool offscreen, struct error *error)
+{
+    const struct app_options *o = app->options;
+    const struct replay_header *header = app->replay ? replay_get_header(app->replay) : NULL;
+    int width = o->width ? o->width : header ? header->width : DEFAULT_WIDTH;
+    int height = o->height ? o->height : header ? header->height : DEFAULT_HEIGHT;
+    double scale = o->scale > 0 ? o->scale : header ? header->scale : 1;
+    if (offscreen) {
+        app->platform =
+            platform_offscreen((int)lround(width * scale), (int)lround(height * scale), (float)scale, error);
+    } else {
+        int vsync = app->replay || o->frames ? 0 : 1;
+        app->platform = platform_window(width, height, "wiggly", vsync, error);
+    }
+    return app->platform != NULL;
+}
+
+static bool start(struct app *app, bool offscreen, struct error *error)
+{
+    const struct app_options *o = app->options;
+    if (o->replay && !(app->replay = replay_load(o->replay, error))) return false;
+    if (!open_platform(app, offscreen, error)) return false;
+    int width, height;
+    float scale;
+    platform_size(app->platform, &width, &height, &scale);
+    if (!(app->draw = draw_create(scale, error)) || !(app->editor = editor_create(error))) return false;
+    if (!(app->history = history_create())) return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    app_connect_files(app);
+    editor_resize(app->editor, (float)width / scale, (float)height / scale, scale);
+    if (!app_open(app, o->scene, error)) return false;
+    uint64_t hash = scene_hash(app->document);
+    if (app->replay && replay_get_header(app->replay)->scene_hash != hash) {
+        return fail(error, ERROR_INPUT, "%s: recorded on another scene: expected hash %016llx, got %016llx",
+                    o->replay, (unsigned long long)replay_get_header(app->replay)->scene_hash,
+                    (unsigned long long)hash);
+    }
+    if (o->record) {
+        struct replay_header header = {.width = (int)lroundf((float)width / scale),
+                                       .height = (int)lroundf((float)height / scale),
+                                       .scale = (double)scale,
+                                       .scene_hash = hash};
+        if (!(app->recording = recording_open(o->record, &header, error))) return false;
+    }
+    if (o->frames_dir) mkdir(o->frames_dir, 0777);
+    app->fixed_clock = offscreen || app->replay || app->recording;
+    app->lost = true;
+    return true;
+}
+
+/// After the first frame: measures the reference frame where a log is wanted, and opens it.
+static bool open_log(struct app *app, struct error *error)
+{
+    const struct app_options *o = app->options;
+    struct frame_header header = {
+        .gl_renderer = draw_renderer_name(),
+        .vsync = platform_is_window(app->platform) && !app->replay && !o->frames,
+        .warm_up = WARM_UP,
+        .reference_ms = NAN,
+        .first_frame_ms = 1e3 * process_age(),
+    };
+    platform_size(app->platform, &header.width, &header.height, &header.scale);
+    if (o->log) {
+        header.reference_ms = draw_reference_ms(app->draw, header.width, header.height, REFERENCE_FRAMES);
+        app->lost = true;
+    }
+    app->log = framelog_open(o->log, &header, LOG_ROWS, error);
+    if (!app->log) return false;
+    framelog_push(app->log, &app->row);
+    printf("first frame after %.0f ms\n", header.first_frame_ms);
+    return true;
+}
+
+static bool run_frames(struct app *app, long frames, bool timed, struct error *error)
+{
+    while (!app->quit && !app->failed && (frames == 0 || app->frame < frames)) {
+        app_frame(app);
+        if (app->frame == 1 && timed && !app->log && !open_log(app, error)) return false;
+    }
+    if (app->failed) *error = app->error;
+    return !app->failed;
+}
+
+/// What was asked for at the end: picture, document, log, recording. Goes on past a failure and reports the first.
+static bool finish(struct app *app, struct error *error)
+{
+    const struct app_options *o = app->options;
+    struct error other = {0};
+    bool good = true;
+    if (app->platform && app->frame > 0 && o->screenshot) good = app_screenshot(app, o->screenshot, error) && good;
+    if (app->document && app->frame > 0 && o->result) {
+        good = scene_save(app->document, o->result, good ? error : &other) && good;
+    }
+    if (app->log) {
+        good = framelog_close(app->log, stdout, good ? error : &other) && good;
+        printf("largest resident memory %.0f MB\n", process_peak_memory());
+    }
+    return recording_close(app->recording, app->frame, good ? error : &other) && good;
+}
+
+static void destroy(struct app *app)
+{
+    evaluation_free(&app->evaluation);
+    free(app->dirty);
+    history_destroy(app->history);
+    document_destroy(app->document);
+    editor_destroy(app->editor);
+    draw_destroy(app->draw);
+    platform_destroy(app->platform);
+    replay_destroy(app->replay);
+}
+
+int app_run(const struct app_options *options, struct error *error)
+{
+    struct app app = {.options = options};
+    bool offscreen = options->headless;
+    if (!offscreen && !platform_has_display()) {
+        fprintf(stderr, "wiggly: no display, running headless (see wiggly live --help for what it can write)\n");
+        offscreen = true;
+    }
+    bool good = start(&app, offscreen, error);
+    if (good) {
+        long frames = options->frames ? options->frames
+                      : app.replay    ? replay_get_header(app.replay)->frames
+                      : offscreen     ? HEADLESS_FRAMES
+                                      : 0;
+        good = run_frames(&app, frames, frames > 0 || options->log, error);
+    }
+    struct error late = {0};
+    if (!finish(&app, good ? error : &late)) good = false;
+    destroy(&app);
+    return good ? 0 : error->kind == ERROR_NONE ? ERROR_ENVIRONMENT : (int)error->kind;
+}

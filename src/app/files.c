@@ -1,0 +1,195 @@
+// What the editor may not do itself: files, the window, and the end of the run.
+#include "app/state.h"
+#include "base/embedded.h"
+#include "base/png.h"
+#include "editor/dialog_files.h"
+#include "scene/load.h"
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static const char built_in_scene[] = "scenes/tail.json";
+
+/// What "new" puts on the table: a spline with nothing keyed yet, and a tail that follows it.
+static const char new_scene[] =
+    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1,"
+    " \"knots\": [{\"frame\": 0, \"value\": 0}]}],"
+    " \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.35, 0], \"spline\": \"sway\"}]}";
+
+static const char *file_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static const char *shown_name(const struct app *app) { return app->path[0] ? file_name(app->path) : "untitled"; }
+
+static void show_title(struct app *app)
+{
+    const char *name = shown_name(app);
+    char title[512];
+    app->shown_saved = history_is_saved(app->history);
+    snprintf(title, sizeof title, "%s%.400s — wiggly", app->shown_saved ? "" : "*", name);
+    platform_title(app->platform, title);
+}
+
+/// Puts a document on the table in place of the one there.
+static void adopt(struct app *app, struct document *document, const char *path)
+{
+    document_destroy(app->document);
+    app->document = document;
+    snprintf(app->path, sizeof app->path, "%s", path);
+    history_clear(app->history);
+    history_mark_saved(app->history);
+    app->solved_revision = 0;
+    struct editor_world world = app_world(app);
+    editor_open(app->editor, &world, shown_name(app));
+    editor_set_title(app->editor, shown_name(app), app->path[0] != '\0');
+    show_title(app);
+}
+
+/// The scenes that come with the program open as untitled: saving must not write over them.
+static bool is_asset(const char *path)
+{
+    char full[4096];
+    const char *place = realpath(path, full) ? full : path;
+    return strstr(place, "/assets/scenes/") || strstr(place, "/share/wiggly/scenes/");
+}
+
+bool app_open(struct app *app, const char *path, struct error *error)
+{
+    struct document *document;
+    if (path) {
+        document = scene_load(path, NULL, error);
+    } else {
+        const struct embedded *file = embedded_find(built_in_scene);
+        if (!file) return fail(error, ERROR_ENVIRONMENT, "%s is not in this build", built_in_scene);
+        document = scene_parse("tail.json", (const char *)file->data, file->size, NULL, error);
+    }
+    if (!document) return false;
+    adopt(app, document, path && !is_asset(path) ? path : "");
+    return true;
+}
+
+static bool save(struct app *app, const char *path, struct error *error)
+{
+    if (!scene_save(app->document, path, error)) return false;
+    if (path != app->path) snprintf(app->path, sizeof app->path, "%s", path);
+    history_mark_saved(app->history);
+    editor_set_title(app->editor, shown_name(app), true);
+    show_title(app);
+    return true;
+}
+
+bool app_screenshot(struct app *app, const char *path, struct error *error)
+{
+    int width, height;
+    float scale;
+    platform_size(app->platform, &width, &height, &scale);
+    unsigned char *pixels = malloc(4 * (size_t)width * (size_t)height);
+    if (!pixels) return fail(error, ERROR_ENVIRONMENT, "out of memory for a picture of %d × %d", width, height);
+    draw_read(width, height, pixels);
+    bool done = png_write(path, width, height, pixels, error);
+    free(pixels);
+    return done;
+}
+
+/// F12: the first name wiggly-NNNN.png that is free, in the folder of the scene.
+static bool take_picture(struct app *app, struct error *error)
+{
+    char path[1100], folder[1024];
+    snprintf(folder, sizeof folder, "%s", app->path);
+    char *slash = strrchr(folder, '/');
+    if (slash) {
+        slash[1] = '\0';
+    } else {
+        folder[0] = '\0';
+    }
+    struct stat status;
+    int number = 0;
+    do {
+        snprintf(path, sizeof path, "%swiggly-%04d.png", folder, ++number);
+    } while (stat(path, &status) == 0 && number < 9999);
+    if (!app_screenshot(app, path, error)) return false;
+    char text[1200];
+    snprintf(text, sizeof text, "saved %s", path);
+    editor_message(app->editor, false, text);
+    return true;
+}
+
+static bool carry_out(struct app *app, const struct request *request, struct error *error)
+{
+    switch (request->kind) {
+    case REQUEST_NONE:
+        return true;
+    case REQUEST_NEW: {
+        struct document *document = scene_parse("new", new_scene, sizeof new_scene - 1, NULL, error);
+        if (!document) return false;
+        adopt(app, document, "");
+        return true;
+    }
+    case REQUEST_OPEN:
+        return app_open(app, request->path, error);
+    case REQUEST_SAVE:
+        return save(app, app->path, error);
+    case REQUEST_SAVE_AS:
+        return save(app, request->path, error);
+    case REQUEST_QUIT:
+        app->quit = true;
+        return true;
+    case REQUEST_SCREENSHOT:
+        return take_picture(app, error);
+    case REQUEST_FULLSCREEN:
+        platform_fullscreen(app->platform, !platform_is_fullscreen(app->platform));
+        return true;
+    }
+    return true;
+}
+
+void app_requests(struct app *app)
+{
+    for (;;) {
+        struct request request = editor_take_request(app->editor);
+        if (request.kind == REQUEST_NONE) break;
+        struct error error = {0};
+        if (!carry_out(app, &request, &error)) editor_message(app->editor, true, error.text);
+    }
+    if (history_is_saved(app->history) != app->shown_saved) show_title(app);
+}
+
+static bool is_scene_name(const char *name)
+{
+    size_t length = strlen(name);
+    return length > 5 && strcmp(name + length - 5, ".json") == 0;
+}
+
+static int compare_names(const void *a, const void *b) { return strcmp(a, b); }
+
+static int list_folder(void *user, const char *folder, char names[][256], int max)
+{
+    (void)user;
+    DIR *directory = opendir(folder[0] ? folder : ".");
+    if (!directory) return -1;
+    int count = 0;
+    struct dirent *entry;
+    while (count < max && (entry = readdir(directory)) != NULL) {
+        char path[2048];
+        struct stat status;
+        snprintf(path, sizeof path, "%s/%s", folder[0] ? folder : ".", entry->d_name);
+        if (entry->d_name[0] == '.' || strlen(entry->d_name) > 254 || stat(path, &status) != 0) continue;
+        bool is_folder = S_ISDIR(status.st_mode);
+        if (is_folder || is_scene_name(entry->d_name)) {
+            snprintf(names[count++], 256, "%.254s%s", entry->d_name, is_folder ? "/" : "");
+        }
+    }
+    closedir(directory);
+    qsort(names, (size_t)count, sizeof names[0], compare_names);
+    return count;
+}
+
+void app_connect_files(struct app *app)
+{
+    editor_set_files(app->editor, &(struct dialog_files){.list = list_folder});
+}

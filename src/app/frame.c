@@ -1,0 +1,190 @@
+#include "app/state.h"
+#include "platform/process.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const double replay_dt = 1.0 / 60;
+static const double frame_time = 1.0 / 60; ///< the limiter's: a swap interval of 1 does not hold everywhere
+static const double idle_wait = 0.5;
+static const double longest_step = 0.1; ///< after a stall playback goes on, it does not jump
+
+static double microseconds(double from, double to) { return 1e6 * (to - from); }
+
+static bool locate(void *user, const char *target, float *x, float *y, struct error *error)
+{
+    struct app *app = user;
+    struct editor_world world = app_world(app);
+    return editor_target(app->editor, &world, target, x, y, error);
+}
+
+static void handle_event(struct app *app, const struct event *event)
+{
+    if (app->recording) recording_event(app->recording, app->frame, event);
+    if (event->kind == EVENT_EXPOSE) app->lost = true;
+    if (event->kind == EVENT_SIZE) editor_resize(app->editor, event->x, event->y, event->scale);
+    struct editor_world world = app_world(app);
+    editor_event(app->editor, &world, event);
+}
+
+static void play_events(struct app *app)
+{
+    struct event event;
+    app->error.kind = ERROR_NONE;
+    while (replay_next(app->replay, app->frame, locate, app, &event, &app->error)) {
+        if (isnan(app->oldest_event)) app->oldest_event = app->frame_start;
+        handle_event(app, &event);
+    }
+    if (app->error.kind != ERROR_NONE) app->failed = true;
+}
+
+/// How long the next frame may wait for input: to its turn (an event brings it forward), or for a while where nothing moves by
+/// itself. A recording's frames all come in their turn, because its clock counts frames.
+static double waiting_time(const struct app *app, bool wanted)
+{
+    double left = fmax(0, app->next_time - clock_now());
+    if (app->recording) process_sleep(left);
+    if (app->fixed_clock) return 0;
+    return wanted ? left : idle_wait;
+}
+
+/// Waits, then takes the frame's events. false where nothing happened that would need a frame.
+static bool take_input(struct app *app)
+{
+    double wait_start = clock_now();
+    bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->editor);
+    int count = 0;
+    const struct event *events = platform_events(app->platform, waiting_time(app, wanted), &count);
+    if (!wanted && count == 0) return false;
+    app->frame_start = clock_now();
+    app->oldest_event = NAN;
+    app->row = (struct frame_row){.frame = app->frame, .wait_us = microseconds(wait_start, app->frame_start)};
+    app->row.allocations = allocation_count();
+    for (int i = 0; i < count; i++) {
+        if (app->replay && events[i].kind != EVENT_EXPOSE && events[i].kind != EVENT_CLOSE) continue;
+        if (isnan(app->oldest_event)) app->oldest_event = events[i].time;
+        handle_event(app, &events[i]);
+    }
+    if (app->replay) play_events(app);
+    app->row.input_us = microseconds(app->frame_start, clock_now());
+    return true;
+}
+
+static void edit(struct app *app)
+{
+    double start = clock_now();
+    double dt = app->fixed_clock ? replay_dt : fmin(fmax(app->frame_start - app->last_time, 0), longest_step);
+    if (app->frame == 0) dt = 0;
+    app->last_time = app->frame_start;
+    app->next_time = fmax(app->next_time + frame_time, app->frame_start);
+    struct editor_world world = app_world(app);
+    editor_advance(app->editor, &world, dt);
+    app_requests(app);
+    app->row.edit_us = microseconds(start, clock_now());
+}
+
+/// Room for the document's splines, where their number or length has changed (opened, range).
+static bool fit_evaluation(struct app *app)
+{
+    if (!evaluation_resize(&app->evaluation, app->document, &app->error)) return false;
+    size_t count = app->document->spline_count > 0 ? (size_t)app->document->spline_count : 1;
+    bool *dirty = realloc(app->dirty, count * sizeof *dirty);
+    if (!dirty) return fail(&app->error, ERROR_ENVIRONMENT, "out of memory for %zu splines", count);
+    app->dirty = dirty;
+    return true;
+}
+
+static long count_knots(const struct document *document)
+{
+    long knots = 0;
+    for (int i = 0; i < document->spline_count; i++) knots += document->splines[i].knot_count;
+    return knots;
+}
+
+static void solve(struct app *app)
+{
+    double start = clock_now();
+    const struct document *document = app->document;
+    bool cubic = editor_look(app->editor) == LOOK_CUBIC;
+    bool resized = app->evaluation.count != document->spline_count ||
+                   app->evaluation.samples != document_samples(document) || app->solved_revision == 0;
+    uint64_t revision = history_revision(app->history);
+    if (resized && !fit_evaluation(app)) {
+        app->failed = true;
+        return;
+    }
+    app->row.edited = revision != app->solved_revision;
+    if (resized || revision != app->solved_revision || cubic != app->solved_cubic) {
+        history_take_dirty(app->history, document, app->dirty, document->spline_count);
+        evaluation_update(&app->evaluation, document, resized ? NULL : app->dirty, cubic);
+        app->row.splines_solved = app->evaluation.solved_splines;
+        app->row.samples = app->evaluation.solved_samples;
+        app->solved_revision = revision;
+        app->solved_cubic = cubic;
+    }
+    app->row.knots = count_knots(document);
+    app->row.solve_us = microseconds(start, clock_now());
+}
+
+static void pose(struct app *app)
+{
+    double start = clock_now();
+    struct editor_world world = app_world(app);
+    editor_pose(app->editor, &world);
+    editor_show(app->editor, &world);
+    app->row.pose_us = microseconds(start, clock_now());
+}
+
+static void draw(struct app *app)
+{
+    struct draw_input input = {
+        .keeps = !app->lost && platform_keeps(app->platform),
+        .list = editor_drawlist(app->editor),
+        .stage = editor_stage(app->editor),
+    };
+    platform_size(app->platform, &input.width, &input.height, &input.scale);
+    struct draw_cost cost = {0};
+    draw_frame(app->draw, &input, &cost);
+    app->lost = false;
+    double swap_start = clock_now();
+    platform_swap(app->platform);
+    double end = clock_now();
+    app->row.upload_us = cost.upload_us;
+    app->row.draw_us = cost.draw_us;
+    app->row.gpu_us = cost.gpu_us < 0 ? NAN : cost.gpu_us;
+    app->row.uploaded_bytes = cost.uploaded_bytes;
+    app->row.swap_us = microseconds(swap_start, end);
+    app->row.t_s = app->frame_start;
+    app->row.frame_ms = 1e3 * (end - app->frame_start);
+    app->row.event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
+    app->row.allocations = allocation_count() - app->row.allocations;
+    platform_cursor(app->platform, (enum cursor)editor_cursor(app->editor));
+}
+
+static void log_frame(struct app *app)
+{
+    if (app->log) framelog_push(app->log, &app->row);
+    double now = clock_now();
+    if (now - app->stats_time >= 0.5) {
+        double fps = app->stats_time > 0 ? (double)(app->frame - app->stats_frame) / (now - app->stats_time) : 0;
+        editor_set_stats(app->editor, fps, app->row.solve_us);
+        app->stats_time = now;
+        app->stats_frame = app->frame;
+    }
+    if (!app->options->frames_dir) return;
+    char path[1024];
+    snprintf(path, sizeof path, "%s/frame_%05ld.png", app->options->frames_dir, app->frame);
+    if (!app_screenshot(app, path, &app->error)) app->failed = true;
+}
+
+void app_frame(struct app *app)
+{
+    if (!take_input(app)) return;
+    edit(app);
+    solve(app);
+    if (app->failed) return;
+    pose(app);
+    draw(app);
+    log_frame(app);
+    app->frame++;
+}

@@ -1,0 +1,421 @@
+#include "app/replay.h"
+#include "base/file.h"
+#include <ctype.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <wiggly/wiggly.h>
+
+enum { MAX_REPLAY = 64 << 20, MAX_WORDS = 8 };
+
+static const char first_line[] = "wiggly-replay 1";
+
+struct replay {
+    char *path, *text;
+    char *at; ///< the next line
+    int line;
+    struct replay_header header;
+    char drop_path[1024];
+};
+
+/// One line, cut into words in place.
+struct words {
+    char *word[MAX_WORDS];
+    int count;
+};
+
+static bool bad_line(const struct replay *replay, struct error *error, const char *expected, const char *got)
+{
+    return fail(error, ERROR_INPUT, "%s:%d: expected %s, got %s%.80s%s", replay->path, replay->line, expected,
+                got ? "\"" : "", got ? got : "the end of the line", got ? "\"" : "");
+}
+
+/// Cuts the next line off; NULL at the end of the text. Empty lines and `#` comments are passed over.
+static char *next_line(struct replay *replay)
+{
+    while (*replay->at) {
+        char *line = replay->at, *end = strchr(line, '\n');
+        replay->at = end ? end + 1 : line + strlen(line);
+        if (end) *end = '\0';
+        replay->line++;
+        if (*line && *line != '#') return line;
+    }
+    return NULL;
+}
+
+/// Words are separated by spaces; within a target's brackets spaces belong to it.
+static struct words split(char *line)
+{
+    struct words words = {0};
+    int depth = 0;
+    bool inside = false;
+    for (; *line; line++) {
+        depth += *line == '(' ? 1 : *line == ')' && depth > 0 ? -1 : 0;
+        if (depth == 0 && isspace((unsigned char)*line)) {
+            *line = '\0';
+            inside = false;
+        } else if (!inside && words.count < MAX_WORDS) {
+            inside = true;
+            words.word[words.count++] = line;
+        }
+    }
+    return words;
+}
+
+static bool read_number(const char *word, double *value)
+{
+    char *end;
+    if (!word) return false;
+    *value = strtod(word, &end);
+    return end != word && !*end && isfinite(*value);
+}
+
+static bool read_header_line(struct replay *replay, const struct words *w, struct error *error)
+{
+    struct replay_header *h = &replay->header;
+    const char *name = w->word[0];
+    double a = 0, b = 0;
+    bool one = w->count > 1 && read_number(w->word[1], &a), two = one && w->count > 2 && read_number(w->word[2], &b);
+    if (strcmp(name, "version") == 0) return true;
+    if (strcmp(name, "size") == 0) {
+        if (!two || a < 64 || a > 16384 || b < 64 || b > 16384)
+            return bad_line(replay, error, "size WIDTH HEIGHT", w->word[1]);
+        h->width = (int)a, h->height = (int)b;
+    } else if (strcmp(name, "scale") == 0) {
+        if (!one || a < 0.25 || a > 8) return bad_line(replay, error, "a scale from 0.25 to 8", w->word[1]);
+        h->scale = a;
+    } else if (strcmp(name, "scene") == 0) {
+        if (w->count < 2 || sscanf(w->word[1], "%16" SCNx64, &h->scene_hash) != 1) {
+            return bad_line(replay, error, "the scene's hash", w->word[1]);
+        }
+    } else if (strcmp(name, "dt") == 0) {
+        if (w->count < 2 || strcmp(w->word[1], "1/60") != 0) return bad_line(replay, error, "dt 1/60", w->word[1]);
+    } else if (strcmp(name, "frames") == 0) {
+        if (!one || a < 1 || a > 10000000) return bad_line(replay, error, "a number of frames", w->word[1]);
+        h->frames = (long)a;
+    } else {
+        return bad_line(replay, error, "version, size, scale, scene, dt, frames or an event", name);
+    }
+    return true;
+}
+
+static bool read_header(struct replay *replay, struct error *error)
+{
+    char *line = next_line(replay);
+    if (!line || strcmp(line, first_line) != 0) return bad_line(replay, error, "\"wiggly-replay 1\"", line);
+    for (;;) {
+        char *start = replay->at;
+        int number = replay->line;
+        line = next_line(replay);
+        if (!line || isdigit((unsigned char)*line)) {
+            if (line && replay->at != line + strlen(line))
+                line[strlen(line)] = '\n'; // it is the first event: put it back
+            replay->at = line ? line : start;
+            replay->line = line ? replay->line - 1 : number;
+            break;
+        }
+        struct words words = split(line);
+        if (words.count > 0 && !read_header_line(replay, &words, error)) return false;
+    }
+    if (replay->header.width == 0 || replay->header.frames == 0) {
+        return fail(error, ERROR_INPUT, "%s:%d: expected a header with size and frames", replay->path, replay->line);
+    }
+    return true;
+}
+
+struct replay *replay_load(const char *path, struct error *error)
+{
+    struct replay *replay = calloc(1, sizeof *replay);
+    size_t size = 0;
+    if (!replay) {
+        fail(error, ERROR_ENVIRONMENT, "out of memory for the replay %s", path);
+        return NULL;
+    }
+    replay->path = strdup(path);
+    replay->header.scale = 1;
+    if (!replay->path || !file_read(path, MAX_REPLAY, &replay->text, &size, error)) {
+        replay_destroy(replay);
+        return NULL;
+    }
+    replay->at = replay->text;
+    if (!read_header(replay, error)) {
+        replay_destroy(replay);
+        return NULL;
+    }
+    return replay;
+}
+
+void replay_destroy(struct replay *replay)
+{
+    if (!replay) return;
+    free(replay->path);
+    free(replay->text);
+    free(replay);
+}
+
+const struct replay_header *replay_get_header(const struct replay *replay) { return &replay->header; }
+
+static const char *const button_names[] = {
+    [BUTTON_LEFT] = "left", [BUTTON_RIGHT] = "right", [BUTTON_MIDDLE] = "middle"};
+
+static const struct {
+    const char *name;
+    unsigned mod;
+} mod_names[] = {{"shift", MOD_SHIFT}, {"ctrl", MOD_CTRL}, {"alt", MOD_ALT}, {"super", MOD_SUPER}};
+
+enum { MOD_COUNT = sizeof mod_names / sizeof mod_names[0] };
+
+/// What an event's line consists of, after the frame: a verb and its operands.
+enum operands {
+    WITH_KEY = 1,
+    WITH_BUTTON = 2,
+    WITH_POSITION = 4,
+    WITH_WHEEL = 8,
+    WITH_CODE = 16,
+    WITH_PATH = 32,
+    WITH_MODS = 64
+};
+
+static const struct verb {
+    const char *name;
+    enum event_kind kind;
+    enum event_action action;
+    int clicks;
+    unsigned operands;
+} verbs[] = {
+    {"pointer", EVENT_POINTER, ACTION_PRESS, 0, WITH_POSITION},
+    {"press", EVENT_BUTTON, ACTION_PRESS, 1, WITH_BUTTON | WITH_POSITION | WITH_MODS},
+    {"double", EVENT_BUTTON, ACTION_PRESS, 2, WITH_BUTTON | WITH_POSITION | WITH_MODS},
+    {"release", EVENT_BUTTON, ACTION_RELEASE, 0, WITH_BUTTON | WITH_POSITION | WITH_MODS},
+    {"key", EVENT_KEY, ACTION_PRESS, 0, WITH_KEY | WITH_MODS},
+    {"repeat", EVENT_KEY, ACTION_REPEAT, 0, WITH_KEY | WITH_MODS},
+    {"keyup", EVENT_KEY, ACTION_RELEASE, 0, WITH_KEY | WITH_MODS},
+    {"text", EVENT_TEXT, ACTION_PRESS, 0, WITH_CODE},
+    {"wheel", EVENT_WHEEL, ACTION_PRESS, 0, WITH_WHEEL | WITH_POSITION | WITH_MODS},
+    {"size", EVENT_SIZE, ACTION_PRESS, 0, WITH_POSITION},
+    {"drop", EVENT_DROP, ACTION_PRESS, 0, WITH_PATH},
+    {"close", EVENT_CLOSE, ACTION_PRESS, 0, 0},
+};
+
+enum { VERB_COUNT = sizeof verbs / sizeof verbs[0] };
+
+/// Reading position within one event's words.
+struct cursor {
+    struct replay *replay;
+    struct words words;
+    int next;
+    replay_locate *locate;
+    void *user;
+    struct error *error;
+};
+
+static char *take_word(struct cursor *c) { return c->next < c->words.count ? c->words.word[c->next++] : NULL; }
+
+static bool read_float(struct cursor *c, float *value)
+{
+    char *word = take_word(c);
+    double number;
+    if (!read_number(word, &number)) return bad_line(c->replay, c->error, "a number", word);
+    *value = (float)number;
+    return true;
+}
+
+/// "@knot(sway,2)+4,-3": where it is now, plus an offset in logical pixels.
+static bool read_target(struct cursor *c, char *word, struct event *event)
+{
+    char *end = strrchr(word, ')');
+    if (!end) return bad_line(c->replay, c->error, "a target such as @knot(sway,2)", word);
+    float dx = 0, dy = 0;
+    if (end[1] && sscanf(end + 1, "%f,%f", &dx, &dy) != 2) {
+        return bad_line(c->replay, c->error, "an offset such as +4,-3 behind the target", end + 1);
+    }
+    end[1] = '\0';
+    struct error reason = {0};
+    if (!c->locate(c->user, word + 1, &event->x, &event->y, &reason)) {
+        return fail(c->error, ERROR_INPUT, "%s:%d: %s is not on the screen: %s", c->replay->path, c->replay->line,
+                    word, reason.text);
+    }
+    event->x += dx;
+    event->y += dy;
+    return true;
+}
+
+static bool read_position(struct cursor *c, struct event *event)
+{
+    if (c->next < c->words.count && c->words.word[c->next][0] == '@') return read_target(c, take_word(c), event);
+    return read_float(c, &event->x) && read_float(c, &event->y);
+}
+
+static bool read_button(struct cursor *c, struct event *event)
+{
+    char *word = take_word(c);
+    for (int b = 0; word && b <= BUTTON_MIDDLE; b++) {
+        if (strcmp(word, button_names[b]) == 0) {
+            event->button = (enum event_button)b;
+            return true;
+        }
+    }
+    return bad_line(c->replay, c->error, "left, right or middle", word);
+}
+
+static bool read_mods(struct cursor *c, struct event *event)
+{
+    for (char *word = take_word(c); word; word = take_word(c)) {
+        int m = 0;
+        while (m < MOD_COUNT && strcmp(word, mod_names[m].name) != 0) m++;
+        if (m == MOD_COUNT) return bad_line(c->replay, c->error, "shift, ctrl, alt or super", word);
+        event->mods |= mod_names[m].mod;
+    }
+    return true;
+}
+
+static bool read_key(struct cursor *c, struct event *event)
+{
+    char *word = take_word(c);
+    event->key = word ? key_from_name(word) : KEY_NONE;
+    return event->key != KEY_NONE || bad_line(c->replay, c->error, "the name of a key", word);
+}
+
+static bool read_code(struct cursor *c, struct event *event)
+{
+    char *word = take_word(c);
+    return (word && sscanf(word, "U+%" SCNx32, &event->codepoint) == 1) ||
+           bad_line(c->replay, c->error, "U+ and a code", word);
+}
+
+/// Spaces and percent signs of a path are written as %20 and %25, so that it stays one word.
+static bool read_path(struct cursor *c, struct event *event)
+{
+    char *word = take_word(c), *out = c->replay->drop_path, *end = out + sizeof c->replay->drop_path - 1;
+    if (!word) return bad_line(c->replay, c->error, "a path", word);
+    while (*word && out < end) {
+        unsigned code;
+        bool escaped = *word == '%' && sscanf(word + 1, "%2x", &code) == 1 && code > 0;
+        *out++ = escaped ? (char)code : *word;
+        word += escaped ? 3 : 1;
+    }
+    *out = '\0';
+    event->path = c->replay->drop_path;
+    return true;
+}
+
+static bool read_operands(struct cursor *c, const struct verb *verb, struct event *event)
+{
+    unsigned with = verb->operands;
+    return (!(with & WITH_KEY) || read_key(c, event)) && (!(with & WITH_BUTTON) || read_button(c, event)) &&
+           (!(with & WITH_WHEEL) || (read_float(c, &event->dx) && read_float(c, &event->dy))) &&
+           (!(with & WITH_CODE) || read_code(c, event)) && (!(with & WITH_POSITION) || read_position(c, event)) &&
+           (!(with & WITH_PATH) || read_path(c, event)) && (!(with & WITH_MODS) || read_mods(c, event));
+}
+
+static bool read_event(struct cursor *c, struct event *event)
+{
+    char *word = take_word(c);
+    for (int v = 0; word && v < VERB_COUNT; v++) {
+        if (strcmp(word, verbs[v].name) != 0) continue;
+        *event = (struct event){.kind = verbs[v].kind, .action = verbs[v].action, .clicks = verbs[v].clicks};
+        if (event->kind == EVENT_SIZE) event->scale = (float)c->replay->header.scale;
+        return read_operands(c, &verbs[v], event);
+    }
+    return bad_line(c->replay, c->error, "an event (pointer, press, key, …)", word);
+}
+
+bool replay_next(struct replay *replay, long frame, replay_locate *locate, void *user, struct event *event,
+                 struct error *error)
+{
+    char *end;
+    while (*replay->at == '#' || *replay->at == '\n') {
+        if (!next_line(replay)) return false;
+    }
+    long at = strtol(replay->at, &end, 10);
+    if (!*replay->at || (end != replay->at && at > frame)) return false;
+    char *line = next_line(replay);
+    if (!line) return false;
+    struct cursor c = {.replay = replay, .words = split(line), .locate = locate, .user = user, .error = error};
+    char *number = take_word(&c);
+    if (end == line || at < frame) return bad_line(replay, error, "a frame not before the last one", number);
+    return read_event(&c, event);
+}
+
+struct recording {
+    FILE *file;
+    char *path;
+    long length_at; ///< where the header's number of frames is
+};
+
+struct recording *recording_open(const char *path, const struct replay_header *header, struct error *error)
+{
+    struct recording *recording = calloc(1, sizeof *recording);
+    if (recording) recording->path = strdup(path);
+    if (!recording || !recording->path) {
+        free(recording);
+        fail(error, ERROR_ENVIRONMENT, "out of memory for the recording %s", path);
+        return NULL;
+    }
+    recording->file = fopen(path, "w");
+    if (!recording->file) {
+        fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: choose another place for the recording", path);
+        free(recording->path);
+        free(recording);
+        return NULL;
+    }
+    fprintf(recording->file, "%s\nversion %s\nsize %d %d\nscale %g\nscene %016" PRIx64 "\ndt 1/60\nframes ",
+            first_line, WIGGLY_VERSION, header->width, header->height, header->scale, header->scene_hash);
+    recording->length_at = ftell(recording->file);
+    fprintf(recording->file, "%-10d\n", 1);
+    return recording;
+}
+
+static const struct verb *verb_of(const struct event *event)
+{
+    for (int v = 0; v < VERB_COUNT; v++) {
+        bool by_action = event->kind == EVENT_KEY || event->kind == EVENT_BUTTON;
+        bool same_clicks =
+            event->kind != EVENT_BUTTON || event->action != ACTION_PRESS || verbs[v].clicks == event->clicks;
+        if (verbs[v].kind == event->kind && (!by_action || verbs[v].action == event->action) && same_clicks)
+            return &verbs[v];
+    }
+    return NULL;
+}
+
+static void write_path(FILE *f, const char *path)
+{
+    fputc(' ', f);
+    for (; *path; path++) {
+        bool plain = *path != ' ' && *path != '%' && *path != '\n' && *path != '\t';
+        fprintf(f, plain ? "%c" : "%%%02x", (unsigned char)*path);
+    }
+}
+
+void recording_event(struct recording *recording, long frame, const struct event *event)
+{
+    const struct verb *verb = verb_of(event);
+    FILE *f = recording->file;
+    if (!verb || (event->kind == EVENT_KEY && !key_name(event->key))) return;
+    fprintf(f, "%ld %s", frame, verb->name);
+    if (verb->operands & WITH_KEY) fprintf(f, " %s", key_name(event->key));
+    if (verb->operands & WITH_BUTTON) fprintf(f, " %s", button_names[event->button]);
+    if (verb->operands & WITH_WHEEL) fprintf(f, " %.9g %.9g", (double)event->dx, (double)event->dy);
+    if (verb->operands & WITH_CODE) fprintf(f, " U+%04" PRIX32, event->codepoint);
+    if (verb->operands & WITH_POSITION) fprintf(f, " %.9g %.9g", (double)event->x, (double)event->y);
+    if (verb->operands & WITH_PATH) write_path(f, event->path);
+    for (int m = 0; m < MOD_COUNT && verb->operands & WITH_MODS; m++) {
+        if (event->mods & mod_names[m].mod) fprintf(f, " %s", mod_names[m].name);
+    }
+    fputc('\n', f);
+}
+
+bool recording_close(struct recording *recording, long frames, struct error *error)
+{
+    if (!recording) return true;
+    FILE *f = recording->file;
+    bool good = fseek(f, recording->length_at, SEEK_SET) == 0 && fprintf(f, "%-10ld", frames) > 0 && !ferror(f);
+    good = fclose(f) == 0 && good;
+    if (!good)
+        fail(error, ERROR_ENVIRONMENT, "%s: the recording could not be written whole: is the disk full?",
+             recording->path);
+    free(recording->path);
+    free(recording);
+    return good;
+}

@@ -1,0 +1,52 @@
+/// Replays: recorded events as text, one a line, by frame (design: "Replays").
+///
+///     wiggly-replay 1
+///     version 0.1.0
+///     size 1280 720
+///     scale 1
+///     scene 0123456789abcdef
+///     dt 1/60
+///     frames 1200
+///     10 pointer @knot(sway,2)
+///     10 press left @knot(sway,2) shift        (also: release, double, key, keyup, repeat, wheel, text, drop, size, close)
+///
+/// Positions are two numbers, logical pixels from the top left, or a target with an optional offset, `@knot(sway,2)+4,-3`,
+/// which is looked up on the screen when the event is played.
+#ifndef APP_REPLAY_H
+#define APP_REPLAY_H
+
+#include "base/error.h"
+#include "ui/event.h"
+#include <stdint.h>
+#include <stdio.h>
+
+struct replay_header {
+    int width, height;
+    double scale;
+    uint64_t scene_hash;
+    long frames; ///< length
+};
+
+struct replay;
+
+/// Reads a whole replay. NULL with a sentence "file:line: expected …" where it is not one.
+struct replay *replay_load(const char *path, struct error *error);
+void replay_destroy(struct replay *replay);
+const struct replay_header *replay_get_header(const struct replay *replay);
+
+/// Looks a target up on the screen: editor_target() behind a closure.
+typedef bool replay_locate(void *user, const char *target, float *x, float *y, struct error *error);
+
+/// The next event of `frame`; false where there is none left in it, or (error->kind is set) a target cannot be found.
+bool replay_next(struct replay *replay, long frame, replay_locate *locate, void *user, struct event *event,
+                 struct error *error);
+
+/// A recording in progress: events are written as they come, with plain positions.
+struct recording;
+
+struct recording *recording_open(const char *path, const struct replay_header *header, struct error *error);
+void recording_event(struct recording *recording, long frame, const struct event *event);
+/// Fills in the length and closes; false with a sentence where a write had failed.
+bool recording_close(struct recording *recording, long frames, struct error *error);
+
+#endif

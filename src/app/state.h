@@ -1,0 +1,64 @@
+/// The app's state. Internal to src/app.
+#ifndef APP_STATE_H
+#define APP_STATE_H
+
+#include "app/app.h"
+#include "app/replay.h"
+#include "draw/draw.h"
+#include "editor/editor.h"
+#include "platform/platform.h"
+#include "scene/edit.h"
+#include "scene/evaluate.h"
+#include "timing/framelog.h"
+#include <stdint.h>
+
+struct app {
+    const struct app_options *options;
+    struct platform *platform;
+    struct draw *draw;
+    struct editor *editor;
+
+    struct document *document;
+    struct history *history;
+    struct evaluation evaluation;
+    bool *dirty;     ///< one a spline
+    char path[1024]; ///< the document's own file; "" for an untitled one
+    uint64_t solved_revision;
+    bool solved_cubic;
+
+    struct replay *replay;
+    struct recording *recording;
+    struct framelog *log;
+    struct frame_row row; ///< of the frame in progress
+    double frame_start, oldest_event;
+    bool fixed_clock; ///< every frame is 1/60 s (headless, replays, recordings)
+    bool lost;        ///< the framebuffer does not hold the last frame
+    double last_time, next_time, stats_time;
+    long frame, stats_frame;
+    bool shown_saved; ///< what the window's title says
+    bool quit;
+    bool failed; ///< with `error`: the run ends
+    struct error error;
+};
+
+static inline struct editor_world app_world(struct app *app)
+{
+    return (struct editor_world){.document = app->document, .history = app->history, .evaluation = &app->evaluation};
+}
+
+/// One frame: input, edit, solve, pose, draw, log.
+void app_frame(struct app *app);
+
+/// Opens a scene file, or the built-in one for NULL; the document on the table stays where that fails.
+bool app_open(struct app *app, const char *path, struct error *error);
+
+/// Carries out what the editor asked for: files, window, end.
+void app_requests(struct app *app);
+
+/// Where the editor's dialogs look for files.
+void app_connect_files(struct app *app);
+
+/// The framebuffer's content as PNG.
+bool app_screenshot(struct app *app, const char *path, struct error *error);
+
+#endif

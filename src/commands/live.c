@@ -1,0 +1,46 @@
+/// `wiggly live`: the live app, in a window or headless.
+#include "app/app.h"
+#include "commands/commands.h"
+#include "commands/options.h"
+#include <stdio.h>
+
+int command_live(int argc, char **argv)
+{
+    struct app_options options = {0};
+    int size[2] = {0, 0};
+    const struct option_spec specs[] = {
+        {"--headless", NULL, NULL, "draw without a display", OPTION_FLAG, &options.headless, 0, 0},
+        {"--frames", NULL, "N", "stop after N frames (the replay's length, else headless 1200)", OPTION_INT,
+         &options.frames, 1, 10000000},
+        {"--size", NULL, "WxH", "logical pixels (1280x720)", OPTION_SIZE, size, 320, 8192},
+        {"--scale", NULL, "S", "device pixels a logical pixel, headless", OPTION_REAL, &options.scale, 0.5, 4},
+        {"--log", NULL, "FILE.csv", "timing log, one row a frame", OPTION_TEXT, &options.log, 0, 0},
+        {"--screenshot", NULL, "FILE.png", "picture of the last frame", OPTION_TEXT, &options.screenshot, 0, 0},
+        {"--frames-dir", NULL, "DIR", "a PNG for each frame", OPTION_TEXT, &options.frames_dir, 0, 0},
+        {"--replay", NULL, "FILE", "play recorded events; its clock is its own", OPTION_TEXT, &options.replay, 0, 0},
+        {"--record", NULL, "FILE", "record events", OPTION_TEXT, &options.record, 0, 0},
+        {"--result", NULL, "FILE.json", "the document at the end", OPTION_TEXT, &options.result, 0, 0},
+    };
+    const struct usage usage = {
+        .command = "live",
+        .operands = "[scene.json]",
+        .summary = "the live app; without a scene, the swinging tail",
+        .options = specs,
+        .option_count = sizeof specs / sizeof *specs,
+        .operand_maximum = 1,
+    };
+    switch (options_parse(&usage, argc, argv, &options.scene)) {
+    case OPTIONS_HELP:
+        return 0;
+    case OPTIONS_WRONG:
+        return 2;
+    case OPTIONS_RUN:
+        break;
+    }
+    options.width = size[0];
+    options.height = size[1];
+    struct error error = {0};
+    int status = app_run(&options, &error);
+    if (status != 0) fprintf(stderr, "wiggly live: %s\n", error.text);
+    return status;
+}

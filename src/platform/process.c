@@ -1,0 +1,38 @@
+#include "platform/process.h"
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+double process_age(void)
+{
+    char line[1024];
+    FILE *file = fopen("/proc/self/stat", "r");
+    if (!file) return NAN;
+    bool read = fgets(line, sizeof line, file) != NULL;
+    fclose(file);
+    // The name in brackets may hold anything; start time, in ticks since boot, is the 20th field behind it.
+    char *at = read ? strrchr(line, ')') : NULL;
+    unsigned long long ticks = 0;
+    if (!at || sscanf(at + 1, " %*c%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s %llu", &ticks) != 1)
+        return NAN;
+    struct timespec now;
+    if (clock_gettime(CLOCK_BOOTTIME, &now) != 0) return NAN;
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec - (double)ticks / (double)sysconf(_SC_CLK_TCK);
+}
+
+double process_peak_memory(void)
+{
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (double)usage.ru_maxrss / 1024 : NAN;
+}
+
+void process_sleep(double seconds)
+{
+    if (!(seconds > 0)) return;
+    struct timespec left = {.tv_sec = (time_t)seconds, .tv_nsec = (long)(1e9 * (seconds - (double)(time_t)seconds))};
+    nanosleep(&left, NULL);
+}

@@ -1,0 +1,13 @@
+/// The running process: how long it has lived, how much memory it took, and sleep.
+#ifndef PLATFORM_PROCESS_H
+#define PLATFORM_PROCESS_H
+
+/// Seconds since the process was started by its parent (to about 10 ms: the kernel's tick), or NAN where unknown.
+double process_age(void);
+
+/// Largest resident memory so far, in MB, or NAN where unknown.
+double process_peak_memory(void);
+
+void process_sleep(double seconds);
+
+#endif

@@ -1,0 +1,18 @@
+/// A curve with arrays of its own, for tests of the solver.
+#ifndef TESTS_CURVE_H
+#define TESTS_CURVE_H
+
+#include <stdlib.h>
+#include <wiggly/wiggly.h>
+
+static inline wiggly_curve curve_create(int samples)
+{
+    double *numbers = calloc(5 * (size_t)samples, sizeof *numbers);
+    size_t n = (size_t)samples;
+    return (wiggly_curve){
+        .total = numbers, .y = numbers + n, .re = numbers + 2 * n, .im = numbers + 3 * n, .omega = numbers + 4 * n};
+}
+
+static inline void curve_destroy(wiggly_curve *curve) { free(curve->total); }
+
+#endif

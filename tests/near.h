@@ -1,0 +1,34 @@
+/// assert_near(): doubles within a tolerance, which cmocka 1.1.5 lacks (its assert_float_equal casts to float).
+/// Includes cmocka with what it needs, so that tests include this first.
+#ifndef TESTS_NEAR_H
+#define TESTS_NEAR_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+// The order matters: cmocka.h expects the four above.
+#include <cmocka.h>
+
+#include <math.h>
+
+// cmocka's fail() macro is in the way of base/error.h's function of that name; fail_msg() is built on it.
+#undef fail
+#undef fail_msg
+#define fail_msg(...) (print_error("ERROR: " __VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
+
+static inline void assert_near_at(double actual, double expected, double tolerance, const char *what,
+                                  const char *file, int line)
+{
+    double difference = fabs(actual - expected);
+    if (difference <= tolerance) return; // false for NaN
+    print_error("%s is %.17g, expected %.17g within %g (differs by %g)\n", what, actual, expected, tolerance,
+                difference);
+    _fail(file, line);
+}
+
+/// Fails, printing both, unless |actual − expected| ≤ tolerance. NaN on either side fails.
+#define assert_near(actual, expected, tolerance)                                                                     \
+    assert_near_at((double)(actual), (double)(expected), (double)(tolerance), #actual, __FILE__, __LINE__)
+
+#endif

@@ -1,0 +1,345 @@
+// The public library as a user meets it: the rules of the specification's corner cases, every status, values between samples,
+// and finite answers whatever is asked.
+#include "near.h"
+
+#include "curve.h"
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX = 512 };
+
+static wiggly_solver *solver;
+static wiggly_curve curve;
+
+static int set_up(void **state)
+{
+    (void)state;
+    curve = curve_create(MAX);
+    return wiggly_create(MAX, MAX, &solver);
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    curve_destroy(&curve);
+    wiggly_destroy(solver);
+    return 0;
+}
+
+static wiggly_desc describe(int samples, wiggly_mode mode, wiggly_start start, const wiggly_knot *knots, int count)
+{
+    wiggly_desc desc = wiggly_default_desc();
+    desc.samples = samples;
+    desc.mode = mode;
+    desc.start = start;
+    desc.frequency.value = 1;
+    desc.damping.value = 0.05;
+    desc.knots = knots;
+    desc.knot_count = count;
+    return desc;
+}
+
+static void knots_are_hit_to_the_bit(void **state)
+{
+    (void)state;
+    const wiggly_knot knots[] = {
+        {.sample = 3, .value = 0.1}, {.sample = 40, .value = 1.0 / 3}, {.sample = 77, .value = -1e-3}};
+    double wave[100];
+    for (int i = 0; i < 100; i++) wave[i] = sin(0.1 * i);
+    wiggly_desc desc = describe(100, WIGGLY_COMPLEX, WIGGLY_FREE, knots, 3);
+    desc.equilibrium.track = wave;
+    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
+    for (int k = 0; k < 3; k++) assert_true(curve.total[knots[k].sample] == knots[k].value);
+}
+
+static void before_the_first_knot_x_is_held(void **state)
+{
+    (void)state;
+    const wiggly_knot knots[] = {{.sample = 10, .value = 1}, {.sample = 40, .value = 0}};
+    wiggly_desc desc = describe(60, WIGGLY_COMPLEX, WIGGLY_FREE, knots, 2);
+    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
+    for (int i = 0; i < 10; i++) {
+        assert_true(curve.re[i] == curve.re[10] && curve.im[i] == curve.im[10]);
+    }
+    assert_int_equal(curve.first, 10);
+}
+
+static void nothing_keyed_is_the_equilibrium(void **state)
+{
+    (void)state;
+    for (int start = 0; start < 3; start++) {
+        wiggly_desc desc = describe(50, WIGGLY_COMPLEX, (wiggly_start)start, NULL, 0);
+        desc.equilibrium.value = 0.7;
+        assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
+        for (int i = 0; i < 50; i++) assert_true(curve.total[i] == 0.7 && curve.im[i] == 0);
+    }
+}
+
+static void one_knot_of_a_cubic_is_a_constant(void **state)
+{
+    (void)state;
+    const wiggly_knot knot = {.sample = 20, .value = 2};
+    wiggly_desc desc = describe(50, WIGGLY_CUBIC, WIGGLY_FREE, &knot, 1);
+    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
+    for (int i = 0; i < 50; i++) assert_near(curve.total[i], 2, 1e-12);
+}
+
+static void domains_of_one_and_two_samples(void **state)
+{
+    (void)state;
+    const wiggly_knot knot = {.sample = 0, .value = 4, .has_slope = true, .slope = 1, .stiffness = 10};
+    for (int samples = 1; samples <= 2; samples++) {
+        for (int mode = 0; mode < 3; mode++) {
+            wiggly_desc desc = describe(samples, (wiggly_mode)mode, WIGGLY_FREE, &knot, 1);
+            assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
+            for (int i = 0; i < samples; i++) assert_true(curve.total[i] == 4);
+        }
+    }
+}
+
+/// Undamped, knots half a period apart, calm 0: any amount of swing that is 0 at the knots costs nothing.
+static void what_has_no_single_answer_is_calmed_and_said(void **state)
+{
+    (void)state;
+    const wiggly_knot knots[] = {{.sample = 0, .value = 0}, {.sample = 12, .value = 0}, {.sample = 24, .value = 0.3}};
+    wiggly_desc desc = describe(100, WIGGLY_COMPLEX, WIGGLY_FREE, knots, 3);
+    desc.damping.value = desc.bandwidth.value = desc.calm = 0;
+    wiggly_status status = wiggly_solve(solver, &desc, &curve);
+    for (int i = 0; i < 100; i++) assert_true(hypot(curve.re[i], curve.im[i]) <= 1e4);
+    wiggly_desc calmed = desc;
+    calmed.calm = 0.05;
+    if (status == WIGGLY_CALMED) {
+        wiggly_curve other = curve_create(MAX);
+        assert_int_equal(wiggly_solve(solver, &calmed, &other), WIGGLY_OK);
+        assert_memory_equal(other.total, curve.total, 100 * sizeof(double));
+        curve_destroy(&other);
+    }
+    const wiggly_knot one = {.sample = 5, .value = 1};
+    wiggly_desc loop = describe(49, WIGGLY_REAL, WIGGLY_LOOP, &one, 1);
+    loop.damping.value = loop.calm = 0; // one undamped cycle of exactly two periods: its phase is nobody's
+    loop.frequency.value = 1;
+    assert_int_equal(wiggly_solve(solver, &loop, &curve), WIGGLY_CALMED);
+}
+
+static void a_spring_that_starts_slack_is_levelled(void **state)
+{
+    (void)state;
+    double frequency[60];
+    for (int i = 0; i < 60; i++) frequency[i] = i < 3 ? 0 : 1;
+    // Two knots on the free stretch pin its line; with one alone on it and one where the spring already acts, nothing does.
+    const wiggly_knot knots[] = {{.sample = 0, .value = 1e-9}, {.sample = 59, .value = 1e-9, .has_slope = false}};
+    wiggly_desc desc = describe(60, WIGGLY_REAL, WIGGLY_FREE, knots, 2);
+    desc.frequency.track = frequency;
+    wiggly_status status = wiggly_solve(solver, &desc, &curve);
+    assert_true(status == WIGGLY_OK || status == WIGGLY_LEVELLED);
+    for (int i = 0; i < 60; i++) assert_true(fabs(curve.total[i]) < 1e-4);
+}
+
+static void a_loop_closes(void **state)
+{
+    (void)state;
+    const wiggly_knot knots[] = {{.sample = 10, .value = 1}, {.sample = 70, .value = -0.5}};
+    for (int mode = 0; mode < 3; mode++) {
+        wiggly_desc desc = describe(121, (wiggly_mode)mode, WIGGLY_LOOP, knots, 2);
+        assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
+        assert_true(curve.total[120] == curve.total[0] && curve.im[120] == curve.im[0]);
+        // The step over the seam is no larger than its neighbours' steps.
+        double seam = curve.total[1] - curve.total[119], before = curve.total[119] - curve.total[117],
+               after = curve.total[3] - curve.total[1];
+        assert_true(seam >= fmin(before, after) - 1e-3 && seam <= fmax(before, after) + 1e-3);
+        wiggly_value end = wiggly_evaluate(&curve, 120.25), start = wiggly_evaluate(&curve, 0.25);
+        assert_true(end.re == start.re && end.im == start.im);
+    }
+}
+
+static void between_samples_a_free_oscillation_is_followed(void **state)
+{
+    (void)state;
+    const wiggly_knot knot = {.sample = 0, .value = 1};
+    wiggly_desc desc = describe(97, WIGGLY_COMPLEX, WIGGLY_FREE, &knot, 1);
+    desc.frequency.value = 2; // 12 samples a turn
+    desc.damping.value = 0;
+    desc.bandwidth.value = 0;
+    desc.calm = 0;
+    wiggly_status status = wiggly_solve(solver, &desc, &curve);
+    assert_true(status == WIGGLY_OK || status == WIGGLY_CALMED);
+    double worst = 0;
+    for (int i = 2; i < 94; i++) {
+        wiggly_value a = wiggly_evaluate(&curve, i), b = wiggly_evaluate(&curve, i + 0.5);
+        assert_true(a.re == curve.re[i] && a.im == curve.im[i] && a.y == curve.y[i]);
+        worst = fmax(worst, fabs(hypot(a.re, a.im) - hypot(b.re, b.im)));
+    }
+    assert_near(worst, 0, 1e-3);
+    assert_near(wiggly_lagged((wiggly_value){0.5, 1, 2}, 1.5707963267948966), 0.5 + 2, 1e-12);
+    float out[2 * 3] = {0};
+    wiggly_evaluate_float(&curve, 4, 0.5, 3, out, 2);
+    assert_near(out[4], curve.total[5], 1e-6);
+    assert_near(out[3], 0, 0);
+}
+
+static void wrong_descriptions_are_named_and_leave_the_curve_alone(void **state)
+{
+    (void)state;
+    const wiggly_knot good = {.sample = 1, .value = 1}, twice[] = {good, good}, outside = {.sample = 50, .value = 1};
+    const wiggly_knot seam = {.sample = 49, .value = 1}, nan = {.sample = 1, .value = NAN};
+    const wiggly_knot slack = {.sample = 1, .has_slope = true, .stiffness = 0};
+    wiggly_desc ok = describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, &good, 1);
+    double broken_track[50] = {[7] = NAN};
+    struct {
+        wiggly_desc desc;
+        wiggly_status expected;
+    } cases[] = {
+        {describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, twice, 2), WIGGLY_ERROR_KNOT},
+        {describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, &outside, 1), WIGGLY_ERROR_KNOT},
+        {describe(50, WIGGLY_COMPLEX, WIGGLY_LOOP, &seam, 1), WIGGLY_ERROR_KNOT},
+        {describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, &nan, 1), WIGGLY_ERROR_NUMBER},
+        {describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, &slack, 1), WIGGLY_ERROR_NUMBER},
+        {describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, NULL, 1), WIGGLY_ERROR_ARGUMENT},
+        {describe(0, WIGGLY_COMPLEX, WIGGLY_FREE, &good, 1), WIGGLY_ERROR_ARGUMENT},
+        {describe(MAX + 1, WIGGLY_COMPLEX, WIGGLY_FREE, &good, 1), WIGGLY_ERROR_CAPACITY},
+        {describe(1, WIGGLY_COMPLEX, WIGGLY_LOOP, NULL, 0), WIGGLY_ERROR_LOOP},
+        {ok, WIGGLY_ERROR_SPRING},
+        {ok, WIGGLY_ERROR_NUMBER},
+        {ok, WIGGLY_ERROR_NUMBER},
+        {ok, WIGGLY_ERROR_NUMBER},
+    };
+    cases[9].desc.spring_friction = true;
+    cases[10].desc.step = 0;
+    cases[11].desc.calm = 1.5;
+    cases[12].desc.damping.track = broken_track;
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        memset(curve.total, 0x5A, sizeof(double) * MAX);
+        wiggly_curve before = curve;
+        wiggly_status status = wiggly_solve(solver, &cases[c].desc, &curve);
+        if (status != cases[c].expected) fail_msg("case %zu: %s", c, wiggly_status_text(status));
+        assert_memory_equal(&before, &curve, sizeof curve);
+        for (size_t b = 0; b < sizeof(double) * MAX; b++) assert_int_equal(((unsigned char *)curve.total)[b], 0x5A);
+    }
+    assert_int_equal(wiggly_solve(NULL, &ok, &curve), WIGGLY_ERROR_ARGUMENT);
+}
+
+static void every_status_has_a_text_of_its_own(void **state)
+{
+    (void)state;
+    for (int a = 0; a < WIGGLY_STATUS_COUNT; a++) {
+        assert_true(strlen(wiggly_status_text((wiggly_status)a)) > 1);
+        for (int b = 0; b < a; b++) {
+            assert_string_not_equal(wiggly_status_text((wiggly_status)a), wiggly_status_text((wiggly_status)b));
+        }
+    }
+    assert_non_null(wiggly_status_text((wiggly_status)-1));
+}
+
+static void memory_may_be_the_callers(void **state)
+{
+    (void)state;
+    assert_int_equal(wiggly_memsize(0, 0), 0);
+    assert_int_equal(wiggly_memsize(10, -1), 0);
+    size_t size = wiggly_memsize(60, 4);
+    double *memory = malloc(size);
+    wiggly_solver *mine = NULL;
+    assert_int_equal(wiggly_create_at(memory, size - 1, 60, 4, &mine), WIGGLY_ERROR_MEMORY);
+    assert_int_equal(wiggly_create_at((char *)memory + 1, size, 60, 4, &mine), WIGGLY_ERROR_ARGUMENT);
+    assert_int_equal(wiggly_create_at(memory, size, 60, 4, &mine), WIGGLY_OK);
+    const wiggly_knot knots[] = {{.sample = 0, .value = 1},
+                                 {.sample = 30, .value = 0, .has_slope = true, .stiffness = 5},
+                                 {.sample = 31, .value = 0.1, .has_slope = true, .stiffness = 5},
+                                 {.sample = 58, .value = 0.2, .has_slope = true, .stiffness = 5}};
+    for (int start = 0; start < 3; start++) {
+        wiggly_desc desc = describe(60, WIGGLY_COMPLEX, (wiggly_start)start, knots, 4);
+        assert_int_equal(wiggly_solve(mine, &desc, &curve), WIGGLY_OK);
+        wiggly_curve other = curve_create(MAX);
+        assert_int_equal(wiggly_solve(solver, &desc, &other),
+                         WIGGLY_OK); // a larger solver with a past gives the same bits
+        assert_memory_equal(other.total, curve.total, 60 * sizeof(double));
+        assert_memory_equal(other.im, curve.im, 60 * sizeof(double));
+        curve_destroy(&other);
+    }
+    wiggly_destroy(mine);
+    free(memory);
+}
+
+/// Twice the frequency, sample rate and stiffness on the same samples is the same curve (spec, section 2).
+static void the_whole_curve_scales(void **state)
+{
+    (void)state;
+    wiggly_knot knots[] = {{.sample = 0, .value = 0, .has_slope = true, .slope = 1, .stiffness = 50},
+                           {.sample = 30, .value = 1},
+                           {.sample = 80, .value = -0.4, .has_slope = true, .slope = -2, .stiffness = 9}};
+    wiggly_desc desc = describe(120, WIGGLY_COMPLEX, WIGGLY_FREE, knots, 3);
+    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
+    wiggly_curve other = curve_create(MAX);
+    desc.step /= 2;
+    desc.frequency.value *= 2;
+    for (int k = 0; k < 3; k++) knots[k].slope *= 2, knots[k].stiffness *= 2;
+    assert_int_equal(wiggly_solve(solver, &desc, &other), WIGGLY_OK);
+    for (int i = 0; i < 120; i++) assert_near(other.total[i], curve.total[i], 1e-12);
+    curve_destroy(&other);
+}
+
+static double pick(uint64_t *seed, const double *values, int count)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return values[(*seed >> 33) % (uint64_t)count];
+}
+
+#define PICK(seed, ...)                                                                                              \
+    pick(seed, (const double[]){__VA_ARGS__}, (int)(sizeof(double[]){__VA_ARGS__} / sizeof(double)))
+
+/// Every parameter at its ends and far beyond them, values up to 1e±150, any number of knots: never a NaN, never an infinity.
+static void extremes_stay_finite(void **state)
+{
+    (void)state;
+    static wiggly_knot knots[400];
+    uint64_t seed = 7;
+    for (int n = 0; n < 6000; n++) {
+        int samples = (int)PICK(&seed, 2, 3, 4, 5, 20, 121, 500), wanted = (int)PICK(&seed, 0, 1, 2, 5, 400);
+        wiggly_start start = (wiggly_start)PICK(&seed, 0, 1, 2);
+        int room = samples - (start == WIGGLY_LOOP), count = wanted < room ? wanted : room;
+        for (int k = 0; k < count; k++) {
+            knots[k] = (wiggly_knot){.sample = (int)((long)k * room / count),
+                                     .value = PICK(&seed, 0, 1, -1, 0.3, 1e150, 1e-150, -1e9),
+                                     .has_slope = PICK(&seed, 0, 1) > 0,
+                                     .slope = PICK(&seed, 0, 1, -1e6, 1e100),
+                                     .stiffness = PICK(&seed, 1000, 1e-300, 1e300)};
+        }
+        wiggly_desc desc = describe(samples, (wiggly_mode)PICK(&seed, 0, 1, 2), start, knots, count);
+        desc.step = 1 / PICK(&seed, 24, 1e5, 1e-3);
+        desc.frequency.value = PICK(&seed, -1, 0, 1e-9, 1, 12, 1e300);
+        desc.damping.value = PICK(&seed, -1, 0, 1e-12, 1, 3, 1e300);
+        desc.bandwidth.value = PICK(&seed, -1, 0, 0.1, 1, 1e300);
+        desc.calm = PICK(&seed, 0, 1e-9, 1);
+        desc.spring_friction = desc.mode == WIGGLY_REAL && PICK(&seed, 0, 1) > 0;
+        desc.spring.value = PICK(&seed, 0, 1e-300, 1, 1e308);
+        desc.friction.value = PICK(&seed, 0, 1e-300, 1, 1e308);
+        wiggly_status status = wiggly_solve(solver, &desc, &curve);
+        if (status >= WIGGLY_ERROR_ARGUMENT) fail_msg("example %d: %s", n, wiggly_status_text(status));
+        for (int i = 0; i < samples; i++) {
+            wiggly_value v = wiggly_evaluate(&curve, i + 0.37);
+            bool finite = isfinite(curve.total[i]) && isfinite(curve.im[i]) && isfinite(v.y + v.re + v.im);
+            if (!finite)
+                fail_msg("example %d: sample %d of %d is not finite (%s)", n, i, samples, wiggly_status_text(status));
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(knots_are_hit_to_the_bit),
+        cmocka_unit_test(before_the_first_knot_x_is_held),
+        cmocka_unit_test(nothing_keyed_is_the_equilibrium),
+        cmocka_unit_test(one_knot_of_a_cubic_is_a_constant),
+        cmocka_unit_test(domains_of_one_and_two_samples),
+        cmocka_unit_test(what_has_no_single_answer_is_calmed_and_said),
+        cmocka_unit_test(a_spring_that_starts_slack_is_levelled),
+        cmocka_unit_test(a_loop_closes),
+        cmocka_unit_test(between_samples_a_free_oscillation_is_followed),
+        cmocka_unit_test(wrong_descriptions_are_named_and_leave_the_curve_alone),
+        cmocka_unit_test(every_status_has_a_text_of_its_own),
+        cmocka_unit_test(memory_may_be_the_callers),
+        cmocka_unit_test(the_whole_curve_scales),
+        cmocka_unit_test(extremes_stay_finite),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
