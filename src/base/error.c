@@ -32,18 +32,18 @@ static void make_printable(char *text)
 bool fail(struct error *error, enum error_kind kind, const char *format, ...)
 {
     if (!error) return false;
-    char text[sizeof error->text + 4];
+    char text[sizeof error->text]; // arguments may lie in error->text itself
     va_list arguments;
     va_start(arguments, format);
-    int length = vsnprintf(text, sizeof error->text, format, arguments);
+    int length = vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    if (length >= (int)sizeof error->text) {
-        size_t end = sizeof error->text - 4;
+    if (length >= (int)sizeof text) {
+        size_t end = sizeof text - sizeof "…";
         while (end > 0 && ((unsigned char)text[end] & 0xC0) == 0x80) end--;
-        memcpy(text + end, "…", 4);
+        memcpy(text + end, "…", sizeof "…");
     }
     make_printable(text);
     error->kind = kind;
-    snprintf(error->text, sizeof error->text, "%s", text);
+    memcpy(error->text, text, strlen(text) + 1);
     return false;
 }

@@ -44,7 +44,7 @@ static void jet_rows_real(const system_rows *rows, pentadiagonal *m, int from, i
 
 static void other_rows(const system_rows *rows, pentadiagonal *m)
 {
-    int diagonal = rows->complex ? 3 : 1, block = rows->complex ? 4 : 1;
+    int diagonal = rows->is_complex ? 3 : 1, block = rows->is_complex ? 4 : 1;
     for (int s = 0; s < rows->slope_count; s++) {
         const slope_row *row = &rows->slopes[s];
         m->diagonal[diagonal * row->p] += row->weight;
@@ -56,7 +56,7 @@ static void other_rows(const system_rows *rows, pentadiagonal *m)
         double h00 = rows->start.h00, h11 = h00 * cplx_norm(l) + rows->start.d;
         m->diagonal[0] += h00;
         m->diagonal[diagonal] += h11;
-        if (rows->complex) {
+        if (rows->is_complex) {
             m->diagonal[2] += h00;
             m->diagonal[diagonal + 2] += h11;
             add_complex(m->below, (cplx){h00 * l.re, -h00 * l.im});
@@ -64,7 +64,7 @@ static void other_rows(const system_rows *rows, pentadiagonal *m)
             m->below[0] += h00 * l.re;
         }
     }
-    if (rows->complex) {
+    if (rows->is_complex) {
         for (int k = 0; k < rows->count; k++) m->diagonal[3 * k + 2] += rows->im_weight[k];
     }
 }
@@ -98,21 +98,21 @@ void system_matrix(const system_rows *rows, pentadiagonal *m)
 {
     size_t n = (size_t)rows->count;
     m->count = rows->count;
-    m->width = rows->complex ? 2 : 1;
+    m->width = rows->is_complex ? 2 : 1;
     m->cyclic = rows->loop;
-    memset(m->diagonal, 0, n * sizeof(double) * (rows->complex ? 3 : 1));
-    memset(m->below, 0, n * sizeof(double) * (rows->complex ? 4 : 1));
-    memset(m->below2, 0, n * sizeof(double) * (rows->complex ? 4 : 1));
+    memset(m->diagonal, 0, n * sizeof(double) * (rows->is_complex ? 3 : 1));
+    memset(m->below, 0, n * sizeof(double) * (rows->is_complex ? 4 : 1));
+    memset(m->below2, 0, n * sizeof(double) * (rows->is_complex ? 4 : 1));
     int from = rows->loop ? 0 : 1, to = rows->loop ? rows->count - 1 : rows->count - 2;
-    if (rows->complex) {
+    if (rows->is_complex) {
         jet_rows_complex(rows, m, from, to);
     } else {
         jet_rows_real(rows, m, from, to);
     }
     other_rows(rows, m);
     for (int k = 0; k < rows->count; k++) {
-        if (!rows->complex && rows->fixed[k] & FIXED_RE) fix_real(rows, m, k);
-        if (rows->complex && rows->fixed[k] & FIXED_RE) fix_complex(rows, m, k, 0);
-        if (rows->complex && rows->fixed[k] & FIXED_IM) fix_complex(rows, m, k, 1);
+        if (!rows->is_complex && rows->fixed[k] & FIXED_RE) fix_real(rows, m, k);
+        if (rows->is_complex && rows->fixed[k] & FIXED_RE) fix_complex(rows, m, k, 0);
+        if (rows->is_complex && rows->fixed[k] & FIXED_IM) fix_complex(rows, m, k, 1);
     }
 }

@@ -25,12 +25,12 @@ minimum solver_minimise(wiggly_solver *solver)
     pentadiagonal_rank rank = pentadiagonal_factor(&solver->matrix);
     if (rank == RANK_BROKEN) return result;
     result.weak = rank == RANK_WEAK;
-    int unknowns = rows->count * (rows->complex ? 2 : 1);
+    int unknowns = rows->count * (rows->is_complex ? 2 : 1);
     double before = INFINITY;
     while (result.sweeps < MAX_SWEEPS) {
         system_gradient(rows);
         pentadiagonal_solve(&solver->matrix, rows->gradient);
-        double change = largest_modulus(rows->gradient, rows->count, rows->complex);
+        double change = largest_modulus(rows->gradient, rows->count, rows->is_complex);
         if (!(change < INFINITY)) return result;
         if (change > 0.5 * before) { // at the last digit, or not converging: x stays as it was
             result.error = fmax(change, before);
@@ -38,7 +38,7 @@ minimum solver_minimise(wiggly_solver *solver)
         }
         for (int i = 0; i < unknowns; i++) rows->x[i] += rows->gradient[i];
         result.sweeps++;
-        result.largest = largest_modulus(rows->x, rows->count, rows->complex);
+        result.largest = largest_modulus(rows->x, rows->count, rows->is_complex);
         double contraction = before < INFINITY ? change / before : 0.5;
         result.error = change * contraction / (1 - contraction);
         before = change;
@@ -51,7 +51,7 @@ minimum solver_minimise(wiggly_solver *solver)
 void solver_run_forward(wiggly_solver *solver)
 {
     system_rows *rows = &solver->rows;
-    int width = rows->complex ? 2 : 1;
+    int width = rows->is_complex ? 2 : 1;
     memset(rows->x, 0, sizeof(double) * (size_t)(width * rows->count));
     // x is a double sum of small steps: extended precision keeps the rounding of N² additions below the last digit of x.
     long double x_re = 0, x_im = 0, step_re = 0, step_im = 0;
@@ -65,6 +65,6 @@ void solver_run_forward(wiggly_solver *solver)
         step_re = re, step_im = im;
         x_re += step_re, x_im += step_im;
         rows->x[width * (i + 1)] = (double)x_re;
-        if (rows->complex) rows->x[width * (i + 1) + 1] = (double)x_im;
+        if (rows->is_complex) rows->x[width * (i + 1) + 1] = (double)x_im;
     }
 }

@@ -111,7 +111,7 @@ static void real_adjoint(const system_rows *rows, int from, int to)
 /// Slope, start and imaginary rows: a handful of terms without cancellation between samples.
 static void add_other_rows(const system_rows *rows)
 {
-    int width = rows->complex ? 2 : 1;
+    int width = rows->is_complex ? 2 : 1;
     double *g = rows->gradient, *x = rows->x;
     for (int s = 0; s < rows->slope_count; s++) {
         const slope_row *row = &rows->slopes[s];
@@ -120,18 +120,18 @@ static void add_other_rows(const system_rows *rows)
         g[width * row->p] += miss;
     }
     if (rows->start.h00 > 0) {
-        cplx x0 = {x[0], rows->complex ? x[1] : 0}, x1 = {x[width], rows->complex ? x[3] : 0};
+        cplx x0 = {x[0], rows->is_complex ? x[1] : 0}, x1 = {x[width], rows->is_complex ? x[3] : 0};
         cplx ex = cplx_mul(rows->start.e, x1);
         cplx cost = {rows->start.h00 * (x0.re - x1.re + ex.re), rows->start.h00 * (x0.im - x1.im + ex.im)};
         cplx back = cplx_mul(cplx_conj(rows->start.e), cost);
         g[0] -= cost.re;
         g[width] += cost.re - back.re - rows->start.d * x1.re;
-        if (rows->complex) {
+        if (rows->is_complex) {
             g[1] -= cost.im;
             g[3] += cost.im - back.im - rows->start.d * x1.im;
         }
     }
-    if (rows->complex) {
+    if (rows->is_complex) {
         for (int k = 0; k < rows->count; k++) g[2 * k + 1] -= rows->im_weight[k] * x[2 * k + 1];
     }
 }
@@ -139,7 +139,7 @@ static void add_other_rows(const system_rows *rows)
 void system_gradient(const system_rows *rows)
 {
     int from = rows->loop ? 0 : 1, to = rows->loop ? rows->count - 1 : rows->count - 2;
-    if (rows->complex) {
+    if (rows->is_complex) {
         complex_jets(rows, from, to);
         complex_adjoint(rows, from, to);
     } else {
@@ -148,7 +148,7 @@ void system_gradient(const system_rows *rows)
     }
     add_other_rows(rows);
     for (int k = 0; k < rows->count; k++) {
-        if (rows->complex) {
+        if (rows->is_complex) {
             if (rows->fixed[k] & FIXED_RE) rows->gradient[2 * k] = 0;
             if (rows->fixed[k] & FIXED_IM) rows->gradient[2 * k + 1] = 0;
         } else if (rows->fixed[k] & FIXED_RE) {

@@ -180,7 +180,7 @@ static void set_domain(wiggly_solver *solver, problem *p)
     p->first = p->start == WIGGLY_FREE && p->earliest > 0 ? p->earliest : 0;
     system_rows *rows = &solver->rows;
     rows->loop = p->start == WIGGLY_LOOP;
-    rows->complex = desc->mode == WIGGLY_COMPLEX;
+    rows->is_complex = desc->mode == WIGGLY_COMPLEX;
     rows->count = rows->loop ? desc->samples - 1 : desc->samples - p->first;
 }
 
@@ -239,7 +239,7 @@ static void set_constraints(wiggly_solver *solver, problem *p)
     }
     p->free_end = p->start == WIGGLY_FREE && !(rows->start.h00 > 0);
     rows->slope_count = 0;
-    int width = rows->complex ? 2 : 1;
+    int width = rows->is_complex ? 2 : 1;
     memset(rows->x, 0, sizeof(double) * (size_t)(width * rows->count));
     memset(rows->fixed, 0, (size_t)rows->count);
     if (p->start == WIGGLY_REST) rows->fixed[0] = rows->fixed[1] = FIXED_RE | FIXED_IM;
@@ -279,7 +279,7 @@ static minimum attempt(wiggly_solver *solver, problem *p)
 static void join_knots(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
-    int width = rows->complex ? 2 : 1, before = -1;
+    int width = rows->is_complex ? 2 : 1, before = -1;
     set_constraints(
         solver,
         &(problem){.desc = p->desc, .y = p->y, .start = p->start, .first = p->first, .earliest = p->earliest});
@@ -323,12 +323,12 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, minimum 
 static void solve_short(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
-    int width = rows->complex ? 2 : 1;
+    int width = rows->is_complex ? 2 : 1;
     for (int k = 0; k < rows->count; k++) {
         int index = solver->knot_at[p->first + k];
         int source = index >= 0 ? p->first + k : p->earliest;
         rows->x[width * k] = source >= 0 ? p->desc->knots[solver->knot_at[source]].value - p->y[source] : 0;
-        if (rows->complex) rows->x[2 * k + 1] = 0;
+        if (rows->is_complex) rows->x[2 * k + 1] = 0;
     }
 }
 
@@ -351,13 +351,13 @@ static void write_curve(const wiggly_solver *solver, const problem *p, wiggly_cu
 {
     const system_rows *rows = &solver->rows;
     const wiggly_desc *desc = p->desc;
-    int width = rows->complex ? 2 : 1;
+    int width = rows->is_complex ? 2 : 1;
     bool constant = poles_are_constant(desc);
     double floor = rows->loop ? least_damping * p->calm : 0, omega = 0;
     for (int i = 0; i < desc->samples; i++) {
         int k = i < p->first ? 0 : rows->loop && i == rows->count ? 0 : i - p->first;
         curve->re[i] = rows->x[width * k];
-        curve->im[i] = rows->complex ? rows->x[width * k + 1] : 0;
+        curve->im[i] = rows->is_complex ? rows->x[width * k + 1] : 0;
         int index = solver->knot_at[i];
         curve->total[i] = index >= 0 ? desc->knots[index].value : curve->y[i] + curve->re[i];
         if (i == 0 || !constant) omega = poles_at(desc, i, floor).centre;
@@ -396,7 +396,7 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     set_domain(solver, &p);
     minimum result = {.solved = true};
     if (is_still(&p)) {
-        memset(solver->rows.x, 0, sizeof(double) * (size_t)(solver->rows.count * (solver->rows.complex ? 2 : 1)));
+        memset(solver->rows.x, 0, sizeof(double) * (size_t)(solver->rows.count * (solver->rows.is_complex ? 2 : 1)));
     } else if (solver->rows.count < 3) {
         solve_short(solver, &p);
     } else if (p.start == WIGGLY_REST && desc->knot_count == 0) {

@@ -22,7 +22,7 @@ typedef struct slope_row {
 
 typedef struct system_rows {
     int count; ///< M
-    bool loop, complex;
+    bool loop, is_complex;
     coefficients *at; ///< of row i; g is folded into `drive` and not kept
     cplx *drive;      ///< f_i
     double *im_weight;
