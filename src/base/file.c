@@ -1,0 +1,220 @@
+#include "base/file.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { READ_BLOCK = 1 << 16, MAX_LINKS = 32, MAX_NAMES = 100 };
+
+static bool fail_to(struct error *error, enum error_kind kind, const char *doing, const char *path, int cause)
+{
+    return fail(error, kind, "%s: cannot %s: %s", path, doing, strerror(cause ? cause : EIO));
+}
+
+/// Opens a regular file without waiting for anyone (a FIFO would block for a writer).
+static int open_regular(const char *path, struct stat *about, struct error *error)
+{
+    int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) {
+        fail_to(error, ERROR_INPUT, "be opened", path, errno);
+        return -1;
+    }
+    if (fstat(file, about) == 0 && S_ISREG(about->st_mode)) return file;
+    fail(error, ERROR_INPUT, "%s: expected a file, got %s", path,
+         S_ISDIR(about->st_mode) ? "a directory" : "something else (a device or a pipe)");
+    close(file);
+    return -1;
+}
+
+static bool fail_too_large(const char *path, size_t limit, struct error *error)
+{
+    return fail(error, ERROR_INPUT, "%s: expected at most %zu MiB, got a larger file", path, limit >> 20);
+}
+
+/// Reads to the end, or to one byte past the limit. `*data` is the caller's in any case.
+static bool read_all(int file, const char *path, size_t limit, char **data, size_t capacity, size_t *size,
+                     struct error *error)
+{
+    *size = 0;
+    *data = malloc(capacity + 1);
+    while (*data && *size <= limit) {
+        ssize_t got = read(file, *data + *size, capacity - *size);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return fail_to(error, ERROR_INPUT, "be read", path, errno);
+        *size += (size_t)got;
+        if (got == 0 && *size < capacity) {
+            (*data)[*size] = '\0';
+            return true;
+        }
+        if (*size < capacity) continue;
+        capacity += capacity;
+        char *larger = realloc(*data, capacity + 1);
+        if (!larger) free(*data);
+        *data = larger;
+    }
+    return *data ? fail_too_large(path, limit, error) : fail_to(error, ERROR_ENVIRONMENT, "be read", path, ENOMEM);
+}
+
+bool file_read(const char *path, size_t limit, char **data, size_t *size, struct error *error)
+{
+    struct stat about;
+    int file = open_regular(path, &about, error);
+    *data = NULL;
+    if (file < 0) return false;
+    bool done = false;
+    if ((size_t)about.st_size > limit) {
+        fail_too_large(path, limit, error);
+    } else {
+        size_t capacity = about.st_size > 0 ? (size_t)about.st_size + 1 : READ_BLOCK;
+        done = read_all(file, path, limit, data, capacity, size, error);
+    }
+    close(file);
+    if (!done) {
+        free(*data);
+        *data = NULL;
+    }
+    return done;
+}
+
+/// `name` seen from the folder of `path`.
+static char *beside(const char *path, const char *name)
+{
+    const char *slash = strrchr(path, '/');
+    size_t folder = slash && name[0] != '/' ? (size_t)(slash - path) + 1 : 0;
+    char *joined = malloc(folder + strlen(name) + 1);
+    if (!joined) return NULL;
+    memcpy(joined, path, folder);
+    strcpy(joined + folder, name);
+    return joined;
+}
+
+/// Where a path's symbolic links end, whether or not there is a file yet. NULL with errno set.
+static char *follow_links(const char *path)
+{
+    char *target = strdup(path);
+    for (int i = 0; target && i < MAX_LINKS; i++) {
+        char link[PATH_MAX];
+        ssize_t length = readlink(target, link, sizeof link - 1);
+        if (length < 0) return target;
+        link[length] = '\0';
+        char *next = beside(target, link);
+        free(target);
+        target = next;
+    }
+    errno = target ? ELOOP : ENOMEM;
+    free(target);
+    return NULL;
+}
+
+/// Makes a new file beside the target; the kernel applies the umask. Returns the descriptor or -1 with errno set.
+static int create_beside(const char *target, char **temporary)
+{
+    errno = ENOMEM;
+    for (int i = 0; i < MAX_NAMES; i++) {
+        char name[64];
+        snprintf(name, sizeof name, ".wiggly-%ld-%d.tmp", (long)getpid(), i);
+        *temporary = beside(target, name);
+        if (!*temporary) return -1;
+        int file = open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file >= 0) return file;
+        int cause = errno;
+        free(*temporary);
+        *temporary = NULL;
+        errno = cause;
+        if (errno != EEXIST) return -1;
+    }
+    return -1;
+}
+
+/// Opens what is to be written: a file beside the target, or the target itself where it is a device or a pipe.
+static int open_output(const char *path, struct file_output *output)
+{
+    struct stat old;
+    bool exists = stat(path, &old) == 0;
+    if (exists && S_ISDIR(old.st_mode)) {
+        errno = EISDIR;
+        return -1;
+    }
+    if (exists && !S_ISREG(old.st_mode)) return open(path, O_WRONLY | O_CLOEXEC);
+    if (exists && access(path, W_OK) != 0) return -1;
+    output->target = follow_links(path);
+    if (!output->target) return -1;
+    int file = create_beside(output->target, &output->temporary);
+    if (file >= 0 && exists && fchmod(file, old.st_mode & 07777) != 0) {
+        close(file);
+        return -1;
+    }
+    return file;
+}
+
+bool file_output_open(struct file_output *output, const char *path, struct error *error)
+{
+    *output = (struct file_output){.path = path};
+    int file = open_output(path, output);
+    if (file >= 0) output->stream = fdopen(file, "wb");
+    if (output->stream) return true;
+    int cause = errno;
+    if (file >= 0) close(file);
+    file_output_discard(output);
+    return fail_to(error, ERROR_ENVIRONMENT, "be written", path, cause);
+}
+
+/// The folder's entry must reach the disk too. Some file systems cannot; the content is safe then all the same.
+static void sync_folder(const char *target)
+{
+    char *folder = beside(target, ".");
+    int file = folder ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    free(folder);
+    if (file < 0) return;
+    fsync(file);
+    close(file);
+}
+
+bool file_output_commit(struct file_output *output, struct error *error)
+{
+    FILE *stream = output->stream;
+    bool replaces = output->temporary != NULL;
+    bool done = !ferror(stream) && fflush(stream) == 0 && (!replaces || fsync(fileno(stream)) == 0);
+    int cause = errno;
+    output->stream = NULL;
+    if (fclose(stream) != 0 && done) {
+        done = false;
+        cause = errno;
+    }
+    if (done && replaces) {
+        done = rename(output->temporary, output->target) == 0;
+        cause = errno;
+    }
+    if (done && replaces) {
+        free(output->temporary);
+        output->temporary = NULL;
+        sync_folder(output->target);
+    }
+    if (!done) fail_to(error, ERROR_ENVIRONMENT, "be written", output->path, cause);
+    file_output_discard(output);
+    return done;
+}
+
+void file_output_discard(struct file_output *output)
+{
+    if (output->stream) fclose(output->stream);
+    if (output->temporary) unlink(output->temporary);
+    free(output->temporary);
+    free(output->target);
+    *output = (struct file_output){0};
+}
+
+bool file_write_atomic(const char *path, const void *data, size_t size, struct error *error)
+{
+    struct file_output output;
+    if (!file_output_open(&output, path, error)) return false;
+    if (fwrite(data, 1, size, output.stream) != size) {
+        int cause = errno;
+        file_output_discard(&output);
+        return fail_to(error, ERROR_ENVIRONMENT, "be written", path, cause);
+    }
+    return file_output_commit(&output, error);
+}

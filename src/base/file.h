@@ -1,0 +1,34 @@
+/// Whole files: read with a limit, written so that a reader sees the old or the new content and nothing between.
+#ifndef BASE_FILE_H
+#define BASE_FILE_H
+
+#include "base/error.h"
+#include <stddef.h>
+#include <stdio.h>
+
+/// Reads a regular file of at most `limit` bytes into memory that the caller frees, with a terminating NUL that
+/// `size` does not count. Errors name the path and say: no such file, a directory, no permission, too large.
+bool file_read(const char *path, size_t limit, char **data, size_t *size, struct error *error);
+
+/// Writes to a temporary file beside `path`, checks every call, fsyncs, renames. On failure the old file is intact
+/// and the temporary one is gone. A symbolic link's target is replaced, not the link; the old file's mode is kept.
+bool file_write_atomic(const char *path, const void *data, size_t size, struct error *error);
+
+/// The same for output that is written piece by piece; a device or a pipe is written straight.
+struct file_output {
+    FILE *stream;
+    const char *path;         ///< the caller's, for messages
+    char *target, *temporary; ///< private
+};
+
+/// Opens the temporary file. `path` must live until the end.
+bool file_output_open(struct file_output *output, const char *path, struct error *error);
+
+/// Checks what was written, fsyncs, renames, and closes; on failure the old file is intact and the temporary one is
+/// gone.
+bool file_output_commit(struct file_output *output, struct error *error);
+
+/// Closes and removes the temporary file.
+void file_output_discard(struct file_output *output);
+
+#endif
