@@ -1,0 +1,79 @@
+#include "commands/commands.h"
+#include "commands/options.h"
+#include "scene/evaluate.h"
+#include "scene/load.h"
+#include <stdio.h>
+
+enum { MAX_SOLVED_SAMPLES = 1000000 }; ///< larger scenes are checked as they are written only
+
+static void print_problem(void *user, bool is_error, const char *sentence)
+{
+    (void)user;
+    printf("%s%s\n", is_error ? "" : "warning: ", sentence);
+}
+
+static void print_warning(struct problems *problems, const char *path, const struct document *document, int spline,
+                          const char *what)
+{
+    struct error warning; // a name may hold anything; this makes it printable
+    fail(&warning, ERROR_INPUT, "%s: splines[%d]: \"%s\": %s", path, spline, document->splines[spline].name, what);
+    problems->warnings++;
+    problems->report(problems->user, false, warning.text);
+}
+
+/// A loop takes its last sample from its first, so an equilibrium that ends elsewhere jumps there.
+static bool jumps(const struct document *document, const struct evaluation *evaluation, int index)
+{
+    const struct spline *spline = &document->splines[index];
+    int leader = spline->parameter[PARAMETER_EQUILIBRIUM].track;
+    if (spline->start != WIGGLY_LOOP || leader < 0) return false;
+    const double *y = evaluation->curves[leader].total;
+    return y[0] != y[evaluation->samples - 1];
+}
+
+/// What shows only when the scene is solved.
+static bool check_solution(const char *path, const struct document *document, struct problems *problems,
+                           struct error *error)
+{
+    struct evaluation evaluation = {0};
+    if ((long long)document_samples(document) * document->spline_count > MAX_SOLVED_SAMPLES) return true;
+    if (!evaluation_resize(&evaluation, document, error)) return false;
+    evaluation_update(&evaluation, document, NULL, false);
+    for (int i = 0; i < evaluation.count; i++) {
+        if (jumps(document, &evaluation, i)) {
+            print_warning(problems, path, document, i, "the equilibrium of this loop does not end where it begins");
+        }
+        if (evaluation.status[i] != WIGGLY_OK) {
+            print_warning(problems, path, document, i, wiggly_status_text(evaluation.status[i]));
+        }
+    }
+    evaluation_free(&evaluation);
+    return true;
+}
+
+static int check(const char *path)
+{
+    struct problems problems = {.report = print_problem};
+    struct error error = {0};
+    struct document *document = scene_load(path, &problems, &error);
+    if (!document) return error.kind;
+    bool done = check_solution(path, document, &problems, &error);
+    if (!done) fprintf(stderr, "%s\n", error.text);
+    document_destroy(document);
+    return done ? 0 : (int)error.kind;
+}
+
+int command_check(int argc, char **argv)
+{
+    const char *scene;
+    const struct usage usage = {
+        .command = "check",
+        .operands = "scene.json",
+        .summary = "Prints every problem of a scene with its line and path.",
+        .operand_minimum = 1,
+        .operand_maximum = 1,
+    };
+    enum options_result result = options_parse(&usage, argc, argv, &scene);
+    if (result != OPTIONS_RUN) return result == OPTIONS_HELP ? 0 : ERROR_USAGE;
+    return check(scene);
+}

@@ -1,0 +1,122 @@
+#include "base/file.h"
+#include "commands/commands.h"
+#include "commands/options.h"
+#include "scene/evaluate.h"
+#include "scene/load.h"
+#include "scene/number.h"
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+/// A field as RFC 4180 wants it: quoted where it holds a comma, a quote or the end of a line.
+static void write_name(FILE *out, const char *name, const char *suffix)
+{
+    bool quotes = strpbrk(name, ",\"\r\n") != NULL;
+    if (quotes) fputc('"', out);
+    for (const char *c = name; *c; c++) {
+        if (*c == '"') fputc('"', out);
+        fputc(*c, out);
+    }
+    fputs(suffix, out);
+    if (quotes) fputc('"', out);
+}
+
+static void write_header(FILE *out, const struct document *document)
+{
+    static const char *const suffixes[] = {"", ".re", ".im"};
+    fputs("frame", out);
+    for (int i = 0; i < document->spline_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            fputc(',', out);
+            write_name(out, document->splines[i].name, suffixes[k]);
+        }
+    }
+    fputc('\n', out);
+}
+
+static void write_row(FILE *out, const struct document *document, const struct evaluation *evaluation, int sample)
+{
+    char frame[NUMBER_TEXT_SIZE];
+    number_print(document_frame(document, sample), frame);
+    fputs(frame, out);
+    for (int i = 0; i < evaluation->count; i++) {
+        const wiggly_curve *curve = &evaluation->curves[i];
+        fprintf(out, ",%.17g,%.17g,%.17g", curve->total[sample], curve->re[sample], curve->im[sample]);
+    }
+    fputc('\n', out);
+}
+
+static void write_csv(FILE *out, const struct document *document, const struct evaluation *evaluation)
+{
+    write_header(out, document);
+    for (int i = 0; i < evaluation->samples && !ferror(out); i++) write_row(out, document, evaluation, i);
+}
+
+static bool write_output(const char *path, const struct document *document, const struct evaluation *evaluation,
+                         struct error *error)
+{
+    if (!path) {
+        write_csv(stdout, document, evaluation);
+        if (!ferror(stdout) && fflush(stdout) == 0) return true;
+        return fail(error, ERROR_ENVIRONMENT, "standard output: cannot be written: %s", strerror(errno));
+    }
+    struct file_output output;
+    if (!file_output_open(&output, path, error)) return false;
+    write_csv(output.stream, document, evaluation);
+    return file_output_commit(&output, error);
+}
+
+static void warn_statuses(const char *path, const struct document *document, const struct evaluation *evaluation)
+{
+    for (int i = 0; i < evaluation->count; i++) {
+        if (evaluation->status[i] == WIGGLY_OK) continue;
+        struct error warning; // a name may hold anything; this makes it printable
+        fail(&warning, ERROR_INPUT, "%s: splines[%d]: warning: \"%s\": %s", path, i, document->splines[i].name,
+             wiggly_status_text(evaluation->status[i]));
+        fprintf(stderr, "%s\n", warning.text);
+    }
+}
+
+static bool solve(const char *scene, const char *out, struct error *error)
+{
+    struct evaluation evaluation = {0};
+    struct document *document = scene_load(scene, NULL, error);
+    if (!document) return false;
+    bool done = evaluation_resize(&evaluation, document, error);
+    if (done) {
+        evaluation_update(&evaluation, document, NULL, false);
+        warn_statuses(scene, document, &evaluation);
+        done = write_output(out, document, &evaluation, error);
+    }
+    evaluation_free(&evaluation);
+    document_destroy(document);
+    return done;
+}
+
+int command_solve(int argc, char **argv)
+{
+    const char *scene, *out = NULL;
+    const struct option_spec options[] = {
+        {.name = "--output",
+         .alias = "-o",
+         .argument = "FILE",
+         .help = "write there (default: standard output)",
+         .kind = OPTION_TEXT,
+         .target = &out},
+    };
+    const struct usage usage = {
+        .command = "solve",
+        .operands = "scene.json",
+        .summary = "Solves every spline of a scene and writes every sample as CSV: total, Re x, Im x.",
+        .options = options,
+        .option_count = 1,
+        .operand_minimum = 1,
+        .operand_maximum = 1,
+    };
+    enum options_result result = options_parse(&usage, argc, argv, &scene);
+    if (result != OPTIONS_RUN) return result == OPTIONS_HELP ? 0 : ERROR_USAGE;
+    struct error error;
+    if (solve(scene, out, &error)) return 0;
+    fprintf(stderr, "%s\n", error.text);
+    return error.kind;
+}

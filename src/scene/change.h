@@ -1,0 +1,68 @@
+/// Changes: what edits become once they were checked. A change holds the other state of what it touches, and swapping
+/// it with the document's is both doing and undoing; nothing can fail there.
+#ifndef SCENE_CHANGE_H
+#define SCENE_CHANGE_H
+
+#include "scene/document.h"
+#include "scene/edit.h"
+#include <stddef.h>
+
+enum change_kind {
+    CHANGE_KNOT_IN,  ///< the knot is in the document: swapping takes it out, and makes this a CHANGE_KNOT_OUT
+    CHANGE_KNOT_OUT, ///< and the other way round
+    CHANGE_KNOT,     ///< a knot's numbers
+    CHANGE_SETTINGS, ///< a spline's mode, start and parameters
+    CHANGE_RANGE,    ///< the scene's frames
+    CHANGE_AXIS,     ///< a channel's axis
+    CHANGE_EACH,     ///< whether angles are one for all joints or one for each
+    CHANGE_ANGLE,    ///< one of them
+};
+
+/// What EDIT_PARAMETER, EDIT_MODE, EDIT_START and EDIT_SPRING change.
+struct settings {
+    enum wiggly_mode mode;
+    enum wiggly_start start;
+    bool spring_friction;
+    struct param parameter[PARAMETER_COUNT];
+};
+
+/// Targets point into the document's tails and channels, which no edit moves.
+struct change {
+    enum change_kind kind;
+    int spline; ///< -1 where no spline's solution is concerned
+    union {
+        struct knot knot;
+        struct settings settings;
+        struct {
+            int first, last;
+        } range;
+        struct {
+            enum axis *target, axis;
+        } axis;
+        struct {
+            bool *target, each;
+        } each;
+        struct {
+            double *target, value;
+        } angle;
+    };
+};
+
+struct change_list {
+    struct change *items;
+    size_t count, capacity;
+};
+
+/// Room for `count` more. Capacities are powers of two. false where memory is short.
+bool change_list_reserve(struct change_list *list, size_t count);
+
+struct settings settings_of(const struct spline *spline);
+
+/// Swaps the change's state with the document's. A knot's spline must have room for it.
+void change_swap(struct change *change, struct document *document);
+
+/// Checks an edit and adds the changes that make it up, not yet swapped, none where nothing would change.
+/// false with a sentence where the edit is not possible.
+bool edit_plan(struct document *document, const struct edit *edit, struct change_list *list, struct error *error);
+
+#endif

@@ -1,0 +1,135 @@
+#include "scene/document.h"
+#include <jansson.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    const char *name;
+    double minimum, maximum, standard;
+} parameter_table[PARAMETER_COUNT] = {
+    [PARAMETER_FREQUENCY] = {"frequency", 0, INFINITY, 0},
+    [PARAMETER_DAMPING] = {"damping", 0, INFINITY, 0},
+    [PARAMETER_BANDWIDTH] = {"bandwidth", 0, 1, 0.1},
+    [PARAMETER_SPRING] = {"spring", 0, INFINITY, 0},
+    [PARAMETER_FRICTION] = {"friction", 0, INFINITY, 0},
+    [PARAMETER_CALM] = {"calm", 0, 1, 1},
+    [PARAMETER_EQUILIBRIUM] = {"equilibrium", -INFINITY, INFINITY, 0},
+};
+
+const char *parameter_name(enum parameter parameter) { return parameter_table[parameter].name; }
+
+double parameter_minimum(enum parameter parameter, enum wiggly_mode mode)
+{
+    (void)mode;
+    return parameter_table[parameter].minimum;
+}
+
+double parameter_maximum(enum parameter parameter, enum wiggly_mode mode)
+{
+    if (parameter == PARAMETER_DAMPING && mode == WIGGLY_COMPLEX) return 1;
+    return parameter_table[parameter].maximum;
+}
+
+double parameter_default(enum parameter parameter) { return parameter_table[parameter].standard; }
+
+void spline_reset(struct spline *spline)
+{
+    spline->mode = WIGGLY_COMPLEX;
+    spline->start = WIGGLY_FREE;
+    spline->spring_friction = false;
+    for (int i = 0; i < PARAMETER_COUNT; i++) {
+        spline->parameter[i] = (struct param){parameter_table[i].standard, -1};
+    }
+}
+
+struct document *document_create(void)
+{
+    struct document *document = calloc(1, sizeof *document);
+    if (!document) return NULL;
+    document->fps = 24;
+    document->substeps = 1;
+    document->last_frame = 120;
+    document->next_id = 1;
+    return document;
+}
+
+void document_destroy(struct document *document)
+{
+    if (!document) return;
+    for (int i = 0; i < document->spline_count; i++) {
+        free(document->splines[i].name);
+        free(document->splines[i].knots);
+    }
+    for (int i = 0; i < document->tail_count; i++) {
+        free(document->tails[i].name);
+        free(document->tails[i].channels);
+    }
+    free(document->splines);
+    free(document->tails);
+    json_decref(document->owned);
+    free(document);
+}
+
+int document_samples(const struct document *document)
+{
+    return (document->last_frame - document->first_frame) * document->substeps + 1;
+}
+
+double document_step(const struct document *document) { return 1 / (document->fps * document->substeps); }
+
+int document_sample(const struct document *document, double frame)
+{
+    double sample = floor((frame - document->first_frame) * document->substeps + 0.5);
+    if (sample > INT_MAX / 2) return INT_MAX / 2;
+    if (sample < -(INT_MAX / 2)) return -(INT_MAX / 2);
+    return (int)sample;
+}
+
+double document_frame(const struct document *document, int sample)
+{
+    return document->first_frame + (double)sample / document->substeps;
+}
+
+int document_last_knot_sample(const struct document *document, const struct spline *spline)
+{
+    return document_samples(document) - (spline->start == WIGGLY_LOOP ? 2 : 1);
+}
+
+int document_find_spline(const struct document *document, const char *name)
+{
+    for (int i = 0; i < document->spline_count; i++) {
+        if (strcmp(document->splines[i].name, name) == 0) return i;
+    }
+    return -1;
+}
+
+int spline_find_knot(const struct document *document, const struct spline *spline, int sample)
+{
+    int at = spline_lower_bound(document, spline, sample);
+    if (at == spline->knot_count || document_sample(document, spline->knots[at].frame) != sample) return -1;
+    return at;
+}
+
+int spline_lower_bound(const struct document *document, const struct spline *spline, int sample)
+{
+    int low = 0, high = spline->knot_count;
+    while (low < high) {
+        int middle = low + (high - low) / 2;
+        if (document_sample(document, spline->knots[middle].frame) < sample) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+int spline_find_id(const struct spline *spline, unsigned id)
+{
+    for (int i = 0; i < spline->knot_count; i++) {
+        if (spline->knots[i].id == id) return i;
+    }
+    return -1;
+}

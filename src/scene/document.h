@@ -1,0 +1,151 @@
+/// The document: what a scene file says (spec: "Scene file"), in memory. Everything on screen is a function of it.
+///
+/// Only edit.h changes one; load.h makes one from a file. Knots are kept by sample, at most one on each.
+#ifndef SCENE_DOCUMENT_H
+#define SCENE_DOCUMENT_H
+
+#include "base/error.h"
+#include <stdbool.h>
+#include <stdint.h>
+#include <wiggly/wiggly.h>
+
+enum {
+    SCENE_MAX_SUBSTEPS = 1024,
+    SCENE_MAX_SAMPLES = 10000000, ///< over all splines together
+    SCENE_MAX_KNOTS = 1000000,    ///< over all splines together
+    SCENE_MAX_FPS = 100000,
+    SCENE_MAX_FRAME = 1000000000, ///< of first and last, to both sides
+    SCENE_MAX_TAILS = 1024,
+    SCENE_MAX_CHANNELS = 64, ///< of one tail
+    TAIL_MAX_JOINTS = 256,
+};
+
+/// The parameters of a spline, in the order in which they are saved.
+enum parameter {
+    PARAMETER_FREQUENCY,
+    PARAMETER_DAMPING,
+    PARAMETER_BANDWIDTH,
+    PARAMETER_SPRING,
+    PARAMETER_FRICTION,
+    PARAMETER_CALM,
+    PARAMETER_EQUILIBRIUM,
+    PARAMETER_COUNT
+};
+
+/// A number, or the total of another spline.
+struct param {
+    double value; ///< used where track < 0
+    int track;    ///< index of the spline that is followed, or -1
+};
+
+struct knot {
+    double frame; ///< as written; may be fractional
+    double value;
+    double slope;     ///< value per second
+    double stiffness; ///< 1/s
+    bool has_slope;
+    unsigned id;       ///< unique in the document, kept through edits and undo; not saved
+    const void *extra; ///< unknown keys of the file (a jansson object that the document owns), or NULL
+};
+
+struct spline {
+    char *name;
+    enum wiggly_mode mode;
+    enum wiggly_start start;
+    bool spring_friction; ///< real mode with the paper's own pair of parameters
+    struct param parameter[PARAMETER_COUNT];
+    struct knot *knots; ///< by sample
+    int knot_count, knot_capacity;
+    const void *extra;
+};
+
+/// One angle for all joints, or one for each (degrees).
+struct angles {
+    bool each;
+    double value[TAIL_MAX_JOINTS]; ///< value[0] alone unless `each`
+};
+
+enum axis { AXIS_SIDE, AXIS_UP };
+
+struct channel {
+    int spline; ///< index
+    enum axis axis;
+    struct angles lag;  ///< n·lag at joint n, or each joint's own lag
+    struct angles gain; ///< degrees per unit of the spline
+    const void *extra;
+};
+
+struct tail {
+    char *name;
+    int joints; ///< 1 … TAIL_MAX_JOINTS
+    double length;
+    double position[3]; ///< metres
+    struct angles rest;
+    struct channel *channels;
+    int channel_count;
+    const void *extra;
+};
+
+struct document {
+    double fps;
+    int substeps;
+    int first_frame, last_frame;
+    struct spline *splines;
+    int spline_count;
+    struct tail *tails;
+    int tail_count;
+    unsigned next_id;
+    const void *extra;
+    void *owned; ///< what `extra` pointers point into; freed with the document
+};
+
+/// An empty document: 24 fps, frames 0 … 120, no splines. NULL where memory is short.
+struct document *document_create(void);
+void document_destroy(struct document *document);
+
+/// Number of samples N of every spline.
+int document_samples(const struct document *document);
+
+/// Seconds between samples.
+double document_step(const struct document *document);
+
+/// The sample that a frame falls on, ⌊(frame − first)·substeps + ½⌋; may lie outside 0 … N−1.
+/// Saturates at ±INT_MAX/2 for frames too far away.
+int document_sample(const struct document *document, double frame);
+
+/// The frame of a sample.
+double document_frame(const struct document *document, int sample);
+
+/// First frame of the last sample that may carry a knot (a loop's last sample is its first).
+int document_last_knot_sample(const struct document *document, const struct spline *spline);
+
+/// Index of the spline with that name, or -1.
+int document_find_spline(const struct document *document, const char *name);
+
+/// Index of the knot on that sample, or -1 (binary search).
+int spline_find_knot(const struct document *document, const struct spline *spline, int sample);
+
+/// Index of the first knot on that sample or after it; the number of knots where there is none.
+int spline_lower_bound(const struct document *document, const struct spline *spline, int sample);
+
+/// Index of the knot with that id, or -1.
+int spline_find_id(const struct spline *spline, unsigned id);
+
+/// The file's key of a parameter: "frequency" …; and the range in which a constant may lie in that mode.
+const char *parameter_name(enum parameter parameter);
+double parameter_minimum(enum parameter parameter, enum wiggly_mode mode);
+double parameter_maximum(enum parameter parameter, enum wiggly_mode mode);
+
+/// Gives a spline the file format's defaults (complex, free, calm 1, bandwidth 0.1); name and knots are left alone.
+void spline_reset(struct spline *spline);
+
+/// The default of a parameter.
+double parameter_default(enum parameter parameter);
+
+#define KNOT_DEFAULT_STIFFNESS 1000.0 /* 1/s */
+#define TAIL_DEFAULT_JOINTS 24
+#define TAIL_DEFAULT_LENGTH 1.6  /* m */
+#define CHANNEL_DEFAULT_LAG 6.5  /* degrees a joint */
+#define CHANNEL_DEFAULT_GAIN 5.0 /* degrees a unit of the spline */
+
+#endif

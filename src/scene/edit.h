@@ -1,0 +1,81 @@
+/// Edit operations: the only way to change a document, each with its inverse, kept in a history of steps.
+///
+/// A step is what one undo takes back: one or more edits that belong together. A drag re-applies its step each frame:
+/// history_restart() takes the edits of the running step back, then new ones are applied from the same original
+/// state.
+#ifndef SCENE_EDIT_H
+#define SCENE_EDIT_H
+
+#include "scene/document.h"
+
+enum edit_kind {
+    EDIT_KNOT_INSERT, ///< spline, knot (id 0: a new one is given)
+    EDIT_KNOT_REMOVE, ///< spline, knot.id
+    EDIT_KNOT_SET,    ///< spline, knot (found by id; frame, value, slope, has_slope, stiffness are replaced)
+    EDIT_PARAMETER,   ///< spline, parameter, param
+    EDIT_MODE,        ///< spline, mode: converts ω = √k, ζ = γ/2√k and clamps, so that what is saved loads
+    EDIT_START,       ///< spline, start
+    EDIT_SPRING,      ///< spline, flag: whether spring and friction are in use (real mode only)
+    EDIT_RANGE,       ///< first, last: the scene's frames; refused where a knot would lie outside
+    EDIT_ANGLES,      ///< tail, channel (-1: rest), angle: which, angles
+    EDIT_AXIS,        ///< tail, channel, axis
+};
+
+enum angle_kind { ANGLE_REST, ANGLE_LAG, ANGLE_GAIN };
+
+struct edit {
+    enum edit_kind kind;
+    int spline;
+    struct knot knot;
+    enum parameter parameter;
+    struct param param;
+    enum wiggly_mode mode;
+    enum wiggly_start start;
+    bool flag;
+    int first, last;
+    int tail, channel;
+    enum angle_kind angle;
+    enum axis axis;
+    const struct angles *angles; ///< read during the call only
+};
+
+/// Undo and redo of one document. Opaque.
+struct history;
+
+struct history *history_create(void);
+void history_destroy(struct history *history);
+/// Forgets everything (a new document was opened).
+void history_clear(struct history *history);
+
+/// Opens a step called `label` ("Move knot"; a string constant). Where `merge` is not 0 and equals that of the last
+/// step on the stack, and nothing was undone since, the edits join that step (runs of the same nudge on the same
+/// selection).
+void history_begin(struct history *history, const char *label, uint64_t merge);
+/// Applies an edit inside the open step. false with a sentence where it is not possible: occupied sample, outside the
+/// range, not finite, track cycle, knot not found …; the document is then as before this edit.
+bool history_apply(struct history *history, struct document *document, const struct edit *edit, struct error *error);
+/// Takes back the edits of the open step; the step stays open (next frame of a drag, or Esc before history_end()).
+void history_restart(struct history *history, struct document *document);
+/// Closes the step; an empty one leaves no trace.
+void history_end(struct history *history);
+/// Whether a step is open.
+bool history_is_open(const struct history *history);
+
+/// Takes the last step back or does it again; false where there is none. A step must not be open.
+bool history_undo(struct history *history, struct document *document);
+bool history_redo(struct history *history, struct document *document);
+/// Label of what undo / redo would do next, or NULL.
+const char *history_undo_label(const struct history *history);
+const char *history_redo_label(const struct history *history);
+
+/// Changes with every apply, undo and redo and never repeats: "has the document changed since".
+uint64_t history_revision(const struct history *history);
+/// Marks the present state as saved; history_is_saved() is true again whenever undo or redo comes back to it.
+void history_mark_saved(struct history *history);
+bool history_is_saved(const struct history *history);
+
+/// Splines whose solution the edits since the last call may have changed, as flags; followers of tracks are not
+/// included. Clears the flags. `count` flags are written; the scene's range marks all.
+void history_take_dirty(struct history *history, const struct document *document, bool *dirty, int count);
+
+#endif

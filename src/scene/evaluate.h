@@ -1,0 +1,36 @@
+/// The document's splines, solved: in the order of their dependencies, only those that changed and their followers.
+#ifndef SCENE_EVALUATE_H
+#define SCENE_EVALUATE_H
+
+#include "scene/document.h"
+
+/// Solutions of all splines of one document.
+struct evaluation {
+    wiggly_curve *curves;  ///< one a spline
+    wiggly_status *status; ///< what the solver said
+    int count;             ///< splines
+    int samples;           ///< N
+    bool cubic;            ///< all solved in cubic mode (the "cubic" of the A/B comparison)
+    long solved_splines;   ///< in the last evaluate(): splines and samples solved
+    long solved_samples;
+    long solved_knots;
+    void *storage; ///< private
+};
+
+/// Memory for a document's splines; to be called again when the number of splines, samples or knots has changed,
+/// which costs next to nothing where it fits. Other splines or samples make every curve unsolved. On failure `count`
+/// is 0.
+bool evaluation_resize(struct evaluation *evaluation, const struct document *document, struct error *error);
+void evaluation_free(struct evaluation *evaluation);
+
+/// Solves the splines marked in `dirty` (NULL: all) and those that follow them by tracks, in dependency order.
+/// Allocates nothing. `cubic` solves every spline as a cubic on the same knots (its equilibrium kept): changing it
+/// solves all.
+void evaluation_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic);
+
+/// The description that evaluation_update() solves for one spline (tracks point into the evaluation).
+/// `knots` has room for the spline's knots.
+wiggly_desc evaluation_desc(const struct evaluation *evaluation, const struct document *document, int spline,
+                            bool cubic, wiggly_knot *knots);
+
+#endif

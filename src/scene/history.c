@@ -1,0 +1,264 @@
+#include "scene/change.h"
+#include "scene/edit.h"
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// So many changes and their steps stay under 256 MB, with as many in the open step.
+enum { MAX_CHANGES = 1 << 19, FIRST_STEPS = 1024, FIRST_DIRTY = 64 };
+
+struct step {
+    const char *label;
+    uint64_t merge;
+    uint64_t state; ///< the document's, after it
+    size_t end;     ///< its changes end here in the list of all
+};
+
+struct history {
+    struct change_list changes; ///< of all steps
+    struct step *steps;
+    size_t step_count, step_capacity;
+    size_t done;          ///< steps that are not undone
+    uint64_t first_state; ///< the document's before the first step
+    uint64_t last_state, saved_state, revision;
+
+    struct change_list open; ///< the open step's: kept apart, so that a cancelled drag leaves redo alone
+    bool is_open, can_merge;
+    const char *label;
+    uint64_t merge;
+    unsigned next_id; ///< the document's, before the open step's first change
+
+    bool *dirty;
+    size_t dirty_capacity;
+    bool all_dirty;
+};
+
+struct history *history_create(void)
+{
+    struct history *history = calloc(1, sizeof *history);
+    if (!history) return NULL;
+    history->steps = malloc(FIRST_STEPS * sizeof *history->steps);
+    history->step_capacity = FIRST_STEPS;
+    history->dirty = calloc(FIRST_DIRTY, sizeof *history->dirty);
+    history->dirty_capacity = FIRST_DIRTY;
+    if (history->steps && history->dirty && change_list_reserve(&history->changes, 1) &&
+        change_list_reserve(&history->open, 1)) {
+        history_clear(history);
+        return history;
+    }
+    history_destroy(history);
+    return NULL;
+}
+
+void history_destroy(struct history *history)
+{
+    if (!history) return;
+    free(history->changes.items);
+    free(history->open.items);
+    free(history->steps);
+    free(history->dirty);
+    free(history);
+}
+
+static void forget_steps(struct history *history)
+{
+    history->changes.count = 0;
+    history->step_count = history->done = 0;
+    history->first_state = ++history->last_state;
+    history->can_merge = false;
+}
+
+void history_clear(struct history *history)
+{
+    forget_steps(history);
+    history->open.count = 0;
+    history->is_open = false;
+    history->saved_state = history->first_state;
+    history->revision++;
+    history->all_dirty = true;
+}
+
+static uint64_t current_state(const struct history *history)
+{
+    return history->done > 0 ? history->steps[history->done - 1].state : history->first_state;
+}
+
+void history_begin(struct history *history, const char *label, uint64_t merge)
+{
+    assert(!history->is_open);
+    history->is_open = true;
+    history->label = label;
+    history->merge = merge;
+    history->open.count = 0;
+}
+
+static void mark_dirty(struct history *history, const struct change *change)
+{
+    if (change->kind == CHANGE_RANGE) history->all_dirty = true;
+    if (change->spline < 0) return;
+    size_t spline = (size_t)change->spline, capacity = history->dirty_capacity;
+    while (capacity <= spline) capacity *= 2;
+    if (capacity > history->dirty_capacity) {
+        bool *dirty = realloc(history->dirty, capacity);
+        if (!dirty) {
+            history->all_dirty = true;
+            return;
+        }
+        memset(dirty + history->dirty_capacity, 0, capacity - history->dirty_capacity);
+        history->dirty = dirty;
+        history->dirty_capacity = capacity;
+    }
+    history->dirty[spline] = true;
+}
+
+static void swap_change(struct history *history, struct change *change, struct document *document)
+{
+    change_swap(change, document);
+    mark_dirty(history, change);
+}
+
+bool history_apply(struct history *history, struct document *document, const struct edit *edit, struct error *error)
+{
+    assert(history->is_open);
+    size_t from = history->open.count;
+    if (from == 0) history->next_id = document->next_id;
+    if (!edit_plan(document, edit, &history->open, error)) return false;
+    for (size_t i = from; i < history->open.count; i++) swap_change(history, &history->open.items[i], document);
+    history->revision++;
+    return true;
+}
+
+void history_restart(struct history *history, struct document *document)
+{
+    struct change_list *open = &history->open;
+    assert(history->is_open);
+    if (open->count == 0) return;
+    while (open->count > 0) swap_change(history, &open->items[--open->count], document);
+    document->next_id = history->next_id; // the ids of knots inserted again are then the same again
+    history->revision++;
+}
+
+static bool reserve_step(struct history *history)
+{
+    if (history->step_count < history->step_capacity) return true;
+    struct step *steps = realloc(history->steps, 2 * history->step_capacity * sizeof *steps);
+    if (!steps) return false;
+    history->steps = steps;
+    history->step_capacity *= 2;
+    return true;
+}
+
+/// Drops the oldest steps, half of what there may be at once: moving the rest is then rare.
+static void drop_oldest(struct history *history)
+{
+    size_t drop = 0, excess = history->changes.count + history->open.count;
+    if (excess <= MAX_CHANGES || history->step_count == 0) return;
+    excess -= MAX_CHANGES / 2;
+    while (drop < history->step_count && (drop == 0 || history->steps[drop - 1].end < excess)) drop++;
+    size_t changes = history->steps[drop - 1].end;
+    history->first_state = history->steps[drop - 1].state;
+    history->step_count -= drop;
+    history->done -= drop;
+    history->changes.count -= changes;
+    memmove(history->steps, history->steps + drop, history->step_count * sizeof *history->steps);
+    memmove(history->changes.items, history->changes.items + changes,
+            history->changes.count * sizeof *history->changes.items);
+    for (size_t i = 0; i < history->step_count; i++) history->steps[i].end -= changes;
+}
+
+static void forget_undone(struct history *history)
+{
+    history->step_count = history->done;
+    history->changes.count = history->done > 0 ? history->steps[history->done - 1].end : 0;
+}
+
+/// A saved state stays a step of its own, so that undo can come back to it.
+static bool joins_last(const struct history *history)
+{
+    return history->done > 0 && history->can_merge && history->merge != 0 &&
+           history->steps[history->done - 1].merge == history->merge && !history_is_saved(history);
+}
+
+void history_end(struct history *history)
+{
+    struct change_list *all = &history->changes, *open = &history->open;
+    assert(history->is_open);
+    history->is_open = false;
+    if (open->count == 0) return;
+    forget_undone(history);
+    bool wants_to_join = joins_last(history);
+    drop_oldest(history);
+    bool joins = wants_to_join && history->done > 0;
+    if (!change_list_reserve(all, open->count) || !reserve_step(history)) {
+        forget_steps(history); // the work matters more than the way back
+        open->count = 0;
+        return;
+    }
+    memcpy(all->items + all->count, open->items, open->count * sizeof *open->items);
+    all->count += open->count;
+    open->count = 0;
+    if (!joins) history->steps[history->step_count++] = (struct step){history->label, history->merge, 0, 0};
+    history->done = history->step_count;
+    history->steps[history->done - 1].state = ++history->last_state;
+    history->steps[history->done - 1].end = all->count;
+    history->can_merge = true;
+}
+
+bool history_is_open(const struct history *history) { return history->is_open; }
+
+bool history_undo(struct history *history, struct document *document)
+{
+    assert(!history->is_open);
+    if (history->done == 0) return false;
+    size_t end = history->steps[--history->done].end;
+    size_t begin = history->done > 0 ? history->steps[history->done - 1].end : 0;
+    while (end > begin) swap_change(history, &history->changes.items[--end], document);
+    history->can_merge = false;
+    history->revision++;
+    return true;
+}
+
+bool history_redo(struct history *history, struct document *document)
+{
+    assert(!history->is_open);
+    if (history->done == history->step_count) return false;
+    size_t begin = history->done > 0 ? history->steps[history->done - 1].end : 0;
+    size_t end = history->steps[history->done++].end;
+    for (; begin < end; begin++) swap_change(history, &history->changes.items[begin], document);
+    history->can_merge = false;
+    history->revision++;
+    return true;
+}
+
+const char *history_undo_label(const struct history *history)
+{
+    return history->done > 0 ? history->steps[history->done - 1].label : NULL;
+}
+
+const char *history_redo_label(const struct history *history)
+{
+    return history->done < history->step_count ? history->steps[history->done].label : NULL;
+}
+
+uint64_t history_revision(const struct history *history) { return history->revision; }
+
+void history_mark_saved(struct history *history)
+{
+    history->saved_state = history->open.count > 0 && history->is_open ? 0 : current_state(history);
+}
+
+bool history_is_saved(const struct history *history)
+{
+    bool changing = history->is_open && history->open.count > 0;
+    return !changing && history->saved_state == current_state(history);
+}
+
+void history_take_dirty(struct history *history, const struct document *document, bool *dirty, int count)
+{
+    for (int i = 0; i < count; i++) {
+        bool known = (size_t)i < history->dirty_capacity;
+        dirty[i] = history->all_dirty || (known && i < document->spline_count && history->dirty[i]);
+        if (known) history->dirty[i] = false;
+    }
+    history->all_dirty = false;
+}

@@ -1,0 +1,197 @@
+#include "scene/load.h"
+#include "base/file.h"
+#include "scene/reader.h"
+#include <stdlib.h>
+#include <string.h>
+
+enum { FORMAT_VERSION = 1 };
+
+static const char *const scene_keys[] = {"wiggly", "fps", "substeps", "frames", "splines", "rigs", NULL};
+
+/// A sentence of jansson's, "X expected near Y" or "Z near Y", in our words.
+static void compose_syntax(const char *text, char *sentence, size_t size)
+{
+    const char *near = strstr(text, " near ");
+    const char *expected = strstr(text, " expected near ");
+    if (expected) {
+        snprintf(sentence, size, "expected %.*s, got %s", (int)(expected - text), text, near + 6);
+    } else if (near) {
+        snprintf(sentence, size, "expected valid JSON, got %s (%.*s)", near + 6, (int)(near - text), text);
+    } else {
+        snprintf(sentence, size, "expected valid JSON, got the end of the file (%s)", text);
+    }
+}
+
+static void fail_syntax(struct reader *reader, const json_error_t *syntax)
+{
+    char path[PATH_TEXT_SIZE], sentence[JSON_ERROR_TEXT_LENGTH + 64];
+    const char *near = strstr(syntax->text, " near ");
+    const char *what = near ? near + 6 : "the end of the file";
+    switch (json_error_code(syntax)) {
+    case json_error_duplicate_key:
+        snprintf(sentence, sizeof sentence, "expected each key once, got %s again", what);
+        break;
+    case json_error_null_character:
+        snprintf(sentence, sizeof sentence, "expected a string without \\u0000, got %s", what);
+        break;
+    case json_error_numeric_overflow:
+        snprintf(sentence, sizeof sentence, "expected a number that fits a double, got %s", what);
+        break;
+    case json_error_invalid_utf8:
+        snprintf(sentence, sizeof sentence, "expected UTF-8, got something else (%s)", syntax->text);
+        break;
+    case json_error_out_of_memory:
+        reader_no_memory(reader);
+        return;
+    default:
+        compose_syntax(syntax->text, sentence, sizeof sentence);
+    }
+    source_path_at(&reader->source, (size_t)syntax->position, path);
+    struct error error;
+    fail(&error, ERROR_INPUT, "%s:%d: %s: %s", reader->source.name, syntax->line, path, sentence);
+    reader_report(reader, &error);
+}
+
+static bool load_version(struct reader *reader, const struct where *scene_at, const json_t *scene)
+{
+    struct where at;
+    const json_t *value = reader_member(scene_at, scene, "wiggly", &at);
+    int version = FORMAT_VERSION;
+    if (!reader_integer(reader, &at, value, 1, 1000000, &version)) return false;
+    if (version <= FORMAT_VERSION) return true;
+    return reader_fail(reader, &at, "expected version %d, got %d: this file was made by a newer wiggly",
+                       FORMAT_VERSION, version);
+}
+
+static bool load_frames(struct reader *reader, const struct where *at, const json_t *value, int frames[2])
+{
+    if (!json_is_array(value) || json_array_size(value) != 2) {
+        if (!json_is_array(value)) return reader_unexpected(reader, at, "[first, last]", value);
+        return reader_fail(reader, at, "expected [first, last], got %zu elements", json_array_size(value));
+    }
+    bool good = true;
+    for (size_t i = 0; i < 2; i++) {
+        struct where element_at = {.parent = at, .index = i};
+        good &= reader_integer(reader, &element_at, json_array_get(value, i), -SCENE_MAX_FRAME, SCENE_MAX_FRAME,
+                               &frames[i]);
+    }
+    if (good && frames[1] < frames[0]) {
+        return reader_fail(reader, at, "expected the last frame not before the first, got [%d, %d]", frames[0],
+                           frames[1]);
+    }
+    return good;
+}
+
+/// fps, substeps and frames; all splines together must not have too many samples.
+static void load_domain(struct reader *reader, const struct where *scene_at, const json_t *scene)
+{
+    struct document *document = reader->document;
+    struct where fps_at, substeps_at, frames_at;
+    const json_t *fps = reader_member(scene_at, scene, "fps", &fps_at);
+    const json_t *substeps = reader_member(scene_at, scene, "substeps", &substeps_at);
+    const json_t *frames_value = reader_member(scene_at, scene, "frames", &frames_at);
+    struct range fps_range = {0, SCENE_MAX_FPS, true};
+    int frames[2];
+    bool good = reader_number(reader, &fps_at, fps, false, fps_range, &document->fps);
+    good &= reader_integer(reader, &substeps_at, substeps, 1, SCENE_MAX_SUBSTEPS, &document->substeps);
+    good &= load_frames(reader, &frames_at, frames_value, frames);
+    if (!good) return;
+    long long samples = ((long long)frames[1] - frames[0]) * document->substeps + 1;
+    size_t splines = json_array_size(json_object_get(scene, "splines"));
+    if (samples > SCENE_MAX_SAMPLES || samples * (long long)splines > SCENE_MAX_SAMPLES) {
+        reader_fail(reader, &frames_at, "expected at most %d samples over all splines, got %zu times %lld",
+                    SCENE_MAX_SAMPLES, splines > 0 ? splines : 1, samples);
+        return;
+    }
+    document->first_frame = frames[0];
+    document->last_frame = frames[1];
+    reader->has_domain = true;
+}
+
+static void load_scene(struct reader *reader, json_t *scene)
+{
+    const struct where scene_at = {0};
+    if (!json_is_object(scene)) {
+        reader_unexpected(reader, &scene_at, "an object", scene);
+        return;
+    }
+    if (!load_version(reader, &scene_at, scene)) return;
+    load_domain(reader, &scene_at, scene);
+    load_splines(reader, &scene_at, scene);
+    load_tails(reader, &scene_at, scene);
+    reader->document->extra = reader_keep(reader, reader_extra(reader, &scene_at, scene, scene_keys));
+    if (!reader->failed) validate_scene(reader, &scene_at);
+}
+
+/// Whole numbers stay such, so that unknown keys are kept exactly, unless one is too long for that.
+static json_t *parse_json(const struct source *source, json_error_t *syntax)
+{
+    json_t *json = json_loadb(source->text, source->size, JSON_REJECT_DUPLICATES, syntax);
+    if (json || json_error_code(syntax) != json_error_numeric_overflow) return json;
+    return json_loadb(source->text, source->size, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, syntax);
+}
+
+static void parse(struct reader *reader)
+{
+    struct error error;
+    json_error_t syntax;
+    if (!source_check_limits(&reader->source, &error)) {
+        reader_report(reader, &error);
+        return;
+    }
+    json_t *scene = parse_json(&reader->source, &syntax);
+    if (!scene) {
+        fail_syntax(reader, &syntax);
+        return;
+    }
+    load_scene(reader, scene);
+    json_decref(scene);
+    free(reader->names);
+}
+
+/// `text` must be followed by a NUL.
+static struct document *parse_document(const char *name, const char *text, size_t size, struct problems *problems,
+                                       struct error *error)
+{
+    struct reader reader = {
+        .source = {.name = name, .text = text, .size = size}, .problems = problems, .error = error};
+    reader.document = document_create();
+    if (!reader.document) {
+        reader_no_memory(&reader);
+        return NULL;
+    }
+    parse(&reader);
+    if (!reader.failed) return reader.document;
+    document_destroy(reader.document);
+    return NULL;
+}
+
+struct document *scene_load(const char *path, struct problems *problems, struct error *error)
+{
+    char *text;
+    size_t size;
+    struct error unread;
+    if (!file_read(path, SOURCE_MAX_BYTES, &text, &size, &unread)) {
+        struct reader reader = {.problems = problems, .error = error};
+        reader_report(&reader, &unread);
+        return NULL;
+    }
+    struct document *document = parse_document(path, text, size, problems, error);
+    free(text);
+    return document;
+}
+
+struct document *scene_parse(const char *name, const char *text, size_t size, struct problems *problems,
+                             struct error *error)
+{
+    char *copy = malloc(size + 1);
+    if (!copy) {
+        fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", name);
+        return NULL;
+    }
+    memcpy(copy, text, size);
+    copy[size] = '\0';
+    struct document *document = parse_document(name, copy, size, problems, error);
+    free(copy);
+    return document;
+}

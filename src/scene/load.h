@@ -1,0 +1,35 @@
+/// Scene files: read, check, write (spec: "Scene file").
+#ifndef SCENE_LOAD_H
+#define SCENE_LOAD_H
+
+#include "scene/document.h"
+#include <stddef.h>
+
+/// Problems of a file, each one sentence "file:line: path: expected …, got …".
+struct problems {
+    void (*report)(void *user, bool is_error, const char *sentence); ///< warnings have is_error = false
+    void *user;
+    int errors, warnings; ///< counted by the callee; start at 0
+};
+
+/// Reads and validates a scene. With `problems`, every problem found is reported (`wiggly check`), else only the
+/// first error. Returns NULL and fills `error` with the first error. `problems` may be NULL; warnings are then
+/// dropped.
+struct document *scene_load(const char *path, struct problems *problems, struct error *error);
+
+/// The same from memory; `name` stands for the path in messages.
+struct document *scene_parse(const char *name, const char *text, size_t size, struct problems *problems,
+                             struct error *error);
+
+/// The canonical text: keys in the spec's order then unknown ones in theirs, knots by sample, numbers as the shortest
+/// text that reads back equal. Freed by the caller; NULL where memory is short. scene_parse() of it gives an equal
+/// document.
+char *scene_print(const struct document *document, size_t *size);
+
+/// scene_print() into a file, atomically.
+bool scene_save(const struct document *document, const char *path, struct error *error);
+
+/// Hash of the canonical text, for replays (64-bit FNV-1a).
+uint64_t scene_hash(const struct document *document);
+
+#endif

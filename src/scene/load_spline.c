@@ -1,0 +1,255 @@
+#include "scene/reader.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const spline_keys[] = {"name",     "mode", "frequency",   "damping", "bandwidth", "spring",
+                                          "friction", "calm", "equilibrium", "start",   "knots",     NULL};
+static const char *const knot_keys[] = {"frame", "value", "slope", "stiffness", NULL};
+static const char *const track_keys[] = {"spline", NULL};
+static const char *const modes[] = {"complex", "real", "cubic", NULL};
+static const char *const starts[] = {"free", "rest", "loop", NULL};
+
+/// One spline of the file while it is read.
+struct part {
+    const struct where *at;
+    json_t *object;
+    struct spline *spline;
+};
+
+/// `{"spline": "other"}`. Its unknown keys are kept among the spline's own, under the parameter's name.
+static void load_track(struct reader *reader, const struct where *at, json_t *object, struct param *param,
+                       json_t **extra)
+{
+    struct where name_at;
+    const json_t *name = reader_member(at, object, "spline", &name_at);
+    int track = reader_spline_name(reader, &name_at, name);
+    if (track >= 0) *param = (struct param){0, track};
+    json_t *unknown = reader_extra(reader, at, object, track_keys);
+    if (!unknown) return;
+    if (!*extra) *extra = json_object();
+    if (!*extra || json_object_set_new(*extra, at->key, unknown) != 0) reader_no_memory(reader);
+}
+
+static void load_parameter(struct reader *reader, const struct part *part, enum parameter parameter, json_t **extra)
+{
+    struct where at;
+    struct param *param = &part->spline->parameter[parameter];
+    json_t *value = reader_member(part->at, part->object, parameter_name(parameter), &at);
+    enum wiggly_mode mode = part->spline->mode;
+    struct range range = {parameter_minimum(parameter, mode), parameter_maximum(parameter, mode), false};
+    if (!value) return;
+    if (json_is_object(value) && parameter != PARAMETER_CALM) {
+        load_track(reader, &at, value, param, extra);
+    } else if (!json_is_number(value)) {
+        const char *expected = parameter == PARAMETER_CALM ? "a number" : "a number or {\"spline\": name}";
+        reader_unexpected(reader, &at, expected, value);
+    } else {
+        reader_number(reader, &at, value, true, range, &param->value);
+    }
+}
+
+/// The paper's pair stands in place of frequency and damping, outside complex mode.
+static void load_spring(struct reader *reader, const struct part *part)
+{
+    static const char *const pair[] = {"spring", "friction"};
+    bool ratios = json_object_get(part->object, "frequency") || json_object_get(part->object, "damping");
+    for (int i = 0; i < 2; i++) {
+        struct where at;
+        if (!reader_member(part->at, part->object, pair[i], &at)) continue;
+        part->spline->spring_friction = true;
+        if (ratios) {
+            reader_fail(reader, &at, "expected either spring and friction or frequency and damping, got both");
+        } else if (part->spline->mode == WIGGLY_COMPLEX) {
+            reader_fail(reader, &at, "expected frequency and damping in complex mode, got %s", pair[i]);
+        }
+    }
+}
+
+static bool load_knot(struct reader *reader, const struct where *at, json_t *object, struct knot *knot)
+{
+    struct where frame_at, value_at, slope_at, stiffness_at;
+    const json_t *frame = reader_member(at, object, "frame", &frame_at);
+    const json_t *value = reader_member(at, object, "value", &value_at);
+    const json_t *slope = reader_member(at, object, "slope", &slope_at);
+    const json_t *stiffness = reader_member(at, object, "stiffness", &stiffness_at);
+    struct range positive = {0, INFINITY, true};
+    *knot = (struct knot){.stiffness = KNOT_DEFAULT_STIFFNESS, .has_slope = slope, .id = reader->document->next_id++};
+    bool good = reader_number(reader, &frame_at, frame, true, range_any, &knot->frame);
+    good &= reader_number(reader, &value_at, value, true, range_any, &knot->value);
+    good &= reader_number(reader, &slope_at, slope, false, range_any, &knot->slope);
+    good &= reader_number(reader, &stiffness_at, stiffness, false, positive, &knot->stiffness);
+    knot->extra = reader_keep(reader, reader_extra(reader, at, object, knot_keys));
+    return good;
+}
+
+/// By sample, then as in the file (ids rise in the file's order).
+static int compare_knots(const void *a, const void *b, void *document)
+{
+    const struct knot *left = a, *right = b;
+    int l = document_sample(document, left->frame), r = document_sample(document, right->frame);
+    if (l != r) return l < r ? -1 : 1;
+    return left->id < right->id ? -1 : left->id > right->id;
+}
+
+static void check_domain(struct reader *reader, const struct where *at, const struct spline *spline, double frame)
+{
+    const struct document *document = reader->document;
+    int sample = document_sample(document, frame), last = document_samples(document) - 1;
+    struct where frame_at = {.parent = at, .key = "frame"};
+    if (sample < 0 || sample > last) {
+        reader_fail(reader, &frame_at, "expected a frame from %d to %d, got %.10g", document->first_frame,
+                    document->last_frame, frame);
+    } else if (sample > document_last_knot_sample(document, spline)) {
+        reader_fail(reader, &frame_at,
+                    "expected a frame before %d, where a loop is at its first frame again, got %.10g",
+                    document->last_frame, frame);
+    }
+}
+
+/// Whether the other sample that a knot's slope is measured to (eq. 9) is fixed too.
+static bool slope_is_fixed(const struct document *document, const struct spline *spline, int at)
+{
+    int sample = document_sample(document, spline->knots[at].frame), samples = document_samples(document);
+    int other = sample + 1;
+    if (spline->start == WIGGLY_LOOP) {
+        other %= samples > 1 ? samples - 1 : 1;
+    } else if (other == samples) {
+        other = sample - 1;
+    }
+    return other != sample && spline_find_knot(document, spline, other) >= 0;
+}
+
+/// Sorts the knots and checks what they are to each other. `first_id` is that of the file's first one.
+static void check_knots(struct reader *reader, const struct where *knots_at, struct spline *spline, unsigned first_id)
+{
+    struct document *document = reader->document;
+    for (int i = 0; i < spline->knot_count; i++) {
+        struct where at = {.parent = knots_at, .index = (size_t)i};
+        check_domain(reader, &at, spline, spline->knots[i].frame);
+    }
+    qsort_r(spline->knots, (size_t)spline->knot_count, sizeof *spline->knots, compare_knots, document);
+    for (int i = 0; i < spline->knot_count; i++) {
+        const struct knot *knot = &spline->knots[i], *before = i > 0 ? knot - 1 : NULL;
+        struct where at = {.parent = knots_at, .index = knot->id - first_id};
+        struct where frame_at = {.parent = &at, .key = "frame"}, slope_at = {.parent = &at, .key = "slope"};
+        if (before && document_sample(document, before->frame) == document_sample(document, knot->frame)) {
+            reader_fail(reader, &frame_at, "expected a sample of its own, got that of knots[%u]",
+                        before->id - first_id);
+        } else if (knot->has_slope && slope_is_fixed(document, spline, i)) {
+            reader_warn(reader, &slope_at, "slope without effect: the sample that it leads to is a knot too");
+        }
+    }
+}
+
+static void load_knots(struct reader *reader, const struct part *part)
+{
+    struct where at;
+    const json_t *knots = reader_member(part->at, part->object, "knots", &at);
+    int count = reader_objects(reader, &at, knots, SCENE_MAX_KNOTS);
+    if (count <= 0) return;
+    reader->knot_count += count;
+    if (reader->knot_count > SCENE_MAX_KNOTS) {
+        reader_fail(reader, &at, "expected at most %d knots over all splines, got more", SCENE_MAX_KNOTS);
+        return;
+    }
+    struct spline *spline = part->spline;
+    spline->knots = calloc((size_t)count, sizeof *spline->knots);
+    if (!spline->knots) {
+        reader_no_memory(reader);
+        return;
+    }
+    spline->knot_count = spline->knot_capacity = count;
+    unsigned first_id = reader->document->next_id;
+    bool good = true;
+    for (int i = 0; i < count; i++) {
+        struct where knot_at = {.parent = &at, .index = (size_t)i};
+        good &= load_knot(reader, &knot_at, json_array_get(knots, (size_t)i), &spline->knots[i]);
+    }
+    if (good && reader->has_domain) check_knots(reader, &at, spline, first_id);
+}
+
+static void load_start(struct reader *reader, const struct part *part)
+{
+    struct where at;
+    const json_t *value = reader_member(part->at, part->object, "start", &at);
+    int start = reader_word(reader, &at, value, starts, "\"free\", \"rest\" or \"loop\"", WIGGLY_FREE);
+    if (start < 0) return;
+    part->spline->start = (enum wiggly_start)start;
+    if (start == WIGGLY_LOOP && reader->has_domain && document_samples(reader->document) == 1) {
+        reader_fail(reader, &at, "expected more than one frame for a loop, got one");
+    }
+}
+
+static void load_spline(struct reader *reader, const struct where *at, json_t *object, struct spline *spline)
+{
+    struct part part = {at, object, spline};
+    struct where mode_at;
+    const json_t *mode = reader_member(at, object, "mode", &mode_at);
+    int word = reader_word(reader, &mode_at, mode, modes, "\"complex\", \"real\" or \"cubic\"", WIGGLY_COMPLEX);
+    if (word >= 0) {
+        spline->mode = (enum wiggly_mode)word;
+        load_spring(reader, &part);
+    }
+    json_t *extra = reader_extra(reader, at, object, spline_keys);
+    for (int i = 0; i < PARAMETER_COUNT; i++) load_parameter(reader, &part, (enum parameter)i, &extra);
+    spline->extra = reader_keep(reader, extra);
+    load_start(reader, &part);
+    load_knots(reader, &part);
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    const struct name_index *left = a, *right = b;
+    int names = strcmp(left->name, right->name);
+    return names ? names : (left->spline > right->spline) - (left->spline < right->spline);
+}
+
+static void index_names(struct reader *reader, const struct where *splines_at)
+{
+    const struct document *document = reader->document;
+    reader->names = calloc((size_t)document->spline_count, sizeof *reader->names);
+    if (!reader->names) {
+        reader_no_memory(reader);
+        return;
+    }
+    for (int i = 0; i < document->spline_count; i++) {
+        const char *name = document->splines[i].name;
+        if (name) reader->names[reader->name_count++] = (struct name_index){name, i};
+    }
+    qsort(reader->names, (size_t)reader->name_count, sizeof *reader->names, compare_names);
+    for (int i = 1; i < reader->name_count; i++) {
+        const struct name_index *name = &reader->names[i];
+        if (strcmp(name[-1].name, name->name) != 0) continue;
+        struct where spline_at = {.parent = splines_at, .index = (size_t)name->spline};
+        struct where at = {.parent = &spline_at, .key = "name"};
+        reader_fail(reader, &at, "expected a name of its own, got \"%s\" as splines[%d] has", name->name,
+                    name[-1].spline);
+    }
+}
+
+void load_splines(struct reader *reader, const struct where *scene_at, const json_t *scene)
+{
+    struct where splines_at, name_at;
+    const json_t *splines = reader_member(scene_at, scene, "splines", &splines_at);
+    int count = reader_objects(reader, &splines_at, splines, SOURCE_MAX_OBJECTS);
+    if (count <= 0) return;
+    struct document *document = reader->document;
+    document->splines = calloc((size_t)count, sizeof *document->splines);
+    if (!document->splines) {
+        reader_no_memory(reader);
+        return;
+    }
+    document->spline_count = count;
+    for (int i = 0; i < count; i++) {
+        struct where at = {.parent = &splines_at, .index = (size_t)i};
+        const json_t *name = reader_member(&at, json_array_get(splines, (size_t)i), "name", &name_at);
+        spline_reset(&document->splines[i]);
+        document->splines[i].name = reader_name(reader, &name_at, name);
+    }
+    index_names(reader, &splines_at);
+    for (int i = 0; i < count; i++) {
+        struct where at = {.parent = &splines_at, .index = (size_t)i};
+        load_spline(reader, &at, json_array_get(splines, (size_t)i), &document->splines[i]);
+    }
+}

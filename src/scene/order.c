@@ -1,0 +1,76 @@
+#include "scene/order.h"
+#include <stdlib.h>
+#include <string.h>
+
+enum { UNSEEN = 0, DONE = PARAMETER_COUNT + 2 }; ///< of order_space.next; between them 1 + the next parameter
+
+bool spline_uses(const struct spline *spline, enum parameter parameter, bool cubic)
+{
+    if (parameter == PARAMETER_EQUILIBRIUM) return true;
+    if (cubic || spline->mode == WIGGLY_CUBIC) return false;
+    switch (parameter) {
+    case PARAMETER_FREQUENCY:
+    case PARAMETER_DAMPING:
+        return !spline->spring_friction;
+    case PARAMETER_SPRING:
+    case PARAMETER_FRICTION:
+        return spline->spring_friction;
+    case PARAMETER_BANDWIDTH:
+        return spline->mode == WIGGLY_COMPLEX;
+    default:
+        return true;
+    }
+}
+
+/// Depth first from one spline, without recursion: a chain of tracks may be as long as the scene.
+static bool visit(const struct document *document, struct order_space space, int root, int *order, int *ordered,
+                  struct order_cycle *cycle)
+{
+    int depth = 0;
+    space.stack[0] = root;
+    space.next[root] = 1;
+    while (depth >= 0) {
+        int spline = space.stack[depth];
+        int parameter = space.next[spline] - 1;
+        if (parameter == PARAMETER_COUNT) {
+            space.next[spline] = DONE;
+            order[(*ordered)++] = spline;
+            depth--;
+            continue;
+        }
+        space.next[spline]++;
+        int leader = document->splines[spline].parameter[parameter].track;
+        if (leader < 0 || space.next[leader] == DONE) continue;
+        if (space.next[leader] != UNSEEN) {
+            *cycle = (struct order_cycle){spline, (enum parameter)parameter};
+            return false;
+        }
+        space.next[leader] = 1;
+        space.stack[++depth] = leader;
+    }
+    return true;
+}
+
+bool scene_order(const struct document *document, struct order_space space, int *order, struct order_cycle *cycle)
+{
+    int ordered = 0;
+    memset(space.next, UNSEEN, (size_t)document->spline_count);
+    for (int i = 0; i < document->spline_count; i++) {
+        if (space.next[i] == UNSEEN && !visit(document, space, i, order, &ordered, cycle)) return false;
+    }
+    return true;
+}
+
+bool scene_has_order(const struct document *document, struct order_cycle *cycle)
+{
+    size_t count = (size_t)document->spline_count;
+    *cycle = (struct order_cycle){.spline = -1};
+    if (count == 0) return true;
+    struct order_space space = {malloc(count * sizeof *space.stack), malloc(count)};
+    int *order = malloc(count * sizeof *order);
+    bool found = space.stack && space.next && order && scene_order(document, space, order, cycle);
+    free(order);
+    free(space.next);
+    free(space.stack);
+    return found;
+}

@@ -1,0 +1,229 @@
+#include "base/file.h"
+#include "scene/load.h"
+#include "scene/order.h"
+#include "scene/text.h"
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const mode_names[] = {
+    [WIGGLY_COMPLEX] = "complex", [WIGGLY_REAL] = "real", [WIGGLY_CUBIC] = "cubic"};
+static const char *const start_names[] = {[WIGGLY_FREE] = "free", [WIGGLY_REST] = "rest", [WIGGLY_LOOP] = "loop"};
+static const char *const axis_names[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up"};
+
+/// An object being written: members are set apart by `separator`, which opens the object before the first.
+struct members {
+    struct text *text;
+    const char *open, *separator;
+    bool any;
+};
+
+static void member(struct members *members, const char *key)
+{
+    text_string(members->text, members->any ? members->separator : members->open);
+    text_quoted(members->text, key);
+    text_string(members->text, ": ");
+    members->any = true;
+}
+
+static void member_number(struct members *members, const char *key, double value)
+{
+    member(members, key);
+    text_number(members->text, value);
+}
+
+static void member_string(struct members *members, const char *key, const char *string)
+{
+    member(members, key);
+    text_quoted(members->text, string);
+}
+
+/// The unknown keys of an object, or those of a track inside of it.
+static json_t *extra_of(const void *extra) { return (json_t *)(uintptr_t)extra; }
+
+/// Whether a key of a spline's extra object holds the unknown keys of a track and is no key of the spline itself.
+static bool is_parameter(const char *key)
+{
+    for (int i = 0; i < PARAMETER_COUNT; i++) {
+        if (strcmp(key, parameter_name((enum parameter)i)) == 0) return true;
+    }
+    return false;
+}
+
+static void members_extra(struct members *members, const void *extra, bool of_spline)
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach(extra_of(extra), key, value)
+    {
+        if (of_spline && is_parameter(key)) continue;
+        member(members, key);
+        text_json(members->text, value);
+    }
+}
+
+static void print_numbers(struct text *text, const double *values, int count)
+{
+    text_string(text, "[");
+    for (int i = 0; i < count; i++) {
+        if (i > 0) text_string(text, ", ");
+        text_number(text, values[i]);
+    }
+    text_string(text, "]");
+}
+
+static void print_angles(struct members *members, const char *key, const struct angles *angles, int joints)
+{
+    member(members, key);
+    if (angles->each) {
+        print_numbers(members->text, angles->value, joints);
+    } else {
+        text_number(members->text, angles->value[0]);
+    }
+}
+
+static void print_knot(struct text *text, const struct knot *knot)
+{
+    struct members members = {text, "{ ", ", ", false};
+    member_number(&members, "frame", knot->frame);
+    member_number(&members, "value", knot->value);
+    if (knot->has_slope) member_number(&members, "slope", knot->slope);
+    if (knot->stiffness != KNOT_DEFAULT_STIFFNESS) member_number(&members, "stiffness", knot->stiffness);
+    members_extra(&members, knot->extra, false);
+    text_string(text, " }");
+}
+
+/// A parameter that the mode does not use is written where it differs from the default: another mode may want it
+/// again. Of the two pairs (frequency, damping and spring, friction) a file has one.
+static bool is_printed(const struct spline *spline, enum parameter parameter)
+{
+    const struct param *param = &spline->parameter[parameter];
+    bool is_ratio = parameter == PARAMETER_FREQUENCY || parameter == PARAMETER_DAMPING;
+    bool is_spring = parameter == PARAMETER_SPRING || parameter == PARAMETER_FRICTION;
+    if (is_ratio && spline->spring_friction) return false;
+    if (is_spring) return spline->spring_friction;
+    if (param->track >= 0 || param->value != parameter_default(parameter)) return true;
+    return spline_uses(spline, parameter, false);
+}
+
+static void print_parameter(struct members *members, const struct document *document, const struct spline *spline,
+                            enum parameter parameter)
+{
+    const struct param *param = &spline->parameter[parameter];
+    const char *name = parameter_name(parameter);
+    if (param->track < 0) {
+        member_number(members, name, param->value);
+        return;
+    }
+    struct members track = {members->text, "{ ", ", ", false};
+    member(members, name);
+    member_string(&track, "spline", document->splines[param->track].name);
+    members_extra(&track, json_object_get(extra_of(spline->extra), name), false);
+    text_string(members->text, " }");
+}
+
+static void print_spline(struct text *text, const struct document *document, const struct spline *spline)
+{
+    struct members members = {text, "    {\n      ", ",\n      ", false};
+    member_string(&members, "name", spline->name);
+    member_string(&members, "mode", mode_names[spline->mode]);
+    for (int i = 0; i < PARAMETER_COUNT; i++) {
+        if (is_printed(spline, (enum parameter)i)) print_parameter(&members, document, spline, (enum parameter)i);
+    }
+    member_string(&members, "start", start_names[spline->start]);
+    member(&members, "knots");
+    for (int i = 0; i < spline->knot_count; i++) {
+        text_string(text, i > 0 ? ",\n        " : "[\n        ");
+        print_knot(text, &spline->knots[i]);
+    }
+    text_string(text, spline->knot_count > 0 ? "\n      ]" : "[]");
+    members_extra(&members, spline->extra, true);
+    text_string(text, "\n    }");
+}
+
+static void print_channel(struct text *text, const struct document *document, const struct tail *tail,
+                          const struct channel *channel)
+{
+    struct members members = {text, "{ ", ", ", false};
+    member_string(&members, "spline", document->splines[channel->spline].name);
+    member_string(&members, "axis", axis_names[channel->axis]);
+    print_angles(&members, "lag", &channel->lag, tail->joints);
+    print_angles(&members, "gain", &channel->gain, tail->joints);
+    members_extra(&members, channel->extra, false);
+    text_string(text, " }");
+}
+
+static void print_tail(struct text *text, const struct document *document, const struct tail *tail)
+{
+    struct members members = {text, "    {\n      ", ",\n      ", false};
+    member_string(&members, "type", "tail");
+    member_string(&members, "name", tail->name);
+    member_number(&members, "joints", tail->joints);
+    member_number(&members, "length", tail->length);
+    member(&members, "position");
+    print_numbers(text, tail->position, 3);
+    print_angles(&members, "rest", &tail->rest, tail->joints);
+    member(&members, "channels");
+    for (int i = 0; i < tail->channel_count; i++) {
+        text_string(text, i > 0 ? ",\n        " : "[\n        ");
+        print_channel(text, document, tail, &tail->channels[i]);
+    }
+    text_string(text, tail->channel_count > 0 ? "\n      ]" : "[]");
+    members_extra(&members, tail->extra, false);
+    text_string(text, "\n    }");
+}
+
+static void print_document(struct text *text, const struct document *document)
+{
+    struct members members = {text, "{\n  ", ",\n  ", false};
+    double frames[] = {document->first_frame, document->last_frame};
+    member_number(&members, "wiggly", 1);
+    member_number(&members, "fps", document->fps);
+    member_number(&members, "substeps", document->substeps);
+    member(&members, "frames");
+    print_numbers(text, frames, 2);
+    member(&members, "splines");
+    for (int i = 0; i < document->spline_count; i++) {
+        text_string(text, i > 0 ? ",\n" : "[\n");
+        print_spline(text, document, &document->splines[i]);
+    }
+    text_string(text, document->spline_count > 0 ? "\n  ]" : "[]");
+    member(&members, "rigs");
+    for (int i = 0; i < document->tail_count; i++) {
+        text_string(text, i > 0 ? ",\n" : "[\n");
+        print_tail(text, document, &document->tails[i]);
+    }
+    text_string(text, document->tail_count > 0 ? "\n  ]" : "[]");
+    members_extra(&members, document->extra, false);
+    text_string(text, "\n}\n");
+}
+
+char *scene_print(const struct document *document, size_t *size)
+{
+    struct text text = {0};
+    print_document(&text, document);
+    *size = text.size;
+    text_bytes(&text, "", 1);
+    if (!text.no_memory) return text.data;
+    free(text.data);
+    return NULL;
+}
+
+bool scene_save(const struct document *document, const char *path, struct error *error)
+{
+    size_t size;
+    char *text = scene_print(document, &size);
+    if (!text) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
+    bool saved = file_write_atomic(path, text, size, error);
+    free(text);
+    return saved;
+}
+
+uint64_t scene_hash(const struct document *document)
+{
+    uint64_t hash = 0xcbf29ce484222325u; // FNV-1a's offset basis
+    size_t size;
+    char *text = scene_print(document, &size);
+    for (size_t i = 0; text && i < size; i++) hash = (hash ^ (unsigned char)text[i]) * 0x100000001b3u;
+    free(text);
+    return hash;
+}

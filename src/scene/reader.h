@@ -1,0 +1,99 @@
+/// What the parts of the loader share: the file being read, its problems, and readers of single values.
+///
+/// A reader that meets a problem reports it, leaves its target alone and lets the loader go on to find the next one.
+#ifndef SCENE_READER_H
+#define SCENE_READER_H
+
+#include "scene/document.h"
+#include "scene/load.h"
+#include "scene/source.h"
+#include <jansson.h>
+
+enum { READER_MAX_WARNED = 64 };
+
+/// Splines by name, for tracks and channels.
+struct name_index {
+    const char *name;
+    int spline;
+};
+
+struct reader {
+    struct source source;
+    struct problems *problems; ///< NULL: the first error is enough
+    struct error *error;       ///< the first error
+    bool failed;
+    struct document *document;
+    bool has_domain;          ///< frames, fps and substeps are good
+    long long knot_count;     ///< over all splines
+    struct name_index *names; ///< sorted; one a spline
+    int name_count;
+    const char *warned[READER_MAX_WARNED]; ///< unknown keys, so that each is warned about once
+    int warned_count;
+};
+
+/// Where a number may lie.
+struct range {
+    double minimum, maximum;
+    bool above; ///< the minimum itself is out
+};
+
+extern const struct range range_any;
+
+/// Reports "file:line: path: sentence" as an error; returns false.
+bool reader_fail(struct reader *reader, const struct where *where, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/// The same with a sentence that is whole already.
+bool reader_report(struct reader *reader, const struct error *error);
+
+/// The same as reader_fail() as a warning; nothing where nobody listens.
+void reader_warn(struct reader *reader, const struct where *where, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/// Fails with "expected …, got …", saying what kind of value there is; `value` may be NULL: it is missing.
+bool reader_unexpected(struct reader *reader, const struct where *where, const char *expected, const json_t *value);
+
+/// Fails for want of memory.
+bool reader_no_memory(struct reader *reader);
+
+/// The value under a key with its place: `at` must outlive what is done with it. NULL where it is missing.
+json_t *reader_member(const struct where *object_at, const json_t *object, const char *key, struct where *at);
+
+/// Reads a value that must be a number in a range; a missing one leaves `*target` alone and is fine unless
+/// `required`.
+bool reader_number(struct reader *reader, const struct where *at, const json_t *value, bool required,
+                   struct range range, double *target);
+
+/// Reads an optional value that must be a whole number from minimum to maximum (120, 120.0 and 1.2e2 are the same).
+bool reader_integer(struct reader *reader, const struct where *at, const json_t *value, int minimum, int maximum,
+                    int *target);
+
+/// Index of a string among `words` (NULL at the end); `missing` where there is none, -1 after an error. `expected`
+/// lists them.
+int reader_word(struct reader *reader, const struct where *at, const json_t *value, const char *const *words,
+                const char *expected, int missing);
+
+/// A copy of a required, non-empty string; NULL after an error.
+char *reader_name(struct reader *reader, const struct where *at, const json_t *value);
+
+/// Elements of an optional array of at most `limit` objects; 0 where it is missing, -1 after an error.
+int reader_objects(struct reader *reader, const struct where *at, const json_t *value, int limit);
+
+/// Index of the spline that a required string names; -1 after an error.
+int reader_spline_name(struct reader *reader, const struct where *at, const json_t *value);
+
+/// Warns of the members of an object that are not among `known` (NULL at the end). Returns them as a new object, NULL
+/// where there are none.
+json_t *reader_extra(struct reader *reader, const struct where *object_at, json_t *object, const char *const *known);
+
+/// Gives an object of unknown keys (or NULL) to the document.
+const void *reader_keep(struct reader *reader, json_t *extra);
+
+/// The parts of a scene, each into reader->document. Splines come first: tails name them.
+void load_splines(struct reader *reader, const struct where *scene_at, const json_t *scene);
+void load_tails(struct reader *reader, const struct where *scene_at, const json_t *scene);
+
+/// What is wrong or odd only in the whole: cycles of tracks, frequencies that alias.
+void validate_scene(struct reader *reader, const struct where *scene_at);
+
+#endif

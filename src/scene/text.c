@@ -1,0 +1,114 @@
+#include "scene/text.h"
+#include "base/checked.h"
+#include "scene/number.h"
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FIRST_CAPACITY = 4096 };
+
+static bool reserve(struct text *text, size_t count)
+{
+    size_t needed, doubled;
+    if (text->no_memory) return false;
+    if (checked_add(text->size, count, &needed) && needed <= text->capacity) return true;
+    bool fits = checked_add(text->size, count, &needed) && checked_mul(needed, 2, &doubled);
+    if (fits && doubled < FIRST_CAPACITY) doubled = FIRST_CAPACITY;
+    char *data = fits ? realloc(text->data, doubled) : NULL;
+    text->no_memory = !data;
+    if (!data) return false;
+    text->data = data;
+    text->capacity = doubled;
+    return true;
+}
+
+void text_bytes(struct text *text, const char *bytes, size_t count)
+{
+    if (!reserve(text, count)) return;
+    memcpy(text->data + text->size, bytes, count);
+    text->size += count;
+}
+
+void text_string(struct text *text, const char *string) { text_bytes(text, string, strlen(string)); }
+
+void text_number(struct text *text, double value)
+{
+    char digits[NUMBER_TEXT_SIZE];
+    text_bytes(text, digits, number_print(value, digits));
+}
+
+void text_quoted(struct text *text, const char *string)
+{
+    text_string(text, "\"");
+    for (const char *c = string; *c; c++) {
+        char escape[8];
+        if (*c == '"' || *c == '\\') {
+            snprintf(escape, sizeof escape, "\\%c", *c);
+        } else if ((unsigned char)*c < 0x20) {
+            snprintf(escape, sizeof escape, "\\u%04x", (unsigned)*c);
+        } else {
+            snprintf(escape, sizeof escape, "%c", *c);
+        }
+        text_string(text, escape);
+    }
+    text_string(text, "\"");
+}
+
+static void text_array(struct text *text, const json_t *array)
+{
+    text_string(text, "[");
+    for (size_t i = 0; i < json_array_size(array); i++) {
+        if (i > 0) text_string(text, ", ");
+        text_json(text, json_array_get(array, i));
+    }
+    text_string(text, "]");
+}
+
+static void text_object(struct text *text, json_t *object)
+{
+    const char *key, *separator = "{ ";
+    json_t *value;
+    json_object_foreach(object, key, value)
+    {
+        text_string(text, separator);
+        text_quoted(text, key);
+        text_string(text, ": ");
+        text_json(text, value);
+        separator = ", ";
+    }
+    text_string(text, json_object_size(object) > 0 ? " }" : "{}");
+}
+
+/// No deeper than the file was (SOURCE_MAX_DEPTH).
+void text_json(struct text *text, const json_t *value)
+{
+    char integer[32];
+    switch (json_typeof(value)) {
+    case JSON_OBJECT:
+        text_object(text, (json_t *)(uintptr_t)value);
+        break;
+    case JSON_ARRAY:
+        text_array(text, value);
+        break;
+    case JSON_STRING:
+        text_quoted(text, json_string_value(value));
+        break;
+    case JSON_INTEGER:
+        snprintf(integer, sizeof integer, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
+        text_string(text, integer);
+        break;
+    case JSON_REAL:
+        text_number(text, json_real_value(value));
+        break;
+    case JSON_TRUE:
+        text_string(text, "true");
+        break;
+    case JSON_FALSE:
+        text_string(text, "false");
+        break;
+    case JSON_NULL:
+        text_string(text, "null");
+        break;
+    }
+}

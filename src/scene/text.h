@@ -1,0 +1,25 @@
+/// A growing text with the pieces that JSON is made of.
+#ifndef SCENE_TEXT_H
+#define SCENE_TEXT_H
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+/// Starts as zeros. Once memory was short nothing more is added.
+struct text {
+    char *data;
+    size_t size, capacity;
+    bool no_memory;
+};
+
+void text_bytes(struct text *text, const char *bytes, size_t count);
+void text_string(struct text *text, const char *string);
+/// The shortest number that reads back equal.
+void text_number(struct text *text, double value);
+/// A string in quotes with what must be escaped.
+void text_quoted(struct text *text, const char *string);
+/// Any value on one line: { "a": [1, 2] }.
+void text_json(struct text *text, const json_t *value);
+
+#endif

@@ -1,0 +1,55 @@
+#include "scene/order.h"
+#include "scene/reader.h"
+#include <math.h>
+
+static const double TWO_PI = 6.283185307179586;
+
+static void check_cycles(struct reader *reader, const struct where *splines_at)
+{
+    struct order_cycle cycle;
+    const struct document *document = reader->document;
+    if (scene_has_order(document, &cycle)) return;
+    if (cycle.spline < 0) {
+        reader_no_memory(reader);
+        return;
+    }
+    const struct spline *spline = &document->splines[cycle.spline];
+    struct where spline_at = {.parent = splines_at, .index = (size_t)cycle.spline};
+    struct where at = {.parent = &spline_at, .key = parameter_name(cycle.parameter)};
+    int leader = spline->parameter[cycle.parameter].track;
+    reader_fail(reader, &at, "expected tracks without a cycle, got \"%s\", which follows \"%s\" itself",
+                document->splines[leader].name, spline->name);
+}
+
+/// The highest frequency at which constant parameters let a spline ring, Hz; 0 where they are tracks.
+static double highest_frequency(const struct spline *spline, enum parameter *parameter)
+{
+    const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
+    const struct param *bandwidth = &spline->parameter[PARAMETER_BANDWIDTH];
+    *parameter = spline->spring_friction ? PARAMETER_SPRING : PARAMETER_FREQUENCY;
+    if (spline->mode == WIGGLY_CUBIC || spline->parameter[*parameter].track >= 0) return 0;
+    if (spline->spring_friction) return sqrt(spline->parameter[PARAMETER_SPRING].value) / TWO_PI;
+    double widening = spline->mode == WIGGLY_COMPLEX && bandwidth->track < 0 ? bandwidth->value : 0;
+    return frequency->value * (1 + widening);
+}
+
+static void check_aliasing(struct reader *reader, const struct where *splines_at)
+{
+    const struct document *document = reader->document;
+    double limit = 0.5 / document_step(document);
+    for (int i = 0; i < document->spline_count; i++) {
+        enum parameter parameter;
+        double highest = highest_frequency(&document->splines[i], &parameter);
+        if (highest <= limit) continue;
+        struct where spline_at = {.parent = splines_at, .index = (size_t)i};
+        struct where at = {.parent = &spline_at, .key = parameter_name(parameter)};
+        reader_warn(reader, &at, "%.4g Hz is above half the sample rate, %.4g Hz: it aliases", highest, limit);
+    }
+}
+
+void validate_scene(struct reader *reader, const struct where *scene_at)
+{
+    struct where splines_at = {.parent = scene_at, .key = "splines"};
+    check_cycles(reader, &splines_at);
+    check_aliasing(reader, &splines_at);
+}

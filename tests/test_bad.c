@@ -1,0 +1,304 @@
+/// Scenes that must be refused: each with one sentence that names file, line and path, and without a crash or a leak.
+#include "near.h"
+
+#include "scene/load.h"
+#include <dirent.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { MEGABYTE = 1 << 20, LINE_SIZE = 512, NOBODY = 65534 };
+
+static char folder[64]; ///< for what cannot be kept in a repository
+
+static const char *in_folder(const char *name)
+{
+    static char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static void write_file(const char *path, const char *data, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static char *read_text(const char *path, size_t *size)
+{
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    char *text = malloc(MEGABYTE);
+    assert_non_null(text);
+    *size = fread(text, 1, MEGABYTE, file);
+    fclose(file);
+    return text;
+}
+
+static void assert_contains(const char *text, const char *fragment)
+{
+    if (!strstr(text, fragment)) fail_msg("\"%s\" does not say \"%s\"", text, fragment);
+}
+
+/// The file must be refused, with that fragment in its sentence.
+static void assert_refused(const char *path, const char *fragment)
+{
+    struct error error = {0};
+    struct document *document = scene_load(path, NULL, &error);
+    if (document) fail_msg("%s was loaded", path);
+    assert_int_equal(error.kind, ERROR_INPUT);
+    assert_null(strchr(error.text, '\n'));
+    assert_contains(error.text, fragment);
+}
+
+struct heard {
+    char first[LINE_SIZE];
+    int errors, warnings;
+};
+
+static void hear(void *user, bool is_error, const char *sentence)
+{
+    struct heard *heard = user;
+    if (is_error && heard->errors == 0) snprintf(heard->first, sizeof heard->first, "%s", sentence);
+    heard->errors += is_error;
+    heard->warnings += !is_error;
+}
+
+static void assert_check_agrees(const char *path)
+{
+    struct heard heard = {0};
+    struct problems problems = {hear, &heard, 0, 0};
+    struct error error = {0};
+    assert_null(scene_load(path, &problems, &error));
+    assert_true(heard.errors >= 1);
+    assert_int_equal(heard.errors, problems.errors);
+    assert_int_equal(heard.warnings, problems.warnings);
+    error.text[sizeof heard.first - 1] = '\0';
+    assert_string_equal(heard.first, error.text);
+}
+
+static bool is_listed(const char *name)
+{
+    char line[LINE_SIZE];
+    size_t length = strlen(name);
+    bool found = false;
+    FILE *list = fopen("tests/bad/expected.txt", "r");
+    assert_non_null(list);
+    while (!found && fgets(line, sizeof line, list)) found = strncmp(line, name, length) == 0 && line[length] == '\t';
+    fclose(list);
+    return found;
+}
+
+static void test_listed_scenes(void **state)
+{
+    (void)state;
+    char line[LINE_SIZE], path[LINE_SIZE];
+    int count = 0;
+    FILE *list = fopen("tests/bad/expected.txt", "r");
+    assert_non_null(list);
+    while (fgets(line, sizeof line, list)) {
+        if (line[0] == '#') continue;
+        line[strcspn(line, "\n")] = '\0';
+        char *fragment = strchr(line, '\t');
+        assert_non_null(fragment);
+        *fragment++ = '\0';
+        snprintf(path, sizeof path, "tests/bad/%.100s", line);
+        assert_refused(path, fragment);
+        assert_check_agrees(path);
+        count++;
+    }
+    fclose(list);
+    assert_true(count >= 45);
+}
+
+static void test_no_scene_is_forgotten_in_the_list(void **state)
+{
+    (void)state;
+    DIR *bad = opendir("tests/bad");
+    assert_non_null(bad);
+    for (struct dirent *entry; (entry = readdir(bad));) {
+        if (!strstr(entry->d_name, ".json") || is_listed(entry->d_name)) continue;
+        fail_msg("tests/bad/expected.txt does not list %s", entry->d_name);
+    }
+    closedir(bad);
+}
+
+static void test_what_is_no_file(void **state)
+{
+    (void)state;
+    assert_refused(folder, "got a directory");
+    assert_refused(in_folder("missing.json"), "No such file");
+    assert_refused("/dev/zero", "expected a file");
+    assert_refused("/dev/null", "expected a file");
+    assert_refused("", "cannot be opened");
+    assert_int_equal(mkfifo(in_folder("fifo"), 0600), 0);
+    assert_refused(in_folder("fifo"), "expected a file");
+    assert_int_equal(symlink("loop", in_folder("loop")), 0);
+    assert_refused(in_folder("loop"), "cannot be opened");
+}
+
+static void test_no_permission(void **state)
+{
+    (void)state;
+    write_file(in_folder("secret.json"), "{}", 2);
+    assert_int_equal(chmod(in_folder("secret.json"), 0), 0);
+    bool is_root = geteuid() == 0; // who may read anything
+    if (is_root) assert_int_equal(seteuid(NOBODY), 0);
+    assert_refused(in_folder("secret.json"), "Permission denied");
+    if (is_root) assert_int_equal(seteuid(0), 0);
+}
+
+/// A sparse file: it takes no room on the disk, and must not be read at all.
+static void test_too_large(void **state)
+{
+    (void)state;
+    int file = open(in_folder("large.json"), O_CREAT | O_WRONLY, 0600);
+    assert_true(file >= 0);
+    assert_int_equal(ftruncate(file, (off_t)1 << 40), 0);
+    close(file);
+    assert_refused(in_folder("large.json"), "expected at most 256 MiB");
+}
+
+/// The pattern again and again, with a bracket that no recursive parser's stack would stand, or that would fill its
+/// memory.
+static void assert_flood_refused(const char *pattern, const char *fragment)
+{
+    size_t length = strlen(pattern), size = (size_t)100 * MEGABYTE / length * length;
+    char *flood = malloc(size);
+    assert_non_null(flood);
+    for (size_t i = 0; i < size; i += length) memcpy(flood + i, pattern, length);
+    write_file(in_folder("flood.json"), flood, size);
+    free(flood);
+    assert_refused(in_folder("flood.json"), fragment);
+    assert_int_equal(unlink(in_folder("flood.json")), 0);
+}
+
+static void test_floods(void **state)
+{
+    (void)state;
+    assert_flood_refused("[", "expected at most 64 levels");
+    assert_flood_refused("{\"a\":", "expected at most 64 levels");
+    assert_flood_refused("{},", "expected at most 2000000 objects");
+    assert_flood_refused("1,", "8000000 values");
+    assert_flood_refused("\"", "expected '[' or '{'");
+}
+
+static void test_cut_off_anywhere(void **state)
+{
+    (void)state;
+    size_t size;
+    char *text = read_text("assets/scenes/figure5.json", &size);
+    while (size > 0 && text[size - 1] != '}') size--;
+    for (size_t cut = 0; cut < size; cut++) {
+        struct error error = {0};
+        struct document *document = scene_parse("cut.json", text, cut, NULL, &error);
+        if (document) fail_msg("cut off at byte %zu it was loaded", cut);
+        assert_int_equal(strncmp(error.text, "cut.json:", 9), 0);
+    }
+    free(text);
+}
+
+/// What survives damage must be a scene that can be saved and loaded again.
+static void test_damaged_bytes(void **state)
+{
+    (void)state;
+    size_t size;
+    char *text = read_text("assets/scenes/figure5.json", &size), *damaged = malloc(size);
+    assert_non_null(damaged);
+    srand(20);
+    for (int round = 0; round < 4000; round++) {
+        memcpy(damaged, text, size);
+        for (int i = 0; i <= round % 3; i++) {
+            damaged[(size_t)rand() % size] = round % 2 ? (char)rand() : "0123456789-.,:{}[]\"e"[rand() % 20];
+        }
+        struct error error = {0};
+        struct document *document = scene_parse("damaged.json", damaged, size, NULL, &error);
+        if (!document) {
+            assert_int_equal(strncmp(error.text, "damaged.json:", 13), 0);
+            continue;
+        }
+        size_t printed_size;
+        char *printed = scene_print(document, &printed_size);
+        struct document *again = scene_parse("printed.json", printed, printed_size, NULL, &error);
+        if (!again) fail_msg("what was saved does not load: %s", error.text);
+        document_destroy(again);
+        document_destroy(document);
+        free(printed);
+    }
+    free(damaged);
+    free(text);
+}
+
+/// Each of very many problems is named with its own line, in a time that does not grow with their square.
+static void test_many_problems(void **state)
+{
+    (void)state;
+    enum { KNOTS = 200000, KNOT_BYTES = 32 };
+    char *text = malloc(KNOTS * KNOT_BYTES + 200);
+    assert_non_null(text);
+    char *end = text + sprintf(text, "{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"knots\": [\n");
+    for (int i = 0; i < KNOTS; i++)
+        end += sprintf(end, "{\"frame\": 0, \"value\": \"\"}%s\n", i < KNOTS - 1 ? "," : "");
+    end += sprintf(end, "]}]}\n");
+    struct heard heard = {0};
+    struct problems problems = {hear, &heard, 0, 0};
+    struct error error = {0};
+    assert_null(scene_parse("many.json", text, (size_t)(end - text), &problems, &error));
+    assert_int_equal(heard.errors, KNOTS);
+    assert_string_equal(heard.first, "many.json:2: splines[0].knots[0].value: expected a number, got a string");
+    free(text);
+}
+
+/// A chain of tracks as long as a scene may be: no recursion may follow it.
+static void test_long_chain_of_tracks(void **state)
+{
+    (void)state;
+    enum { SPLINES = 100000, SPLINE_BYTES = 64 };
+    char *text = malloc(SPLINES * SPLINE_BYTES + 200);
+    assert_non_null(text);
+    char *end = text + sprintf(text, "{\"frames\": [0, 9], \"splines\": [\n");
+    for (int i = 0; i < SPLINES; i++) {
+        const char *comma = i < SPLINES - 1 ? "," : "";
+        end += sprintf(end, "{\"name\": \"%d\", \"equilibrium\": {\"spline\": \"%d\"}}%s\n", i, (i + 1) % SPLINES,
+                       comma);
+    }
+    end += sprintf(end, "]}\n");
+    struct error error = {0};
+    assert_null(scene_parse("chain.json", text, (size_t)(end - text), NULL, &error));
+    assert_contains(error.text, "splines[99999].equilibrium: expected tracks without a cycle");
+    free(text);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof folder, "/tmp/wiggly-bad-XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    DIR *all = opendir(folder);
+    if (!all) return -1;
+    for (struct dirent *entry; (entry = readdir(all));) unlinkat(dirfd(all), entry->d_name, 0);
+    closedir(all);
+    return rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_listed_scenes),    cmocka_unit_test(test_no_scene_is_forgotten_in_the_list),
+        cmocka_unit_test(test_what_is_no_file),  cmocka_unit_test(test_no_permission),
+        cmocka_unit_test(test_too_large),        cmocka_unit_test(test_floods),
+        cmocka_unit_test(test_cut_off_anywhere), cmocka_unit_test(test_damaged_bytes),
+        cmocka_unit_test(test_many_problems),    cmocka_unit_test(test_long_chain_of_tracks),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

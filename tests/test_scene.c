@@ -1,0 +1,491 @@
+/// Documents: what is loaded, saved, printed and solved.
+#include "near.h"
+
+#include "scene/evaluate.h"
+#include "scene/load.h"
+#include "scene/number.h"
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PATH_SIZE = 512, HEARD_SIZE = 2048 };
+
+static struct document *parse(const char *text)
+{
+    struct error error = {0};
+    struct document *document = scene_parse("scene.json", text, strlen(text), NULL, &error);
+    if (!document) fail_msg("%s", error.text);
+    return document;
+}
+
+static void assert_prints(const struct document *document, const char *expected)
+{
+    size_t size;
+    char *text = scene_print(document, &size);
+    assert_string_equal(text, expected);
+    assert_int_equal(size, strlen(expected));
+    free(text);
+}
+
+// --- numbers
+
+static void test_numbers(void **state)
+{
+    (void)state;
+    static const struct {
+        double value;
+        const char *text;
+    } cases[] = {
+        {0, "0"},
+        {-0.0, "0"},
+        {1, "1"},
+        {-24, "-24"},
+        {120, "120"},
+        {1000000, "1000000"},
+        {123456789012345, "123456789012345"},
+        {1e15, "1e15"},
+        {0.1, "0.1"},
+        {0.1 + 0.2, "0.30000000000000004"},
+        {-1.5, "-1.5"},
+        {21.49, "21.49"},
+        {0.00001, "0.00001"},
+        {0.000001, "1e-6"},
+        {1.25e-7, "1.25e-7"},
+        {1e22, "1e22"},
+        {1.7976931348623157e308, "1.7976931348623157e308"},
+        {2.2250738585072014e-308, "2.2250738585072014e-308"},
+        {5e-324, "5e-324"},
+        {9007199254740992, "9.007199254740992e15"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[NUMBER_TEXT_SIZE];
+        assert_int_equal(number_print(cases[i].value, text), strlen(cases[i].text));
+        assert_string_equal(text, cases[i].text);
+    }
+}
+
+/// Random bit patterns: every exponent is as likely, subnormals and the neighbours of powers of two among them.
+static void test_numbers_read_back(void **state)
+{
+    (void)state;
+    srand(7);
+    for (int i = 0; i < 200000; i++) {
+        uint64_t bits = 0;
+        for (int k = 0; k < 4; k++) bits = bits << 16 ^ (uint64_t)(unsigned)rand();
+        if (i % 4 == 0) bits &= ~(uint64_t)0 << 52;
+        double value;
+        memcpy(&value, &bits, sizeof value);
+        if (!isfinite(value)) continue;
+        char text[NUMBER_TEXT_SIZE], shorter[PATH_SIZE];
+        size_t digits = 0, length = number_print(value, text);
+        assert_true(length < NUMBER_TEXT_SIZE);
+        if (strtod(text, NULL) != value) fail_msg("%.17g was written as %s", value, text);
+        for (const char *c = text; *c && *c != 'e'; c++) digits += *c >= '0' && *c <= '9';
+        if (digits < 2 || fabs(value) < 1e-5 * 10 || fabs(value) >= 1e15) continue;
+        if (text[strlen(text) - 1] == '0' || fabs(value) < 1) continue;
+        snprintf(shorter, sizeof shorter, "%.*g", (int)digits - 1, value);
+        if (strtod(shorter, NULL) == value) fail_msg("%s could be %s", text, shorter);
+    }
+}
+
+// --- load and print
+
+static void test_defaults(void **state)
+{
+    (void)state;
+    struct document *document =
+        parse("{\"frames\": [0, 120], \"splines\": [{\"name\": \"x\", \"knots\": [{\"frame\": 3, "
+              "\"value\": 2}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"x\"}]}");
+    assert_prints(document, "{\n"
+                            "  \"wiggly\": 1,\n"
+                            "  \"fps\": 24,\n"
+                            "  \"substeps\": 1,\n"
+                            "  \"frames\": [0, 120],\n"
+                            "  \"splines\": [\n"
+                            "    {\n"
+                            "      \"name\": \"x\",\n"
+                            "      \"mode\": \"complex\",\n"
+                            "      \"frequency\": 0,\n"
+                            "      \"damping\": 0,\n"
+                            "      \"bandwidth\": 0.1,\n"
+                            "      \"calm\": 1,\n"
+                            "      \"equilibrium\": 0,\n"
+                            "      \"start\": \"free\",\n"
+                            "      \"knots\": [\n"
+                            "        { \"frame\": 3, \"value\": 2 }\n"
+                            "      ]\n"
+                            "    }\n"
+                            "  ],\n"
+                            "  \"rigs\": [\n"
+                            "    {\n"
+                            "      \"type\": \"tail\",\n"
+                            "      \"name\": \"t\",\n"
+                            "      \"joints\": 24,\n"
+                            "      \"length\": 1.6,\n"
+                            "      \"position\": [0, 0, 0],\n"
+                            "      \"rest\": 0,\n"
+                            "      \"channels\": [\n"
+                            "        { \"spline\": \"x\", \"axis\": \"side\", \"lag\": 6.5, \"gain\": 5 }\n"
+                            "      ]\n"
+                            "    }\n"
+                            "  ]\n"
+                            "}\n");
+    document_destroy(document);
+    document = parse("{\"frames\": [-3, -3]}");
+    assert_prints(document, "{\n  \"wiggly\": 1,\n  \"fps\": 24,\n  \"substeps\": 1,\n  \"frames\": [-3, -3],\n"
+                            "  \"splines\": [],\n  \"rigs\": []\n}\n");
+    document_destroy(document);
+}
+
+/// Unknown keys stay, wherever they are, behind the known ones and in their own order; those named like parameters as
+/// well.
+static void test_unknown_keys_are_kept(void **state)
+{
+    (void)state;
+    struct document *document = parse(
+        "{\"z\": [1, 2.50, {\"k\": null}, []], \"frames\": [0, 9], \"a\": 9007199254740993, \"splines\": [\n"
+        "{\"name\": \"q\\\"\\\\\\u0001\\u00e9\", \"mode\": \"real\", \"note\": true, \"frequency\": {\"by\": \"me\", "
+        "\"spline\": \"w\"}, \"knots\": [{\"frequency\": {}, \"value\": 1, \"frame\": 2}]}, {\"name\": \"w\", "
+        "\"mode\": "
+        "\"cubic\"}], \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"color\": \"red\", \"channels\": [{\"u\": 1, "
+        "\"spline\": \"w\"}]}]}");
+    assert_prints(
+        document,
+        "{\n  \"wiggly\": 1,\n  \"fps\": 24,\n  \"substeps\": 1,\n  \"frames\": [0, 9],\n  \"splines\": [\n"
+        "    {\n      \"name\": \"q\\\"\\\\\\u0001é\",\n      \"mode\": \"real\",\n"
+        "      \"frequency\": { \"spline\": \"w\", \"by\": \"me\" },\n      \"damping\": 0,\n      \"calm\": 1,\n"
+        "      \"equilibrium\": 0,\n      \"start\": \"free\",\n      \"knots\": [\n"
+        "        { \"frame\": 2, \"value\": 1, \"frequency\": {} }\n      ],\n      \"note\": true\n    },\n"
+        "    {\n      \"name\": \"w\",\n      \"mode\": \"cubic\",\n      \"equilibrium\": 0,\n"
+        "      \"start\": \"free\",\n      \"knots\": []\n    }\n  ],\n  \"rigs\": [\n    {\n"
+        "      \"type\": \"tail\",\n      \"name\": \"t\",\n      \"joints\": 24,\n      \"length\": 1.6,\n"
+        "      \"position\": [0, 0, 0],\n      \"rest\": 0,\n      \"channels\": [\n"
+        "        { \"spline\": \"w\", \"axis\": \"side\", \"lag\": 6.5, \"gain\": 5, \"u\": 1 }\n      ],\n"
+        "      \"color\": \"red\"\n    }\n  ],\n"
+        "  \"z\": [1, 2.5, { \"k\": null }, []],\n  \"a\": 9007199254740993\n}\n");
+    document_destroy(document);
+}
+
+static void assert_round_trip(const char *path)
+{
+    struct error error = {0};
+    struct document *document = scene_load(path, NULL, &error);
+    if (!document) fail_msg("%s", error.text);
+    size_t size, again_size;
+    char *text = scene_print(document, &size);
+    struct document *again = scene_parse("printed.json", text, size, NULL, &error);
+    if (!again) fail_msg("%s", error.text);
+    char *again_text = scene_print(again, &again_size);
+    assert_string_equal(again_text, text);
+    assert_true(scene_hash(document) == scene_hash(again));
+    assert_int_equal(again->spline_count, document->spline_count);
+    for (int i = 0; i < document->spline_count; i++) {
+        assert_int_equal(again->splines[i].knot_count, document->splines[i].knot_count);
+        assert_memory_equal(again->splines[i].parameter, document->splines[i].parameter,
+                            sizeof document->splines[i].parameter);
+    }
+    free(again_text);
+    free(text);
+    document_destroy(again);
+    document_destroy(document);
+}
+
+static void test_round_trips(void **state)
+{
+    (void)state;
+    static const char *const folders[] = {"tests/vectors", "assets/scenes"};
+    int count = 0;
+    for (int i = 0; i < 2; i++) {
+        DIR *folder = opendir(folders[i]);
+        assert_non_null(folder);
+        for (struct dirent *entry; (entry = readdir(folder));) {
+            char path[PATH_SIZE];
+            if (!strstr(entry->d_name, ".json")) continue;
+            snprintf(path, sizeof path, "%s/%s", folders[i], entry->d_name);
+            assert_round_trip(path);
+            count++;
+        }
+        closedir(folder);
+    }
+    assert_true(count > 30);
+}
+
+static void test_knots_on_samples(void **state)
+{
+    (void)state;
+    struct document *document =
+        parse("{\"frames\": [-10, 10], \"substeps\": 4, \"fps\": 25, \"splines\": [{\"name\": \"x\", "
+              "\"knots\": [{\"frame\": 10.12, \"value\": 3}, {\"frame\": -10.125, \"value\": 1}, "
+              "{\"frame\": 0.125, \"value\": 2}]}]}");
+    const struct spline *spline = &document->splines[0];
+    assert_int_equal(document_samples(document), 81);
+    assert_near(document_step(document), 0.01, 1e-18);
+    assert_near(spline->knots[0].value, 1, 0);
+    assert_near(spline->knots[0].frame, -10.125, 0);
+    assert_int_equal(spline_find_knot(document, spline, 0), 0);
+    assert_int_equal(spline_find_knot(document, spline, 41), 1); // a half goes up
+    assert_int_equal(spline_find_knot(document, spline, 80), 2);
+    assert_int_equal(spline_find_knot(document, spline, 40), -1);
+    assert_int_equal(document_sample(document, 1e300), INT32_MAX / 2);
+    assert_int_equal(document_sample(document, -1e300), -(INT32_MAX / 2));
+    assert_near(document_frame(document, 41), 0.25, 0);
+    document_destroy(document);
+}
+
+// --- warnings
+
+static void hear(void *user, bool is_error, const char *sentence)
+{
+    char *heard = user;
+    size_t used = strlen(heard);
+    snprintf(heard + used, HEARD_SIZE - used, "%s%s\n", is_error ? "error: " : "", sentence);
+}
+
+static void assert_heard(const char *text, const char *expected)
+{
+    char heard[HEARD_SIZE] = "";
+    struct problems problems = {hear, heard, 0, 0};
+    struct error error = {0};
+    document_destroy(scene_parse("s.json", text, strlen(text), &problems, &error));
+    assert_string_equal(heard, expected);
+}
+
+static void test_warnings(void **state)
+{
+    (void)state;
+    assert_heard("{\"frames\": [0, 9],\n\"hey\": 1,\n\"splines\": [{\"name\": \"x\",\n\"hey\": 2}]}",
+                 "s.json:4: splines[0].hey: unknown key, kept but without effect\n");
+    assert_heard("{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"frequency\":\n11, \"bandwidth\": 0.2}]}",
+                 "s.json:2: splines[0].frequency: 13.2 Hz is above half the sample rate, 12 Hz: it aliases\n");
+    const char *slope =
+        "s.json:%d: splines[0].knots[%d].slope: slope without effect: the sample that it leads to is a "
+        "knot too\n";
+    char expected[HEARD_SIZE];
+    snprintf(expected, sizeof expected, slope, 3, 1);
+    assert_heard("{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"knots\": [\n{\"frame\": 5, \"value\": 0},\n"
+                 "{\"frame\": 4, \"value\": 0, \"slope\": 1}]}]}",
+                 expected);
+    assert_heard(
+        "{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"knots\": [\n{\"frame\": 5, \"value\": 0, \"slope\": "
+        "1},\n{\"frame\": 4, \"value\": 0}]}]}",
+        "");
+    snprintf(expected, sizeof expected, slope, 2, 0); // at the last sample a slope is measured backwards
+    assert_heard(
+        "{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"knots\": [\n{\"frame\": 9, \"value\": 0, \"slope\": "
+        "1},\n{\"frame\": 8, \"value\": 0}]}]}",
+        expected);
+    snprintf(expected, sizeof expected, slope, 2, 0); // and in a loop across the seam
+    assert_heard(
+        "{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"start\": \"loop\", \"knots\": [\n{\"frame\": 8, "
+        "\"value\": 0, \"slope\": 1},\n{\"frame\": 0, \"value\": 0}]}]}",
+        expected);
+}
+
+/// All of a file's problems are reported, each with its line, whatever came before.
+static void test_every_error_is_reported(void **state)
+{
+    (void)state;
+    assert_heard("{\"fps\": 0,\n\"frames\": [0, 9],\n\"splines\": [{\"name\": 1,\n\"mode\": \"x\",\n\"calm\": 2,\n"
+                 "\"knots\": [{\"frame\": 1}]}, {}],\n\"rigs\": [1]}",
+                 "error: s.json:1: fps: expected a number above 0 and at most 100000, got 0\n"
+                 "error: s.json:3: splines[0].name: expected a string, got a number\n"
+                 "error: s.json:6: splines[1].name: expected a string, got nothing\n"
+                 "error: s.json:4: splines[0].mode: expected \"complex\", \"real\" or \"cubic\", got \"x\"\n"
+                 "error: s.json:5: splines[0].calm: expected a number from 0 to 1, got 2\n"
+                 "error: s.json:6: splines[0].knots[0].value: expected a number, got nothing\n"
+                 "error: s.json:7: rigs[0]: expected an object, got a number\n");
+}
+
+/// A key written with escapes is the same key, and its line is found.
+static void test_escaped_keys(void **state)
+{
+    (void)state;
+    assert_heard("{\"fr\\u0061mes\":\n[0, \"9\"]}",
+                 "error: s.json:2: frames[1]: expected a whole number, got a string\n");
+}
+
+// --- save
+
+static void assert_file_is(const char *path, const char *expected)
+{
+    char text[PATH_SIZE] = "";
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    size_t size = fread(text, 1, sizeof text - 1, file);
+    fclose(file);
+    text[size] = '\0';
+    assert_string_equal(text, expected);
+}
+
+static int count_files(const char *folder)
+{
+    int count = 0;
+    DIR *all = opendir(folder);
+    assert_non_null(all);
+    while (readdir(all)) count++;
+    closedir(all);
+    return count - 2;
+}
+
+/// A link stays a link, the mode stays, nothing is left beside the file, and a failure leaves the old content.
+static void test_save(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/wiggly-save-XXXXXX", path[PATH_SIZE], link[PATH_SIZE], expected[PATH_SIZE];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/scene.json", folder);
+    snprintf(link, sizeof link, "%s/link.json", folder);
+    snprintf(expected, sizeof expected,
+             "{\n  \"wiggly\": 1,\n  \"fps\": 24,\n  \"substeps\": 1,\n  \"frames\": [0, 7],\n"
+             "  \"splines\": [],\n  \"rigs\": []\n}\n");
+    struct document *document = parse("{\"frames\": [0, 7]}");
+    struct error error = {0};
+    assert_int_equal(symlink("scene.json", link), 0);
+    assert_true(scene_save(document, link, &error)); // through a link that leads nowhere yet
+    assert_file_is(path, expected);
+    assert_int_equal(chmod(path, 0640), 0);
+    document->last_frame = 8;
+    expected[strcspn(expected, "7")] = '8';
+    assert_true(scene_save(document, link, &error));
+    assert_file_is(path, expected);
+    struct stat about;
+    assert_int_equal(lstat(link, &about), 0);
+    assert_true(S_ISLNK(about.st_mode));
+    assert_int_equal(stat(path, &about), 0);
+    assert_int_equal(about.st_mode & 0777, 0640);
+    assert_int_equal(count_files(folder), 2);
+    assert_false(scene_save(document, folder, &error));
+    assert_int_equal(error.kind, ERROR_ENVIRONMENT);
+    assert_true(scene_save(document, "/dev/null", &error)); // which must stay a device
+    assert_int_equal(stat("/dev/null", &about), 0);
+    assert_true(S_ISCHR(about.st_mode));
+    assert_false(scene_save(document, "/dev/full", &error));
+    assert_non_null(strstr(error.text, "No space left"));
+    document_destroy(document);
+    assert_int_equal(unlink(link), 0);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(rmdir(folder), 0);
+}
+
+// --- evaluation
+
+/// d follows c in the equilibrium, c follows b in the frequency, b is a cubic whose frequency "follows" a without
+/// effect.
+static const char chain[] =
+    "{\"frames\": [0, 48], \"splines\": ["
+    "{\"name\": \"d\", \"equilibrium\": {\"spline\": \"c\"}, \"frequency\": 1, \"start\": \"rest\"},"
+    "{\"name\": \"c\", \"frequency\": {\"spline\": \"b\"}, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 20, "
+    "\"value\": 1}]},"
+    "{\"name\": \"b\", \"mode\": \"cubic\", \"frequency\": {\"spline\": \"a\"}, \"knots\": [{\"frame\": 0, "
+    "\"value\": 1}, "
+    "{\"frame\": 48, \"value\": 2}]},"
+    "{\"name\": \"a\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 9, \"value\": 3}]}]}";
+
+static void test_only_followers_are_solved(void **state)
+{
+    (void)state;
+    struct document *document = parse(chain);
+    struct evaluation evaluation = {0};
+    struct error error = {0};
+    assert_true(evaluation_resize(&evaluation, document, &error));
+    evaluation_update(&evaluation, document, NULL, false);
+    assert_int_equal(evaluation.solved_splines, 4);
+    assert_int_equal(evaluation.solved_samples, 4 * 49);
+    assert_int_equal(evaluation.solved_knots, 5);
+    for (int i = 0; i < 4; i++) assert_int_equal(evaluation.status[i], WIGGLY_OK);
+    assert_near(evaluation.curves[1].total[20], 1, 0);
+    assert_near(evaluation.curves[0].y[20], 1, 0);
+    static const struct {
+        bool dirty[4];
+        int solved, solved_as_cubics;
+    } cases[] = {
+        {{false, false, false, false}, 0, 0}, {{true, false, false, false}, 1, 1},
+        {{false, true, false, false}, 2, 2},  {{false, false, true, false}, 3, 1},
+        {{false, false, false, true}, 1, 1},  {{true, false, false, true}, 2, 2},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        evaluation_update(&evaluation, document, cases[i].dirty, false);
+        assert_int_equal(evaluation.solved_splines, cases[i].solved);
+    }
+    evaluation_update(&evaluation, document, cases[0].dirty, true); // another look solves all
+    assert_int_equal(evaluation.solved_splines, 4);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        evaluation_update(&evaluation, document, cases[i].dirty, true);
+        assert_int_equal(evaluation.solved_splines, cases[i].solved_as_cubics);
+    }
+    evaluation_free(&evaluation);
+    document_destroy(document);
+}
+
+/// What is solved bit by bit, as edits come, is what is solved at once: a curve is a function of the document.
+static void test_partial_solves_agree(void **state)
+{
+    (void)state;
+    struct document *document = parse(chain);
+    struct evaluation partial = {0}, whole = {0};
+    struct error error = {0};
+    bool dirty[4] = {false, false, true, false};
+    assert_true(evaluation_resize(&partial, document, &error));
+    evaluation_update(&partial, document, NULL, false);
+    document->splines[2].knots[1].value = 0.25;
+    evaluation_update(&partial, document, dirty, false);
+    assert_true(evaluation_resize(&whole, document, &error));
+    evaluation_update(&whole, document, NULL, false);
+    for (int i = 0; i < 4; i++) {
+        assert_memory_equal(partial.curves[i].total, whole.curves[i].total, 49 * sizeof(double));
+        assert_memory_equal(partial.curves[i].im, whole.curves[i].im, 49 * sizeof(double));
+    }
+    evaluation_free(&whole);
+    evaluation_free(&partial);
+    document_destroy(document);
+}
+
+static void test_evaluation_fits_the_document(void **state)
+{
+    (void)state;
+    struct document *small = parse("{\"frames\": [0, 5], \"splines\": [{\"name\": \"x\"}]}"), *large = parse(chain);
+    struct evaluation evaluation = {0};
+    struct error error = {0};
+    assert_true(evaluation_resize(&evaluation, small, &error));
+    evaluation_update(&evaluation, small, NULL, false);
+    evaluation_update(&evaluation, large, NULL, false); // not asked for: nothing may be touched
+    assert_int_equal(evaluation.solved_splines, 0);
+    assert_true(evaluation_resize(&evaluation, large, &error));
+    const double *kept = evaluation.curves[0].total;
+    bool clean[4] = {false};
+    evaluation_update(&evaluation, large, clean, false);
+    assert_int_equal(evaluation.solved_splines, 4); // nothing was solved before
+    assert_true(evaluation_resize(&evaluation, large, &error));
+    assert_ptr_equal(evaluation.curves[0].total, kept);
+    evaluation_update(&evaluation, large, clean, false);
+    assert_int_equal(evaluation.solved_splines, 0);
+    assert_true(evaluation_resize(&evaluation, small, &error));
+    evaluation_update(&evaluation, small, clean, false);
+    assert_int_equal(evaluation.solved_splines, 1);
+    evaluation_free(&evaluation);
+    document_destroy(small);
+    document_destroy(large);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_numbers_read_back),
+        cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_unknown_keys_are_kept),
+        cmocka_unit_test(test_round_trips),
+        cmocka_unit_test(test_knots_on_samples),
+        cmocka_unit_test(test_warnings),
+        cmocka_unit_test(test_every_error_is_reported),
+        cmocka_unit_test(test_escaped_keys),
+        cmocka_unit_test(test_save),
+        cmocka_unit_test(test_only_followers_are_solved),
+        cmocka_unit_test(test_partial_solves_agree),
+        cmocka_unit_test(test_evaluation_fits_the_document),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
