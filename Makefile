@@ -1,0 +1,167 @@
+# wiggly. `make run` and `make test` are each all that is needed on a bare Debian or Ubuntu: they install what is missing.
+#
+#   make [all]    the binary, the library and the tools
+#   make run      builds and starts the live app (ARGS="scene.json --size 960x600" for more)
+#   make test     builds and runs every test (TESTS="tests/test_timing.c tests/test_cli.sh" for some)
+#   make bench    the solver against LAPACKE
+#   make check    formatting, static analysis, include arrows, lengths
+#   make regress BASE=path/to/other/wiggly    frame times of two builds on the committed session
+#   make install  PREFIX=/usr/local DESTDIR=
+#   make clean
+#
+# Variables: B (build folder), SANITIZE=1 (ASan and UBSan, in build/sanitize), WERROR=1 (warnings fail), V=1 (show commands).
+
+SANITIZE ?=
+WERROR ?=
+V ?=
+B ?= $(if $(SANITIZE),build/sanitize,build)
+PREFIX ?= /usr/local
+CC := $(if $(filter default,$(origin CC)),gcc,$(CC))
+Q := $(if $(V),,@)
+
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.SUFFIXES:
+ifeq ($(MAKELEVEL),0)
+MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 2)
+endif
+
+# --- what is there -----------------------------------------------------------------------------------------------------
+
+VERSION := $(shell sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h)
+SOURCES := $(sort $(shell find src -name '*.c'))
+LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/base/status.c
+EMBEDDED := $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json)
+TOOLS := $(basename $(notdir $(wildcard tools/*.c)))
+TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))
+TEST_SUPPORT := $(filter-out tests/test_%.c,$(wildcard tests/*.c))
+
+GENERATED := $(B)/generated
+OBJECTS := $(SOURCES:%.c=$(B)/obj/%.o) $(B)/obj/build.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o
+LIBRARY_OBJECTS := $(LIBRARY_SOURCES:%.c=$(B)/obj/%.o)
+TEST_PROGRAMS := $(patsubst tests/%.c,$(B)/tests/%,$(filter %.c,$(TESTS)))
+
+# --- how it is built ---------------------------------------------------------------------------------------------------
+# pkg-config may be installed by this very run, so it is asked when the first recipe needs it, and only once.
+
+PACKAGES := glfw3 epoxy egl jansson cglm stb
+PKG_CFLAGS = $(eval PKG_CFLAGS := $(patsubst -I%,-isystem %,$(shell pkg-config --cflags $(PACKAGES))))$(PKG_CFLAGS)
+PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs glfw3 epoxy egl jansson))$(PKG_LIBS)
+
+# No fused multiply-add and no -ffast-math anywhere: the same document must give the same bits in every build.
+comma := ,
+OPTIMISE := $(if $(SANITIZE),-O1 -fno-omit-frame-pointer,-O2)
+SANITIZERS := $(if $(SANITIZE),-fsanitize=address$(comma)undefined -fno-sanitize-recover=all)
+WARNINGS := -Wall -Wextra -Wshadow -Wconversion $(if $(WERROR),-Werror)
+CFLAGS := -std=c11 -D_GNU_SOURCE $(OPTIMISE) -g -ffp-contract=off $(WARNINGS) $(SANITIZERS)
+CPPFLAGS := -Isrc -Iinclude
+SPLINE_CFLAGS := $(if $(SANITIZE),,-O3 -fno-math-errno -fno-trapping-math)
+
+# src/timing/allocations.c counts what our own objects allocate.
+WRAPPED := malloc calloc realloc aligned_alloc posix_memalign strdup
+LDFLAGS := $(SANITIZERS) -Wl,--as-needed $(WRAPPED:%=-Wl,--wrap=%)
+LIBS = $(PKG_LIBS) -lm -ldl -lpthread
+TEST_LIBS = -lcmocka -llapacke -lopenblas -lquadmath
+
+$(B)/obj/src/spline/%.o: CFLAGS += $(SPLINE_CFLAGS)
+
+# --- goals -------------------------------------------------------------------------------------------------------------
+
+.PHONY: all run test bench check regress install clean packages FORCE
+
+all: $(B)/wiggly $(B)/libwiggly.a $(TOOLS:%=$(B)/%)
+
+# Without a display the app runs headless by itself; then it is asked for a picture and a log to show for it.
+HEADLESS_ARGS := --log $(B)/live.csv --screenshot $(B)/live.png
+run: $(B)/wiggly
+	$(Q)if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ]; then exec $(B)/wiggly live $(ARGS); fi; \
+	$(B)/wiggly live $(HEADLESS_ARGS) $(ARGS) && echo "Picture: $(B)/live.png, timing log: $(B)/live.csv"
+
+test: $(B)/wiggly $(B)/libwiggly.a $(TOOLS:%=$(B)/%) $(TEST_PROGRAMS)
+	$(Q)B=$(B) WIGGLY=$(B)/wiggly TEST_OUT=$(B)/test-out CC="$(CC)" tools/run-tests.sh \
+	    $(TEST_PROGRAMS) $(filter %.sh,$(TESTS))
+
+bench: $(B)/wiggly
+	$(Q)$(B)/wiggly bench $(ARGS)
+
+check: | packages
+	$(Q)tools/check.sh
+
+regress: $(B)/wiggly $(B)/timing_diff
+	$(Q)$(if $(BASE),,echo "make regress: BASE=path/to/other/wiggly is missing" >&2; exit 2;) \
+	tools/regress.sh "$(BASE)" $(B)/wiggly $(B)/timing_diff $(B)/regress
+
+install: $(B)/wiggly $(B)/libwiggly.a
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include/wiggly \
+	    $(DESTDIR)$(PREFIX)/share/wiggly/scenes
+	install -m 755 $(B)/wiggly $(DESTDIR)$(PREFIX)/bin/wiggly
+	install -m 644 $(B)/libwiggly.a $(DESTDIR)$(PREFIX)/lib/libwiggly.a
+	install -m 644 include/wiggly/wiggly.h $(DESTDIR)$(PREFIX)/include/wiggly/wiggly.h
+	install -m 644 $(wildcard assets/scenes/*.json) $(DESTDIR)$(PREFIX)/share/wiggly/scenes
+	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' wiggly.pc.in \
+	    > $(DESTDIR)$(PREFIX)/lib/pkgconfig/wiggly.pc
+
+clean:
+	rm -rf $(B)
+
+# --- what must be installed first --------------------------------------------------------------------------------------
+# Everything that is compiled waits for `packages` (order-only); it asks for no more than the goals at hand need.
+
+SETS := $(if $(filter-out check clean,$(or $(MAKECMDGOALS),all)),build)
+SETS += $(if $(filter test $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check,$(MAKECMDGOALS))
+packages:
+	$(Q)tools/install-missing.sh $(SETS)
+
+# --- objects and programs ----------------------------------------------------------------------------------------------
+
+$(B)/obj/%.o: %.c $(B)/flags | packages
+	@mkdir -p $(@D)
+	$(if $(Q),@echo "CC $<")
+	$(Q)$(CC) $(CPPFLAGS) $(PKG_CFLAGS) $(CFLAGS) -MMD -MP -c $< -o $@
+
+$(B)/obj/%.o: $(GENERATED)/%.c $(B)/flags | packages
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c $< -o $@
+
+$(B)/obj/%.o: $(GENERATED)/%.S | packages
+	@mkdir -p $(@D)
+	$(Q)$(CC) -c $< -o $@
+
+$(B)/libwiggly.a: $(LIBRARY_OBJECTS) $(B)/objects | packages
+	$(Q)rm -f $@ && ar rcs $@ $(LIBRARY_OBJECTS)
+
+# Everything but main(): what tests and tools link, taking only the members that they need.
+$(B)/parts.a: $(filter-out $(B)/obj/src/main.o,$(OBJECTS)) $(B)/objects | packages
+	$(Q)rm -f $@ && ar rcs $@ $(filter %.o,$^)
+
+$(B)/wiggly: $(B)/obj/src/main.o $(B)/parts.a
+	$(if $(Q),@echo "LINK $@")
+	$(Q)$(CC) $(LDFLAGS) $^ $(LIBS) -o $@
+
+$(TOOLS:%=$(B)/%): $(B)/%: $(B)/obj/tools/%.o $(B)/parts.a
+	$(Q)$(CC) $(LDFLAGS) $^ $(LIBS) -o $@
+
+$(B)/obj/tests/%.o: CPPFLAGS += -Itests
+$(TEST_PROGRAMS): $(B)/tests/%: $(B)/obj/tests/%.o $(TEST_SUPPORT:%.c=$(B)/obj/%.o) $(B)/parts.a
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(LDFLAGS) $^ $(TEST_LIBS) $(LIBS) -o $@
+
+# --- generated ---------------------------------------------------------------------------------------------------------
+
+$(GENERATED)/embedded_data.S $(GENERATED)/embedded_table.c &: tools/embed.sh $(EMBEDDED) $(B)/embedded | packages
+	@mkdir -p $(@D)
+	$(Q)tools/embed.sh $(GENERATED) $(EMBEDDED)
+
+# Rewritten only when the text changes, so that what depends on it is rebuilt just then.
+replace = @mkdir -p $(@D); printf '%s\n' '$(1)' > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+$(B)/flags: FORCE
+	$(call replace,$(CC) $(CFLAGS) $(SPLINE_CFLAGS) $(CPPFLAGS))
+$(B)/objects: FORCE
+	$(call replace,$(OBJECTS))
+$(B)/embedded: FORCE
+	$(call replace,$(EMBEDDED))
+$(GENERATED)/build.c: FORCE | packages
+	@tools/build-info.sh $@ $(CC) "$(filter -O% -f%,$(CFLAGS))$(if $(SPLINE_CFLAGS),; spline $(SPLINE_CFLAGS))"
+
+.SECONDARY:
+-include $(wildcard $(B)/obj/*.d $(B)/obj/*/*.d $(B)/obj/*/*/*.d)

@@ -1,0 +1,11 @@
+/// The subcommands: one file each. argv[0] is the subcommand's name; the result is the exit status
+/// (0 done, 1 bad input, 2 wrong usage, 3 the environment failed).
+#ifndef COMMANDS_COMMANDS_H
+#define COMMANDS_COMMANDS_H
+
+int command_live(int argc, char **argv);
+int command_solve(int argc, char **argv);
+int command_check(int argc, char **argv);
+int command_bench(int argc, char **argv);
+
+#endif

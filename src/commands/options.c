@@ -1,0 +1,201 @@
+#include "commands/options.h"
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WORD_MAX = 63, OPTION_MAX = 32 };
+
+static int smaller(int a, int b) { return a < b ? a : b; }
+
+/// Insertions, deletions, replacements and swaps of neighbours that turn a into b (optimal string alignment, three rows of
+/// its table at a time); words are cut at WORD_MAX.
+static int edit_distance(const char *a, const char *b)
+{
+    int rows[3][WORD_MAX + 1];
+    int *two_ago = rows[0], *before = rows[1], *row = rows[2];
+    int a_length = (int)strnlen(a, WORD_MAX), b_length = (int)strnlen(b, WORD_MAX);
+    for (int j = 0; j <= b_length; j++) row[j] = j;
+    for (int i = 1; i <= a_length; i++) {
+        int *free_row = two_ago;
+        two_ago = before;
+        before = row;
+        row = free_row;
+        row[0] = i;
+        for (int j = 1; j <= b_length; j++) {
+            row[j] = before[j - 1] + (a[i - 1] != b[j - 1]);
+            row[j] = smaller(row[j], 1 + smaller(before[j], row[j - 1]));
+            bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (swapped) row[j] = smaller(row[j], two_ago[j - 2] + 1);
+        }
+    }
+    return row[b_length];
+}
+
+const char *options_nearest(const char *word, const char *const *candidates, int count)
+{
+    const char *nearest = NULL;
+    int best = (int)strnlen(word, WORD_MAX) / 2 + 1; // farther than that it is another word
+    for (int i = 0; i < count; i++) {
+        int distance = edit_distance(word, candidates[i]);
+        if (distance < best) {
+            best = distance;
+            nearest = candidates[i];
+        }
+    }
+    return nearest;
+}
+
+static enum options_result wrong(const struct usage *usage, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+static enum options_result wrong(const struct usage *usage, const char *format, ...)
+{
+    fprintf(stderr, "wiggly %s: ", usage->command);
+    va_list arguments;
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fprintf(stderr, "; see wiggly %s --help\n", usage->command);
+    return OPTIONS_WRONG;
+}
+
+static enum options_result wrong_option(const struct usage *usage, const char *word, size_t length)
+{
+    const char *names[OPTION_MAX + 1];
+    int count = 0;
+    for (int i = 0; i < usage->option_count && i < OPTION_MAX; i++) names[count++] = usage->options[i].name;
+    names[count++] = "--help";
+    char given[WORD_MAX + 1];
+    snprintf(given, sizeof given, "%.*s", (int)length, word);
+    const char *nearest = options_nearest(given, names, count);
+    if (nearest) return wrong(usage, "there is no option %s (did you mean %s?)", given, nearest);
+    return wrong(usage, "there is no option %s", given);
+}
+
+static const struct option_spec *find(const struct usage *usage, const char *word, size_t length)
+{
+    for (int i = 0; i < usage->option_count; i++) {
+        const struct option_spec *option = &usage->options[i];
+        if (strlen(option->name) == length && strncmp(word, option->name, length) == 0) return option;
+        if (option->alias && strcmp(word, option->alias) == 0) return option;
+    }
+    return NULL;
+}
+
+/// A whole number of the text in [minimum, maximum], ending at `end`.
+static bool read_int(const char *text, char end, double minimum, double maximum, int *value, const char **rest)
+{
+    char *stop;
+    errno = 0;
+    long number = strtol(text, &stop, 10);
+    if (stop == text || *stop != end || errno || (double)number < minimum || (double)number > maximum) return false;
+    if (number < INT_MIN || number > INT_MAX) return false;
+    *value = (int)number;
+    *rest = stop;
+    return true;
+}
+
+static bool read_real(const char *text, double minimum, double maximum, double *value)
+{
+    char *stop;
+    double number = strtod(text, &stop);
+    if (stop == text || *stop || !isfinite(number) || number < minimum || number > maximum) return false;
+    *value = number;
+    return true;
+}
+
+static bool read_size(const char *text, double minimum, double maximum, int size[2])
+{
+    int width, height;
+    const char *rest;
+    if (!read_int(text, 'x', minimum, maximum, &width, &rest)) return false;
+    if (!read_int(rest + 1, 0, minimum, maximum, &height, &rest)) return false;
+    size[0] = width;
+    size[1] = height;
+    return true;
+}
+
+static enum options_result store(const struct usage *usage, const struct option_spec *option, const char *text)
+{
+    const char *rest;
+    double low = option->minimum, high = option->maximum;
+    switch (option->kind) {
+    case OPTION_FLAG:
+        *(bool *)option->target = true;
+        return OPTIONS_RUN;
+    case OPTION_TEXT:
+        *(const char **)option->target = text;
+        return OPTIONS_RUN;
+    case OPTION_INT:
+        if (read_int(text, 0, low, high, option->target, &rest)) return OPTIONS_RUN;
+        return wrong(usage, "%s: expected a whole number from %.10g to %.10g, got '%s'", option->name, low, high,
+                     text);
+    case OPTION_REAL:
+        if (read_real(text, low, high, option->target)) return OPTIONS_RUN;
+        return wrong(usage, "%s: expected a number from %.10g to %.10g, got '%s'", option->name, low, high, text);
+    case OPTION_SIZE:
+        if (read_size(text, low, high, option->target)) return OPTIONS_RUN;
+        return wrong(usage, "%s: expected WIDTHxHEIGHT, each from %.10g to %.10g, got '%s'", option->name, low, high,
+                     text);
+    }
+    return OPTIONS_WRONG;
+}
+
+/// Reads the option at argv[*at] and its value, leaving *at on the last word that was used.
+static enum options_result read_option(const struct usage *usage, int argc, char **argv, int *at)
+{
+    const char *word = argv[*at];
+    const char *equals = word[1] == '-' ? strchr(word, '=') : NULL;
+    size_t length = equals ? (size_t)(equals - word) : strlen(word);
+    const struct option_spec *option = find(usage, word, length);
+    if (!option) return wrong_option(usage, word, length);
+    if (option->kind == OPTION_FLAG) {
+        if (equals) return wrong(usage, "%s takes no value", option->name);
+        return store(usage, option, NULL);
+    }
+    if (equals) return store(usage, option, equals + 1);
+    if (*at + 1 >= argc) return wrong(usage, "%s needs a value: %s", option->name, option->argument);
+    return store(usage, option, argv[++*at]);
+}
+
+enum options_result options_parse(const struct usage *usage, int argc, char **argv, const char **operands)
+{
+    int count = 0;
+    bool only_operands = false;
+    for (int i = 0; i < usage->operand_maximum; i++) operands[i] = NULL;
+    for (int i = 1; i < argc; i++) {
+        if (!only_operands && (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)) {
+            options_help(usage);
+            return OPTIONS_HELP;
+        }
+        if (!only_operands && strcmp(argv[i], "--") == 0) {
+            only_operands = true;
+        } else if (!only_operands && argv[i][0] == '-' && argv[i][1]) {
+            if (read_option(usage, argc, argv, &i) == OPTIONS_WRONG) return OPTIONS_WRONG;
+        } else if (count < usage->operand_maximum) {
+            operands[count++] = argv[i];
+        } else {
+            return wrong(usage, "'%s' is one argument too many", argv[i]);
+        }
+    }
+    if (count < usage->operand_minimum) return wrong(usage, "an argument is missing: %s", usage->operands);
+    return OPTIONS_RUN;
+}
+
+void options_help(const struct usage *usage)
+{
+    printf("Usage: wiggly %s%s%s%s\n%s\n", usage->command, usage->option_count ? " [options]" : "",
+           *usage->operands ? " " : "", usage->operands, usage->summary);
+    if (usage->option_count) printf("\nOptions:\n");
+    for (int i = 0; i < usage->option_count; i++) {
+        const struct option_spec *option = &usage->options[i];
+        char left[WORD_MAX + 1];
+        snprintf(left, sizeof left, "%s%s%s%s%s", option->alias ? option->alias : "", option->alias ? ", " : "",
+                 option->name, option->argument ? " " : "", option->argument ? option->argument : "");
+        printf("  %-26s %s\n", left, option->help);
+    }
+}

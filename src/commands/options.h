@@ -1,0 +1,52 @@
+/// The command line of one subcommand, described by a table: parsing, help, and the nearest right word for a wrong one.
+#ifndef COMMANDS_OPTIONS_H
+#define COMMANDS_OPTIONS_H
+
+#include <stdbool.h>
+
+enum option_kind {
+    OPTION_FLAG, ///< bool: set to true; takes no value
+    OPTION_TEXT, ///< const char *: points into argv
+    OPTION_INT,  ///< int in [minimum, maximum]
+    OPTION_REAL, ///< double in [minimum, maximum]
+    OPTION_SIZE, ///< int[2] from "1280x720", each in [minimum, maximum]
+};
+
+/// One option, `--name value` or `--name=value`. The target keeps its value where the option is not given.
+struct option_spec {
+    const char *name;     ///< "--frames"
+    const char *alias;    ///< "-f", or NULL
+    const char *argument; ///< what help calls the value: "N"; NULL for a flag
+    const char *help;     ///< one line
+    enum option_kind kind;
+    void *target;
+    double minimum, maximum;
+};
+
+/// A subcommand's command line.
+struct usage {
+    const char *command;  ///< "live"
+    const char *operands; ///< "[scene.json]", or ""
+    const char *summary;  ///< one line
+    const struct option_spec *options;
+    int option_count;
+    int operand_minimum, operand_maximum;
+};
+
+enum options_result {
+    OPTIONS_RUN,   ///< go on
+    OPTIONS_HELP,  ///< --help was printed: return 0
+    OPTIONS_WRONG, ///< a sentence was printed on stderr: return 2
+};
+
+/// Reads argv[1 …] (argv[0] is the subcommand's name). Options and operands may mix; after `--` all are operands.
+/// `operands` has room for usage->operand_maximum pointers; those not given become NULL.
+enum options_result options_parse(const struct usage *usage, int argc, char **argv, const char **operands);
+
+/// Prints the usage of a subcommand on stdout.
+void options_help(const struct usage *usage);
+
+/// The candidate with the smallest edit distance to `word`, or NULL where none is near enough to be meant.
+const char *options_nearest(const char *word, const char *const *candidates, int count);
+
+#endif

@@ -1,0 +1,78 @@
+/// Reads the command line and hands over to one command.
+#include "base/build.h"
+#include "commands/commands.h"
+#include "commands/options.h"
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+#include <wiggly/wiggly.h>
+
+static const struct command {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    const char *operands, *summary;
+} commands[] = {
+    {"live", command_live, "[scene.json]", "the live app; without a scene, the swinging tail"},
+    {"solve", command_solve, "scene.json [-o out.csv]", "every spline, every sample, as CSV"},
+    {"check", command_check, "scene.json", "prints every problem of a scene file"},
+    {"bench", command_bench, "[--json FILE]", "the solver against LAPACKE"},
+};
+
+enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
+
+static int print_help(void)
+{
+    printf("wiggly %s: splines that swing, overshoot and follow through, keyed live\n\n", WIGGLY_VERSION);
+    printf("Usage: wiggly [command] [options]\n\nCommands:\n");
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        char left[48];
+        snprintf(left, sizeof left, "%s %s", commands[i].name, commands[i].operands);
+        printf("  %-30s %s\n", left, commands[i].summary);
+    }
+    printf("\n  --version                      version and commit\n"
+           "  <command> --help               a command's options\n\n"
+           "Exit status: 0 done, 1 the input was bad, 2 wrong usage, 3 the environment failed.\n");
+    return 0;
+}
+
+static const struct command *find_command(const char *name)
+{
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        if (strcmp(commands[i].name, name) == 0) return &commands[i];
+    }
+    return NULL;
+}
+
+/// `wiggly scene.json` and `wiggly --headless` mean live; a word that is neither a file nor looks like one is a mistake.
+static bool means_live(const char *word) { return word[0] == '-' || strpbrk(word, "./") || access(word, F_OK) == 0; }
+
+static int wrong_command(const char *word)
+{
+    const char *names[COMMAND_COUNT];
+    for (int i = 0; i < COMMAND_COUNT; i++) names[i] = commands[i].name;
+    const char *nearest = options_nearest(word, names, COMMAND_COUNT);
+    if (nearest) {
+        fprintf(stderr, "wiggly: there is no command %s (did you mean %s?); see wiggly --help\n", word, nearest);
+    } else {
+        fprintf(stderr, "wiggly: there is no command %s; see wiggly --help\n", word);
+    }
+    return 2;
+}
+
+int main(int argc, char **argv)
+{
+    static char live[] = "live";
+    char *no_arguments[] = {live, NULL};
+    if (argc < 2) return command_live(1, no_arguments);
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) return print_help();
+    if (strcmp(argv[1], "--version") == 0) {
+        printf("wiggly %s (%s)\n", WIGGLY_VERSION, build_commit);
+        return 0;
+    }
+    const struct command *command = find_command(argv[1]);
+    if (command) return command->run(argc - 1, argv + 1);
+    if (!means_live(argv[1])) return wrong_command(argv[1]);
+    argv[0] = live;
+    return command_live(argc, argv);
+}

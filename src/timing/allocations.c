@@ -1,0 +1,61 @@
+/// Counts the allocations of our own objects: the linker (-Wl,--wrap=malloc and kin) sends their calls here, while libraries
+/// and the driver call the C library directly and are not counted.
+#include "timing/framelog.h"
+#include <stdatomic.h>
+#include <stdlib.h>
+
+static atomic_long count;
+
+static void count_one(void) { atomic_fetch_add_explicit(&count, 1, memory_order_relaxed); }
+
+long allocation_count(void) { return atomic_load_explicit(&count, memory_order_relaxed); }
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t members, size_t size);
+void *__real_realloc(void *memory, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
+int __real_posix_memalign(void **memory, size_t alignment, size_t size);
+char *__real_strdup(const char *text);
+
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t members, size_t size);
+void *__wrap_realloc(void *memory, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
+int __wrap_posix_memalign(void **memory, size_t alignment, size_t size);
+char *__wrap_strdup(const char *text);
+
+void *__wrap_malloc(size_t size)
+{
+    count_one();
+    return __real_malloc(size);
+}
+
+void *__wrap_calloc(size_t members, size_t size)
+{
+    count_one();
+    return __real_calloc(members, size);
+}
+
+void *__wrap_realloc(void *memory, size_t size)
+{
+    count_one();
+    return __real_realloc(memory, size);
+}
+
+void *__wrap_aligned_alloc(size_t alignment, size_t size)
+{
+    count_one();
+    return __real_aligned_alloc(alignment, size);
+}
+
+int __wrap_posix_memalign(void **memory, size_t alignment, size_t size)
+{
+    count_one();
+    return __real_posix_memalign(memory, alignment, size);
+}
+
+char *__wrap_strdup(const char *text)
+{
+    count_one();
+    return __real_strdup(text);
+}

@@ -1,0 +1,40 @@
+/// The columns of the timing log, for its writer and its readers.
+#ifndef TIMING_COLUMNS_H
+#define TIMING_COLUMNS_H
+
+#include "timing/framelog.h"
+#include <stddef.h>
+
+#define TIMING_SCHEMA "wiggly-frames 1"
+
+enum column_use {
+    COLUMN_LABEL,   ///< identifies the frame; never compared
+    COLUMN_WAIT,    ///< time given away: more of it is no loss
+    COLUMN_COST,    ///< less is better
+    COLUMN_COUNTER, ///< the same in every run of the same session
+};
+
+struct column {
+    const char *name;
+    enum column_use use;
+    bool is_count; ///< a long in struct frame_row, else a double
+    int decimals;  ///< of a double, in the file
+    size_t offset; ///< in struct frame_row
+    double grain;  ///< COLUMN_COST: smaller differences are the clock's, not the program's
+};
+
+enum {
+    COLUMN_FRAME,
+    COLUMN_TIME,
+    COLUMN_FRAME_MS,
+    COLUMN_SOLVE_US = 6,
+    COLUMN_EVENT_TO_SWAP_US = 16,
+    COLUMN_COUNT = 19
+};
+
+extern const struct column timing_columns[COLUMN_COUNT];
+
+/// The number in a column of a row; NAN where it was not measured.
+double column_value(const struct column *column, const struct frame_row *row);
+
+#endif

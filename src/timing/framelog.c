@@ -1,0 +1,209 @@
+#include "base/build.h"
+#include "timing/columns.h"
+#include "timing/statistics.h"
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/utsname.h>
+#include <wiggly/wiggly.h>
+
+enum { BLOCK_ROWS = 256 };
+static const double SLOW_FRAME_MS = 1000.0 / 30;
+static const int LOW_NEEDS_FRAMES = 1000;
+
+struct framelog {
+    FILE *file; ///< NULL: for the summary only, or a write failed
+    char *path;
+    int write_errno; ///< of the first failed write
+    int warm_up;
+    struct frame_row *rows; ///< ring: row n of the run at n % capacity
+    double *scratch;        ///< capacity numbers, for sorting
+    int capacity;
+    long pushed, written; ///< rows of the run so far
+};
+
+static void write_cpu(FILE *file)
+{
+    char line[256];
+    FILE *info = fopen("/proc/cpuinfo", "r");
+    while (info && fgets(line, sizeof line, info)) {
+        const char *name = strncmp(line, "model name", 10) == 0 ? strchr(line, ':') : NULL;
+        if (!name) continue;
+        fprintf(file, "# cpu: %s", name + 2);
+        fclose(info);
+        return;
+    }
+    if (info) fclose(info);
+    fprintf(file, "# cpu: NA\n");
+}
+
+static void write_milliseconds(FILE *file, const char *key, double value)
+{
+    if (isnan(value)) {
+        fprintf(file, "# %s: NA\n", key);
+    } else {
+        fprintf(file, "# %s: %.3f\n", key, value);
+    }
+}
+
+static void write_header(FILE *file, const struct frame_header *header)
+{
+    struct utsname os;
+    bool known = uname(&os) == 0;
+    fprintf(file, "# schema: " TIMING_SCHEMA "\n");
+    fprintf(file, "# wiggly: %s (%s)\n", WIGGLY_VERSION, build_commit);
+    fprintf(file, "# compiler: %s %s\n", build_compiler, build_flags);
+    fprintf(file, "# os: %s %s %s\n", known ? os.sysname : "NA", known ? os.release : "", known ? os.machine : "");
+    write_cpu(file);
+    fprintf(file, "# gl_renderer: %s\n", header->gl_renderer ? header->gl_renderer : "NA");
+    fprintf(file, "# size: %dx%d scale %g\n", header->width, header->height, (double)header->scale);
+    fprintf(file, "# vsync: %d\n", header->vsync);
+    fprintf(file, "# warm_up_frames: %d\n", header->warm_up);
+    write_milliseconds(file, "reference_frame_ms", header->reference_ms);
+    write_milliseconds(file, "first_frame_ms", header->first_frame_ms);
+    for (int c = 0; c < COLUMN_COUNT; c++) fprintf(file, "%s%s", c ? "," : "", timing_columns[c].name);
+    fputc('\n', file);
+}
+
+static void write_row(FILE *file, const struct frame_row *row)
+{
+    for (int c = 0; c < COLUMN_COUNT; c++) {
+        double value = column_value(&timing_columns[c], row);
+        if (c) fputc(',', file);
+        if (isnan(value)) {
+            fputs("NA", file);
+        } else {
+            fprintf(file, "%.*f", timing_columns[c].decimals, value);
+        }
+    }
+    fputc('\n', file);
+}
+
+/// Closes the file at the first failure, so that a full disk is met once and not at every block.
+static void check_written(struct framelog *log)
+{
+    if (fflush(log->file) == 0 && !ferror(log->file)) return;
+    log->write_errno = errno ? errno : EIO;
+    fclose(log->file);
+    log->file = NULL;
+}
+
+static void write_block(struct framelog *log)
+{
+    for (; log->file && log->written < log->pushed; log->written++) {
+        write_row(log->file, &log->rows[log->written % log->capacity]);
+    }
+    if (log->file) check_written(log);
+}
+
+static void framelog_free(struct framelog *log)
+{
+    if (!log) return;
+    if (log->file) fclose(log->file);
+    free(log->path);
+    free(log->rows);
+    free(log->scratch);
+    free(log);
+}
+
+struct framelog *framelog_open(const char *path, const struct frame_header *header, int capacity, struct error *error)
+{
+    struct framelog *log = calloc(1, sizeof *log);
+    if (log) {
+        log->capacity = capacity > BLOCK_ROWS ? capacity : BLOCK_ROWS;
+        log->warm_up = header->warm_up;
+        log->rows = calloc((size_t)log->capacity, sizeof *log->rows);
+        log->scratch = calloc((size_t)log->capacity, sizeof *log->scratch);
+        log->path = path ? strdup(path) : NULL;
+    }
+    if (!log || !log->rows || !log->scratch || (path && !log->path)) {
+        fail(error, ERROR_ENVIRONMENT, "out of memory for a timing log of %d frames", capacity);
+        framelog_free(log);
+        return NULL;
+    }
+    if (!path) return log;
+    log->file = fopen(path, "w");
+    if (!log->file) {
+        fail(error, ERROR_ENVIRONMENT, "%s: the timing log cannot be made: %s", path, strerror(errno));
+        framelog_free(log);
+        return NULL;
+    }
+    write_header(log->file, header);
+    return log;
+}
+
+void framelog_push(struct framelog *log, const struct frame_row *row)
+{
+    log->rows[log->pushed++ % log->capacity] = *row;
+    if (log->pushed - log->written >= BLOCK_ROWS) write_block(log);
+    if (!log->file) log->written = log->pushed;
+}
+
+/// Collects the measured values of a column over the frames from `first` on, sorted, in the log's scratch.
+static int collect(const struct framelog *log, long first, int column)
+{
+    int count = 0;
+    for (long n = first; n < log->pushed; n++) {
+        double value = column_value(&timing_columns[column], &log->rows[n % log->capacity]);
+        if (!isnan(value)) log->scratch[count++] = value;
+    }
+    statistics_sort(log->scratch, count);
+    return count;
+}
+
+static void print_percentiles(const struct framelog *log, long first, int column, double to_ms, const char *what,
+                              FILE *out)
+{
+    int count = collect(log, first, column);
+    if (count == 0) return;
+    fprintf(out, "%-14s p50 %8.3f ms   p95 %8.3f ms   p99 %8.3f ms\n", what,
+            to_ms * statistics_quantile(log->scratch, count, 0.5),
+            to_ms * statistics_quantile(log->scratch, count, 0.95),
+            to_ms * statistics_quantile(log->scratch, count, 0.99));
+}
+
+static void print_slow_frames(const struct framelog *log, long first, FILE *out)
+{
+    int count = collect(log, first, COLUMN_FRAME_MS);
+    int slow = 0;
+    while (slow < count && log->scratch[count - 1 - slow] > SLOW_FRAME_MS) slow++;
+    fprintf(out, "over 33.3 ms   %d of %d frames\n", slow, count);
+    if (count < LOW_NEEDS_FRAMES) return;
+    fprintf(out, "1 %% low        %.1f fps\n", 1000 / statistics_quantile(log->scratch, count, 0.99));
+}
+
+static void print_summary(const struct framelog *log, FILE *out)
+{
+    long oldest = log->pushed > log->capacity ? log->pushed - log->capacity : 0;
+    long first = oldest > log->warm_up ? oldest : log->warm_up;
+    if (first >= log->pushed) {
+        fprintf(out, "frames         %ld, all of them warm-up: nothing to sum up\n", log->pushed);
+        return;
+    }
+    const struct frame_row *start = &log->rows[first % log->capacity];
+    const struct frame_row *end = &log->rows[(log->pushed - 1) % log->capacity];
+    double elapsed = end->t_s + end->frame_ms / 1000 - start->t_s;
+    long frames = log->pushed - first;
+    fprintf(out, "frames         %ld in %.2f s, %.1f fps on average", frames, elapsed, (double)frames / elapsed);
+    fprintf(out, ", the first %ld left out\n", first);
+    print_percentiles(log, first, COLUMN_FRAME_MS, 1, "frame", out);
+    print_percentiles(log, first, COLUMN_SOLVE_US, 1e-3, "solve", out);
+    print_percentiles(log, first, COLUMN_EVENT_TO_SWAP_US, 1e-3, "event to swap", out);
+    print_slow_frames(log, first, out);
+}
+
+bool framelog_close(struct framelog *log, FILE *summary, struct error *error)
+{
+    if (log->file) write_block(log);
+    if (log->file && fclose(log->file) != 0) log->write_errno = errno;
+    log->file = NULL;
+    if (summary) print_summary(log, summary);
+    bool written = log->write_errno == 0;
+    if (!written) {
+        fail(error, ERROR_ENVIRONMENT, "%s: the timing log could not be written: %s", log->path,
+             strerror(log->write_errno));
+    }
+    framelog_free(log);
+    return written;
+}

@@ -1,0 +1,46 @@
+/// The timing log: one row a frame in memory, written as CSV in blocks outside the timed part, and summed up at the end.
+#ifndef TIMING_FRAMELOG_H
+#define TIMING_FRAMELOG_H
+
+#include "base/error.h"
+#include <stdio.h>
+
+/// One frame; microseconds unless the name says otherwise. NAN, and below 0 in a count, is written as NA: not measured.
+struct frame_row {
+    long frame; ///< from 0 in every run
+    double t_s; ///< seconds since the start of the process, when the timed part (input to the end of the swap) began
+    double frame_ms, wait_us, input_us, edit_us, solve_us, pose_us, upload_us, draw_us, gpu_us, swap_us;
+    long splines_solved, samples, knots, edited;
+    double event_to_swap_us; ///< oldest event of the frame to the end of the swap; NAN where none came
+    long allocations, uploaded_bytes;
+};
+
+/// What the header says; strings are copied.
+struct frame_header {
+    const char *gl_renderer;
+    int width, height;
+    float scale;
+    int vsync;
+    int warm_up;           ///< frames left out of the summary and marked in the header
+    double reference_ms;   ///< median of the fixed reference frame
+    double first_frame_ms; ///< start of the process to the end of the first swap; NAN for these two: NA
+};
+
+struct framelog;
+
+/// `path` may be NULL: rows are kept for the summary only. Memory for `capacity` rows is taken at once; when full, older rows
+/// stay in the file but leave the summary (a long live session). NULL with a sentence where the file cannot be made.
+struct framelog *framelog_open(const char *path, const struct frame_header *header, int capacity,
+                               struct error *error);
+
+/// Adds a row. Allocates nothing, writes nothing but at full blocks of 256 rows: call it outside the timed part.
+/// After a failed write the file is left alone; framelog_close() says so once.
+void framelog_push(struct framelog *log, const struct frame_row *row);
+
+/// Writes what is left, checks every call; with `summary` prints frames, fps, percentiles, frames over 33.3 ms. Frees the log.
+bool framelog_close(struct framelog *log, FILE *summary, struct error *error);
+
+/// Allocations by our own objects since the start of the process (-Wl,--wrap=malloc, calloc, realloc).
+long allocation_count(void);
+
+#endif

@@ -1,0 +1,126 @@
+#include "timing/readlog.h"
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// Where the reader is.
+struct cursor {
+    const char *path;
+    int line;
+    int warm_up;  ///< of this run
+    int seen;     ///< frames of this run, warm-up included
+    bool named;   ///< this run's column names were read
+    int capacity; ///< rows that there is room for
+    struct timing_log *log;
+    struct error *error;
+};
+
+static bool bad(const struct cursor *at, const char *expected, const char *got)
+{
+    return fail(at->error, ERROR_INPUT, "%s:%d: expected %s, got '%.80s'", at->path, at->line, expected, got);
+}
+
+static bool read_comment(struct cursor *at, const char *text)
+{
+    static const char schema[] = "# schema: ", warm_up[] = "# warm_up_frames: ";
+    if (strncmp(text, schema, sizeof schema - 1) == 0) {
+        if (strcmp(text + sizeof schema - 1, TIMING_SCHEMA) != 0) {
+            return bad(at, "the schema " TIMING_SCHEMA, text + sizeof schema - 1);
+        }
+        at->log->runs++;
+        at->warm_up = at->seen = 0;
+        at->named = false;
+    } else if (strncmp(text, warm_up, sizeof warm_up - 1) == 0) {
+        at->warm_up = atoi(text + sizeof warm_up - 1);
+    }
+    return true;
+}
+
+static bool read_names(struct cursor *at, const char *text)
+{
+    char expected[512];
+    size_t length = 0;
+    for (int c = 0; c < COLUMN_COUNT; c++) {
+        length += (size_t)snprintf(expected + length, sizeof expected - length, "%s%s", c ? "," : "",
+                                   timing_columns[c].name);
+    }
+    if (at->log->runs == 0) return bad(at, "a timing log's '# schema:' line first", text);
+    if (strcmp(text, expected) != 0) return bad(at, "the column names of " TIMING_SCHEMA, text);
+    at->named = true;
+    return true;
+}
+
+static bool grow(struct cursor *at)
+{
+    struct timing_log *log = at->log;
+    if (log->rows < at->capacity) return true;
+    if (at->capacity > INT_MAX / 2 / COLUMN_COUNT)
+        return fail(at->error, ERROR_INPUT, "%s: too many frames", at->path);
+    int capacity = at->capacity ? 2 * at->capacity : 1024;
+    double *values = realloc(log->values, (size_t)capacity * COLUMN_COUNT * sizeof *values);
+    if (values) log->values = values;
+    int *run = realloc(log->run, (size_t)capacity * sizeof *run);
+    if (run) log->run = run;
+    if (!values || !run) return fail(at->error, ERROR_ENVIRONMENT, "%s: out of memory", at->path);
+    at->capacity = capacity;
+    return true;
+}
+
+static bool read_row(struct cursor *at, const char *text)
+{
+    if (at->seen++ < at->warm_up) return true;
+    if (!grow(at)) return false;
+    struct timing_log *log = at->log;
+    double *row = &log->values[(size_t)log->rows * COLUMN_COUNT];
+    const char *rest = text;
+    for (int c = 0; c < COLUMN_COUNT; c++) {
+        char *end;
+        bool missing = strncmp(rest, "NA", 2) == 0;
+        row[c] = missing ? NAN : strtod(rest, &end);
+        if (missing) end = (char *)rest + 2;
+        if (end == rest || *end != (c + 1 < COLUMN_COUNT ? ',' : 0) || (!missing && !isfinite(row[c]))) {
+            return bad(at, "19 numbers or NA, separated by commas", text);
+        }
+        rest = end + 1;
+    }
+    log->run[log->rows++] = log->runs - 1;
+    return true;
+}
+
+static bool read_line(struct cursor *at, char *text)
+{
+    text[strcspn(text, "\r\n")] = 0;
+    if (*text == '#') return read_comment(at, text);
+    return at->named ? read_row(at, text) : read_names(at, text);
+}
+
+bool timing_log_read(const char *path, struct timing_log *log, struct error *error)
+{
+    *log = (struct timing_log){0};
+    struct cursor at = {.path = path, .log = log, .error = error};
+    FILE *file = fopen(path, "r");
+    if (!file) return fail(error, ERROR_INPUT, "%s: %s", path, strerror(errno));
+    char *text = NULL;
+    size_t size = 0;
+    bool good = true;
+    while (good && getline(&text, &size, file) >= 0) {
+        at.line++;
+        good = read_line(&at, text);
+    }
+    if (good && ferror(file)) good = fail(error, ERROR_INPUT, "%s: %s", path, strerror(errno));
+    if (good && log->rows == 0)
+        good = fail(error, ERROR_INPUT, "%s: there are no frames after the warm-up ones", path);
+    free(text);
+    fclose(file);
+    if (!good) timing_log_free(log);
+    return good;
+}
+
+void timing_log_free(struct timing_log *log)
+{
+    free(log->values);
+    free(log->run);
+    *log = (struct timing_log){0};
+}

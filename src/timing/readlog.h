@@ -1,0 +1,18 @@
+/// Reads timing logs back, several runs in a row too (`cat run1.csv run2.csv`).
+#ifndef TIMING_READLOG_H
+#define TIMING_READLOG_H
+
+#include "timing/columns.h"
+
+/// All frames of all runs but the warm-up ones.
+struct timing_log {
+    double *values; ///< rows × COLUMN_COUNT, NAN where NA
+    int *run;       ///< per row, from 0
+    int rows, runs;
+};
+
+/// false with a sentence: not readable, another schema, not a number, no frames. Nothing is left to free then.
+bool timing_log_read(const char *path, struct timing_log *log, struct error *error);
+void timing_log_free(struct timing_log *log);
+
+#endif

@@ -1,0 +1,31 @@
+# What the test scripts share: cases that are counted by tools/run-tests.sh. Sourced, not run.
+cases_failed=0
+
+ok() { # <what> <status of what was tried, 0 is good>
+    if [ "$2" -eq 0 ]; then
+        echo "ok - $1"
+    else
+        echo "not ok - $1"
+        cases_failed=$((cases_failed + 1))
+    fi
+}
+
+# Runs a command and expects an exit status; its output is in $out and $err.
+expect() { # <status> <what> <command>...
+    local wanted=$1 what=$2 status=0
+    shift 2
+    "$@" >"$scratch/stdout" 2>"$scratch/stderr" || status=$?
+    out=$(cat "$scratch/stdout")
+    err=$(cat "$scratch/stderr")
+    [ $status -eq "$wanted" ] || printf '  exit status %d, expected %d, from: %s\n%s\n' $status "$wanted" "$*" "$err"
+    ok "$what" $((status != wanted))
+}
+
+says() { # <what> <fragment> <text>
+    local status=0
+    case $3 in *"$2"*) ;; *) status=1; printf '  expected "%s" in: %s\n' "$2" "$3" ;; esac
+    ok "$1" $status
+}
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT

@@ -1,0 +1,101 @@
+# The real binary from the outside: usage, exit statuses, every broken scene, a headless run of the live app.
+. tests/check.sh
+WIGGLY=${WIGGLY:-build/wiggly}
+unset DISPLAY WAYLAND_DISPLAY
+
+one_sentence() { # <what> <text>
+    [ -n "$2" ] && [ "$(printf '%s\n' "$2" | wc -l)" -eq 1 ]
+    ok "$1" $?
+}
+
+# --- usage
+
+expect 0 "--version" "$WIGGLY" --version
+says "--version gives version and commit" "wiggly $(sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h) (" "$out"
+expect 0 "--help" "$WIGGLY" --help
+for command in live solve check bench; do
+    says "--help lists $command" "  $command " "$out"
+done
+for command in live solve check bench; do
+    expect 0 "$command --help" "$WIGGLY" $command --help
+    says "$command --help says how it is called" "Usage: wiggly $command" "$out"
+    expect 2 "$command refuses an unknown option" "$WIGGLY" $command --hlep
+    says "$command names the option and the nearest right one" "no option --hlep (did you mean --help?)" "$err"
+    one_sentence "$command says it in one line" "$err"
+done
+
+expect 2 "an unknown command" "$WIGGLY" slove
+says "names the nearest right one" "there is no command slove (did you mean solve?)" "$err"
+expect 2 "a command that is like none" "$WIGGLY" xyzzyxyzzy
+says "is named without a guess" "there is no command xyzzyxyzzy; see" "$err"
+expect 2 "solve without a scene" "$WIGGLY" solve
+says "says what is missing" "scene.json" "$err"
+expect 2 "an option without its value" "$WIGGLY" live --headless --frames
+says "says which" "--frames needs a value" "$err"
+expect 2 "a number that is none" "$WIGGLY" live --headless --frames ten
+says "says what was expected and got" "expected a whole number" "$err"
+says "and what it got" "'ten'" "$err"
+expect 2 "a size that is none" "$WIGGLY" live --headless --size 1280
+expect 2 "one argument too many" "$WIGGLY" check a.json b.json
+says "says which one" "'b.json'" "$err"
+
+# --- solve and check
+
+scene=tests/vectors/complex_default.json
+expect 0 "check of a good scene" "$WIGGLY" check "$scene"
+expect 0 "solve of a good scene" "$WIGGLY" solve "$scene"
+says "writes the header" "frame,$(sed -n '1s/^frame,\([^,]*\),.*/\1/p' tests/vectors/complex_default.csv)" "$(head -n 1 <<<"$out")"
+expect 0 "solve -o" "$WIGGLY" solve "$scene" -o "$scratch/out.csv"
+[ "$out" = "" ] && [ "$(wc -l <"$scratch/out.csv")" -eq "$(wc -l <tests/vectors/complex_default.csv)" ]
+ok "the file has a line a sample and stdout nothing" $?
+expect 3 "solve to a folder that is not there" "$WIGGLY" solve "$scene" -o "$scratch/no/out.csv"
+one_sentence "says so in one line" "$err"
+expect 1 "a scene that is not there" "$WIGGLY" solve "$scratch/missing.json"
+says "is named" "missing.json" "$err"
+expect 1 "a folder in place of a scene" "$WIGGLY" check "$scratch"
+
+# --- every broken scene: exit status 1, one sentence that names the file and the fault, no crash
+
+if [ -s tests/bad/expected.txt ]; then
+    while IFS=$'\t' read -r file fragment; do
+        case $file in "" | "#"*) continue ;; esac
+        expect 1 "solve refuses $file" "$WIGGLY" solve "tests/bad/$file"
+        one_sentence "$file: one sentence" "$err"
+        says "$file: names the file" "$file" "$err"
+        says "$file: says what is wrong" "$fragment" "$err"
+        expect 1 "check refuses $file" "$WIGGLY" check "tests/bad/$file"
+    done <tests/bad/expected.txt
+else
+    ok "tests/bad/expected.txt lists the broken scenes" 1
+fi
+
+# --- the live app without a display
+
+live() { "$WIGGLY" live --headless --size 640x360 "$@"; }
+expect 0 "live --headless" live --frames 150 --log "$scratch/live.csv" --screenshot "$scratch/live.png" --result "$scratch/end.json"
+says "prints the summary" "fps on average" "$out"
+[ "$(identify -format '%m %wx%h' "$scratch/live.png" 2>&1)" = "PNG 640x360" ]
+ok "the picture is a PNG of the size asked for" $?
+[ "$(identify -format '%k' "$scratch/live.png" 2>/dev/null || echo 0)" -gt 100 ]
+ok "the picture is not empty" $?
+[ "$(grep -cvE '^(#|frame)' "$scratch/live.csv")" -eq 150 ]
+ok "the log has a row a frame" $?
+allocations=$(awk -F, 'BEGIN { total = 0 }
+    /^frame/ { for (c = 1; c <= NF; c++) if ($c == "allocations") column = c; next }
+    !/^#/ && $1 >= 60 { if ($column == "NA") unknown = 1; total += $column }
+    END { print unknown ? "NA" : total }' "$scratch/live.csv")
+[ "$allocations" = 0 ] || echo "  allocations after frame 60: $allocations"
+[ "$allocations" = 0 ]
+ok "playing allocates nothing" $?
+expect 0 "the document at the end is a good scene" "$WIGGLY" check "$scratch/end.json"
+expect 0 "it opens again" live --frames 2 "$scratch/end.json"
+expect 0 "without a display and without --headless" "$WIGGLY" live --frames 2 --size 640x360
+says "it says that it runs headless" "headless" "$out$err"
+elsewhere() { (cd "$scratch" && "$binary" live --headless --frames 2 --size 640x360); }
+binary=$(realpath "$WIGGLY")
+expect 0 "the built-in tail is found from any folder" elsewhere
+expect 1 "live with a broken scene" live --frames 2 tests/vectors/complex_default.csv
+expect 3 "a log that cannot be made" live --frames 2 --log "$scratch/no/live.csv"
+one_sentence "says so in one line" "$err"
+says "with its path" "no/live.csv" "$err"
+exit $((cases_failed > 0))

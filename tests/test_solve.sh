@@ -1,0 +1,58 @@
+# wiggly solve and wiggly check: what they write, and what they say of scenes that are odd but not wrong.
+. tests/check.sh
+WIGGLY=${WIGGLY:-build/wiggly}
+
+# Names with commas, quotes and line ends, frames before zero and between frames, few digits and many.
+cat >"$scratch/names.json" <<'END'
+{"frames": [-1, 0], "substeps": 3, "splines": [
+  {"name": "a,b", "mode": "cubic", "knots": [{"frame": 0, "value": 0.1}]},
+  {"name": "say \"hi\"", "mode": "cubic"},
+  {"name": "two\nlines", "mode": "cubic"}]}
+END
+expect 0 "solve of odd names" "$WIGGLY" solve "$scratch/names.json"
+expected='frame,"a,b","a,b.re","a,b.im","say ""hi""","say ""hi"".re","say ""hi"".im","two
+lines","two
+lines.re","two
+lines.im"
+-1,0.10000000000000001,0.10000000000000001,0,0,0,0,0,0,0
+-0.6666666666666667,'
+says "quotes as RFC 4180 wants, 17 digits, frames as short as they can be" "$expected" "$out"
+
+printf '{"frames": [0, 1]}' >"$scratch/none.json"
+expect 0 "solve of no splines" "$WIGGLY" solve "$scratch/none.json"
+says "writes the frames" "frame
+0
+1" "$out"
+
+# Singular as asked: said by name, and solved all the same.
+cat >"$scratch/singular.json" <<'END'
+{"frames": [0, 48], "splines": [{"name": "loose", "frequency": 1, "calm": 0,
+  "knots": [{"frame": 0, "value": 0}, {"frame": 24, "value": 1}]}]}
+END
+expect 0 "solve of a singular scene" "$WIGGLY" solve "$scratch/singular.json"
+says "names the spline on stderr" '"loose": ' "$err"
+expect 0 "check of a singular scene" "$WIGGLY" check "$scratch/singular.json"
+says "names the spline" 'warning: ' "$out"
+
+expect 0 "check of a loop whose equilibrium jumps" "$WIGGLY" check tests/vectors/loop_moving_equilibrium.json
+says "says so" "the equilibrium of this loop does not end where it begins" "$out"
+
+for scene in assets/scenes/*.json; do
+    expect 0 "check of $scene" "$WIGGLY" check "$scene"
+    [ -z "$out$err" ]
+    ok "has nothing to say about $scene" $?
+done
+
+printf '{"frames": [9, 0], "fps": -1,\n"splines": [{"name": 3}]}' >"$scratch/bad.json"
+expect 1 "check of a scene with three errors" "$WIGGLY" check "$scratch/bad.json"
+[ "$(wc -l <<<"$out")" -eq 3 ]
+ok "prints all three" $?
+says "with the line" "bad.json:2: splines[0].name: expected a string, got a number" "$out"
+
+printf 'old' >"$scratch/out.csv"
+expect 1 "solve -o of a bad scene" "$WIGGLY" solve "$scratch/bad.json" -o "$scratch/out.csv"
+[ "$(cat "$scratch/out.csv")" = old ]
+ok "leaves the old file alone" $?
+expect 3 "solve to a full disk" "$WIGGLY" solve assets/scenes/figure1.json -o /dev/full
+says "says so" "/dev/full: cannot be written: No space left on device" "$err"
+exit $((cases_failed > 0))

@@ -1,0 +1,333 @@
+/// The timing log is evidence: what it writes, what it sums up and what timing_diff concludes must be exact.
+#include "near.h"
+#include "timing/readlog.h"
+#include "timing/statistics.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/wiggly-test-XXXXXX";
+static char path[sizeof folder + 16], other_path[sizeof folder + 16];
+
+static const struct frame_header header = {.gl_renderer = "test",
+                                           .width = 1280,
+                                           .height = 720,
+                                           .scale = 1,
+                                           .warm_up = 2,
+                                           .reference_ms = 9.5,
+                                           .first_frame_ms = NAN};
+
+/// A frame that took `ms`, with everything else told apart by its number.
+static struct frame_row row(long frame, double ms)
+{
+    return (struct frame_row){.frame = frame,
+                              .t_s = 0.02 * (double)frame,
+                              .frame_ms = ms,
+                              .wait_us = 10,
+                              .solve_us = 100 * ms,
+                              .gpu_us = NAN,
+                              .splines_solved = frame % 2,
+                              .samples = 121,
+                              .knots = 5,
+                              .event_to_swap_us = NAN,
+                              .allocations = -1};
+}
+
+/// Writes a log of `count` frames that take base + 0.01·(frame mod 10) ms; returns its summary in `text`.
+static void write_log(const char *to, int count, int capacity, double base, char *text, size_t size)
+{
+    struct error error = {0};
+    struct framelog *log = framelog_open(to, &header, capacity, &error);
+    assert_non_null(log);
+    for (int i = 0; i < count; i++) {
+        struct frame_row frame = row(i, base + 0.01 * (i % 10));
+        framelog_push(log, &frame);
+    }
+    memset(text, 0, size);
+    FILE *summary = fmemopen(text, size - 1, "w");
+    assert_non_null(summary);
+    assert_true(framelog_close(log, summary, &error));
+    fclose(summary);
+}
+
+static void test_what_is_written_reads_back(void **state)
+{
+    (void)state;
+    char text[1024];
+    write_log(path, 600, 4096, 10, text, sizeof text);
+    struct timing_log log;
+    struct error error = {0};
+    assert_true(timing_log_read(path, &log, &error));
+    assert_int_equal(log.rows, 598); // the two warm-up frames are left out
+    assert_int_equal(log.runs, 1);
+    const double *last = &log.values[597 * COLUMN_COUNT];
+    assert_near(last[COLUMN_FRAME], 599, 0);
+    assert_near(last[COLUMN_TIME], 11.98, 1e-6);
+    assert_near(last[COLUMN_FRAME_MS], 10.09, 1e-4);
+    assert_near(last[COLUMN_SOLVE_US], 1009, 0.1);
+    assert_true(isnan(last[COLUMN_EVENT_TO_SWAP_US]));
+    assert_true(isnan(last[17])); // allocations that were not measured are not 0
+    timing_log_free(&log);
+}
+
+static void test_header_says_where_it_was_measured(void **state)
+{
+    (void)state;
+    char text[1024], file_text[4096] = "";
+    write_log(path, 3, 256, 10, text, sizeof text);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    size_t length = fread(file_text, 1, sizeof file_text - 1, file);
+    fclose(file);
+    assert_true(length > 0);
+    const char *keys[] = {"# schema: " TIMING_SCHEMA "\n",
+                          "# wiggly: ",
+                          "# compiler: ",
+                          "# os: Linux",
+                          "# cpu: ",
+                          "# gl_renderer: test\n",
+                          "# size: 1280x720 scale 1\n",
+                          "# vsync: 0\n",
+                          "# warm_up_frames: 2\n",
+                          "# reference_frame_ms: 9.500\n",
+                          "# first_frame_ms: NA\n"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+        if (!strstr(file_text, keys[i])) fail_msg("the header lacks %s:\n%s", keys[i], file_text);
+    }
+    assert_non_null(
+        strstr(file_text, "\n2,0.040000,10.0200,10.0,0.0,0.0,1002.0,0.0,0.0,0.0,NA,0.0,0,121,5,0,NA,NA,0\n"));
+}
+
+static void test_summary(void **state)
+{
+    (void)state;
+    char text[1024];
+    // 500 frames 20 ms apart from the third on: 498 frames in 497·20 ms + the last one's 10.09 ms
+    write_log(NULL, 500, 4096, 10, text, sizeof text);
+    assert_non_null(strstr(text, "498 in 9.95 s, 50.0 fps on average, the first 2 left out"));
+    assert_non_null(strstr(text, "frame          p50   10.050 ms"));
+    assert_non_null(strstr(text, "solve          p50    1.005 ms"));
+    assert_non_null(strstr(text, "over 33.3 ms   0 of 498 frames"));
+    assert_null(strstr(text, "1 % low")); // too few frames for it
+    assert_null(strstr(text, "event to swap"));
+
+    write_log(NULL, 1002, 4096, 40, text, sizeof text);
+    assert_non_null(strstr(text, "over 33.3 ms   1000 of 1000 frames"));
+    assert_non_null(strstr(text, "1 % low        24.9 fps"));
+
+    write_log(NULL, 2, 4096, 10, text, sizeof text);
+    assert_non_null(strstr(text, "nothing to sum up"));
+}
+
+static void test_long_session_keeps_the_last_frames(void **state)
+{
+    (void)state;
+    char text[1024];
+    write_log(path, 1000, 256, 10, text, sizeof text);
+    assert_non_null(strstr(text, "256 in 5.11 s"));
+    struct timing_log log;
+    struct error error = {0};
+    assert_true(timing_log_read(path, &log, &error));
+    assert_int_equal(log.rows, 998); // the file has them all
+    timing_log_free(&log);
+}
+
+static void test_pushing_allocates_nothing(void **state)
+{
+    (void)state;
+    struct error error = {0};
+    struct framelog *log = framelog_open(path, &header, 1024, &error);
+    assert_non_null(log);
+    long before = allocation_count();
+    assert_true(before > 0);
+    for (int i = 0; i < 700; i++) {
+        struct frame_row frame = row(i, 10);
+        framelog_push(log, &frame);
+    }
+    assert_int_equal(allocation_count() - before, 0);
+    assert_true(framelog_close(log, NULL, &error));
+}
+
+static void test_failures_name_the_path(void **state)
+{
+    (void)state;
+    struct error error = {0};
+    assert_null(framelog_open("/no/such/folder/a.csv", &header, 256, &error));
+    assert_int_equal(error.kind, ERROR_ENVIRONMENT);
+    assert_non_null(strstr(error.text, "/no/such/folder/a.csv"));
+
+    struct framelog *log = framelog_open("/dev/full", &header, 256, &error);
+    assert_non_null(log);
+    for (int i = 0; i < 1000; i++) {
+        struct frame_row frame = row(i, 10);
+        framelog_push(log, &frame);
+    }
+    assert_false(framelog_close(log, NULL, &error));
+    assert_non_null(strstr(error.text, "/dev/full: the timing log could not be written: No space left on device"));
+}
+
+static void test_broken_logs_are_refused(void **state)
+{
+    (void)state;
+    const struct {
+        const char *text, *says;
+    } cases[] = {
+        {"frame,t_s\n0,0\n", ":1: expected a timing log's '# schema:' line first"},
+        {"# schema: wiggly-frames 99\n", ":1: expected the schema wiggly-frames 1, got 'wiggly-frames 99'"},
+        {"# schema: wiggly-frames 1\nframe,t_s\n", ":2: expected the column names"},
+        {"", "there are no frames"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        FILE *file = fopen(path, "w");
+        assert_non_null(file);
+        fputs(cases[i].text, file);
+        fclose(file);
+        struct timing_log log;
+        struct error error = {0};
+        assert_false(timing_log_read(path, &log, &error));
+        if (!strstr(error.text, cases[i].says)) fail_msg("'%s' does not say '%s'", error.text, cases[i].says);
+    }
+}
+
+static void test_quantiles(void **state)
+{
+    (void)state;
+    double values[] = {4, 1, 3, 2};
+    statistics_sort(values, 4);
+    assert_near(statistics_quantile(values, 4, 0), 1, 0);
+    assert_near(statistics_quantile(values, 4, 0.5), 2.5, 0);
+    assert_near(statistics_quantile(values, 4, 1), 4, 0);
+    assert_near(statistics_quantile(values, 1, 0.99), 1, 0);
+    assert_true(isnan(statistics_quantile(values, 0, 0.5)));
+}
+
+enum { FRAMES = 600 };
+
+/// Frames of 10 ms ± 20 %, times `factor`, in stretches of 60.
+static struct observations noisy(struct observation *items, unsigned seed, double factor)
+{
+    srand(seed);
+    for (int i = 0; i < FRAMES; i++) {
+        double noise = (double)rand() / RAND_MAX - 0.5;
+        items[i] = (struct observation){factor * (10 + 4 * noise), i / 60};
+    }
+    return (struct observations){items, FRAMES, FRAMES / 60};
+}
+
+static void test_interval_covers_the_true_ratio(void **state)
+{
+    (void)state;
+    static struct observation a[FRAMES], b[FRAMES];
+    struct observations old = noisy(a, 1, 1), new = noisy(b, 2, 1.2);
+    struct median_ratio first, again;
+    assert_true(statistics_median_ratio(&old, &new, false, &first));
+    assert_near(first.ratio, 1.2, 0.05);
+    assert_true(first.low < 1.2 && 1.2 < first.high);
+    assert_true(first.low > 1.1 && first.high < 1.3);
+    assert_true(statistics_median_ratio(&old, &new, false, &again));
+    assert_memory_equal(&first, &again, sizeof first); // a fixed seed: the same logs, the same verdict
+}
+
+static void test_pairs_cancel_drift(void **state)
+{
+    (void)state;
+    static struct observation a[FRAMES], b[FRAMES];
+    struct observations old = noisy(a, 1, 1), new = noisy(b, 2, 1.2);
+    for (int i = 0; i < FRAMES; i++) { // the machine slows down to half its speed over the ten pairs of runs
+        a[i].value *= 1 + 0.1 * a[i].segment;
+        b[i].value *= 1 + 0.1 * b[i].segment;
+    }
+    struct median_ratio alone, paired;
+    assert_true(statistics_median_ratio(&old, &new, false, &alone));
+    assert_true(statistics_median_ratio(&old, &new, true, &paired));
+    assert_true(paired.low < 1.2 && 1.2 < paired.high);
+    assert_true(paired.high - paired.low < 0.5 * (alone.high - alone.low));
+}
+
+/// The real program on the two logs; returns its exit status.
+static int diff_status(void)
+{
+    char command[512];
+    const char *build = getenv("B");
+    snprintf(command, sizeof command, "%s/timing_diff %s %s > /dev/null 2>&1", build ? build : "build", path,
+             other_path);
+    int status = system(command);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static int diff_status_of(double old_ms, double new_ms)
+{
+    char text[1024];
+    write_log(path, 400, 512, old_ms, text, sizeof text);
+    write_log(other_path, 400, 512, new_ms, text, sizeof text);
+    return diff_status();
+}
+
+static void test_timing_diff_verdicts(void **state)
+{
+    (void)state;
+    assert_int_equal(diff_status_of(10, 10), 0);
+    assert_int_equal(diff_status_of(10, 10.9), 0); // surely slower, but by less than 10 %
+    assert_int_equal(diff_status_of(10, 11.5), 1);
+    assert_int_equal(diff_status_of(11.5, 10), 0); // faster is no failure
+}
+
+static void test_timing_diff_compares_counters_exactly(void **state)
+{
+    (void)state;
+    char text[1024];
+    struct error error = {0};
+    assert_int_equal(diff_status_of(10, 10), 0);
+    struct framelog *log = framelog_open(other_path, &header, 512, &error);
+    assert_non_null(log);
+    for (int i = 0; i < 400; i++) {
+        struct frame_row frame = row(i, 10 + 0.01 * (i % 10));
+        frame.samples += i == 399; // one sample more, in one frame of four hundred
+        framelog_push(log, &frame);
+    }
+    assert_true(framelog_close(log, NULL, &error));
+    assert_int_equal(diff_status(), 1);
+    write_log(other_path, 399, 512, 10, text, sizeof text); // a frame less
+    assert_int_equal(diff_status(), 1);
+    FILE *broken = fopen(other_path, "w");
+    assert_non_null(broken);
+    fclose(broken);
+    assert_int_equal(diff_status(), 2);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    if (!mkdtemp(folder)) return -1;
+    snprintf(path, sizeof path, "%s/log.csv", folder);
+    snprintf(other_path, sizeof other_path, "%s/other.csv", folder);
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    unlink(path);
+    unlink(other_path);
+    return rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_what_is_written_reads_back),
+        cmocka_unit_test(test_header_says_where_it_was_measured),
+        cmocka_unit_test(test_summary),
+        cmocka_unit_test(test_long_session_keeps_the_last_frames),
+        cmocka_unit_test(test_pushing_allocates_nothing),
+        cmocka_unit_test(test_failures_name_the_path),
+        cmocka_unit_test(test_broken_logs_are_refused),
+        cmocka_unit_test(test_quantiles),
+        cmocka_unit_test(test_interval_covers_the_true_ratio),
+        cmocka_unit_test(test_pairs_cancel_drift),
+        cmocka_unit_test(test_timing_diff_verdicts),
+        cmocka_unit_test(test_timing_diff_compares_counters_exactly),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,32 @@
+#!/bin/sh
+# Formatting, static analysis, include arrows and lengths over all our C. Prints what is wrong; exit status 1 where anything is.
+set -u
+files=$(find src include tests tools examples -name '*.[ch]' | sort)
+failed=""
+
+step() { # <name> <command>...
+    name=$1
+    shift
+    if "$@"; then echo "check: $name is fine"; else failed="$failed $name"; fi
+}
+
+formatted() { # <file>...
+    wrong=$(clang-format-14 --dry-run "$@" 2>&1 | sed -n 's/^\([^:]*\):[0-9]*:[0-9]*: \(warning\|error\): .*/\1/p' | sort -u)
+    [ -z "$wrong" ] && return 0
+    echo "Not formatted (clang-format-14 -i FILE does it):" $wrong
+    return 1
+}
+
+analyse() {
+    cppcheck --quiet --error-exitcode=1 --enable=warning,performance,portability --inline-suppr --std=c11 \
+        --suppress=missingIncludeSystem -j "$(nproc)" \
+        -D_GNU_SOURCE -Isrc -Iinclude src tools 2>&1
+}
+
+# shellcheck disable=SC2086 # the list is split on purpose
+step format formatted $files
+step arrows tools/check-arrows.sh
+# shellcheck disable=SC2086
+step lengths tools/check-lengths.sh $files
+step analysis analyse
+[ -z "$failed" ] || { echo "check failed:$failed" >&2; exit 1; }
