@@ -1,0 +1,14 @@
+#version 330 core
+// Background, ground and contact shadows: quads that come in clip space, each with a disc's own coordinates.
+layout(location = 0) in vec4 clip;
+layout(location = 1) in vec2 local;
+layout(location = 2) in vec4 color;
+out vec2 disc;
+out vec4 tint;
+
+void main()
+{
+    gl_Position = clip;
+    disc = local;
+    tint = color;
+}

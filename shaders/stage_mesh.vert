@@ -1,0 +1,55 @@
+#version 330 core
+// The animal: its tail follows the joints by linear-blend skinning.
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 color;
+layout(location = 3) in float bend;
+uniform mat4 clip_from_world;
+uniform vec3 eye;
+uniform vec4 shape; // scale, joints, metres a joint, height of the ground
+uniform float seam; // metres a pixel at a distance of 1 m in the pass that softens silhouettes, else 0
+// Three rows of bind → world for each slot: slot 0 does not bend, slot n + 1 follows joint n.
+layout(std140) uniform Joints { vec4 rows[3 * 257]; };
+out vec3 world;
+out vec3 world_normal;
+out vec3 fur;
+out float open_sky;
+
+void main()
+{
+    vec4 bind = vec4(position * shape.x, 1.0);
+    // Weights: the uniform cubic B-spline along the tail, four joints at a time; smooth, and exact where it is straight.
+    float along = bind.z / shape.z - 0.5;
+    float first = floor(along);
+    float t = along - first;
+    float s = 1.0 - t;
+    vec4 weight = vec4(s * s * s, 4.0 - 3.0 * t * t * (2.0 - t), 4.0 - 3.0 * s * s * (2.0 - s), t * t * t) / 6.0;
+    vec4 slope = vec4(-s * s, t * (3.0 * t - 4.0), s * (4.0 - 3.0 * s), t * t) * (0.5 / shape.z);
+    vec4 x = vec4(0.0), y = vec4(0.0), z = vec4(0.0), dx = vec4(0.0), dy = vec4(0.0), dz = vec4(0.0);
+    for (int k = 0; k < 4; k++) {
+        int row = 3 * int(clamp(first + float(k), 0.0, shape.y));
+        x += weight[k] * rows[row];
+        y += weight[k] * rows[row + 1];
+        z += weight[k] * rows[row + 2];
+        dx += slope[k] * rows[row];
+        dy += slope[k] * rows[row + 1];
+        dz += slope[k] * rows[row + 2];
+    }
+    x = mix(rows[0], x, bend);
+    y = mix(rows[1], y, bend);
+    z = mix(rows[2], z, bend);
+    world = vec3(dot(x, bind), dot(y, bind), dot(z, bind));
+    // Normals go by the cofactors of the deformation's gradient, which counts how the weights change along the tail:
+    // d world / d bind = blended matrix + (slopes · matrices · bind) ⊗ e_z.
+    vec3 across = vec3(x.x, y.x, z.x);
+    vec3 upward = vec3(x.y, y.y, z.y);
+    vec3 lengthwise = vec3(x.z, y.z, z.z) + bend * vec3(dot(dx, bind), dot(dy, bind), dot(dz, bind));
+    world_normal = normalize(cross(upward, lengthwise) * normal.x + cross(lengthwise, across) * normal.y +
+                             cross(across, upward) * normal.z);
+    fur = color;
+    open_sky = 0.45 + 0.55 * smoothstep(0.0, 0.35 * shape.x, world.y - shape.w);
+    // The seam is the same skin, 1.3 pixels larger (1 is too little where facets are large) and pushed back behind the first
+    // pass: only what sticks out is seen.
+    vec3 ray = world - eye;
+    gl_Position = clip_from_world * vec4(world + seam * (1.3 * length(ray) * world_normal + 2.5 * ray), 1.0);
+}

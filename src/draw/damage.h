@@ -1,0 +1,40 @@
+/// What changed since the last frame, as a few rectangles. Private to draw/.
+///
+/// The framebuffer is divided into cells, with the stage's viewport on their borders. A cell's hash combines, in painter's
+/// order, the hashes of the commands that touch it, and the stage's inside its viewport. Cells whose hash is not the last
+/// frame's are gathered into rectangles.
+#ifndef DRAW_DAMAGE_H
+#define DRAW_DAMAGE_H
+
+#include "draw/area.h"
+#include <stdint.h>
+
+enum { DAMAGE_SIDE = 128, DAMAGE_RECTANGLES = 8 };
+
+/// One direction of the grid: equal cells, two of them cut where the viewport begins and ends.
+struct damage_axis {
+    int size, cell; ///< device pixels
+    int cuts[2];
+    int count;                  ///< of cells
+    int edges[DAMAGE_SIDE + 1]; ///< cell i is [edges[i], edges[i + 1])
+};
+
+struct damage {
+    uint64_t hashes[2][DAMAGE_SIDE * DAMAGE_SIDE]; ///< this frame's and the last one's, taking turns
+    int current;
+    struct damage_axis columns, rows;
+    bool known;                                ///< the last frame's hashes say what is on the screen
+    struct area rectangles[DAMAGE_RECTANGLES]; ///< disjoint, inside the framebuffer
+    int count;
+};
+
+/// The framebuffer's content is no longer that of the last damage_update().
+void damage_forget(struct damage *damage);
+
+/// Compares a frame of width × height device pixels with the last one and fills `rectangles`; all of it where nothing is
+/// known of the last one. At most one rectangle touches `viewport` (the stage's), because drawing it costs the same
+/// however little of it shows.
+void damage_update(struct damage *damage, int width, int height, float scale, const struct drawlist *list,
+                   struct area viewport, uint64_t stage_hash);
+
+#endif

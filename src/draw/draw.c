@@ -1,0 +1,185 @@
+#include "draw/draw.h"
+#include "draw/batch.h"
+#include "draw/damage.h"
+#include "draw/paint.h"
+#include "draw/reference.h"
+#include "draw/stage.h"
+#include "draw/timer.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct draw {
+    struct batch batch;
+    struct stage_renderer *stage;
+    struct atlas atlas;
+    GLuint atlas_texture;
+    struct line_scratch scratch;
+    struct damage damage;
+    struct gpu_timer timer;
+    struct reference reference;
+};
+
+static bool is_software(const char *renderer)
+{
+    return strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") || strstr(renderer, "Software");
+}
+
+/// Rasterises the fonts for `scale` and puts them into the texture; the old ones stay where that fails.
+static bool load_atlas(struct draw *draw, float scale, struct error *error)
+{
+    struct atlas atlas;
+    if (!atlas_build(scale, &atlas, error)) return false;
+    atlas_free(&draw->atlas);
+    draw->atlas = atlas;
+    if (!draw->atlas_texture) glGenTextures(1, &draw->atlas_texture);
+    glBindTexture(GL_TEXTURE_2D, draw->atlas_texture);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, atlas.width, atlas.height, 0, GL_RED, GL_UNSIGNED_BYTE, atlas.coverage);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    damage_forget(&draw->damage);
+    return true;
+}
+
+struct draw *draw_create(float scale, struct error *error)
+{
+    struct draw *draw = calloc(1, sizeof *draw);
+    if (!draw) {
+        fail(error, ERROR_ENVIRONMENT, "out of memory for drawing");
+        return NULL;
+    }
+    bool ok = batch_create(&draw->batch, error) && load_atlas(draw, scale, error);
+    if (ok) draw->stage = stage_renderer_create(error);
+    if (!draw->stage || !reference_create(&draw->reference, error)) {
+        draw_destroy(draw);
+        return NULL;
+    }
+    gpu_timer_create(&draw->timer, is_software(draw_renderer_name()));
+    return draw;
+}
+
+void draw_destroy(struct draw *draw)
+{
+    if (!draw) return;
+    gpu_timer_destroy(&draw->timer);
+    reference_destroy(&draw->reference);
+    if (draw->stage) stage_renderer_destroy(draw->stage);
+    if (draw->atlas_texture) glDeleteTextures(1, &draw->atlas_texture);
+    atlas_free(&draw->atlas);
+    batch_destroy(&draw->batch);
+    free(draw);
+}
+
+/// The bottom layer of one rectangle: panel colour, and the stage where its viewport is touched.
+static void draw_below(struct draw *draw, const struct draw_input *input, struct area area, struct area viewport)
+{
+    struct area on_stage = area_intersect(area, viewport);
+    glEnable(GL_SCISSOR_TEST);
+    if (!area_contains(viewport, area)) {
+        batch_apply_scissor(area, input->height);
+        glClearColor((THEME_PANEL >> 24 & 0xFFu) / 255.0f, (THEME_PANEL >> 16 & 0xFFu) / 255.0f,
+                     (THEME_PANEL >> 8 & 0xFFu) / 255.0f, 1.0f);
+        glClear(GL_COLOR_BUFFER_BIT);
+    }
+    if (area_empty(on_stage)) return;
+    int width = viewport.x1 - viewport.x0, height = viewport.y1 - viewport.y0;
+    batch_apply_scissor(on_stage, input->height);
+    stage_draw(draw->stage, input->stage, viewport.x0, input->height - viewport.y1, width, height);
+}
+
+static bool any_touches(const struct damage *damage, struct area viewport)
+{
+    for (int i = 0; i < damage->count; i++) {
+        if (area_touches(damage->rectangles[i], viewport)) return true;
+    }
+    return false;
+}
+
+static void draw_damage(struct draw *draw, const struct draw_input *input, struct area viewport,
+                        struct draw_cost *cost)
+{
+    const struct damage *damage = &draw->damage;
+    double start = timer_now_us();
+    if (input->stage && any_touches(damage, viewport)) stage_upload(draw->stage, input->stage, &cost->uploaded_bytes);
+    cost->upload_us = timer_now_us() - start;
+
+    gpu_timer_begin(&draw->timer);
+    struct batch *batch = &draw->batch;
+    struct painter painter = {batch, &draw->scratch, &draw->atlas, input->scale};
+    for (int i = 0; i < damage->count; i++) {
+        draw_below(draw, input, damage->rectangles[i], viewport);
+        cost->pixels += area_pixels(damage->rectangles[i]);
+    }
+    batch_begin(batch, input->width, input->height, draw->atlas_texture, draw->atlas.width, draw->atlas.height);
+    for (int i = 0; i < damage->count; i++) paint_list(&painter, input->list, damage->rectangles[i]);
+    batch_flush(batch);
+    glDisable(GL_SCISSOR_TEST);
+    gpu_timer_end(&draw->timer);
+
+    cost->rectangles = damage->count;
+    cost->uploaded_bytes += batch->uploaded_bytes;
+    cost->upload_us += batch->upload_us;
+    cost->draw_us = timer_now_us() - start - cost->upload_us;
+}
+
+void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_cost *cost)
+{
+    *cost = (struct draw_cost){.gpu_us = gpu_timer_take(&draw->timer)};
+    double start = timer_now_us();
+    // Without memory for the new size the old glyphs serve, if not as sharply.
+    if (input->scale != draw->atlas.scale) load_atlas(draw, input->scale, NULL);
+    if (!input->keeps) damage_forget(&draw->damage);
+    struct area viewport = {0};
+    if (input->stage) viewport = area_rounded(input->stage->viewport, input->scale);
+    damage_update(&draw->damage, input->width, input->height, input->scale, input->list, viewport,
+                  input->stage ? input->stage->hash : 0);
+    double compared = timer_now_us() - start;
+    if (draw->damage.count > 0) draw_damage(draw, input, viewport, cost);
+    cost->draw_us += compared;
+}
+
+void draw_read(int width, int height, unsigned char *rgba)
+{
+    size_t stride = (size_t)width * 4;
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+    for (int top = 0, bottom = height - 1; top < bottom; top++, bottom--) {
+        unsigned char *a = rgba + (size_t)top * stride, *b = rgba + (size_t)bottom * stride;
+        for (size_t i = 0; i < stride; i++) {
+            unsigned char keep = a[i];
+            a[i] = b[i];
+            b[i] = keep;
+        }
+    }
+    for (size_t i = 3; i < stride * (size_t)height; i += 4) rgba[i] = 255;
+}
+
+double draw_reference_ms(struct draw *draw, int width, int height, int count)
+{
+    const float scale = draw->atlas.scale;
+    reference_arrange(&draw->reference, (float)width / scale, (float)height / scale);
+    struct draw_input input = {width, height, scale, false, &draw->reference.list, &draw->reference.stage};
+    for (int i = 0; i < count && i < REFERENCE_RUNS_MAX; i++) {
+        struct draw_cost cost;
+        double start = timer_now_us();
+        draw_frame(draw, &input, &cost);
+        glFinish();
+        draw->reference.ms[i] = (timer_now_us() - start) * 1.0e-3;
+    }
+    damage_forget(&draw->damage);
+    return reference_median(&draw->reference, count);
+}
+
+const char *draw_renderer_name(void)
+{
+    static char name[256];
+    const char *renderer = (const char *)glGetString(GL_RENDERER), *version = (const char *)glGetString(GL_VERSION);
+    snprintf(name, sizeof name, "%s, OpenGL %s", renderer ? renderer : "unknown", version ? version : "unknown");
+    return name;
+}

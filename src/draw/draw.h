@@ -1,0 +1,49 @@
+/// The renderer: draws what it is handed (a draw list and a stage) into the current framebuffer; decides nothing.
+///
+/// Only what changed since the last frame is drawn where the target keeps its content: draw_frame() compares the commands
+/// of both frames cell by cell and redraws the rectangles that differ, with the scissor on.
+#ifndef DRAW_DRAW_H
+#define DRAW_DRAW_H
+
+#include "base/error.h"
+#include "ui/drawlist.h"
+#include "ui/stage.h"
+#include <stdint.h>
+
+struct draw;
+
+/// Compiles shaders, rasterises the fonts for `scale`, makes buffers. A context must be current.
+struct draw *draw_create(float scale, struct error *error);
+void draw_destroy(struct draw *draw);
+
+/// One frame to draw.
+struct draw_input {
+    int width, height; ///< framebuffer, device pixels
+    float scale;       ///< device pixels a logical pixel
+    bool keeps;        ///< the framebuffer still holds the last frame; false forces everything
+    const struct drawlist *list;
+    const struct stage_view *stage; ///< drawn below the list, in its viewport; NULL where there is none
+};
+
+/// What drawing cost. Times in microseconds.
+struct draw_cost {
+    double upload_us, draw_us;
+    double gpu_us; ///< of an earlier frame, where the driver has timer queries; else negative
+    long uploaded_bytes;
+    int rectangles; ///< that were redrawn
+    long pixels;    ///< inside them
+};
+
+void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_cost *cost);
+
+/// Reads the framebuffer back: width·height·4 bytes, top row first, alpha 255.
+void draw_read(int width, int height, unsigned char *rgba);
+
+/// Draws and finishes a fixed reference frame (the same geometry always, nothing from the document) `count` times and
+/// returns the median in milliseconds: the yardstick in the log's header. At most 64 times. The framebuffer's content is lost.
+double draw_reference_ms(struct draw *draw, int width, int height, int count);
+
+/// Renderer and version strings of the context.
+const char *draw_renderer_name(void);
+
+#endif

@@ -1,0 +1,63 @@
+#include "draw/gl.h"
+#include "base/embedded.h"
+#include <stdio.h>
+#include <string.h>
+
+/// The compiler's log may have many lines; the first says what is wrong.
+static void first_line(char *log)
+{
+    log[strcspn(log, "\r\n")] = '\0';
+    if (!*log) snprintf(log, 2, "?");
+}
+
+static GLuint compile(GLenum kind, const char *name, struct error *error)
+{
+    char path[64];
+    snprintf(path, sizeof path, "shaders/%s", name);
+    const struct embedded *source = embedded_find(path);
+    if (!source) {
+        fail(error, ERROR_ENVIRONMENT, "%s: expected a shader built into the program, got none", path);
+        return 0;
+    }
+    GLuint shader = glCreateShader(kind);
+    const GLchar *text = (const GLchar *)source->data;
+    GLint length = (GLint)source->size;
+    glShaderSource(shader, 1, &text, &length);
+    glCompileShader(shader);
+    GLint ok = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (ok) return shader;
+    char log[256] = "";
+    glGetShaderInfoLog(shader, sizeof log, NULL, log);
+    first_line(log);
+    glDeleteShader(shader);
+    fail(error, ERROR_ENVIRONMENT, "%s: the graphics driver cannot compile it: %s", path, log);
+    return 0;
+}
+
+static GLuint link_program(GLuint vertex, GLuint fragment, const char *name, struct error *error)
+{
+    GLuint program = glCreateProgram();
+    glAttachShader(program, vertex);
+    glAttachShader(program, fragment);
+    glLinkProgram(program);
+    GLint ok = 0;
+    glGetProgramiv(program, GL_LINK_STATUS, &ok);
+    if (ok) return program;
+    char log[256] = "";
+    glGetProgramInfoLog(program, sizeof log, NULL, log);
+    first_line(log);
+    glDeleteProgram(program);
+    fail(error, ERROR_ENVIRONMENT, "shaders/%s: the graphics driver cannot link it: %s", name, log);
+    return 0;
+}
+
+GLuint gl_program(const char *vertex_name, const char *fragment_name, struct error *error)
+{
+    GLuint vertex = compile(GL_VERTEX_SHADER, vertex_name, error);
+    GLuint fragment = vertex ? compile(GL_FRAGMENT_SHADER, fragment_name, error) : 0;
+    GLuint program = fragment ? link_program(vertex, fragment, vertex_name, error) : 0;
+    if (vertex) glDeleteShader(vertex);
+    if (fragment) glDeleteShader(fragment);
+    return program;
+}

@@ -1,0 +1,12 @@
+/// OpenGL for the files of draw/, and what all of them need of it.
+#ifndef DRAW_GL_H
+#define DRAW_GL_H
+
+#include "base/error.h"
+#include <epoxy/gl.h>
+
+/// Compiles and links the embedded shaders "shaders/<vertex_name>" and "shaders/<fragment_name>". 0 with the compiler's
+/// first complaint as a sentence where that fails.
+GLuint gl_program(const char *vertex_name, const char *fragment_name, struct error *error);
+
+#endif

@@ -1,0 +1,113 @@
+#include "draw/line.h"
+#include "draw/simplify.h"
+#include "draw/stroke.h"
+
+/// A line of more dashes than this runs far beyond any screen and is drawn whole.
+enum { DASHES_MAX = 10000 };
+
+/// Fills in `along` for an open line and adds a point at its middle, so that each quad's `along` is linear. `points` has
+/// room for one more; returns the new count.
+static int measure_ends(struct line_point *points, int count)
+{
+    float total = 0.0f;
+    points[0].along = 0.0f;
+    for (int i = 1; i < count; i++) {
+        total += hypotf(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y);
+        points[i].along = total;
+    }
+    int after = 1;
+    while (after < count - 1 && points[after].along < 0.5f * total) after++;
+    struct line_point a = points[after - 1], b = points[after];
+    bool must_split = fminf(a.along, total - b.along) < 0.5f;
+    for (int i = 0; i < count; i++) points[i].along = fminf(points[i].along, total - points[i].along) + 0.5f;
+    if (!must_split || b.along <= a.along) return count;
+    for (int i = count; i > after; i--) points[i] = points[i - 1];
+    float t = (0.5f * total - a.along) / (b.along - a.along);
+    points[after] = (struct line_point){a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, 0.5f * total + 0.5f};
+    return count + 1;
+}
+
+static void draw_open(struct stroke *stroke, struct line_point *points, int count)
+{
+    stroke_draw(stroke, (struct polyline){points, measure_ends(points, count), false});
+}
+
+static struct line_point between(struct line_point a, struct line_point b, float t)
+{
+    return (struct line_point){a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, 0.0f};
+}
+
+/// Cuts a line into dashes of `on` and gaps of `off` device pixels and draws each as an open line.
+static void draw_dashes(struct stroke *stroke, struct line_scratch *scratch, int count, float on, float off)
+{
+    struct line_point *dash = scratch->dash;
+    const struct line_point *p = scratch->points;
+    float left = on; // of the dash or gap we are in
+    bool inked = true;
+    int length = 0;
+    dash[length++] = p[0];
+    for (int i = 1; i < count; i++) {
+        struct line_point at = p[i - 1];
+        float rest = hypotf(p[i].x - at.x, p[i].y - at.y);
+        while (rest > left) {
+            at = between(at, p[i], left / rest);
+            rest -= left;
+            if (inked) {
+                dash[length++] = at;
+                draw_open(stroke, dash, length);
+            }
+            inked = !inked;
+            left = inked ? on : off;
+            length = 0;
+            if (inked) dash[length++] = at;
+        }
+        left -= rest;
+        if (inked && length < LINE_POINTS - 2) dash[length++] = p[i];
+    }
+    if (inked && length > 1) draw_open(stroke, dash, length);
+}
+
+static float length_of(const struct line_point *p, int count)
+{
+    float length = 0.0f;
+    for (int i = 1; i < count; i++) length += hypotf(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y);
+    return length;
+}
+
+static void draw_piece(struct stroke *stroke, struct line_scratch *scratch, int count, const struct line_style *style)
+{
+    struct line_point *p = scratch->points;
+    if (count < 2) return;
+    bool closed = count > 3 && hypotf(p[0].x - p[count - 1].x, p[0].y - p[count - 1].y) < 0.05f;
+    float on = style->on * style->scale, off = style->off * style->scale;
+    if (on > 0.0f && off > 0.0f && length_of(p, count) < DASHES_MAX * (on + off)) {
+        draw_dashes(stroke, scratch, count, on, off);
+    } else if (closed) {
+        p[count - 1] = p[0];
+        for (int i = 0; i < count; i++) p[i].along = 1.0f;
+        stroke_draw(stroke, (struct polyline){p, count, true});
+    } else {
+        draw_open(stroke, p, count);
+    }
+}
+
+void line_add(struct batch *batch, struct line_scratch *scratch, const float *xy, int count, struct line_style style,
+              struct area visible)
+{
+    float width = style.width * style.scale;
+    float alpha = (float)(style.color & 0xFFu) * fminf(width, 1.0f); // thinner than a pixel: fainter, not thinner
+    struct stroke stroke = {
+        .batch = batch,
+        .visible = visible,
+        .color = (style.color & 0xFFFFFF00u) | (uint32_t)lroundf(alpha),
+        .reach = 0.5f * fmaxf(width, 1.0f) + 0.5f,
+    };
+    while (count > 1) {
+        int read = 0;
+        int kept = simplify_line(xy, count, style.scale, scratch->points, LINE_POINTS - 1, &read);
+        draw_piece(&stroke, scratch, kept, &style);
+        if (read == count) break;
+        xy += 2 * (read - 1);
+        count -= read - 1;
+    }
+}

@@ -1,0 +1,59 @@
+#include "draw/paint.h"
+#include "draw/shape.h"
+
+/// Whether the command was cut off nowhere when it was recorded, so that it needs no scissor of its own.
+static bool is_whole(const struct draw_command *command)
+{
+    struct rect b = command->bounds, c = command->clip;
+    return b.x > c.x && b.y > c.y && b.x + b.w < c.x + c.w && b.y + b.h < c.y + c.h;
+}
+
+/// Lines and polygons that reach out of their clip need it as scissor. Everything else keeps the scissor that is set where
+/// it may, because every change is one more draw call.
+static void choose_scissor(struct batch *batch, const struct draw_command *command, struct area reach,
+                           struct area clip, struct area area)
+{
+    bool cuts_itself = command->kind == DRAW_RECT || command->kind == DRAW_TEXT || is_whole(command);
+    if (!cuts_itself) {
+        batch_set_scissor(batch, area_intersect(clip, area));
+    } else if (!area_contains(batch->scissor, area_intersect(reach, area))) {
+        batch_set_scissor(batch, area);
+    }
+}
+
+static void paint_command(const struct painter *painter, const struct drawlist *list,
+                          const struct draw_command *command, struct area reach, struct area area)
+{
+    struct area clip = area_rounded(command->clip, painter->scale);
+    const float *xy = list->points + 2 * (size_t)command->first;
+    choose_scissor(painter->batch, command, reach, clip, area);
+    switch (command->kind) {
+    case DRAW_RECT: {
+        float s = painter->scale;
+        const float corners[4] = {xy[0] * s, xy[1] * s, xy[2] * s, xy[3] * s};
+        shape_rect(painter->batch, corners, clip, command->color);
+        break;
+    }
+    case DRAW_LINE: {
+        struct line_style style = {command->width, command->on, command->off, painter->scale, command->color};
+        line_add(painter->batch, painter->scratch, xy, command->count, style, area_intersect(clip, area));
+        break;
+    }
+    case DRAW_CONVEX:
+        shape_convex(painter->batch, xy, command->count, painter->scale, command->color);
+        break;
+    case DRAW_TEXT:
+        paint_text(painter, command, list->text + command->first, clip);
+        break;
+    }
+}
+
+void paint_list(const struct painter *painter, const struct drawlist *list, struct area area)
+{
+    batch_set_scissor(painter->batch, area);
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *command = &list->commands[i];
+        struct area reach = area_outer(command->bounds, painter->scale);
+        if (area_touches(reach, area)) paint_command(painter, list, command, reach, area);
+    }
+}

@@ -1,0 +1,154 @@
+#include "draw/stage_flat.h"
+#include "draw/gl.h"
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#define BACKGROUND_TOP 0x1B2028u
+#define BACKGROUND_BOTTOM 0x111419u
+#define GROUND_COLOR 0x39414Cu
+#define SHADOW_COLOR 0x07080Au
+#define GROUND_RADIUS 3.5f
+
+enum { CORNERS = 6, MAX_QUADS = 2 + STAGE_MAX_BLOBS };
+
+struct corner {
+    float clip[4];
+    float local[2]; ///< −1 … 1 over the disc's square
+    float color[4]; ///< sRGB and opacity
+};
+
+struct stage_flat {
+    GLuint program, vertex_array, vertices;
+    int quads;
+    struct corner corners[MAX_QUADS * CORNERS];
+};
+
+/// Two triangles' corners, as signs.
+static const float square[CORNERS][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, 1}, {-1, 1}};
+
+struct stage_flat *stage_flat_create(struct error *error)
+{
+    struct stage_flat *flat = calloc(1, sizeof *flat);
+    if (!flat) {
+        fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
+        return NULL;
+    }
+    flat->program = gl_program("stage_flat.vert", "stage_flat.frag", error);
+    if (!flat->program) {
+        free(flat);
+        return NULL;
+    }
+    glGenVertexArrays(1, &flat->vertex_array);
+    glBindVertexArray(flat->vertex_array);
+    glGenBuffers(1, &flat->vertices);
+    glBindBuffer(GL_ARRAY_BUFFER, flat->vertices);
+    glBufferData(GL_ARRAY_BUFFER, sizeof flat->corners, NULL, GL_DYNAMIC_DRAW);
+    const struct {
+        GLint size;
+        size_t offset;
+    } attributes[] = {
+        {4, offsetof(struct corner, clip)}, {2, offsetof(struct corner, local)}, {4, offsetof(struct corner, color)}};
+    for (GLuint a = 0; a < 3; a++) {
+        glEnableVertexAttribArray(a);
+        glVertexAttribPointer(a, attributes[a].size, GL_FLOAT, GL_FALSE, sizeof(struct corner),
+                              (const void *)attributes[a].offset);
+    }
+    glBindVertexArray(0);
+    return flat;
+}
+
+void stage_flat_destroy(struct stage_flat *flat)
+{
+    if (!flat) return;
+    glDeleteVertexArrays(1, &flat->vertex_array);
+    glDeleteBuffers(1, &flat->vertices);
+    glDeleteProgram(flat->program);
+    free(flat);
+}
+
+void stage_clip_from_world(const struct stage_view *view, float clip_from_world[16])
+{
+    for (int c = 0; c < 4; c++) {
+        for (int r = 0; r < 4; r++) {
+            float sum = 0.0f;
+            for (int k = 0; k < 4; k++) sum += view->projection[4 * k + r] * view->view[4 * c + k];
+            clip_from_world[4 * c + r] = sum;
+        }
+    }
+}
+
+static void set_color(struct corner *corner, uint32_t color, float opacity)
+{
+    for (int k = 0; k < 3; k++) corner->color[k] = (float)(color >> (16 - 8 * k) & 0xFF) / 255.0f;
+    corner->color[3] = opacity;
+}
+
+static void add_background(struct stage_flat *flat)
+{
+    for (int c = 0; c < CORNERS; c++) {
+        struct corner *corner = &flat->corners[flat->quads * CORNERS + c];
+        *corner = (struct corner){.clip = {square[c][0], square[c][1], 0.0f, 1.0f}};
+        set_color(corner, square[c][1] > 0.0f ? BACKGROUND_TOP : BACKGROUND_BOTTOM, 1.0f);
+    }
+    flat->quads++;
+}
+
+/// A disc around (x, z) on the ground.
+static void add_disc(struct stage_flat *flat, const float clip_from_world[16], float x, float ground, float z,
+                     float radius, uint32_t color, float opacity)
+{
+    for (int c = 0; c < CORNERS; c++) {
+        struct corner *corner = &flat->corners[flat->quads * CORNERS + c];
+        const float world[4] = {x + radius * square[c][0], ground, z + radius * square[c][1], 1.0f};
+        *corner = (struct corner){.local = {square[c][0], square[c][1]}};
+        for (int r = 0; r < 4; r++) {
+            for (int k = 0; k < 4; k++) corner->clip[r] += clip_from_world[4 * k + r] * world[k];
+        }
+        set_color(corner, color, opacity);
+    }
+    flat->quads++;
+}
+
+/// Height of the ground that the lowest animal sits on, and the middle of all of them.
+static void find_ground(const struct stage_view *view, float middle[3])
+{
+    middle[0] = middle[1] = middle[2] = 0.0f;
+    for (int t = 0; t < view->tail_count; t++) {
+        const struct pose *pose = &view->tails[t].pose;
+        const float ground = pose_ground(pose);
+        middle[0] += pose->matrix[0][12] / (float)view->tail_count;
+        middle[1] = t == 0 ? ground : fminf(middle[1], ground);
+        middle[2] += pose->matrix[0][14] / (float)view->tail_count;
+    }
+}
+
+long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view)
+{
+    float clip_from_world[16], middle[3];
+    stage_clip_from_world(view, clip_from_world);
+    find_ground(view, middle);
+    flat->quads = 0;
+    add_background(flat);
+    add_disc(flat, clip_from_world, middle[0], middle[1], middle[2], GROUND_RADIUS, GROUND_COLOR, 1.0f);
+    for (int b = 0; b < view->blob_count; b++) {
+        const struct stage_blob *blob = &view->blobs[b];
+        add_disc(flat, clip_from_world, blob->x, middle[1], blob->z, blob->radius, SHADOW_COLOR, blob->strength);
+    }
+    const long bytes = flat->quads * CORNERS * (long)sizeof *flat->corners;
+    glBindBuffer(GL_ARRAY_BUFFER, flat->vertices);
+    glBufferSubData(GL_ARRAY_BUFFER, 0, bytes, flat->corners);
+    return bytes;
+}
+
+void stage_flat_draw(const struct stage_flat *flat)
+{
+    glUseProgram(flat->program);
+    glBindVertexArray(flat->vertex_array);
+    glDisable(GL_BLEND);
+    glDrawArrays(GL_TRIANGLES, 0, CORNERS);
+    glEnable(GL_BLEND);
+    glDrawArrays(GL_TRIANGLES, CORNERS, (flat->quads - 1) * CORNERS);
+    glDisable(GL_BLEND);
+    glBindVertexArray(0);
+}

@@ -1,0 +1,29 @@
+/// What drawing costs: the CPU's clock, and the GPU's where the driver has one. Private to draw/.
+#ifndef DRAW_TIMER_H
+#define DRAW_TIMER_H
+
+#include "draw/gl.h"
+#include <stdbool.h>
+
+/// Microseconds on a monotonic clock.
+double timer_now_us(void);
+
+enum { TIMER_QUERIES = 4 };
+
+/// GL_TIME_ELAPSED of the last frames: a result is read only once it is there, some frames late, and never waited for.
+struct gpu_timer {
+    GLuint queries[TIMER_QUERIES];
+    int oldest, pending;
+    bool usable, running;
+};
+
+/// Software renderers draw at the flush, not between the queries: their numbers would mislead, so they have no timer.
+void gpu_timer_create(struct gpu_timer *timer, bool is_software);
+void gpu_timer_destroy(struct gpu_timer *timer);
+void gpu_timer_begin(struct gpu_timer *timer);
+void gpu_timer_end(struct gpu_timer *timer);
+
+/// Microseconds of the oldest frame that has come back since the last call; negative where there is none.
+double gpu_timer_take(struct gpu_timer *timer);
+
+#endif

@@ -1,0 +1,9 @@
+#include "platform/platform.h"
+#include <time.h>
+
+double clock_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + (double)now.tv_nsec * 1.0e-9;
+}

@@ -1,0 +1,35 @@
+#include "platform/events.h"
+#include <string.h>
+
+void event_queue_push(struct event_queue *queue, const struct event *event)
+{
+    struct event_buffer *buffer = &queue->buffers[queue->filling];
+    struct event *last = buffer->count ? &buffer->events[buffer->count - 1] : NULL;
+    bool crowded = buffer->count > QUEUE_EVENTS / 2;
+    if (crowded && event->kind == EVENT_POINTER && last->kind == EVENT_POINTER) {
+        *last = *event;
+    } else if (buffer->count < QUEUE_EVENTS) {
+        buffer->events[buffer->count++] = *event;
+    }
+}
+
+void event_queue_push_drop(struct event_queue *queue, const char *path, double time)
+{
+    struct event_buffer *buffer = &queue->buffers[queue->filling];
+    size_t size = strlen(path) + 1;
+    if (size > (size_t)(QUEUE_PATH_BYTES - buffer->path_bytes)) return;
+    char *copy = buffer->paths + buffer->path_bytes;
+    memcpy(copy, path, size);
+    buffer->path_bytes += (int)size;
+    event_queue_push(queue, &(struct event){.kind = EVENT_DROP, .path = copy, .time = time});
+}
+
+const struct event *event_queue_take(struct event_queue *queue, int *count)
+{
+    struct event_buffer *full = &queue->buffers[queue->filling];
+    queue->filling = 1 - queue->filling;
+    struct event_buffer *empty = &queue->buffers[queue->filling];
+    empty->count = empty->path_bytes = 0;
+    *count = full->count;
+    return full->events;
+}

@@ -1,0 +1,33 @@
+/// Events on their way from callbacks to the frame that handles them. Private to platform/.
+#ifndef PLATFORM_EVENTS_H
+#define PLATFORM_EVENTS_H
+
+#include "ui/event.h"
+
+enum { QUEUE_EVENTS = 1024, QUEUE_PATH_BYTES = 1 << 16 };
+
+/// Events and the paths of dropped files, which events point to.
+struct event_buffer {
+    struct event events[QUEUE_EVENTS];
+    int count;
+    char paths[QUEUE_PATH_BYTES];
+    int path_bytes;
+};
+
+/// One buffer is being filled while the other one is in the frame's hands.
+struct event_queue {
+    struct event_buffer buffers[2];
+    int filling;
+};
+
+/// Adds an event. Of pointer positions in a row only the last one is kept when the buffer is nearly full; what does not
+/// fit at all is dropped.
+void event_queue_push(struct event_queue *queue, const struct event *event);
+
+/// Adds EVENT_DROP with a copy of `path`; left out where it does not fit.
+void event_queue_push_drop(struct event_queue *queue, const char *path, double time);
+
+/// Hands out what came since the last call; valid until the next one.
+const struct event *event_queue_take(struct event_queue *queue, int *count);
+
+#endif

@@ -1,0 +1,105 @@
+#include "platform/platform.h"
+#include "platform/surface.h"
+#include <epoxy/gl.h>
+#include <stdlib.h>
+#include <time.h>
+
+static struct platform *allocate(struct error *error)
+{
+    struct platform *platform = calloc(1, sizeof *platform);
+    if (!platform) fail(error, ERROR_ENVIRONMENT, "out of memory for the window's events");
+    return platform;
+}
+
+struct platform *platform_window(int width, int height, const char *title, int vsync, struct error *error)
+{
+    struct platform *platform = allocate(error);
+    if (!platform) return NULL;
+    platform->window = window_create(width, height, title, vsync, &platform->queue, error);
+    if (!platform->window) {
+        free(platform);
+        return NULL;
+    }
+    keep_driver_loaded();
+    platform->keeps = probe_keeps(platform->window);
+    return platform;
+}
+
+struct platform *platform_offscreen(int width, int height, float scale, struct error *error)
+{
+    struct platform *platform = allocate(error);
+    if (!platform) return NULL;
+    platform->offscreen = offscreen_create(width, height, scale, error);
+    if (!platform->offscreen) {
+        free(platform);
+        return NULL;
+    }
+    platform->keeps = true;
+    return platform;
+}
+
+void platform_destroy(struct platform *platform)
+{
+    if (!platform) return;
+    if (platform->window) window_destroy(platform->window);
+    if (platform->offscreen) offscreen_destroy(platform->offscreen);
+    free(platform);
+}
+
+static void sleep_for(double seconds)
+{
+    struct timespec rest = {.tv_sec = (time_t)seconds};
+    rest.tv_nsec = (long)((seconds - (double)rest.tv_sec) * 1.0e9);
+    nanosleep(&rest, NULL);
+}
+
+const struct event *platform_events(struct platform *platform, double seconds, int *count)
+{
+    if (platform->window) {
+        window_wait(platform->window, seconds);
+    } else if (seconds > 0.0) {
+        sleep_for(seconds);
+    }
+    return event_queue_take(&platform->queue, count);
+}
+
+void platform_size(const struct platform *platform, int *width, int *height, float *scale)
+{
+    struct surface_size size = platform->window ? window_size(platform->window) : offscreen_size(platform->offscreen);
+    *width = size.width;
+    *height = size.height;
+    *scale = size.scale;
+}
+
+bool platform_keeps(const struct platform *platform) { return platform->keeps; }
+
+void platform_swap(struct platform *platform)
+{
+    if (platform->window) {
+        window_swap(platform->window);
+    } else {
+        glFinish();
+    }
+}
+
+bool platform_is_window(const struct platform *platform) { return platform->window != NULL; }
+
+void platform_title(struct platform *platform, const char *title)
+{
+    if (platform->window) window_title(platform->window, title);
+}
+
+void platform_fullscreen(struct platform *platform, bool on)
+{
+    if (platform->window) window_fullscreen(platform->window, on);
+}
+
+bool platform_is_fullscreen(const struct platform *platform)
+{
+    return platform->window && window_is_fullscreen(platform->window);
+}
+
+void platform_cursor(struct platform *platform, enum cursor cursor)
+{
+    if (platform->window) window_cursor(platform->window, cursor);
+}

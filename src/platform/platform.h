@@ -1,0 +1,44 @@
+/// A surface to draw on and where its events come from: a GLFW window, or an offscreen EGL context. And the clock.
+#ifndef PLATFORM_PLATFORM_H
+#define PLATFORM_PLATFORM_H
+
+#include "base/error.h"
+#include "ui/event.h"
+
+struct platform;
+
+/// A window (GLX under X11) with a current 3.3 core context. Swap interval `vsync` 0 or 1.
+/// NULL with a sentence: no display, no GLX, version.
+struct platform *platform_window(int width, int height, const char *title, int vsync, struct error *error);
+
+/// An offscreen framebuffer object of width × height device pixels with a current context (EGL surfaceless or device).
+struct platform *platform_offscreen(int width, int height, float scale, struct error *error);
+
+void platform_destroy(struct platform *platform);
+
+/// Waits at most `seconds` for events (0: only looks), then hands out those that came, in order. The array lives until the
+/// next call. Callbacks behind it only translate and queue.
+const struct event *platform_events(struct platform *platform, double seconds, int *count);
+
+/// Framebuffer size in device pixels, and device pixels a logical pixel.
+void platform_size(const struct platform *platform, int *width, int *height, float *scale);
+
+/// Whether the framebuffer keeps the last frame after a swap (offscreen, and software GLX; never taken on trust: probed once).
+bool platform_keeps(const struct platform *platform);
+
+/// Shows the frame; offscreen: glFinish.
+void platform_swap(struct platform *platform);
+
+bool platform_is_window(const struct platform *platform);
+/// Has a display been found at all ($DISPLAY or $WAYLAND_DISPLAY opens)? For the choice window or offscreen.
+bool platform_has_display(void);
+void platform_title(struct platform *platform, const char *title);
+void platform_fullscreen(struct platform *platform, bool on);
+bool platform_is_fullscreen(const struct platform *platform);
+enum cursor { CURSOR_ARROW, CURSOR_HAND, CURSOR_HORIZONTAL, CURSOR_VERTICAL, CURSOR_MOVE, CURSOR_TEXT };
+void platform_cursor(struct platform *platform, enum cursor cursor);
+
+/// Seconds on a monotonic clock.
+double clock_now(void);
+
+#endif

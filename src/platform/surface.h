@@ -1,0 +1,47 @@
+/// The two kinds of surface behind platform.h. Private to platform/.
+#ifndef PLATFORM_SURFACE_H
+#define PLATFORM_SURFACE_H
+
+#include "platform/events.h"
+#include "platform/platform.h"
+
+struct window;
+struct offscreen;
+
+/// Exactly one of the two is there.
+struct platform {
+    struct window *window;
+    struct offscreen *offscreen;
+    struct event_queue queue;
+    bool keeps;
+};
+
+/// What both kinds say about their framebuffer.
+struct surface_size {
+    int width, height; ///< device pixels
+    float scale;       ///< device pixels a logical pixel
+};
+
+/// Events go to `queue`, which must outlive the window.
+struct window *window_create(int width, int height, const char *title, int vsync, struct event_queue *queue,
+                             struct error *error);
+void window_destroy(struct window *window);
+struct surface_size window_size(const struct window *window);
+void window_wait(struct window *window, double seconds);
+void window_swap(struct window *window);
+void window_title(struct window *window, const char *title);
+void window_fullscreen(struct window *window, bool on);
+bool window_is_fullscreen(const struct window *window);
+void window_cursor(struct window *window, enum cursor cursor);
+
+struct offscreen *offscreen_create(int width, int height, float scale, struct error *error);
+void offscreen_destroy(struct offscreen *offscreen);
+struct surface_size offscreen_size(const struct offscreen *offscreen);
+
+/// Whether a swap leaves the back buffer as it is, found out by swapping twice. The current context's.
+bool probe_keeps(struct window *window);
+
+/// In builds with the address sanitizer: keeps the loaded graphics driver in memory until the process ends.
+void keep_driver_loaded(void);
+
+#endif

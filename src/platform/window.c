@@ -1,0 +1,330 @@
+#include "platform/keys.h"
+#include "platform/surface.h"
+#include <epoxy/gl.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const double DOUBLE_CLICK_SECONDS = 0.35;
+static const float DOUBLE_CLICK_PIXELS = 4.0f;
+enum { CURSOR_KINDS = CURSOR_TEXT + 1 };
+
+struct window {
+    GLFWwindow *handle;
+    struct event_queue *queue;
+    GLFWcursor *cursors[CURSOR_KINDS];
+    enum cursor cursor;
+    struct surface_size size;
+    float units;       ///< logical pixels a unit of GLFW's window coordinates
+    double click_time; ///< of the last press that may become a double click; -1 where there is none
+    float click_x, click_y;
+    enum event_button click_button;
+    bool is_fullscreen;
+    int x, y, width, height; ///< where it was before it filled the screen
+};
+
+static struct window *of(GLFWwindow *handle) { return glfwGetWindowUserPointer(handle); }
+
+static void push(struct window *window, struct event event)
+{
+    event.time = clock_now();
+    event_queue_push(window->queue, &event);
+}
+
+/// Reads framebuffer size and scale; true where they are not what they were.
+static bool update_size(struct window *window)
+{
+    struct surface_size before = window->size, now = before;
+    int width = 0, height = 0;
+    float scale_x = 1.0f, scale_y = 1.0f;
+    glfwGetFramebufferSize(window->handle, &now.width, &now.height);
+    glfwGetWindowSize(window->handle, &width, &height);
+    glfwGetWindowContentScale(window->handle, &scale_x, &scale_y);
+    if (now.width < 1 || now.height < 1 || width < 1) return false; // minimised
+    now.scale = scale_x > 0.25f && scale_x < 16.0f ? scale_x : 1.0f;
+    window->size = now;
+    window->units = (float)now.width / (float)width / now.scale;
+    return now.width != before.width || now.height != before.height || now.scale != before.scale;
+}
+
+static void handle_size(struct window *window)
+{
+    if (!update_size(window)) return;
+    struct surface_size size = window->size;
+    push(window, (struct event){.kind = EVENT_SIZE,
+                                .x = (float)size.width / size.scale,
+                                .y = (float)size.height / size.scale,
+                                .scale = size.scale});
+}
+
+static void on_framebuffer_size(GLFWwindow *handle, int width, int height)
+{
+    (void)width;
+    (void)height;
+    handle_size(of(handle));
+}
+
+static void on_content_scale(GLFWwindow *handle, float x, float y)
+{
+    (void)x;
+    (void)y;
+    handle_size(of(handle));
+}
+
+static void on_refresh(GLFWwindow *handle) { push(of(handle), (struct event){.kind = EVENT_EXPOSE}); }
+
+static void on_close(GLFWwindow *handle)
+{
+    // The app decides, after asking about unsaved work.
+    glfwSetWindowShouldClose(handle, GLFW_FALSE);
+    push(of(handle), (struct event){.kind = EVENT_CLOSE});
+}
+
+static enum event_action action_of(int glfw_action)
+{
+    return glfw_action == GLFW_PRESS ? ACTION_PRESS : glfw_action == GLFW_REPEAT ? ACTION_REPEAT : ACTION_RELEASE;
+}
+
+static void on_key(GLFWwindow *handle, int glfw_key, int scancode, int action, int glfw_mods)
+{
+    struct window *window = of(handle);
+    int key = key_translate(glfw_key, scancode);
+    if (key == KEY_NONE) return;
+    push(window, (struct event){
+                     .kind = EVENT_KEY, .key = key, .action = action_of(action), .mods = mods_translate(glfw_mods)});
+}
+
+static void on_character(GLFWwindow *handle, unsigned codepoint)
+{
+    push(of(handle), (struct event){.kind = EVENT_TEXT, .codepoint = codepoint});
+}
+
+static void pointer(struct window *window, float *x, float *y)
+{
+    double window_x = 0.0, window_y = 0.0;
+    glfwGetCursorPos(window->handle, &window_x, &window_y);
+    *x = (float)window_x * window->units;
+    *y = (float)window_y * window->units;
+}
+
+/// The modifiers now, which GLFW does not hand over with the wheel.
+static unsigned mods_now(GLFWwindow *handle)
+{
+    static const struct {
+        int left, right;
+        unsigned mod;
+    } keys[] = {{GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT, MOD_SHIFT},
+                {GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL, MOD_CTRL},
+                {GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT, MOD_ALT},
+                {GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER, MOD_SUPER}};
+    unsigned mods = 0;
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+        bool down = glfwGetKey(handle, keys[i].left) == GLFW_PRESS || glfwGetKey(handle, keys[i].right) == GLFW_PRESS;
+        if (down) mods |= keys[i].mod;
+    }
+    return mods;
+}
+
+static void on_pointer(GLFWwindow *handle, double x, double y)
+{
+    struct window *window = of(handle);
+    push(window, (struct event){.kind = EVENT_POINTER,
+                                .x = (float)x * window->units,
+                                .y = (float)y * window->units,
+                                .mods = mods_now(handle)});
+}
+
+/// 2 for a press soon after another one of the same button at the same place; the third one counts as 1 again.
+static int count_clicks(struct window *window, enum event_button button, float x, float y)
+{
+    double now = clock_now();
+    bool again = window->click_time >= 0.0 && now - window->click_time <= DOUBLE_CLICK_SECONDS &&
+                 window->click_button == button &&
+                 hypotf(x - window->click_x, y - window->click_y) <= DOUBLE_CLICK_PIXELS;
+    window->click_time = again ? -1.0 : now;
+    window->click_button = button;
+    window->click_x = x;
+    window->click_y = y;
+    return again ? 2 : 1;
+}
+
+static void on_button(GLFWwindow *handle, int glfw_button, int action, int glfw_mods)
+{
+    struct window *window = of(handle);
+    if (glfw_button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+    enum event_button button = glfw_button == GLFW_MOUSE_BUTTON_LEFT    ? BUTTON_LEFT
+                               : glfw_button == GLFW_MOUSE_BUTTON_RIGHT ? BUTTON_RIGHT
+                                                                        : BUTTON_MIDDLE;
+    struct event event = {.kind = EVENT_BUTTON,
+                          .button = button,
+                          .action = action_of(action),
+                          .mods = mods_translate(glfw_mods),
+                          .clicks = 1};
+    pointer(window, &event.x, &event.y);
+    if (event.action == ACTION_PRESS) event.clicks = count_clicks(window, button, event.x, event.y);
+    push(window, event);
+}
+
+static void on_wheel(GLFWwindow *handle, double dx, double dy)
+{
+    struct window *window = of(handle);
+    struct event event = {.kind = EVENT_WHEEL, .dx = (float)dx, .dy = (float)dy, .mods = mods_now(handle)};
+    pointer(window, &event.x, &event.y);
+    push(window, event);
+}
+
+static void on_drop(GLFWwindow *handle, int count, const char **paths)
+{
+    struct window *window = of(handle);
+    for (int i = 0; i < count; i++) event_queue_push_drop(window->queue, paths[i], clock_now());
+}
+
+static void listen(GLFWwindow *handle)
+{
+    glfwSetFramebufferSizeCallback(handle, on_framebuffer_size);
+    glfwSetWindowContentScaleCallback(handle, on_content_scale);
+    glfwSetWindowRefreshCallback(handle, on_refresh);
+    glfwSetWindowCloseCallback(handle, on_close);
+    glfwSetKeyCallback(handle, on_key);
+    glfwSetCharCallback(handle, on_character);
+    glfwSetCursorPosCallback(handle, on_pointer);
+    glfwSetMouseButtonCallback(handle, on_button);
+    glfwSetScrollCallback(handle, on_wheel);
+    glfwSetDropCallback(handle, on_drop);
+}
+
+static GLFWwindow *open_handle(int width, int height, const char *title)
+{
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_NATIVE_CONTEXT_API);
+    glfwWindowHint(GLFW_SAMPLES, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    return glfwCreateWindow(width, height, title, NULL, NULL);
+}
+
+/// GLFW's own reason as a sentence, and false.
+static bool fail_glfw(struct error *error, const char *what)
+{
+    const char *reason = NULL;
+    int code = glfwGetError(&reason);
+    return fail(error, ERROR_ENVIRONMENT, "%s: %s (GLFW 0x%08X)", what, reason ? reason : "no reason given",
+                (unsigned)code);
+}
+
+static void create_cursors(struct window *window)
+{
+    static const int shapes[CURSOR_KINDS] = {
+        [CURSOR_ARROW] = GLFW_ARROW_CURSOR,        [CURSOR_HAND] = GLFW_HAND_CURSOR,
+        [CURSOR_HORIZONTAL] = GLFW_HRESIZE_CURSOR, [CURSOR_VERTICAL] = GLFW_VRESIZE_CURSOR,
+        [CURSOR_MOVE] = GLFW_CROSSHAIR_CURSOR,     [CURSOR_TEXT] = GLFW_IBEAM_CURSOR,
+    };
+    for (int i = 0; i < CURSOR_KINDS; i++) window->cursors[i] = glfwCreateStandardCursor(shapes[i]);
+}
+
+struct window *window_create(int width, int height, const char *title, int vsync, struct event_queue *queue,
+                             struct error *error)
+{
+    if (!glfwInit()) {
+        fail_glfw(error, "no window can be opened (try --headless)");
+        return NULL;
+    }
+    struct window *window = calloc(1, sizeof *window);
+    if (window) window->handle = open_handle(width, height, title);
+    if (!window || !window->handle) {
+        fail_glfw(error, "no window with OpenGL 3.3 can be opened (try --headless)");
+        free(window);
+        glfwTerminate();
+        return NULL;
+    }
+    window->queue = queue;
+    window->click_time = -1.0;
+    window->units = 1.0f;
+    glfwSetWindowUserPointer(window->handle, window);
+    glfwSetWindowSizeLimits(window->handle, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfwMakeContextCurrent(window->handle);
+    glfwSwapInterval(vsync);
+    create_cursors(window);
+    update_size(window);
+    listen(window->handle);
+    return window;
+}
+
+void window_destroy(struct window *window)
+{
+    for (int i = 0; i < CURSOR_KINDS; i++) {
+        if (window->cursors[i]) glfwDestroyCursor(window->cursors[i]);
+    }
+    glfwDestroyWindow(window->handle);
+    glfwTerminate();
+    free(window);
+}
+
+struct surface_size window_size(const struct window *window) { return window->size; }
+
+void window_wait(struct window *window, double seconds)
+{
+    (void)window;
+    if (seconds > 0.0) {
+        glfwWaitEventsTimeout(seconds);
+    } else {
+        glfwPollEvents();
+    }
+}
+
+void window_swap(struct window *window) { glfwSwapBuffers(window->handle); }
+
+void window_title(struct window *window, const char *title) { glfwSetWindowTitle(window->handle, title); }
+
+/// The monitor that shows most of the window.
+static GLFWmonitor *nearest_monitor(struct window *window)
+{
+    int count = 0, x = 0, y = 0, width = 0, height = 0;
+    GLFWmonitor **monitors = glfwGetMonitors(&count), *best = glfwGetPrimaryMonitor();
+    glfwGetWindowPos(window->handle, &x, &y);
+    glfwGetWindowSize(window->handle, &width, &height);
+    double largest = 0.0;
+    for (int i = 0; i < count; i++) {
+        int left = 0, top = 0;
+        const GLFWvidmode *mode = glfwGetVideoMode(monitors[i]);
+        glfwGetMonitorPos(monitors[i], &left, &top);
+        if (!mode) continue;
+        double w = fmin(x + width, left + mode->width) - fmax(x, left);
+        double h = fmin(y + height, top + mode->height) - fmax(y, top);
+        double shared = fmax(w, 0.0) * fmax(h, 0.0);
+        if (shared <= largest) continue;
+        largest = shared;
+        best = monitors[i];
+    }
+    return best;
+}
+
+void window_fullscreen(struct window *window, bool on)
+{
+    if (on == window->is_fullscreen) return;
+    if (on) {
+        GLFWmonitor *monitor = nearest_monitor(window);
+        const GLFWvidmode *mode = monitor ? glfwGetVideoMode(monitor) : NULL;
+        if (!mode) return;
+        glfwGetWindowPos(window->handle, &window->x, &window->y);
+        glfwGetWindowSize(window->handle, &window->width, &window->height);
+        glfwSetWindowMonitor(window->handle, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    } else {
+        glfwSetWindowMonitor(window->handle, NULL, window->x, window->y, window->width, window->height,
+                             GLFW_DONT_CARE);
+    }
+    window->is_fullscreen = on;
+}
+
+bool window_is_fullscreen(const struct window *window) { return window->is_fullscreen; }
+
+void window_cursor(struct window *window, enum cursor cursor)
+{
+    if (cursor == window->cursor) return;
+    window->cursor = cursor;
+    glfwSetCursor(window->handle, window->cursors[cursor]);
+}

@@ -1,0 +1,257 @@
+#include "ui/drawlist.h"
+#include "base/hash.h"
+#include "ui/font.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool drawlist_create(struct drawlist *list, int commands, int points, int text_bytes)
+{
+    *list = (struct drawlist){
+        .commands = calloc((size_t)commands, sizeof *list->commands),
+        .capacity = commands,
+        .points = calloc((size_t)points * 2, sizeof *list->points),
+        .point_capacity = points,
+        .text = calloc((size_t)text_bytes, 1),
+        .text_capacity = text_bytes,
+    };
+    if (list->commands && list->points && list->text) return true;
+    drawlist_destroy(list);
+    return false;
+}
+
+void drawlist_destroy(struct drawlist *list)
+{
+    free(list->commands);
+    free(list->points);
+    free(list->text);
+    *list = (struct drawlist){0};
+}
+
+void drawlist_clear(struct drawlist *list, struct rect whole)
+{
+    list->count = list->point_count = list->text_count = 0;
+    list->overflow = false;
+    list->clip = whole;
+}
+
+struct rect drawlist_push_clip(struct drawlist *list, struct rect r)
+{
+    struct rect before = list->clip;
+    list->clip = rect_intersect(before, r);
+    return before;
+}
+
+void drawlist_set_clip(struct drawlist *list, struct rect clip) { list->clip = clip; }
+
+/// Appends a command whose pixels lie in `bounds`. NULL where nothing of it would show or there is no room.
+static struct draw_command *add(struct drawlist *list, enum draw_kind kind, struct rect bounds, uint32_t color)
+{
+    bool finite = isfinite(bounds.x) && isfinite(bounds.y) && isfinite(bounds.w) && isfinite(bounds.h);
+    struct rect visible = rect_intersect(bounds, list->clip);
+    if (!finite || visible.w <= 0.0f || visible.h <= 0.0f || (color & 0xFFu) == 0) return NULL;
+    if (list->count == list->capacity) {
+        list->overflow = true;
+        return NULL;
+    }
+    struct draw_command *command = &list->commands[list->count];
+    *command = (struct draw_command){.kind = kind, .color = color, .bounds = visible, .clip = list->clip};
+    return command;
+}
+
+static uint64_t hash_floats(uint64_t hash, float a, float b)
+{
+    float pair[2] = {a, b};
+    return hash_bytes(hash, pair, sizeof pair);
+}
+
+/// Hashes the finished command and keeps it.
+static void commit(struct drawlist *list, struct draw_command *command)
+{
+    uint64_t hash =
+        hash_word(HASH_START, (uint64_t)command->kind << 40 | (uint64_t)command->font << 32 | command->color);
+    hash = hash_floats(hash, command->width, command->x);
+    hash = hash_floats(hash, command->y, 0.0f);
+    hash = hash_floats(hash, command->on, command->off);
+    hash = hash_floats(hash, command->clip.x, command->clip.y);
+    hash = hash_floats(hash, command->clip.w, command->clip.h);
+    size_t first = (size_t)command->first, count = (size_t)command->count;
+    if (command->kind == DRAW_TEXT) {
+        hash = hash_bytes(hash, list->text + first, count);
+    } else {
+        hash = hash_bytes(hash, list->points + 2 * first, 2 * count * sizeof *list->points);
+    }
+    command->hash = hash;
+    list->count++;
+}
+
+/// Copies points into the pool. false where they do not fit.
+static bool add_points(struct drawlist *list, struct draw_command *command, const float *xy, int count)
+{
+    if (count > list->point_capacity - list->point_count) {
+        list->overflow = true;
+        return false;
+    }
+    memcpy(list->points + 2 * (size_t)list->point_count, xy, 2 * (size_t)count * sizeof *xy);
+    command->first = list->point_count;
+    command->count = count;
+    list->point_count += count;
+    return true;
+}
+
+static struct rect bounds_of(const float *xy, int count, float margin)
+{
+    float x0 = xy[0], y0 = xy[1], x1 = x0, y1 = y0, sum = 0.0f;
+    for (int i = 0; i < count; i++) {
+        x0 = fminf(x0, xy[2 * i]);
+        x1 = fmaxf(x1, xy[2 * i]);
+        y0 = fminf(y0, xy[2 * i + 1]);
+        y1 = fmaxf(y1, xy[2 * i + 1]);
+        sum += (xy[2 * i] + xy[2 * i + 1]) * 0.0f;
+    }
+    // 0 · x is NaN where x is not finite: fminf and fmaxf alone would overlook a NaN.
+    return (struct rect){x0 - margin + sum, y0 - margin, x1 - x0 + 2.0f * margin, y1 - y0 + 2.0f * margin};
+}
+
+static void add_shape(struct drawlist *list, struct draw_command *command, const float *xy, int count)
+{
+    if (command && add_points(list, command, xy, count)) commit(list, command);
+}
+
+void drawlist_rect(struct drawlist *list, struct rect r, uint32_t color)
+{
+    const float corners[4] = {r.x, r.y, r.x + r.w, r.y + r.h};
+    if (r.w > 0.0f && r.h > 0.0f) add_shape(list, add(list, DRAW_RECT, r, color), corners, 2);
+}
+
+void drawlist_dashed(struct drawlist *list, const float *xy, int count, float width, float on, float off,
+                     uint32_t color)
+{
+    if (count < 2 || !(width > 0.0f)) return;
+    // A mitre reaches out to twice the half-width, anti-aliasing one pixel more.
+    struct draw_command *command = add(list, DRAW_LINE, bounds_of(xy, count, width + 1.0f), color);
+    if (!command) return;
+    command->width = width;
+    command->on = on;
+    command->off = off;
+    add_shape(list, command, xy, count);
+}
+
+void drawlist_line(struct drawlist *list, const float *xy, int count, float width, uint32_t color)
+{
+    drawlist_dashed(list, xy, count, width, 0.0f, 0.0f, color);
+}
+
+void drawlist_convex(struct drawlist *list, const float *xy, int count, uint32_t color)
+{
+    if (count < 3) return;
+    add_shape(list, add(list, DRAW_CONVEX, bounds_of(xy, count, 1.0f), color), xy, count);
+}
+
+enum { CORNER_MAX = 9 };
+
+/// The outline of a rounded rectangle, clockwise from the top left; returns the number of points (at most 4 · CORNER_MAX).
+static int rounded_outline(struct rect r, float radius, float *xy)
+{
+    float limit = 0.5f * fminf(r.w, r.h);
+    float used = fminf(fmaxf(radius, 0.0f), limit);
+    int steps = used <= 0.0f ? 1 : (int)fminf(3.0f + used / 2.0f, (float)CORNER_MAX);
+    const float center_x[4] = {r.x + used, r.x + r.w - used, r.x + r.w - used, r.x + used};
+    const float center_y[4] = {r.y + used, r.y + used, r.y + r.h - used, r.y + r.h - used};
+    int count = 0;
+    for (int corner = 0; corner < 4; corner++) {
+        for (int i = 0; i < steps; i++) {
+            float turn = (float)corner + (steps > 1 ? (float)i / (float)(steps - 1) : 0.5f);
+            float angle = (turn - 2.0f) * (float)M_PI_2;
+            xy[2 * count] = center_x[corner] + used * cosf(angle);
+            xy[2 * count + 1] = center_y[corner] + used * sinf(angle);
+            count++;
+        }
+    }
+    return count;
+}
+
+void drawlist_rounded(struct drawlist *list, struct rect r, float radius, uint32_t color)
+{
+    float xy[8 * CORNER_MAX];
+    if (r.w <= 0.0f || r.h <= 0.0f) return;
+    drawlist_convex(list, xy, rounded_outline(r, radius, xy), color);
+}
+
+void drawlist_rounded_line(struct drawlist *list, struct rect r, float radius, float width, uint32_t color)
+{
+    float xy[8 * CORNER_MAX + 2];
+    struct rect middle = rect_inset(r, 0.5f * width);
+    if (middle.w <= 0.0f || middle.h <= 0.0f) return;
+    int count = rounded_outline(middle, radius - 0.5f * width, xy);
+    xy[2 * count] = xy[0];
+    xy[2 * count + 1] = xy[1];
+    drawlist_line(list, xy, count + 1, width, color);
+}
+
+/// Appends `length` bytes of text, and a NUL after them in the pool.
+static void add_text(struct drawlist *list, const struct draw_command *style, const char *text, size_t length,
+                     float width)
+{
+    // Overhanging letters, accents and rounding to device pixels reach beyond the advance widths.
+    float size = style->width;
+    struct rect bounds = {style->x - 0.3f * size - 1.0f, style->y - 1.3f * size, width + 0.6f * size + 2.0f,
+                          1.8f * size};
+    struct draw_command *command = add(list, DRAW_TEXT, bounds, style->color);
+    if (!command) return;
+    if (length + 1 > (size_t)(list->text_capacity - list->text_count)) {
+        list->overflow = true;
+        return;
+    }
+    command->x = style->x;
+    command->y = style->y;
+    command->width = size;
+    command->font = style->font;
+    command->first = list->text_count;
+    command->count = (int)length;
+    memcpy(list->text + command->first, text, length);
+    list->text[command->first + command->count] = '\0';
+    list->text_count += (int)length + 1;
+    commit(list, command);
+}
+
+void drawlist_text(struct drawlist *list, float x, float y, enum font font, float size, uint32_t color,
+                   const char *utf8)
+{
+    const struct draw_command style = {.color = color, .x = x, .y = y, .width = size, .font = font};
+    if (*utf8) add_text(list, &style, utf8, strlen(utf8), font_width(font, size, utf8));
+}
+
+/// Bytes of the longest beginning of a text that is at most `width` wide and `limit` bytes long (0 where none is).
+static size_t fitting_length(enum font font, float size, float width, size_t limit, const char *utf8)
+{
+    const char *end = utf8;
+    float used = 0.0f;
+    for (;;) {
+        const char *next = end;
+        if (utf8_next(&next) == 0) break;
+        char letter[5] = "";
+        memcpy(letter, end, (size_t)(next - end));
+        used += font_width(font, size, letter);
+        if (used > width || (size_t)(next - utf8) > limit) break;
+        end = next;
+    }
+    return (size_t)(end - utf8);
+}
+
+void drawlist_text_fit(struct drawlist *list, float x, float y, float width, enum font font, float size,
+                       uint32_t color, const char *utf8)
+{
+    static const char ellipsis[] = "…";
+    if (font_width(font, size, utf8) <= width) {
+        drawlist_text(list, x, y, font, size, color, utf8);
+        return;
+    }
+    char cut[256];
+    float room = width - font_width(font, size, ellipsis);
+    size_t length = fitting_length(font, size, room, sizeof cut - sizeof ellipsis, utf8);
+    while (length > 0 && utf8[length - 1] == ' ') length--;
+    memcpy(cut, utf8, length);
+    memcpy(cut + length, ellipsis, sizeof ellipsis);
+    drawlist_text(list, x, y, font, size, color, cut);
+}

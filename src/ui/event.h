@@ -1,0 +1,79 @@
+/// Input events, the same from a window, a replay or a test. Positions in logical pixels from the top left.
+#ifndef UI_EVENT_H
+#define UI_EVENT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum event_kind {
+    EVENT_KEY,     ///< key, action, mods
+    EVENT_TEXT,    ///< codepoint
+    EVENT_POINTER, ///< x, y, mods
+    EVENT_BUTTON,  ///< button, action, mods, x, y, clicks
+    EVENT_WHEEL,   ///< dx, dy, mods, x, y
+    EVENT_SIZE,    ///< x, y: new logical size; scale
+    EVENT_DROP,    ///< path
+    EVENT_CLOSE,   ///< the window's close button
+    EVENT_EXPOSE,  ///< the window's content was lost
+};
+
+enum event_action { ACTION_RELEASE, ACTION_PRESS, ACTION_REPEAT };
+
+enum event_mods { MOD_SHIFT = 1, MOD_CTRL = 2, MOD_ALT = 4, MOD_SUPER = 8 };
+
+enum event_button { BUTTON_LEFT, BUTTON_RIGHT, BUTTON_MIDDLE };
+
+/// Letters and digits are their upper-case ASCII code, printed punctuation its ASCII code (by the key's printed name).
+enum key {
+    KEY_NONE = 0,
+    KEY_SPACE = ' ',
+    KEY_COMMA = ',',
+    KEY_PERIOD = '.',
+    KEY_ESCAPE = 256,
+    KEY_ENTER,
+    KEY_TAB,
+    KEY_BACKSPACE,
+    KEY_INSERT,
+    KEY_DELETE,
+    KEY_LEFT,
+    KEY_RIGHT,
+    KEY_UP,
+    KEY_DOWN,
+    KEY_PAGE_UP,
+    KEY_PAGE_DOWN,
+    KEY_HOME,
+    KEY_END,
+    KEY_F1,
+    KEY_F2,
+    KEY_F3,
+    KEY_F4,
+    KEY_F5,
+    KEY_F6,
+    KEY_F7,
+    KEY_F8,
+    KEY_F9,
+    KEY_F10,
+    KEY_F11,
+    KEY_F12,
+    KEY_COUNT
+};
+
+struct event {
+    enum event_kind kind;
+    int key;                  ///< enum key
+    enum event_action action; ///< of key and button
+    unsigned mods;            ///< enum event_mods
+    enum event_button button;
+    int clicks; ///< 1, or 2 for the second press of a double click (decided by the platform or the replay)
+    uint32_t codepoint;
+    float x, y, dx, dy;
+    float scale;      ///< device pixels a logical pixel
+    double time;      ///< seconds, when it arrived
+    const char *path; ///< EVENT_DROP: valid during the frame
+};
+
+/// Names for replays: "A", "Left", "F1", ","; 0 / NULL where there is none.
+const char *key_name(int key);
+int key_from_name(const char *name);
+
+#endif

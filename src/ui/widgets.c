@@ -1,0 +1,214 @@
+#include "ui/widgets.h"
+#include "ui/widgets_internal.h"
+#include <math.h>
+#include <string.h>
+
+static void begin(struct ui *ui, enum ui_pass pass, struct rect area)
+{
+    ui->pass = pass;
+    ui->area = area;
+    ui->clip = area;
+    ui->y = area.y;
+    ui->event = NULL;
+    ui->list = NULL;
+    ui->find = 0;
+    ui->found = false;
+    ui->used = false;
+    ui->scroll = NULL;
+    ui->stop_count = 0;
+}
+
+void ui_begin_event(struct ui *ui, struct rect area, const struct event *event)
+{
+    begin(ui, UI_PASS_EVENT, area);
+    ui->event = event;
+    ui->hint = NULL;
+    if (event->kind == EVENT_POINTER || event->kind == EVENT_BUTTON || event->kind == EVENT_WHEEL) {
+        ui->pointer_x = event->x;
+        ui->pointer_y = event->y;
+    }
+    if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) ui->focus = 0;
+}
+
+void ui_begin_draw(struct ui *ui, struct rect area, struct drawlist *list)
+{
+    begin(ui, UI_PASS_DRAW, area);
+    ui->list = list;
+    ui->list_clip = drawlist_push_clip(list, area);
+    ui->hint = NULL;
+}
+
+void ui_begin_find(struct ui *ui, struct rect area, const char *name, const double *value)
+{
+    begin(ui, UI_PASS_FIND, area);
+    ui->find = ui_id(name);
+    ui->find_has_value = value != NULL;
+    ui->find_value = value ? *value : 0;
+}
+
+/// Scrolls just far enough that `r` is seen.
+static void reveal(struct ui *ui, struct rect r)
+{
+    if (!ui->scroll) return;
+    float above = ui->scroll_area.y - r.y;
+    float below = r.y + r.h - (ui->scroll_area.y + ui->scroll_area.h);
+    if (above > 0) {
+        ui->scroll->offset = fmaxf(0, ui->scroll->offset - above);
+    } else if (below > 0) {
+        ui->scroll->offset += below;
+    }
+}
+
+static void move_focus(struct ui *ui, int direction)
+{
+    if (ui->stop_count == 0) return;
+    int at = -1;
+    for (int i = 0; i < ui->stop_count; i++) {
+        if (ui->stop[i].id == ui->focus) at = i;
+    }
+    if (at < 0) {
+        at = direction > 0 ? 0 : ui->stop_count - 1;
+    } else {
+        at = (at + direction + ui->stop_count) % ui->stop_count;
+    }
+    ui->focus = ui->stop[at].id;
+    reveal(ui, ui->stop[at].rect);
+}
+
+static bool is_shown(const struct ui *ui, uint32_t id)
+{
+    for (int i = 0; i < ui->stop_count; i++) {
+        if (ui->stop[i].id == id) return true;
+    }
+    return false;
+}
+
+static void end_event(struct ui *ui)
+{
+    const struct event *event = ui->event;
+    if (!is_shown(ui, ui->focus)) ui->focus = 0;
+    if (!is_shown(ui, ui->held)) ui->held = 0;
+    if (!is_shown(ui, ui->typing)) ui->typing = 0;
+    if (ui->used || event->kind != EVENT_KEY || event->action == ACTION_RELEASE) return;
+    if (event->key == KEY_TAB && !(event->mods & (MOD_CTRL | MOD_ALT))) {
+        move_focus(ui, event->mods & MOD_SHIFT ? -1 : 1);
+        ui->used = true;
+    } else if (event->key == KEY_ESCAPE && ui->focus) {
+        ui->focus = 0;
+        ui->used = true;
+    }
+}
+
+bool ui_end(struct ui *ui)
+{
+    if (ui->pass == UI_PASS_EVENT) end_event(ui);
+    if (ui->pass == UI_PASS_DRAW) drawlist_set_clip(ui->list, ui->list_clip);
+    ui->event = NULL;
+    ui->list = NULL;
+    return ui->pass == UI_PASS_FIND ? ui->found : ui->used;
+}
+
+void ui_release(struct ui *ui)
+{
+    ui->focus = 0;
+    ui->held = 0;
+    ui->typing = 0;
+    ui->hint = NULL;
+    ui->complaint[0] = '\0';
+}
+
+bool ui_is_typing_key(const struct ui *ui, const struct event *event)
+{
+    if (!ui->typing) return false;
+    if (event->kind == EVENT_TEXT) return true;
+    if (event->kind != EVENT_KEY || event->mods & MOD_CTRL) return false;
+    return event->key < KEY_F1 || event->key > KEY_F12;
+}
+
+struct rect ui_row(struct ui *ui, float height)
+{
+    struct rect r = {ui->area.x + UI_PAD, ui->y, ui->area.w - 2 * UI_PAD, height};
+    ui->y += height;
+    return r;
+}
+
+void ui_space(struct ui *ui, float height) { ui->y += height; }
+
+void ui_scroll_begin(struct ui *ui, struct ui_scroll *scroll, struct rect view)
+{
+    scroll->offset = roundf(fmaxf(0, fminf(scroll->offset, scroll->content - view.h)));
+    ui->scroll = scroll;
+    ui->scroll_area = view;
+    ui->scroll_clip = ui->clip;
+    ui->clip = rect_intersect(ui->clip, view);
+    ui->y = view.y - scroll->offset;
+    if (ui->pass == UI_PASS_DRAW) drawlist_push_clip(ui->list, view);
+}
+
+void ui_scroll_end(struct ui *ui)
+{
+    struct rect view = ui->scroll_area;
+    struct ui_scroll *scroll = ui->scroll;
+    scroll->content = ui->y + scroll->offset - view.y;
+    float room = fmaxf(0, scroll->content - view.h);
+    if (ui->pass == UI_PASS_EVENT && ui->event->kind == EVENT_WHEEL && !ui->used && ui_hovered(ui, view)) {
+        scroll->offset = fmaxf(0, fminf(room, scroll->offset - 2 * UI_ROW * ui->event->dy));
+        ui->used = true;
+    }
+    if (ui->pass == UI_PASS_DRAW) {
+        if (room > 0) {
+            float length = view.h * view.h / scroll->content;
+            float top = view.y + (view.h - length) * fminf(1, scroll->offset / room);
+            drawlist_rounded(ui->list, (struct rect){view.x + view.w - 6, top + 2, 4, length - 4}, 2, UI_HOVER);
+        }
+        drawlist_set_clip(ui->list, ui->scroll_clip);
+    }
+    ui->clip = ui->scroll_clip;
+    ui->y = view.y + view.h;
+}
+
+uint32_t ui_id(const char *name)
+{
+    uint32_t hash = 2166136261u; // FNV-1a; 0 stands for no widget
+    for (; *name; name++) hash = (hash ^ (unsigned char)*name) * 16777619u;
+    return hash ? hash : 1;
+}
+
+bool ui_hovered(const struct ui *ui, struct rect r)
+{
+    return rect_contains(r, ui->pointer_x, ui->pointer_y) && rect_contains(ui->clip, ui->pointer_x, ui->pointer_y);
+}
+
+void ui_register(struct ui *ui, uint32_t id, struct rect r)
+{
+    if (ui->stop_count < UI_MAX_FOCUS) ui->stop[ui->stop_count++] = (struct ui_stop){id, r};
+    if (ui->pass == UI_PASS_FIND && ui->find == id && !ui->found) {
+        ui->found_x = r.x + r.w / 2;
+        ui->found_y = r.y + r.h / 2;
+        ui->found = rect_contains(ui->clip, ui->found_x, ui->found_y);
+    }
+}
+
+bool ui_pressed(struct ui *ui, struct rect r, enum event_button button)
+{
+    if (ui->pass != UI_PASS_EVENT || ui->used) return false;
+    const struct event *event = ui->event;
+    if (event->kind != EVENT_BUTTON || event->action != ACTION_PRESS || event->button != button) return false;
+    if (!ui_hovered(ui, r)) return false;
+    ui->used = true;
+    return true;
+}
+
+bool ui_focused_key(const struct ui *ui, uint32_t id)
+{
+    return ui->pass == UI_PASS_EVENT && !ui->used && ui->focus == id && ui->event->kind == EVENT_KEY &&
+           ui->event->action != ACTION_RELEASE && !(ui->event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER));
+}
+
+bool ui_activated(struct ui *ui, uint32_t id)
+{
+    if (!ui_focused_key(ui, id)) return false;
+    if (ui->event->key != KEY_ENTER && ui->event->key != KEY_SPACE) return false;
+    ui->used = true;
+    return true;
+}

@@ -1,0 +1,161 @@
+/// Widgets: the panel's code is run once for each event and once for each frame, and lays itself out the same way both
+/// times (immediate mode). In between a `struct ui` keeps only what has the focus, is held by the pointer or typed in.
+///
+///     ui_begin_event(&ui, area, event);              ui_begin_draw(&ui, area, list);
+///     build(&ui, …);                                 build(&ui, …);
+///     used = ui_end(&ui);                            ui_end(&ui);
+///
+/// Widgets have names; a name is unique in its panel and is also what ui_begin_find() looks for. Takes input, emits draw
+/// commands; no GL, no allocation. Tab and Shift+Tab move the focus; the pointer takes it away.
+#ifndef UI_WIDGETS_H
+#define UI_WIDGETS_H
+
+#include "ui/drawlist.h"
+#include "ui/event.h"
+
+enum {
+    UI_ROW = 24,        ///< height of a row
+    UI_PAD = 12,        ///< from the panel's edge to its content
+    UI_LABEL = 84,      ///< width of the label column
+    UI_GAP = 8,         ///< between things in a row
+    UI_MAX_FOCUS = 160, ///< widgets of one panel that Tab can reach
+    UI_TEXT_SIZE = 1024,
+};
+
+enum ui_pass { UI_PASS_EVENT, UI_PASS_DRAW, UI_PASS_FIND };
+
+/// A line of text being typed.
+struct ui_text {
+    char bytes[UI_TEXT_SIZE];
+    int length, caret; ///< bytes
+    bool all;          ///< all is selected: the next character replaces it
+};
+
+/// A scroll area's position.
+struct ui_scroll {
+    float offset, content; ///< pixels scrolled, and height of the content as last laid out
+};
+
+/// A widget that Tab reaches, as laid out in the running pass.
+struct ui_stop {
+    uint32_t id;
+    struct rect rect;
+};
+
+/// One panel's widgets; zero is a valid start.
+struct ui {
+    uint32_t focus;  ///< has the keyboard, drawn with a ring; 0: none
+    uint32_t held;   ///< has the pointer while the button is down
+    uint32_t typing; ///< its value is being typed into `text`
+    struct ui_text text;
+    bool typed;      ///< `text` was changed since typing began
+    bool refused;    ///< `text` was refused and not changed since
+    bool by_pointer; ///< typing began with a double-click, so it leaves no focus behind
+    bool moved;      ///< the held widget was dragged, not only pressed
+    bool fine;
+    float press_x;
+    float anchor_x; ///< where the drag's mapping starts anew: at the press and where Shift changes
+    double anchor_value;
+    float pointer_x, pointer_y;
+    const char *hint;    ///< of the widget that the pointer is over; NULL: none
+    char complaint[160]; ///< why what was typed was refused; the caller shows and clears it
+
+    enum ui_pass pass;
+    const struct event *event;
+    struct drawlist *list;
+    uint32_t find;
+    bool find_has_value;
+    double find_value;
+    bool found;
+    float found_x, found_y;
+    bool used;
+    struct rect area, clip, list_clip;
+    float y; ///< where the next row goes
+    struct ui_scroll *scroll;
+    struct rect scroll_area, scroll_clip;
+    struct ui_stop stop[UI_MAX_FOCUS];
+    int stop_count;
+};
+
+void ui_begin_event(struct ui *ui, struct rect area, const struct event *event);
+void ui_begin_draw(struct ui *ui, struct rect area, struct drawlist *list);
+/// Looks for the widget `name`, or where its bar shows `*value` (NULL: where it is held): found, found_x, found_y.
+void ui_begin_find(struct ui *ui, struct rect area, const char *name, const double *value);
+/// Ends the pass: moves the focus for Tab, drops what is no longer shown. true where the event was used or the widget found.
+bool ui_end(struct ui *ui);
+
+/// Drops focus, held and typed-in widget without a change.
+void ui_release(struct ui *ui);
+/// Whether a key event belongs to the text that is typed: all but Ctrl chords and F keys.
+bool ui_is_typing_key(const struct ui *ui, const struct event *event);
+
+/// The next row of `height` pixels, inset by UI_PAD from the panel's sides.
+struct rect ui_row(struct ui *ui, float height);
+void ui_space(struct ui *ui, float height);
+
+/// What is built between these scrolls inside `view`, by the wheel and so that the focused widget is seen.
+void ui_scroll_begin(struct ui *ui, struct ui_scroll *scroll, struct rect view);
+void ui_scroll_end(struct ui *ui);
+
+/// One line of text, cut with "…" where it does not fit; vertically centred.
+void ui_label(struct ui *ui, struct rect r, const char *text, uint32_t color);
+void ui_label_right(struct ui *ui, struct rect r, const char *text, uint32_t color);
+/// Small text over as many rows as it takes (at most 4), broken at spaces.
+void ui_paragraph(struct ui *ui, const char *text, uint32_t color);
+/// Header of a section that a click opens and closes; returns whether it is open.
+bool ui_section(struct ui *ui, const char *name, const char *title, bool *closed);
+/// true where it was pressed (and by Enter or Space).
+bool ui_button(struct ui *ui, struct rect r, const char *name, const char *label, bool primary);
+bool ui_toggle(struct ui *ui, struct rect r, const char *name, bool *on);
+/// A row of a list: a swatch of `color` and a text.
+bool ui_list_row(struct ui *ui, struct rect r, const char *name, const char *text, uint32_t color, bool selected);
+
+struct ui_choice {
+    const char *name, *label; ///< a segment is found as "<control>.<name>"
+};
+
+/// One of `count` segments; true where `*index` (-1: none) was changed.
+bool ui_segments(struct ui *ui, struct rect r, const char *name, const struct ui_choice *choices, int count,
+                 int *index);
+
+/// A number: a bar from `minimum` to `maximum` where those differ, else a field that is dragged by `step` a pixel.
+struct ui_number {
+    const char *name;
+    const char *label; ///< in the label column; NULL: the field takes the whole rectangle
+    const char *unit;  ///< behind the number, or NULL
+    const char *hint;
+    const char *shown;       ///< in place of the number, or NULL
+    double minimum, maximum; ///< ends of the bar
+    double lowest, highest;  ///< what may be typed
+    double fallback;         ///< right-click; NAN: none
+    double step;             ///< arrow keys and what a drag rounds to
+    int decimals;
+};
+
+/// How a number changed, for undo: a drag is one step, whatever the number of UI_DRAG in it.
+enum ui_change {
+    UI_NONE,
+    UI_DRAG,   ///< the pointer moved it; more may come
+    UI_DROP,   ///< the drag has ended (the value is that of the last UI_DRAG)
+    UI_CANCEL, ///< the drag was cancelled by Esc: back to the value before
+    UI_SET,    ///< once: typed, or by right-click
+    UI_NUDGE,  ///< once, by an arrow key; a run of them is one step
+};
+
+/// Drag to change (Shift: a tenth as fast), double-click or Enter to type, right-click for the default, arrows when focused.
+/// `*value` is set for UI_DRAG, UI_SET and UI_NUDGE.
+enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *number, double *value);
+
+/// A line of text to type in; its content is ui->text while `typing`. true where the text changed.
+bool ui_text_field(struct ui *ui, struct rect r, const char *name);
+
+void ui_text_set(struct ui_text *text, const char *utf8);
+/// One key or character; false where it is none of the line's business. `changed` may be NULL.
+bool ui_text_event(struct ui_text *text, const struct event *event, bool *changed);
+
+/// For widgets made elsewhere: the id of a name, whether the pointer is over (and not over anything clipped), registration.
+uint32_t ui_id(const char *name);
+bool ui_hovered(const struct ui *ui, struct rect r);
+void ui_register(struct ui *ui, uint32_t id, struct rect r);
+
+#endif

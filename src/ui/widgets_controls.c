@@ -1,0 +1,221 @@
+#include "ui/widgets_internal.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+struct rect ui_field_of(struct rect row) { return (struct rect){row.x, row.y + 2, row.w, row.h - 4}; }
+
+float ui_baseline(struct rect r, enum font font, float size)
+{
+    return roundf(r.y + (r.h + font_cap_height(font, size)) / 2);
+}
+
+void ui_focus_ring(struct ui *ui, uint32_t id, struct rect r)
+{
+    if (ui->focus == id) drawlist_rounded_line(ui->list, rect_inset(r, -1), UI_RADIUS + 1, 1.5f, THEME_ACCENT);
+}
+
+static void paint_label(struct ui *ui, struct rect r, enum font font, const char *text, uint32_t color)
+{
+    float y = ui_baseline(r, font, THEME_TEXT_NORMAL);
+    drawlist_text_fit(ui->list, r.x, y, r.w, font, THEME_TEXT_NORMAL, color, text);
+}
+
+void ui_label(struct ui *ui, struct rect r, const char *text, uint32_t color)
+{
+    if (ui->pass == UI_PASS_DRAW) paint_label(ui, r, FONT_LABEL, text, color);
+}
+
+static void paint_right(struct ui *ui, struct rect r, enum font font, float size, const char *text, uint32_t color)
+{
+    float w = fminf(r.w, font_width(font, size, text));
+    drawlist_text_fit(ui->list, r.x + r.w - w, ui_baseline(r, font, size), w, font, size, color, text);
+}
+
+void ui_label_right(struct ui *ui, struct rect r, const char *text, uint32_t color)
+{
+    if (ui->pass == UI_PASS_DRAW) paint_right(ui, r, FONT_LABEL, THEME_TEXT_NORMAL, text, color);
+}
+
+void ui_number_text(struct ui *ui, struct rect r, const char *text, uint32_t color)
+{
+    paint_right(ui, r, FONT_NUMBER, THEME_TEXT_SMALL, text, color);
+}
+
+/// Bytes of the next line that fit into `width`, ending at a space where there is one; at least one character.
+static size_t line_length(const char *text, float width)
+{
+    char part[256];
+    size_t fits = 0;
+    const char *at = text;
+    while (*at) {
+        utf8_next(&at);
+        size_t length = (size_t)(at - text);
+        if (length >= sizeof part) break;
+        memcpy(part, text, length);
+        part[length] = '\0';
+        bool whole = *at == ' ' || *at == '\0';
+        if (font_width(FONT_LABEL, THEME_TEXT_SMALL, part) > width) return fits ? fits : length;
+        if (whole) fits = length;
+    }
+    return fits ? fits : (size_t)(at - text);
+}
+
+void ui_paragraph(struct ui *ui, const char *text, uint32_t color)
+{
+    enum { LINE = 16, MAX_LINES = 4 };
+    for (int line = 0; line < MAX_LINES && *text; line++) {
+        struct rect r = ui_row(ui, LINE);
+        size_t length = line_length(text, r.w);
+        if (ui->pass == UI_PASS_DRAW) {
+            char part[257];
+            snprintf(part, sizeof part, "%.*s", (int)length, text);
+            float y = ui_baseline(r, FONT_LABEL, THEME_TEXT_SMALL);
+            drawlist_text_fit(ui->list, r.x, y, r.w, FONT_LABEL, THEME_TEXT_SMALL, color,
+                              line == MAX_LINES - 1 ? text : part);
+        }
+        text += length;
+        while (*text == ' ') text++;
+    }
+}
+
+/// A small triangle that points right where the section is closed, down where it is open.
+static void paint_arrow(struct ui *ui, float x, float y, bool closed, uint32_t color)
+{
+    const float right[6] = {x + 1, y - 4, x + 5, y, x + 1, y + 4};
+    const float down[6] = {x - 1, y - 2, x + 7, y - 2, x + 3, y + 2};
+    drawlist_convex(ui->list, closed ? right : down, 3, color);
+}
+
+bool ui_section(struct ui *ui, const char *name, const char *title, bool *closed)
+{
+    ui_space(ui, 4);
+    struct rect line = {ui->area.x, ui->y, ui->area.w, 1};
+    struct rect r = ui_row(ui, UI_ROW);
+    uint32_t id = ui_id(name);
+    bool first = ui->stop_count == 0;
+    ui_register(ui, id, r);
+    if (ui_pressed(ui, r, BUTTON_LEFT) || ui_activated(ui, id)) *closed = !*closed;
+    if (ui->pass == UI_PASS_DRAW) {
+        if (!first) drawlist_rect(ui->list, line, THEME_BORDER);
+        uint32_t color = ui_hovered(ui, r) ? THEME_TEXT : THEME_TEXT_DIM;
+        paint_arrow(ui, r.x, r.y + r.h / 2, *closed, color);
+        paint_label(ui, (struct rect){r.x + 14, r.y, r.w - 14, r.h}, FONT_LABEL_BOLD, title, color);
+        ui_focus_ring(ui, id, (struct rect){r.x - 4, r.y + 3, r.w + 8, r.h - 6});
+    }
+    return !*closed;
+}
+
+/// Text in the middle of `r`, cut where it does not fit.
+static void paint_centred(struct ui *ui, struct rect r, const char *text, uint32_t color)
+{
+    float w = fminf(r.w - 8, font_width(FONT_LABEL, THEME_TEXT_NORMAL, text));
+    paint_label(ui, (struct rect){roundf(r.x + (r.w - w) / 2), r.y, w, r.h}, FONT_LABEL, text, color);
+}
+
+bool ui_button(struct ui *ui, struct rect r, const char *name, const char *label, bool primary)
+{
+    struct rect field = ui_field_of(r);
+    uint32_t id = ui_id(name);
+    ui_register(ui, id, field);
+    bool pressed = ui_pressed(ui, field, BUTTON_LEFT) || ui_activated(ui, id);
+    if (ui->pass == UI_PASS_DRAW) {
+        bool hot = ui_hovered(ui, field);
+        uint32_t fill = primary ? THEME_ACCENT : hot ? UI_HOVER : UI_FILL;
+        drawlist_rounded(ui->list, field, UI_RADIUS, fill);
+        paint_centred(ui, field, label, primary ? THEME_PANEL : THEME_TEXT);
+        ui_focus_ring(ui, id, rect_inset(field, primary ? -2 : 0));
+    }
+    return pressed;
+}
+
+bool ui_toggle(struct ui *ui, struct rect r, const char *name, bool *on)
+{
+    struct rect box = {r.x, r.y + (r.h - 16) / 2, 28, 16};
+    uint32_t id = ui_id(name);
+    ui_register(ui, id, box);
+    bool pressed = ui_pressed(ui, box, BUTTON_LEFT) || ui_activated(ui, id);
+    if (pressed) *on = !*on;
+    if (ui->pass == UI_PASS_DRAW) {
+        uint32_t fill = *on ? THEME_ACCENT : ui_hovered(ui, box) ? UI_HOVER : UI_FILL;
+        drawlist_rounded(ui->list, box, 8, fill);
+        struct rect knob = {box.x + (*on ? 14.0f : 2.0f), box.y + 2, 12, 12};
+        drawlist_rounded(ui->list, knob, 6, *on ? THEME_PANEL : THEME_TEXT_DIM);
+        ui_focus_ring(ui, id, rect_inset(box, -1));
+    }
+    return pressed;
+}
+
+bool ui_list_row(struct ui *ui, struct rect r, const char *name, const char *text, uint32_t color, bool selected)
+{
+    uint32_t id = ui_id(name);
+    ui_register(ui, id, r);
+    bool pressed = ui_pressed(ui, r, BUTTON_LEFT) || ui_activated(ui, id);
+    if (ui->pass == UI_PASS_DRAW) {
+        bool hot = ui_hovered(ui, r);
+        struct rect back = {r.x - 4, r.y + 1, r.w + 8, r.h - 2};
+        if (selected || hot) drawlist_rounded(ui->list, back, UI_RADIUS, selected ? UI_FILL : THEME_RAISED);
+        if (selected) drawlist_rect(ui->list, (struct rect){back.x, back.y + 4, 2, back.h - 8}, THEME_ACCENT);
+        float left = r.x + 6;
+        if (color) {
+            drawlist_rounded(ui->list, (struct rect){left, r.y + (r.h - 10) / 2, 10, 10}, 3, color);
+            left += 18;
+        }
+        struct rect label = {left, r.y, r.x + r.w - left, r.h};
+        paint_label(ui, label, FONT_LABEL, text, selected || hot ? THEME_TEXT : THEME_TEXT_DIM);
+        ui_focus_ring(ui, id, rect_inset(back, 1));
+    }
+    return pressed;
+}
+
+static void paint_segments(struct ui *ui, struct rect field, const struct ui_choice *choices, int count, int chosen)
+{
+    float w = field.w / (float)count;
+    drawlist_rounded(ui->list, field, UI_RADIUS, THEME_RAISED);
+    for (int i = 0; i < count; i++) {
+        struct rect part = {field.x + w * (float)i, field.y, w, field.h};
+        bool hot = ui_hovered(ui, part);
+        if (i == chosen) {
+            drawlist_rounded(ui->list, rect_inset(part, 1), UI_RADIUS - 1, UI_HOVER);
+            struct rect mark = {part.x + 8, part.y + part.h - 2, part.w - 16, 2};
+            drawlist_rect(ui->list, mark, THEME_ACCENT);
+        }
+        paint_centred(ui, part, choices[i].label, i == chosen || hot ? THEME_TEXT : THEME_TEXT_DIM);
+    }
+}
+
+static int segment_key(const struct ui *ui, int count, int chosen)
+{
+    if (ui->event->key == KEY_LEFT) return chosen > 0 ? chosen - 1 : 0;
+    if (ui->event->key == KEY_RIGHT) return chosen < count - 1 ? chosen + 1 : count - 1;
+    return -1;
+}
+
+bool ui_segments(struct ui *ui, struct rect r, const char *name, const struct ui_choice *choices, int count,
+                 int *index)
+{
+    struct rect field = ui_field_of(r);
+    uint32_t id = ui_id(name);
+    int before = *index, next = -1;
+    float w = field.w / (float)count;
+    ui_register(ui, id, field);
+    for (int i = 0; i < count; i++) {
+        struct rect part = {field.x + w * (float)i, field.y, w, field.h};
+        if (ui_pressed(ui, part, BUTTON_LEFT)) next = i;
+        char full[96];
+        snprintf(full, sizeof full, "%s.%s", name, choices[i].name);
+        if (ui->pass == UI_PASS_FIND && ui->find == ui_id(full)) {
+            ui->found_x = part.x + part.w / 2;
+            ui->found_y = part.y + part.h / 2;
+            ui->found = rect_contains(ui->clip, ui->found_x, ui->found_y);
+        }
+    }
+    if (ui_focused_key(ui, id) && (next = segment_key(ui, count, before)) >= 0) ui->used = true;
+    if (ui->pass == UI_PASS_DRAW) {
+        paint_segments(ui, field, choices, count, before);
+        ui_focus_ring(ui, id, field);
+    }
+    if (next < 0 || next == before) return false;
+    *index = next;
+    return true;
+}

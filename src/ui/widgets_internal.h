@@ -1,0 +1,31 @@
+/// What the files of the widgets share: input tests and the few shapes that all of them are painted with.
+#ifndef UI_WIDGETS_INTERNAL_H
+#define UI_WIDGETS_INTERNAL_H
+
+#include "ui/font.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#define UI_RADIUS 4.0f
+#define UI_FILL 0x2B313BFFu  /* the filled part of a bar, chosen segments */
+#define UI_HOVER 0x363D49FFu /* the same under the pointer */
+
+/// The field of a row: inset so that rows one above the other do not touch.
+struct rect ui_field_of(struct rect row);
+
+/// Whether the running event is this button going down over `r`, not clipped and not used yet; then it is used up.
+bool ui_pressed(struct ui *ui, struct rect r, enum event_button button);
+/// Whether the running event presses or repeats a key and widget `id` has the focus; the caller marks it as used.
+bool ui_focused_key(const struct ui *ui, uint32_t id);
+/// Enter or Space on the focused widget; used up.
+bool ui_activated(struct ui *ui, uint32_t id);
+
+void ui_focus_ring(struct ui *ui, uint32_t id, struct rect r);
+/// Baseline that centres capitals in `r`.
+float ui_baseline(struct rect r, enum font font, float size);
+void ui_number_text(struct ui *ui, struct rect r, const char *text, uint32_t color);
+/// The line that is being typed, with its caret, inside `r`.
+void ui_paint_text(struct ui *ui, struct rect r, const struct ui_text *text, enum font font, float size,
+                   bool focused);
+
+#endif

@@ -1,0 +1,335 @@
+/// Numbers: sliders and number fields, which differ only in how a drag maps to a value.
+#include "ui/widgets_internal.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DRAG_THRESHOLD = 2 };          ///< pixels below which a press is a click
+static const double no_limit = 1e300; ///< limits from here on are none
+
+static bool has_bar(const struct ui_number *number) { return number->maximum > number->minimum; }
+
+/// The double nearest to the decimal that is shown, so that a dragged value is saved as it was read.
+static double round_decimals(double value, int decimals)
+{
+    char text[400];
+    snprintf(text, sizeof text, "%.*f", decimals, value);
+    double rounded = strtod(text, NULL);
+    return rounded == 0 ? 0 : rounded; // no negative zero
+}
+
+static double limited(const struct ui_number *number, double value)
+{
+    return fmax(number->lowest, fmin(number->highest, value));
+}
+
+static void format_number(const struct ui_number *number, double value, char *text, size_t size)
+{
+    const char *space = number->unit && strcmp(number->unit, "°") != 0 ? " " : "";
+    const char *unit = number->unit ? number->unit : "";
+    if (fabs(value) >= 1e6) {
+        snprintf(text, size, "%.4g%s%s", value, space, unit);
+    } else {
+        snprintf(text, size, "%.*f%s%s", number->decimals, round_decimals(value, number->decimals), space, unit);
+    }
+}
+
+/// "1.5" or "1.5 Hz": a decimal number and nothing else but the unit. Not hexadecimal, not "inf".
+static bool parse_number(const struct ui_number *number, const char *text, double *value)
+{
+    while (*text == ' ') text++;
+    size_t length = strspn(text, "+-.0123456789eE");
+    char *end;
+    *value = strtod(text, &end);
+    if (end == text || (size_t)(end - text) > length || !isfinite(*value)) return false;
+    while (*end == ' ') end++;
+    size_t unit = number->unit ? strlen(number->unit) : 0;
+    if (unit && strncmp(end, number->unit, unit) == 0) end += unit;
+    while (*end == ' ') end++;
+    return *end == '\0';
+}
+
+static void begin_typing(struct ui *ui, uint32_t id, double value, bool by_pointer)
+{
+    char text[64];
+    snprintf(text, sizeof text, "%.10g", value);
+    ui_text_set(&ui->text, text);
+    ui->text.all = true;
+    ui->typing = id;
+    ui->focus = id;
+    ui->typed = false;
+    ui->refused = false;
+    ui->by_pointer = by_pointer;
+}
+
+static void end_typing(struct ui *ui)
+{
+    ui->typing = 0;
+    if (ui->by_pointer) ui->focus = 0;
+}
+
+static void complain_range(struct ui *ui, const struct ui_number *number, const char *what, double typed)
+{
+    char range[64];
+    if (number->highest >= no_limit) {
+        snprintf(range, sizeof range, "%g or more", number->lowest);
+    } else {
+        snprintf(range, sizeof range, "%g … %g", number->lowest, number->highest);
+    }
+    snprintf(ui->complaint, sizeof ui->complaint, "%.40s: expected %s, got %g", what, range, typed);
+}
+
+/// Takes what was typed; false (with the reason in ui->complaint) where it is no number or out of range.
+static bool take_typed(struct ui *ui, const struct ui_number *number, double *value)
+{
+    double typed;
+    const char *what = number->label ? number->label : number->name;
+    if (!parse_number(number, ui->text.bytes, &typed)) {
+        snprintf(ui->complaint, sizeof ui->complaint, "%s: expected a number, got “%.40s”", what, ui->text.bytes);
+        return false;
+    }
+    if (typed < number->lowest || typed > number->highest) {
+        complain_range(ui, number, what, typed);
+        return false;
+    }
+    *value = typed;
+    return true;
+}
+
+static enum ui_change commit(struct ui *ui, const struct ui_number *number, bool stay, double *value)
+{
+    double typed = *value;
+    bool good = !ui->typed || take_typed(ui, number, &typed);
+    ui->refused = !good;
+    if (good || !stay) end_typing(ui);
+    if (!good || typed == *value) return UI_NONE;
+    *value = typed;
+    return UI_SET;
+}
+
+static enum ui_change typing_event(struct ui *ui, uint32_t id, struct rect field, const struct ui_number *number,
+                                   double *value)
+{
+    const struct event *event = ui->event;
+    if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) {
+        if (!ui_hovered(ui, field)) return commit(ui, number, false, value);
+        ui->used = true;
+        ui->focus = id;
+        ui->text.all = event->clicks == 2;
+        return UI_NONE;
+    }
+    if (!ui_is_typing_key(ui, event)) return UI_NONE;
+    ui->used = true;
+    if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
+        if (event->key == KEY_ENTER) return commit(ui, number, true, value);
+        if (event->key == KEY_ESCAPE) {
+            end_typing(ui);
+            return UI_NONE;
+        }
+        if (event->key == KEY_TAB) {
+            enum ui_change change = commit(ui, number, true, value);
+            ui->used = ui->refused; // else ui_end() moves on from here
+            if (!ui->refused) ui->focus = id;
+            return change;
+        }
+    }
+    bool changed;
+    ui_text_event(&ui->text, event, &changed);
+    if (changed) {
+        ui->typed = true;
+        ui->refused = false;
+    }
+    return UI_NONE;
+}
+
+/// Starts the mapping from pixels to values at `x`: on a bar where the pointer is, in a field or a fine drag at the value.
+static void set_anchor(struct ui *ui, struct rect field, const struct ui_number *number, float x, double value)
+{
+    ui->anchor_x = x;
+    ui->anchor_value = value;
+    if (has_bar(number) && !ui->fine) {
+        double part = (x - field.x) / field.w;
+        ui->anchor_value = number->minimum + part * (number->maximum - number->minimum);
+    }
+}
+
+static double dragged(const struct ui *ui, struct rect field, const struct ui_number *number, float x)
+{
+    bool bar = has_bar(number);
+    double rate = bar ? (number->maximum - number->minimum) / field.w : number->step;
+    double value = ui->anchor_value + (x - ui->anchor_x) * rate * (ui->fine ? 0.1 : 1.0);
+    value = round_decimals(value, number->decimals + (ui->fine ? 1 : 0));
+    if (bar) value = fmax(number->minimum, fmin(number->maximum, value));
+    return limited(number, value);
+}
+
+static enum ui_change held_event(struct ui *ui, struct rect field, const struct ui_number *number, double *value)
+{
+    const struct event *event = ui->event;
+    if (event->kind == EVENT_KEY) {
+        ui->used = true;
+        if (event->key != KEY_ESCAPE || event->action != ACTION_PRESS) return UI_NONE;
+        ui->held = 0;
+        return ui->moved ? UI_CANCEL : UI_NONE;
+    }
+    if (event->kind == EVENT_BUTTON) {
+        ui->used = true;
+        if (event->button != BUTTON_LEFT || event->action != ACTION_RELEASE) return UI_NONE;
+        ui->held = 0;
+        return ui->moved ? UI_DROP : UI_NONE;
+    }
+    if (event->kind != EVENT_POINTER) return UI_NONE;
+    ui->used = true;
+    if (!ui->moved && fabsf(event->x - ui->press_x) < DRAG_THRESHOLD) return UI_NONE;
+    bool fine = event->mods & MOD_SHIFT;
+    if (!ui->moved || fine != ui->fine) {
+        ui->fine = fine;
+        set_anchor(ui, field, number, ui->moved ? event->x : ui->press_x, *value);
+        ui->moved = true;
+    }
+    *value = dragged(ui, field, number, event->x);
+    return UI_DRAG;
+}
+
+static bool starts_number(uint32_t c) { return (c >= '0' && c <= '9') || c == '-' || c == '.'; }
+
+static enum ui_change focused_event(struct ui *ui, uint32_t id, const struct ui_number *number, double *value)
+{
+    const struct event *event = ui->event;
+    if (event->kind == EVENT_TEXT && ui->focus == id && starts_number(event->codepoint)) {
+        begin_typing(ui, id, *value, false);
+        return typing_event(ui, id, (struct rect){0}, number, value);
+    }
+    if (!ui_focused_key(ui, id)) return UI_NONE;
+    ui->used = true;
+    double steps = event->mods & MOD_SHIFT ? 10 : 1;
+    switch (event->key) {
+    case KEY_ENTER:
+        begin_typing(ui, id, *value, false);
+        return UI_NONE;
+    case KEY_LEFT:
+    case KEY_DOWN:
+        steps = -steps;
+        break;
+    case KEY_RIGHT:
+    case KEY_UP:
+        break;
+    default:
+        ui->used = starts_number((uint32_t)event->key);
+        return UI_NONE;
+    }
+    double before = *value;
+    *value = limited(number, round_decimals(before + steps * number->step, number->decimals));
+    return *value == before ? UI_NONE : UI_NUDGE;
+}
+
+static enum ui_change idle_event(struct ui *ui, uint32_t id, struct rect field, const struct ui_number *number,
+                                 double *value)
+{
+    if (ui_pressed(ui, field, BUTTON_LEFT)) {
+        if (ui->event->clicks == 2) {
+            begin_typing(ui, id, *value, true);
+        } else {
+            ui->held = id;
+            ui->moved = false;
+            ui->fine = false;
+            ui->press_x = ui->event->x;
+        }
+        return UI_NONE;
+    }
+    if (!isnan(number->fallback) && ui_pressed(ui, field, BUTTON_RIGHT)) {
+        double before = *value;
+        *value = number->fallback;
+        return before == number->fallback ? UI_NONE : UI_SET;
+    }
+    return focused_event(ui, id, number, value);
+}
+
+/// Where a value is on the bar, 0 … 1.
+static float part_of(const struct ui_number *number, double value)
+{
+    double part = (value - number->minimum) / (number->maximum - number->minimum);
+    return (float)fmax(0, fmin(1, part));
+}
+
+/// Filled from 0 to the value, which need not begin at the left end. The handle is a notch where the text, `text_width` wide
+/// at the right, would be struck through.
+static void paint_bar(struct ui *ui, struct rect field, const struct ui_number *number, double value,
+                      float text_width, bool hot, bool held)
+{
+    float at = field.w * part_of(number, value), zero = field.w * part_of(number, 0);
+    struct rect filled = {field.x + fminf(at, zero), field.y, fabsf(at - zero), field.h};
+    struct rect old = drawlist_push_clip(ui->list, filled);
+    uint32_t fill = held ? theme_fade(THEME_ACCENT, 0.35f) : hot ? UI_HOVER : UI_FILL;
+    drawlist_rounded(ui->list, field, UI_RADIUS, fill);
+    drawlist_set_clip(ui->list, old);
+    float x = field.x + fmaxf(0, fminf(at - 1, field.w - 2));
+    float text = field.x + field.w - UI_GAP - text_width;
+    bool under = x > text - 4 && x < text + text_width + 2;
+    struct rect handle = {x, field.y + (under ? field.h - 4 : 3), 2, under ? 4 : field.h - 6};
+    drawlist_rect(ui->list, handle, held || hot ? THEME_ACCENT : THEME_TEXT_DIM);
+}
+
+static void paint(struct ui *ui, struct rect r, struct rect field, uint32_t id, const struct ui_number *number,
+                  double value)
+{
+    bool held = ui->held == id && ui->moved, typing = ui->typing == id;
+    bool hot = ui_hovered(ui, field) && ui->held == 0;
+    if (number->label) {
+        struct rect label = {r.x, r.y, field.x - r.x - UI_GAP, r.h};
+        ui_label(ui, label, number->label, hot || held || ui->focus == id ? THEME_TEXT : THEME_TEXT_DIM);
+    }
+    drawlist_rounded(ui->list, field, UI_RADIUS, THEME_RAISED);
+    struct rect inner = {field.x + UI_GAP, field.y, field.w - 2 * UI_GAP, field.h};
+    if (typing) {
+        ui_paint_text(ui, inner, &ui->text, FONT_NUMBER, THEME_TEXT_SMALL, true);
+        drawlist_rounded_line(ui->list, field, UI_RADIUS, 1.5f, ui->refused ? THEME_ERROR : THEME_ACCENT);
+        return;
+    }
+    char formatted[64];
+    format_number(number, value, formatted, sizeof formatted);
+    const char *text = number->shown ? number->shown : formatted;
+    if (has_bar(number)) {
+        paint_bar(ui, field, number, value, font_width(FONT_NUMBER, THEME_TEXT_SMALL, text), hot, held);
+    } else if (hot || held) {
+        drawlist_rounded_line(ui->list, field, UI_RADIUS, 1, held ? THEME_ACCENT : UI_HOVER);
+    }
+    ui_number_text(ui, inner, text, THEME_TEXT);
+    ui_focus_ring(ui, id, field);
+}
+
+/// A bar is found at its handle, so that a press there and a drag to "name,value" sets that value.
+static void find_bar(struct ui *ui, struct rect field, const struct ui_number *number, double value)
+{
+    ui->found_x = field.x + field.w * part_of(number, ui->find_has_value ? ui->find_value : value);
+    ui->found_x = fminf(ui->found_x, field.x + field.w - (ui->find_has_value ? 0.0f : 1.0f));
+}
+
+enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *number, double *value)
+{
+    uint32_t id = ui_id(number->name);
+    struct rect field = ui_field_of(r);
+    if (number->label) {
+        field.x += UI_LABEL + UI_GAP;
+        field.w -= UI_LABEL + UI_GAP;
+    }
+    ui_register(ui, id, field);
+    if (ui_hovered(ui, field) && number->hint) ui->hint = number->hint;
+    switch (ui->pass) {
+    case UI_PASS_DRAW:
+        paint(ui, r, field, id, number, *value);
+        return UI_NONE;
+    case UI_PASS_FIND:
+        if (ui->find == id && has_bar(number)) find_bar(ui, field, number, *value);
+        return UI_NONE;
+    case UI_PASS_EVENT:
+        break;
+    }
+    // A press elsewhere ends the typing even where another widget has used it.
+    bool press = ui->event->kind == EVENT_BUTTON && ui->event->action == ACTION_PRESS;
+    if (ui->typing == id && (press || !ui->used)) return typing_event(ui, id, field, number, value);
+    if (ui->used) return UI_NONE;
+    if (ui->held == id) return held_event(ui, field, number, value);
+    return idle_event(ui, id, field, number, value);
+}
