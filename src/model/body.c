@@ -1,0 +1,173 @@
+#include "model/coat.h"
+#include "model/creature.h"
+#include "model/isosurface.h"
+#include <math.h>
+#include <stddef.h>
+
+/// The body is a smooth union of round cones (two balls and all between them), each in a colour of its own.
+///
+/// Metres, bind size, but with y = 0 on the ground. The animal looks towards −z; mirrored parts are given for x > 0. Parts
+/// of the head are relative to its middle and also look towards −z: the head is turned afterwards.
+struct part {
+    float a[3], b[3];
+    float radius_a, radius_b;
+    float blend; ///< width of the fillet to the parts before it
+    uint32_t color;
+    bool mirror;
+};
+
+/// Later parts lie on top of earlier ones with their colours and fillets.
+static const struct part trunk[] = {
+    {{0, 0.265f, -0.25f}, {0, 0.56f, -0.34f}, 0.245f, 0.150f, 0.001f, COAT_FUR, false},            // rump to neck
+    {{0.12f, 0.17f, -0.27f}, {0.17f, 0.13f, -0.42f}, 0.165f, 0.110f, 0.10f, COAT_FUR, true},       // haunches
+    {{0.20f, 0.050f, -0.40f}, {0.225f, 0.045f, -0.50f}, 0.055f, 0.050f, 0.06f, COAT_FUR, true},    // hind feet
+    {{0, 0.58f, -0.42f}, {0, 0.36f, -0.45f}, 0.100f, 0.115f, 0.10f, COAT_BELLY, false},            // chest
+    {{0.085f, 0.44f, -0.46f}, {0.085f, 0.06f, -0.52f}, 0.066f, 0.048f, 0.07f, COAT_FUR, true},     // fore legs
+    {{0.080f, 0.045f, -0.54f}, {0.082f, 0.045f, -0.575f}, 0.050f, 0.047f, 0.05f, COAT_BAND, true}, // paws
+};
+
+static const struct part head[] = {
+    {{0, 0.01f, 0.01f}, {0.080f, -0.035f, -0.02f}, 0.172f, 0.115f, 0.10f, COAT_FUR, true},           // skull
+    {{0.10f, -0.065f, -0.085f}, {0.035f, -0.075f, -0.13f}, 0.065f, 0.055f, 0.05f, COAT_BELLY, true}, // cheeks
+    {{0, -0.060f, -0.12f}, {0, -0.055f, -0.205f}, 0.085f, 0.047f, 0.07f, COAT_BELLY, false},         // muzzle
+    {{0.110f, 0.10f, 0.02f}, {0.165f, 0.265f, 0.02f}, 0.085f, 0.032f, 0.05f, COAT_FUR, true},        // ears
+    {{0.160f, 0.25f, 0.022f}, {0.168f, 0.275f, 0.02f}, 0.036f, 0.030f, 0.04f, COAT_BAND, true},      // their tips
+    {{0.118f, 0.13f, -0.030f}, {0.150f, 0.205f, -0.005f}, 0.050f, 0.024f, 0.03f, COAT_BELLY, true},  // and insides
+};
+
+/// Eyes and nose; small, so they are meshed more finely.
+static const struct part face[] = {
+    {{0.082f, 0.025f, -0.140f}, {0.082f, 0.040f, -0.140f}, 0.030f, 0.030f, 0.001f, COAT_DARK, true},
+    {{0, -0.035f, -0.247f}, {0, -0.032f, -0.252f}, 0.024f, 0.024f, 0.001f, COAT_DARK, false},
+};
+
+/// Middle of the head, how far it is turned to look back over its shoulder, and how far it is tilted (radians).
+static const float head_middle[3] = {0.01f, 0.80f, -0.385f};
+#define HEAD_TURN 1.35f /* about +y, towards the camera's first place */
+#define HEAD_TILT 0.12f
+#define HEAD_REACH 0.31f  /* of the face, from the head's middle, along each axis */
+#define HEAD_RADIUS 0.36f /* of the ball that holds the head */
+#define NECK_BLEND 0.09f
+#define STUMP_BLEND 0.14f
+
+/// Direction, in the standing body, in which eyes and nose shine.
+static const float glint[3] = {0.68f, 0.69f, -0.25f};
+
+const float creature_body_lo[3] = {-0.36f, -CREATURE_BASE_HEIGHT, -0.68f};
+const float creature_body_hi[3] = {0.36f, 1.16f - CREATURE_BASE_HEIGHT, 0.38f};
+
+/// Distance to a round cone. Seen in the half plane through its axis (x along it, r from it), the ball that is nearest
+/// to a point sits where the cone's surface normal, tilted by asin((radius_a − radius_b)/length), meets the axis.
+static float part_distance(const struct part *part, const float p[3])
+{
+    const float q[3] = {(part->mirror ? fabsf(p[0]) : p[0]) - part->a[0], p[1] - part->a[1], p[2] - part->a[2]};
+    const float axis[3] = {part->b[0] - part->a[0], part->b[1] - part->a[1], part->b[2] - part->a[2]};
+    const float length = sqrtf(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+    const float x = (q[0] * axis[0] + q[1] * axis[1] + q[2] * axis[2]) / length;
+    const float r = sqrtf(fmaxf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] - x * x, 0.0f));
+    const float tilt = (part->radius_a - part->radius_b) / length;
+    const float ball = fminf(fmaxf(x - r * tilt / sqrtf(1.0f - tilt * tilt), 0.0f), length);
+    return sqrtf((x - ball) * (x - ball) + r * r) - part->radius_a -
+           (part->radius_b - part->radius_a) * ball / length;
+}
+
+/// Smooth minimum of two distances (polynomial, with a fillet `blend` wide); colours mix in the same measure, into `rgb`,
+/// where that is not NULL.
+static float smooth_union(float old, float added, float blend, float rgb[3], const float added_rgb[3])
+{
+    const float h = fmaxf(blend - fabsf(added - old), 0.0f) / blend;
+    const float share = added < old ? 1.0f - 0.5f * h * h : 0.5f * h * h;
+    for (int k = 0; rgb && k < 3; k++) rgb[k] += (added_rgb[k] - rgb[k]) * share;
+    return fminf(added, old) - 0.25f * h * h * blend;
+}
+
+static float add_parts(const struct part *table, size_t count, const float p[3], float distance, float rgb[3])
+{
+    for (size_t i = 0; i < count; i++) {
+        float part_rgb[3] = {0};
+        if (rgb) coat_linear(table[i].color, part_rgb);
+        distance = smooth_union(distance, part_distance(&table[i], p), table[i].blend, rgb, part_rgb);
+    }
+    return distance;
+}
+
+/// Standing coordinates → the head's own, before it was turned and tilted.
+static void into_head(const float p[3], float q[3])
+{
+    const float x = p[0] - head_middle[0], y = p[1] - head_middle[1], z = p[2] - head_middle[2];
+    const float turned = x * cosf(HEAD_TURN) + z * sinf(HEAD_TURN);
+    q[0] = turned * cosf(HEAD_TILT) + y * sinf(HEAD_TILT);
+    q[1] = y * cosf(HEAD_TILT) - turned * sinf(HEAD_TILT);
+    q[2] = z * cosf(HEAD_TURN) - x * sinf(HEAD_TURN);
+}
+
+/// The tail's stump: as thick as the tail and a hair more while its fillet lasts, then sinking below the tail's own skin at
+/// so flat an angle that the line where they cross cannot be seen.
+static float stump_distance(const float p[3])
+{
+    const float z = fminf(fmaxf(p[2], -0.14f), 0.25f);
+    const float radius = creature_tail_radius(z) + 0.0012f - 0.006f * coat_step(0.10f, 0.25f, z);
+    return sqrtf(p[0] * p[0] + p[1] * p[1] + (p[2] - z) * (p[2] - z)) - radius;
+}
+
+/// Distance to the body at a point in bind space, and its colour where `rgb` is not NULL.
+static float body_distance_color(const float p[3], float rgb[3])
+{
+    const float standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
+    float distance = add_parts(trunk, sizeof trunk / sizeof *trunk, standing, 1e3f, rgb);
+    float fur[3] = {0}, in_head[3], head_rgb[3] = {0};
+    if (rgb) coat_linear(COAT_FUR, fur);
+    distance = smooth_union(distance, stump_distance(p), STUMP_BLEND, rgb, fur);
+    into_head(standing, in_head);
+    const float bound =
+        sqrtf(in_head[0] * in_head[0] + in_head[1] * in_head[1] + in_head[2] * in_head[2]) - HEAD_RADIUS;
+    if (bound > distance + NECK_BLEND) return distance;
+    const float head_distance = add_parts(head, sizeof head / sizeof *head, in_head, 1e3f, rgb ? head_rgb : NULL);
+    return smooth_union(distance, head_distance, NECK_BLEND, rgb, head_rgb);
+}
+
+static float body_distance(const float p[3]) { return body_distance_color(p, NULL); }
+
+/// The fur is the parts' own; round the stump it is the tail's, which also takes over the bending there.
+static void body_paint(struct vertex *vertex)
+{
+    const float *p = vertex->position;
+    body_distance_color(p, vertex->color);
+    const float from_axis = hypotf(p[0], p[1]) / CREATURE_TAIL_RADIUS;
+    const float near = coat_step(2.4f, 1.3f, from_axis);
+    float tail_rgb[3];
+    coat_tail(fmaxf(p[2], 0.0f), p[1] / fmaxf(hypotf(p[0], p[1]), 1e-6f), tail_rgb);
+    const float share = near * coat_step(-0.10f, 0.05f, p[2]);
+    for (int k = 0; k < 3; k++) vertex->color[k] += (tail_rgb[k] - vertex->color[k]) * share;
+    vertex->bend = near * coat_step(-0.25f, -0.05f, p[2]);
+}
+
+static float face_distance(const float p[3])
+{
+    const float standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
+    float in_head[3];
+    into_head(standing, in_head);
+    return add_parts(face, sizeof face / sizeof *face, in_head, 1e3f, NULL);
+}
+
+/// Dark, with a glint where a window above would be mirrored.
+static void face_paint(struct vertex *vertex)
+{
+    const float *n = vertex->normal;
+    coat_linear(COAT_DARK, vertex->color);
+    coat_mix(vertex->color, COAT_TIP, coat_step(0.87f, 0.95f, n[0] * glint[0] + n[1] * glint[1] + n[2] * glint[2]));
+}
+
+void mesh_body(float cell, struct mesh *mesh)
+{
+    const struct solid body = {body_distance, body_paint};
+    isosurface(&body, creature_body_lo, creature_body_hi, cell, mesh);
+    const struct solid features = {face_distance, face_paint};
+    float lo[3], hi[3];
+    for (int k = 0; k < 3; k++) {
+        const float middle = head_middle[k] - (k == 1 ? CREATURE_BASE_HEIGHT : 0.0f);
+        lo[k] = middle - HEAD_REACH;
+        hi[k] = middle + HEAD_REACH;
+    }
+    isosurface(&features, lo, hi, 0.3f * cell, mesh);
+}

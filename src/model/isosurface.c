@@ -1,0 +1,176 @@
+#include "model/isosurface.h"
+#include <math.h>
+#include <stdlib.h>
+
+/// Corners of cells are sampled in blocks of this many a side, and a block far from the surface is sampled once.
+enum { BLOCK = 4 };
+
+struct grid {
+    int n[3]; ///< corners a side
+    float lo[3], cell;
+    float *distance;  ///< at corners, x fastest
+    uint32_t *vertex; ///< of the cell whose lowest corner it is; NO_VERTEX where the surface is elsewhere
+};
+
+#define NO_VERTEX UINT32_MAX
+
+static size_t corner_index(const struct grid *grid, int x, int y, int z)
+{
+    return ((size_t)z * (size_t)grid->n[1] + (size_t)y) * (size_t)grid->n[0] + (size_t)x;
+}
+
+static void corner_point(const struct grid *grid, float x, float y, float z, float p[3])
+{
+    p[0] = grid->lo[0] + x * grid->cell;
+    p[1] = grid->lo[1] + y * grid->cell;
+    p[2] = grid->lo[2] + z * grid->cell;
+}
+
+static void sample_block(const struct solid *solid, struct grid *grid, const int from[3])
+{
+    const float half = 0.5f * (BLOCK - 1);
+    float p[3];
+    corner_point(grid, (float)from[0] + half, (float)from[1] + half, (float)from[2] + half, p);
+    const float middle = solid->distance(p);
+    const bool far = fabsf(middle) > sqrtf(3.0f) * (half + 1.0f) * grid->cell;
+    for (int z = from[2]; z < from[2] + BLOCK && z < grid->n[2]; z++) {
+        for (int y = from[1]; y < from[1] + BLOCK && y < grid->n[1]; y++) {
+            for (int x = from[0]; x < from[0] + BLOCK && x < grid->n[0]; x++) {
+                corner_point(grid, (float)x, (float)y, (float)z, p);
+                grid->distance[corner_index(grid, x, y, z)] = far ? middle : solid->distance(p);
+            }
+        }
+    }
+}
+
+static void sample(const struct solid *solid, struct grid *grid)
+{
+    for (int z = 0; z < grid->n[2]; z += BLOCK) {
+        for (int y = 0; y < grid->n[1]; y += BLOCK) {
+            for (int x = 0; x < grid->n[0]; x += BLOCK) sample_block(solid, grid, (const int[3]){x, y, z});
+        }
+    }
+}
+
+/// From four corners of a tetrahedron, which is the fewest that will do.
+static void gradient(const struct solid *solid, const float p[3], float step, float g[3])
+{
+    static const float corner[4][3] = {{1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, 1, 1}};
+    g[0] = g[1] = g[2] = 0.0f;
+    for (int c = 0; c < 4; c++) {
+        const float q[3] = {p[0] + step * corner[c][0], p[1] + step * corner[c][1], p[2] + step * corner[c][2]};
+        const float d = solid->distance(q) / (4.0f * step);
+        for (int k = 0; k < 3; k++) g[k] += d * corner[c][k];
+    }
+}
+
+/// Mean of the points where the cell's twelve edges cross the surface, in cells from the cell's lowest corner.
+static bool cell_crossing(const struct grid *grid, int x, int y, int z, float mean[3])
+{
+    float d[8];
+    for (int c = 0; c < 8; c++)
+        d[c] = grid->distance[corner_index(grid, x + (c & 1), y + (c >> 1 & 1), z + (c >> 2))];
+    int crossings = 0;
+    mean[0] = mean[1] = mean[2] = 0.0f;
+    for (int axis = 0; axis < 3; axis++) {
+        for (int c = 0; c < 8; c++) {
+            const int other = c | 1 << axis;
+            if (other == c || (d[c] < 0.0f) == (d[other] < 0.0f)) continue;
+            for (int k = 0; k < 3; k++) mean[k] += (float)(c >> k & 1);
+            mean[axis] += d[c] / (d[c] - d[other]);
+            crossings++;
+        }
+    }
+    if (crossings == 0) return false;
+    for (int k = 0; k < 3; k++) mean[k] /= (float)crossings;
+    return true;
+}
+
+/// Newton steps along the gradient bring the averaged point back onto the surface.
+static void settle(const struct solid *solid, float cell, struct vertex *vertex)
+{
+    float g[3];
+    for (int step = 0; step < 2; step++) {
+        gradient(solid, vertex->position, 0.05f * cell, g);
+        const float square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+        const float by = solid->distance(vertex->position) / fmaxf(square, 1e-6f);
+        for (int k = 0; k < 3; k++) vertex->position[k] -= fminf(fmaxf(by * g[k], -cell), cell);
+    }
+    gradient(solid, vertex->position, 0.25f * cell, g);
+    const float length = sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    for (int k = 0; k < 3; k++) vertex->normal[k] = g[k] / fmaxf(length, 1e-6f);
+}
+
+static void place_vertices(const struct solid *solid, struct grid *grid, struct mesh *mesh)
+{
+    for (int z = 0; z + 1 < grid->n[2]; z++) {
+        for (int y = 0; y + 1 < grid->n[1]; y++) {
+            for (int x = 0; x + 1 < grid->n[0]; x++) {
+                float mean[3];
+                uint32_t *slot = &grid->vertex[corner_index(grid, x, y, z)];
+                *slot = NO_VERTEX;
+                if (!cell_crossing(grid, x, y, z, mean)) continue;
+                struct vertex vertex = {0};
+                corner_point(grid, (float)x + mean[0], (float)y + mean[1], (float)z + mean[2], vertex.position);
+                settle(solid, grid->cell, &vertex);
+                solid->paint(&vertex);
+                *slot = mesh_vertex(mesh, &vertex);
+            }
+        }
+    }
+}
+
+/// The quad around the edge that leaves corner c along `axis`, if the surface crosses it: its corners are the vertices of
+/// the four cells that share the edge.
+static void edge_quad(const struct grid *grid, const int c[3], int axis, struct mesh *mesh)
+{
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    if (c[u] == 0 || c[v] == 0 || c[axis] + 1 >= grid->n[axis]) return;
+    int end[3] = {c[0], c[1], c[2]};
+    end[axis]++;
+    const bool inside = grid->distance[corner_index(grid, c[0], c[1], c[2])] < 0.0f;
+    if (inside == (grid->distance[corner_index(grid, end[0], end[1], end[2])] < 0.0f)) return;
+    uint32_t quad[4];
+    for (int k = 0; k < 4; k++) {
+        int cell[3] = {c[0], c[1], c[2]};
+        cell[u] -= k == 0 || k == 3;
+        cell[v] -= k < 2;
+        quad[k] = grid->vertex[corner_index(grid, cell[0], cell[1], cell[2])];
+    }
+    const int second = inside ? 1 : 3, last = inside ? 3 : 1;
+    mesh_triangle(mesh, quad[0], quad[second], quad[2]);
+    mesh_triangle(mesh, quad[0], quad[2], quad[last]);
+}
+
+static void connect(const struct grid *grid, struct mesh *mesh)
+{
+    for (int z = 0; z + 1 < grid->n[2]; z++) {
+        for (int y = 0; y + 1 < grid->n[1]; y++) {
+            for (int x = 0; x + 1 < grid->n[0]; x++) {
+                for (int axis = 0; axis < 3; axis++) edge_quad(grid, (const int[3]){x, y, z}, axis, mesh);
+            }
+        }
+    }
+}
+
+void isosurface(const struct solid *solid, const float lo[3], const float hi[3], float cell, struct mesh *mesh)
+{
+    struct grid grid = {.cell = cell};
+    size_t corners = 1;
+    for (int k = 0; k < 3; k++) {
+        grid.n[k] = (int)ceilf((hi[k] - lo[k]) / cell) + 3;
+        grid.lo[k] = lo[k] - cell;
+        corners *= (size_t)grid.n[k];
+    }
+    grid.distance = malloc(corners * sizeof *grid.distance);
+    grid.vertex = malloc(corners * sizeof *grid.vertex);
+    if (grid.distance && grid.vertex) {
+        sample(solid, &grid);
+        place_vertices(solid, &grid, mesh);
+        connect(&grid, mesh);
+    } else {
+        mesh->failed = true;
+    }
+    free(grid.distance);
+    free(grid.vertex);
+}

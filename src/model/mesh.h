@@ -1,0 +1,32 @@
+/// Triangle meshes that are generated at start-up.
+#ifndef MODEL_MESH_H
+#define MODEL_MESH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/// Bind space: metres, y up, the tail straight along +z with its base at the origin.
+struct vertex {
+    float position[3];
+    float normal[3];
+    float color[3]; ///< linear RGB
+    float
+        bend; ///< how far it follows the joints: 1 on the tail, 0 on the body, between where one grows out of the other
+};
+
+struct mesh {
+    struct vertex *vertices;
+    int vertex_count, vertex_capacity;
+    uint32_t *indices; ///< triangles, counter-clockwise seen from outside
+    int index_count, index_capacity;
+    bool failed; ///< memory ran short and something is missing; stays set
+};
+
+/// Adds a vertex and returns its index; on a shortage of memory sets `failed` and returns 0.
+uint32_t mesh_vertex(struct mesh *mesh, const struct vertex *vertex);
+void mesh_triangle(struct mesh *mesh, uint32_t a, uint32_t b, uint32_t c);
+
+/// Leaves an empty mesh (all zero), as which every mesh starts.
+void mesh_free(struct mesh *mesh);
+
+#endif

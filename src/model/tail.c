@@ -1,0 +1,87 @@
+#include "model/coat.h"
+#include "model/creature.h"
+#include <math.h>
+
+/// Where the tube starts (inside the body), and where its taper ends and the rounded tip, half an ellipsoid, begins.
+#define TUBE_START (-0.10f)
+#define TIP_START (0.8f * CREATURE_TAIL_LENGTH)
+#define TIP_LENGTH (CREATURE_TAIL_LENGTH - TIP_START)
+#define TIP_RADIUS 0.05f
+
+static const float half_turn = 3.14159265f;
+
+/// One ring: place along the tail, radius, and the profile's direction there (along, outward), of length 1.
+struct ring {
+    float z, radius, along, outward;
+};
+
+static struct ring taper_ring(float z)
+{
+    const float angle = half_turn * fmaxf(z, 0.0f) / TIP_START;
+    const float half = 0.5f * (CREATURE_TAIL_RADIUS - TIP_RADIUS);
+    const float slope = -half * sinf(angle) * half_turn / TIP_START;
+    const float length = hypotf(1.0f, slope);
+    return (struct ring){z, TIP_RADIUS + half * (1.0f + cosf(angle)), 1.0f / length, slope / length};
+}
+
+/// `angle` runs from 0 where the tip begins to a quarter turn at its end: rings stand closer where it curves more.
+static struct ring tip_ring(float angle)
+{
+    const float dz = TIP_LENGTH * cosf(angle), dr = -TIP_RADIUS * sinf(angle);
+    const float length = hypotf(dz, dr);
+    return (struct ring){TIP_START + TIP_LENGTH * sinf(angle), TIP_RADIUS * cosf(angle), dz / length, dr / length};
+}
+
+float creature_tail_radius(float z)
+{
+    if (z < TIP_START) return taper_ring(z).radius;
+    const float s = fminf((z - TIP_START) / TIP_LENGTH, 1.0f);
+    return TIP_RADIUS * sqrtf(1.0f - s * s);
+}
+
+static void add_ring(struct ring ring, int segments, struct mesh *mesh)
+{
+    for (int s = 0; s < segments; s++) {
+        const float angle = 2.0f * half_turn * (float)s / (float)segments;
+        const float x = cosf(angle), y = sinf(angle);
+        struct vertex vertex = {
+            .position = {ring.radius * x, ring.radius * y, ring.z},
+            .normal = {ring.along * x, ring.along * y, -ring.outward},
+            .bend = 1.0f,
+        };
+        coat_tail(ring.z, y, vertex.color);
+        mesh_vertex(mesh, &vertex);
+    }
+}
+
+/// Two triangles a segment between the ring that starts at vertex `first` and the next.
+static void join_rings(uint32_t first, uint32_t segments, struct mesh *mesh)
+{
+    for (uint32_t s = 0; s < segments; s++) {
+        const uint32_t a = first + s, b = first + (s + 1) % segments;
+        mesh_triangle(mesh, a, b, b + segments);
+        mesh_triangle(mesh, a, b + segments, a + segments);
+    }
+}
+
+static void close_tip(uint32_t last_ring, uint32_t segments, struct mesh *mesh)
+{
+    struct vertex tip = {.position = {0.0f, 0.0f, CREATURE_TAIL_LENGTH}, .normal = {0.0f, 0.0f, 1.0f}, .bend = 1.0f};
+    coat_tail(CREATURE_TAIL_LENGTH, 0.0f, tip.color);
+    const uint32_t end = mesh_vertex(mesh, &tip);
+    for (uint32_t s = 0; s < segments; s++) mesh_triangle(mesh, last_ring + s, last_ring + (s + 1) % segments, end);
+}
+
+void mesh_tail(int rings, int segments, struct mesh *mesh)
+{
+    const int tip_rings = rings / 5, taper_rings = rings - tip_rings;
+    const uint32_t first = (uint32_t)mesh->vertex_count, around = (uint32_t)segments;
+    for (int r = 0; r < taper_rings; r++) {
+        add_ring(taper_ring(TUBE_START + (TIP_START - TUBE_START) * (float)r / (float)taper_rings), segments, mesh);
+    }
+    for (int r = 0; r < tip_rings; r++) {
+        add_ring(tip_ring(0.5f * half_turn * (float)r / (float)tip_rings), segments, mesh);
+    }
+    for (uint32_t r = 0; r + 1 < (uint32_t)rings; r++) join_rings(first + r * around, around, mesh);
+    close_tip(first + ((uint32_t)rings - 1) * around, around, mesh);
+}

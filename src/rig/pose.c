@@ -1,0 +1,88 @@
+#include "rig/pose.h"
+#include "model/creature.h"
+#include <math.h>
+#include <string.h>
+
+static double radians(double degrees) { return degrees * 3.14159265358979323846 / 180.0; }
+
+/// Angle of joint n as the file gives it, in radians: one for all or one each.
+static double angle_at(const struct angles *angles, int n) { return radians(angles->value[angles->each ? n : 0]); }
+
+/// How far joint n lags behind the base: n times the common lag, or its own.
+static double lag_at(const struct channel *channel, int n, enum look look)
+{
+    if (look == LOOK_STIFF) return 0.0;
+    return channel->lag.each ? angle_at(&channel->lag, n) : n * angle_at(&channel->lag, 0);
+}
+
+/// Eq. 27 for every channel: the angles by which joint n turns about +y (`side`) and lifts (`up`), in radians.
+static void bend_at(const struct tail *tail, const wiggly_value *values, enum look look, int n, double *side,
+                    double *up)
+{
+    *side = 0.0;
+    *up = angle_at(&tail->rest, n);
+    for (int c = 0; c < tail->channel_count; c++) {
+        const struct channel *channel = &tail->channels[c];
+        const double bend = angle_at(&channel->gain, n) * wiggly_lagged(values[c], lag_at(channel, n, look));
+        *(channel->axis == AXIS_UP ? up : side) += bend;
+    }
+}
+
+/// frame = frame · R_y(side) · R_x(−up): column-major, columns x, y, z, origin. R_x is negative because it takes +z down.
+static void bend_frame(double frame[16], double side, double up)
+{
+    const double cs = cos(side), ss = sin(side), cu = cos(up), su = sin(up);
+    for (int k = 0; k < 3; k++) {
+        const double x = frame[k], y = frame[4 + k], z = frame[8 + k];
+        const double turned = ss * x + cs * z;
+        frame[k] = cs * x - ss * z;
+        frame[4 + k] = cu * y - su * turned;
+        frame[8 + k] = su * y + cu * turned;
+    }
+}
+
+void pose_tail(const struct tail *tail, const wiggly_value *values, enum look look, struct pose *pose)
+{
+    double frame[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    memcpy(frame + 12, tail->position, sizeof tail->position);
+    const double segment = tail->length / tail->joints;
+    pose->count = tail->joints + 1;
+    for (int n = 0; n <= tail->joints; n++) {
+        if (n < tail->joints) {
+            double side, up;
+            bend_at(tail, values, look, n, &side, &up);
+            bend_frame(frame, side, up);
+        }
+        for (int k = 0; k < 16; k++) pose->matrix[n][k] = (float)frame[k];
+        for (int k = 0; k < 3; k++) frame[12 + k] += segment * frame[8 + k];
+    }
+}
+
+float pose_length(const struct pose *pose)
+{
+    const float *a = pose->matrix[0] + 12, *b = pose->matrix[1] + 12;
+    const float d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    return sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) * (float)(pose->count - 1);
+}
+
+float pose_ground(const struct pose *pose)
+{
+    return pose->matrix[0][13] - CREATURE_BASE_HEIGHT * pose_length(pose) / CREATURE_TAIL_LENGTH;
+}
+
+void pose_bounds(const struct pose *pose, float lo[3], float hi[3])
+{
+    const float scale = pose_length(pose) / CREATURE_TAIL_LENGTH;
+    for (int k = 0; k < 3; k++) {
+        lo[k] = pose->matrix[0][12 + k] + scale * creature_body_lo[k];
+        hi[k] = pose->matrix[0][12 + k] + scale * creature_body_hi[k];
+    }
+    for (int n = 0; n < pose->count; n++) {
+        const float along = CREATURE_TAIL_LENGTH * (float)n / (float)(pose->count - 1);
+        const float radius = scale * creature_tail_radius(along);
+        for (int k = 0; k < 3; k++) {
+            lo[k] = fminf(lo[k], pose->matrix[n][12 + k] - radius);
+            hi[k] = fmaxf(hi[k], pose->matrix[n][12 + k] + radius);
+        }
+    }
+}

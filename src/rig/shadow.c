@@ -1,0 +1,44 @@
+#include "rig/shadow.h"
+#include "model/creature.h"
+#include <math.h>
+
+/// Below this a blob changes no pixel.
+#define STRENGTH_SEEN 0.02f
+
+/// Where the tail is looked at, and how far above the ground its shadow has faded to 1/e (bind size, metres).
+enum { TAIL_BLOBS = 14 };
+#define FADE_HEIGHT 0.22f
+
+/// What of the body touches the ground, bind space: rump and hind feet, then the fore paws.
+static const struct shadow_blob body_blobs[] = {{0.0f, -0.27f, 0.46f, 0.75f}, {0.0f, -0.50f, 0.27f, 0.55f}};
+
+/// A blob under the tail at `along` (0 base … 1 tip): the higher, the wider and the weaker.
+static struct shadow_blob tail_blob(const struct pose *pose, float along, float scale, float ground)
+{
+    const float at = along * (float)(pose->count - 1);
+    const int n = (int)fminf(at, (float)(pose->count - 2));
+    const float part = at - (float)n;
+    float p[3];
+    for (int k = 0; k < 3; k++) p[k] = pose->matrix[n][12 + k] * (1.0f - part) + pose->matrix[n + 1][12 + k] * part;
+    const float radius = scale * creature_tail_radius(along * CREATURE_TAIL_LENGTH);
+    const float height = fmaxf(p[1] - radius - ground, 0.0f) / (scale * FADE_HEIGHT);
+    return (struct shadow_blob){p[0], p[2], 1.6f * radius + 0.12f * scale * (1.0f + height), 0.45f * expf(-height)};
+}
+
+int pose_blobs(const struct pose *pose, struct shadow_blob *blobs, int capacity)
+{
+    const float scale = pose_length(pose) / CREATURE_TAIL_LENGTH, ground = pose_ground(pose);
+    const int body_count = (int)(sizeof body_blobs / sizeof *body_blobs);
+    int count = 0;
+    for (int b = 0; b < body_count && count < capacity; b++) {
+        const struct shadow_blob *blob = &body_blobs[b];
+        blobs[count++] =
+            (struct shadow_blob){pose->matrix[0][12] + scale * blob->x, pose->matrix[0][14] + scale * blob->z,
+                                 scale * blob->radius, blob->strength};
+    }
+    for (int b = 0; b < TAIL_BLOBS && count < capacity; b++) {
+        const struct shadow_blob blob = tail_blob(pose, ((float)b + 0.5f) / TAIL_BLOBS, scale, ground);
+        if (blob.strength > STRENGTH_SEEN) blobs[count++] = blob;
+    }
+    return count;
+}

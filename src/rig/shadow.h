@@ -1,0 +1,16 @@
+/// Contact shadows: where a posed tail and its body come near the ground.
+#ifndef RIG_SHADOW_H
+#define RIG_SHADOW_H
+
+#include "rig/pose.h"
+
+/// A soft disc on the ground; strength 0 … 1, more where nearer to it.
+struct shadow_blob {
+    float x, z, radius, strength;
+};
+
+/// The blobs of one pose, the body's first, then evenly along the tail; those too weak to be seen are left out.
+/// Writes at most `capacity` (16 shows a tail well) and returns how many. Allocates nothing.
+int pose_blobs(const struct pose *pose, struct shadow_blob *blobs, int capacity);
+
+#endif

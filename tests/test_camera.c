@@ -1,0 +1,122 @@
+/// The stage's camera: what it is fitted to is in view, and what it shows lies where it says.
+#include "near.h"
+#include "rig/camera.h"
+#include <math.h>
+
+static const float viewport[4] = {100.0f, 50.0f, 1000.0f, 400.0f};
+
+struct view {
+    float view[16], projection[16], eye[3];
+};
+
+static struct view look(const struct camera *camera)
+{
+    struct view view;
+    camera_matrices(camera, viewport[2] / viewport[3], view.view, view.projection, view.eye);
+    return view;
+}
+
+static bool project(const struct view *view, const float world[3], float screen[2])
+{
+    return camera_project(view->view, view->projection, viewport, world, screen);
+}
+
+static void the_target_is_in_the_middle_with_y_up_and_z_to_the_left(void **state)
+{
+    (void)state;
+    struct camera camera = camera_default();
+    camera.target[1] = 0.7f;
+    const struct view view = look(&camera);
+    float middle[2], above[2], along[2];
+    const float up[3] = {0.0f, 1.0f, 0.0f}, z[3] = {0.0f, 0.7f, 0.5f};
+    assert_true(project(&view, camera.target, middle));
+    assert_near(middle[0], 600.0, 1e-2);
+    assert_near(middle[1], 250.0, 1e-2);
+    assert_true(project(&view, up, above) && above[1] < middle[1] - 10.0f);
+    assert_near(above[0], middle[0], 1e-2);
+    assert_true(project(&view, z, along) && along[0] < middle[0] - 10.0f); // the tail points to the left
+}
+
+static void points_behind_the_eye_are_not_projected(void **state)
+{
+    (void)state;
+    const struct camera camera = camera_default();
+    const struct view view = look(&camera);
+    const float behind[3] = {2.0f * view.eye[0], 2.0f * view.eye[1], 2.0f * view.eye[2]};
+    float screen[2];
+    assert_false(project(&view, behind, screen));
+}
+
+static void a_fitted_box_fills_the_picture_from_any_side(void **state)
+{
+    (void)state;
+    const float lo[3] = {-1.0f, 0.0f, -0.7f}, hi[3] = {1.1f, 1.3f, 1.5f};
+    for (int step = 0; step < 24; step++) {
+        struct camera camera = camera_default();
+        camera_orbit(&camera, 0.26f * (float)step, 0.1f * (float)(step % 12) - 0.4f);
+        camera_fit(&camera, lo, hi, viewport[2] / viewport[3]);
+        const struct view view = look(&camera);
+        float outermost = 0.0f;
+        for (int k = 0; k < 3; k++) {
+            for (int side = 0; side < 2; side++) {
+                float face[3] = {0.5f * (lo[0] + hi[0]), 0.5f * (lo[1] + hi[1]), 0.5f * (lo[2] + hi[2])}, screen[2];
+                face[k] = side ? hi[k] : lo[k];
+                assert_true(project(&view, face, screen));
+                const float x = fabsf(screen[0] - 600.0f) / 500.0f, y = fabsf(screen[1] - 250.0f) / 200.0f;
+                outermost = fmaxf(outermost, fmaxf(x, y));
+            }
+        }
+        assert_true(outermost < 0.9f && outermost > 0.4f);
+    }
+}
+
+static void a_broken_box_changes_nothing(void **state)
+{
+    (void)state;
+    const float lo[3] = {0.0f, 0.0f, 0.0f}, flat[3] = {1.0f, 0.0f, 1.0f}, endless[3] = {1.0f, INFINITY, 1.0f};
+    struct camera camera = camera_default();
+    camera_fit(&camera, lo, flat, 2.5f);
+    camera_fit(&camera, lo, endless, 2.5f);
+    assert_near(camera.distance, camera_default().distance, 0.0);
+    assert_near(camera.target[0], 0.0, 0.0);
+}
+
+/// The point of the world under the pointer stays under it while the view is dragged.
+static void panning_follows_the_pointer(void **state)
+{
+    (void)state;
+    struct camera camera = camera_default();
+    const float target[3] = {camera.target[0], camera.target[1], camera.target[2]};
+    camera_pan(&camera, 60.0f, -25.0f, viewport[3]);
+    const struct view view = look(&camera);
+    float screen[2];
+    assert_true(project(&view, target, screen));
+    assert_near(screen[0], 660.0, 0.1);
+    assert_near(screen[1], 225.0, 0.1);
+}
+
+static void orbit_and_zoom_stay_in_range(void **state)
+{
+    (void)state;
+    struct camera camera = camera_default();
+    camera_orbit(&camera, 100.0f, 100.0f);
+    assert_near(camera.elevation, CAMERA_MAX_ELEVATION, 1e-6);
+    assert_true(fabsf(camera.azimuth) < 3.2f);
+    camera_zoom(&camera, 1e9f);
+    assert_near(camera.distance, 100.0, 1e-3);
+    camera_zoom(&camera, 1e-9f);
+    assert_near(camera.distance, 0.2, 1e-6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_target_is_in_the_middle_with_y_up_and_z_to_the_left),
+        cmocka_unit_test(points_behind_the_eye_are_not_projected),
+        cmocka_unit_test(a_fitted_box_fills_the_picture_from_any_side),
+        cmocka_unit_test(a_broken_box_changes_nothing),
+        cmocka_unit_test(panning_follows_the_pointer),
+        cmocka_unit_test(orbit_and_zoom_stay_in_range),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

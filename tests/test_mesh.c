@@ -1,0 +1,178 @@
+/// The animal's mesh: closed, smooth, within its budget, and one animal where tail and body meet.
+#include "model/creature.h"
+#include "near.h"
+#include <math.h>
+#include <stdlib.h>
+
+static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Twice the triangle's area times its normal.
+static void face_normal(const struct mesh *mesh, int triangle, float out[3])
+{
+    const uint32_t *index = mesh->indices + 3 * triangle;
+    const float *a = mesh->vertices[index[0]].position, *b = mesh->vertices[index[1]].position;
+    const float *c = mesh->vertices[index[2]].position;
+    const float u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    out[0] = u[1] * v[2] - u[2] * v[1];
+    out[1] = u[2] * v[0] - u[0] * v[2];
+    out[2] = u[0] * v[1] - u[1] * v[0];
+}
+
+/// A directed edge as one number; its reverse with the ends exchanged.
+static uint64_t edge_key(uint32_t from, uint32_t to) { return (uint64_t)from << 32 | to; }
+
+static int compare_edges(const void *a, const void *b)
+{
+    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return x < y ? -1 : x > y;
+}
+
+/// Number of directed edges whose reverse is missing; fails where an edge is there twice in one direction.
+static int open_edges(const struct mesh *mesh)
+{
+    const size_t count = (size_t)mesh->index_count;
+    uint64_t *edges = malloc(count * sizeof *edges);
+    assert_non_null(edges);
+    for (size_t i = 0; i < count; i++) {
+        edges[i] = edge_key(mesh->indices[i], mesh->indices[i % 3 == 2 ? i - 2 : i + 1]);
+    }
+    qsort(edges, count, sizeof *edges, compare_edges);
+    int open = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (i > 0) assert_true(edges[i] != edges[i - 1]);
+        const uint64_t reverse = edges[i] << 32 | edges[i] >> 32;
+        open += bsearch(&reverse, edges, count, sizeof *edges, compare_edges) == NULL;
+    }
+    free(edges);
+    return open;
+}
+
+static void the_body_is_closed(void **state)
+{
+    (void)state;
+    struct mesh mesh = {0};
+    mesh_body(0.027f, &mesh);
+    assert_false(mesh.failed);
+    assert_int_equal(open_edges(&mesh), 0);
+    mesh_free(&mesh);
+}
+
+static void the_tail_is_open_only_inside_the_body(void **state)
+{
+    (void)state;
+    enum { SEGMENTS = 40 };
+    struct mesh mesh = {0};
+    mesh_tail(100, SEGMENTS, &mesh);
+    assert_false(mesh.failed);
+    assert_int_equal(open_edges(&mesh), SEGMENTS);
+    float start = INFINITY, end = -INFINITY;
+    for (int v = 0; v < mesh.vertex_count; v++) {
+        start = fminf(start, mesh.vertices[v].position[2]);
+        end = fmaxf(end, mesh.vertices[v].position[2]);
+    }
+    assert_near(end, CREATURE_TAIL_LENGTH, 1e-5);
+    assert_true(start < -0.05f && start > creature_body_lo[2]);
+    mesh_free(&mesh);
+}
+
+/// Lighting and culling rely on it.
+static void normals_are_unit_and_agree_with_the_triangles(void **state)
+{
+    (void)state;
+    for (int level = 0; level < CREATURE_LEVELS; level++) {
+        struct mesh mesh = {0};
+        mesh_creature(level, &mesh);
+        int wrong = 0;
+        for (int v = 0; v < mesh.vertex_count; v++) {
+            assert_near(dot(mesh.vertices[v].normal, mesh.vertices[v].normal), 1.0, 1e-3);
+            assert_true(mesh.vertices[v].bend >= 0.0f && mesh.vertices[v].bend <= 1.0f);
+        }
+        for (int t = 0; t < mesh.index_count / 3; t++) {
+            float face[3], smooth[3] = {0};
+            face_normal(&mesh, t, face);
+            for (int c = 0; c < 3; c++) {
+                const float *normal = mesh.vertices[mesh.indices[3 * t + c]].normal;
+                for (int k = 0; k < 3; k++) smooth[k] += normal[k];
+            }
+            wrong += dot(face, smooth) < 0.0f;
+        }
+        assert_true(wrong <= mesh.index_count / 3 / 200);
+        mesh_free(&mesh);
+    }
+}
+
+static void the_stage_stays_within_its_triangles(void **state)
+{
+    (void)state;
+    for (int animals = 1; animals <= 8; animals++) {
+        struct mesh mesh = {0};
+        mesh_creature(creature_level(animals), &mesh);
+        assert_true(animals * mesh.index_count / 3 <= 20000);
+        mesh_free(&mesh);
+    }
+}
+
+static void the_body_stands_on_the_ground(void **state)
+{
+    (void)state;
+    struct mesh mesh = {0};
+    mesh_body(0.027f, &mesh);
+    float low = INFINITY;
+    for (int v = 0; v < mesh.vertex_count; v++) low = fminf(low, mesh.vertices[v].position[1]);
+    assert_near(low, -CREATURE_BASE_HEIGHT, 0.02);
+    mesh_free(&mesh);
+}
+
+/// Where the tail leaves the body both skins coincide, in place, colour and bending, so that no line shows.
+static void tail_and_body_meet_smoothly(void **state)
+{
+    (void)state;
+    struct mesh mesh = {0};
+    mesh_body(0.027f, &mesh);
+    int seen = 0;
+    for (int v = 0; v < mesh.vertex_count; v++) {
+        const struct vertex *vertex = &mesh.vertices[v];
+        const float z = vertex->position[2];
+        if (z < 0.13f || z > 0.2f) continue;
+        const float radius = hypotf(vertex->position[0], vertex->position[1]);
+        assert_near(radius, creature_tail_radius(z), 0.008);
+        assert_true(vertex->normal[2] < 0.15f);
+        assert_near(vertex->bend, 1.0, 1e-6);
+        seen++;
+    }
+    assert_true(seen > 40);
+    mesh_free(&mesh);
+}
+
+static void the_coat_has_dark_bands_and_a_white_tip(void **state)
+{
+    (void)state;
+    struct mesh mesh = {0};
+    mesh_tail(100, 40, &mesh);
+    int bands = 0;
+    bool in_band = false;
+    for (int ring = 0; ring < 100; ring++) {
+        const struct vertex *top = &mesh.vertices[ring * 40 + 10];
+        const bool dark = top->color[0] < 0.3f;
+        bands += dark && !in_band;
+        in_band = dark;
+    }
+    assert_int_equal(bands, 4);
+    const struct vertex *tip = &mesh.vertices[mesh.vertex_count - 1];
+    assert_true(tip->color[0] > 0.8f && tip->color[2] > 0.75f);
+    mesh_free(&mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_body_is_closed),
+        cmocka_unit_test(the_tail_is_open_only_inside_the_body),
+        cmocka_unit_test(normals_are_unit_and_agree_with_the_triangles),
+        cmocka_unit_test(the_stage_stays_within_its_triangles),
+        cmocka_unit_test(the_body_stands_on_the_ground),
+        cmocka_unit_test(tail_and_body_meet_smoothly),
+        cmocka_unit_test(the_coat_has_dark_bands_and_a_white_tip),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

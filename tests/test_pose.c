@@ -1,0 +1,303 @@
+/// The tail's pose: directions and units of the file format, lag (paper, section 7.1), and the default scene's motion.
+#include "near.h"
+#include "rig/pose.h"
+#include "rig/shadow.h"
+#include "scene/evaluate.h"
+#include "scene/load.h"
+#include <math.h>
+#include <string.h>
+
+enum { JOINTS = 24, LOOP_FRAMES = 120 };
+
+static const double turn = 6.283185307179586;
+
+static struct channel channels[2];
+
+/// A straight tail with one channel: lag 6.5 and gain 5 degrees.
+static struct tail plain_tail(enum axis axis)
+{
+    memset(channels, 0, sizeof channels);
+    channels[0].axis = axis;
+    channels[0].lag.value[0] = 6.5;
+    channels[0].gain.value[0] = 5.0;
+    return (struct tail){
+        .joints = JOINTS, .length = 1.6, .position = {0.1, 0.2, 0.3}, .channels = channels, .channel_count = 1};
+}
+
+/// Frame n's column c, relative to frame n − 1 (frame −1 is the world).
+static void relative_axis(const struct pose *pose, int n, int c, double out[3])
+{
+    static const float world[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    const float *before = n > 0 ? pose->matrix[n - 1] : world;
+    for (int k = 0; k < 3; k++) {
+        out[k] = 0.0;
+        for (int r = 0; r < 3; r++) out[k] += (double)before[4 * k + r] * (double)pose->matrix[n][4 * c + r];
+    }
+}
+
+/// How far joint n turns about +y, in radians.
+static double side_bend(const struct pose *pose, int n)
+{
+    double z[3];
+    relative_axis(pose, n, 2, z);
+    return atan2(z[0], z[2]);
+}
+
+static wiggly_value oscillation(double phase) { return (wiggly_value){.re = cos(phase), .im = sin(phase)}; }
+
+static void side_turns_about_y_and_up_lifts(void **state)
+{
+    (void)state;
+    static struct pose pose;
+    const wiggly_value one = {.y = 1.0};
+    struct tail tail = plain_tail(AXIS_SIDE);
+    pose_tail(&tail, &one, LOOK_WIGGLY, &pose);
+    assert_int_equal(pose.count, JOINTS + 1);
+    assert_near(side_bend(&pose, 0), 5.0 * turn / 360.0, 1e-6);
+    assert_true(pose.matrix[JOINTS][12] > 0.3f); // counter-clockwise about +y takes +z to +x
+    assert_near(pose.matrix[JOINTS][13], 0.2, 1e-5);
+    tail = plain_tail(AXIS_UP);
+    pose_tail(&tail, &one, LOOK_WIGGLY, &pose);
+    assert_true(pose.matrix[JOINTS][13] > 0.5f);
+    assert_near(pose.matrix[JOINTS][12], 0.1, 1e-5);
+}
+
+static void rest_bends_without_any_channel(void **state)
+{
+    (void)state;
+    static struct pose pose;
+    struct tail tail = plain_tail(AXIS_SIDE);
+    tail.channel_count = 0;
+    tail.rest.each = true;
+    tail.rest.value[0] = 90.0;
+    pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
+    assert_near(pose.matrix[JOINTS][12], 0.1, 1e-5);
+    assert_near(pose.matrix[JOINTS][13], 0.2 + 1.6, 1e-5);
+    assert_near(pose.matrix[JOINTS][14], 0.3, 1e-5);
+}
+
+static void segments_keep_their_length_and_frames_stay_square(void **state)
+{
+    (void)state;
+    static struct pose pose;
+    struct tail tail = plain_tail(AXIS_SIDE);
+    channels[1] = channels[0];
+    channels[1].axis = AXIS_UP;
+    tail.channel_count = 2;
+    const wiggly_value wild[2] = {{.y = 0.0, .re = 3.0, .im = -7.0}, {.y = -4.0, .re = 1.0, .im = 2.0}};
+    pose_tail(&tail, wild, LOOK_WIGGLY, &pose);
+    for (int n = 1; n <= JOINTS; n++) {
+        double length = 0.0;
+        for (int k = 0; k < 3; k++) length += pow(pose.matrix[n][12 + k] - pose.matrix[n - 1][12 + k], 2.0);
+        assert_near(sqrt(length), 1.6 / JOINTS, 1e-6);
+        for (int c = 0; c < 3; c++) {
+            for (int d = 0; d < 3; d++) {
+                double dot = 0.0;
+                for (int r = 0; r < 3; r++)
+                    dot += (double)pose.matrix[n][4 * c + r] * (double)pose.matrix[n][4 * d + r];
+                assert_near(dot, c == d, 1e-5);
+            }
+        }
+    }
+    assert_near(pose_length(&pose), 1.6, 1e-5);
+}
+
+/// Joint n now bends as the base did n·lag earlier.
+static void every_joint_lags_behind_the_base(void **state)
+{
+    (void)state;
+    static struct pose now, before;
+    const struct tail tail = plain_tail(AXIS_SIDE);
+    const double phase = 1.1, lag = 6.5 * turn / 360.0;
+    wiggly_value value = oscillation(phase);
+    pose_tail(&tail, &value, LOOK_WIGGLY, &now);
+    for (int n = 0; n < JOINTS; n++) {
+        value = oscillation(phase - n * lag);
+        pose_tail(&tail, &value, LOOK_WIGGLY, &before);
+        assert_near(side_bend(&now, n), side_bend(&before, 0), 1e-6);
+    }
+    assert_true(fabs(side_bend(&now, JOINTS - 1) - side_bend(&now, 0)) > 0.02);
+}
+
+static void the_stiff_look_moves_all_joints_in_phase(void **state)
+{
+    (void)state;
+    static struct pose pose;
+    const struct tail tail = plain_tail(AXIS_SIDE);
+    const wiggly_value value = oscillation(1.1);
+    pose_tail(&tail, &value, LOOK_STIFF, &pose);
+    for (int n = 1; n < JOINTS; n++) assert_near(side_bend(&pose, n), side_bend(&pose, 0), 1e-6);
+}
+
+static void arrays_give_each_joint_its_own_lag_and_gain(void **state)
+{
+    (void)state;
+    static struct pose pose;
+    const struct tail tail = plain_tail(AXIS_SIDE);
+    channels[0].lag.each = channels[0].gain.each = true;
+    channels[0].lag.value[7] = 40.0;
+    channels[0].gain.value[7] = 8.0;
+    const wiggly_value value = oscillation(0.3);
+    pose_tail(&tail, &value, LOOK_WIGGLY, &pose);
+    assert_near(side_bend(&pose, 7), 8.0 * turn / 360.0 * cos(0.3 - 40.0 * turn / 360.0), 1e-6);
+    assert_near(side_bend(&pose, 8), 0.0, 1e-6);
+}
+
+static void the_longest_chain_fits(void **state)
+{
+    (void)state;
+    static struct pose pose;
+    struct tail tail = plain_tail(AXIS_SIDE);
+    tail.joints = TAIL_MAX_JOINTS;
+    const wiggly_value value = oscillation(0.3);
+    pose_tail(&tail, &value, LOOK_WIGGLY, &pose);
+    assert_int_equal(pose.count, TAIL_MAX_JOINTS + 1);
+    assert_true(isfinite(pose.matrix[TAIL_MAX_JOINTS][12]));
+}
+
+/// The default scene, solved, and its tail posed at any time.
+struct scene {
+    struct document *document;
+    struct evaluation evaluation;
+};
+
+static int open_scene(void **state)
+{
+    static struct scene scene;
+    struct error error = {0};
+    scene.document = scene_load("assets/scenes/tail.json", NULL, &error);
+    if (!scene.document || !evaluation_resize(&scene.evaluation, scene.document, &error)) {
+        print_error("%s\n", error.text);
+        return -1;
+    }
+    evaluation_update(&scene.evaluation, scene.document, NULL, false);
+    *state = &scene;
+    return 0;
+}
+
+static int close_scene(void **state)
+{
+    struct scene *scene = *state;
+    evaluation_free(&scene->evaluation);
+    document_destroy(scene->document);
+    return 0;
+}
+
+static void pose_at(const struct scene *scene, double frame, struct pose *pose)
+{
+    const struct tail *tail = &scene->document->tails[0];
+    wiggly_value values[8];
+    assert_true(tail->channel_count <= 8);
+    for (int c = 0; c < tail->channel_count; c++) {
+        values[c] = wiggly_evaluate(&scene->evaluation.curves[tail->channels[c].spline], fmod(frame, LOOP_FRAMES));
+    }
+    pose_tail(tail, values, LOOK_WIGGLY, pose);
+}
+
+static double distance(const float a[3], const float b[3])
+{
+    return sqrt(pow(a[0] - b[0], 2.0) + pow(a[1] - b[1], 2.0) + pow(a[2] - b[2], 2.0));
+}
+
+static void the_default_scene_is_made_of_few_knots(void **state)
+{
+    const struct scene *scene = *state;
+    int knots = 0;
+    for (int s = 0; s < scene->document->spline_count; s++) {
+        knots += scene->document->splines[s].knot_count;
+        assert_int_equal(scene->evaluation.status[s], WIGGLY_OK);
+    }
+    assert_true(knots <= 9);
+}
+
+/// Positions and velocities from frame to frame change no more where the loop closes than elsewhere.
+static void the_default_scene_loops_without_a_pop(void **state)
+{
+    static struct pose poses[LOOP_FRAMES];
+    for (int f = 0; f < LOOP_FRAMES; f++) pose_at(*state, f, &poses[f]);
+    double step_elsewhere = 0.0, jerk_elsewhere = 0.0, step_at_seam = 0.0, jerk_at_seam = 0.0;
+    for (int f = 0; f < LOOP_FRAMES; f++) {
+        const int next = (f + 1) % LOOP_FRAMES, after = (f + 2) % LOOP_FRAMES;
+        for (int n = 0; n < poses[f].count; n++) {
+            const float *a = poses[f].matrix[n] + 12, *b = poses[next].matrix[n] + 12,
+                        *c = poses[after].matrix[n] + 12;
+            const float ahead[3] = {2 * b[0] - a[0], 2 * b[1] - a[1], 2 * b[2] - a[2]};
+            double *step = next == 0 ? &step_at_seam : &step_elsewhere;
+            double *jerk = next == 0 || after == 0 ? &jerk_at_seam : &jerk_elsewhere;
+            *step = fmax(*step, distance(a, b));
+            *jerk = fmax(*jerk, distance(ahead, c));
+        }
+    }
+    assert_true(step_elsewhere > 0.02); // it moves at all
+    assert_true(step_at_seam <= step_elsewhere);
+    assert_true(jerk_at_seam <= jerk_elsewhere);
+    static struct pose last;
+    const struct scene *scene = *state;
+    wiggly_value end[2] = {wiggly_evaluate(&scene->evaluation.curves[0], LOOP_FRAMES),
+                           wiggly_evaluate(&scene->evaluation.curves[1], LOOP_FRAMES)};
+    pose_tail(&scene->document->tails[0], end, LOOK_WIGGLY, &last);
+    assert_near(distance(last.matrix[JOINTS] + 12, poses[0].matrix[JOINTS] + 12), 0.0, 1e-5);
+}
+
+static void the_default_scene_swings_widely_above_the_ground(void **state)
+{
+    static struct pose pose;
+    float low = INFINITY, left = INFINITY, right = -INFINITY;
+    for (double f = 0.0; f < LOOP_FRAMES; f += 0.25) {
+        float lo[3], hi[3];
+        pose_at(*state, f, &pose);
+        pose_bounds(&pose, lo, hi);
+        for (int n = 0; n < pose.count; n++) {
+            for (int k = 0; k < 3; k++) {
+                assert_true(pose.matrix[n][12 + k] >= lo[k] && pose.matrix[n][12 + k] <= hi[k]);
+            }
+            low = fminf(low, pose.matrix[n][13] - 0.05f - pose_ground(&pose));
+        }
+        left = fminf(left, pose.matrix[JOINTS][12]);
+        right = fmaxf(right, pose.matrix[JOINTS][12]);
+    }
+    assert_true(low > 0.0f);
+    assert_true(right - left > 1.0f);
+}
+
+/// A tail that lies on the ground throws more shadow than one held up; both stay within the room given.
+static void shadows_are_stronger_near_the_ground(void **state)
+{
+    (void)state;
+    static struct pose pose;
+    struct shadow_blob blobs[32];
+    struct tail tail = plain_tail(AXIS_SIDE);
+    tail.channel_count = 0;
+    tail.rest.each = true;
+    float total[2];
+    for (int high = 0; high < 2; high++) {
+        tail.rest.value[0] = high ? 60.0 : -3.0;
+        pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
+        const int count = pose_blobs(&pose, blobs, 32);
+        total[high] = 0.0f;
+        for (int b = 0; b < count; b++) {
+            assert_true(blobs[b].strength > 0.0f && blobs[b].strength <= 1.0f && blobs[b].radius > 0.0f);
+            total[high] += blobs[b].strength;
+        }
+        assert_int_equal(pose_blobs(&pose, blobs, 3), 3);
+    }
+    assert_true(total[0] > 1.5f * total[1]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(side_turns_about_y_and_up_lifts),
+        cmocka_unit_test(rest_bends_without_any_channel),
+        cmocka_unit_test(segments_keep_their_length_and_frames_stay_square),
+        cmocka_unit_test(every_joint_lags_behind_the_base),
+        cmocka_unit_test(the_stiff_look_moves_all_joints_in_phase),
+        cmocka_unit_test(arrays_give_each_joint_its_own_lag_and_gain),
+        cmocka_unit_test(the_longest_chain_fits),
+        cmocka_unit_test_setup_teardown(the_default_scene_is_made_of_few_knots, open_scene, close_scene),
+        cmocka_unit_test_setup_teardown(the_default_scene_loops_without_a_pop, open_scene, close_scene),
+        cmocka_unit_test_setup_teardown(the_default_scene_swings_widely_above_the_ground, open_scene, close_scene),
+        cmocka_unit_test(shadows_are_stronger_near_the_ground),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

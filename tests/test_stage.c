@@ -1,0 +1,321 @@
+/// What a person sees on the stage, drawn offscreen; and the skinning of the real vertex shader, read back.
+#include "base/embedded.h"
+#include "draw/gl.h"
+#include "draw/stage.h"
+#include "model/creature.h"
+#include "near.h"
+#include "platform/platform.h"
+#include "rig/camera.h"
+#include "rig/shadow.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 1000, HEIGHT = 400, JOINTS = 24 };
+
+static struct platform *platform;
+static struct stage_renderer *renderer;
+static struct stage_view view;
+static unsigned char pixels[HEIGHT][WIDTH][4]; ///< bottom row first
+
+/// A tail lifted in a curve to the right side of its animal, its camera and its shadows.
+static void arrange(double side)
+{
+    static struct channel channel;
+    struct tail tail = {.joints = JOINTS,
+                        .length = 1.6,
+                        .position = {0.0, CREATURE_BASE_HEIGHT, 0.0},
+                        .channels = &channel,
+                        .channel_count = 1};
+    tail.rest.value[0] = 2.0;
+    channel = (struct channel){.axis = AXIS_SIDE};
+    channel.gain.value[0] = side;
+    memset(&view, 0, sizeof view);
+    view.tail_count = 1;
+    pose_tail(&tail, &(wiggly_value){.y = 1.0}, LOOK_WIGGLY, &view.tails[0].pose);
+    struct shadow_blob blobs[STAGE_MAX_BLOBS];
+    view.blob_count = pose_blobs(&view.tails[0].pose, blobs, STAGE_MAX_BLOBS);
+    for (int b = 0; b < view.blob_count; b++) {
+        view.blobs[b] = (struct stage_blob){blobs[b].x, blobs[b].z, blobs[b].radius, blobs[b].strength};
+    }
+    float lo[3], hi[3];
+    struct camera camera = camera_default();
+    pose_bounds(&view.tails[0].pose, lo, hi);
+    camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT);
+    camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
+}
+
+static void draw(void)
+{
+    long bytes = 0;
+    stage_upload(renderer, &view, &bytes);
+    assert_true(bytes > 0);
+    stage_draw(renderer, &view, 0, 0, WIDTH, HEIGHT);
+    glReadPixels(0, 0, WIDTH, HEIGHT, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    assert_int_equal(glGetError(), GL_NO_ERROR);
+}
+
+/// The pixel where a point of the world is seen.
+static const unsigned char *pixel_of(const float world[3])
+{
+    const float whole[4] = {0.0f, 0.0f, WIDTH, HEIGHT};
+    float screen[2];
+    assert_true(camera_project(view.view, view.projection, whole, world, screen));
+    assert_true(screen[0] >= 0.0f && screen[0] < WIDTH && screen[1] > 0.0f && screen[1] <= HEIGHT);
+    return pixels[(int)(HEIGHT - screen[1])][(int)screen[0]];
+}
+
+static int brightness(const unsigned char *pixel) { return pixel[0] + pixel[1] + pixel[2]; }
+
+static bool is_fur(const unsigned char *pixel) { return pixel[0] > 60 && pixel[0] > pixel[2] + 25; }
+
+static int set_up(void **state)
+{
+    (void)state;
+    struct error error = {0};
+    platform = platform_offscreen(WIDTH, HEIGHT, 1.0f, &error);
+    if (!platform) {
+        print_message("skipped: no offscreen drawing here: %s\n", error.text);
+        return 0;
+    }
+    renderer = stage_renderer_create(&error);
+    if (!renderer) print_error("%s\n", error.text);
+    return renderer ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    if (!platform) return 0;
+    stage_renderer_destroy(renderer);
+    platform_destroy(platform);
+    return 0;
+}
+
+static void the_tail_is_drawn_where_its_joints_are(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    for (int side = -3; side <= 3; side += 2) {
+        arrange(side);
+        draw();
+        int fur = 0;
+        for (int n = 2; n < JOINTS - 4; n++) fur += is_fur(pixel_of(view.tails[0].pose.matrix[n] + 12));
+        assert_true(fur >= JOINTS - 8); // a dark band may miss
+        const unsigned char *tip = pixel_of(view.tails[0].pose.matrix[JOINTS - 1] + 12);
+        assert_true(brightness(tip) > 300 && abs(tip[0] - tip[2]) < 60); // the white tip
+    }
+}
+
+static void where_nothing_is_the_background_is_dark_and_even(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    arrange(1.0);
+    draw();
+    for (int x = 0; x < WIDTH; x++) {
+        const unsigned char *top = pixels[HEIGHT - 1][x];
+        assert_near(top[0], 0x1B, 2.0);
+        assert_near(top[1], 0x20, 2.0);
+        assert_near(top[2], 0x28, 2.0);
+    }
+}
+
+static void the_ground_is_darker_under_the_animal(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    arrange(1.0);
+    const float beside[3] = {0.32f, 0.0f, -0.25f}; // on the near side of the body, nothing in front
+    draw();
+    const int shadowed = brightness(pixel_of(beside));
+    view.blob_count = 0;
+    draw();
+    const int lit = brightness(pixel_of(beside));
+    assert_false(is_fur(pixel_of(beside)));
+    assert_true(shadowed < lit - 12);
+}
+
+/// Without multisampling: coming from the left, the first pixel of the animal is mostly weaker than the next.
+static void silhouettes_are_soft(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    arrange(0.0);
+    draw();
+    int rows = 0, soft = 0;
+    for (int y = HEIGHT / 2; y < HEIGHT; y++) {
+        const int background = brightness(pixels[y][0]);
+        int x = 1;
+        while (x < WIDTH - 1 && brightness(pixels[y][x]) < background + 15) x++;
+        if (x == WIDTH - 1) continue;
+        rows++;
+        soft += brightness(pixels[y][x]) - background < (brightness(pixels[y][x + 1]) - background) * 4 / 5;
+    }
+    assert_true(rows > 100);
+    assert_true(soft > rows / 2);
+}
+
+/// The mesh's vertex shader as a function: bind-space vertices in, world positions and normals out.
+struct skinned {
+    float world[3], normal[3];
+};
+
+static GLuint compile_shader(GLenum kind, const char *name)
+{
+    const struct embedded *source = embedded_find(name);
+    assert_non_null(source);
+    const GLchar *text = (const GLchar *)source->data;
+    GLuint shader = glCreateShader(kind);
+    glShaderSource(shader, 1, &text, NULL);
+    glCompileShader(shader);
+    return shader;
+}
+
+static GLuint capturing_program(void)
+{
+    static const char *const outputs[] = {"world", "world_normal"};
+    const GLuint program = glCreateProgram();
+    const GLuint vertex = compile_shader(GL_VERTEX_SHADER, "shaders/stage_mesh.vert");
+    glAttachShader(program, vertex);
+    glTransformFeedbackVaryings(program, 2, outputs, GL_INTERLEAVED_ATTRIBS);
+    glLinkProgram(program);
+    glDeleteShader(vertex);
+    GLint ok = 0;
+    glGetProgramiv(program, GL_LINK_STATUS, &ok);
+    assert_true(ok);
+    return program;
+}
+
+/// Runs the shader over `count` vertices with the joints that the last stage_upload() left bound.
+static void skin(const struct vertex *vertices, int count, struct skinned *out)
+{
+    const GLuint program = capturing_program();
+    const struct pose *pose = &view.tails[0].pose;
+    const float length = pose_length(pose), joints = (float)(pose->count - 1);
+    GLuint array, buffers[2];
+    glUseProgram(program);
+    glUniform4f(glGetUniformLocation(program, "shape"), length / CREATURE_TAIL_LENGTH, joints, length / joints, 0.0f);
+    glGenVertexArrays(1, &array);
+    glBindVertexArray(array);
+    glGenBuffers(2, buffers);
+    glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
+    glBufferData(GL_ARRAY_BUFFER, count * (GLsizeiptr)sizeof *vertices, vertices, GL_STATIC_DRAW);
+    const size_t offsets[] = {offsetof(struct vertex, position), offsetof(struct vertex, normal),
+                              offsetof(struct vertex, color), offsetof(struct vertex, bend)};
+    for (GLuint a = 0; a < 4; a++) {
+        glEnableVertexAttribArray(a);
+        glVertexAttribPointer(a, a < 3 ? 3 : 1, GL_FLOAT, GL_FALSE, sizeof *vertices, (const void *)offsets[a]);
+    }
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffers[1]);
+    glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, count * (GLsizeiptr)sizeof *out, NULL, GL_STATIC_READ);
+    glEnable(GL_RASTERIZER_DISCARD);
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArrays(GL_POINTS, 0, count);
+    glEndTransformFeedback();
+    glDisable(GL_RASTERIZER_DISCARD);
+    const void *result =
+        glMapBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, count * (GLsizeiptr)sizeof *out, GL_MAP_READ_BIT);
+    assert_non_null(result);
+    memcpy(out, result, (size_t)count * sizeof *out);
+    glUnmapBuffer(GL_TRANSFORM_FEEDBACK_BUFFER);
+    glDeleteBuffers(2, buffers);
+    glBindVertexArray(0);
+    glDeleteVertexArrays(1, &array);
+    glDeleteProgram(program);
+    assert_int_equal(glGetError(), GL_NO_ERROR);
+}
+
+static void cross(const float a[3], const float b[3], float out[3])
+{
+    for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+static float normalise(float v[3])
+{
+    const float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int k = 0; k < 3; k++) v[k] /= length;
+    return length;
+}
+
+enum { PLACES = 60 };
+
+/// For PLACES points of the tail's skin: the vertex itself, then one beside it along each of two tangents.
+static void skin_places(struct vertex places[3 * PLACES])
+{
+    const float step = 1e-3f;
+    struct mesh mesh = {0};
+    mesh_tail(100, 40, &mesh);
+    for (int p = 0; p < PLACES; p++) {
+        const struct vertex *vertex = &mesh.vertices[(15 + p) * 40 + p * 7 % 40];
+        float around[3] = {-vertex->normal[1], vertex->normal[0], 0.0f}, along[3];
+        normalise(around);
+        cross(vertex->normal, around, along);
+        for (int corner = 0; corner < 3; corner++) {
+            const float *tangent = corner == 1 ? around : along;
+            places[3 * p + corner] = *vertex;
+            for (int k = 0; k < 3; k++) places[3 * p + corner].position[k] += corner ? step * tangent[k] : 0.0f;
+        }
+    }
+    mesh_free(&mesh);
+}
+
+/// The normal that the shader gives is that of the surface which it makes, by finite differences.
+static void normals_are_right_under_bending(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    static struct vertex places[3 * PLACES];
+    static struct skinned out[3 * PLACES];
+    skin_places(places);
+    for (int side = 0; side <= 12; side += 6) { // degrees a joint
+        arrange(side);
+        draw();
+        skin(places, 3 * PLACES, out);
+        for (int p = 0; p < PLACES; p++) {
+            const struct skinned *at = &out[3 * p];
+            float u[3], v[3], n[3];
+            for (int k = 0; k < 3; k++) {
+                u[k] = at[1].world[k] - at[0].world[k];
+                v[k] = at[2].world[k] - at[0].world[k];
+            }
+            cross(u, v, n);
+            normalise(n);
+            for (int k = 0; k < 3; k++) assert_near(at[0].normal[k], n[k], 0.02);
+        }
+    }
+}
+
+/// A straight tail is where it was made; a bent one keeps to its chain of joints.
+static void skin_follows_the_joints(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    static struct vertex axis[JOINTS];
+    static struct skinned out[JOINTS];
+    for (int n = 0; n < JOINTS; n++) {
+        axis[n] = (struct vertex){.position = {0, 0, 1.6f * (float)n / JOINTS}, .normal = {1, 0, 0}, .bend = 1.0f};
+    }
+    for (int side = 0; side <= 8; side += 8) {
+        arrange(side);
+        draw();
+        skin(axis, JOINTS, out);
+        for (int n = 0; n < JOINTS; n++) {
+            const float *joint = view.tails[0].pose.matrix[n] + 12;
+            for (int k = 0; k < 3; k++) assert_near(out[n].world[k], joint[k], 0.015);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_tail_is_drawn_where_its_joints_are),
+        cmocka_unit_test(where_nothing_is_the_background_is_dark_and_even),
+        cmocka_unit_test(the_ground_is_darker_under_the_animal),
+        cmocka_unit_test(silhouettes_are_soft),
+        cmocka_unit_test(normals_are_right_under_bending),
+        cmocka_unit_test(skin_follows_the_joints),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
