@@ -1,0 +1,241 @@
+/// Draws the curves panel: lines, knots, slope handles, names, playhead.
+#include "editor/curves.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+
+enum { MAX_LABELS = CURVES_MAX_OTHERS + 1, RING_POINTS = 25 };
+
+static const float KNOT_RADIUS = 4.5f, HOVER_RADIUS = 6.5f, HANDLE_LENGTH = 40, HANDLE_RADIUS = 3;
+static const float LABEL_STEP = 15;
+
+/// A spline's name beside the right end of its curve.
+struct label {
+    int spline;
+    float y;
+};
+
+static uint32_t spline_color(int spline) { return theme_spline_color[spline < 0 ? 0 : spline % THEME_SPLINE_COLORS]; }
+
+static void show_line(struct editor *editor, const polyline line, float width, uint32_t color)
+{
+    drawlist_line(&editor->list, &line[0][0], editor->cache.count, width, color);
+}
+
+static void show_ghost(struct editor *editor)
+{
+    const struct ghost *ghost = &editor->ghost;
+    if (!ghost->visible) return;
+    float *xy = editor->scratch;
+    for (int c = 0; c < ghost->count; c++) {
+        xy[2 * c] = curves_x(editor, ghost->frame[c]);
+        xy[2 * c + 1] = curves_y(editor, ghost->value[c]);
+    }
+    drawlist_line(&editor->list, xy, ghost->count, 1, theme_fade(THEME_PLAYHEAD, 0.25f));
+}
+
+/// Lines in painter's order, the active one last.
+static void show_lines(struct editor *editor, const struct editor_world *world)
+{
+    const struct curve_cache *cache = &editor->cache;
+    const struct spline *spline = editor_active_spline(editor, world);
+    uint32_t color = spline_color(editor->active);
+    if (cache->count < 2) return;
+    for (int i = 0; i < cache->other_count; i++) {
+        float alpha =
+            editor->hover.kind == HOVER_CURVE && editor->hover.spline == cache->other_spline[i] ? 0.7f : 0.35f;
+        show_line(editor, cache->others[i], 1.25f, theme_fade(spline_color(cache->other_spline[i]), alpha));
+    }
+    if (!spline) return;
+    show_ghost(editor);
+    for (int i = cache->fan_count - 1; i >= 0; i--) {
+        show_line(editor, cache->fan[i], 1, theme_fade(color, 0.34f - 0.04f * (float)i));
+    }
+    drawlist_dashed(&editor->list, &cache->equilibrium[0][0], cache->count, 1.25f, 6, 4, THEME_EQUILIBRIUM);
+    if (spline->mode == WIGGLY_COMPLEX && editor->look != LOOK_CUBIC) {
+        show_line(editor, cache->im, 1.25f, theme_fade(color, 0.45f));
+    }
+    show_line(editor, cache->re, 2.5f, color);
+}
+
+static void show_ring(struct drawlist *list, float x, float y, float radius, float width, uint32_t color)
+{
+    float xy[RING_POINTS][2];
+    for (int i = 0; i < RING_POINTS; i++) {
+        double angle = 2 * acos(-1.0) * i / (RING_POINTS - 1);
+        xy[i][0] = x + radius * (float)cos(angle);
+        xy[i][1] = y + radius * (float)sin(angle);
+    }
+    drawlist_line(list, &xy[0][0], RING_POINTS, width, color);
+}
+
+void curves_handle(const struct editor *editor, const struct document *document, const struct knot *knot, int end,
+                   float xy[2])
+{
+    double across = curves_pixels_per_frame(editor) * document->fps; /* pixels a second */
+    double down = -curves_pixels_per_value(editor) * knot->slope;
+    double length = hypot(across, down);
+    double factor = (end ? 1 : -1) * HANDLE_LENGTH / (isfinite(length) && length > 0 ? length : 1);
+    int sample = document_sample(document, knot->frame);
+    xy[0] = curves_x(editor, document_frame(document, sample)) + (float)fmin(fmax(across * factor, -1e3), 1e3);
+    xy[1] = curves_y(editor, knot->value) + (float)fmin(fmax(down * factor, -1e3), 1e3);
+}
+
+static void show_handle(struct editor *editor, const struct document *document, const struct knot *knot,
+                        uint32_t color)
+{
+    float ends[2][2];
+    curves_handle(editor, document, knot, 0, ends[0]);
+    curves_handle(editor, document, knot, 1, ends[1]);
+    drawlist_line(&editor->list, &ends[0][0], 2, 1, theme_fade(color, 0.8f));
+    for (int end = 0; end < 2; end++) {
+        struct rect dot = {ends[end][0] - HANDLE_RADIUS, ends[end][1] - HANDLE_RADIUS, 2 * HANDLE_RADIUS,
+                           2 * HANDLE_RADIUS};
+        drawlist_rounded(&editor->list, dot, HANDLE_RADIUS, color);
+        if (editor->hover.kind == HOVER_SLOPE && editor->hover.knot == knot->id && editor->hover.handle == end) {
+            show_ring(&editor->list, ends[end][0], ends[end][1], HOVER_RADIUS, 1.25f, THEME_PLAYHEAD);
+        }
+    }
+}
+
+static void show_diamond(struct drawlist *list, float x, float y, bool filled, uint32_t color)
+{
+    float r = KNOT_RADIUS;
+    float xy[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
+    drawlist_convex(list, xy, 4, filled ? color : THEME_PANEL);
+    drawlist_line(list, xy, 5, 1.5f, filled ? THEME_PLAYHEAD : color);
+}
+
+/// A short stroke that says "this knot has a slope" without the handle's length.
+static void show_tick(struct editor *editor, const struct document *document, const struct knot *knot, uint32_t color)
+{
+    float ends[2][2], x = curves_x(editor, document_frame(document, document_sample(document, knot->frame)));
+    float y = curves_y(editor, knot->value);
+    for (int end = 0; end < 2; end++) {
+        curves_handle(editor, document, knot, end, ends[end]);
+        ends[end][0] = x + 0.3f * (ends[end][0] - x);
+        ends[end][1] = y + 0.3f * (ends[end][1] - y);
+    }
+    drawlist_line(&editor->list, &ends[0][0], 2, 1.5f, theme_fade(color, 0.7f));
+}
+
+static void show_knots(struct editor *editor, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    const struct spline *spline = editor_active_spline(editor, world);
+    const struct rect *plot = &editor->layout.plot;
+    uint32_t color = spline_color(editor->active);
+    float last_x = -1;
+    for (int k = 0; spline && k < spline->knot_count; k++) {
+        const struct knot *knot = &spline->knots[k];
+        bool selected = selection_has(&editor->selection, knot->id);
+        bool hovered = editor->hover.kind == HOVER_KNOT && editor->hover.knot == knot->id;
+        float x = curves_x(editor, document_frame(document, document_sample(document, knot->frame)));
+        float y = curves_y(editor, knot->value);
+        bool crowded = x - last_x < 1 && !selected && !hovered;
+        if (x < plot->x - HANDLE_LENGTH || x > plot->x + plot->w + HANDLE_LENGTH || crowded) continue;
+        last_x = x;
+        if (knot->has_slope && selected) show_handle(editor, document, knot, color);
+        if (knot->has_slope && !selected) show_tick(editor, document, knot, color);
+        show_diamond(&editor->list, x, y, selected, color);
+        if (hovered) show_ring(&editor->list, x, y, HOVER_RADIUS, 1.25f, THEME_PLAYHEAD);
+    }
+}
+
+static void insert_label(struct label *labels, int *count, struct label label)
+{
+    int i = (*count)++;
+    for (; i > 0 && labels[i - 1].y > label.y; i--) labels[i] = labels[i - 1];
+    labels[i] = label;
+}
+
+/// Moves labels apart, downwards first and then back up from the panel's bottom.
+static void spread_labels(struct label *labels, int count, float top, float bottom)
+{
+    for (int i = 0; i < count; i++) labels[i].y = fmaxf(labels[i].y, i ? labels[i - 1].y + LABEL_STEP : top);
+    float limit = bottom;
+    for (int i = count - 1; i >= 0; i--, limit -= LABEL_STEP) labels[i].y = fminf(labels[i].y, limit);
+}
+
+static void show_labels(struct editor *editor, const struct editor_world *world)
+{
+    const struct curve_cache *cache = &editor->cache;
+    const struct rect *plot = &editor->layout.plot;
+    struct label labels[MAX_LABELS];
+    int count = 0;
+    if (cache->count < 2) return;
+    for (int i = 0; i < cache->other_count; i++) {
+        insert_label(labels, &count, (struct label){cache->other_spline[i], cache->others[i][cache->count - 1][1]});
+    }
+    if (editor->active >= 0)
+        insert_label(labels, &count, (struct label){editor->active, cache->re[cache->count - 1][1]});
+    spread_labels(labels, count, plot->y + 8, plot->y + plot->h - 8);
+    float x = plot->x + plot->w + 6;
+    float width = editor->layout.curves.x + editor->layout.curves.w - 6 - x;
+    for (int i = 0; i < count; i++) {
+        bool active = labels[i].spline == editor->active;
+        drawlist_text_fit(&editor->list, x, roundf(labels[i].y + 4), width, active ? FONT_LABEL_BOLD : FONT_LABEL,
+                          THEME_TEXT_SMALL, theme_fade(spline_color(labels[i].spline), active ? 1 : 0.7f),
+                          world->document->splines[labels[i].spline].name);
+    }
+}
+
+static void tag_text(const struct editor *editor, const struct document *document, char text[32])
+{
+    snprintf(text, 32, "%.0f", floor(editor_frame(editor, document) + 1e-9) + 0.0);
+}
+
+struct rect playhead_tag(const struct editor *editor, const struct document *document)
+{
+    const struct rect *ruler = &editor->layout.ruler;
+    float x = curves_x(editor, editor_frame(editor, document));
+    if (x < ruler->x || x > ruler->x + ruler->w) return (struct rect){0};
+    char text[32];
+    tag_text(editor, document, text);
+    float width = roundf(font_width(FONT_NUMBER, THEME_TEXT_SMALL, text)) + 10;
+    float left = fminf(fmaxf(roundf(x - width / 2), ruler->x), ruler->x + ruler->w - width);
+    return (struct rect){left, ruler->y + 3, width, 16};
+}
+
+/// The line at the time shown and its frame number; on its own, so that playing redraws nothing else.
+static void show_playhead(struct editor *editor, const struct document *document)
+{
+    const struct rect *plot = &editor->layout.plot;
+    float x = curves_x(editor, editor_frame(editor, document));
+    const struct rect tag = playhead_tag(editor, document);
+    if (tag.w <= 0) return;
+    char text[32];
+    tag_text(editor, document, text);
+    drawlist_rect(&editor->list, (struct rect){x - 0.5f, plot->y, 1, plot->h}, THEME_PLAYHEAD);
+    drawlist_rounded(&editor->list, tag, 3, THEME_PLAYHEAD);
+    drawlist_text(&editor->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, THEME_PANEL, text);
+}
+
+/// What to do where there is nothing to edit yet.
+static void show_empty(struct editor *editor, const struct editor_world *world)
+{
+    const struct spline *spline = editor_active_spline(editor, world);
+    const char *text = !spline                   ? "This scene has no splines. Ctrl+O opens another one."
+                       : spline->knot_count == 0 ? "Double-click to set the first knot."
+                                                 : NULL;
+    if (!text) return;
+    const struct rect *plot = &editor->layout.plot;
+    float x = plot->x + (plot->w - font_width(FONT_LABEL, THEME_TEXT_NORMAL, text)) / 2;
+    drawlist_text(&editor->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, THEME_TEXT_DIM, text);
+}
+
+void curves_show(struct editor *editor, const struct editor_world *world)
+{
+    struct rect clip = drawlist_push_clip(&editor->list, editor->layout.curves);
+    curves_update(editor, world);
+    grid_show(editor, world);
+    struct rect panel = drawlist_push_clip(&editor->list, editor->layout.plot);
+    show_lines(editor, world);
+    show_knots(editor, world);
+    show_empty(editor, world);
+    drawlist_set_clip(&editor->list, panel);
+    show_labels(editor, world);
+    show_playhead(editor, world->document);
+    drawlist_set_clip(&editor->list, clip);
+}

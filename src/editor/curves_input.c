@@ -1,0 +1,133 @@
+/// The mouse in the curves panel: what is under it, presses and the wheel.
+#include "editor/actions.h"
+#include "editor/curves.h"
+#include <math.h>
+
+static const float CURVE_REACH = 7;
+static const double ZOOM_STEP = 0.15; ///< of a wheel's notch, as a power of e
+
+static void nearest_knot(const struct editor *editor, const struct document *document, const struct spline *spline,
+                         float x, float y, struct hover *hover)
+{
+    float best = CURVES_HIT_RADIUS;
+    for (int k = 0; k < spline->knot_count; k++) {
+        const struct knot *knot = &spline->knots[k];
+        float at = curves_x(editor, document_frame(document, document_sample(document, knot->frame)));
+        float distance = hypotf(x - at, y - curves_y(editor, knot->value));
+        if (distance > best) continue;
+        best = distance;
+        *hover = (struct hover){.kind = HOVER_KNOT, .spline = editor->active, .knot = knot->id};
+    }
+}
+
+static void nearest_handle(const struct editor *editor, const struct document *document, const struct spline *spline,
+                           float x, float y, struct hover *hover)
+{
+    float best = CURVES_HIT_RADIUS;
+    for (int k = 0; k < spline->knot_count; k++) {
+        const struct knot *knot = &spline->knots[k];
+        if (!knot->has_slope || !selection_has(&editor->selection, knot->id)) continue;
+        for (int end = 0; end < 2; end++) {
+            float xy[2];
+            curves_handle(editor, document, knot, end, xy);
+            float distance = hypotf(x - xy[0], y - xy[1]);
+            if (distance > best) continue;
+            best = distance;
+            *hover = (struct hover){.kind = HOVER_SLOPE, .spline = editor->active, .knot = knot->id, .handle = end};
+        }
+    }
+}
+
+/// The nearest curve straight above or below, the active one first.
+static void nearest_curve(const struct editor *editor, const struct editor_world *world, float x, float y,
+                          struct hover *hover)
+{
+    double position = curves_position(world->document, curves_frame(editor, x));
+    float best = CURVE_REACH;
+    for (int i = 0; i < world->document->spline_count; i++) {
+        int s = i == 0 ? editor->active : i <= editor->active ? i - 1 : i;
+        wiggly_value v = curves_solved(world, s, position);
+        float distance = fabsf(y - curves_y(editor, v.y + v.re));
+        if (distance >= best) continue;
+        best = distance;
+        *hover = (struct hover){.kind = HOVER_CURVE, .spline = s};
+    }
+}
+
+struct hover curves_hover(const struct editor *editor, const struct editor_world *world, float x, float y)
+{
+    struct hover hover = {.kind = HOVER_NONE};
+    const struct spline *spline = editor_active_spline(editor, world);
+    if (rect_contains(editor->layout.ruler, x, y)) hover.kind = HOVER_RULER;
+    if (!rect_contains(editor->layout.plot, x, y) || !spline) return hover;
+    nearest_knot(editor, world->document, spline, x, y, &hover);
+    if (hover.kind == HOVER_NONE) nearest_handle(editor, world->document, spline, x, y, &hover);
+    if (hover.kind == HOVER_NONE) nearest_curve(editor, world, x, y, &hover);
+    return hover;
+}
+
+/// A press on a knot: Shift adds or removes it, else it is dragged with all that are selected.
+static void press_knot(struct editor *editor, const struct editor_world *world, unsigned id,
+                       const struct event *event)
+{
+    bool selected = selection_has(&editor->selection, id);
+    if (event->mods & MOD_SHIFT) {
+        selection_set(&editor->selection, id, !selected);
+        if (selected) return;
+    } else if (!selected) {
+        selection_clear(&editor->selection);
+        selection_set(&editor->selection, id, true);
+    }
+    drag_begin_knots(editor, world, id, event);
+    editor->drag.collapse = selected && !(event->mods & MOD_SHIFT);
+}
+
+static void press_empty(struct editor *editor, const struct editor_world *world, const struct hover *hover,
+                        const struct event *event)
+{
+    if (event->clicks == 2) {
+        double value = round_value(curves_value(editor, event->y), 0.01 / curves_pixels_per_value(editor));
+        insert_knot(editor, world, curves_frame(editor, event->x), value, !(event->mods & MOD_CTRL));
+        return;
+    }
+    if (hover->kind == HOVER_CURVE && hover->spline != editor->active) {
+        editor_activate(editor, world, hover->spline);
+    } else if (!(event->mods & MOD_SHIFT)) {
+        selection_clear(&editor->selection);
+    }
+}
+
+void curves_press(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    bool pan = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && editor->space_down);
+    if (pan) {
+        editor->space_used = editor->space_down;
+        drag_begin(editor, DRAG_PAN, event);
+        return;
+    }
+    if (event->button != BUTTON_LEFT) return;
+    struct hover hover = curves_hover(editor, world, event->x, event->y);
+    switch (hover.kind) {
+    case HOVER_RULER:
+        drag_begin(editor, DRAG_SCRUB, event);
+        playback_seek(editor, world->document, round(curves_frame(editor, event->x)));
+        break;
+    case HOVER_KNOT:
+        press_knot(editor, world, hover.knot, event);
+        break;
+    case HOVER_SLOPE:
+        drag_begin_slope(editor, world, hover.knot, hover.handle, event);
+        break;
+    default:
+        if (rect_contains(editor->layout.plot, event->x, event->y)) press_empty(editor, world, &hover, event);
+    }
+}
+
+void curves_wheel(struct editor *editor, const struct event *event)
+{
+    double notches = event->dy != 0 ? event->dy : event->dx; /* some systems turn Shift+wheel sideways */
+    double factor = exp(-ZOOM_STEP * fmin(fmax(notches, -20), 20));
+    double time = event->mods & MOD_SHIFT && !(event->mods & MOD_CTRL) ? 1 : factor;
+    double value = event->mods & MOD_CTRL && !(event->mods & MOD_SHIFT) ? 1 : factor;
+    view_zoom(editor, event->x, event->y, time, value);
+}

@@ -1,0 +1,319 @@
+/// The dialogs: open, save as, and what to do with unsaved work.
+#include "editor/dialog.h"
+#include "editor/state.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LIST_ROWS = 8, BUTTON_WIDTH = 104 };
+enum { CHOICE_SAVE, CHOICE_DISCARD, CHOICE_CANCEL, CHOICE_COUNT };
+
+void editor_set_files(struct editor *editor, const struct dialog_files *files) { editor->dialog.files = *files; }
+
+static void open_dialog(struct editor *editor, enum dialog_kind kind, const char *path)
+{
+    struct dialog *dialog = &editor->dialog;
+    dialog->kind = kind;
+    dialog->waiting = false;
+    dialog->error[0] = '\0';
+    dialog->name_count = -1;
+    dialog->choice = 0;
+    ui_release(&dialog->ui);
+    ui_text_set(&dialog->ui.text, path);
+    dialog->ui.text.all = path[0] != '\0';
+    if (kind != DIALOG_UNSAVED) dialog_match(dialog);
+}
+
+static void close_dialog(struct dialog *dialog)
+{
+    dialog->kind = DIALOG_NONE;
+    dialog->waiting = false;
+    dialog->after.kind = REQUEST_NONE;
+}
+
+void dialog_ask_open(struct editor *editor) { open_dialog(editor, DIALOG_OPEN, ""); }
+
+void dialog_ask_save_as(struct editor *editor)
+{
+    size_t length = strlen(editor->title);
+    bool named = length > 5 && strcmp(editor->title + length - 5, ".json") == 0;
+    open_dialog(editor, DIALOG_SAVE_AS, named ? editor->title : "untitled.json");
+}
+
+static void go_on(struct editor *editor, const struct request *after)
+{
+    if (after->kind == REQUEST_OPEN && !after->path[0]) {
+        dialog_ask_open(editor);
+    } else if (after->kind != REQUEST_NONE) {
+        editor_request(editor, after->kind, after->path);
+    }
+}
+
+void dialog_leave(struct editor *editor, const struct editor_world *world, const struct request *after)
+{
+    inspector_let_go(editor, world);
+    if (history_is_saved(world->history)) {
+        go_on(editor, after);
+        return;
+    }
+    open_dialog(editor, DIALOG_UNSAVED, "");
+    editor->dialog.after = *after;
+}
+
+void dialog_done(struct editor *editor)
+{
+    if (!editor->dialog.waiting) return;
+    struct request after = editor->dialog.after;
+    close_dialog(&editor->dialog);
+    go_on(editor, &after);
+}
+
+bool dialog_failed(struct editor *editor, const char *sentence)
+{
+    struct dialog *dialog = &editor->dialog;
+    if (!dialog->waiting) return false;
+    dialog->waiting = false;
+    snprintf(dialog->error, sizeof dialog->error, "%s", sentence);
+    return true;
+}
+
+static void decide(struct editor *editor, int choice)
+{
+    struct dialog *dialog = &editor->dialog;
+    struct request after = dialog->after;
+    if (choice == CHOICE_SAVE && editor->has_path) {
+        dialog->waiting = true;
+        editor_request(editor, REQUEST_SAVE, NULL);
+    } else if (choice == CHOICE_SAVE) {
+        dialog_ask_save_as(editor);
+    } else {
+        close_dialog(dialog);
+        if (choice == CHOICE_DISCARD) go_on(editor, &after);
+    }
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+    size_t length = strlen(text), n = strlen(end);
+    return length >= n && strcmp(text + length - n, end) == 0;
+}
+
+/// Asks the app to open or save what is typed.
+static void confirm(struct editor *editor)
+{
+    struct dialog *dialog = &editor->dialog;
+    char path[sizeof((struct request *)0)->path];
+    const char *typed = dialog->ui.text.bytes;
+    bool saving = dialog->kind == DIALOG_SAVE_AS;
+    if (dialog->kind == DIALOG_UNSAVED) return;
+    if (!typed[0] || ends_with(typed, "/")) {
+        snprintf(dialog->error, sizeof dialog->error, "Type the name of a file.");
+        return;
+    }
+    int length = snprintf(path, sizeof path, "%s%s", typed, saving && !ends_with(typed, ".json") ? ".json" : "");
+    if (length >= (int)sizeof path) {
+        snprintf(dialog->error, sizeof dialog->error, "The path is too long.");
+        return;
+    }
+    dialog->error[0] = '\0';
+    dialog->waiting = true;
+    editor_request(editor, saving ? REQUEST_SAVE_AS : REQUEST_OPEN, path);
+}
+
+static bool unsaved_key(struct editor *editor, int key)
+{
+    struct dialog *dialog = &editor->dialog;
+    switch (key) {
+    case 'S':
+        decide(editor, CHOICE_SAVE);
+        return true;
+    case 'D':
+        decide(editor, CHOICE_DISCARD);
+        return true;
+    case 'C':
+    case KEY_ESCAPE:
+        decide(editor, CHOICE_CANCEL);
+        return true;
+    case KEY_LEFT:
+    case KEY_UP:
+        dialog->choice = (dialog->choice + CHOICE_COUNT - 1) % CHOICE_COUNT;
+        return true;
+    case KEY_TAB:
+    case KEY_RIGHT:
+    case KEY_DOWN:
+        dialog->choice = (dialog->choice + 1) % CHOICE_COUNT;
+        return true;
+    case KEY_SPACE:
+    case KEY_ENTER:
+        decide(editor, dialog->choice);
+        return true;
+    default:
+        return false;
+    }
+}
+
+static void move_choice(struct dialog *dialog, int direction)
+{
+    if (dialog->match_count == 0) return;
+    int next = dialog->choice + direction;
+    dialog->choice = next < 0 ? 0 : next >= dialog->match_count ? dialog->match_count - 1 : next;
+}
+
+static bool path_key(struct editor *editor, int key)
+{
+    struct dialog *dialog = &editor->dialog;
+    switch (key) {
+    case KEY_ESCAPE:
+        close_dialog(dialog);
+        return true;
+    case KEY_TAB:
+        dialog_complete(dialog);
+        return true;
+    case KEY_UP:
+        move_choice(dialog, -1);
+        return true;
+    case KEY_DOWN:
+        move_choice(dialog, 1);
+        return true;
+    case KEY_ENTER:
+        if (dialog->choice < 0 || dialog_take(dialog, dialog->choice)) confirm(editor);
+        return true;
+    default:
+        return false;
+    }
+}
+
+static void build_list(struct editor *editor)
+{
+    struct dialog *dialog = &editor->dialog;
+    struct ui *ui = &dialog->ui;
+    int first = dialog->choice >= LIST_ROWS ? dialog->choice - LIST_ROWS + 1 : 0, taken = -1;
+    for (int row = 0; row < LIST_ROWS; row++) {
+        struct rect r = ui_row(ui, UI_ROW);
+        int m = first + row;
+        if (m >= dialog->match_count) continue;
+        char name[32];
+        snprintf(name, sizeof name, "dialog.match.%d", m);
+        const char *text = dialog->names[dialog->match[m]];
+        if (ui_list_row(ui, r, name, text, 0, m == dialog->choice)) taken = m;
+    }
+    if (taken < 0) return;
+    bool twice = ui->event->clicks == 2;
+    if (dialog_take(dialog, taken) && twice) confirm(editor);
+}
+
+static void build_path(struct editor *editor)
+{
+    struct dialog *dialog = &editor->dialog;
+    struct ui *ui = &dialog->ui;
+    bool saving = dialog->kind == DIALOG_SAVE_AS;
+    ui_label(ui, ui_row(ui, UI_ROW), saving ? "Save the scene as" : "Open a scene", THEME_TEXT);
+    ui_space(ui, 4);
+    if (ui_text_field(ui, ui_row(ui, 28), "dialog.path")) {
+        dialog->error[0] = '\0';
+        dialog_match(dialog);
+    }
+    ui_space(ui, 8);
+    if (dialog->files.list) build_list(editor);
+    const char *note = saving && dialog_exists(dialog) ? "Replaces the file that is there." : "";
+    if (!note[0] && dialog->files.list) note = "Tab completes, arrows choose.";
+    float top = ui->y;
+    ui_paragraph(ui, dialog->error[0] ? dialog->error : note, dialog->error[0] ? THEME_ERROR : THEME_TEXT_DIM);
+    ui_space(ui, fmaxf(8, 40 - (ui->y - top)));
+    struct rect row = ui_row(ui, 28);
+    struct rect right = {row.x + row.w - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
+    struct rect left = {right.x - UI_GAP - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
+    bool cancelled = ui_button(ui, left, "dialog.cancel", "Cancel", false);
+    if (ui_button(ui, right, "dialog.confirm", saving ? "Save" : "Open", true)) confirm(editor);
+    if (cancelled) close_dialog(dialog);
+}
+
+static void build_unsaved(struct editor *editor)
+{
+    static const char *const names[CHOICE_COUNT] = {"dialog.save", "dialog.discard", "dialog.cancel"};
+    static const char *const labels[CHOICE_COUNT] = {"Save", "Discard", "Cancel"};
+    struct dialog *dialog = &editor->dialog;
+    struct ui *ui = &dialog->ui;
+    char text[sizeof editor->title + 40];
+    snprintf(text, sizeof text, "%s has unsaved changes", editor->title);
+    ui_label(ui, ui_row(ui, UI_ROW), text, THEME_TEXT);
+    float top = ui->y;
+    const char *note = "They are lost unless you save them.  S saves, D discards, Esc cancels.";
+    ui_paragraph(ui, dialog->error[0] ? dialog->error : note, dialog->error[0] ? THEME_ERROR : THEME_TEXT_DIM);
+    ui_space(ui, fmaxf(8, 40 - (ui->y - top)));
+    struct rect row = ui_row(ui, 28);
+    int pressed = -1;
+    for (int i = 0; i < CHOICE_COUNT; i++) {
+        float x = row.x + row.w - (float)(CHOICE_COUNT - i) * (BUTTON_WIDTH + UI_GAP) + UI_GAP;
+        struct rect r = {x, row.y, BUTTON_WIDTH, row.h};
+        if (ui_button(ui, r, names[i], labels[i], i == dialog->choice)) pressed = i;
+    }
+    if (pressed >= 0) decide(editor, pressed);
+}
+
+static void build(struct editor *editor)
+{
+    struct dialog *dialog = &editor->dialog;
+    struct ui *ui = &dialog->ui;
+    ui_space(ui, 8);
+    if (dialog->kind == DIALOG_UNSAVED) {
+        build_unsaved(editor);
+    } else {
+        ui->focus = ui_id("dialog.path"); // the path is all there is to type in
+        build_path(editor);
+    }
+    ui_space(ui, 12);
+}
+
+/// The dialog's rectangle: as high as its content, in the middle of the window.
+static struct rect dialog_box(struct editor *editor)
+{
+    struct rect window = editor->layout.window;
+    struct ui *ui = &editor->dialog.ui;
+    float w = fminf(editor->dialog.kind == DIALOG_UNSAVED ? 440 : 560, window.w - 48);
+    ui_begin_find(ui, (struct rect){0, 0, w, window.h}, "", NULL);
+    build(editor);
+    float h = fminf(ui->y, window.h - 16);
+    ui_end(ui);
+    return (struct rect){roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 3), w, h};
+}
+
+bool dialog_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    (void)world;
+    struct dialog *dialog = &editor->dialog;
+    if (dialog->kind == DIALOG_NONE || event->kind == EVENT_SIZE || event->kind == EVENT_EXPOSE) return false;
+    bool key = event->kind == EVENT_KEY;
+    if (key && event->action == ACTION_RELEASE) return false; // of a key that was pressed before the dialog came
+    bool typed_by_answer = dialog->skip_text && event->kind == EVENT_TEXT;
+    dialog->skip_text = false;
+    if (dialog->waiting || typed_by_answer) return true;
+    bool chord = event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER);
+    if (key && !chord) {
+        bool answer = dialog->kind == DIALOG_UNSAVED;
+        if (answer ? unsaved_key(editor, event->key) : path_key(editor, event->key)) {
+            dialog->skip_text = answer;
+            return true;
+        }
+    }
+    struct rect box = dialog_box(editor);
+    ui_begin_event(&dialog->ui, box, event);
+    build(editor);
+    ui_end(&dialog->ui);
+    return true;
+}
+
+void dialog_show(struct editor *editor)
+{
+    struct dialog *dialog = &editor->dialog;
+    if (dialog->kind == DIALOG_NONE) return;
+    struct drawlist *list = &editor->list;
+    struct rect box = dialog_box(editor);
+    drawlist_rect(list, editor->layout.window, theme_fade(0x000000FFu, 0.55f));
+    drawlist_rounded(list, box, 8, THEME_PANEL);
+    drawlist_rounded_line(list, box, 8, 1, THEME_ZERO);
+    ui_begin_draw(&dialog->ui, box, list);
+    build(editor);
+    ui_end(&dialog->ui);
+}

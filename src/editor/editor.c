@@ -1,0 +1,237 @@
+/// The editor's public functions: who gets an event, and what happens once a frame.
+#include "editor/actions.h"
+#include "editor/curves.h"
+#include "ui/theme.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_COMMANDS = 16384, MAX_POINTS = 1 << 18, MAX_TEXT = 1 << 16 };
+
+static const double MESSAGE_SECONDS = 5;
+
+struct editor *editor_create(struct error *error)
+{
+    struct editor *editor = calloc(1, sizeof *editor);
+    if (!editor || !drawlist_create(&editor->list, MAX_COMMANDS, MAX_POINTS, MAX_TEXT)) {
+        free(editor);
+        fail(error, ERROR_ENVIRONMENT, "out of memory for the editor");
+        return NULL;
+    }
+    editor->layout.stage_share = 400.0f / (720 - THEME_STATUS_HEIGHT);
+    editor->layout.inspector_width = THEME_INSPECTOR_WIDTH;
+    editor->view = (struct view){0, 120, -1, 1};
+    editor->camera = camera_default();
+    editor->active = -1;
+    editor_resize(editor, 1280, 720, 1);
+    return editor;
+}
+
+void editor_destroy(struct editor *editor)
+{
+    if (!editor) return;
+    drawlist_destroy(&editor->list);
+    free(editor->selection.bits);
+    free(editor->drag.originals);
+    free(editor);
+}
+
+void editor_resize(struct editor *editor, float width, float height, float scale)
+{
+    editor->layout.window = (struct rect){0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
+    editor->scale = scale > 0 ? scale : 1;
+    editor_layout(editor);
+}
+
+/// Ids are given in turn, so room for the next ones is taken along.
+static bool reserve_selection(struct selection *selection, unsigned next_id)
+{
+    if (next_id < selection->capacity) return true;
+    unsigned capacity = (next_id / 512 + 2) * 512;
+    uint64_t *bits = realloc(selection->bits, capacity / 8);
+    if (!bits) return false;
+    memset((char *)bits + selection->capacity / 8, 0, (capacity - selection->capacity) / 8);
+    selection->bits = bits;
+    selection->capacity = capacity;
+    return true;
+}
+
+static bool reserve_drag(struct drag *drag, int knots)
+{
+    if (drag->capacity > 0 && knots <= drag->capacity) return true;
+    int capacity = knots + knots / 2 + 64;
+    struct knot *originals = realloc(drag->originals, (size_t)capacity * sizeof *originals);
+    if (!originals) return false;
+    drag->originals = originals;
+    drag->capacity = capacity;
+    return true;
+}
+
+void editor_reserve(struct editor *editor, const struct document *document)
+{
+    int most = 0;
+    for (int s = 0; s < document->spline_count; s++) {
+        if (document->splines[s].knot_count > most) most = document->splines[s].knot_count;
+    }
+    bool enough = reserve_selection(&editor->selection, document->next_id);
+    if (!reserve_drag(&editor->drag, most) || !enough) {
+        editor_message(editor, true, "Out of memory: not all knots can be selected.");
+    }
+}
+
+/// The spline to begin with: the first that moves something, else the first; -1 where there is none.
+static int first_spline(const struct document *document)
+{
+    for (int t = 0; t < document->tail_count; t++) {
+        if (document->tails[t].channel_count > 0) return document->tails[t].channels[0].spline;
+    }
+    return document->spline_count > 0 ? 0 : -1;
+}
+
+void editor_open(struct editor *editor, const struct editor_world *world, const char *title)
+{
+    const struct document *document = world->document;
+    selection_clear(&editor->selection);
+    editor->drag.kind = DRAG_NONE;
+    editor->ghost.visible = false;
+    editor->hover = (struct hover){0};
+    editor->cache.key = 0;
+    editor->fitted = false;
+    editor->look = LOOK_WIGGLY;
+    editor->active = first_spline(document);
+    editor->held_key = 0;
+    editor->space_down = false;
+    editor->playback = (struct playback){.looping = true};
+    for (int s = 0; s < document->spline_count; s++) {
+        editor->playback.playing |= document->splines[s].start == WIGGLY_LOOP;
+    }
+    snprintf(editor->title, sizeof editor->title, "%s", title);
+    editor_reserve(editor, document);
+    inspector_reset(editor);
+    dialog_done(editor);
+}
+
+void editor_set_title(struct editor *editor, const char *title, bool has_path)
+{
+    snprintf(editor->title, sizeof editor->title, "%s", title);
+    editor->has_path = has_path;
+    dialog_done(editor);
+}
+
+void editor_set_stats(struct editor *editor, double fps, double solve_us)
+{
+    editor->fps = fps;
+    editor->solve_us = solve_us;
+}
+
+struct edit editor_edit_of(enum edit_kind kind, int spline)
+{
+    return (struct edit){.kind = kind, .spline = spline, .param.track = -1};
+}
+
+bool editor_edit(struct editor *editor, const struct editor_world *world, const struct edit *edit)
+{
+    struct error error = {0};
+    if (history_apply(world->history, world->document, edit, &error)) return true;
+    editor_message(editor, true, error.text);
+    return false;
+}
+
+bool editor_step(struct editor *editor, const struct editor_world *world, const char *label, uint64_t merge,
+                 const struct edit *edit)
+{
+    if (history_is_open(world->history))
+        return false; /* a drag is running: its step is not to be mixed with others */
+    history_begin(world->history, label, merge);
+    bool done = editor_edit(editor, world, edit);
+    history_end(world->history);
+    return done;
+}
+
+void editor_undo(struct editor *editor, const struct editor_world *world)
+{
+    if (history_is_open(world->history)) return;
+    const char *label = history_undo_label(world->history);
+    char text[128];
+    snprintf(text, sizeof text, label ? "Undone: %s" : "Nothing to undo", label);
+    history_undo(world->history, world->document);
+    editor_message(editor, false, text);
+}
+
+void editor_redo(struct editor *editor, const struct editor_world *world)
+{
+    if (history_is_open(world->history)) return;
+    const char *label = history_redo_label(world->history);
+    char text[128];
+    snprintf(text, sizeof text, label ? "Redone: %s" : "Nothing to redo", label);
+    history_redo(world->history, world->document);
+    editor_message(editor, false, text);
+}
+
+void editor_request(struct editor *editor, enum request_kind kind, const char *path)
+{
+    if (editor->request_count == EDITOR_MAX_REQUESTS) return;
+    struct request *request = &editor->requests[editor->request_count++];
+    request->kind = kind;
+    snprintf(request->path, sizeof request->path, "%s", path ? path : "");
+}
+
+struct request editor_take_request(struct editor *editor)
+{
+    struct request taken = {.kind = REQUEST_NONE};
+    if (editor->request_count == 0) return taken;
+    taken = editor->requests[0];
+    editor->request_count--;
+    memmove(&editor->requests[0], &editor->requests[1], (size_t)editor->request_count * sizeof taken);
+    return taken;
+}
+
+void editor_message(struct editor *editor, bool is_error, const char *text)
+{
+    if (is_error && dialog_failed(editor, text)) return;
+    snprintf(editor->message.text, sizeof editor->message.text, "%s", text);
+    editor->message.is_error = is_error;
+    editor->message.seconds_left = is_error ? 0 : MESSAGE_SECONDS;
+}
+
+struct spline *editor_active_spline(const struct editor *editor, const struct editor_world *world)
+{
+    bool exists = editor->active >= 0 && editor->active < world->document->spline_count;
+    return exists ? &world->document->splines[editor->active] : NULL;
+}
+
+void editor_activate(struct editor *editor, const struct editor_world *world, int spline)
+{
+    if (spline == editor->active || spline < 0 || spline >= world->document->spline_count) return;
+    editor->active = spline;
+    selection_clear(&editor->selection);
+}
+
+void editor_set_look(struct editor *editor, enum look look)
+{
+    static const char *const texts[] = {
+        [LOOK_WIGGLY] = "Wiggly: one spline, every joint in its own phase",
+        [LOOK_STIFF] = "Stiff: the same spline without lag",
+        [LOOK_CUBIC] = "Cubic: the same knots with a classical spline",
+    };
+    editor->look = look;
+    editor_message(editor, false, texts[look]);
+}
+
+enum look editor_look(const struct editor *editor) { return editor->look; }
+
+bool editor_is_playing(const struct editor *editor) { return editor->playback.playing; }
+
+bool editor_wants_frames(const struct editor *editor)
+{
+    return editor->playback.playing || editor->drag.kind == DRAG_GRAB || editor->message.seconds_left > 0;
+}
+
+double editor_frame(const struct editor *editor, const struct document *document)
+{
+    return document->first_frame + editor->playback.position / document->substeps;
+}
+
+const struct drawlist *editor_drawlist(const struct editor *editor) { return &editor->list; }
+
+const struct stage_view *editor_stage(const struct editor *editor) { return &editor->stage; }

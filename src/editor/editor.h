@@ -1,0 +1,89 @@
+/// The editor: events → edit operations and view state → draw list and stage. No GL, no windows, no files.
+#ifndef EDITOR_EDITOR_H
+#define EDITOR_EDITOR_H
+
+#include "rig/pose.h"
+#include "scene/edit.h"
+#include "scene/evaluate.h"
+#include "ui/drawlist.h"
+#include "ui/event.h"
+#include "ui/stage.h"
+
+struct editor;
+
+/// What the editor works on, owned by the app.
+struct editor_world {
+    struct document *document;
+    struct history *history;
+    const struct evaluation *evaluation; ///< as of the last solve: the frame before, until editor_show()
+};
+
+/// What the editor asks of the app after a frame's events (files and windows are not its business).
+enum request_kind {
+    REQUEST_NONE,
+    REQUEST_NEW,
+    REQUEST_OPEN,    ///< path
+    REQUEST_SAVE,    ///< to the document's own path, or ask
+    REQUEST_SAVE_AS, ///< path
+    REQUEST_QUIT,
+    REQUEST_SCREENSHOT,
+    REQUEST_FULLSCREEN,
+};
+
+struct request {
+    enum request_kind kind;
+    char path[1024];
+};
+
+struct editor *editor_create(struct error *error);
+void editor_destroy(struct editor *editor);
+
+/// A new document is on the table: selection, view and playhead start anew; the camera is fitted to `document`'s
+/// motion at the first editor_pose(). The first spline that moves a tail is active. `title` is what the status line
+/// calls it ("tail.json", "untitled").
+void editor_open(struct editor *editor, const struct editor_world *world, const char *title);
+
+/// Whether the document has a file of its own to save to (else Ctrl+S asks for a path).
+void editor_set_title(struct editor *editor, const char *title, bool has_path);
+
+/// Logical size of the window, and device pixels a logical pixel.
+void editor_resize(struct editor *editor, float width, float height, float scale);
+
+/// One event → edits through the history. Events arrive in order; nothing is solved here.
+void editor_event(struct editor *editor, const struct editor_world *world, const struct event *event);
+
+/// After the frame's events: playback advances by `dt` seconds, running drags (and the grab on the stage) are
+/// applied.
+void editor_advance(struct editor *editor, const struct editor_world *world, double dt);
+
+/// After the solve: poses rigs, builds this frame's draw list and stage, both valid until the next call. Allocates
+/// nothing.
+void editor_pose(struct editor *editor, const struct editor_world *world);
+void editor_show(struct editor *editor, const struct editor_world *world);
+const struct drawlist *editor_drawlist(const struct editor *editor);
+const struct stage_view *editor_stage(const struct editor *editor);
+
+/// Takes the oldest request; REQUEST_NONE where there is none.
+struct request editor_take_request(struct editor *editor);
+
+/// Shows a sentence in the status line (an error until the next key or click, else for some seconds of `dt`).
+void editor_message(struct editor *editor, bool is_error, const char *text);
+
+/// Frames a second and microseconds of solving, for the status line; shown as told, so tell it seldom.
+void editor_set_stats(struct editor *editor, double fps, double solve_us);
+
+/// How the knots are shown (V); the app solves as cubic for LOOK_CUBIC.
+enum look editor_look(const struct editor *editor);
+bool editor_is_playing(const struct editor *editor);
+/// Whether something moves by itself, so that the next frame should not wait for an event.
+bool editor_wants_frames(const struct editor *editor);
+/// Mouse cursor for where the pointer is: an index into platform's enum cursor (arrow, hand, horizontal, vertical,
+/// move, text).
+int editor_cursor(const struct editor *editor);
+
+/// Where a replay's target is on the screen now: "knot(sway,2)", "curve(sway,36,1)", "slider(frequency)",
+/// "stage(0.5,0.5)", "tail(tail,0.9)". false where there is no such thing (with a sentence).
+bool editor_target(const struct editor *editor, const struct editor_world *world, const char *target, float *x,
+                   float *y, struct error *error);
+
+#endif

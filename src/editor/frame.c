@@ -1,0 +1,161 @@
+/// One frame of the editor: events are handed to who wants them, time passes, everything is shown.
+#include "editor/actions.h"
+#include "editor/curves.h"
+#include "ui/theme.h"
+#include <stdio.h>
+
+/// As in the platform's enum cursor.
+enum pointer_shape { SHAPE_ARROW, SHAPE_HAND, SHAPE_HORIZONTAL, SHAPE_VERTICAL, SHAPE_MOVE };
+
+static void press(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    enum drag_kind divider = divider_at(editor, event->x, event->y);
+    if (divider != DRAG_NONE && event->button == BUTTON_LEFT) {
+        drag_begin(editor, divider, event);
+    } else if (rect_contains(editor->layout.curves, event->x, event->y)) {
+        curves_press(editor, world, event);
+    } else if (rect_contains(editor->layout.stage, event->x, event->y)) {
+        stage_press(editor, world, event);
+    }
+}
+
+/// Events that neither a dialog nor a running drag nor the inspector wanted.
+static void dispatch(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    struct request request = {.kind = event->kind == EVENT_CLOSE ? REQUEST_QUIT : REQUEST_OPEN};
+    switch (event->kind) {
+    case EVENT_KEY:
+        keys_event(editor, world, event);
+        break;
+    case EVENT_BUTTON:
+        if (event->action == ACTION_PRESS) press(editor, world, event);
+        break;
+    case EVENT_WHEEL:
+        if (rect_contains(editor->layout.curves, event->x, event->y)) curves_wheel(editor, event);
+        if (rect_contains(editor->layout.stage, event->x, event->y)) stage_wheel(editor, event);
+        break;
+    case EVENT_CLOSE:
+        dialog_leave(editor, world, &request);
+        break;
+    case EVENT_DROP:
+        snprintf(request.path, sizeof request.path, "%s", event->path ? event->path : "");
+        dialog_leave(editor, world, &request);
+        break;
+    default:
+        break;
+    }
+}
+
+/// Pointer and modifiers, and errors that were read.
+static void note(struct editor *editor, const struct event *event)
+{
+    bool has_pointer = event->kind == EVENT_POINTER || event->kind == EVENT_BUTTON || event->kind == EVENT_WHEEL;
+    if (has_pointer) {
+        editor->pointer_x = event->x;
+        editor->pointer_y = event->y;
+    }
+    if (has_pointer || event->kind == EVENT_KEY) editor->mods = event->mods;
+    bool pressed = event->kind == EVENT_KEY || event->kind == EVENT_BUTTON;
+    if (pressed && event->action == ACTION_PRESS && editor->message.is_error) {
+        editor->message.text[0] = 0;
+        editor->message.is_error = false;
+    }
+}
+
+/// What opened over the panels ends whatever the pointer and the keys were in the middle of.
+static void let_go(struct editor *editor, const struct editor_world *world)
+{
+    if (editor->dialog.kind == DIALOG_NONE && !editor->help.open) return;
+    if (editor->drag.kind != DRAG_NONE) drag_end(editor, world, true);
+    editor->held_key = 0;
+    editor->space_down = false;
+}
+
+void editor_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    note(editor, event);
+    if (event->kind == EVENT_SIZE) editor_resize(editor, event->x, event->y, event->scale);
+    editor_reserve(editor, world->document);
+    bool used = dialog_event(editor, world, event) || help_event(editor, event) || drag_event(editor, world, event) ||
+                (editor->drag.kind == DRAG_NONE && inspector_event(editor, world, event));
+    if (!used) dispatch(editor, world, event);
+    let_go(editor, world);
+}
+
+void editor_advance(struct editor *editor, const struct editor_world *world, double dt)
+{
+    struct message *message = &editor->message;
+    if (message->seconds_left > 0) {
+        message->seconds_left -= dt;
+        if (message->seconds_left <= 0) message->text[0] = 0;
+    }
+    status_advance(editor, dt);
+    playback_advance(editor, world, dt);
+    drag_apply(editor, world);
+    grab_apply(editor, world);
+}
+
+void editor_pose(struct editor *editor, const struct editor_world *world)
+{
+    if (!editor->fitted) {
+        editor->fitted = true;
+        view_frame_all(editor, world);
+        stage_fit(editor, world);
+    }
+    stage_pose(editor, world);
+}
+
+/// What the pointer is over now: things move under it.
+static void update_hover(struct editor *editor, const struct editor_world *world)
+{
+    if (editor->drag.kind != DRAG_NONE) return;
+    float x = editor->pointer_x, y = editor->pointer_y;
+    editor->hover = (struct hover){.kind = HOVER_NONE};
+    if (editor->dialog.kind != DIALOG_NONE || editor->help.open || divider_at(editor, x, y) != DRAG_NONE) return;
+    if (rect_contains(editor->layout.curves, x, y)) editor->hover = curves_hover(editor, world, x, y);
+    if (rect_contains(editor->layout.stage, x, y)) editor->hover = stage_hover(editor, x, y);
+}
+
+static void show_dividers(struct editor *editor)
+{
+    const struct layout *l = &editor->layout;
+    drawlist_rect(&editor->list, (struct rect){0, l->curves.y, l->curves.w, 1}, THEME_BORDER);
+    drawlist_rect(&editor->list, (struct rect){l->inspector.x, 0, 1, l->inspector.h}, THEME_BORDER);
+}
+
+void editor_show(struct editor *editor, const struct editor_world *world)
+{
+    drawlist_clear(&editor->list, editor->layout.window);
+    update_hover(editor, world);
+    stage_show(editor);
+    curves_show(editor, world);
+    inspector_show(editor, world);
+    show_dividers(editor);
+    status_show(editor, world);
+    help_show(editor);
+    dialog_show(editor);
+}
+
+int editor_cursor(const struct editor *editor)
+{
+    static const enum pointer_shape of_drag[] = {
+        [DRAG_KNOTS] = SHAPE_MOVE,
+        [DRAG_SLOPE] = SHAPE_MOVE,
+        [DRAG_PAN] = SHAPE_MOVE,
+        [DRAG_SCRUB] = SHAPE_HORIZONTAL,
+        [DRAG_STAGE_PAN] = SHAPE_MOVE,
+        [DRAG_GRAB] = SHAPE_HAND,
+        [DRAG_STAGE_DIVIDER] = SHAPE_VERTICAL,
+        [DRAG_INSPECTOR_DIVIDER] = SHAPE_HORIZONTAL,
+    };
+    static const enum pointer_shape of_hover[] = {
+        [HOVER_NONE] = SHAPE_ARROW, [HOVER_KNOT] = SHAPE_MOVE,        [HOVER_SLOPE] = SHAPE_MOVE,
+        [HOVER_CURVE] = SHAPE_HAND, [HOVER_RULER] = SHAPE_HORIZONTAL, [HOVER_JOINT] = SHAPE_HAND,
+    };
+    if (editor->dialog.kind != DIALOG_NONE || editor->help.open) return SHAPE_ARROW;
+    if (editor->drag.kind != DRAG_NONE) return of_drag[editor->drag.kind];
+    enum drag_kind divider = divider_at(editor, editor->pointer_x, editor->pointer_y);
+    if (divider != DRAG_NONE) return of_drag[divider];
+    if (editor->hover.kind == HOVER_CURVE && editor->hover.spline == editor->active) return SHAPE_ARROW;
+    return of_hover[editor->hover.kind];
+}

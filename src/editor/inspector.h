@@ -1,0 +1,35 @@
+/// What the inspector's sections share. Private to inspector*.c.
+#ifndef EDITOR_INSPECTOR_H
+#define EDITOR_INSPECTOR_H
+
+#include "editor/state.h"
+#include "ui/theme.h"
+
+/// One run through the inspector's code: an event, a frame, or a search.
+struct inspection {
+    struct editor *editor;
+    const struct editor_world *world;
+    struct document *document;
+    struct ui *ui;
+};
+
+/// A number's limits where there are none.
+#define INSPECTOR_NO_LIMIT 1e300
+
+void inspector_splines(struct inspection *in);
+void inspector_spline(struct inspection *in);
+void inspector_knot(struct inspection *in);
+void inspector_tail(struct inspection *in);
+
+/// While a drag runs: the document as it was at the press, until inspector_change() makes the edit anew.
+void inspector_take_back(struct inspection *in, enum ui_change change);
+
+/// What a number's change means for the history: a drag is one step, made anew at each movement; a run of nudges of `what`
+/// (the number's name, of the active spline) is one; Esc takes the drag back. `edit` says the document's new state.
+void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
+                      const struct edit *edit);
+
+/// A row with a label; returns what is right of it.
+struct rect inspector_labelled(struct inspection *in, const char *label);
+
+#endif

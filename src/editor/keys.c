@@ -1,0 +1,225 @@
+/// The keyboard: one table of what a key does (design: "The live app").
+#include "editor/actions.h"
+#include "editor/curves.h"
+#include <math.h>
+
+typedef void key_action(struct editor *editor, const struct editor_world *world, int argument);
+
+struct binding {
+    int key;
+    unsigned mods; ///< exactly these
+    bool repeats;  ///< also while the key is kept down
+    bool any_time; ///< also while a drag holds a step of the history open
+    key_action *run;
+    int argument;
+};
+
+static void run_undo(struct editor *e, const struct editor_world *w, int argument)
+{
+    if (argument < 0) {
+        editor_undo(e, w);
+    } else {
+        editor_redo(e, w);
+    }
+}
+
+static void run_leave(struct editor *e, const struct editor_world *w, int argument)
+{
+    struct request request = {.kind = (enum request_kind)argument};
+    dialog_leave(e, w, &request);
+}
+
+static void run_save(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    if (argument == REQUEST_SAVE && e->has_path) {
+        editor_request(e, REQUEST_SAVE, NULL);
+    } else {
+        dialog_ask_save_as(e);
+    }
+}
+
+static void run_request(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    editor_request(e, (enum request_kind)argument, NULL);
+}
+
+static void run_insert(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    insert_knot_at_playhead(e, w);
+}
+
+static void run_delete(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    delete_knots(e, w);
+}
+
+static void run_select_all(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    select_all(e, w);
+}
+
+static void run_select_none(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    (void)argument;
+    selection_clear(&e->selection);
+}
+
+static void run_toggle_slope(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    toggle_slope(e, w);
+}
+
+static void run_slope(struct editor *e, const struct editor_world *w, int argument)
+{
+    nudge_slope(e, w, 0.05 * argument);
+}
+
+static void run_stiffness(struct editor *e, const struct editor_world *w, int argument)
+{
+    nudge_stiffness(e, w, pow(1.25, argument));
+}
+
+static void run_mode(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    cycle_mode(e, w);
+}
+
+static void run_loop(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    (void)argument;
+    e->playback.looping = !e->playback.looping;
+    editor_message(e, false, e->playback.looping ? "Playback loops over the range." : "Playback stops at the end.");
+}
+
+static void run_frame(struct editor *e, const struct editor_world *w, int argument)
+{
+    if (argument) {
+        view_frame_selection(e, w);
+    } else {
+        view_frame_all(e, w);
+    }
+}
+
+static void run_look(struct editor *e, const struct editor_world *w, int argument)
+{
+    static const enum look next[] = {
+        [LOOK_WIGGLY] = LOOK_STIFF, [LOOK_STIFF] = LOOK_CUBIC, [LOOK_CUBIC] = LOOK_WIGGLY};
+    (void)w;
+    (void)argument;
+    editor_set_look(e, next[e->look]);
+}
+
+/// ↑ and ↓ while a letter is held: that parameter.
+static void run_held(struct editor *e, const struct editor_world *w, int argument)
+{
+    if (e->held_key) nudge_parameter(e, w, e->held_key, argument);
+}
+
+static const struct binding bindings[] = {
+    {.key = 'Z', .mods = MOD_CTRL, .repeats = true, .run = run_undo, .argument = -1},
+    {.key = 'Z', .mods = MOD_CTRL | MOD_SHIFT, .repeats = true, .run = run_undo, .argument = 1},
+    {.key = 'Y', .mods = MOD_CTRL, .repeats = true, .run = run_undo, .argument = 1},
+    {.key = 'N', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_NEW},
+    {.key = 'O', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_OPEN},
+    {.key = 'Q', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_QUIT},
+    {.key = 'S', .mods = MOD_CTRL, .run = run_save, .argument = REQUEST_SAVE},
+    {.key = 'S', .mods = MOD_CTRL | MOD_SHIFT, .run = run_save, .argument = REQUEST_SAVE_AS},
+    {.key = KEY_F11, .any_time = true, .run = run_request, .argument = REQUEST_FULLSCREEN},
+    {.key = KEY_F12, .any_time = true, .run = run_request, .argument = REQUEST_SCREENSHOT},
+    {.key = 'I', .run = run_insert},
+    {.key = KEY_DELETE, .run = run_delete},
+    {.key = KEY_BACKSPACE, .run = run_delete},
+    {.key = 'A', .mods = MOD_CTRL, .run = run_select_all},
+    {.key = KEY_ESCAPE, .run = run_select_none},
+    {.key = KEY_COMMA, .repeats = true, .run = select_neighbour, .argument = -1},
+    {.key = KEY_PERIOD, .repeats = true, .run = select_neighbour, .argument = 1},
+    {.key = KEY_PAGE_UP, .repeats = true, .run = activate_neighbour, .argument = -1},
+    {.key = KEY_PAGE_DOWN, .repeats = true, .run = activate_neighbour, .argument = 1},
+    {.key = 'T', .run = run_toggle_slope},
+    {.key = 'D', .repeats = true, .run = run_slope, .argument = -1},
+    {.key = 'E', .repeats = true, .run = run_slope, .argument = 1},
+    {.key = 'D', .mods = MOD_SHIFT, .repeats = true, .run = run_stiffness, .argument = -1},
+    {.key = 'E', .mods = MOD_SHIFT, .repeats = true, .run = run_stiffness, .argument = 1},
+    {.key = 'M', .run = run_mode},
+    {.key = KEY_UP, .repeats = true, .run = run_held, .argument = 1},
+    {.key = KEY_DOWN, .repeats = true, .run = run_held, .argument = -1},
+    {.key = KEY_LEFT, .repeats = true, .run = playback_step, .argument = -1},
+    {.key = KEY_RIGHT, .repeats = true, .run = playback_step, .argument = 1},
+    {.key = KEY_LEFT, .mods = MOD_SHIFT, .run = playback_end, .argument = -1},
+    {.key = KEY_RIGHT, .mods = MOD_SHIFT, .run = playback_end, .argument = 1},
+    {.key = 'L', .mods = MOD_CTRL, .run = run_loop},
+    {.key = KEY_HOME, .run = run_frame, .argument = 0},
+    {.key = KEY_END, .run = run_frame, .argument = 1},
+    {.key = 'V', .any_time = true, .run = run_look},
+};
+
+static const struct nudge_key {
+    int key;
+    double frames, values; ///< frames, and shares of the visible values
+} nudge_keys[] = {
+    {.key = KEY_LEFT, .frames = -1},
+    {.key = KEY_RIGHT, .frames = 1},
+    {.key = KEY_UP, .values = 0.01},
+    {.key = KEY_DOWN, .values = -0.01},
+};
+
+/// Alt+arrows; Shift ten times, Ctrl a tenth.
+static bool nudge_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    if (!(event->mods & MOD_ALT)) return false;
+    double factor = event->mods & MOD_SHIFT ? 10 : event->mods & MOD_CTRL ? 0.1 : 1;
+    double visible = editor->view.value1 - editor->view.value0;
+    for (size_t i = 0; i < sizeof nudge_keys / sizeof nudge_keys[0]; i++) {
+        if (nudge_keys[i].key != event->key) continue;
+        nudge_knots(editor, world, nudge_keys[i].frames * factor, nudge_keys[i].values * factor * visible);
+        return true;
+    }
+    return false;
+}
+
+/// Space plays when it is released, unless it served to pan meanwhile.
+static void space_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    if (event->action == ACTION_PRESS) {
+        editor->space_down = true;
+        editor->space_used = false;
+    } else if (event->action == ACTION_RELEASE && editor->space_down) {
+        editor->space_down = false;
+        if (!editor->space_used) playback_toggle(editor, world);
+    }
+}
+
+static bool is_held_letter(int key) { return key == 'F' || key == 'Z' || key == 'B' || key == 'C' || key == 'L'; }
+
+bool keys_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    unsigned mods = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
+    if (event->key == KEY_SPACE && (mods == 0 || event->action == ACTION_RELEASE)) {
+        space_event(editor, world, event);
+        return true;
+    }
+    if (event->action == ACTION_RELEASE) {
+        if (event->key == editor->held_key) editor->held_key = 0;
+        return false;
+    }
+    if (mods == 0 && event->action == ACTION_PRESS && is_held_letter(event->key)) editor->held_key = event->key;
+    if (nudge_event(editor, world, event)) return true;
+    for (size_t i = 0; i < sizeof bindings / sizeof bindings[0]; i++) {
+        const struct binding *binding = &bindings[i];
+        if (binding->key != event->key || binding->mods != mods) continue;
+        bool idle = event->action == ACTION_REPEAT && !binding->repeats;
+        if (idle || (history_is_open(world->history) && !binding->any_time)) return true;
+        binding->run(editor, world, binding->argument);
+        return true;
+    }
+    return false;
+}

@@ -1,0 +1,110 @@
+/// Inserting, deleting and choosing knots.
+#include "base/hash.h"
+#include "editor/actions.h"
+#include "editor/curves.h"
+#include <math.h>
+
+static const double FIRM = 1000; ///< stiffness of a new slope, 1/s (spec: default)
+
+uint64_t merge_key(const struct editor *editor, const struct editor_world *world, uint64_t kind)
+{
+    const struct spline *spline = editor_active_spline(editor, world);
+    uint64_t key = hash_bytes(HASH_START, &kind, sizeof kind);
+    key = hash_bytes(key, &editor->active, sizeof editor->active);
+    for (int k = 0; spline && k < spline->knot_count; k++) {
+        unsigned id = spline->knots[k].id;
+        if (selection_has(&editor->selection, id)) key = hash_bytes(key, &id, sizeof id);
+    }
+    return key ? key : 1;
+}
+
+static void select_only(struct editor *editor, unsigned id)
+{
+    selection_clear(&editor->selection);
+    selection_set(&editor->selection, id, true);
+}
+
+void insert_knot(struct editor *editor, const struct editor_world *world, double frame, double value, bool snap)
+{
+    const struct document *document = world->document;
+    const struct spline *spline = editor_active_spline(editor, world);
+    if (!spline || !isfinite(frame)) return;
+    double last = document_frame(document, document_last_knot_sample(document, spline));
+    frame = fmin(fmax(snap ? round(frame) : frame, document->first_frame), last);
+    int sample = document_sample(document, frame);
+    int at = spline_find_knot(document, spline, sample);
+    if (at < 0) {
+        struct edit edit = editor_edit_of(EDIT_KNOT_INSERT, editor->active);
+        edit.knot = (struct knot){.frame = frame, .value = value, .stiffness = FIRM};
+        if (!editor_step(editor, world, "Insert knot", 0, &edit)) return;
+        editor_reserve(editor, document);
+        at = spline_find_knot(document, spline, sample);
+    }
+    if (at >= 0) select_only(editor, spline->knots[at].id);
+}
+
+void insert_knot_at_playhead(struct editor *editor, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    const struct spline *spline = editor_active_spline(editor, world);
+    if (!spline) return;
+    int last = document_last_knot_sample(document, spline);
+    double frame = round(editor_frame(editor, document));
+    int sample = document_sample(document, frame);
+    sample = sample < 0 ? 0 : sample > last ? last : sample;
+    wiggly_value v = curves_solved(world, editor->active, sample);
+    insert_knot(editor, world, document_frame(document, sample), v.y + v.re, false);
+}
+
+void delete_knots(struct editor *editor, const struct editor_world *world)
+{
+    const struct spline *spline = editor_active_spline(editor, world);
+    int count = selection_count(&editor->selection, spline);
+    if (count == 0 || history_is_open(world->history)) return;
+    history_begin(world->history, count == 1 ? "Delete knot" : "Delete knots", 0);
+    for (int k = spline->knot_count - 1; k >= 0; k--) {
+        if (!selection_has(&editor->selection, spline->knots[k].id)) continue;
+        struct edit edit = editor_edit_of(EDIT_KNOT_REMOVE, editor->active);
+        edit.knot.id = spline->knots[k].id;
+        editor_edit(editor, world, &edit);
+    }
+    history_end(world->history);
+    selection_clear(&editor->selection);
+}
+
+void select_all(struct editor *editor, const struct editor_world *world)
+{
+    const struct spline *spline = editor_active_spline(editor, world);
+    for (int k = 0; spline && k < spline->knot_count; k++)
+        selection_set(&editor->selection, spline->knots[k].id, true);
+}
+
+/// Index of the first knot after, or last one before, a position; -1 where there is none.
+static int beside(const struct document *document, const struct spline *spline, double position, int direction)
+{
+    int found = -1;
+    for (int k = 0; k < spline->knot_count; k++) {
+        double sample = document_sample(document, spline->knots[k].frame);
+        if (direction < 0 && sample < position) found = k;
+        if (direction > 0 && sample > position) return k;
+    }
+    return found;
+}
+
+void select_neighbour(struct editor *editor, const struct editor_world *world, int direction)
+{
+    const struct spline *spline = editor_active_spline(editor, world);
+    if (!spline || spline->knot_count == 0) return;
+    int single = selection_single(&editor->selection, spline);
+    int next = single + direction;
+    if (single < 0) next = beside(world->document, spline, editor->playback.position, direction);
+    if (next < 0 || next >= spline->knot_count) return;
+    select_only(editor, spline->knots[next].id);
+    view_reveal(editor, spline->knots[next].frame, spline->knots[next].value);
+}
+
+void activate_neighbour(struct editor *editor, const struct editor_world *world, int direction)
+{
+    int count = world->document->spline_count;
+    if (count > 0) editor_activate(editor, world, ((editor->active + direction) % count + count) % count);
+}

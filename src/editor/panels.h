@@ -1,0 +1,91 @@
+/// The panels around the curves and the stage: inspector, status line, help and dialogs. Internal to src/editor.
+///
+/// Who gets an event, in this order: dialog_event(), help_event(), then, unless a drag of the editor's own runs,
+/// inspector_event(), then the editor. Each returns true where it used the event up. That is the focus rule: a field that is
+/// typed in takes all keys but Ctrl chords and F keys, a focused slider takes the arrows, Enter and digits, an open dialog all.
+#ifndef EDITOR_PANELS_H
+#define EDITOR_PANELS_H
+
+#include "editor/dialog_files.h"
+#include "editor/editor.h"
+#include "ui/widgets.h"
+
+enum inspector_section { SECTION_SPLINES, SECTION_SPLINE, SECTION_KNOT, SECTION_TAIL, SECTION_COUNT };
+
+/// The inspector's own view state; zero is a valid start.
+struct inspector {
+    struct ui ui;
+    struct ui_scroll scroll;
+    bool closed[SECTION_COUNT]; ///< collapsed sections
+    int tail, channel;          ///< shown under "Tail"
+};
+
+/// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.
+void inspector_reset(struct editor *editor);
+bool inspector_event(struct editor *editor, const struct editor_world *world, const struct event *event);
+void inspector_show(struct editor *editor, const struct editor_world *world);
+/// Ends a running drag where it is, and drops focus and typing: something opens over the panel, or the document goes.
+void inspector_let_go(struct editor *editor, const struct editor_world *world);
+/// Whether a slider is being dragged (a history step is open) or a value is being typed.
+bool inspector_is_dragging(const struct editor *editor);
+bool inspector_is_typing(const struct editor *editor);
+/// A sentence on what the pointer is over in the inspector, or NULL.
+const char *inspector_hint(const struct editor *editor);
+/// Where the widget `name` is: "frequency", "frequency,2.5" (where its bar shows 2.5), "mode.real", "spline.sway",
+/// "channel.0", "look.stiff", "section.knot". false where it is not shown or scrolled out of sight.
+bool inspector_target(struct editor *editor, const struct editor_world *world, const char *name, float *x, float *y);
+
+/// The right end of the status line; zero is a valid start.
+struct status {
+    double age;    ///< seconds since `text` was made
+    char text[48]; ///< made of the editor's fps and solve_us
+};
+
+/// Time passes (editor_advance): the figures change at most twice a second, so that they cost no redraws.
+void status_advance(struct editor *editor, double dt);
+void status_show(struct editor *editor, const struct editor_world *world);
+
+struct help {
+    bool open;
+};
+
+/// F1 opens it, any key or click closes it. While it is open help_event() is true for keys, text, buttons and the wheel.
+bool help_event(struct editor *editor, const struct event *event);
+void help_show(struct editor *editor);
+
+enum dialog_kind { DIALOG_NONE, DIALOG_OPEN, DIALOG_SAVE_AS, DIALOG_UNSAVED };
+
+enum { DIALOG_MAX_NAMES = 256, DIALOG_NAME_SIZE = 256, DIALOG_ERROR_SIZE = 400 };
+
+/// The dialog on the screen; zero is a valid start (none, no access to folders).
+struct dialog {
+    enum dialog_kind kind;
+    struct ui ui; ///< its text is the path
+    struct dialog_files files;
+    struct request after; ///< what to do once the work is saved or discarded; REQUEST_NONE: nothing
+    bool waiting;         ///< a save or open was requested; its outcome is not known yet
+    bool skip_text;       ///< the key S or D has answered: the letter that comes with it is no part of a path
+    char error[DIALOG_ERROR_SIZE];
+    char listed[UI_TEXT_SIZE]; ///< folder whose names are in `names`
+    char names[DIALOG_MAX_NAMES][DIALOG_NAME_SIZE];
+    int name_count;              ///< -1: nothing is listed
+    int match[DIALOG_MAX_NAMES]; ///< names that begin with what is typed after the folder
+    int match_count;
+    int choice; ///< highlighted match (-1: none), or button of DIALOG_UNSAVED
+};
+
+void dialog_ask_open(struct editor *editor);
+void dialog_ask_save_as(struct editor *editor);
+/// Does `after` (REQUEST_NEW, REQUEST_OPEN with a path, or without: asks for one, REQUEST_QUIT), but asks first where work
+/// would be lost: Save, Discard, Cancel. `after` then follows only when the save has succeeded.
+void dialog_leave(struct editor *editor, const struct editor_world *world, const struct request *after);
+/// The outcome of a request. editor_set_title() and editor_open() call dialog_done(): closes, goes on with `after`.
+/// editor_message() calls dialog_failed() for errors: the dialog stays and says why; true where it took the message.
+void dialog_done(struct editor *editor);
+bool dialog_failed(struct editor *editor, const char *sentence);
+
+/// true for every event while a dialog is open, but for EVENT_SIZE and EVENT_EXPOSE.
+bool dialog_event(struct editor *editor, const struct editor_world *world, const struct event *event);
+void dialog_show(struct editor *editor);
+
+#endif

@@ -1,0 +1,217 @@
+/// What the files of src/editor share: the editor's state and the few functions that every panel uses. Private to the
+/// folder.
+///
+/// The document is never kept here: each call is handed the world. Knots are remembered by id, splines and tails by
+/// index.
+#ifndef EDITOR_STATE_H
+#define EDITOR_STATE_H
+
+#include "editor/editor.h"
+#include "editor/panels.h"
+#include "rig/camera.h"
+#include <stdint.h>
+
+enum {
+    EDITOR_MAX_COLUMNS = 4096, ///< vertices of one drawn curve
+    EDITOR_MAX_REQUESTS = 8,
+    CURVES_MAX_OTHERS = 9, ///< splines drawn besides the active one
+    CURVES_FAN = 7,        ///< lagged copies of the active curve
+};
+
+/// Rectangles of the panels, in logical pixels; made by editor_layout().
+struct layout {
+    struct rect window, stage, curves, inspector, status;
+    struct rect ruler;      ///< frame numbers, on top of the plot
+    struct rect value_axis; ///< numbers left of the plot
+    struct rect plot;
+    float stage_share; ///< of the height above the status line; kept when the window changes its size
+    float inspector_width;
+};
+
+/// Visible part of the curves panel.
+struct view {
+    double frame0, frame1; ///< at the plot's left and right edge
+    double value0, value1; ///< at its bottom and top edge
+};
+
+/// Selected knots: one bit an id. Only knots of the active spline are ever selected.
+struct selection {
+    uint64_t *bits;
+    unsigned capacity; ///< ids
+};
+
+enum drag_kind {
+    DRAG_NONE,
+    DRAG_KNOTS,
+    DRAG_SLOPE,
+    DRAG_SCRUB,
+    DRAG_PAN,
+    DRAG_ORBIT,
+    DRAG_STAGE_PAN,
+    DRAG_GRAB,
+    DRAG_STAGE_DIVIDER,
+    DRAG_INSPECTOR_DIVIDER,
+};
+
+/// A mouse drag in progress. Its edits are made anew from the original document at every step.
+struct drag {
+    enum drag_kind kind;
+    enum event_button button;
+    float x, y; ///< pointer at the last step
+    float start_x, start_y;
+    double moved_x, moved_y; ///< sum of movements, the fine ones scaled down
+    bool moved;              ///< past the threshold below which a press is a click
+    bool lock_x, lock_y;     ///< only the frame, only the value may change
+    bool snap;
+    unsigned knot;          ///< id of the knot under the pointer at the press
+    struct knot *originals; ///< of all knots that move, by sample
+    int count, capacity;
+    double free_frames; ///< last shift by which no knot was hit
+    int handle;         ///< DRAG_SLOPE: which end, as in curves_handle()
+    bool stale;         ///< the pointer moved since the edits were made
+    bool collapse;      ///< a click on a selected knot selects it alone, a drag moves all
+};
+
+/// One channel that a grab steers through a knot at the playhead. The solution is affine in the knot's value v: at
+/// that sample x = x₀ + v·(1 + j·turn), where `turn` is observed from one step to the next.
+struct grab_axis {
+    bool active;
+    int spline;
+    double value; ///< of the knot, in the running step
+    double turn;
+    double seen_value, seen_im; ///< of an earlier solved frame
+    double values_per_radian;   ///< of bend at the grabbed joint
+};
+
+/// The tail held by the pointer.
+struct grab {
+    int tail, joint;
+    double fraction;          ///< of the segment after `joint`
+    int sample;               ///< on which the knots are set
+    float start[2];           ///< where the grabbed point was, pixels
+    struct grab_axis axis[2]; ///< by enum axis
+    bool applied;             ///< the open step holds edits
+};
+
+/// What the pointer is over in the curves and on the stage.
+enum hover_kind { HOVER_NONE, HOVER_KNOT, HOVER_SLOPE, HOVER_CURVE, HOVER_RULER, HOVER_JOINT };
+
+struct hover {
+    enum hover_kind kind;
+    int spline;
+    unsigned knot;
+    int handle; ///< HOVER_SLOPE: which end, as in curves_handle()
+    int tail, joint;
+    double fraction; ///< of the segment after the joint
+    float x, y;      ///< of the point on the tail
+};
+
+struct playback {
+    bool playing;
+    bool looping;    ///< over the scene's range (Ctrl+L)
+    double position; ///< in samples; may lie between two
+};
+
+/// A curve in logical pixels, a vertex for each column of the cache.
+typedef float polyline[EDITOR_MAX_COLUMNS][2];
+
+/// Everything that curves.c draws from the solved splines; rebuilt when `key` changes.
+struct curve_cache {
+    uint64_t key;
+    int count;                           ///< columns; 0 where the scene is out of sight
+    double by;                           ///< samples from column to column
+    double position[EDITOR_MAX_COLUMNS]; ///< in samples; knots of the active spline are hit exactly
+    polyline re, im, equilibrium, fan[CURVES_FAN], others[CURVES_MAX_OTHERS];
+    int fan_count, other_count;
+    int other_spline[CURVES_MAX_OTHERS];
+};
+
+/// The active curve as it was before a drag, in frames and values so that it survives a change of the view.
+struct ghost {
+    bool visible;
+    int count;
+    double frame[EDITOR_MAX_COLUMNS], value[EDITOR_MAX_COLUMNS];
+};
+
+struct message {
+    char text[768];
+    bool is_error;
+    double seconds_left; ///< of a message that is not an error
+};
+
+struct editor {
+    struct layout layout;
+    float scale;
+    struct view view;
+    int active; ///< spline, -1 where there is none
+    struct selection selection;
+    struct playback playback;
+    struct drag drag;
+    struct grab grab;
+    struct hover hover;
+    struct ghost ghost;
+    struct curve_cache cache;
+    float scratch[2 * EDITOR_MAX_COLUMNS]; ///< points of a line that is made while it is drawn
+    enum look look;
+    float pointer_x, pointer_y;
+    unsigned mods;
+    int held_key; ///< F Z B C L while pressed, else 0
+    bool space_down, space_used;
+
+    struct camera camera;
+    bool fitted; ///< camera and curves view, at the first editor_pose() of a document
+    struct stage_view stage;
+
+    struct inspector inspector;
+    struct dialog dialog;
+    struct help help;
+    struct status status;
+
+    char title[256];
+    bool has_path;
+    struct message message;
+    double fps, solve_us; ///< from editor_set_stats()
+
+    struct request requests[EDITOR_MAX_REQUESTS];
+    int request_count;
+    struct drawlist list;
+};
+
+/// Rectangles of all panels for the window's size.
+void editor_layout(struct editor *editor);
+
+/// Applies one edit inside the open step; on failure the sentence goes to the status line.
+bool editor_edit(struct editor *editor, const struct editor_world *world, const struct edit *edit);
+/// One edit as a step of its own; `merge` as in history_begin().
+bool editor_step(struct editor *editor, const struct editor_world *world, const char *label, uint64_t merge,
+                 const struct edit *edit);
+/// An edit with everything else zero (tracks -1): fill in what the kind needs.
+struct edit editor_edit_of(enum edit_kind kind, int spline);
+
+/// Queues a request to the app; `path` may be NULL.
+void editor_request(struct editor *editor, enum request_kind kind, const char *path);
+
+/// The active spline, or NULL. editor_activate() also drops the selection.
+struct spline *editor_active_spline(const struct editor *editor, const struct editor_world *world);
+void editor_activate(struct editor *editor, const struct editor_world *world, int spline);
+
+void editor_set_look(struct editor *editor, enum look look);
+
+/// Frame (fractional) that is shown.
+double editor_frame(const struct editor *editor, const struct document *document);
+
+/// Undo and redo; what they take away leaves the selection.
+void editor_undo(struct editor *editor, const struct editor_world *world);
+void editor_redo(struct editor *editor, const struct editor_world *world);
+
+/// Memory for the document's knots in selection and drags; allocates only where knots were added.
+void editor_reserve(struct editor *editor, const struct document *document);
+
+bool selection_has(const struct selection *selection, unsigned id);
+void selection_set(struct selection *selection, unsigned id, bool selected);
+void selection_clear(struct selection *selection);
+int selection_count(const struct selection *selection, const struct spline *spline);
+/// Index of the only selected knot of the spline, or -1.
+int selection_single(const struct selection *selection, const struct spline *spline);
+
+#endif

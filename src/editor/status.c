@@ -1,0 +1,106 @@
+/// The status line: where playback is, which scene, and one sentence: a message, or what the pointer is over.
+#include "editor/state.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double REFRESH = 0.5; ///< seconds between changes of the figures at the right
+static const double SOLVED = 5;    ///< µs; what took less was only a look for something to solve
+
+void status_advance(struct editor *editor, double dt)
+{
+    struct status *status = &editor->status;
+    status->age += dt;
+    if (status->text[0] && status->age < REFRESH) return;
+    status->age = 0;
+    if (!(editor->fps > 0)) return;
+    if (editor->solve_us < SOLVED) {
+        snprintf(status->text, sizeof status->text, "%.0f fps", editor->fps);
+    } else {
+        snprintf(status->text, sizeof status->text, "%.0f fps  solve %.0f µs", editor->fps, editor->solve_us);
+    }
+}
+
+static const char *hover_hint(const struct editor *editor)
+{
+    switch (editor->hover.kind) {
+    case HOVER_KNOT:
+        return "Drag to move (X, Y lock an axis, Shift fine, Ctrl off the frames); Del deletes";
+    case HOVER_SLOPE:
+        return "Drag to turn the slope; T takes it away";
+    case HOVER_CURVE:
+        return "Click to edit this spline; double-click to insert a knot";
+    case HOVER_RULER:
+        return "Drag to scrub";
+    case HOVER_JOINT:
+        return "Pull the tail: it sets the knot at the playhead";
+    case HOVER_NONE:
+        break;
+    }
+    return "Drag a knot, or pull the tail.  Space plays, F1 shows all keys";
+}
+
+/// A triangle while it plays, else two bars.
+static void paint_play_state(struct drawlist *list, float x, float y, bool playing)
+{
+    if (playing) {
+        const float triangle[6] = {x, y - 5, x + 9, y, x, y + 5};
+        drawlist_convex(list, triangle, 3, THEME_ACCENT);
+    } else {
+        drawlist_rect(list, (struct rect){x, y - 5, 3, 10}, THEME_TEXT_DIM);
+        drawlist_rect(list, (struct rect){x + 5, y - 5, 3, 10}, THEME_TEXT_DIM);
+    }
+}
+
+static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
+{
+    float size = font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
+    float y = roundf(r.y + (r.h + font_cap_height(font, size)) / 2);
+    drawlist_text_fit(list, r.x, y, r.w, font, size, color, text);
+}
+
+/// Frame and time, in a column whose width does not depend on them; returns the column's right end.
+static float show_time(struct editor *editor, const struct document *document, struct rect bar)
+{
+    char text[64];
+    double frame = editor_frame(editor, document);
+    snprintf(text, sizeof text, "%5.0f  %6.2f s", floor(frame), frame / document->fps);
+    paint_play_state(&editor->list, bar.x + 12, bar.y + bar.h / 2, editor->playback.playing);
+    float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
+    paint_text(&editor->list, (struct rect){bar.x + 28, bar.y, width, bar.h}, FONT_NUMBER, THEME_TEXT, text);
+    return bar.x + 28 + width;
+}
+
+/// The scene's name, with a dot while it has unsaved changes; returns its right end.
+static float show_title(struct editor *editor, const struct editor_world *world, struct rect bar, float x)
+{
+    char text[sizeof editor->title + 8];
+    bool saved = history_is_saved(world->history);
+    snprintf(text, sizeof text, "%s%s", editor->title, saved ? "" : " •");
+    float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, text), bar.w / 5);
+    struct rect r = {x, bar.y, width, bar.h};
+    paint_text(&editor->list, r, FONT_LABEL, saved ? THEME_TEXT_DIM : THEME_TEXT, text);
+    return x + width;
+}
+
+void status_show(struct editor *editor, const struct editor_world *world)
+{
+    enum { GAP = 24 };
+    struct rect bar = editor->layout.status;
+    const struct message *message = &editor->message;
+    drawlist_rect(&editor->list, bar, THEME_PANEL);
+    drawlist_rect(&editor->list, (struct rect){bar.x, bar.y, bar.w, 1}, THEME_BORDER);
+    float x = show_time(editor, world->document, bar) + GAP;
+    x = show_title(editor, world, bar, x) + GAP;
+    const char *figures = editor->status.text;
+    float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
+    float right = bar.x + bar.w - 12 - width;
+    paint_text(&editor->list, (struct rect){right, bar.y, width, bar.h}, FONT_NUMBER, THEME_TEXT_DIM, figures);
+    const char *hint = inspector_hint(editor);
+    const char *text = message->text[0] ? message->text : hint ? hint : hover_hint(editor);
+    uint32_t color = !message->text[0] ? THEME_TEXT_DIM : message->is_error ? THEME_ERROR : THEME_TEXT;
+    struct rect middle = {x, bar.y, right - GAP - x, bar.h};
+    if (middle.w > 40) paint_text(&editor->list, middle, FONT_LABEL, color, text);
+}

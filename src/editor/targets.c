@@ -1,0 +1,201 @@
+/// Names for places on the screen that survive a new layout, for replays: "knot(sway,2)", "tail(tail,0.9)".
+#include "editor/actions.h"
+#include "editor/curves.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_NUMBERS = 2, MAX_NAME = 256 };
+
+/// A target taken apart: kind(name,number,…); the name may hold anything, the numbers are what follows the last
+/// commas.
+struct target {
+    char name[MAX_NAME];
+    double number[MAX_NUMBERS];
+};
+
+struct place {
+    const struct editor *editor;
+    const struct editor_world *world;
+    const struct target *target;
+    float x, y;
+};
+
+typedef bool find_place(struct place *place, struct error *error);
+
+static bool in_plot(struct place *place, double frame, double value, struct error *error)
+{
+    place->x = curves_x(place->editor, frame);
+    place->y = curves_y(place->editor, value);
+    const struct rect *plot = &place->editor->layout.plot;
+    bool inside =
+        place->x >= plot->x && place->y >= plot->y && place->x <= plot->x + plot->w && place->y <= plot->y + plot->h;
+    return inside ||
+           fail(error, ERROR_INPUT, "frame %g, value %g is not in the visible part of the curves", frame, value);
+}
+
+static bool spline_named(const struct place *place, int *spline, struct error *error)
+{
+    *spline = document_find_spline(place->world->document, place->target->name);
+    return *spline >= 0 || fail(error, ERROR_INPUT, "there is no spline \"%s\"", place->target->name);
+}
+
+static bool knot_named(struct place *place, const struct knot **knot, struct error *error)
+{
+    int spline;
+    if (!spline_named(place, &spline, error)) return false;
+    double k = place->target->number[0];
+    const struct spline *owner = &place->world->document->splines[spline];
+    if (!(k >= 0 && k < owner->knot_count)) {
+        return fail(error, ERROR_INPUT, "the spline \"%s\" has %d knots, no knot %g", owner->name, owner->knot_count,
+                    k);
+    }
+    *knot = &owner->knots[(int)k];
+    return true;
+}
+
+static bool find_knot(struct place *place, struct error *error)
+{
+    const struct document *document = place->world->document;
+    const struct knot *knot;
+    if (!knot_named(place, &knot, error)) return false;
+    return in_plot(place, document_frame(document, document_sample(document, knot->frame)), knot->value, error);
+}
+
+/// The end of a knot's slope handle: handle(sway,2,1), 0 before and 1 after the knot.
+static bool find_handle(struct place *place, struct error *error)
+{
+    const struct knot *knot;
+    float xy[2];
+    if (!knot_named(place, &knot, error)) return false;
+    if (!knot->has_slope) return fail(error, ERROR_INPUT, "that knot of \"%s\" has no slope", place->target->name);
+    curves_handle(place->editor, place->world->document, knot, place->target->number[1] > 0, xy);
+    place->x = xy[0];
+    place->y = xy[1];
+    return true;
+}
+
+static bool find_curve(struct place *place, struct error *error)
+{
+    int spline;
+    if (!spline_named(place, &spline, error)) return false;
+    return in_plot(place, place->target->number[0], place->target->number[1], error);
+}
+
+static bool find_ruler(struct place *place, struct error *error)
+{
+    const struct rect *ruler = &place->editor->layout.ruler;
+    place->x = curves_x(place->editor, place->target->number[0]);
+    place->y = ruler->y + ruler->h / 2;
+    return rect_contains(*ruler, place->x, place->y) ||
+           fail(error, ERROR_INPUT, "frame %g is not on the visible part of the ruler", place->target->number[0]);
+}
+
+static bool find_stage(struct place *place, struct error *error)
+{
+    (void)error;
+    const struct rect *stage = &place->editor->layout.stage;
+    place->x = stage->x + stage->w * (float)place->target->number[0];
+    place->y = stage->y + stage->h * (float)place->target->number[1];
+    return true;
+}
+
+static bool find_tail(struct place *place, struct error *error)
+{
+    const struct document *document = place->world->document;
+    double share = fmin(fmax(place->target->number[0], 0), 1);
+    for (int t = 0; t < document->tail_count; t++) {
+        if (strcmp(document->tails[t].name, place->target->name) != 0) continue;
+        double along = share * document->tails[t].joints;
+        int joint = (int)fmin(floor(along), document->tails[t].joints - 1);
+        float xy[2];
+        if (!stage_project(place->editor, t, joint, along - joint, xy)) break;
+        place->x = xy[0];
+        place->y = xy[1];
+        return true;
+    }
+    return fail(error, ERROR_INPUT, "there is no tail \"%s\" to be seen", place->target->name);
+}
+
+static bool find_divider(struct place *place, struct error *error)
+{
+    const struct layout *l = &place->editor->layout;
+    bool inspector = strcmp(place->target->name, "inspector") == 0;
+    if (!inspector && strcmp(place->target->name, "stage") != 0) {
+        return fail(error, ERROR_INPUT, "there is no divider \"%s\": expected stage or inspector",
+                    place->target->name);
+    }
+    place->x = inspector ? l->inspector.x : l->curves.x + l->curves.w / 2;
+    place->y = inspector ? l->inspector.h / 2 : l->curves.y;
+    return true;
+}
+
+static bool find_widget(struct place *place, struct error *error)
+{
+    /* inspector_target() lays its widgets out to find one, and leaves the editor as it was */
+    struct editor *editor = (struct editor *)place->editor;
+    return inspector_target(editor, place->world, place->target->name, &place->x, &place->y) ||
+           fail(error, ERROR_INPUT, "the inspector does not show \"%s\"", place->target->name);
+}
+
+static const struct target_kind {
+    const char *kind;
+    bool named;  ///< takes a name
+    int numbers; ///< and that many numbers
+    find_place *find;
+} kinds[] = {
+    {.kind = "knot", .named = true, .numbers = 1, .find = find_knot},
+    {.kind = "handle", .named = true, .numbers = 2, .find = find_handle},
+    {.kind = "curve", .named = true, .numbers = 2, .find = find_curve},
+    {.kind = "ruler", .named = false, .numbers = 1, .find = find_ruler},
+    {.kind = "stage", .named = false, .numbers = 2, .find = find_stage},
+    {.kind = "tail", .named = true, .numbers = 1, .find = find_tail},
+    {.kind = "divider", .named = true, .numbers = 0, .find = find_divider},
+    {.kind = "slider", .named = true, .numbers = 0, .find = find_widget},
+    {.kind = "widget", .named = true, .numbers = 0, .find = find_widget},
+};
+
+/// Cuts the last ",number" off `text`; false where there is none.
+static bool cut_number(char *text, double *number)
+{
+    char *comma = strrchr(text, ',');
+    char *digits = comma ? comma + 1 : text;
+    char *end;
+    *number = strtod(digits, &end);
+    if (end == digits || *end || !isfinite(*number)) return false;
+    *digits = 0;
+    if (comma) *comma = 0;
+    return true;
+}
+
+static const struct target_kind *parse(const char *text, struct target *target)
+{
+    const char *open = strchr(text, '(');
+    size_t length = strlen(text);
+    if (!open || text[length - 1] != ')' || length - (size_t)(open - text) > MAX_NAME) return NULL;
+    memset(target, 0, sizeof *target);
+    memcpy(target->name, open + 1, length - (size_t)(open - text) - 2);
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        const struct target_kind *kind = &kinds[i];
+        size_t size = strlen(kind->kind);
+        if (size != (size_t)(open - text) || strncmp(kind->kind, text, size) != 0) continue;
+        for (int n = kind->numbers - 1; n >= 0; n--) {
+            if (!cut_number(target->name, &target->number[n])) return NULL;
+        }
+        return kind->named == (target->name[0] != 0) ? kind : NULL;
+    }
+    return NULL;
+}
+
+bool editor_target(const struct editor *editor, const struct editor_world *world, const char *target, float *x,
+                   float *y, struct error *error)
+{
+    struct target parts;
+    const struct target_kind *kind = parse(target, &parts);
+    if (!kind) return fail(error, ERROR_INPUT, "\"%s\" is no target such as knot(sway,2) or stage(0.5,0.5)", target);
+    struct place place = {.editor = editor, .world = world, .target = &parts};
+    if (!kind->find(&place, error)) return false;
+    *x = place.x;
+    *y = place.y;
+    return true;
+}

@@ -1,0 +1,80 @@
+/// What the tests of inspector and dialogs do besides session.h: widgets by name, and typing.
+#ifndef TESTS_PANEL_SESSION_H
+#define TESTS_PANEL_SESSION_H
+
+#include "session.h"
+
+#include "editor/state.h"
+#include <stdio.h>
+#include <stdlib.h>
+
+/// Opens a scene in a window of that size.
+static inline void panel_open(struct session *session, const char *scene, float width, float height)
+{
+    session_open(session, scene);
+    editor_resize(session->editor, width, height, 1);
+    session_frame(session);
+}
+
+/// Characters with the keys that they come from, as a window sends them.
+static inline void panel_type(struct session *session, const char *text)
+{
+    while (*text) {
+        uint32_t c = utf8_next(&text);
+        int key = c >= 'a' && c <= 'z' ? (int)c - 32 : c < 0x7F ? (int)c : 0;
+        session_hold(session, key, ACTION_PRESS);
+        session_send(session, (struct event){.kind = EVENT_TEXT, .codepoint = c});
+        session_hold(session, key, ACTION_RELEASE);
+    }
+    session_frame(session);
+}
+
+/// Whether the inspector shows the widget.
+static inline bool panel_shows(struct session *session, const char *name)
+{
+    float x, y;
+    return inspector_target(session->editor, &session->world, name, &x, &y);
+}
+
+/// Presses a widget of the inspector; the button stays down.
+static inline void panel_press(struct session *session, const char *name, int clicks)
+{
+    float x, y;
+    if (!inspector_target(session->editor, &session->world, name, &x, &y)) {
+        fail_msg("the inspector does not show %s", name);
+    }
+    session_move(session, x, y);
+    session_press(session, BUTTON_LEFT, clicks);
+}
+
+static inline void panel_click(struct session *session, const char *name)
+{
+    panel_press(session, name, 1);
+    session_release(session, BUTTON_LEFT);
+}
+
+/// Double-clicks a number and types over it.
+static inline void panel_enter(struct session *session, const char *name, const char *text)
+{
+    panel_press(session, name, 2);
+    session_release(session, BUTTON_LEFT);
+    panel_type(session, text);
+    session_key(session, KEY_ENTER, 0);
+}
+
+/// Presses the handle of a slider and drags it to a value; the button stays down.
+static inline void panel_drag(struct session *session, const char *name, double value)
+{
+    char target[64];
+    float x, y;
+    panel_press(session, name, 1);
+    snprintf(target, sizeof target, "%s,%.17g", name, value);
+    assert_true(inspector_target(session->editor, &session->world, target, &x, &y));
+    session_move(session, x + 3, y); // so that the drag is one where the value is at the handle already
+    session_move(session, x, y);
+    session_frame(session);
+}
+
+static inline void panel_release(struct session *session) { session_release(session, BUTTON_LEFT); }
+
+#endif

@@ -1,0 +1,153 @@
+/// A user at the editor without a window: a document, its history and solution, and hands for mouse and keyboard.
+#ifndef TESTS_SESSION_H
+#define TESTS_SESSION_H
+
+#include "near.h"
+
+#include "base/error.h"
+#include "editor/editor.h"
+#include "scene/load.h"
+#include "ui/font.h"
+#include <string.h>
+
+struct session {
+    struct document *document;
+    struct history *history;
+    struct evaluation evaluation;
+    struct editor *editor;
+    struct editor_world world;
+    bool cubic;
+    float x, y;    ///< pointer
+    unsigned mods; ///< of pointer and buttons
+};
+
+static inline void session_send(struct session *session, struct event event)
+{
+    editor_event(session->editor, &session->world, &event);
+}
+
+static inline void session_close(struct session *session)
+{
+    editor_destroy(session->editor);
+    evaluation_free(&session->evaluation);
+    history_destroy(session->history);
+    document_destroy(session->document);
+}
+
+/// One frame of 1/60 s as the app runs it: advance, solve what changed, pose, show.
+static inline void session_frame(struct session *session)
+{
+    enum { MAX_SPLINES = 64 };
+    bool dirty[MAX_SPLINES];
+    assert_true(session->document->spline_count <= MAX_SPLINES);
+    editor_advance(session->editor, &session->world, 1.0 / 60);
+    bool cubic = editor_look(session->editor) == LOOK_CUBIC;
+    history_take_dirty(session->history, session->document, dirty, session->document->spline_count);
+    assert_true(evaluation_resize(&session->evaluation, session->document, NULL));
+    evaluation_update(&session->evaluation, session->document, cubic == session->cubic ? dirty : NULL, cubic);
+    session->cubic = cubic;
+    editor_pose(session->editor, &session->world);
+    editor_show(session->editor, &session->world);
+}
+
+static inline void session_move(struct session *session, float x, float y)
+{
+    session->x = x;
+    session->y = y;
+    session_send(session, (struct event){.kind = EVENT_POINTER, .x = x, .y = y, .mods = session->mods});
+}
+
+/// Moves the pointer by (dx, dy) in `steps` events, a frame after each.
+static inline void session_drag(struct session *session, float dx, float dy, int steps)
+{
+    float x = session->x, y = session->y;
+    for (int i = 1; i <= steps; i++) {
+        float share = (float)i / (float)steps;
+        session_move(session, x + dx * share, y + dy * share);
+        session_frame(session);
+    }
+}
+
+/// Puts the pointer on a target of editor_target(); fails the test where there is none.
+static inline void session_point(struct session *session, const char *target)
+{
+    struct error error = {0};
+    float x, y;
+    if (!editor_target(session->editor, &session->world, target, &x, &y, &error)) fail_msg("%s", error.text);
+    session_move(session, x, y);
+}
+
+static inline void session_button(struct session *session, enum event_button which, enum event_action action,
+                                  int clicks)
+{
+    session_send(session, (struct event){.kind = EVENT_BUTTON,
+                                         .button = which,
+                                         .action = action,
+                                         .clicks = clicks,
+                                         .x = session->x,
+                                         .y = session->y,
+                                         .mods = session->mods});
+}
+
+static inline void session_press(struct session *session, enum event_button which, int clicks)
+{
+    session_button(session, which, ACTION_PRESS, clicks);
+}
+
+static inline void session_release(struct session *session, enum event_button which)
+{
+    session_button(session, which, ACTION_RELEASE, 1);
+    session_frame(session);
+}
+
+/// A click on a target.
+static inline void session_click(struct session *session, const char *target)
+{
+    session_point(session, target);
+    session_press(session, BUTTON_LEFT, 1);
+    session_release(session, BUTTON_LEFT);
+}
+
+static inline void session_wheel(struct session *session, float notches)
+{
+    session_send(
+        session,
+        (struct event){.kind = EVENT_WHEEL, .dy = notches, .x = session->x, .y = session->y, .mods = session->mods});
+    session_frame(session);
+}
+
+static inline void session_hold(struct session *session, int key, enum event_action action)
+{
+    session_send(session, (struct event){.kind = EVENT_KEY, .key = key, .action = action});
+}
+
+/// Presses and releases a key, then runs a frame.
+static inline void session_key(struct session *session, int key, unsigned mods)
+{
+    session_send(session, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS, .mods = mods});
+    session_send(session, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE, .mods = mods});
+    session_frame(session);
+}
+
+/// Opens a scene given as text and shows its first frame (1280×720, paused). Fails the test where that is not
+/// possible.
+static inline void session_open(struct session *session, const char *scene)
+{
+    struct error error = {0};
+    memset(session, 0, sizeof *session);
+    if (!font_init(&error)) fail_msg("%s", error.text);
+    session->document = scene_parse("test", scene, strlen(scene), NULL, &error);
+    if (!session->document) fail_msg("%s", error.text);
+    session->history = history_create();
+    assert_non_null(session->history);
+    if (!evaluation_resize(&session->evaluation, session->document, &error)) fail_msg("%s", error.text);
+    evaluation_update(&session->evaluation, session->document, NULL, false);
+    session->editor = editor_create(&error);
+    if (!session->editor) fail_msg("%s", error.text);
+    session->world = (struct editor_world){session->document, session->history, &session->evaluation};
+    editor_open(session->editor, &session->world, "test");
+    if (editor_is_playing(session->editor)) session_key(session, KEY_SPACE, 0);
+    session_frame(session);
+}
+
+#endif

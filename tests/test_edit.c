@@ -1,0 +1,182 @@
+/// Edits: what they do, and that none makes a document that would not load.
+#include "near.h"
+
+#include "world.h"
+#include <stdlib.h>
+
+/// The edit must be refused with that sentence, and leave document and history as they were.
+static void assert_refused(struct world *world, struct edit edit, const char *sentence)
+{
+    char *before = world_print(world);
+    const char *label = history_undo_label(world->history);
+    assert_false(world_step(world, edit));
+    assert_int_equal(world->error.kind, ERROR_INPUT);
+    assert_string_equal(world->error.text, sentence);
+    assert_document(world, before);
+    assert_ptr_equal(history_undo_label(world->history), label);
+    free(before);
+}
+
+/// A knot may pass others: it is found by its id, and knots stay by sample; its unknown keys go with it.
+static void test_knots(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    const struct spline *sway = &world.document->splines[SWAY];
+    unsigned id = sway->knots[0].id;
+    world_must(&world, edit_move(&world, SWAY, 0, 20.5, 7));
+    assert_int_equal(sway->knots[1].id, id);
+    assert_near(sway->knots[1].frame, 20.5, 0);
+    assert_non_null(sway->knots[1].extra);
+    world_must(&world, edit_insert(SWAY, 4, -0.0));
+    assert_int_equal(sway->knot_count, 4);
+    assert_int_equal(spline_find_knot(world.document, sway, 4), 0);
+    world_must(&world, (struct edit){.kind = EDIT_KNOT_REMOVE, .spline = SWAY, .knot = {.id = id}});
+    assert_int_equal(spline_find_id(sway, id), -1);
+    assert_true(history_undo(world.history, world.document));
+    assert_int_equal(spline_find_id(sway, id), 2);
+    assert_non_null(sway->knots[2].extra);
+    world_close(&world);
+}
+
+static void test_refused_knots(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    assert_refused(&world, edit_insert(SWAY, 12.4, 0), "sway: there is a knot at frame 12.4 already");
+    assert_refused(&world, edit_move(&world, SWAY, 0, 30, 0), "sway: there is a knot at frame 30 already");
+    assert_refused(&world, edit_insert(SWAY, 48.5, 0), "sway: frame 48.5 is outside 0 to 48");
+    assert_refused(&world, edit_insert(SWAY, -0.6, 0), "sway: frame -0.6 is outside 0 to 48");
+    assert_refused(&world, edit_insert(LOOP, 48, 0),
+                   "loop: frame 48 is outside 0 to 48, whose last is the loop's first again");
+    assert_refused(&world, edit_insert(SWAY, 5, NAN), "sway: a knot's numbers must be finite");
+    assert_refused(&world, edit_insert(SWAY, INFINITY, 0), "sway: a knot's numbers must be finite");
+    struct edit soft = edit_move(&world, SWAY, 1, 12, 0);
+    soft.knot.stiffness = 0;
+    assert_refused(&world, soft, "sway: stiffness must be above 0");
+    assert_refused(&world, (struct edit){.kind = EDIT_KNOT_REMOVE, .spline = SWAY, .knot = {.id = 99}},
+                   "sway: there is no such knot any more");
+    assert_refused(&world, edit_insert(3, 5, 0), "there is no such spline");
+    assert_refused(&world, edit_insert(-1, 5, 0), "there is no such spline");
+    world_close(&world);
+}
+
+static void test_refused_parameters(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    assert_refused(&world, edit_number(SWAY, PARAMETER_FREQUENCY, -1), "sway: frequency must be at least 0");
+    assert_refused(&world, edit_number(SWAY, PARAMETER_DAMPING, 1.5), "sway: damping must be at most 1");
+    assert_refused(&world, edit_number(SWAY, PARAMETER_EQUILIBRIUM, NAN), "sway: equilibrium must be finite");
+    assert_refused(&world, edit_number(SWAY, PARAMETER_SPRING, 1), "sway: spring is not in use");
+    assert_refused(&world, edit_number(PLUCK, PARAMETER_DAMPING, 1), "pluck: damping is not in use");
+    assert_refused(&world, edit_track(SWAY, PARAMETER_CALM, LOOP), "sway: calm is a number only");
+    assert_refused(&world, edit_track(SWAY, PARAMETER_DAMPING, 3), "sway: there is no spline to follow");
+    assert_refused(&world, edit_track(SWAY, PARAMETER_DAMPING, SWAY),
+                   "sway cannot follow sway, which follows it already");
+    assert_refused(&world, edit_track(SWAY, PARAMETER_DAMPING, LOOP),
+                   "sway cannot follow loop, which follows it already");
+    world_must(&world, edit_track(PLUCK, PARAMETER_SPRING, LOOP));
+    assert_refused(&world, edit_track(SWAY, PARAMETER_BANDWIDTH, PLUCK),
+                   "sway cannot follow pluck, which follows it already");
+    assert_refused(&world, edit_mode(PLUCK, WIGGLY_COMPLEX),
+                   "pluck: spring follows a spline and cannot be converted; make it a number first");
+    assert_refused(&world, (struct edit){.kind = EDIT_SPRING, .spline = SWAY, .flag = true},
+                   "sway: spring and friction are for real mode only");
+    world_close(&world);
+}
+
+/// ω = √k and ζ = γ/2√k; what is out of the new mode's range is clamped, so that what is saved loads.
+static void test_modes_convert(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    const struct spline *pluck = &world.document->splines[PLUCK];
+    world_must(&world, edit_number(PLUCK, PARAMETER_FRICTION, 30));
+    char *before = world_print(&world);
+    world_must(&world, edit_mode(PLUCK, WIGGLY_COMPLEX));
+    assert_near(pluck->parameter[PARAMETER_FREQUENCY].value, sqrt(40) / (8 * atan(1)), 1e-15);
+    assert_near(pluck->parameter[PARAMETER_DAMPING].value, 1, 0); // 30/2√40 = 2.37
+    assert_false(pluck->spring_friction);
+    assert_true(history_undo(world.history, world.document));
+    assert_document(&world, before);
+    free(before);
+    world_must(&world, (struct edit){.kind = EDIT_SPRING, .spline = PLUCK, .flag = false});
+    assert_near(pluck->parameter[PARAMETER_DAMPING].value, 15 / sqrt(40), 1e-15);
+    world_must(&world, (struct edit){.kind = EDIT_SPRING, .spline = PLUCK, .flag = true});
+    assert_near(pluck->parameter[PARAMETER_SPRING].value, 40, 1e-13);
+    assert_near(pluck->parameter[PARAMETER_FRICTION].value, 30, 1e-13);
+    world_must(&world, edit_number(PLUCK, PARAMETER_SPRING, 0));
+    world_must(&world, edit_mode(PLUCK, WIGGLY_COMPLEX));
+    assert_near(pluck->parameter[PARAMETER_DAMPING].value, 0, 0);
+    world_close(&world);
+}
+
+static void test_range_and_loops(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    assert_refused(&world, edit_range(1, 48), "sway: the knot at frame 0 would lie outside");
+    assert_refused(&world, edit_range(0, 29), "sway: the knot at frame 30 would lie outside");
+    assert_refused(&world, edit_range(5, 4), "the last frame must not be before the first");
+    assert_refused(&world, edit_range(0, 1000000000), "that would be more than 10000000 samples over all splines");
+    assert_refused(&world, edit_range(INT32_MIN, INT32_MAX), "frames must lie from -1000000000 to 1000000000");
+    world_must(&world, edit_range(-10, 30));
+    assert_int_equal(document_samples(world.document), 41);
+    assert_refused(&world, edit_start(SWAY, WIGGLY_LOOP),
+                   "sway: the knot at the last frame must go first, where a loop is at its first again");
+    world_must(&world, edit_start(LOOP, WIGGLY_FREE));
+    world_must(&world, edit_range(-10, 48));
+    world_must(&world, edit_start(SWAY, WIGGLY_LOOP));
+    assert_refused(&world, edit_range(-10, 30), "sway: the knot at frame 30 would lie outside");
+    world_close(&world);
+}
+
+static void test_angles(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    char *before = world_print(&world);
+    const struct tail *tail = &world.document->tails[0];
+    struct angles all = {.value = {4}}, each = {.each = true, .value = {1, 2, 9}}, wrong = {.value = {NAN}};
+    struct edit edit = {.kind = EDIT_ANGLES, .channel = 1, .angle = ANGLE_GAIN, .angles = &all};
+    world_must(&world, edit);
+    assert_false(tail->channels[1].gain.each);
+    assert_near(tail->channels[1].gain.value[0], 4, 0);
+    edit.angles = &each;
+    edit.angle = ANGLE_LAG;
+    world_must(&world, edit);
+    assert_near(tail->channels[1].lag.value[2], 9, 0);
+    world_must(&world, (struct edit){.kind = EDIT_ANGLES, .channel = -1, .angle = ANGLE_REST, .angles = &each});
+    assert_true(tail->rest.each);
+    world_must(&world, (struct edit){.kind = EDIT_AXIS, .channel = 0, .axis = AXIS_UP});
+    edit.angles = &wrong;
+    assert_refused(&world, edit, "angles must be finite");
+    edit.channel = 2;
+    assert_refused(&world, edit, "there is no such channel");
+    edit.tail = 1;
+    assert_refused(&world, edit, "there is no such tail");
+    while (history_undo(world.history, world.document)) continue;
+    assert_document(&world, before);
+    free(before);
+    world_close(&world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_knots),
+        cmocka_unit_test(test_refused_knots),
+        cmocka_unit_test(test_refused_parameters),
+        cmocka_unit_test(test_modes_convert),
+        cmocka_unit_test(test_range_and_loops),
+        cmocka_unit_test(test_angles),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,441 @@
+// What the editor shows, frame by frame: playback, views, the tail that is pulled, and what it costs. Without GL.
+#include "session.h"
+
+#include "timing/framelog.h"
+#include "ui/theme.h"
+#include <stdio.h>
+#include <stdlib.h>
+
+static const char TAIL[] =
+    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.08,"
+    "\"bandwidth\": 0.08, \"start\": \"loop\", \"knots\": [{\"frame\": 0, \"value\": 0.8}, {\"frame\": 40, \"value\":"
+    "-1}, {\"frame\": 80, \"value\": 0.6}]}, {\"name\": \"lift\", \"frequency\": 0.5, \"damping\": 0.1, \"start\":"
+    "\"loop\", \"knots\": [{\"frame\": 20, \"value\": 0.4}, {\"frame\": 90, \"value\": -0.2}]}], \"rigs\": "
+    "[{\"type\":"
+    "\"tail\", \"name\": \"tail\", \"position\": [0, 0.4, 0], \"channels\": [{\"spline\": \"sway\", \"axis\": "
+    "\"side\"},"
+    "{\"spline\": \"lift\", \"axis\": \"up\", \"gain\": 3}]}]}";
+
+static const float PLOT_TOLERANCE = 0.01f;
+
+static void point_at_tail(struct session *s, float share, float xy[2])
+{
+    struct error error = {0};
+    char target[32];
+    snprintf(target, sizeof target, "tail(tail,%g)", share);
+    if (!editor_target(s->editor, &s->world, target, &xy[0], &xy[1], &error)) fail_msg("%s", error.text);
+}
+
+/// Pulls the tail at `share` by (dx, dy) and waits; asserts that it follows the pointer.
+static void pull(struct session *s, float share, float dx, float dy)
+{
+    float at[2];
+    point_at_tail(s, share, at);
+    session_move(s, at[0], at[1]);
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, dx, dy, 20);
+    for (int i = 0; i < 30; i++) session_frame(s);
+    point_at_tail(s, share, at);
+    assert_near(at[0], s->x, 2);
+    assert_near(at[1], s->y, 2);
+    session_release(s, BUTTON_LEFT);
+}
+
+static void test_the_tail_follows_the_hand(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TAIL);
+    session_click(&s, "ruler(60)");
+    size_t size;
+    char *original = scene_print(s.document, &size);
+    pull(&s, 0.95f, 60, -40);
+    assert_int_equal(s.document->splines[0].knot_count, 4); // one knot in each channel, at the playhead
+    assert_int_equal(s.document->splines[1].knot_count, 3);
+    assert_near(s.document->splines[0].knots[2].frame, 60, 0);
+    pull(&s, 0.5f, -20, 10); // moves the knots that are there now
+    assert_int_equal(s.document->splines[0].knot_count, 4);
+    session_key(&s, 'Z', MOD_CTRL);
+    session_key(&s, 'Z', MOD_CTRL);
+    assert_null(history_undo_label(s.history)); // a pull is one step
+    char *undone = scene_print(s.document, &size);
+    assert_string_equal(undone, original);
+    free(original);
+    free(undone);
+    session_close(&s);
+}
+
+static void test_a_pull_out_of_reach_stays_calm(void **state)
+{
+    (void)state;
+    struct session s;
+    float at[2];
+    session_open(&s, TAIL);
+    point_at_tail(&s, 0.9f, at);
+    session_move(&s, at[0], at[1]);
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, -5000, 3000, 5);
+    for (int i = 0; i < 100; i++) session_frame(&s);
+    for (int i = 0; i < s.evaluation.samples; i++) assert_true(fabs(s.evaluation.curves[0].total[i]) < 100);
+    session_key(&s, KEY_ESCAPE, 0);
+    assert_int_equal(s.document->splines[0].knot_count, 3);
+    session_close(&s);
+}
+
+static bool is_in(const uint64_t *hashes, int count, uint64_t hash)
+{
+    for (int i = 0; i < count; i++) {
+        if (hashes[i] == hash) return true;
+    }
+    return false;
+}
+
+static void test_playing_redraws_the_playhead_only(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TAIL);
+    session_key(&s, KEY_SPACE, 0);
+    for (int i = 0; i < 400; i++) session_frame(&s); // messages are gone by then
+    const struct drawlist *list = editor_drawlist(s.editor);
+    int count = list->count;
+    uint64_t *before = malloc((size_t)count * sizeof *before);
+    for (int i = 0; i < count; i++) before[i] = list->commands[i].hash;
+    session_frame(&s);
+    assert_int_equal(list->count, count);
+    int changed = 0;
+    for (int i = 0; i < count; i++) {
+        const struct draw_command *command = &list->commands[i];
+        if (is_in(before, count, command->hash)) continue;
+        changed++;
+        bool is_status = command->bounds.y >= 720 - THEME_STATUS_HEIGHT;
+        assert_true(is_status || command->bounds.w <= 48);
+    }
+    assert_in_range(changed, 1, 6);
+    free(before);
+    session_close(&s);
+}
+
+static void test_nothing_changes_while_nothing_happens(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TAIL);
+    for (int i = 0; i < 400; i++) session_frame(&s);
+    const struct drawlist *list = editor_drawlist(s.editor);
+    uint64_t first = list->commands[0].hash, sum = 0, again = 0;
+    for (int i = 0; i < list->count; i++) sum += list->commands[i].hash * (uint64_t)(i + 1);
+    uint64_t stage = editor_stage(s.editor)->hash;
+    session_frame(&s);
+    for (int i = 0; i < list->count; i++) again += list->commands[i].hash * (uint64_t)(i + 1);
+    assert_true(first == list->commands[0].hash && sum == again);
+    assert_true(stage == editor_stage(s.editor)->hash);
+    assert_false(editor_wants_frames(s.editor));
+    session_close(&s);
+}
+
+static void test_steady_frames_allocate_nothing(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TAIL);
+    session_key(&s, KEY_SPACE, 0);
+    session_frame(&s);
+    long before = allocation_count();
+    for (int i = 0; i < 60; i++) session_frame(&s);
+    assert_int_equal(allocation_count() - before, 0); // playing
+    session_point(&s, "knot(sway,1)");
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, 10, -20, 5);
+    before = allocation_count();
+    session_drag(&s, 60, 40, 60);
+    assert_int_equal(allocation_count() - before, 0); // dragging a knot while it plays
+    session_release(&s, BUTTON_LEFT);
+    session_close(&s);
+}
+
+/// Vertices of the active curve (the widest line) in the list.
+static const float *active_line(const struct session *s, int *count)
+{
+    const struct drawlist *list = editor_drawlist(s->editor);
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *command = &list->commands[i];
+        if (command->kind != DRAW_LINE || command->width < 2.4f) continue;
+        *count = command->count;
+        return &list->points[2 * command->first];
+    }
+    return NULL;
+}
+
+static void test_the_drawn_curve_goes_through_its_knots(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TAIL);
+    for (int k = 0; k < 3; k++) {
+        char target[32];
+        int count;
+        float nearest = 1e9f;
+        snprintf(target, sizeof target, "knot(sway,%d)", k);
+        session_point(&s, target);
+        session_frame(&s);
+        const float *xy = active_line(&s, &count);
+        assert_non_null(xy);
+        assert_true(count <= 1280); // a vertex a column at most
+        for (int i = 0; i < count; i++) {
+            nearest = fminf(nearest, hypotf(xy[2 * i] - s.x, xy[2 * i + 1] - s.y));
+        }
+        assert_near(nearest, 0, PLOT_TOLERANCE);
+    }
+    session_close(&s);
+}
+
+static void test_fine_oscillations_are_drawn_as_their_band(void **state)
+{
+    (void)state;
+    static const char scene[] = "{\"wiggly\": 1, \"frames\": [0, 24000], \"splines\": [{\"name\": \"hum\", \"mode\": "
+                                "\"real\", \"frequency\": 3,"
+                                "\"damping\": 0, \"knots\": [{\"frame\": 0, \"value\": 1}]}]}";
+    struct session s;
+    int count;
+    session_open(&s, scene);
+    const float *xy = active_line(&s, &count);
+    assert_non_null(xy);
+    assert_true(count <= 1280);
+    session_point(&s, "curve(hum,12000,0.9)");
+    for (int i = 8; i + 8 < count; i++) { // 27 frames a column: the plain samples would show some slow beat
+        assert_true(fminf(xy[2 * i + 1], xy[2 * i + 3]) < s.y);
+        assert_true(xy[2 * i] < xy[2 * i + 2]);
+    }
+    session_close(&s);
+}
+
+static void test_playing_and_scrubbing(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TAIL);
+    const struct stage_view *stage = editor_stage(s.editor);
+    session_click(&s, "ruler(30)");
+    assert_false(editor_is_playing(s.editor));
+    uint64_t at_30 = stage->hash;
+    session_key(&s, KEY_RIGHT, 0);
+    assert_true(stage->hash != at_30);
+    session_key(&s, KEY_LEFT, 0);
+    assert_true(stage->hash == at_30); // a pose is a function of the frame alone
+    session_key(&s, KEY_RIGHT, MOD_SHIFT);
+    uint64_t at_end = stage->hash;
+    session_key(&s, KEY_LEFT, MOD_SHIFT);
+    assert_true(stage->hash == at_end); // a loop ends where it starts
+    session_click(&s, "ruler(30)");
+    session_key(&s, KEY_SPACE, 0);
+    for (int i = 0; i < 299; i++) session_frame(&s);
+    assert_true(editor_is_playing(s.editor));
+    session_key(&s, KEY_SPACE, 0); // 300 frames of 1/60 s are the whole loop of 5 s
+    session_click(&s, "ruler(30)");
+    assert_true(stage->hash == at_30);
+    session_close(&s);
+}
+
+static void test_space_and_drag_pans_without_playing(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TAIL);
+    session_point(&s, "curve(sway,60,0)");
+    float x = s.x, y = s.y;
+    session_hold(&s, KEY_SPACE, ACTION_PRESS);
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, 35, -12, 4);
+    session_release(&s, BUTTON_LEFT);
+    session_hold(&s, KEY_SPACE, ACTION_RELEASE);
+    assert_false(editor_is_playing(s.editor));
+    session_point(&s, "curve(sway,60,0)");
+    assert_near(s.x, x + 35, 0.1);
+    assert_near(s.y, y - 12, 0.1);
+    session_key(&s, KEY_HOME, 0);
+    session_point(&s, "curve(sway,60,0)");
+    assert_near(s.x, x, 0.1);
+    session_close(&s);
+}
+
+static void test_the_wheel_zooms_about_the_pointer(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TAIL);
+    const unsigned mods[] = {0, MOD_CTRL, MOD_SHIFT};
+    for (int i = 0; i < 3; i++) {
+        session_point(&s, "knot(sway,1)");
+        float x = s.x, y = s.y;
+        s.mods = mods[i];
+        session_wheel(&s, 3);
+        s.mods = 0;
+        session_point(&s, "knot(sway,1)");
+        assert_near(s.x, x, 0.1);
+        assert_near(s.y, y, 0.1);
+    }
+    session_close(&s);
+}
+
+static void test_the_stage_turns_only_by_hand(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TAIL);
+    float before[16];
+    memcpy(before, editor_stage(s.editor)->view, sizeof before);
+    session_click(&s, "knot(sway,1)");
+    session_key(&s, KEY_UP, MOD_ALT);
+    assert_memory_equal(before, editor_stage(s.editor)->view, sizeof before);
+    session_point(&s, "stage(0.05,0.1)");
+    session_press(&s, BUTTON_RIGHT, 1);
+    session_drag(&s, 50, 0, 3);
+    session_release(&s, BUTTON_RIGHT);
+    assert_memory_not_equal(before, editor_stage(s.editor)->view, sizeof before);
+    session_close(&s);
+}
+
+static void test_small_windows(void **state)
+{
+    (void)state;
+    const float sizes[][2] = {{1280, 720}, {960, 600}, {3000, 1700}, {200, 100}, {1, 1}};
+    struct session s;
+    session_open(&s, TAIL);
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        editor_resize(s.editor, sizes[i][0], sizes[i][1], 1);
+        session_frame(&s);
+        const struct drawlist *list = editor_drawlist(s.editor);
+        assert_false(list->overflow);
+        for (int p = 0; p < 2 * list->point_count; p++) assert_true(isfinite(list->points[p]));
+    }
+    session_close(&s);
+}
+
+static void test_dividers(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TAIL);
+    float height = editor_stage(s.editor)->viewport.h;
+    session_point(&s, "divider(stage)");
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, 0, -100, 4);
+    session_release(&s, BUTTON_LEFT);
+    assert_near(editor_stage(s.editor)->viewport.h, height - 100, 1);
+    session_drag(&s, 0, -100, 4); // let go
+    assert_near(editor_stage(s.editor)->viewport.h, height - 100, 1);
+    session_close(&s);
+}
+
+/// A scene with that many knots of alternating values.
+static char *scene_with_knots(int knots)
+{
+    size_t room = 512 + (size_t)knots * 48;
+    char *text = malloc(room);
+    size_t used = (size_t)snprintf(
+        text, room, "{\"wiggly\": 1, \"frames\": [0, 820], \"splines\": [{\"name\": \"s\", \"knots\": [");
+    for (int k = 0; k < knots; k++) {
+        used += (size_t)snprintf(text + used, room - used, "%s{\"frame\": %d, \"value\": %d%s}", k ? "," : "",
+                                 2 * k + 1, k % 3, k % 5 == 4 ? ", \"slope\": 1" : "");
+    }
+    snprintf(text + used, room - used, "]}]}");
+    return text;
+}
+
+static void set(struct session *s, enum parameter parameter, double value)
+{
+    const struct edit edit = {.kind = EDIT_PARAMETER, .parameter = parameter, .param = {.value = value, .track = -1}};
+    struct error error = {0};
+    if (!history_apply(s->history, s->document, &edit, &error)) fail_msg("%s", error.text);
+}
+
+/// Sets every slider to one of its ends, as the bits of `ends` say, and looks at the curve.
+static void assert_finite_at(struct session *s, enum wiggly_mode mode, enum wiggly_start start, int ends)
+{
+    const struct edit edits[] = {{.kind = EDIT_MODE, .mode = mode}, {.kind = EDIT_START, .start = start}};
+    history_begin(s->history, "extremes", 1);
+    assert_true(history_apply(s->history, s->document, &edits[0], NULL));
+    assert_true(history_apply(s->history, s->document, &edits[1], NULL));
+    set(s, PARAMETER_FREQUENCY, ends & 1 ? 12 : 0);
+    set(s, PARAMETER_DAMPING, ends & 2 ? (mode == WIGGLY_REAL ? 3 : 1) : 0);
+    set(s, PARAMETER_BANDWIDTH, ends & 4 ? 1 : 0);
+    set(s, PARAMETER_CALM, ends & 8 ? 1 : 0);
+    history_end(s->history);
+    session_frame(s);
+    for (int i = 0; i < s->evaluation.samples; i++) assert_true(isfinite(s->evaluation.curves[0].total[i]));
+    int count = 0;
+    assert_non_null(active_line(s, &count));
+    assert_true(count > 100);
+}
+
+static void test_finite_curves_at_every_extreme(void **state)
+{
+    (void)state;
+    const int knots[] = {0, 1, 2, 400};
+    for (int i = 0; i < 4; i++) {
+        char *scene = scene_with_knots(knots[i]);
+        struct session s;
+        session_open(&s, scene);
+        for (int mode = 0; mode < 3; mode++) {
+            for (int start = 0; start < 3; start++) {
+                for (int ends = 0; ends < 16; ends++) {
+                    assert_finite_at(&s, (enum wiggly_mode)mode, (enum wiggly_start)start, ends);
+                }
+            }
+        }
+        session_close(&s);
+        free(scene);
+    }
+}
+
+static void test_targets_that_are_not_there(void **state)
+{
+    (void)state;
+    const char *const wrong[] = {"",
+                                 "knot",
+                                 "knot()",
+                                 "knot(sway)",
+                                 "knot(nope,0)",
+                                 "knot(sway,9)",
+                                 "knot(sway,-1)",
+                                 "curve(sway,1)",
+                                 "stage(a,b)",
+                                 "tail(dog,0.5)",
+                                 "ruler(1e9)",
+                                 "handle(sway,0,1)",
+                                 "divider(x)",
+                                 "slider(nope)",
+                                 "knot(sway,0"};
+    struct session s;
+    session_open(&s, TAIL);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        struct error error = {0};
+        float x, y;
+        assert_false(editor_target(s.editor, &s.world, wrong[i], &x, &y, &error));
+        assert_true(error.text[0] != 0);
+    }
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_tail_follows_the_hand),
+        cmocka_unit_test(test_a_pull_out_of_reach_stays_calm),
+        cmocka_unit_test(test_playing_redraws_the_playhead_only),
+        cmocka_unit_test(test_nothing_changes_while_nothing_happens),
+        cmocka_unit_test(test_steady_frames_allocate_nothing),
+        cmocka_unit_test(test_the_drawn_curve_goes_through_its_knots),
+        cmocka_unit_test(test_fine_oscillations_are_drawn_as_their_band),
+        cmocka_unit_test(test_playing_and_scrubbing),
+        cmocka_unit_test(test_space_and_drag_pans_without_playing),
+        cmocka_unit_test(test_the_wheel_zooms_about_the_pointer),
+        cmocka_unit_test(test_the_stage_turns_only_by_hand),
+        cmocka_unit_test(test_small_windows),
+        cmocka_unit_test(test_dividers),
+        cmocka_unit_test(test_finite_curves_at_every_extreme),
+        cmocka_unit_test(test_targets_that_are_not_there),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,321 @@
+/// Steps of edits: every one can be taken back and done again.
+#include "near.h"
+
+#include "timing/framelog.h"
+#include "world.h"
+#include <stdlib.h>
+#include <string.h>
+
+/// A drag re-applies its edits from the same state each frame, gives an inserted knot the same id again, and is one
+/// step.
+static void test_restart(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    char *before = world_print(&world);
+    unsigned id = 0;
+    history_begin(world.history, "Drag", 0);
+    for (int frame = 0; frame < 20; frame++) {
+        history_restart(world.history, world.document);
+        assert_true(world_apply(&world, edit_insert(SWAY, 2 + frame % 3, frame)));
+        assert_true(world_apply(&world, edit_move(&world, SWAY, 2, 20 + frame, 0)));
+        int at = spline_find_knot(world.document, &world.document->splines[SWAY], 2 + frame % 3);
+        assert_true(at >= 0);
+        if (frame > 0) assert_int_equal(world.document->splines[SWAY].knots[at].id, id);
+        id = world.document->splines[SWAY].knots[at].id;
+        if (frame == 9) break; // the second knot would land on the third
+    }
+    history_end(world.history);
+    assert_string_equal(history_undo_label(world.history), "Drag");
+    assert_true(history_undo(world.history, world.document));
+    assert_document(&world, before);
+    assert_false(history_undo(world.history, world.document));
+    free(before);
+    world_close(&world);
+}
+
+/// Esc in a drag: nothing is left, not even of the steps that could be done again.
+static void test_cancelled_step(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    world_must(&world, edit_insert(SWAY, 5, 5));
+    char *after = world_print(&world);
+    assert_true(history_undo(world.history, world.document));
+    history_begin(world.history, "Cancelled", 0);
+    assert_true(world_apply(&world, edit_insert(SWAY, 6, 6)));
+    history_restart(world.history, world.document);
+    assert_true(history_is_open(world.history));
+    history_end(world.history);
+    assert_null(history_undo_label(world.history));
+    assert_true(history_redo(world.history, world.document));
+    assert_document(&world, after);
+    world_must(&world, edit_move(&world, SWAY, 0, 0, 0)); // what changes nothing is no step either
+    assert_false(history_redo(world.history, world.document));
+    assert_true(history_undo(world.history, world.document));
+    assert_null(history_undo_label(world.history));
+    free(after);
+    world_close(&world);
+}
+
+static void nudge(struct world *world, double value, uint64_t merge)
+{
+    history_begin(world->history, "Nudge", merge);
+    assert_true(world_apply(world, edit_move(world, SWAY, 0, 0, value)));
+    history_end(world->history);
+}
+
+static void test_merge(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    char *before = world_print(&world);
+    for (int i = 1; i <= 3; i++) nudge(&world, i, 77);
+    nudge(&world, 4, 78);
+    nudge(&world, 5, 0);
+    nudge(&world, 6, 0);
+    assert_int_equal(world_undo_all(&world), 4);
+    assert_document(&world, before);
+    nudge(&world, 1, 77);
+    nudge(&world, 2, 77);
+    assert_true(history_undo(world.history, world.document));
+    assert_true(history_redo(world.history, world.document));
+    nudge(&world, 3, 77); // an undo ends a run
+    assert_int_equal(world_undo_all(&world), 2);
+    nudge(&world, 1, 77);
+    history_mark_saved(world.history);
+    nudge(&world, 2, 77); // and so does saving: the saved state can be reached again
+    assert_true(history_undo(world.history, world.document));
+    assert_true(history_is_saved(world.history));
+    assert_int_equal(world_undo_all(&world), 1);
+    free(before);
+    world_close(&world);
+}
+
+static void test_saved(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    assert_true(history_is_saved(world.history));
+    world_must(&world, edit_insert(SWAY, 5, 5));
+    assert_false(history_is_saved(world.history));
+    history_mark_saved(world.history);
+    world_must(&world, edit_insert(SWAY, 6, 6));
+    assert_true(history_undo(world.history, world.document));
+    assert_true(history_is_saved(world.history));
+    assert_true(history_undo(world.history, world.document));
+    assert_false(history_is_saved(world.history));
+    world_must(&world, edit_insert(SWAY, 5, 5)); // the same document by another way counts as changed
+    assert_false(history_is_saved(world.history));
+    history_begin(world.history, "Drag", 0);
+    history_mark_saved(world.history);
+    assert_true(history_is_saved(world.history));
+    assert_true(world_apply(&world, edit_insert(SWAY, 7, 7)));
+    assert_false(history_is_saved(world.history));
+    history_restart(world.history, world.document);
+    assert_true(history_is_saved(world.history));
+    history_end(world.history);
+    world_close(&world);
+}
+
+static void test_revision(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    uint64_t revision = history_revision(world.history);
+    world_must(&world, edit_insert(SWAY, 5, 5));
+    assert_true(history_revision(world.history) > revision);
+    revision = history_revision(world.history);
+    assert_true(history_undo(world.history, world.document));
+    assert_true(history_revision(world.history) > revision);
+    revision = history_revision(world.history);
+    assert_true(history_redo(world.history, world.document));
+    assert_true(history_revision(world.history) > revision);
+    revision = history_revision(world.history);
+    assert_false(history_redo(world.history, world.document));
+    assert_true(history_revision(world.history) == revision);
+    world_close(&world);
+}
+
+static void assert_dirty(struct world *world, bool sway, bool pluck, bool loop)
+{
+    bool dirty[3];
+    history_take_dirty(world->history, world->document, dirty, 3);
+    assert_int_equal(dirty[SWAY], sway);
+    assert_int_equal(dirty[PLUCK], pluck);
+    assert_int_equal(dirty[LOOP], loop);
+}
+
+static void test_dirty(void **state)
+{
+    (void)state;
+    struct world world;
+    struct angles angles = {.value = {4}};
+    world_open(&world);
+    assert_dirty(&world, true, true, true); // a new history: nothing is known to be solved
+    assert_dirty(&world, false, false, false);
+    world_must(&world, edit_insert(SWAY, 5, 5));
+    world_must(&world, edit_number(PLUCK, PARAMETER_SPRING, 4));
+    assert_dirty(&world, true, true, false);
+    assert_true(history_undo(world.history, world.document));
+    assert_dirty(&world, false, true, false);
+    world_must(&world, edit_range(-5, 48));
+    assert_dirty(&world, true, true, true);
+    world_must(&world, (struct edit){.kind = EDIT_ANGLES, .channel = 0, .angle = ANGLE_LAG, .angles = &angles});
+    assert_dirty(&world, false, false, false);
+    assert_false(world_step(&world, edit_insert(LOOP, 3, 0)));
+    assert_dirty(&world, false, false, false);
+    world_close(&world);
+}
+
+/// The editor re-applies a drag's edits each frame: only the first may allocate.
+static void test_drag_allocates_nothing(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    long allocations = 0;
+    history_begin(world.history, "Drag", 0);
+    for (int frame = 0; frame < 100; frame++) {
+        if (frame == 1) allocations = allocation_count();
+        history_restart(world.history, world.document);
+        assert_true(world_apply(&world, edit_insert(SWAY, 5, frame)));
+        assert_true(world_apply(&world, edit_number(SWAY, PARAMETER_FREQUENCY, 0.5 + 0.01 * frame)));
+    }
+    history_end(world.history);
+    assert_int_equal(allocation_count(), allocations);
+    world_close(&world);
+}
+
+// --- everything at once
+
+static double random_number(void) { return (double)(rand() % 2001 - 1000) / 128; }
+
+static struct edit random_knot_edit(const struct world *world)
+{
+    int spline = rand() % 3, count = world->document->splines[spline].knot_count;
+    int at = count > 0 ? rand() % count : 0;
+    double frame = (double)(rand() % 450 - 30) / 8;
+    if (count == 0 || rand() % 3 == 0) return edit_insert(spline, frame, random_number());
+    struct edit edit = edit_move(
+        world, spline, at, rand() % 2 ? frame : world->document->splines[spline].knots[at].frame, random_number());
+    if (rand() % 4 == 0) edit.kind = EDIT_KNOT_REMOVE;
+    edit.knot.has_slope = rand() % 2;
+    edit.knot.slope = random_number();
+    edit.knot.stiffness = fabs(random_number());
+    return edit;
+}
+
+static struct edit random_setting_edit(struct angles *angles)
+{
+    struct edit edit = {.spline = rand() % 3, .channel = rand() % 3 - 1, .angles = angles};
+    static const enum edit_kind kinds[] = {EDIT_PARAMETER, EDIT_PARAMETER, EDIT_MODE,   EDIT_START,
+                                           EDIT_SPRING,    EDIT_RANGE,     EDIT_ANGLES, EDIT_AXIS};
+    edit.kind = kinds[rand() % 8];
+    edit.parameter = (enum parameter)(rand() % PARAMETER_COUNT);
+    edit.param = (struct param){rand() % 2 ? fabs(random_number()) : 0.5, rand() % 6 - 3};
+    edit.mode = (enum wiggly_mode)(rand() % 3);
+    edit.start = (enum wiggly_start)(rand() % 3);
+    edit.flag = rand() % 2;
+    edit.first = -(rand() % 20);
+    edit.last = 40 + rand() % 20;
+    edit.angle = (enum angle_kind)(rand() % 3);
+    edit.axis = (enum axis)(rand() % 2);
+    angles->each = rand() % 2;
+    for (int i = 0; i < 3; i++) angles->value[i] = random_number();
+    return edit;
+}
+
+/// Some edits, a restart now and then, undo and redo in between.
+static void random_step(struct world *world)
+{
+    struct angles angles = {0};
+    history_begin(world->history, "Random", (uint64_t)(rand() % 3));
+    for (int i = rand() % 4; i >= 0; i--) {
+        struct edit edit = rand() % 2 ? random_knot_edit(world) : random_setting_edit(&angles);
+        world_apply(world, edit);
+        if (rand() % 8 == 0) history_restart(world->history, world->document);
+    }
+    history_end(world->history);
+    for (int i = rand() % 6 - 3; i > 0; i--) history_undo(world->history, world->document);
+    for (int i = rand() % 6 - 3; i > 0; i--) history_redo(world->history, world->document);
+}
+
+static void assert_loads(const struct world *world)
+{
+    struct error error = {0};
+    char *text = world_print(world);
+    struct document *again = scene_parse("edited.json", text, strlen(text), NULL, &error);
+    if (!again) fail_msg("an edited document does not load: %s", error.text);
+    size_t size;
+    char *again_text = scene_print(again, &size);
+    assert_string_equal(again_text, text);
+    free(again_text);
+    free(text);
+    document_destroy(again);
+}
+
+/// Whatever was done: undo all gives the first document byte by byte, redo all the last; all between can be saved and
+/// loaded.
+static void test_random_walks(void **state)
+{
+    (void)state;
+    for (unsigned seed = 1; seed <= 12; seed++) {
+        struct world world;
+        srand(seed);
+        world_open(&world);
+        char *first = world_print(&world);
+        for (int i = 0; i < 300; i++) {
+            random_step(&world);
+            if (i % 10 == 0) assert_loads(&world);
+        }
+        while (history_redo(world.history, world.document)) continue;
+        char *last = world_print(&world);
+        assert_string_not_equal(last, first);
+        assert_true(world_undo_all(&world) > 20);
+        assert_document(&world, first);
+        while (history_redo(world.history, world.document)) continue;
+        assert_document(&world, last);
+        free(last);
+        free(first);
+        world_close(&world);
+    }
+}
+
+/// More changes than the history keeps: the oldest steps go, the rest still leads back and forth.
+static void test_history_is_bounded(void **state)
+{
+    (void)state;
+    enum { STEPS = 700000 };
+    struct world world;
+    world_open(&world);
+    for (int i = 1; i <= STEPS; i++) nudge(&world, i, 0);
+    int undone = world_undo_all(&world);
+    assert_true(undone > 100000);
+    assert_true(undone < STEPS);
+    assert_near(world.document->splines[SWAY].knots[0].value, STEPS - undone, 0);
+    while (history_redo(world.history, world.document)) continue;
+    assert_near(world.document->splines[SWAY].knots[0].value, STEPS, 0);
+    world_close(&world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_restart),
+        cmocka_unit_test(test_cancelled_step),
+        cmocka_unit_test(test_merge),
+        cmocka_unit_test(test_saved),
+        cmocka_unit_test(test_revision),
+        cmocka_unit_test(test_dirty),
+        cmocka_unit_test(test_drag_allocates_nothing),
+        cmocka_unit_test(test_random_walks),
+        cmocka_unit_test(test_history_is_bounded),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,360 @@
+/// The inspector: what its widgets do to the document, by the events of mouse and keyboard.
+#include "panel_session.h"
+
+static const char scene[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": ["
+    "{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0},"
+    "  {\"frame\": 36, \"value\": 1}, {\"frame\": 60, \"value\": -0.5}]},"
+    "{\"name\": \"pace\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 90, \"value\": "
+    "2}]},"
+    "{\"name\": \"lift\", \"frequency\": {\"spline\": \"pace\"}, \"damping\": 0.2, \"knots\": [{\"frame\": 10, "
+    "\"value\": 1}]}],"
+    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"joints\": 3, \"rest\": [4, -2, 1], \"channels\": ["
+    "{\"spline\": \"sway\", \"axis\": \"side\", \"lag\": 6.5, \"gain\": [3, 6, 9]},"
+    "{\"spline\": \"lift\", \"axis\": \"up\", \"lag\": 5, \"gain\": 4}]}]}";
+
+static const struct param *parameter(const struct session *f, int spline, enum parameter which)
+{
+    return &f->document->splines[spline].parameter[which];
+}
+
+static void test_drag_is_one_undo_step(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    panel_drag(&f, "frequency", 2.5);
+    assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 2.5, 0);
+    assert_true(inspector_is_dragging(f.editor));
+    panel_release(&f);
+    assert_false(history_is_open(f.history));
+    assert_string_equal(history_undo_label(f.history), "Set frequency");
+    session_key(&f, 'Z', MOD_CTRL);
+    assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 1, 0);
+    assert_null(history_undo_label(f.history));
+    session_key(&f, 'Y', MOD_CTRL);
+    assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 2.5, 0);
+    session_close(&f);
+}
+
+static void test_escape_takes_a_drag_back(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    panel_drag(&f, "damping", 1);
+    assert_near(parameter(&f, 0, PARAMETER_DAMPING)->value, 1, 0);
+    session_key(&f, KEY_ESCAPE, 0);
+    assert_near(parameter(&f, 0, PARAMETER_DAMPING)->value, 0.1, 0);
+    assert_false(history_is_open(f.history));
+    assert_null(history_undo_label(f.history));
+    panel_release(&f);
+    session_close(&f);
+}
+
+/// Closing the window in the middle of a drag must not leave a half-open step behind.
+static void test_closing_ends_a_drag(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    panel_drag(&f, "frequency", 3);
+    session_send(&f, (struct event){.kind = EVENT_CLOSE});
+    assert_false(history_is_open(f.history));
+    assert_int_equal(f.editor->dialog.kind, DIALOG_UNSAVED);
+    session_close(&f);
+}
+
+static void test_typed_nonsense_is_said_and_refused(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    panel_enter(&f, "damping", "lots");
+    assert_true(f.editor->message.is_error);
+    assert_non_null(strstr(f.editor->message.text, "damping: expected a number"));
+    session_key(&f, 'A', 0);
+    session_key(&f, KEY_ESCAPE, 0);
+    panel_enter(&f, "damping", "1.5"); // more than complex mode takes
+    assert_non_null(strstr(f.editor->message.text, "damping: expected 0 … 1"));
+    assert_near(parameter(&f, 0, PARAMETER_DAMPING)->value, 0.1, 0);
+    assert_null(history_undo_label(f.history));
+    session_close(&f);
+}
+
+static void test_typing_keeps_keys_from_the_editor(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    panel_press(&f, "frequency", 2);
+    panel_release(&f);
+    assert_true(inspector_is_typing(f.editor));
+    panel_type(&f, "v m.");
+    session_key(&f, KEY_DELETE, 0);
+    session_key(&f, KEY_SPACE, 0);
+    assert_int_equal(f.editor->look, LOOK_WIGGLY);
+    assert_int_equal(f.document->splines[0].mode, WIGGLY_COMPLEX);
+    assert_int_equal(f.document->splines[0].knot_count, 3);
+    assert_false(f.editor->playback.playing);
+    session_key(&f, KEY_F1, 0);
+    assert_true(f.editor->help.open);
+    session_key(&f, KEY_ESCAPE, 0);
+    session_key(&f, KEY_ESCAPE, 0);
+    assert_false(inspector_is_typing(f.editor));
+    session_key(&f, 'V', 0);
+    assert_int_equal(f.editor->look, LOOK_STIFF);
+    session_close(&f);
+}
+
+static void test_arrows_belong_to_the_focus(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    f.editor->inspector.ui.focus = ui_id("frequency");
+    session_key(&f, KEY_RIGHT, 0);
+    session_key(&f, KEY_RIGHT, 0);
+    assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 1.1, 0);
+    assert_near(f.editor->playback.position, 0, 0);
+    session_key(&f, 'Z', MOD_CTRL); // the run of nudges is one step
+    assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 1, 0);
+    session_key(&f, KEY_ESCAPE, 0);
+    session_key(&f, KEY_RIGHT, 0);
+    assert_near(f.editor->playback.position, 1, 0);
+    assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 1, 0);
+    session_close(&f);
+}
+
+static void test_only_what_counts_is_shown(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    assert_true(panel_shows(&f, "bandwidth"));
+    panel_click(&f, "mode.real");
+    assert_int_equal(f.document->splines[0].mode, WIGGLY_REAL);
+    assert_false(panel_shows(&f, "bandwidth"));
+    panel_click(&f, "spring_friction");
+    assert_true(panel_shows(&f, "spring"));
+    assert_false(panel_shows(&f, "frequency"));
+    panel_click(&f, "mode.cubic");
+    assert_false(panel_shows(&f, "spring"));
+    panel_click(&f, "spline.lift");
+    assert_int_equal(f.editor->active, 2);
+    assert_false(panel_shows(&f, "frequency")); // a track drives it
+    assert_true(panel_shows(&f, "damping"));
+    panel_click(&f, "start.loop");
+    assert_int_equal(f.document->splines[2].start, WIGGLY_LOOP);
+    panel_click(&f, "look.cubic");
+    assert_int_equal(f.editor->look, LOOK_CUBIC);
+    session_close(&f);
+}
+
+static void test_knot_is_edited_in_place(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    const struct spline *sway = &f.document->splines[0];
+    unsigned id = sway->knots[1].id;
+    editor_reserve(f.editor, f.document);
+    selection_set(&f.editor->selection, id, true);
+    panel_enter(&f, "value", "0.75");
+    assert_near(sway->knots[1].value, 0.75, 0);
+    panel_enter(&f, "frame", "70"); // past its neighbour
+    assert_near(sway->knots[2].frame, 70, 0);
+    assert_int_equal(sway->knots[2].id, id);
+    panel_enter(&f, "frame", "60"); // where another knot sits
+    assert_near(sway->knots[2].frame, 70, 0);
+    assert_true(f.editor->message.is_error);
+    panel_click(&f, "has_slope");
+    assert_true(sway->knots[2].has_slope);
+    panel_enter(&f, "stiffness", "50");
+    assert_near(sway->knots[2].stiffness, 50, 0);
+    session_close(&f);
+}
+
+static void test_frame_drag_passes_through_a_neighbour(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    const struct spline *sway = &f.document->splines[0];
+    editor_reserve(f.editor, f.document);
+    selection_set(&f.editor->selection, sway->knots[1].id, true);
+    panel_press(&f, "frame", 1);
+    float x = f.x;
+    for (int moved = 3; moved <= 30; moved++) session_move(&f, x + (float)moved, f.y);
+    assert_near(sway->knots[2].frame, 66, 0);
+    assert_near(sway->knots[1].frame, 60, 0);
+    panel_release(&f);
+    session_key(&f, 'Z', MOD_CTRL);
+    assert_near(sway->knots[1].frame, 36, 0);
+    session_close(&f);
+}
+
+static void test_tail_array_scales_as_a_whole(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    const struct tail *tail = &f.document->tails[0];
+    panel_drag(&f, "gain", 18);
+    assert_near(tail->channels[0].gain.value[0], 6, 1e-12);
+    assert_near(tail->channels[0].gain.value[2], 18, 0);
+    session_move(&f, 0, 300); // through zero and back in the same drag nothing is lost
+    assert_near(tail->channels[0].gain.value[2], 0, 0);
+    panel_drag(&f, "gain", 9);
+    assert_near(tail->channels[0].gain.value[0], 3, 1e-12);
+    panel_release(&f);
+    session_key(&f, 'Z', MOD_CTRL);
+    assert_near(tail->channels[0].gain.value[0], 3, 0);
+    panel_click(&f, "channel.1");
+    panel_drag(&f, "lag", 12);
+    panel_release(&f);
+    assert_near(tail->channels[1].lag.value[0], 12, 0);
+    assert_near(tail->channels[0].lag.value[0], 6.5, 0);
+    session_close(&f);
+}
+
+static bool shows_text(struct session *f, const char *part)
+{
+    struct drawlist *list = &f->editor->list;
+    drawlist_clear(list, f->editor->layout.window);
+    inspector_show(f->editor, &f->world);
+    for (int i = 0; i < list->count; i++) {
+        if (list->commands[i].kind == DRAW_TEXT && strstr(list->text + list->commands[i].first, part)) return true;
+    }
+    return false;
+}
+
+static void test_says_what_the_solver_and_the_poles_mean(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(
+        &f,
+        "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"a\", \"mode\": \"real\", \"frequency\": 1, "
+        "\"calm\": 0, "
+        "\"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 12, \"value\": -1}, {\"frame\": 24, \"value\": "
+        "1}]}]}",
+        1280, 720);
+    char words[24];
+    assert_int_equal(f.evaluation.status[0], WIGGLY_OK);
+    f.evaluation.status[0] = WIGGLY_CALMED;
+    snprintf(words, sizeof words, "%s", wiggly_status_text(f.evaluation.status[0]));
+    assert_true(shows_text(&f, words));
+    assert_true(shows_text(&f, "Rings for ever"));
+    panel_drag(&f, "damping", 0.5);
+    panel_release(&f);
+    session_frame(&f);
+    assert_false(shows_text(&f, words));
+    assert_true(shows_text(&f, "Settles to 5 % in 0.95 s (23 frames).")); // ln 20 / (0.5 · 2π)
+    panel_drag(&f, "damping", 2);
+    panel_release(&f);
+    assert_true(shows_text(&f, "in 1.78 s")); // overdamped: by its slower pole, 2π (2 − √3)
+    panel_enter(&f, "frequency", "20");
+    assert_true(shows_text(&f, "half the sample rate"));
+    session_close(&f);
+}
+
+static void assert_finite_and_loadable(struct session *f)
+{
+    session_frame(f);
+    for (int s = 0; s < f->evaluation.count; s++) {
+        for (int i = 0; i < f->evaluation.samples; i++) {
+            assert_true(isfinite(f->evaluation.curves[s].total[i]) && isfinite(f->evaluation.curves[s].im[i]));
+        }
+    }
+    size_t size;
+    struct error error = {0};
+    char *text = scene_print(f->document, &size);
+    assert_non_null(text);
+    struct document *again = scene_parse("again", text, size, NULL, &error);
+    if (!again) fail_msg("what was saved does not load: %s", error.text);
+    document_destroy(again);
+    free(text);
+}
+
+/// A scene of one spline with `knots` knots, an array of them on every frame.
+static char *scene_of(int knots, const char *mode, const char *start)
+{
+    char *text = malloc(64 * (size_t)knots + 1024);
+    assert_non_null(text);
+    int n =
+        sprintf(text,
+                "{\"wiggly\": 1, \"frames\": [0, 480], \"splines\": [{\"name\": \"a\", \"mode\": \"%s\", \"start\": "
+                "\"%s\", \"frequency\": 1, \"damping\": 0.1, \"knots\": [",
+                mode, start);
+    for (int k = 0; k < knots; k++) {
+        n += sprintf(text + n, "%s{\"frame\": %d, \"value\": %d}", k ? ", " : "", 2 + k, k * 7 % 5 - 2);
+    }
+    sprintf(text + n, "]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"a\"}]}");
+    return text;
+}
+
+/// Drags every slider that is shown to both of its ends and far beyond. Returns the number of drags.
+static int try_all_sliders(struct session *f)
+{
+    int tried = 0;
+    static const struct {
+        const char *name;
+        double ends[2];
+    } sliders[] = {{"frequency", {0, 12}}, {"damping", {0, 1}},   {"damping", {0, 3}},   {"bandwidth", {0, 1}},
+                   {"calm", {0, 1}},       {"spring", {0, 2000}}, {"friction", {0, 50}}, {"lag", {0, 30}},
+                   {"gain", {0, 20}},      {"rest", {-15, 15}}};
+    for (size_t s = 0; s < sizeof sliders / sizeof sliders[0]; s++) {
+        for (int end = 0; end < 2; end++) {
+            if (!panel_shows(f, sliders[s].name)) continue;
+            panel_drag(f, sliders[s].name, sliders[s].ends[end]);
+            session_move(f, end ? 20000 : -20000, f->y);
+            panel_release(f);
+            assert_false(history_is_open(f->history));
+            assert_finite_and_loadable(f);
+            tried++;
+        }
+    }
+    return tried;
+}
+
+static void test_extremes_stay_finite_and_loadable(void **state)
+{
+    (void)state;
+    static const int knots[] = {0, 1, 2, 400};
+    static const char *const modes[] = {"complex", "real", "cubic"};
+    static const char *const starts[] = {"free", "rest", "loop"};
+    for (int k = 0; k < 4; k++) {
+        for (int m = 0; m < 3; m++) {
+            char *text = scene_of(knots[k], modes[m], starts[(m + k) % 3]);
+            struct session f;
+            panel_open(&f, text, 1280, 720);
+            assert_int_equal(try_all_sliders(&f), m == 0 ? 16 : m == 1 ? 14 : 6);
+            if (m == 1) {
+                panel_click(&f, "spring_friction");
+                assert_int_equal(try_all_sliders(&f), 12);
+            }
+            session_close(&f);
+            free(text);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_drag_is_one_undo_step),
+        cmocka_unit_test(test_escape_takes_a_drag_back),
+        cmocka_unit_test(test_closing_ends_a_drag),
+        cmocka_unit_test(test_typed_nonsense_is_said_and_refused),
+        cmocka_unit_test(test_typing_keeps_keys_from_the_editor),
+        cmocka_unit_test(test_arrows_belong_to_the_focus),
+        cmocka_unit_test(test_only_what_counts_is_shown),
+        cmocka_unit_test(test_knot_is_edited_in_place),
+        cmocka_unit_test(test_frame_drag_passes_through_a_neighbour),
+        cmocka_unit_test(test_tail_array_scales_as_a_whole),
+        cmocka_unit_test(test_says_what_the_solver_and_the_poles_mean),
+        cmocka_unit_test(test_extremes_stay_finite_and_loadable),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

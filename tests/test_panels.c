@@ -1,0 +1,404 @@
+/// Status line, help and dialogs; and of all panels: no text leaves its panel, none lies over another.
+#include "panel_session.h"
+
+static const char small_scene[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": "
+    "[{\"frame\": 0, \"value\": 0, \"slope\": 1}, {\"frame\": 36, \"value\": 1}]}],"
+    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"sway\"}]}";
+
+/// Long names, large numbers, tracks, many splines: whatever makes a panel crowded.
+static const char crowded_scene[] =
+    "{\"wiggly\": 1, \"frames\": [-100000, 96], \"substeps\": 4, \"splines\": ["
+    "{\"name\": \"a spline whose name is far longer than any panel is wide, by a good deal\", \"mode\": \"real\", "
+    "\"frequency\": 123456.789, \"damping\": 12345678, \"equilibrium\": -1e300, \"knots\": [{\"frame\": -99999.75, "
+    "\"value\": -123456789.125, \"slope\": 1e200, \"stiffness\": 1e250}]},"
+    "{\"name\": \"b\", \"frequency\": {\"spline\": \"a spline whose name is far longer than any panel is wide, by a "
+    "good "
+    "deal\"}, \"equilibrium\": {\"spline\": \"c\"}, \"knots\": [{\"frame\": 0, \"value\": 0}]},"
+    "{\"name\": \"c\"}, {\"name\": \"d\"}, {\"name\": \"e\"}, {\"name\": \"f\"}, {\"name\": \"g\"}, {\"name\": "
+    "\"h\"}, "
+    "{\"name\": \"i\"}, {\"name\": \"j\"}], \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"joints\": 2, "
+    "\"rest\": "
+    "[-12345.5, 30000], \"channels\": [{\"spline\": \"b\", \"lag\": [1, 2], \"gain\": 5}, {\"spline\": \"a spline "
+    "whose name "
+    "is far longer than any panel is wide, by a good deal\"}]}, {\"type\": \"tail\", \"name\": \"u\", \"spline\": "
+    "\"c\"}]}";
+
+// --- geometry ---------------------------------------------------------------------------------------------------------
+
+/// What a text covers, a little less high than its line so that neighbours in a paragraph may touch.
+static struct rect text_rect(const struct drawlist *list, const struct draw_command *command)
+{
+    float width = font_width(command->font, command->width, list->text + command->first);
+    return (struct rect){command->x, command->y - 0.8f * command->width, width, command->width};
+}
+
+static void assert_text_in_panel(const struct drawlist *list, const struct draw_command *command, struct rect panel)
+{
+    struct rect r = text_rect(list, command);
+    bool inside = r.x >= panel.x && r.x + r.w <= panel.x + panel.w + 0.01f;
+    // A line that is cut by its clip is one scrolled half out of sight.
+    bool scrolled = r.y < command->clip.y || r.y + r.h > command->clip.y + command->clip.h;
+    inside &= scrolled || (r.y >= panel.y && r.y + r.h <= panel.y + panel.h);
+    if (!inside) fail_msg("“%s” at %g, %g leaves its panel", list->text + command->first, (double)r.x, (double)r.y);
+}
+
+/// Texts from command `first` on lie in `panel` and apart from each other. Returns how many there are.
+static int assert_texts_apart(const struct drawlist *list, int first, struct rect panel)
+{
+    int count = 0;
+    assert_false(list->overflow);
+    for (int i = first; i < list->count; i++) {
+        const struct draw_command *a = &list->commands[i];
+        if (a->kind != DRAW_TEXT) continue;
+        count++;
+        assert_text_in_panel(list, a, panel);
+        for (int j = first; j < i; j++) {
+            const struct draw_command *b = &list->commands[j];
+            if (b->kind != DRAW_TEXT) continue;
+            struct rect both = rect_intersect(text_rect(list, a), text_rect(list, b));
+            both = rect_intersect(both, rect_intersect(a->clip, b->clip));
+            if (both.w > 0 && both.h > 0) {
+                fail_msg("“%s” lies over “%s”", list->text + a->first, list->text + b->first);
+            }
+        }
+    }
+    return count;
+}
+
+static void show(struct session *f) { drawlist_clear(&f->editor->list, f->editor->layout.window); }
+
+static void check_inspector(struct session *f)
+{
+    const struct spline *spline = editor_active_spline(f->editor, &f->world);
+    for (int selected = 0; selected < 2; selected++) {
+        if (selected && spline->knot_count > 0) {
+            editor_reserve(f->editor, f->document);
+            selection_set(&f->editor->selection, spline->knots[0].id, true);
+        }
+        for (int page = 0; page < 3; page++) {
+            f->editor->inspector.scroll.offset = 150.0f * (float)page;
+            show(f);
+            inspector_show(f->editor, &f->world);
+            assert_true(assert_texts_apart(&f->editor->list, 0, f->editor->layout.inspector) > 15);
+        }
+    }
+}
+
+static void check_status(struct session *f)
+{
+    static const char *const messages[] = {
+        "", "Saved.",
+        "a sentence that goes on and on about what is wrong with this file until there is no room left for it "
+        "in the line, whatever the width of the window may be, and then some more"};
+    editor_set_stats(f->editor, 1234, 123456);
+    status_advance(f->editor, 1);
+    for (size_t m = 0; m < sizeof messages / sizeof messages[0]; m++) {
+        editor_message(f->editor, true, messages[m]);
+        show(f);
+        status_show(f->editor, &f->world);
+        assert_int_equal(assert_texts_apart(&f->editor->list, 0, f->editor->layout.status), 4);
+    }
+}
+
+static void check_dialogs(struct session *f)
+{
+    const struct request quit = {.kind = REQUEST_QUIT};
+    struct edit edit = editor_edit_of(EDIT_START, 0);
+    edit.start = WIGGLY_REST;
+    assert_true(editor_step(f->editor, &f->world, "Change start", 0, &edit));
+    for (int kind = 0; kind < 3; kind++) {
+        if (kind == 0) dialog_ask_open(f->editor);
+        if (kind == 1) dialog_ask_save_as(f->editor);
+        if (kind == 2) dialog_leave(f->editor, &f->world, &quit);
+        for (int failed = 0; failed < 2; failed++) {
+            show(f);
+            dialog_show(f->editor);
+            assert_true(assert_texts_apart(&f->editor->list, 0, f->editor->layout.window) >= 4);
+            f->editor->dialog.waiting = true;
+            editor_message(
+                f->editor, true,
+                "/a/long/path/to/a/folder/that/is/not/there/at/all/scene.json: expected a folder that exists, got "
+                "one that does not; and the disk is full besides, so that this needs a good many lines to be told");
+        }
+        session_key(f, KEY_ESCAPE, 0);
+        assert_int_equal(f->editor->dialog.kind, DIALOG_NONE);
+    }
+}
+
+static int list_names(void *user, const char *folder, char names[][256], int max)
+{
+    static const char *const root[] = {
+        "figures/", "figure1.json", "figure3.json", "tail.json",
+        "a name so long that it does not fit into any dialog, however wide it was made, and "
+        "that goes on after that.json"};
+    static const char *const figures[] = {"one.json", "two.json"};
+    bool in_root = strcmp(folder, ".") == 0;
+    const char *const *source = in_root ? root : figures;
+    int count = in_root ? 5 : strcmp(folder, "figures/") == 0 ? 2 : -1;
+    (*(int *)user)++;
+    for (int i = 0; i < count && i < max; i++) snprintf(names[i], 256, "%s", source[i]);
+    return count;
+}
+
+static void test_no_text_leaves_its_panel_or_overlaps(void **state)
+{
+    (void)state;
+    static const float sizes[][2] = {{1280, 720}, {960, 600}, {2000, 1200}};
+    static const char *const scenes[] = {small_scene, crowded_scene};
+    for (int i = 0; i < 6; i++) {
+        int calls = 0;
+        struct session f;
+        panel_open(&f, scenes[i % 2], sizes[i / 2][0], sizes[i / 2][1]);
+        editor_set_title(f.editor, i % 2 ? "a scene with a name that is rather too long to show.json" : "x", true);
+        editor_set_files(f.editor, &(struct dialog_files){list_names, &calls});
+        for (int s = 0; s < f.document->spline_count; s++) {
+            editor_activate(f.editor, &f.world, s);
+            check_inspector(&f);
+        }
+        check_status(&f);
+        check_dialogs(&f);
+        session_close(&f);
+    }
+}
+
+static void test_help_fits_whole(void **state)
+{
+    (void)state;
+    static const float sizes[][2] = {{1280, 720}, {960, 600}};
+    for (int i = 0; i < 2; i++) {
+        struct session f;
+        panel_open(&f, small_scene, sizes[i][0], sizes[i][1]);
+        session_key(&f, KEY_F1, 0);
+        show(&f);
+        help_show(f.editor);
+        const struct drawlist *list = &f.editor->list;
+        assert_true(assert_texts_apart(list, 0, f.editor->layout.window) > 80);
+        for (int c = 0; c < list->count; c++) {
+            const struct draw_command *command = &list->commands[c];
+            if (command->kind != DRAW_TEXT) continue;
+            const char *text = list->text + command->first;
+            if (command->count > 3 && strcmp(text + command->count - 3, "…") == 0) fail_msg("“%s” is cut", text);
+        }
+        session_close(&f);
+    }
+}
+
+// --- behaviour --------------------------------------------------------------------------------------------------------
+
+static void test_any_key_closes_the_help_and_does_nothing_else(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, small_scene, 1280, 720);
+    session_key(&f, KEY_F1, 0);
+    assert_true(f.editor->help.open);
+    session_key(&f, 'V', 0);
+    assert_false(f.editor->help.open);
+    assert_int_equal(f.editor->look, LOOK_WIGGLY);
+    session_key(&f, KEY_F1, 0);
+    session_move(&f, 500, 500);
+    session_press(&f, BUTTON_LEFT, 1);
+    assert_false(f.editor->help.open);
+    session_close(&f);
+}
+
+static void expect_request(struct session *f, enum request_kind kind, const char *path)
+{
+    struct request request = editor_take_request(f->editor);
+    assert_int_equal(request.kind, kind);
+    assert_string_equal(request.path, path);
+}
+
+static void test_save_as_stays_until_it_succeeds(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, small_scene, 1280, 720);
+    editor_set_title(f.editor, "untitled", false);
+    session_key(&f, 'S', MOD_CTRL); // has no file yet, so it asks
+    assert_int_equal(f.editor->dialog.kind, DIALOG_SAVE_AS);
+    assert_string_equal(f.editor->dialog.ui.text.bytes, "untitled.json");
+    panel_type(&f, "no/such/dog");
+    session_key(&f, KEY_ENTER, 0);
+    expect_request(&f, REQUEST_SAVE_AS, "no/such/dog.json");
+    editor_message(f.editor, true, "no/such/dog.json: there is no such folder");
+    assert_int_equal(f.editor->dialog.kind, DIALOG_SAVE_AS);
+    assert_non_null(strstr(f.editor->dialog.error, "no such folder"));
+    assert_string_equal(f.editor->message.text, "");
+    for (int i = 0; i < 20; i++) session_key(&f, KEY_BACKSPACE, 0);
+    session_key(&f, KEY_ENTER, 0); // nothing typed
+    expect_request(&f, REQUEST_NONE, "");
+    panel_type(&f, "dog.json");
+    session_key(&f, KEY_ENTER, 0);
+    expect_request(&f, REQUEST_SAVE_AS, "dog.json");
+    editor_set_title(f.editor, "dog.json", true);
+    assert_int_equal(f.editor->dialog.kind, DIALOG_NONE);
+    session_key(&f, 'S', MOD_CTRL);
+    expect_request(&f, REQUEST_SAVE, "");
+    session_close(&f);
+}
+
+/// Changes something, then asks to quit.
+static void open_unsaved(struct session *f, bool has_path)
+{
+    panel_open(f, small_scene, 1280, 720);
+    editor_set_title(f->editor, "dog.json", has_path);
+    panel_click(f, "mode.real");
+    session_key(f, 'Q', MOD_CTRL);
+    assert_int_equal(f->editor->dialog.kind, DIALOG_UNSAVED);
+}
+
+static void test_quitting_asks_for_unsaved_work(void **state)
+{
+    (void)state;
+    struct session f;
+    open_unsaved(&f, true);
+    session_key(&f, KEY_ESCAPE, 0);
+    assert_int_equal(f.editor->dialog.kind, DIALOG_NONE);
+    expect_request(&f, REQUEST_NONE, "");
+    session_key(&f, 'Q', MOD_CTRL);
+    panel_type(&f, "d");
+    expect_request(&f, REQUEST_QUIT, "");
+    session_close(&f);
+
+    open_unsaved(&f, true);
+    session_key(&f, KEY_RIGHT, 0);
+    session_key(&f, KEY_ENTER, 0); // Discard
+    expect_request(&f, REQUEST_QUIT, "");
+    session_close(&f);
+
+    panel_open(&f, small_scene, 1280, 720); // nothing to lose
+    session_key(&f, 'Q', MOD_CTRL);
+    expect_request(&f, REQUEST_QUIT, "");
+    session_close(&f);
+}
+
+static void test_quit_waits_for_the_save(void **state)
+{
+    (void)state;
+    struct session f;
+    open_unsaved(&f, true);
+    panel_type(&f, "s");
+    expect_request(&f, REQUEST_SAVE, "");
+    expect_request(&f, REQUEST_NONE, "");
+    editor_message(f.editor, true, "dog.json: the disk is full");
+    expect_request(&f, REQUEST_NONE, ""); // the work in memory stays
+    assert_int_equal(f.editor->dialog.kind, DIALOG_UNSAVED);
+    panel_type(&f, "s");
+    expect_request(&f, REQUEST_SAVE, "");
+    history_mark_saved(f.history);
+    editor_set_title(f.editor, "dog.json", true);
+    expect_request(&f, REQUEST_QUIT, "");
+    session_close(&f);
+
+    open_unsaved(&f, false); // never saved: first asks where
+    panel_type(&f, "s");
+    assert_int_equal(f.editor->dialog.kind, DIALOG_SAVE_AS);
+    assert_string_equal(f.editor->dialog.ui.text.bytes, "dog.json"); // and the S is no part of the name
+    session_key(&f, KEY_ENTER, 0);
+    expect_request(&f, REQUEST_SAVE_AS, "dog.json");
+    editor_set_title(f.editor, "dog.json", true);
+    expect_request(&f, REQUEST_QUIT, "");
+    session_close(&f);
+}
+
+static void test_cancelled_save_as_forgets_what_was_to_follow(void **state)
+{
+    (void)state;
+    struct session f;
+    open_unsaved(&f, false);
+    panel_type(&f, "s");
+    session_key(&f, KEY_ESCAPE, 0);
+    session_key(&f, 'S', MOD_CTRL | MOD_SHIFT);
+    session_key(&f, KEY_ENTER, 0);
+    expect_request(&f, REQUEST_SAVE_AS, "dog.json");
+    editor_set_title(f.editor, "dog.json", true);
+    expect_request(&f, REQUEST_NONE, ""); // does not quit after all
+    session_close(&f);
+}
+
+static void test_open_completes_paths(void **state)
+{
+    (void)state;
+    int calls = 0;
+    struct session f;
+    panel_open(&f, small_scene, 1280, 720);
+    editor_set_files(f.editor, &(struct dialog_files){list_names, &calls});
+    session_key(&f, 'O', MOD_CTRL);
+    struct dialog *dialog = &f.editor->dialog;
+    assert_int_equal(dialog->match_count, 5);
+    panel_type(&f, "fi");
+    assert_int_equal(dialog->match_count, 3);
+    session_key(&f, KEY_TAB, 0);
+    assert_string_equal(dialog->ui.text.bytes, "figure");
+    assert_int_equal(calls, 1); // listed once, not at every key
+    session_key(&f, KEY_DOWN, 0);
+    session_key(&f, KEY_ENTER, 0); // into the folder
+    assert_string_equal(dialog->ui.text.bytes, "figures/");
+    assert_int_equal(dialog->match_count, 2);
+    expect_request(&f, REQUEST_NONE, "");
+    session_key(&f, KEY_DOWN, 0);
+    session_key(&f, KEY_DOWN, 0);
+    session_key(&f, KEY_ENTER, 0);
+    expect_request(&f, REQUEST_OPEN, "figures/two.json");
+    editor_message(f.editor, true, "figures/two.json:3: expected a number");
+    assert_int_equal(dialog->kind, DIALOG_OPEN);
+    session_key(&f, KEY_ENTER, 0);
+    expect_request(&f, REQUEST_OPEN, "figures/two.json");
+    editor_open(f.editor, &f.world, "two.json");
+    assert_int_equal(dialog->kind, DIALOG_NONE);
+    session_close(&f);
+}
+
+static void test_dialog_takes_every_key(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, small_scene, 1280, 720);
+    session_key(&f, 'O', MOD_CTRL);
+    panel_type(&f, "vim. ");
+    session_key(&f, 'Z', MOD_CTRL);
+    session_key(&f, KEY_F1, 0);
+    session_key(&f, KEY_DELETE, 0);
+    assert_int_equal(f.editor->look, LOOK_WIGGLY);
+    assert_false(f.editor->help.open);
+    assert_int_equal(f.document->splines[0].knot_count, 2);
+    assert_string_equal(f.editor->dialog.ui.text.bytes, "vim. ");
+    session_close(&f);
+}
+
+/// The figures at the right must not cost a redraw every frame.
+static void test_figures_change_twice_a_second(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, small_scene, 1280, 720);
+    char last[sizeof f.editor->status.text] = "";
+    int changes = 0;
+    for (int frame = 0; frame < 120; frame++) {
+        editor_set_stats(f.editor, 50 + frame % 7, 200 + frame);
+        status_advance(f.editor, 1.0 / 60);
+        changes += strcmp(last, f.editor->status.text) != 0;
+        memcpy(last, f.editor->status.text, sizeof last);
+    }
+    assert_in_range(changes, 3, 5);
+    session_close(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_no_text_leaves_its_panel_or_overlaps),
+        cmocka_unit_test(test_help_fits_whole),
+        cmocka_unit_test(test_any_key_closes_the_help_and_does_nothing_else),
+        cmocka_unit_test(test_save_as_stays_until_it_succeeds),
+        cmocka_unit_test(test_quitting_asks_for_unsaved_work),
+        cmocka_unit_test(test_quit_waits_for_the_save),
+        cmocka_unit_test(test_cancelled_save_as_forgets_what_was_to_follow),
+        cmocka_unit_test(test_open_completes_paths),
+        cmocka_unit_test(test_dialog_takes_every_key),
+        cmocka_unit_test(test_figures_change_twice_a_second),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
