@@ -2,6 +2,7 @@
 #include "app/state.h"
 #include "platform/process.h"
 #include "scene/load.h"
+#include "ui/font.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,7 +32,7 @@ static bool start(struct app *app, bool offscreen, struct error *error)
 {
     const struct app_options *o = app->options;
     if (o->replay && !(app->replay = replay_load(o->replay, error))) return false;
-    if (!open_platform(app, offscreen, error)) return false;
+    if (!font_init(error) || !open_platform(app, offscreen, error)) return false;
     int width, height;
     float scale;
     platform_size(app->platform, &width, &height, &scale);

@@ -39,11 +39,11 @@ static void play_events(struct app *app)
 }
 
 /// How long the next frame may wait for input: to its turn (an event brings it forward), or for a while where nothing moves by
-/// itself. A recording's frames all come in their turn, because its clock counts frames.
+/// itself. The frames of a live recording all come in their turn, because its clock counts frames.
 static double waiting_time(const struct app *app, bool wanted)
 {
     double left = fmax(0, app->next_time - clock_now());
-    if (app->recording) process_sleep(left);
+    if (app->recording && !app->replay) process_sleep(left);
     if (app->fixed_clock) return 0;
     return wanted ? left : idle_wait;
 }

@@ -184,7 +184,7 @@ static const struct verb {
     int clicks;
     unsigned operands;
 } verbs[] = {
-    {"pointer", EVENT_POINTER, ACTION_PRESS, 0, WITH_POSITION},
+    {"pointer", EVENT_POINTER, ACTION_PRESS, 0, WITH_POSITION | WITH_MODS},
     {"press", EVENT_BUTTON, ACTION_PRESS, 1, WITH_BUTTON | WITH_POSITION | WITH_MODS},
     {"double", EVENT_BUTTON, ACTION_PRESS, 2, WITH_BUTTON | WITH_POSITION | WITH_MODS},
     {"release", EVENT_BUTTON, ACTION_RELEASE, 0, WITH_BUTTON | WITH_POSITION | WITH_MODS},
