@@ -24,8 +24,8 @@ void main()
     vec3 light = KEY * key + mix(EARTH, SKY, upward) * open_sky;
     // The rim is the sky's: what faces the ground has less of it.
     vec3 linear = fur * light * EXPOSURE + RIM * (0.35 * graze * graze * graze * open_sky * upward);
-    // Across the silhouette of a round shape facing² grows linearly with the distance in pixels, so its slope tells how
-    // far inside this pixel is: the opacity of the soft seam (second pass); the first pass does not blend.
+    // Across the silhouette of a round shape facing² grows linearly with the distance in pixels, so its slope tells
+    // how far inside this pixel is: the opacity of the soft seam (second pass); the first pass does not blend.
     float square = facing * abs(facing);
     float inside = clamp(square / max(length(vec2(dFdx(square), dFdy(square))), 1e-4), 0.0, 1.0);
     pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), inside);

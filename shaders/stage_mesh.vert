@@ -18,7 +18,8 @@ out float open_sky;
 void main()
 {
     vec4 bind = vec4(position * shape.x, 1.0);
-    // Weights: the uniform cubic B-spline along the tail, four joints at a time; smooth, and exact where it is straight.
+    // Weights: the uniform cubic B-spline along the tail, four joints at a time; smooth, and exact where it is
+    // straight.
     float along = bind.z / shape.z - 0.5;
     float first = floor(along);
     float t = along - first;
@@ -48,8 +49,8 @@ void main()
                              cross(across, upward) * normal.z);
     fur = color;
     open_sky = 0.45 + 0.55 * smoothstep(0.0, 0.35 * shape.x, world.y - shape.w);
-    // The seam is the same skin, 1.3 pixels larger (1 is too little where facets are large) and pushed back behind the first
-    // pass: only what sticks out is seen.
+    // The seam is the same skin, 1.3 pixels larger (1 is too little where facets are large) and pushed back behind
+    // the first pass: only what sticks out is seen.
     vec3 ray = world - eye;
     gl_Position = clip_from_world * vec4(world + seam * (1.3 * length(ray) * world_normal + 2.5 * ray), 1.0);
 }

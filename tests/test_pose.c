@@ -1,4 +1,5 @@
-/// The tail's pose: directions and units of the file format, lag (paper, section 7.1), and the default scene's motion.
+/// The tail's pose: directions and units of the file format, lag (paper, section 7.1), and the default scene's
+/// motion.
 #include "near.h"
 #include "rig/pose.h"
 #include "rig/shadow.h"

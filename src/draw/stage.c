@@ -110,7 +110,8 @@ void stage_renderer_destroy(struct stage_renderer *renderer)
     free(renderer);
 }
 
-/// matrix · translation by −along on z, as three rows: what takes a point of the straight tail to where its joint is now.
+/// matrix · translation by −along on z, as three rows: what takes a point of the straight tail to where its joint is
+/// now.
 static void slot_rows(const float matrix[16], float along, float rows[3][4])
 {
     for (int r = 0; r < 3; r++) {
@@ -174,8 +175,8 @@ static void draw_animals(const struct stage_renderer *renderer, const struct sta
     glBindVertexArray(model->vertex_array);
     glUniform1f(renderer->seam, 0.0f);
     for (int t = 0; t < view->tail_count; t++) draw_animal(renderer, model, view, t);
-    // Edges without multisampling: a second skin, a pixel larger, fades out from the first one's silhouettes over whatever
-    // is behind them, be it the background or the animal itself.
+    // Edges without multisampling: a second skin, a pixel larger, fades out from the first one's silhouettes over
+    // whatever is behind them, be it the background or the animal itself.
     glUniform1f(renderer->seam, 2.0f / (view->projection[5] * (float)height));
     glEnable(GL_BLEND);
     glDepthMask(GL_FALSE);

@@ -1,4 +1,5 @@
-/// The stage's own renderer: background, ground, contact shadow, body and skinned tail. Part of draw/; used by draw.c alone.
+/// The stage's own renderer: background, ground, contact shadow, body and skinned tail. Part of draw/; used by draw.c
+/// alone.
 #ifndef DRAW_STAGE_H
 #define DRAW_STAGE_H
 
@@ -10,11 +11,12 @@ struct stage_renderer;
 struct stage_renderer *stage_renderer_create(struct error *error);
 void stage_renderer_destroy(struct stage_renderer *renderer);
 
-/// Uploads what `view` needs: joint matrices, ground and shadows; meshes were made once. Adds to `bytes`. Allocates nothing.
+/// Uploads what `view` needs: joint matrices, ground and shadows; meshes were made once. Adds to `bytes`. Allocates
+/// nothing.
 void stage_upload(struct stage_renderer *renderer, const struct stage_view *view, long *bytes);
 
-/// Draws what was uploaded into a rectangle of the framebuffer (device pixels; x, y from the bottom left as GL has it), scissored
-/// by the caller. Clears depth itself. Leaves depth test, culling and blending off.
+/// Draws what was uploaded into a rectangle of the framebuffer (device pixels; x, y from the bottom left as GL has
+/// it), scissored by the caller. Clears depth itself. Leaves depth test, culling and blending off.
 void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, int x, int y, int width, int height);
 
 #endif

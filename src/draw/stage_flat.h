@@ -1,4 +1,5 @@
-/// What lies flat on the stage: background, ground and contact shadows, as a few quads of one shader. Used by stage.c alone.
+/// What lies flat on the stage: background, ground and contact shadows, as a few quads of one shader. Used by stage.c
+/// alone.
 #ifndef DRAW_STAGE_FLAT_H
 #define DRAW_STAGE_FLAT_H
 

@@ -6,8 +6,8 @@
 
 /// The body is a smooth union of round cones (two balls and all between them), each in a colour of its own.
 ///
-/// Metres, bind size, but with y = 0 on the ground. The animal looks towards −z; mirrored parts are given for x > 0. Parts
-/// of the head are relative to its middle and also look towards −z: the head is turned afterwards.
+/// Metres, bind size, but with y = 0 on the ground. The animal looks towards −z; mirrored parts are given for x > 0.
+/// Parts of the head are relative to its middle and also look towards −z: the head is turned afterwards.
 struct part {
     float a[3], b[3];
     float radius_a, radius_b;
@@ -56,8 +56,9 @@ static const float glint[3] = {0.68f, 0.69f, -0.25f};
 const float creature_body_lo[3] = {-0.36f, -CREATURE_BASE_HEIGHT, -0.68f};
 const float creature_body_hi[3] = {0.36f, 1.16f - CREATURE_BASE_HEIGHT, 0.38f};
 
-/// Distance to a round cone. Seen in the half plane through its axis (x along it, r from it), the ball that is nearest
-/// to a point sits where the cone's surface normal, tilted by asin((radius_a − radius_b)/length), meets the axis.
+/// Distance to a round cone. Seen in the half plane through its axis (x along it, r from it), the ball that is
+/// nearest to a point sits where the cone's surface normal, tilted by asin((radius_a − radius_b)/length), meets the
+/// axis.
 static float part_distance(const struct part *part, const float p[3])
 {
     const float q[3] = {(part->mirror ? fabsf(p[0]) : p[0]) - part->a[0], p[1] - part->a[1], p[2] - part->a[2]};
@@ -71,8 +72,8 @@ static float part_distance(const struct part *part, const float p[3])
            (part->radius_b - part->radius_a) * ball / length;
 }
 
-/// Smooth minimum of two distances (polynomial, with a fillet `blend` wide); colours mix in the same measure, into `rgb`,
-/// where that is not NULL.
+/// Smooth minimum of two distances (polynomial, with a fillet `blend` wide); colours mix in the same measure, into
+/// `rgb`, where that is not NULL.
 static float smooth_union(float old, float added, float blend, float rgb[3], const float added_rgb[3])
 {
     const float h = fmaxf(blend - fabsf(added - old), 0.0f) / blend;
@@ -101,8 +102,8 @@ static void into_head(const float p[3], float q[3])
     q[2] = z * cosf(HEAD_TURN) - x * sinf(HEAD_TURN);
 }
 
-/// The tail's stump: as thick as the tail and a hair more while its fillet lasts, then sinking below the tail's own skin at
-/// so flat an angle that the line where they cross cannot be seen.
+/// The tail's stump: as thick as the tail and a hair more while its fillet lasts, then sinking below the tail's own
+/// skin at so flat an angle that the line where they cross cannot be seen.
 static float stump_distance(const float p[3])
 {
     const float z = fminf(fmaxf(p[2], -0.14f), 0.25f);

@@ -1,7 +1,7 @@
 /// The animal of the stage: a small sitting fox that looks back at its long tail.
 ///
-/// One size is made; shown at tail length L it is scaled by L / CREATURE_TAIL_LENGTH. Bind space as in mesh.h: the ground
-/// that it sits on is at y = −CREATURE_BASE_HEIGHT.
+/// One size is made; shown at tail length L it is scaled by L / CREATURE_TAIL_LENGTH. Bind space as in mesh.h: the
+/// ground that it sits on is at y = −CREATURE_BASE_HEIGHT.
 #ifndef MODEL_CREATURE_H
 #define MODEL_CREATURE_H
 
@@ -17,7 +17,8 @@ extern const float creature_body_lo[3], creature_body_hi[3];
 /// Radius of the tail at z metres from its base, bind size; 0 at the tip and beyond.
 float creature_tail_radius(float z);
 
-/// How finely the animal is meshed. Levels get coarser so that together all animals of a stage stay below 20,000 triangles.
+/// How finely the animal is meshed. Levels get coarser so that together all animals of a stage stay below 20,000
+/// triangles.
 enum { CREATURE_LEVELS = 3 };
 
 /// The level at which that many animals are drawn.
@@ -29,7 +30,8 @@ void mesh_creature(int level, struct mesh *mesh);
 /// Appends the body: everything but the tail, with the stump that the tail hides. Grid edges of `cell` metres.
 void mesh_body(float cell, struct mesh *mesh);
 
-/// Appends the tail: `rings` rings of `segments` vertices each, from inside the body, where it is open, to a rounded tip.
+/// Appends the tail: `rings` rings of `segments` vertices each, from inside the body, where it is open, to a rounded
+/// tip.
 void mesh_tail(int rings, int segments, struct mesh *mesh);
 
 #endif

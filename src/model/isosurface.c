@@ -120,8 +120,8 @@ static void place_vertices(const struct solid *solid, struct grid *grid, struct 
     }
 }
 
-/// The quad around the edge that leaves corner c along `axis`, if the surface crosses it: its corners are the vertices of
-/// the four cells that share the edge.
+/// The quad around the edge that leaves corner c along `axis`, if the surface crosses it: its corners are the
+/// vertices of the four cells that share the edge.
 static void edge_quad(const struct grid *grid, const int c[3], int axis, struct mesh *mesh)
 {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;

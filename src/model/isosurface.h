@@ -1,5 +1,5 @@
-/// Turns a solid that is given by its distance function into triangles ("surface nets": one vertex a grid cell that the
-/// surface passes through, one quad an edge that it crosses).
+/// Turns a solid that is given by its distance function into triangles ("surface nets": one vertex a grid cell that
+/// the surface passes through, one quad an edge that it crosses).
 #ifndef MODEL_ISOSURFACE_H
 #define MODEL_ISOSURFACE_H
 

@@ -68,8 +68,8 @@ static void edge_middle(int edge, const float lo[3], const float hi[3], float mi
     }
 }
 
-/// Along one axis of the picture, with points at (across, depth towards the eye) from the target: how far away the eye must
-/// be to see all of them within `slope`, and where the target must move to see them in the middle.
+/// Along one axis of the picture, with points at (across, depth towards the eye) from the target: how far away the
+/// eye must be to see all of them within `slope`, and where the target must move to see them in the middle.
 static float fit_axis(const float across[EDGES], const float depth[EDGES], float slope, float *shift)
 {
     float high = -INFINITY, low = INFINITY;
@@ -81,8 +81,9 @@ static float fit_axis(const float across[EDGES], const float depth[EDGES], float
     return 0.5f * (high - low) / slope;
 }
 
-/// A point (u, w) is in view where |u − shift| ≤ slope·(distance − w), so distance ≥ (the largest u + slope·w less the
-/// smallest u − slope·w) / 2·slope, and shift is halfway. What swings fills the middle of its box, not the corners.
+/// A point (u, w) is in view where |u − shift| ≤ slope·(distance − w), so distance ≥ (the largest u + slope·w less
+/// the smallest u − slope·w) / 2·slope, and shift is halfway. What swings fills the middle of its box, not the
+/// corners.
 void camera_fit(struct camera *camera, const float lo[3], const float hi[3], float aspect)
 {
     for (int k = 0; k < 3; k++) {

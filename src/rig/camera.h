@@ -1,4 +1,5 @@
-/// The stage's camera: orbits a target, 30° vertical field of view. Right-handed, y up, metres, radians. Pure arithmetic.
+/// The stage's camera: orbits a target, 30° vertical field of view. Right-handed, y up, metres, radians. Pure
+/// arithmetic.
 ///
 /// Matrices are column-major; screen positions are in the viewport's pixels with y down.
 #ifndef RIG_CAMERA_H
@@ -26,14 +27,16 @@ void camera_matrices(const struct camera *camera, float aspect, float view[16], 
 /// picture with 15 % to spare. An empty or broken box is left alone.
 void camera_fit(struct camera *camera, const float lo[3], const float hi[3], float aspect);
 
-/// Where a point of the world is on the screen; viewport is x, y, width, height. false where it is not in front of the eye.
+/// Where a point of the world is on the screen; viewport is x, y, width, height. false where it is not in front of
+/// the eye.
 bool camera_project(const float view[16], const float projection[16], const float viewport[4], const float world[3],
                     float screen[2]);
 
 /// Turns about the target: angles are added, elevation clamped.
 void camera_orbit(struct camera *camera, float azimuth, float elevation);
 
-/// Moves the target so that the world follows a pointer that moved by (dx, dy) pixels in a viewport `height` pixels high.
+/// Moves the target so that the world follows a pointer that moved by (dx, dy) pixels in a viewport `height` pixels
+/// high.
 void camera_pan(struct camera *camera, float dx, float dy, float height);
 
 /// Multiplies the distance, clamped to 0.2 … 100 m.

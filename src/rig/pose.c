@@ -28,7 +28,8 @@ static void bend_at(const struct tail *tail, const wiggly_value *values, enum lo
     }
 }
 
-/// frame = frame · R_y(side) · R_x(−up): column-major, columns x, y, z, origin. R_x is negative because it takes +z down.
+/// frame = frame · R_y(side) · R_x(−up): column-major, columns x, y, z, origin. R_x is negative because it takes +z
+/// down.
 static void bend_frame(double frame[16], double side, double up)
 {
     const double cs = cos(side), ss = sin(side), cu = cos(up), su = sin(up);

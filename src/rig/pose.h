@@ -4,25 +4,27 @@
 
 #include "scene/document.h"
 
-/// How the same knots are shown: the paper's method, without lag, or as classical cubics (the splines are then solved so).
+/// How the same knots are shown: the paper's method, without lag, or as classical cubics (the splines are then solved
+/// so).
 enum look { LOOK_WIGGLY, LOOK_STIFF, LOOK_CUBIC };
 
-/// A pose: frames of joints+1 points along the tail, in metres; entry n is where joint n sits, the last one is the tip.
-/// Column-major 4×4, +z along the tail, y up. Entry n carries the bend of joint n.
+/// A pose: frames of joints+1 points along the tail, in metres; entry n is where joint n sits, the last one is the
+/// tip. Column-major 4×4, +z along the tail, y up. Entry n carries the bend of joint n.
 struct pose {
     int count; ///< joints + 1
     float matrix[TAIL_MAX_JOINTS + 1][16];
 };
 
-/// Poses a tail. `values[c]` is the spline value of channel c at the time shown. Joint n bends by
-/// gain·(y + Re(e^{−j·n·lag} x)) about each channel's axis, over rest (which bends up about the `up` axis, positive lifts).
+/// Poses a tail. `values[c]` is the spline value of channel c at the time shown. Joint n bends by gain·(y +
+/// Re(e^{−j·n·lag} x)) about each channel's axis, over rest (which bends up about the `up` axis, positive lifts).
 /// LOOK_STIFF takes every lag as 0. `side` turns before `up`. Allocates nothing.
 void pose_tail(const struct tail *tail, const wiggly_value *values, enum look look, struct pose *pose);
 
 /// Length of the tail that was posed, in metres.
 float pose_length(const struct pose *pose);
 
-/// Height of the ground that the body sits on, in metres: it depends on where the tail's base is and how long the tail is.
+/// Height of the ground that the body sits on, in metres: it depends on where the tail's base is and how long the
+/// tail is.
 float pose_ground(const struct pose *pose);
 
 /// The box around the skin of tail and body (whose size follows the tail's length), metres.
