@@ -54,7 +54,7 @@ static bool visit(const struct document *document, struct order_space space, int
 bool scene_order(const struct document *document, struct order_space space, int *order, struct order_cycle *cycle)
 {
     int ordered = 0;
-    memset(space.next, UNSEEN, (size_t)document->spline_count);
+    if (document->spline_count > 0) memset(space.next, UNSEEN, (size_t)document->spline_count);
     for (int i = 0; i < document->spline_count; i++) {
         if (space.next[i] == UNSEEN && !visit(document, space, i, order, &ordered, cycle)) return false;
     }

@@ -80,6 +80,15 @@ coefficients poles_coefficients(const poles *at, double step)
     };
 }
 
+void poles_mean(const poles *at, double step, cplx *lambda, cplx *delta2)
+{
+    cplx mu0 = expm1_complex((cplx){at->s[0].re * step, at->s[0].im * step});
+    cplx mu1 = expm1_complex((cplx){at->s[1].re * step, at->s[1].im * step});
+    cplx delta = {0.5 * (mu0.re - mu1.re), 0.5 * (mu0.im - mu1.im)};
+    *lambda = (cplx){1 + 0.5 * (mu0.re + mu1.re), 0.5 * (mu0.im + mu1.im)};
+    *delta2 = cplx_mul(delta, delta);
+}
+
 /// |1 − exp(z)|².
 static double distance_from_one(cplx z) { return cplx_norm(expm1_complex(z)); }
 

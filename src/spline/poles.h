@@ -42,6 +42,8 @@ poles poles_at(const wiggly_desc *desc, int sample, double floor);
 bool poles_are_constant(const wiggly_desc *desc);
 
 coefficients poles_coefficients(const poles *at, double step);
+/// λ = (λ₀ + λ₁)/2 and δ² = (λ₀ − λ₁)²/4 of the discrete poles.
+void poles_mean(const poles *at, double step, cplx *lambda, cplx *delta2);
 start_cost poles_start_cost(const poles *at, double step);
 
 #endif

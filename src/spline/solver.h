@@ -2,6 +2,7 @@
 #ifndef SPLINE_SOLVER_H
 #define SPLINE_SOLVER_H
 
+#include "spline/chain.h"
 #include "spline/system.h"
 
 struct wiggly_solver {
@@ -9,7 +10,9 @@ struct wiggly_solver {
     bool owned;
     system_rows rows;
     pentadiagonal matrix;
-    int *knot_at; ///< index of the knot on each sample, or -1
+    chain chain;  ///< its large arrays lie over the matrix's: a solve uses one of the two
+    int *order;   ///< indices of the description's knots by sample
+    int *knot_at; ///< scratch: index of the knot on each sample, or -1
 };
 
 /// How a minimisation went.
@@ -23,6 +26,10 @@ typedef struct minimum {
 
 /// Minimises the rows' energy over the unknowns that are not fixed; rows->x holds the fixed ones and 0 elsewhere.
 minimum solver_minimise(wiggly_solver *solver);
+
+/// The rows of a description, with knots fixed in x, as solver_minimise() would find them, and its matrix: for comparisons with
+/// other solvers. `y` receives the equilibrium, N numbers. WIGGLY_OK, or what is wrong with the description.
+wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, double *y);
 
 /// x of a spline that nothing constrains and that starts from rest: the filter run forward (r_i = 0, Figure 5).
 void solver_run_forward(wiggly_solver *solver);

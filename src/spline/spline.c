@@ -1,6 +1,6 @@
 // The rules around the minimisation (spec: "Energy", "Constraints"): where the domain starts, what is fixed, what is implied,
 // and what to do where the problem has no single answer.
-#include "spline/solver.h"
+#include "spline/problem.h"
 #include <limits.h>
 #include <math.h>
 #include <stdint.h>
@@ -9,92 +9,11 @@
 
 static const double implied_stiffness = 1000;
 static const double fallback_calm = 0.05;
-static const double least_damping = 0.05; ///< of the start's cost, and times calm of a loop
 static const double blow_up = 1e4;
-static const double stiffest =
-    1e20; ///< a slope row heavier than this is met to the last digit anyway, and could overflow
 
 wiggly_desc wiggly_default_desc(void)
 {
     return (wiggly_desc){.samples = 1, .step = 1.0 / 24, .bandwidth.value = 0.1, .calm = 1};
-}
-
-/// Bytes per sample of everything that carve() hands out; keep both in step.
-enum {
-    DOUBLES_PER_SAMPLE = 3 + 4 + 4 + 2 * BORDER_MAX + 1 + 2 + 2 + 4,
-    BYTES_PER_SAMPLE = (int)(DOUBLES_PER_SAMPLE * sizeof(double) + sizeof(coefficients) + sizeof(cplx) + sizeof(int) +
-                             sizeof(unsigned char)),
-};
-
-size_t wiggly_memsize(int samples, int knots)
-{
-    if (samples < 1 || knots < 0) return 0;
-    size_t per_sample, per_knot, sum;
-    if (__builtin_mul_overflow((size_t)samples, (size_t)BYTES_PER_SAMPLE, &per_sample) ||
-        __builtin_mul_overflow((size_t)knots + 1, sizeof(slope_row), &per_knot) ||
-        __builtin_add_overflow(per_sample, per_knot, &sum) ||
-        __builtin_add_overflow(sum, sizeof(wiggly_solver) + 64, &sum)) {
-        return 0;
-    }
-    return sum;
-}
-
-static void *take(unsigned char **at, size_t bytes)
-{
-    void *p = *at;
-    *at += bytes;
-    return p;
-}
-
-/// Largest alignment first, so that nothing needs padding.
-static void carve(wiggly_solver *solver)
-{
-    unsigned char *at = (unsigned char *)(solver + 1);
-    size_t n = (size_t)solver->samples;
-    system_rows *rows = &solver->rows;
-    pentadiagonal *m = &solver->matrix;
-    rows->at = take(&at, n * sizeof(coefficients));
-    rows->drive = take(&at, n * sizeof(cplx));
-    m->diagonal = take(&at, 3 * n * sizeof(double));
-    m->below = take(&at, 4 * n * sizeof(double));
-    m->below2 = take(&at, 4 * n * sizeof(double));
-    m->border = take(&at, 2 * BORDER_MAX * n * sizeof(double));
-    rows->im_weight = take(&at, n * sizeof(double));
-    rows->x = take(&at, 2 * n * sizeof(double));
-    rows->gradient = take(&at, 2 * n * sizeof(double));
-    rows->jet = take(&at, 4 * n * sizeof(double));
-    rows->slopes = take(&at, ((size_t)solver->knots + 1) * sizeof(slope_row));
-    solver->knot_at = take(&at, n * sizeof(int));
-    rows->fixed = take(&at, n);
-}
-
-wiggly_status wiggly_create_at(void *memory, size_t size, int samples, int knots, wiggly_solver **solver)
-{
-    size_t needed = wiggly_memsize(samples, knots);
-    if (!memory || !solver || !needed || (uintptr_t)memory % sizeof(double) != 0) return WIGGLY_ERROR_ARGUMENT;
-    if (size < needed) return WIGGLY_ERROR_MEMORY;
-    memset(memory, 0, needed);
-    *solver = memory;
-    (*solver)->samples = samples;
-    (*solver)->knots = knots;
-    carve(*solver);
-    return WIGGLY_OK;
-}
-
-wiggly_status wiggly_create(int samples, int knots, wiggly_solver **solver)
-{
-    size_t size = wiggly_memsize(samples, knots);
-    if (!solver || !size) return WIGGLY_ERROR_ARGUMENT;
-    void *memory = malloc(size);
-    if (!memory) return WIGGLY_ERROR_MEMORY;
-    wiggly_status status = wiggly_create_at(memory, size, samples, knots, solver);
-    (*solver)->owned = true;
-    return status;
-}
-
-void wiggly_destroy(wiggly_solver *solver)
-{
-    if (solver && solver->owned) free(solver);
 }
 
 static bool param_is_finite(wiggly_param param, int samples)
@@ -133,30 +52,28 @@ static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *
     return WIGGLY_OK;
 }
 
-/// Fills knot_at for the description's samples.
-static wiggly_status place_knots(wiggly_solver *solver, const wiggly_desc *desc)
+/// Fills `order`; knots that are in order already, as a document's are, cost one look each.
+static wiggly_status order_knots(wiggly_solver *solver, const wiggly_desc *desc)
 {
     int end = desc->samples - (desc->start == WIGGLY_LOOP ? 1 : 0);
-    for (int i = 0; i < desc->samples; i++) solver->knot_at[i] = -1;
+    bool ordered = true;
     for (int k = 0; k < desc->knot_count; k++) {
         int sample = desc->knots[k].sample;
-        if (sample < 0 || sample >= end || solver->knot_at[sample] >= 0) return WIGGLY_ERROR_KNOT;
-        solver->knot_at[sample] = k;
+        if (sample < 0 || sample >= end) return WIGGLY_ERROR_KNOT;
+        ordered = ordered && (k == 0 || sample > desc->knots[k - 1].sample);
+        solver->order[k] = k;
+    }
+    if (ordered) return WIGGLY_OK;
+    for (int i = 0; i < desc->samples; i++) solver->knot_at[i] = -1;
+    for (int k = 0; k < desc->knot_count; k++) {
+        if (solver->knot_at[desc->knots[k].sample] >= 0) return WIGGLY_ERROR_KNOT;
+        solver->knot_at[desc->knots[k].sample] = k;
+    }
+    for (int i = 0, n = 0; i < desc->samples; i++) {
+        if (solver->knot_at[i] >= 0) solver->order[n++] = solver->knot_at[i];
     }
     return WIGGLY_OK;
 }
-
-/// One solve in progress: the description with the rules of the start applied.
-typedef struct problem {
-    const wiggly_desc *desc;
-    const double *y; ///< of the whole domain; a loop's last is its first
-    wiggly_start start;
-    double calm;
-    int first;     ///< sample of the system's row 0
-    int earliest;  ///< sample of the earliest knot, or -1
-    bool level;    ///< a level slope is implied at the earliest knot
-    bool free_end; ///< c·H = 0
-} problem;
 
 static double range_of(const double *values, int count)
 {
@@ -171,11 +88,8 @@ static double range_of(const double *values, int count)
 static void set_domain(wiggly_solver *solver, problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    p->earliest = -1;
-    for (int i = 0; i < desc->samples && p->earliest < 0 && desc->knot_count > 0; i++) {
-        if (solver->knot_at[i] >= 0) p->earliest = i;
-    }
-    bool on_rest = p->earliest == 0 || (desc->samples > 1 && solver->knot_at[1] >= 0);
+    p->earliest = desc->knot_count > 0 ? desc->knots[solver->order[0]].sample : -1;
+    bool on_rest = p->earliest == 0 || p->earliest == 1;
     p->start = desc->start == WIGGLY_REST && on_rest ? WIGGLY_FREE : desc->start;
     p->first = p->start == WIGGLY_FREE && p->earliest > 0 ? p->earliest : 0;
     system_rows *rows = &solver->rows;
@@ -194,7 +108,7 @@ static double y_at(const problem *p, const system_rows *rows, int k)
 static void set_filter(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
-    double floor = rows->loop ? least_damping * p->calm : 0;
+    double floor = rows->loop ? LEAST_DAMPING * p->calm : 0;
     bool constant = poles_are_constant(p->desc), weighted = p->start != WIGGLY_REST || p->desc->knot_count > 0;
     double intervals = rows->loop ? rows->count : rows->count - 1, t = intervals * p->desc->step, weight = 0;
     for (int k = 0; k < rows->count; k++) {
@@ -220,36 +134,40 @@ static void add_slope(system_rows *rows, const problem *p, int sample, double sl
 {
     int k = sample - p->first;
     bool last = !rows->loop && k == rows->count - 1;
-    slope_row row = {.p = last ? k - 1 : k, .weight = fmin(stiffness * p->desc->step, stiffest)};
+    slope_row row = {.p = last ? k - 1 : k, .weight = fmin(stiffness * p->desc->step, STIFFEST)};
     row.q = rows->loop ? (row.p + 1) % rows->count : row.p + 1;
     row.target = p->desc->step * slope - (y_at(p, rows, row.q) - y_at(p, rows, row.p));
     if (row.p >= 0) rows->slopes[rows->slope_count++] = row;
 }
 
-/// Start cost, slopes (also implied ones) and fixed unknowns; x holds the fixed values and 0 elsewhere.
-static void set_constraints(wiggly_solver *solver, problem *p)
+static void set_start(wiggly_solver *solver, problem *p)
+{
+    start_cost *start = &solver->rows.start;
+    *start = (start_cost){0};
+    if (p->start == WIGGLY_FREE) {
+        poles at = poles_at(p->desc, p->first, LEAST_DAMPING);
+        *start = poles_start_cost(&at, p->desc->step);
+        start->h00 *= p->calm;
+        start->d *= p->calm;
+    }
+    p->free_end = p->start == WIGGLY_FREE && !(start->h00 > 0);
+}
+
+/// Slopes (also implied ones) and fixed unknowns; x holds the fixed values and 0 elsewhere.
+static void set_constraints(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
-    rows->start = (start_cost){0};
-    if (p->start == WIGGLY_FREE) {
-        poles at = poles_at(p->desc, p->first, least_damping);
-        rows->start = poles_start_cost(&at, p->desc->step);
-        rows->start.h00 *= p->calm;
-        rows->start.d *= p->calm;
-    }
-    p->free_end = p->start == WIGGLY_FREE && !(rows->start.h00 > 0);
     rows->slope_count = 0;
     int width = rows->is_complex ? 2 : 1;
     memset(rows->x, 0, sizeof(double) * (size_t)(width * rows->count));
     memset(rows->fixed, 0, (size_t)rows->count);
     if (p->start == WIGGLY_REST) rows->fixed[0] = rows->fixed[1] = FIXED_RE | FIXED_IM;
-    for (int k = 0; k < rows->count; k++) {
-        int index = solver->knot_at[p->first + k];
-        if (index < 0) continue;
-        const wiggly_knot *knot = &p->desc->knots[index];
+    for (int n = 0; n < p->desc->knot_count; n++) {
+        const wiggly_knot *knot = &p->desc->knots[solver->order[n]];
+        int k = knot->sample - p->first;
         rows->fixed[k] |= FIXED_RE;
-        rows->x[width * k] = knot->value - p->y[p->first + k];
-        if (knot->has_slope) add_slope(rows, p, p->first + k, knot->slope, knot->stiffness);
+        rows->x[width * k] = knot->value - p->y[knot->sample];
+        if (knot->has_slope) add_slope(rows, p, knot->sample, knot->slope, knot->stiffness);
     }
     bool alone = p->desc->knot_count == 1 && rows->slope_count == 0;
     if (p->level || (alone && p->free_end)) add_slope(rows, p, p->earliest, 0, implied_stiffness);
@@ -258,7 +176,7 @@ static void set_constraints(wiggly_solver *solver, problem *p)
 /// Largest of |value − y| over knots, T·|slope| over slopes, and y's range: what max |x| is measured against.
 static double problem_scale(const system_rows *rows, const problem *p)
 {
-    double scale = range_of(p->y, p->desc->samples);
+    double scale = p->desc->equilibrium.track ? range_of(p->y, p->desc->samples) : 0;
     double t = (rows->loop ? rows->count : rows->count - 1) * p->desc->step;
     for (int k = 0; k < p->desc->knot_count; k++) {
         const wiggly_knot *knot = &p->desc->knots[k];
@@ -268,11 +186,58 @@ static double problem_scale(const system_rows *rows, const problem *p)
     return scale;
 }
 
-static minimum attempt(wiggly_solver *solver, problem *p)
+/// x of the system into the curve's arrays.
+static void unpack(const wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
+    const system_rows *rows = &solver->rows;
+    double *re = curve->re + p->first, *im = curve->im + p->first;
+    for (int k = 0; k < rows->count; k++) {
+        re[k] = rows->x[rows->is_complex ? 2 * k : k];
+        if (rows->is_complex) im[k] = rows->x[2 * k + 1];
+    }
+}
+
+/// x into the curve: by the chain where it serves, else by refinement.
+static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
+{
+    minimum result = {.solved = true};
+    set_start(solver, p);
+    if (problem_fits_chain(solver, p) && problem_solve_chain(solver, p, curve->re + p->first, curve->im + p->first)) {
+        return result;
+    }
     set_filter(solver, p);
     set_constraints(solver, p);
-    return solver_minimise(solver);
+    result = solver_minimise(solver);
+    unpack(solver, p, curve);
+    return result;
+}
+
+/// Largest |x|, eight at once.
+static double largest_magnitude(const double *x, int count)
+{
+    double largest[8] = {0}, all = 0;
+    int i = 0;
+    for (; i + 8 <= count; i += 8) {
+        for (int k = 0; k < 8; k++) largest[k] = fabs(x[i + k]) > largest[k] ? fabs(x[i + k]) : largest[k];
+    }
+    for (; i < count; i++) all = fmax(all, fabs(x[i]));
+    for (int k = 0; k < 8; k++) all = fmax(all, largest[k]);
+    return all;
+}
+
+/// Whether max |x| is beyond what the knots can mean.
+static bool blew_up(const wiggly_solver *solver, const problem *p, const wiggly_curve *curve)
+{
+    double scale = problem_scale(&solver->rows, p);
+    const double *re = curve->re + p->first, *im = curve->im + p->first;
+    int count = solver->rows.count;
+    double bound = largest_magnitude(re, count);
+    if (solver->rows.is_complex) bound = hypot(bound, largest_magnitude(im, count));
+    if (!(scale > 0) || bound <= blow_up * scale) return false;
+    for (int k = 0; k < count && solver->rows.is_complex; k++) {
+        if (hypot(re[k], im[k]) > blow_up * scale) return true;
+    }
+    return !solver->rows.is_complex;
 }
 
 /// Knots joined by straight lines: what is shown where the system is singular whatever was tried.
@@ -280,9 +245,7 @@ static void join_knots(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
     int width = rows->is_complex ? 2 : 1, before = -1;
-    set_constraints(
-        solver,
-        &(problem){.desc = p->desc, .y = p->y, .start = p->start, .first = p->first, .earliest = p->earliest});
+    set_constraints(solver, p);
     for (int k = 0; k < rows->count; k++) {
         if (!(rows->fixed[k] & FIXED_RE)) continue;
         for (int i = before + 1; i < k; i++) {
@@ -295,15 +258,13 @@ static void join_knots(wiggly_solver *solver, const problem *p)
 }
 
 /// Solves, and where the problem is singular as asked, solves the nearest one that is not (spec: last rule of "Constraints").
-static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, minimum *result)
+static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
 {
-    double scale = problem_scale(&solver->rows, p);
     wiggly_status status = WIGGLY_OK;
     for (;;) {
-        *result = attempt(solver, p);
+        *result = attempt(solver, p, curve);
         bool may_be_singular = p->start == WIGGLY_LOOP ? p->calm == 0 : p->free_end;
-        bool blown_up = scale > 0 && result->largest > blow_up * scale;
-        if (result->solved && !(may_be_singular && (result->weak || blown_up))) return status;
+        if (result->solved && !(may_be_singular && (result->weak || blew_up(solver, p, curve)))) return status;
         if (may_be_singular && p->calm == 0) {
             p->calm = fallback_calm;
             status = WIGGLY_CALMED;
@@ -315,20 +276,22 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, minimum 
         }
     }
     join_knots(solver, p);
+    unpack(solver, p, curve);
     *result = (minimum){.solved = true};
     return WIGGLY_SINGULAR;
 }
 
-/// Domains too short for a jet row (M < 3): each x is its knot's, else the earliest knot's, else 0.
+/// Domains too short for a jet row (M < 3) or without anything that moves: each x is its knot's, else the earliest knot's, else 0.
 static void solve_short(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
+    const wiggly_desc *desc = p->desc;
     int width = rows->is_complex ? 2 : 1;
-    for (int k = 0; k < rows->count; k++) {
-        int index = solver->knot_at[p->first + k];
-        int source = index >= 0 ? p->first + k : p->earliest;
-        rows->x[width * k] = source >= 0 ? p->desc->knots[solver->knot_at[source]].value - p->y[source] : 0;
-        if (rows->is_complex) rows->x[2 * k + 1] = 0;
+    double other = p->earliest >= 0 ? desc->knots[solver->order[0]].value - p->y[p->earliest] : 0;
+    memset(rows->x, 0, sizeof(double) * (size_t)(width * rows->count));
+    for (int k = 0; k < rows->count; k++) rows->x[width * k] = other;
+    for (int n = 0; n < desc->knot_count; n++) {
+        rows->x[width * (desc->knots[n].sample - p->first)] = desc->knots[n].value - p->y[desc->knots[n].sample];
     }
 }
 
@@ -347,24 +310,22 @@ static bool is_still(const problem *p)
     return !moves || !rings;
 }
 
-static void write_curve(const wiggly_solver *solver, const problem *p, wiggly_curve *curve)
+/// What follows from x: samples outside the system, the total, the band's centre.
+static void complete(const wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     const system_rows *rows = &solver->rows;
     const wiggly_desc *desc = p->desc;
-    int width = rows->is_complex ? 2 : 1;
+    int n = desc->samples;
+    if (!rows->is_complex) memset(curve->im, 0, sizeof(double) * (size_t)n);
+    for (int i = 0; i < p->first; i++) curve->re[i] = curve->re[p->first], curve->im[i] = curve->im[p->first];
+    if (rows->loop) curve->re[n - 1] = curve->re[0], curve->im[n - 1] = curve->im[0];
+    for (int i = 0; i < n; i++) curve->total[i] = curve->y[i] + curve->re[i];
+    for (int k = 0; k < desc->knot_count; k++) curve->total[desc->knots[k].sample] = desc->knots[k].value;
+    if (rows->loop) curve->total[n - 1] = curve->total[0];
+    double floor = rows->loop ? LEAST_DAMPING * p->calm : 0, omega = poles_at(desc, 0, floor).centre;
     bool constant = poles_are_constant(desc);
-    double floor = rows->loop ? least_damping * p->calm : 0, omega = 0;
-    for (int i = 0; i < desc->samples; i++) {
-        int k = i < p->first ? 0 : rows->loop && i == rows->count ? 0 : i - p->first;
-        curve->re[i] = rows->x[width * k];
-        curve->im[i] = rows->is_complex ? rows->x[width * k + 1] : 0;
-        int index = solver->knot_at[i];
-        curve->total[i] = index >= 0 ? desc->knots[index].value : curve->y[i] + curve->re[i];
-        if (i == 0 || !constant) omega = poles_at(desc, i, floor).centre;
-        curve->omega[i] = omega;
-    }
-    if (rows->loop) curve->total[rows->count] = curve->total[0];
-    curve->samples = desc->samples;
+    for (int i = 0; i < n; i++) curve->omega[i] = constant ? omega : poles_at(desc, i, floor).centre;
+    curve->samples = n;
     curve->step = desc->step;
     curve->first = p->first;
     curve->mode = desc->mode;
@@ -376,35 +337,61 @@ static double tolerance(wiggly_mode mode) { return mode == WIGGLY_CUBIC ? 1e-9 :
 /// Error relative to the larger of the total's range and its largest magnitude.
 static wiggly_status judge(wiggly_curve *curve, const minimum *result, wiggly_status status)
 {
-    double magnitude = range_of(curve->total, curve->samples);
-    for (int i = 0; i < curve->samples; i++) magnitude = fmax(magnitude, fabs(curve->total[i]));
-    curve->error = result->error > 0 ? result->error / magnitude : 0;
+    curve->error = 0;
+    if (result->error > 0) {
+        double magnitude = range_of(curve->total, curve->samples);
+        for (int i = 0; i < curve->samples; i++) magnitude = fmax(magnitude, fabs(curve->total[i]));
+        curve->error = result->error / magnitude;
+    }
     curve->refinements = result->sweeps > 1 ? result->sweeps - 1 : 0;
     return status == WIGGLY_OK && !(curve->error <= tolerance(curve->mode)) ? WIGGLY_INEXACT : status;
+}
+
+/// Checks, and sets up the problem; y receives the equilibrium.
+static wiggly_status pose_problem(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p)
+{
+    wiggly_status status = order_knots(solver, desc);
+    if (status != WIGGLY_OK) return status;
+    for (int i = 0; i < desc->samples; i++) {
+        y[i] = desc->equilibrium.track ? desc->equilibrium.track[i] : desc->equilibrium.value;
+    }
+    if (desc->start == WIGGLY_LOOP) y[desc->samples - 1] = y[0];
+    *p = (problem){.desc = desc, .y = y, .calm = desc->calm};
+    set_domain(solver, p);
+    return WIGGLY_OK;
+}
+
+wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, double *y)
+{
+    problem p;
+    wiggly_curve any = {.total = y, .y = y, .re = y, .im = y, .omega = y};
+    wiggly_status status = check_desc(solver, desc, &any);
+    if (status == WIGGLY_OK) status = pose_problem(solver, desc, y, &p);
+    if (status != WIGGLY_OK) return status;
+    set_start(solver, &p);
+    set_filter(solver, &p);
+    set_constraints(solver, &p);
+    system_matrix(&solver->rows, &solver->matrix);
+    return WIGGLY_OK;
 }
 
 wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
 {
     wiggly_status status = check_desc(solver, desc, curve);
-    if (status == WIGGLY_OK) status = place_knots(solver, desc);
+    problem p;
+    if (status == WIGGLY_OK) status = pose_problem(solver, desc, curve->y, &p);
     if (status != WIGGLY_OK) return status;
-    for (int i = 0; i < desc->samples; i++) {
-        curve->y[i] = desc->equilibrium.track ? desc->equilibrium.track[i] : desc->equilibrium.value;
-    }
-    if (desc->start == WIGGLY_LOOP) curve->y[desc->samples - 1] = curve->y[0];
-    problem p = {.desc = desc, .y = curve->y, .calm = desc->calm};
-    set_domain(solver, &p);
     minimum result = {.solved = true};
-    if (is_still(&p)) {
-        memset(solver->rows.x, 0, sizeof(double) * (size_t)(solver->rows.count * (solver->rows.is_complex ? 2 : 1)));
-    } else if (solver->rows.count < 3) {
+    if (solver->rows.count < 3 || is_still(&p)) {
         solve_short(solver, &p);
+        unpack(solver, &p, curve);
     } else if (p.start == WIGGLY_REST && desc->knot_count == 0) {
         set_filter(solver, &p);
         solver_run_forward(solver);
+        unpack(solver, &p, curve);
     } else {
-        status = minimise_safely(solver, &p, &result);
+        status = minimise_safely(solver, &p, curve, &result);
     }
-    write_curve(solver, &p, curve);
+    complete(solver, &p, curve);
     return judge(curve, &result, status);
 }

@@ -90,21 +90,15 @@ static bool work_create(struct work *w, const struct bench_case *c)
     return true;
 }
 
-/// The squared system that the solver has just assembled anew, in LAPACK's lower band storage (column major), with the
-/// gradient at "knots fixed, 0 elsewhere" on the right: its solution is x less the knots.
+/// The squared system in LAPACK's lower band storage (column major), with the gradient at "knots fixed, 0 elsewhere" on the
+/// right: its solution is x less the knots.
 static int band_from_system(struct work *w)
 {
     system_rows *rows = &w->solver->rows;
-    pentadiagonal *m = &w->solver->matrix;
-    int width = rows->is_complex ? 2 : 1, n = width * rows->count, kd = width == 2 ? KD : 2;
-    for (int i = 0; i < n; i++) {
-        if (width == 1 || i % 2 == 1 || !(rows->fixed[i / 2] & FIXED_RE)) rows->x[i] = 0;
-        if (width == 1 && rows->fixed[i] & FIXED_RE) rows->x[i] = w->knots[i / KNOT_EVERY].value;
-        if (width == 2 && i % 2 == 0 && rows->fixed[i / 2] & FIXED_RE)
-            rows->x[i] = w->knots[i / 2 / KNOT_EVERY].value;
-    }
+    const pentadiagonal *m = &w->solver->matrix;
+    solver_describe(w->solver, &w->desc, w->curve.y);
     system_gradient(rows);
-    system_matrix(rows, m);
+    int width = rows->is_complex ? 2 : 1, n = width * rows->count, kd = width == 2 ? KD : 2;
     memset(w->band, 0, sizeof(double) * (size_t)(n * (kd + 1)));
     for (int k = 0; k < rows->count; k++) {
         for (int part = 0; part < width; part++) {

@@ -1,0 +1,65 @@
+/// Splines with constant parameters on a constant equilibrium: a chain of knot-free stretches, each condensed to its end states.
+#ifndef SPLINE_CHAIN_H
+#define SPLINE_CHAIN_H
+
+#include "spline/poles.h"
+
+/// A complex array, real and imaginary parts apart; im is not used outside complex mode.
+typedef struct cplx_array {
+    double *re, *im;
+} cplx_array;
+
+/// F^k = [f00 f01; f10 f11] and W_k = [w00 w01; w01* w11] for k = 0 … longest stretch.
+typedef struct chain_powers {
+    cplx_array f00, f01, f10, f11, w01;
+    double *w00, *w11;
+} chain_powers;
+
+/// A stretch of a given length, condensed: s_q* V s_q − 2 Re s_q* C s_p + s_p* P s_p.
+typedef struct chain_stretch {
+    int length;
+    int first; ///< where its part of `forced` begins
+    double v00, v11, p00, p11;
+    cplx v01, p01, c00, c01, c10, c11;
+} chain_stretch;
+
+enum { NODE_FIXED_E = 1, NODE_AT_REST = 2 };
+
+/// A node: the state (x, d) at a sample k of the system, of which Re x is known. e is x_{k+1} − x_k.
+typedef struct chain_node {
+    int sample;
+    unsigned fixed;             ///< Re e is known too (the next sample is keyed), or the whole state is 0
+    double value;               ///< Re x
+    double e;                   ///< Re e where it is known
+    double slope, slope_weight; ///< slope_weight (Re e − slope)²
+    int stretch;                ///< to the next node
+    double x_im, d_re, d_im;    ///< solution
+} chain_node;
+
+/// One block row of the nodes' system: unknowns (Im x, Re d, Im d), or d alone.
+typedef struct chain_row {
+    double diagonal[6]; ///< 00 01 02 11 12 22 → inverse of the pivot block
+    double below[9];    ///< A_{j+1,j}, row-major → L_{j+1,j}
+    double right[3];    ///< → solution
+} chain_row;
+
+typedef struct chain {
+    bool is_complex;
+    int count;           ///< samples of the system
+    cplx lambda, delta2; ///< mean of the poles, square of half their difference
+    start_cost start;    ///< times calm; on the first node
+    chain_powers powers;
+    cplx_array forced[2]; ///< (first row of W_i F*^{L−i}) for each stretch, i = 0 … L − 1
+    int *stretch_of;      ///< index of the stretch of each length, or -1
+    chain_stretch *stretches;
+    int stretch_count;
+    chain_node *nodes;
+    int node_count;
+    chain_row *rows;
+} chain;
+
+/// Solves for the nodes and writes x of every sample of the system (x_im NULL outside complex mode). false where the nodes'
+/// system has lost so many digits that its answer is not to be taken.
+bool chain_solve(chain *chain, double *x_re, double *x_im);
+
+#endif

@@ -1,0 +1,101 @@
+// A solver's memory: one block, carved once, largest alignment first so that nothing needs padding.
+#include "spline/solver.h"
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// What carve() hands out for each sample and for each knot; keep in step with it.
+enum {
+    MATRIX_DOUBLES = 3 + 4 + 4 + 2 * BORDER_MAX,
+    CHAIN_DOUBLES = 16,
+    BYTES_PER_SAMPLE = (int)((MATRIX_DOUBLES + 1 + 2 + 2 + 4) * sizeof(double) + sizeof(coefficients) + sizeof(cplx) +
+                             2 * sizeof(int) + sizeof(unsigned char)),
+    BYTES_PER_KNOT =
+        (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) + sizeof(int)),
+};
+
+_Static_assert((int)CHAIN_DOUBLES <= (int)MATRIX_DOUBLES, "the chain's tables lie over the matrix");
+
+size_t wiggly_memsize(int samples, int knots)
+{
+    if (samples < 1 || knots < 0) return 0;
+    size_t per_sample, per_knot, sum;
+    if (__builtin_mul_overflow((size_t)samples, (size_t)BYTES_PER_SAMPLE, &per_sample) ||
+        __builtin_mul_overflow((size_t)knots + 1, (size_t)BYTES_PER_KNOT, &per_knot) ||
+        __builtin_add_overflow(per_sample, per_knot, &sum) ||
+        __builtin_add_overflow(sum, sizeof(wiggly_solver) + 64, &sum)) {
+        return 0;
+    }
+    return sum;
+}
+
+static void *take(unsigned char **at, size_t bytes)
+{
+    void *p = *at;
+    *at += bytes;
+    return p;
+}
+
+static void carve(wiggly_solver *solver)
+{
+    unsigned char *at = (unsigned char *)(solver + 1);
+    size_t n = (size_t)solver->samples;
+    system_rows *rows = &solver->rows;
+    pentadiagonal *m = &solver->matrix;
+    rows->at = take(&at, n * sizeof(coefficients));
+    rows->drive = take(&at, n * sizeof(cplx));
+    m->diagonal = take(&at, 3 * n * sizeof(double));
+    m->below = take(&at, 4 * n * sizeof(double));
+    m->below2 = take(&at, 4 * n * sizeof(double));
+    m->border = take(&at, 2 * BORDER_MAX * n * sizeof(double));
+    rows->im_weight = take(&at, n * sizeof(double));
+    rows->x = take(&at, 2 * n * sizeof(double));
+    rows->gradient = take(&at, 2 * n * sizeof(double));
+    rows->jet = take(&at, 4 * n * sizeof(double));
+    size_t k = (size_t)solver->knots + 1;
+    chain *c = &solver->chain;
+    rows->slopes = take(&at, k * sizeof(slope_row));
+    c->stretches = take(&at, k * sizeof(chain_stretch));
+    c->nodes = take(&at, k * sizeof(chain_node));
+    c->rows = take(&at, k * sizeof(chain_row));
+    solver->order = take(&at, k * sizeof(int));
+    solver->knot_at = take(&at, n * sizeof(int));
+    c->stretch_of = take(&at, n * sizeof(int));
+    rows->fixed = take(&at, n);
+    unsigned char *tables = (unsigned char *)m->diagonal;
+    double **const columns[] = {&c->powers.f00.re, &c->powers.f00.im, &c->powers.f01.re, &c->powers.f01.im,
+                                &c->powers.f10.re, &c->powers.f10.im, &c->powers.f11.re, &c->powers.f11.im,
+                                &c->powers.w01.re, &c->powers.w01.im, &c->powers.w00,    &c->powers.w11,
+                                &c->forced[0].re,  &c->forced[0].im,  &c->forced[1].re,  &c->forced[1].im};
+    _Static_assert(sizeof columns / sizeof *columns == CHAIN_DOUBLES, "CHAIN_DOUBLES counts the columns");
+    for (int i = 0; i < CHAIN_DOUBLES; i++) *columns[i] = take(&tables, n * sizeof(double));
+}
+
+wiggly_status wiggly_create_at(void *memory, size_t size, int samples, int knots, wiggly_solver **solver)
+{
+    size_t needed = wiggly_memsize(samples, knots);
+    if (!memory || !solver || !needed || (uintptr_t)memory % sizeof(double) != 0) return WIGGLY_ERROR_ARGUMENT;
+    if (size < needed) return WIGGLY_ERROR_MEMORY;
+    memset(memory, 0, needed);
+    *solver = memory;
+    (*solver)->samples = samples;
+    (*solver)->knots = knots;
+    carve(*solver);
+    return WIGGLY_OK;
+}
+
+wiggly_status wiggly_create(int samples, int knots, wiggly_solver **solver)
+{
+    size_t size = wiggly_memsize(samples, knots);
+    if (!solver || !size) return WIGGLY_ERROR_ARGUMENT;
+    void *memory = malloc(size);
+    if (!memory) return WIGGLY_ERROR_MEMORY;
+    wiggly_status status = wiggly_create_at(memory, size, samples, knots, solver);
+    (*solver)->owned = true;
+    return status;
+}
+
+void wiggly_destroy(wiggly_solver *solver)
+{
+    if (solver && solver->owned) free(solver);
+}
