@@ -4,6 +4,7 @@
 set -eu
 old=$1 new=$2 timing_diff=$3 out=$4
 session=tests/replays/session.replay
+scene=tests/replays/session.json
 pairs=${PAIRS:-11}
 [ -x "$old" ] || { echo "regress: $old is not a program" >&2; exit 2; }
 [ "$pairs" -ge 11 ] || { echo "regress: fewer than 11 pairs say too little; got PAIRS=$pairs" >&2; exit 2; }
@@ -11,7 +12,7 @@ mkdir -p "$out"
 rm -f "$out"/*.csv
 
 play() { # <program> <log>
-    "$1" live --headless --replay "$session" --log "$2" >"$out/last-run.txt" 2>&1 || {
+    "$1" live --headless --replay "$session" --log "$2" "$scene" >"$out/last-run.txt" 2>&1 || {
         cat "$out/last-run.txt" >&2
         echo "regress: $1 could not play $session" >&2
         exit 3

@@ -9,6 +9,8 @@ typedef struct cplx {
 } cplx;
 
 static inline cplx cplx_add(cplx a, cplx b) { return (cplx){a.re + b.re, a.im + b.im}; }
+static inline cplx cplx_sub(cplx a, cplx b) { return (cplx){a.re - b.re, a.im - b.im}; }
+static inline cplx cplx_scale(double s, cplx a) { return (cplx){s * a.re, s * a.im}; }
 static inline cplx cplx_mul(cplx a, cplx b) { return (cplx){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re}; }
 static inline cplx cplx_conj(cplx a) { return (cplx){a.re, -a.im}; }
 static inline double cplx_norm(cplx a) { return a.re * a.re + a.im * a.im; }

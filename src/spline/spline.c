@@ -203,6 +203,7 @@ static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
     minimum result = {.solved = true};
     set_start(solver, p);
     if (problem_fits_chain(solver, p) && problem_solve_chain(solver, p, curve->re + p->first, curve->im + p->first)) {
+        result.error = solver->chain.error;
         return result;
     }
     set_filter(solver, p);
