@@ -259,6 +259,35 @@ static void memory_may_be_the_callers(void **state)
     free(memory);
 }
 
+/// A solver that has just solved nearly the same spline uses what it kept: not a bit may differ from a fresh one.
+static void what_is_kept_changes_no_bit(void **state)
+{
+    (void)state;
+    wiggly_knot knots[] = {{.sample = 0, .value = 0.3, .has_slope = true, .slope = 1, .stiffness = 50},
+                           {.sample = 30, .value = 1},
+                           {.sample = 31, .value = 1.1},
+                           {.sample = 80, .value = -0.4, .has_slope = true, .slope = -2, .stiffness = 9},
+                           {.sample = 110, .value = 0}};
+    wiggly_curve other = curve_create(MAX);
+    for (int edit = 0; edit < 60; edit++) {
+        wiggly_desc desc =
+            describe(120, (wiggly_mode)(edit / 6 % 3), edit / 18 % 2 ? WIGGLY_REST : WIGGLY_FREE, knots, 5);
+        wiggly_knot *knot = &knots[edit % 5];
+        if (edit % 6 < 4) knot->value += 0.37; // most edits change values alone
+        if (edit % 6 == 4) knot->sample++;
+        if (edit % 6 == 5) knot->has_slope = !knot->has_slope, knot->stiffness = 3;
+        if (edit % 7 == 6) desc.frequency.value = 1.3;
+        knots[2].sample = knots[1].sample + 1;
+        wiggly_solver *fresh = NULL;
+        assert_int_equal(wiggly_create(200, 8, &fresh), WIGGLY_OK);
+        assert_int_equal(wiggly_solve(solver, &desc, &curve), wiggly_solve(fresh, &desc, &other));
+        assert_memory_equal(other.total, curve.total, 120 * sizeof(double));
+        assert_memory_equal(other.im, curve.im, 120 * sizeof(double));
+        wiggly_destroy(fresh);
+    }
+    curve_destroy(&other);
+}
+
 /// Twice the frequency, sample rate and stiffness on the same samples is the same curve (spec, section 2).
 static void the_whole_curve_scales(void **state)
 {
@@ -338,6 +367,7 @@ int main(void)
         cmocka_unit_test(wrong_descriptions_are_named_and_leave_the_curve_alone),
         cmocka_unit_test(every_status_has_a_text_of_its_own),
         cmocka_unit_test(memory_may_be_the_callers),
+        cmocka_unit_test(what_is_kept_changes_no_bit),
         cmocka_unit_test(the_whole_curve_scales),
         cmocka_unit_test(extremes_stay_finite),
     };

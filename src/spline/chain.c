@@ -101,7 +101,7 @@ static bool refine(chain *c, double size)
 {
     double before = size;
     for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {
-        chain_gradient(c);
+        chain_gradient(c, true);
         chain_solve_nodes(c);
         double change = take_solution(c);
         c->error = fmax(change, before < size ? before : 0);
@@ -112,16 +112,32 @@ static bool refine(chain *c, double size)
     return false;
 }
 
+/// Everything unknown 0.
+static void reset_nodes(chain *c)
+{
+    for (int j = 0; j < c->node_count; j++) {
+        chain_node *node = &c->nodes[j];
+        bool known = node->fixed & NODE_FIXED_E;
+        node->x_im = node->d_im = 0;
+        node->d_re = known ? node->e - (c->lambda.re - 1) * node->value : 0;
+    }
+}
+
 bool chain_solve(chain *c, double *x_re, double *x_im)
 {
+    if (!c->kept) {
+        chain_make_tables(c);
+        chain_assemble(c);
+        c->rank = chain_factor(c);
+        c->kept = true;
+    }
     c->error = 0;
-    chain_make_tables(c);
-    chain_assemble(c);
-    chain_rank rank = chain_factor(c);
-    if (rank == CHAIN_LOST) return false;
+    if (c->rank == CHAIN_LOST) return false;
+    reset_nodes(c);
+    chain_gradient(c, false);
     chain_solve_nodes(c);
     double size = take_solution(c);
-    if (rank == CHAIN_WEAK && !refine(c, size)) return false;
+    if (c->rank == CHAIN_WEAK && !refine(c, size)) return false;
     for (int j = 0; j + 1 < c->node_count; j++) fill_stretch(c, &c->nodes[j], &c->nodes[j + 1], x_re, x_im);
     run_free(c, &c->nodes[c->node_count - 1], x_re, x_im);
     return true;

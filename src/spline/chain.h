@@ -43,6 +43,12 @@ typedef struct chain_row {
     double right[3];    ///< → solution
 } chain_row;
 
+typedef enum chain_rank {
+    CHAIN_LOST, ///< a pivot is not positive
+    CHAIN_WEAK, ///< a pivot has lost digits: to be refined
+    CHAIN_FIRM,
+} chain_rank;
+
 typedef struct chain {
     bool is_complex;
     int count;           ///< samples of the system
@@ -56,18 +62,14 @@ typedef struct chain {
     chain_node *nodes;
     int node_count;
     chain_row *rows;
-    double error; ///< estimated error of x, where the nodes' system had to be refined
+    bool kept; ///< tables and factor are those of the nodes' samples, fixed and slope_weight, and of everything above
+    chain_rank rank; ///< of the factor
+    double error;    ///< estimated error of x, where the nodes' system had to be refined
 } chain;
 
-/// Solves for the nodes and writes x of every sample of the system (x_im NULL outside complex mode). The nodes' x_im, d_re and
-/// d_im start at 0. false where the nodes' system has lost so many digits that its answer is not to be taken.
+/// Solves for the nodes and writes x of every sample of the system (x_im NULL outside complex mode). Where `kept` is set, only
+/// values have changed since the last solve and its factor is used again. false where the nodes' system has lost so many digits that its answer is not to be taken.
 bool chain_solve(chain *chain, double *x_re, double *x_im);
-
-typedef enum chain_rank {
-    CHAIN_LOST, ///< a pivot is not positive
-    CHAIN_WEAK, ///< a pivot has lost digits: to be refined
-    CHAIN_FIRM,
-} chain_rank;
 
 /// The steps of chain_solve().
 void chain_make_tables(chain *chain);
@@ -75,7 +77,8 @@ void chain_assemble(chain *chain);
 chain_rank chain_factor(chain *chain);
 /// rows' right ← solution.
 void chain_solve_nodes(chain *chain);
-/// rows' right ← −½ of the energy's gradient at the nodes' present state, in double-double through the un-squared stretches.
-void chain_gradient(chain *chain);
+/// rows' right ← −½ of the energy's gradient at the nodes' present state, `exact` in double-double; else everything unknown must
+/// be 0.
+void chain_gradient(chain *chain, bool exact);
 
 #endif

@@ -5,38 +5,31 @@
 /// A pivot below this part of what its diagonal would give has lost digits that refinement must bring back.
 static const double weakest = 1e-6;
 
-/// Adds the Hermitian form [h00 h01; h01* h11] of a node's state, Re x = `value` being known.
-static void add_form(chain_row *row, bool z, double value, double h00, cplx h01, double h11)
+/// Adds the Hermitian form [h00 h01; h01* h11] of a node's state.
+static void add_form(chain_row *row, bool z, double h00, cplx h01, double h11)
 {
-    if (!z) {
-        row->diagonal[0] += h11;
-        row->right[0] -= value * h01.re;
-        return;
-    }
     double *d = row->diagonal;
-    d[0] += h00, d[1] += h01.im, d[2] += h01.re, d[3] += h11, d[5] += h11;
-    row->right[1] -= value * h01.re;
-    row->right[2] += value * h01.im;
+    if (z) {
+        d[0] += h00, d[1] += h01.im, d[2] += h01.re, d[3] += h11, d[5] += h11;
+    } else {
+        d[0] += h11;
+    }
 }
 
 /// −2 Re s_q* C s_p between a node and the next.
-static void add_coupling(chain_row *p, chain_row *q, bool z, double p_value, double q_value, const chain_stretch *s)
+static void set_coupling(chain_row *p, bool z, const chain_stretch *s)
 {
+    double *n = p->below;
     if (!z) {
-        p->below[0] = -s->c11.re;
-        p->right[0] += q_value * s->c01.re;
-        q->right[0] += p_value * s->c10.re;
+        n[0] = -s->c11.re;
         return;
     }
-    double *n = p->below;
     n[0] = -s->c00.re, n[1] = -s->c01.im, n[2] = -s->c01.re;
     n[3] = s->c10.im, n[4] = -s->c11.re, n[5] = s->c11.im;
     n[6] = -s->c10.re, n[7] = -s->c11.im, n[8] = -s->c11.re;
-    p->right[0] -= q_value * s->c00.im, p->right[1] += q_value * s->c01.re, p->right[2] -= q_value * s->c01.im;
-    q->right[0] += p_value * s->c00.im, q->right[1] += p_value * s->c10.re, q->right[2] += p_value * s->c10.im;
 }
 
-/// Unknown 1 (Re d) of node j is `tie` times unknown 0 (Im x) plus what fix() will make known: folds it into unknown 0.
+/// Unknown 1 (Re d) of node j is `tie` times unknown 0 (Im x) plus a known number: folds it into unknown 0.
 static void tie_to_im(chain *c, int j, double tie)
 {
     chain_row *row = &c->rows[j];
@@ -44,32 +37,23 @@ static void tie_to_im(chain *c, int j, double tie)
     d[0] += tie * (2 * d[1] + tie * d[3]);
     d[1] += tie * d[3];
     d[2] += tie * d[4];
-    row->right[0] += tie * row->right[1];
     for (int v = 0; v < 3; v++) {
         if (j > 0) c->rows[j - 1].below[v] += tie * c->rows[j - 1].below[3 + v];
         if (j + 1 < c->node_count) row->below[3 * v] += tie * row->below[3 * v + 1];
     }
 }
 
-/// Takes unknown `u` of node j out of the system: it is `known`.
-static void fix(chain *c, int j, int u, double known)
+/// Takes the known unknown `u` of node j out of the system.
+static void fix(chain *c, int j, int u)
 {
-    static const int diagonal_of[3] = {0, 3, 5}, off_diagonal[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+    static const int entry[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
     int width = c->is_complex ? 3 : 1;
     chain_row *row = &c->rows[j];
     for (int v = 0; v < width; v++) {
-        if (v != u) row->right[v] -= row->diagonal[off_diagonal[v][u]] * known, row->diagonal[off_diagonal[v][u]] = 0;
-        if (j > 0) {
-            double *n = &c->rows[j - 1].below[width * u + v];
-            c->rows[j - 1].right[v] -= *n * known, *n = 0;
-        }
-        if (j + 1 < c->node_count) {
-            double *n = &row->below[width * v + u];
-            c->rows[j + 1].right[v] -= *n * known, *n = 0;
-        }
+        row->diagonal[entry[v][u]] = v == u;
+        if (j > 0) c->rows[j - 1].below[width * u + v] = 0;
+        row->below[width * v + u] = 0;
     }
-    row->diagonal[diagonal_of[u]] = 1;
-    row->right[u] = known;
 }
 
 /// |x + e_0| and |e_0 − e (x + e_0)| of the start, with e_0 = x_1 − x_0 = d + (λ−1) x, as forms in the first state.
@@ -79,25 +63,19 @@ static void add_start(chain *c)
     const cplx l1 = {c->lambda.re - 1, c->lambda.im}, e1 = {h->e.re - 1, h->e.im};
     cplx on_x = cplx_add(cplx_mul(e1, l1), h->e);
     cplx h01 = cplx_add(cplx_scale(h->h00, cplx_mul(cplx_conj(on_x), e1)), cplx_scale(h->d, cplx_conj(c->lambda)));
-    add_form(&c->rows[0], c->is_complex, c->nodes[0].value, h->h00 * cplx_norm(on_x) + h->d * cplx_norm(c->lambda),
-             h01, h->h00 * cplx_norm(e1) + h->d);
+    add_form(&c->rows[0], c->is_complex, h->h00 * cplx_norm(on_x) + h->d * cplx_norm(c->lambda), h01,
+             h->h00 * cplx_norm(e1) + h->d);
 }
 
 /// slope_weight (Re e − slope)², where Re e = Re d + Re (λ−1) Re x − Im λ Im x.
-static void add_slope(const chain *c, chain_row *row, const chain_node *node)
+static void add_slope(const chain *c, chain_row *row, double w)
 {
-    double w = node->slope_weight, turn = c->lambda.im;
-    double target = node->slope - (c->lambda.re - 1) * node->value;
-    if (!c->is_complex) {
-        row->diagonal[0] += w;
-        row->right[0] += w * target;
-        return;
+    double turn = c->lambda.im;
+    if (c->is_complex) {
+        row->diagonal[0] += w * turn * turn;
+        row->diagonal[1] -= w * turn;
     }
-    row->diagonal[0] += w * turn * turn;
-    row->diagonal[1] -= w * turn;
-    row->diagonal[3] += w;
-    row->right[0] -= w * turn * target;
-    row->right[1] += w * target;
+    row->diagonal[c->is_complex ? 3 : 0] += w;
 }
 
 void chain_assemble(chain *c)
@@ -106,21 +84,19 @@ void chain_assemble(chain *c)
     for (int j = 0; j < c->node_count; j++) c->rows[j] = (chain_row){0};
     add_start(c);
     for (int j = 0; j < c->node_count; j++) {
-        const chain_node *p = &c->nodes[j], *q = p + 1;
-        if (p->slope_weight > 0) add_slope(c, &c->rows[j], p);
+        if (c->nodes[j].slope_weight > 0) add_slope(c, &c->rows[j], c->nodes[j].slope_weight);
         if (j + 1 == c->node_count) break;
-        const chain_stretch *s = &c->stretches[p->stretch];
-        add_form(&c->rows[j], z, p->value, s->p00, s->p01, s->p11);
-        add_form(&c->rows[j + 1], z, q->value, s->v00, s->v01, s->v11);
-        add_coupling(&c->rows[j], &c->rows[j + 1], z, p->value, q->value, s);
+        const chain_stretch *s = &c->stretches[c->nodes[j].stretch];
+        add_form(&c->rows[j], z, s->p00, s->p01, s->p11);
+        add_form(&c->rows[j + 1], z, s->v00, s->v01, s->v11);
+        set_coupling(&c->rows[j], z, s);
     }
     for (int j = 0; j < c->node_count; j++) {
-        const chain_node *node = &c->nodes[j];
-        if (node->fixed & NODE_AT_REST) {
-            for (int u = 0; u < (z ? 3 : 1); u++) fix(c, j, u, 0);
-        } else if (node->fixed & NODE_FIXED_E) {
+        if (c->nodes[j].fixed & NODE_AT_REST) {
+            for (int u = 0; u < (z ? 3 : 1); u++) fix(c, j, u);
+        } else if (c->nodes[j].fixed & NODE_FIXED_E) {
             if (z) tie_to_im(c, j, c->lambda.im);
-            fix(c, j, z ? 1 : 0, node->e - (c->lambda.re - 1) * node->value);
+            fix(c, j, z ? 1 : 0);
         }
     }
 }

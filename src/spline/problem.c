@@ -22,29 +22,62 @@ bool problem_fits_chain(const wiggly_solver *solver, const problem *p)
     return true;
 }
 
-/// Two keyed samples side by side are one node, whose e is known.
-static void make_nodes(wiggly_solver *solver, const problem *p)
+/// Puts a node in its place; true where the one that was there differs in nothing but its values.
+static bool put_node(chain_node *at, chain_node node)
+{
+    bool same = at->sample == node.sample && at->fixed == node.fixed && at->slope_weight == node.slope_weight;
+    node.stretch = at->stretch;
+    *at = node;
+    return same;
+}
+
+/// Two keyed samples side by side are one node, whose e is known. true where only values differ from the nodes before.
+static bool make_nodes(wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
     chain *c = &solver->chain;
-    c->node_count = 0;
-    if (p->start == WIGGLY_REST) c->nodes[c->node_count++] = (chain_node){.fixed = NODE_AT_REST};
+    int count = 0;
+    bool same = true;
+    if (p->start == WIGGLY_REST) same = put_node(&c->nodes[count++], (chain_node){.fixed = NODE_AT_REST});
     for (int n = 0; n < desc->knot_count; n++) {
         const wiggly_knot *knot = &desc->knots[solver->order[n]];
         const wiggly_knot *next = n + 1 < desc->knot_count ? &desc->knots[solver->order[n + 1]] : NULL;
         double y = p->y[knot->sample];
-        chain_node *node = &c->nodes[c->node_count++];
-        *node = (chain_node){.sample = knot->sample - p->first, .value = knot->value - y};
+        chain_node node = {.sample = knot->sample - p->first, .value = knot->value - y};
         if (knot->has_slope) {
-            node->slope = desc->step * knot->slope;
-            node->slope_weight = fmin(knot->stiffness * desc->step, STIFFEST);
+            node.slope = desc->step * knot->slope;
+            node.slope_weight = fmin(knot->stiffness * desc->step, STIFFEST);
         }
         if (next && next->sample == knot->sample + 1) {
-            node->fixed = NODE_FIXED_E;
-            node->e = (next->value - y) - node->value;
+            node.fixed = NODE_FIXED_E;
+            node.e = (next->value - y) - node.value;
             n++;
         }
+        same = put_node(&c->nodes[count++], node) && same;
     }
+    same = same && count == c->node_count;
+    c->node_count = count;
+    return same;
+}
+
+static bool same_cplx(cplx a, cplx b) { return a.re == b.re && a.im == b.im; }
+
+/// Sets the filter; true where it is the one that was there.
+static bool set_chain(wiggly_solver *solver, const problem *p)
+{
+    chain *c = &solver->chain;
+    const system_rows *rows = &solver->rows;
+    chain now = *c;
+    poles at = poles_at(p->desc, 0, 0);
+    now.is_complex = rows->is_complex;
+    now.count = rows->count;
+    now.start = rows->start;
+    poles_mean(&at, p->desc->step, &now.lambda, &now.delta2);
+    bool same = now.is_complex == c->is_complex && same_cplx(now.lambda, c->lambda) &&
+                same_cplx(now.delta2, c->delta2) && now.start.h00 == c->start.h00 && now.start.d == c->start.d &&
+                same_cplx(now.start.e, c->start.e);
+    *c = now;
+    return same;
 }
 
 /// 0·x is NaN for what is not finite; eight sums at once, so that none waits for the last.
@@ -63,13 +96,8 @@ static bool all_finite(const double *x, int count)
 bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, double *x_im)
 {
     chain *c = &solver->chain;
-    const system_rows *rows = &solver->rows;
-    poles at = poles_at(p->desc, 0, 0);
-    c->is_complex = rows->is_complex;
-    c->count = rows->count;
-    poles_mean(&at, p->desc->step, &c->lambda, &c->delta2);
-    c->start = rows->start;
-    make_nodes(solver, p);
+    bool same_filter = set_chain(solver, p), same_nodes = make_nodes(solver, p);
+    c->kept = c->kept && same_filter && same_nodes;
     if (c->node_count < 2 && !(c->start.h00 > 0)) return false;
     if (!chain_solve(c, x_re, c->is_complex ? x_im : NULL)) return false;
     return all_finite(x_re, c->count) && (!c->is_complex || all_finite(x_im, c->count));

@@ -99,3 +99,5 @@ void wiggly_destroy(wiggly_solver *solver)
 {
     if (solver && solver->owned) free(solver);
 }
+
+void solver_forget(wiggly_solver *solver) { solver->chain.kept = false; }

@@ -31,6 +31,9 @@ minimum solver_minimise(wiggly_solver *solver);
 /// other solvers. `y` receives the equilibrium, N numbers. WIGGLY_OK, or what is wrong with the description.
 wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, double *y);
 
+/// Forgets the factor that is kept for the case that only values change: the next solve is a whole one. Changes no result.
+void solver_forget(wiggly_solver *solver);
+
 /// x of a spline that nothing constrains and that starts from rest: the filter run forward (r_i = 0, Figure 5).
 void solver_run_forward(wiggly_solver *solver);
 

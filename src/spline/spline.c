@@ -107,6 +107,7 @@ static double y_at(const problem *p, const system_rows *rows, int k)
 /// Coefficients, drive and imaginary weights of every row.
 static void set_filter(wiggly_solver *solver, const problem *p)
 {
+    solver->chain.kept = false; // its tables lie where the matrix will be
     system_rows *rows = &solver->rows;
     double floor = rows->loop ? LEAST_DAMPING * p->calm : 0;
     bool constant = poles_are_constant(p->desc), weighted = p->start != WIGGLY_REST || p->desc->knot_count > 0;
