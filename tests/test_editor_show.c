@@ -296,6 +296,72 @@ static void test_the_stage_turns_only_by_hand(void **state)
     session_close(&s);
 }
 
+/// Whether a text stands in the curves panel.
+static bool shows_text(const struct session *s, const char *text)
+{
+    const struct drawlist *list = editor_drawlist(s->editor);
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *command = &list->commands[i];
+        bool inside = command->x < 1000 && command->y > 400 && command->y < 696;
+        if (command->kind == DRAW_TEXT && inside && strcmp(list->text + command->first, text) == 0) return true;
+    }
+    return false;
+}
+
+/// Paused between two frames, the playhead names the frame on which I sets a knot.
+static void test_the_playhead_names_the_frame_of_the_next_knot(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TAIL);
+    session_click(&s, "ruler(50)");
+    session_key(&s, KEY_SPACE, 0);
+    for (int i = 0; i < 3; i++) session_frame(&s); // at 24 fps four frames of 1/60 s are 1.6 of the scene's
+    session_key(&s, KEY_SPACE, 0);
+    assert_true(shows_text(&s, "52"));
+    session_key(&s, 'I', 0);
+    assert_near(s.document->splines[0].knots[2].frame, 52, 0);
+    session_close(&s);
+}
+
+/// V: which way the curves are shown stands beside them for as long as they are; Im x is named where it is drawn.
+static void test_the_curves_say_how_they_are_shown(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TAIL);
+    assert_true(shows_text(&s, "Im"));
+    session_key(&s, 'V', 0);
+    session_key(&s, 'V', 0);
+    assert_true(shows_text(&s, "Cubic"));
+    assert_false(shows_text(&s, "Im"));
+    session_close(&s);
+}
+
+/// Home puts everything back into sight where the pointer is: the camera over the stage, else the curves.
+static void test_home_brings_the_tail_back(void **state)
+{
+    (void)state;
+    struct session s;
+    float before[2], after[2];
+    session_open(&s, TAIL);
+    point_at_tail(&s, 0.9f, before);
+    session_point(&s, "stage(0.9,0.2)");
+    session_press(&s, BUTTON_RIGHT, 1);
+    session_drag(&s, 90, 30, 3);
+    session_release(&s, BUTTON_RIGHT);
+    session_point(&s, "curve(sway,60,0)");
+    session_key(&s, KEY_HOME, 0);
+    point_at_tail(&s, 0.9f, after);
+    assert_true(fabsf(after[0] - before[0]) > 5);
+    session_point(&s, "stage(0.9,0.2)");
+    session_key(&s, KEY_HOME, 0);
+    point_at_tail(&s, 0.9f, after);
+    assert_near(after[0], before[0], 0.01);
+    assert_near(after[1], before[1], 0.01);
+    session_close(&s);
+}
+
 static void test_small_windows(void **state)
 {
     (void)state;
@@ -432,6 +498,9 @@ int main(void)
         cmocka_unit_test(test_space_and_drag_pans_without_playing),
         cmocka_unit_test(test_the_wheel_zooms_about_the_pointer),
         cmocka_unit_test(test_the_stage_turns_only_by_hand),
+        cmocka_unit_test(test_the_playhead_names_the_frame_of_the_next_knot),
+        cmocka_unit_test(test_the_curves_say_how_they_are_shown),
+        cmocka_unit_test(test_home_brings_the_tail_back),
         cmocka_unit_test(test_small_windows),
         cmocka_unit_test(test_dividers),
         cmocka_unit_test(test_finite_curves_at_every_extreme),

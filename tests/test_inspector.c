@@ -194,6 +194,27 @@ static void test_frame_drag_passes_through_a_neighbour(void **state)
     session_close(&f);
 }
 
+/// The pointer's shape says that a number is dragged, and where a text is typed.
+static void test_the_pointer_says_what_it_does(void **state)
+{
+    enum { ARROW = 0, HORIZONTAL = 2, TEXT = 5 };
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    assert_int_equal(editor_cursor(f.editor), ARROW);
+    panel_drag(&f, "damping", 0.3);
+    assert_int_equal(editor_cursor(f.editor), HORIZONTAL);
+    panel_release(&f);
+    assert_int_equal(editor_cursor(f.editor), HORIZONTAL);
+    panel_press(&f, "damping", 2);
+    panel_release(&f);
+    assert_int_equal(editor_cursor(f.editor), TEXT);
+    session_key(&f, KEY_ESCAPE, 0);
+    panel_click(&f, "section.knot");
+    assert_int_equal(editor_cursor(f.editor), ARROW);
+    session_close(&f);
+}
+
 static void test_tail_array_scales_as_a_whole(void **state)
 {
     (void)state;
@@ -210,6 +231,10 @@ static void test_tail_array_scales_as_a_whole(void **state)
     panel_release(&f);
     session_key(&f, 'Z', MOD_CTRL);
     assert_near(tail->channels[0].gain.value[0], 3, 0);
+    session_key(&f, KEY_PAGE_UP, 0); // the tail's numbers are those of the spline that is edited
+    assert_int_equal(f.editor->inspector.channel, 1);
+    session_key(&f, KEY_PAGE_DOWN, 0);
+    assert_int_equal(f.editor->inspector.channel, 0);
     panel_click(&f, "channel.1");
     panel_drag(&f, "lag", 12);
     panel_release(&f);
@@ -352,6 +377,7 @@ int main(void)
         cmocka_unit_test(test_only_what_counts_is_shown),
         cmocka_unit_test(test_knot_is_edited_in_place),
         cmocka_unit_test(test_frame_drag_passes_through_a_neighbour),
+        cmocka_unit_test(test_the_pointer_says_what_it_does),
         cmocka_unit_test(test_tail_array_scales_as_a_whole),
         cmocka_unit_test(test_says_what_the_solver_and_the_poles_mean),
         cmocka_unit_test(test_extremes_stay_finite_and_loadable),

@@ -67,6 +67,18 @@ keys space ctrl+a Delete ctrl+s
 has_knots "it opens again; Ctrl+A and Del delete the active spline's knots" -lt "$before"
 keys ctrl+z ctrl+s
 has_knots "Ctrl+Z brings them back" -eq $((before + 1))
+cp "$scratch/mine.json" "$scratch/undone.json"
+xdotool keydown f
+keys Up Up
+xdotool keyup f
+keys ctrl+s
+for _ in $(seq 50); do cmp -s "$scratch/mine.json" "$scratch/undone.json" || break; sleep 0.1; done
+[ "$(diff "$scratch/undone.json" "$scratch/mine.json" | grep -c '^> *"frequency": 1.1,')" = 1 ]
+ok "F held and Up twice raise the frequency by 0.1 Hz" $?
+keys ctrl+z ctrl+s
+for _ in $(seq 50); do cmp -s "$scratch/mine.json" "$scratch/undone.json" && break; sleep 0.1; done
+cmp "$scratch/mine.json" "$scratch/undone.json"
+ok "one Ctrl+Z takes both back" $?
 quit_app
 cmp "$scratch/mine.json" "$scratch/saved.json"
 ok "byte for byte" $?

@@ -30,6 +30,9 @@ void nudge_stiffness(struct editor *editor, const struct editor_world *world, do
 void toggle_slope(struct editor *editor, const struct editor_world *world);
 /// Changes the parameter that a held letter stands for (F Z B C L), in steps of design.
 void nudge_parameter(struct editor *editor, const struct editor_world *world, int letter, int direction);
+/// The channel that the active spline moves, the first of all where it moves none; NULL where there is none at all.
+const struct channel *active_channel(const struct editor *editor, const struct document *document, int *tail,
+                                     int *channel);
 void cycle_mode(struct editor *editor, const struct editor_world *world);
 
 /// A knot on a frame (whole frames when `snap`), selected; where there is one already, that one is selected.

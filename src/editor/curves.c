@@ -5,15 +5,19 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { MAX_LABELS = CURVES_MAX_OTHERS + 1, RING_POINTS = 25 };
+enum { MAX_LABELS = CURVES_MAX_OTHERS + 2, RING_POINTS = 25 };
 
 static const float KNOT_RADIUS = 4.5f, HOVER_RADIUS = 6.5f, HANDLE_LENGTH = 40, HANDLE_RADIUS = 3;
 static const float LABEL_STEP = 15;
+static const float FAN_NEAR = 0.24f,
+                   FAN_STEP = 0.03f; ///< opacity of the least lagged copy, and less of each further one
 
-/// A spline's name beside the right end of its curve.
+/// A name beside the right end of its curve.
 struct label {
-    int spline;
     float y;
+    enum font font;
+    uint32_t color;
+    const char *text;
 };
 
 static uint32_t spline_color(int spline) { return theme_spline_color[spline < 0 ? 0 : spline % THEME_SPLINE_COLORS]; }
@@ -35,6 +39,11 @@ static void show_ghost(struct editor *editor)
     drawlist_line(&editor->list, xy, ghost->count, 1, theme_fade(THEME_PLAYHEAD, 0.25f));
 }
 
+static bool shows_imaginary(const struct editor *editor, const struct spline *spline)
+{
+    return spline->mode == WIGGLY_COMPLEX && editor->look != LOOK_CUBIC;
+}
+
 /// Lines in painter's order, the active one last.
 static void show_lines(struct editor *editor, const struct editor_world *world)
 {
@@ -50,12 +59,10 @@ static void show_lines(struct editor *editor, const struct editor_world *world)
     if (!spline) return;
     show_ghost(editor);
     for (int i = cache->fan_count - 1; i >= 0; i--) {
-        show_line(editor, cache->fan[i], 1, theme_fade(color, 0.34f - 0.04f * (float)i));
+        show_line(editor, cache->fan[i], 1, theme_fade(color, FAN_NEAR - FAN_STEP * (float)i));
     }
     drawlist_dashed(&editor->list, &cache->equilibrium[0][0], cache->count, 1.25f, 6, 4, THEME_EQUILIBRIUM);
-    if (spline->mode == WIGGLY_COMPLEX && editor->look != LOOK_CUBIC) {
-        show_line(editor, cache->im, 1.25f, theme_fade(color, 0.45f));
-    }
+    if (shows_imaginary(editor, spline)) show_line(editor, cache->im, 1.25f, theme_fade(color, 0.45f));
     show_line(editor, cache->re, 2.5f, color);
 }
 
@@ -158,32 +165,45 @@ static void spread_labels(struct label *labels, int count, float top, float bott
     for (int i = count - 1; i >= 0; i--, limit -= LABEL_STEP) labels[i].y = fminf(labels[i].y, limit);
 }
 
-static void show_labels(struct editor *editor, const struct editor_world *world)
+/// Labels of all curves that are drawn, from the top of the panel down; how many there are.
+static int place_labels(const struct editor *editor, const struct editor_world *world, struct label *labels)
 {
     const struct curve_cache *cache = &editor->cache;
+    const struct spline *active = editor_active_spline(editor, world);
+    int count = 0, end = cache->count - 1;
+    for (int i = 0; i < cache->other_count; i++) {
+        int spline = cache->other_spline[i];
+        insert_label(labels, &count,
+                     (struct label){cache->others[i][end][1], FONT_LABEL, theme_fade(spline_color(spline), 0.8f),
+                                    world->document->splines[spline].name});
+    }
+    if (!active) return count;
+    uint32_t color = spline_color(editor->active);
+    insert_label(labels, &count, (struct label){cache->re[end][1], FONT_LABEL_BOLD, color, active->name});
+    if (shows_imaginary(editor, active)) {
+        insert_label(labels, &count, (struct label){cache->im[end][1], FONT_LABEL, theme_fade(color, 0.6f), "Im"});
+    }
+    return count;
+}
+
+static void show_labels(struct editor *editor, const struct editor_world *world)
+{
     const struct rect *plot = &editor->layout.plot;
     struct label labels[MAX_LABELS];
-    int count = 0;
-    if (cache->count < 2) return;
-    for (int i = 0; i < cache->other_count; i++) {
-        insert_label(labels, &count, (struct label){cache->other_spline[i], cache->others[i][cache->count - 1][1]});
-    }
-    if (editor->active >= 0)
-        insert_label(labels, &count, (struct label){editor->active, cache->re[cache->count - 1][1]});
+    if (editor->cache.count < 2) return;
+    int count = place_labels(editor, world, labels);
     spread_labels(labels, count, plot->y + 8, plot->y + plot->h - 8);
     float x = plot->x + plot->w + 6;
     float width = editor->layout.curves.x + editor->layout.curves.w - 6 - x;
     for (int i = 0; i < count; i++) {
-        bool active = labels[i].spline == editor->active;
-        drawlist_text_fit(&editor->list, x, roundf(labels[i].y + 4), width, active ? FONT_LABEL_BOLD : FONT_LABEL,
-                          THEME_TEXT_SMALL, theme_fade(spline_color(labels[i].spline), active ? 1 : 0.7f),
-                          world->document->splines[labels[i].spline].name);
+        drawlist_text_fit(&editor->list, x, roundf(labels[i].y + 4), width, labels[i].font, THEME_TEXT_SMALL,
+                          labels[i].color, labels[i].text);
     }
 }
 
 static void tag_text(const struct editor *editor, const struct document *document, char text[32])
 {
-    snprintf(text, 32, "%.0f", floor(editor_frame(editor, document) + 1e-9) + 0.0);
+    snprintf(text, 32, "%.0f", round(editor_frame(editor, document)) + 0.0); /* the frame that I would insert at */
 }
 
 struct rect playhead_tag(const struct editor *editor, const struct document *document)
@@ -212,17 +232,27 @@ static void show_playhead(struct editor *editor, const struct document *document
     drawlist_text(&editor->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, THEME_PANEL, text);
 }
 
-/// What to do where there is nothing to edit yet.
+/// What to do where there is nothing to edit yet, and no swing of the equilibrium's that the text would cover.
 static void show_empty(struct editor *editor, const struct editor_world *world)
 {
     const struct spline *spline = editor_active_spline(editor, world);
-    const char *text = !spline                   ? "This scene has no splines. Ctrl+O opens another one."
-                       : spline->knot_count == 0 ? "Double-click to set the first knot."
-                                                 : NULL;
-    if (!text) return;
+    bool flat = spline && spline->knot_count == 0 && spline->parameter[PARAMETER_EQUILIBRIUM].track < 0;
+    if (spline && !flat) return;
+    const char *text =
+        flat ? "Double-click to set the first knot." : "This scene has no splines. Ctrl+O opens another one.";
     const struct rect *plot = &editor->layout.plot;
     float x = plot->x + (plot->w - font_width(FONT_LABEL, THEME_TEXT_NORMAL, text)) / 2;
     drawlist_text(&editor->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, THEME_TEXT_DIM, text);
+}
+
+/// Says above the curves' names that they are not shown as the document has them (V).
+static void show_look(struct editor *editor)
+{
+    static const char *const texts[] = {[LOOK_STIFF] = "Stiff", [LOOK_CUBIC] = "Cubic"};
+    const struct rect *ruler = &editor->layout.ruler;
+    if (editor->look == LOOK_WIGGLY) return;
+    drawlist_text(&editor->list, ruler->x + ruler->w + 6, ruler->y + 15, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
+                  THEME_TEXT, texts[editor->look]);
 }
 
 void curves_show(struct editor *editor, const struct editor_world *world)
@@ -235,6 +265,7 @@ void curves_show(struct editor *editor, const struct editor_world *world)
     show_knots(editor, world);
     show_empty(editor, world);
     drawlist_set_clip(&editor->list, panel);
+    show_look(editor);
     show_labels(editor, world);
     show_playhead(editor, world->document);
     drawlist_set_clip(&editor->list, clip);

@@ -177,6 +177,7 @@ static bool path_key(struct editor *editor, int key)
         move_choice(dialog, 1);
         return true;
     case KEY_ENTER:
+        if (dialog->kind == DIALOG_OPEN && dialog->match_count == 1) dialog->choice = 0;
         if (dialog->choice < 0 || dialog_take(dialog, dialog->choice)) confirm(editor);
         return true;
     default:

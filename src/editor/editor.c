@@ -101,6 +101,7 @@ void editor_open(struct editor *editor, const struct editor_world *world, const 
     editor->active = first_spline(document);
     editor->held_key = 0;
     editor->space_down = false;
+    editor->message = (struct message){0};
     editor->playback = (struct playback){.looping = true};
     for (int s = 0; s < document->spline_count; s++) {
         editor->playback.playing |= document->splines[s].start == WIGGLY_LOOP;
@@ -205,6 +206,11 @@ void editor_activate(struct editor *editor, const struct editor_world *world, in
     if (spline == editor->active || spline < 0 || spline >= world->document->spline_count) return;
     editor->active = spline;
     selection_clear(&editor->selection);
+    int tail, channel;
+    const struct channel *moved = active_channel(editor, world->document, &tail, &channel);
+    if (!moved || moved->spline != spline) return;
+    editor->inspector.tail = tail;
+    editor->inspector.channel = channel;
 }
 
 void editor_set_look(struct editor *editor, enum look look)

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 /// As in the platform's enum cursor.
-enum pointer_shape { SHAPE_ARROW, SHAPE_HAND, SHAPE_HORIZONTAL, SHAPE_VERTICAL, SHAPE_MOVE };
+enum pointer_shape { SHAPE_ARROW, SHAPE_HAND, SHAPE_HORIZONTAL, SHAPE_VERTICAL, SHAPE_MOVE, SHAPE_TEXT };
 
 static void press(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
@@ -152,10 +152,14 @@ int editor_cursor(const struct editor *editor)
         [HOVER_NONE] = SHAPE_ARROW, [HOVER_KNOT] = SHAPE_MOVE,        [HOVER_SLOPE] = SHAPE_MOVE,
         [HOVER_CURVE] = SHAPE_HAND, [HOVER_RULER] = SHAPE_HORIZONTAL, [HOVER_JOINT] = SHAPE_HAND,
     };
-    if (editor->dialog.kind != DIALOG_NONE || editor->help.open) return SHAPE_ARROW;
+    static const enum pointer_shape of_widget[] = {
+        [UI_OVER_NOTHING] = SHAPE_ARROW, [UI_OVER_NUMBER] = SHAPE_HORIZONTAL, [UI_OVER_TEXT] = SHAPE_TEXT};
+    if (editor->dialog.kind != DIALOG_NONE) return of_widget[editor->dialog.ui.over];
+    if (editor->help.open) return SHAPE_ARROW;
     if (editor->drag.kind != DRAG_NONE) return of_drag[editor->drag.kind];
     enum drag_kind divider = divider_at(editor, editor->pointer_x, editor->pointer_y);
     if (divider != DRAG_NONE) return of_drag[divider];
+    if (editor->inspector.ui.over != UI_OVER_NOTHING) return of_widget[editor->inspector.ui.over];
     if (editor->hover.kind == HOVER_CURVE && editor->hover.spline == editor->active) return SHAPE_ARROW;
     return of_hover[editor->hover.kind];
 }

@@ -100,9 +100,10 @@ void inspector_knot(struct inspection *in)
 {
     struct ui *ui = in->ui;
     const struct spline *spline = editor_active_spline(in->editor, in->world);
+    if (!spline) return;
     if (!ui_section(ui, "section.knot", "Knot", &in->editor->inspector.closed[SECTION_KNOT])) return;
-    int count = spline ? selection_count(&in->editor->selection, spline) : 0;
-    int single = spline ? selection_single(&in->editor->selection, spline) : -1;
+    int count = selection_count(&in->editor->selection, spline);
+    int single = selection_single(&in->editor->selection, spline);
     if (count > 1) {
         char text[64];
         snprintf(text, sizeof text, "%d knots selected.", count);

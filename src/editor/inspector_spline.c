@@ -208,11 +208,8 @@ void inspector_spline(struct inspection *in)
 {
     struct ui *ui = in->ui;
     struct spline *spline = editor_active_spline(in->editor, in->world);
+    if (!spline) return;
     if (!ui_section(ui, "section.spline", "Spline", &in->editor->inspector.closed[SECTION_SPLINE])) return;
-    if (!spline) {
-        ui_paragraph(ui, "No spline is chosen.", THEME_TEXT_DIM);
-        return;
-    }
     build_mode(in, spline);
     ui_space(ui, 4);
     bool pair = spline->mode == WIGGLY_REAL && spline->spring_friction;

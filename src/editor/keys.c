@@ -102,7 +102,9 @@ static void run_loop(struct editor *e, const struct editor_world *w, int argumen
 
 static void run_frame(struct editor *e, const struct editor_world *w, int argument)
 {
-    if (argument) {
+    if (!argument && rect_contains(e->layout.stage, e->pointer_x, e->pointer_y)) {
+        stage_fit(e, w);
+    } else if (argument) {
         view_frame_selection(e, w);
     } else {
         view_frame_all(e, w);

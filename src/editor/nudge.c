@@ -125,9 +125,8 @@ void toggle_slope(struct editor *editor, const struct editor_world *world)
     change_knots(editor, world, &change);
 }
 
-/// The channel that the active spline moves; the first of all where it moves none.
-static const struct channel *active_channel(const struct editor *editor, const struct document *document, int *tail,
-                                            int *channel)
+const struct channel *active_channel(const struct editor *editor, const struct document *document, int *tail,
+                                     int *channel)
 {
     const struct channel *first = NULL;
     for (int t = document->tail_count - 1; t >= 0; t--) {

@@ -37,8 +37,8 @@ bool inspector_target(struct editor *editor, const struct editor_world *world, c
 
 /// The right end of the status line; zero is a valid start.
 struct status {
-    double age;    ///< seconds since `text` was made
-    char text[48]; ///< made of the editor's fps and solve_us
+    double age;           ///< seconds since the figures were taken over
+    double fps, solve_us; ///< as shown
 };
 
 /// Time passes (editor_advance): the figures change at most twice a second, so that they cost no redraws.

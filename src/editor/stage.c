@@ -116,10 +116,12 @@ void stage_show(struct editor *editor)
     const struct stage_view *view = &editor->stage;
     struct rect clip = drawlist_push_clip(&editor->list, view->viewport);
     if (view->tail_count == 0) {
-        const char *text = "This scene moves no tail: its curves are below.";
-        float x = view->viewport.x + (view->viewport.w - font_width(FONT_LABEL, THEME_TEXT_NORMAL, text)) / 2;
-        drawlist_text(&editor->list, x, view->viewport.y + view->viewport.h / 2, FONT_LABEL, THEME_TEXT_NORMAL,
-                      THEME_TEXT_DIM, text);
+        const char *text =
+            editor->active < 0 ? "This scene is empty." : "This scene moves no tail: its curves are below.";
+        float room = view->viewport.w - 16, width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, text);
+        float x = view->viewport.x + 8 + fmaxf(room - width, 0) / 2;
+        drawlist_text_fit(&editor->list, x, view->viewport.y + view->viewport.h / 2, room, FONT_LABEL,
+                          THEME_TEXT_NORMAL, THEME_TEXT_DIM, text);
     }
     show_hold(editor);
     drawlist_set_clip(&editor->list, clip);

@@ -191,7 +191,8 @@ struct edit editor_edit_of(enum edit_kind kind, int spline);
 /// Queues a request to the app; `path` may be NULL.
 void editor_request(struct editor *editor, enum request_kind kind, const char *path);
 
-/// The active spline, or NULL. editor_activate() also drops the selection.
+/// The active spline, or NULL. editor_activate() also drops the selection and
+/// shows the tail's channel that it moves.
 struct spline *editor_active_spline(const struct editor *editor, const struct editor_world *world);
 void editor_activate(struct editor *editor, const struct editor_world *world, int spline);
 

@@ -13,17 +13,13 @@ void status_advance(struct editor *editor, double dt)
 {
     struct status *status = &editor->status;
     status->age += dt;
-    if (status->text[0] && status->age < REFRESH) return;
+    if (status->fps > 0 && status->age < REFRESH) return;
     status->age = 0;
-    if (!(editor->fps > 0)) return;
-    if (editor->solve_us < SOLVED) {
-        snprintf(status->text, sizeof status->text, "%.0f fps", editor->fps);
-    } else {
-        snprintf(status->text, sizeof status->text, "%.0f fps  solve %.0f µs", editor->fps, editor->solve_us);
-    }
+    status->fps = editor->fps;
+    status->solve_us = editor->solve_us;
 }
 
-static const char *hover_hint(const struct editor *editor)
+static const char *hover_hint(const struct editor *editor, const struct document *document)
 {
     switch (editor->hover.kind) {
     case HOVER_KNOT:
@@ -31,7 +27,7 @@ static const char *hover_hint(const struct editor *editor)
     case HOVER_SLOPE:
         return "Drag to turn the slope; T takes it away";
     case HOVER_CURVE:
-        return "Click to edit this spline; double-click to insert a knot";
+        return editor->hover.spline == editor->active ? "Double-click to insert a knot" : "Click to edit this spline";
     case HOVER_RULER:
         return "Drag to scrub";
     case HOVER_JOINT:
@@ -39,6 +35,8 @@ static const char *hover_hint(const struct editor *editor)
     case HOVER_NONE:
         break;
     }
+    if (document->spline_count == 0) return "Ctrl+O opens a scene.  F1 shows all keys";
+    if (document->tail_count == 0) return "Drag a knot.  Space plays, F1 shows all keys";
     return "Drag a knot, or pull the tail.  Space plays, F1 shows all keys";
 }
 
@@ -66,7 +64,7 @@ static float show_time(struct editor *editor, const struct document *document, s
 {
     char text[64];
     double frame = editor_frame(editor, document);
-    snprintf(text, sizeof text, "%5.0f  %6.2f s", floor(frame), frame / document->fps);
+    snprintf(text, sizeof text, "%5.0f  %6.2f s", round(frame), frame / document->fps);
     paint_play_state(&editor->list, bar.x + 12, bar.y + bar.h / 2, editor->playback.playing);
     float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
     paint_text(&editor->list, (struct rect){bar.x + 28, bar.y, width, bar.h}, FONT_NUMBER, THEME_TEXT, text);
@@ -85,6 +83,16 @@ static float show_title(struct editor *editor, const struct editor_world *world,
     return x + width;
 }
 
+/// Frames a second only while it plays: at rest frames come as events do, and their number would say nothing.
+static void figures_text(const struct editor *editor, char *text, size_t size)
+{
+    const struct status *status = &editor->status;
+    char fps[24] = "", solve[32] = "";
+    if (editor->playback.playing && status->fps > 0) snprintf(fps, sizeof fps, "%.0f fps", status->fps);
+    if (status->solve_us >= SOLVED) snprintf(solve, sizeof solve, "solve %.0f µs", status->solve_us);
+    snprintf(text, size, "%s%s%s", fps, fps[0] && solve[0] ? "  " : "", solve);
+}
+
 void status_show(struct editor *editor, const struct editor_world *world)
 {
     enum { GAP = 24 };
@@ -94,12 +102,13 @@ void status_show(struct editor *editor, const struct editor_world *world)
     drawlist_rect(&editor->list, (struct rect){bar.x, bar.y, bar.w, 1}, THEME_BORDER);
     float x = show_time(editor, world->document, bar) + GAP;
     x = show_title(editor, world, bar, x) + GAP;
-    const char *figures = editor->status.text;
+    char figures[64];
+    figures_text(editor, figures, sizeof figures);
     float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
     float right = bar.x + bar.w - 12 - width;
     paint_text(&editor->list, (struct rect){right, bar.y, width, bar.h}, FONT_NUMBER, THEME_TEXT_DIM, figures);
     const char *hint = inspector_hint(editor);
-    const char *text = message->text[0] ? message->text : hint ? hint : hover_hint(editor);
+    const char *text = message->text[0] ? message->text : hint ? hint : hover_hint(editor, world->document);
     uint32_t color = !message->text[0] ? THEME_TEXT_DIM : message->is_error ? THEME_ERROR : THEME_TEXT;
     struct rect middle = {x, bar.y, right - GAP - x, bar.h};
     if (middle.w > 40) paint_text(&editor->list, middle, FONT_LABEL, color, text);

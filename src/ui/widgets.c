@@ -36,6 +36,7 @@ void ui_begin_draw(struct ui *ui, struct rect area, struct drawlist *list)
     ui->list = list;
     ui->list_clip = drawlist_push_clip(list, area);
     ui->hint = NULL;
+    ui->over = UI_OVER_NOTHING;
 }
 
 void ui_begin_find(struct ui *ui, struct rect area, const char *name, const double *value)

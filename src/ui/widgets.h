@@ -22,6 +22,9 @@ enum {
     UI_TEXT_SIZE = 1024,
 };
 
+/// What the pointer is over, for its shape.
+enum ui_over { UI_OVER_NOTHING, UI_OVER_NUMBER, UI_OVER_TEXT };
+
 enum ui_pass { UI_PASS_EVENT, UI_PASS_DRAW, UI_PASS_FIND };
 
 /// A line of text being typed.
@@ -58,6 +61,7 @@ struct ui {
     double anchor_value;
     float pointer_x, pointer_y;
     const char *hint;    ///< of the widget that the pointer is over; NULL: none
+    enum ui_over over;   ///< as of the last frame drawn
     char complaint[160]; ///< why what was typed was refused; the caller shows and clears it
 
     enum ui_pass pass;

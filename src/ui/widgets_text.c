@@ -164,6 +164,7 @@ bool ui_text_field(struct ui *ui, struct rect r, const char *name)
     bool active = ui->focus == id;
     if (ui->pass == UI_PASS_EVENT && !ui->used && active) ui->used = ui_text_event(&ui->text, ui->event, &changed);
     if (ui->pass != UI_PASS_DRAW) return changed;
+    if (ui_hovered(ui, r)) ui->over = UI_OVER_TEXT;
     drawlist_rounded(ui->list, r, UI_RADIUS, THEME_RAISED);
     drawlist_rounded_line(ui->list, r, UI_RADIUS, active ? 1.5f : 1.0f, active ? THEME_ACCENT : THEME_ZERO);
     ui_paint_text(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, &ui->text, FONT_LABEL, THEME_TEXT_NORMAL, active);

@@ -253,13 +253,28 @@ static float part_of(const struct ui_number *number, double value)
     return (float)fmax(0, fmin(1, part));
 }
 
-/// Filled from 0 to the value, which need not begin at the left end. The handle is a notch where the text, `text_width` wide
-/// at the right, would be struck through.
+/// A bar with 0 inside would end in the middle of the text: it is a strip below it, with a mark at 0.
+static void paint_strip(struct ui *ui, struct rect field, float zero, float at, bool hot)
+{
+    const float height = 2;
+    struct rect strip = {field.x + fminf(at, zero), field.y + field.h - height, fabsf(at - zero), height};
+    drawlist_rect(ui->list, strip, hot ? THEME_ACCENT : theme_fade(THEME_TEXT_DIM, 0.5f));
+    float x = field.x + fmaxf(0, fminf(at - 1, field.w - 2));
+    drawlist_rect(ui->list, (struct rect){x, strip.y - 2, 2, height + 2}, hot ? THEME_ACCENT : THEME_TEXT);
+    drawlist_rect(ui->list, (struct rect){field.x + zero - 0.5f, strip.y - 1, 1, height + 1}, THEME_TEXT_DIM);
+}
+
+/// Filled from the left end to the value. The handle is a notch where the text, `text_width` wide at the right, would be
+/// struck through.
 static void paint_bar(struct ui *ui, struct rect field, const struct ui_number *number, double value,
                       float text_width, bool hot, bool held)
 {
-    float at = field.w * part_of(number, value), zero = field.w * part_of(number, 0);
-    struct rect filled = {field.x + fminf(at, zero), field.y, fabsf(at - zero), field.h};
+    float at = field.w * part_of(number, value);
+    if (number->minimum < 0) {
+        paint_strip(ui, field, field.w * part_of(number, 0), at, held || hot);
+        return;
+    }
+    struct rect filled = {field.x, field.y, at, field.h};
     struct rect old = drawlist_push_clip(ui->list, filled);
     uint32_t fill = held ? theme_fade(THEME_ACCENT, 0.35f) : hot ? UI_HOVER : UI_FILL;
     drawlist_rounded(ui->list, field, UI_RADIUS, fill);
@@ -276,6 +291,7 @@ static void paint(struct ui *ui, struct rect r, struct rect field, uint32_t id, 
 {
     bool held = ui->held == id && ui->moved, typing = ui->typing == id;
     bool hot = ui_hovered(ui, field) && ui->held == 0;
+    if (hot || ui->held == id) ui->over = typing ? UI_OVER_TEXT : UI_OVER_NUMBER;
     if (number->label) {
         struct rect label = {r.x, r.y, field.x - r.x - UI_GAP, r.h};
         ui_label(ui, label, number->label, hot || held || ui->focus == id ? THEME_TEXT : THEME_TEXT_DIM);
