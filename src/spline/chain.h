@@ -56,9 +56,11 @@ typedef struct chain {
     start_cost start;    ///< times calm; on the first node
     chain_powers powers;
     cplx_array forced[2]; ///< (first row of W_i F*^{L−i}) for each stretch, i = 0 … L − 1
-    int *stretch_of;      ///< index of the stretch of each length, or -1
+    int *stretch_of;      ///< 1 + index of the stretch of each length, 0 where there is none yet
     chain_stretch *stretches;
-    int stretch_count;
+    int stretch_count, stretch_capacity;
+    int powers_count, powers_capacity; ///< k for which there are powers; room for that many, and as many of `forced`
+    int forced_count;
     chain_node *nodes;
     int node_count;
     chain_row *rows;
@@ -70,6 +72,9 @@ typedef struct chain {
 /// Solves for the nodes and writes x of every sample of the system (x_im NULL outside complex mode). Where `kept` is set, only
 /// values have changed since the last solve and its factor is used again. false where the nodes' system has lost so many digits that its answer is not to be taken.
 bool chain_solve(chain *chain, double *x_re, double *x_im);
+
+/// Forgets tables and factor: another filter, or their memory was used for something else.
+void chain_forget(chain *chain);
 
 /// The steps of chain_solve().
 void chain_make_tables(chain *chain);

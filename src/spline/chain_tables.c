@@ -9,30 +9,35 @@ static void set_entry(const cplx_array *a, int k, bool is_complex, cplx value)
     if (is_complex) a->im[k] = value.im;
 }
 
-/// Tables F^k and W_k up to `longest`: F^{k+1} = F F^k, W_{k+1} = F W_k F* + B B*.
-static void make_powers(const chain *c, int longest)
+/// Tables F^k and W_k up to `longest`, from where they end now: F^{k+1} = F F^k, W_{k+1} = F W_k F* + B B*.
+static void extend_powers(chain *c, int longest)
 {
     const chain_powers *t = &c->powers;
     bool z = c->is_complex;
     const cplx l = c->lambda, d = c->delta2, ls = cplx_conj(l), ds = cplx_conj(d);
-    cplx f00 = {1, 0}, f01 = {0, 0}, f10 = {0, 0}, f11 = {1, 0}, w01 = {0, 0};
-    double w00 = 0, w11 = 0;
-    for (int k = 0; k <= longest; k++) {
+    for (int k = c->powers_count; k <= longest; k++) {
+        cplx f00 = {1, 0}, f01 = {0, 0}, f10 = {0, 0}, f11 = {1, 0}, w01 = {0, 0};
+        double w00 = 0, w11 = 0;
+        if (k > 0) {
+            cplx g00 = entry(&t->f00, k - 1, z), g01 = entry(&t->f01, k - 1, z);
+            cplx g10 = entry(&t->f10, k - 1, z), g11 = entry(&t->f11, k - 1, z);
+            f00 = cplx_add(cplx_mul(l, g00), g10), f01 = cplx_add(cplx_mul(l, g01), g11);
+            f10 = cplx_add(cplx_mul(d, g00), cplx_mul(l, g10)), f11 = cplx_add(cplx_mul(d, g01), cplx_mul(l, g11));
+            cplx v01 = entry(&t->w01, k - 1, z), v10 = cplx_conj(v01); // rows of F W, then times F*
+            double v00 = t->w00[k - 1], v11 = t->w11[k - 1];
+            cplx a0 = cplx_add(cplx_scale(v00, l), v10), a1 = cplx_add(cplx_mul(l, v01), (cplx){v11, 0});
+            cplx b0 = cplx_add(cplx_scale(v00, d), cplx_mul(l, v10));
+            cplx b1 = cplx_add(cplx_mul(d, v01), cplx_scale(v11, l));
+            w00 = cplx_mul(a0, ls).re + a1.re;
+            w01 = cplx_add(cplx_mul(a0, ds), cplx_mul(a1, ls));
+            w11 = cplx_mul(b0, ds).re + cplx_mul(b1, ls).re + 1;
+        }
         set_entry(&t->f00, k, z, f00), set_entry(&t->f01, k, z, f01);
         set_entry(&t->f10, k, z, f10), set_entry(&t->f11, k, z, f11);
         set_entry(&t->w01, k, z, w01);
         t->w00[k] = w00, t->w11[k] = w11;
-        cplx g00 = cplx_add(cplx_mul(l, f00), f10), g01 = cplx_add(cplx_mul(l, f01), f11);
-        f10 = cplx_add(cplx_mul(d, f00), cplx_mul(l, f10));
-        f11 = cplx_add(cplx_mul(d, f01), cplx_mul(l, f11));
-        f00 = g00, f01 = g01;
-        cplx w10 = cplx_conj(w01); // rows of F W, then times F*
-        cplx a0 = cplx_add(cplx_scale(w00, l), w10), a1 = cplx_add(cplx_mul(l, w01), (cplx){w11, 0});
-        cplx b0 = cplx_add(cplx_scale(w00, d), cplx_mul(l, w10)), b1 = cplx_add(cplx_mul(d, w01), cplx_scale(w11, l));
-        w00 = cplx_mul(a0, ls).re + a1.re;
-        w01 = cplx_add(cplx_mul(a0, ds), cplx_mul(a1, ls));
-        w11 = cplx_mul(b0, ds).re + cplx_mul(b1, ls).re + 1;
     }
+    if (c->powers_count <= longest) c->powers_count = longest + 1;
 }
 
 /// V = W⁻¹, C = V F, P = F* V F at the stretch's length, and its table of forced columns.
@@ -64,25 +69,43 @@ static void make_stretch(const chain *c, chain_stretch *s)
     }
 }
 
+static void forget_stretches(chain *c)
+{
+    for (int s = 0; s < c->stretch_count; s++) c->stretch_of[c->stretches[s].length] = 0;
+    c->stretch_count = c->forced_count = 0;
+}
+
+void chain_forget(chain *c)
+{
+    forget_stretches(c);
+    c->powers_count = 0;
+    c->kept = false;
+}
+
+/// The stretch of a length, made where it is not there yet; -1 where there is no room for it.
+static int find_stretch(chain *c, int length)
+{
+    if (c->stretch_of[length] > 0) return c->stretch_of[length] - 1;
+    if (c->stretch_count == c->stretch_capacity || c->forced_count + length > c->powers_capacity) return -1;
+    extend_powers(c, length);
+    chain_stretch *s = &c->stretches[c->stretch_count++];
+    *s = (chain_stretch){.length = length, .first = c->forced_count};
+    c->forced_count += length;
+    make_stretch(c, s);
+    c->stretch_of[length] = c->stretch_count;
+    return c->stretch_count - 1;
+}
+
 void chain_make_tables(chain *c)
 {
-    int longest = 0, used = 0;
-    c->stretch_count = 0;
     for (int j = 0; j + 1 < c->node_count; j++) {
-        int length = c->nodes[j + 1].sample - c->nodes[j].sample;
-        longest = length > longest ? length : longest;
-    }
-    for (int k = 0; k <= longest; k++) c->stretch_of[k] = -1;
-    make_powers(c, longest);
-    for (int j = 0; j + 1 < c->node_count; j++) {
-        int length = c->nodes[j + 1].sample - c->nodes[j].sample;
-        if (c->stretch_of[length] < 0) {
-            c->stretch_of[length] = c->stretch_count;
-            chain_stretch *s = &c->stretches[c->stretch_count++];
-            *s = (chain_stretch){.length = length, .first = used};
-            used += length;
-            make_stretch(c, s);
+        int stretch = find_stretch(c, c->nodes[j + 1].sample - c->nodes[j].sample);
+        if (stretch <
+            0) { // full of lengths of earlier solves; those of this one fit, their sum is at most the domain
+            forget_stretches(c);
+            j = -1;
+        } else {
+            c->nodes[j].stretch = stretch;
         }
-        c->nodes[j].stretch = c->stretch_of[length];
     }
 }

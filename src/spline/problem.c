@@ -7,13 +7,13 @@
 static const double least_phase = 16;
 
 /// No slope may act between two nodes: on a knot beside the one before, or on the last sample.
-bool problem_fits_chain(const wiggly_solver *solver, const problem *p)
+bool problem_fits_chain(wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
     const system_rows *rows = &solver->rows;
     if (rows->loop || p->level || !poles_are_constant(desc) || desc->equilibrium.track) return false;
     double t = (rows->count - 1) * desc->step;
-    if (rows->is_complex && poles_at(desc, 0, 0).natural * t < least_phase) return false;
+    if (rows->is_complex && solver_filter(solver, desc)->at.natural * t < least_phase) return false;
     for (int n = 0; n < desc->knot_count; n++) {
         const wiggly_knot *knot = &desc->knots[solver->order[n]];
         bool beside = n > 0 && desc->knots[solver->order[n - 1]].sample == knot->sample - 1;
@@ -62,22 +62,23 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
 
 static bool same_cplx(cplx a, cplx b) { return a.re == b.re && a.im == b.im; }
 
-/// Sets the filter; true where it is the one that was there.
-static bool set_chain(wiggly_solver *solver, const problem *p)
+static bool same_start(start_cost a, start_cost b) { return a.h00 == b.h00 && a.d == b.d && same_cplx(a.e, b.e); }
+
+/// Sets filter and start, and forgets what was made for another.
+static void set_chain(wiggly_solver *solver, const problem *p)
 {
     chain *c = &solver->chain;
     const system_rows *rows = &solver->rows;
-    chain now = *c;
-    poles at = poles_at(p->desc, 0, 0);
-    now.is_complex = rows->is_complex;
-    now.count = rows->count;
-    now.start = rows->start;
-    poles_mean(&at, p->desc->step, &now.lambda, &now.delta2);
-    bool same = now.is_complex == c->is_complex && same_cplx(now.lambda, c->lambda) &&
-                same_cplx(now.delta2, c->delta2) && now.start.h00 == c->start.h00 && now.start.d == c->start.d &&
-                same_cplx(now.start.e, c->start.e);
-    *c = now;
-    return same;
+    const constant_filter *f = solver_filter(solver, p->desc);
+    bool same =
+        rows->is_complex == c->is_complex && same_cplx(f->lambda, c->lambda) && same_cplx(f->delta2, c->delta2);
+    if (!same) chain_forget(c);
+    if (!same_start(rows->start, c->start)) c->kept = false;
+    c->is_complex = rows->is_complex;
+    c->count = rows->count;
+    c->start = rows->start;
+    c->lambda = f->lambda;
+    c->delta2 = f->delta2;
 }
 
 /// 0·x is NaN for what is not finite; eight sums at once, so that none waits for the last.
@@ -96,8 +97,9 @@ static bool all_finite(const double *x, int count)
 bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, double *x_im)
 {
     chain *c = &solver->chain;
-    bool same_filter = set_chain(solver, p), same_nodes = make_nodes(solver, p);
-    c->kept = c->kept && same_filter && same_nodes;
+    set_chain(solver, p);
+    bool same_nodes = make_nodes(solver, p);
+    c->kept = c->kept && same_nodes;
     if (c->node_count < 2 && !(c->start.h00 > 0)) return false;
     if (!chain_solve(c, x_re, c->is_complex ? x_im : NULL)) return false;
     return all_finite(x_re, c->count) && (!c->is_complex || all_finite(x_im, c->count));

@@ -7,9 +7,6 @@
 /// A slope row heavier than this is met to the last digit anyway, and could overflow.
 #define STIFFEST 1e20
 
-/// The least damping ratio of the start's cost, and times calm of a loop.
-#define LEAST_DAMPING 0.05
-
 /// One solve in progress: the description with the rules of the start applied.
 typedef struct problem {
     const wiggly_desc *desc;
@@ -23,7 +20,7 @@ typedef struct problem {
 } problem;
 
 /// Whether the document is one for the chain: constant parameters, a constant equilibrium, no seam.
-bool problem_fits_chain(const wiggly_solver *solver, const problem *p);
+bool problem_fits_chain(wiggly_solver *solver, const problem *p);
 
 /// Solves by the chain: x of the system, M numbers each (x_im in complex mode). false where it declines: one knot without any
 /// hold, digits lost, or a number that is not finite.

@@ -5,11 +5,26 @@
 #include "spline/chain.h"
 #include "spline/system.h"
 
+/// The least damping ratio of the start's cost, and times calm of a loop.
+#define LEAST_DAMPING 0.05
+
+/// What constant parameters come to; computed anew only when they change.
+typedef struct constant_filter {
+    bool known;
+    wiggly_mode mode;
+    bool spring_friction;
+    double parameter[5], step; ///< frequency, damping, bandwidth, spring, friction
+    poles at;
+    start_cost start; ///< at calm 1
+    cplx lambda, delta2;
+} constant_filter;
+
 struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
     system_rows rows;
     pentadiagonal matrix;
+    constant_filter filter;
     chain chain;  ///< its large arrays lie over the matrix's: a solve uses one of the two
     int *order;   ///< indices of the description's knots by sample
     int *knot_at; ///< scratch: index of the knot on each sample, or -1
@@ -31,7 +46,10 @@ minimum solver_minimise(wiggly_solver *solver);
 /// other solvers. `y` receives the equilibrium, N numbers. WIGGLY_OK, or what is wrong with the description.
 wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, double *y);
 
-/// Forgets the factor that is kept for the case that only values change: the next solve is a whole one. Changes no result.
+/// The filter of a description without pole tracks.
+const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc);
+
+/// Forgets everything that is kept for the case that little changes: the next solve is a whole one. Changes no result.
 void solver_forget(wiggly_solver *solver);
 
 /// x of a spline that nothing constrains and that starts from rest: the filter run forward (r_i = 0, Figure 5).

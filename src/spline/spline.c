@@ -107,7 +107,7 @@ static double y_at(const problem *p, const system_rows *rows, int k)
 /// Coefficients, drive and imaginary weights of every row.
 static void set_filter(wiggly_solver *solver, const problem *p)
 {
-    solver->chain.kept = false; // its tables lie where the matrix will be
+    chain_forget(&solver->chain); // its tables lie where the matrix will be
     system_rows *rows = &solver->rows;
     double floor = rows->loop ? LEAST_DAMPING * p->calm : 0;
     bool constant = poles_are_constant(p->desc), weighted = p->start != WIGGLY_REST || p->desc->knot_count > 0;
@@ -146,8 +146,12 @@ static void set_start(wiggly_solver *solver, problem *p)
     start_cost *start = &solver->rows.start;
     *start = (start_cost){0};
     if (p->start == WIGGLY_FREE) {
-        poles at = poles_at(p->desc, p->first, LEAST_DAMPING);
-        *start = poles_start_cost(&at, p->desc->step);
+        if (poles_are_constant(p->desc)) {
+            *start = solver_filter(solver, p->desc)->start;
+        } else {
+            poles at = poles_at(p->desc, p->first, LEAST_DAMPING);
+            *start = poles_start_cost(&at, p->desc->step);
+        }
         start->h00 *= p->calm;
         start->d *= p->calm;
     }
@@ -313,7 +317,7 @@ static bool is_still(const problem *p)
 }
 
 /// What follows from x: samples outside the system, the total, the band's centre.
-static void complete(const wiggly_solver *solver, const problem *p, wiggly_curve *curve)
+static void complete(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     const system_rows *rows = &solver->rows;
     const wiggly_desc *desc = p->desc;
@@ -324,8 +328,9 @@ static void complete(const wiggly_solver *solver, const problem *p, wiggly_curve
     for (int i = 0; i < n; i++) curve->total[i] = curve->y[i] + curve->re[i];
     for (int k = 0; k < desc->knot_count; k++) curve->total[desc->knots[k].sample] = desc->knots[k].value;
     if (rows->loop) curve->total[n - 1] = curve->total[0];
-    double floor = rows->loop ? LEAST_DAMPING * p->calm : 0, omega = poles_at(desc, 0, floor).centre;
+    double floor = rows->loop ? LEAST_DAMPING * p->calm : 0;
     bool constant = poles_are_constant(desc);
+    double omega = constant && !rows->loop ? solver_filter(solver, desc)->at.centre : poles_at(desc, 0, floor).centre;
     for (int i = 0; i < n; i++) curve->omega[i] = constant ? omega : poles_at(desc, i, floor).centre;
     curve->samples = n;
     curve->step = desc->step;
