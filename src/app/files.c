@@ -16,7 +16,7 @@ static const char built_in_scene[] = "scenes/tail.json";
 static const char new_scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1,"
     " \"knots\": [{\"frame\": 0, \"value\": 0}]}],"
-    " \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.35, 0], \"spline\": \"sway\"}]}";
+    " \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], \"rest\": 2, \"spline\": \"sway\"}]}";
 
 static const char *file_name(const char *path)
 {
@@ -80,6 +80,7 @@ static bool save(struct app *app, const char *path, struct error *error)
     history_mark_saved(app->history);
     editor_set_title(app->editor, shown_name(app), true);
     show_title(app);
+    editor_message(app->editor, false, "Saved.");
     return true;
 }
 
@@ -114,7 +115,7 @@ static bool take_picture(struct app *app, struct error *error)
     } while (stat(path, &status) == 0 && number < 9999);
     if (!app_screenshot(app, path, error)) return false;
     char text[1200];
-    snprintf(text, sizeof text, "saved %s", path);
+    snprintf(text, sizeof text, "Saved %s.", path);
     editor_message(app->editor, false, text);
     return true;
 }

@@ -86,4 +86,10 @@ void chain_solve_nodes(chain *chain);
 /// be 0.
 void chain_gradient(chain *chain, bool exact);
 
+/// x inside a stretch, from its first sample: four columns of the tables, weighted with the state (x, d) that it starts from and
+/// the costate ν of where it ends. Chosen for the processor's vector width at run time.
+void chain_fill_complex(const chain *chain, const chain_stretch *stretch, const cplx weight[4], double *restrict re,
+                        double *restrict im);
+void chain_fill_real(const chain *chain, const chain_stretch *stretch, const cplx weight[4], double *restrict re);
+
 #endif
