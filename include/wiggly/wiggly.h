@@ -89,7 +89,8 @@ typedef struct wiggly_desc {
 /// Bandwidth 0.1, calm 1, complex, free, step 1/24; everything else 0.
 wiggly_desc wiggly_default_desc(void);
 
-/// A solved spline: the caller's arrays of N numbers each, filled by wiggly_solve().
+/// A solved spline: the caller's arrays of N numbers each, filled by wiggly_solve(). Arrays that are NULL are not filled;
+/// wiggly_evaluate() needs all but total.
 typedef struct wiggly_curve {
     double *total; ///< y + Re x; at knots exactly the knot's value
     double *y;     ///< equilibrium
@@ -122,6 +123,21 @@ void wiggly_destroy(wiggly_solver *solver);
 
 /// Solves one spline, O(samples), allocating nothing. Deterministic: the same description gives the same bits.
 wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve);
+
+/// Many splines at once, over threads of its own.
+typedef struct wiggly_batch wiggly_batch;
+
+/// For splines of up to `samples` samples and `knots` knots each; `threads` counts the caller's, at least 1.
+/// WIGGLY_ERROR_ARGUMENT, WIGGLY_ERROR_MEMORY.
+wiggly_status wiggly_batch_create(int samples, int knots, int threads, wiggly_batch **batch);
+
+/// Solves desc[i] into curve[i] for i in 0 … count − 1, allocating nothing; status[i] (or NULL) is what wiggly_solve() would have
+/// said, and the curves are the same to the last bit, whatever the number of threads. Returns the largest status.
+wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, wiggly_curve *curve,
+                                 wiggly_status *status, int count);
+
+/// Ends the threads and frees; NULL is fine.
+void wiggly_batch_destroy(wiggly_batch *batch);
 
 /// What a curve is at a time, in parts.
 typedef struct wiggly_value {

@@ -20,30 +20,35 @@ enum { MAX_SWEEPS = 30 };
 static const double refined = 1e-13;   ///< of the largest unknown
 static const double acceptable = 1e-6; ///< of the same: still a curve to show, though one that is said to be inexact
 
-/// Fills the samples from node p to before node q.
-static void fill_stretch(const chain *c, const chain_node *p, const chain_node *q, double *x_re, double *x_im)
+/// Whether sums of tabled columns, none of them above 1e25, weighted with z stay finite.
+static bool is_tame(cplx z) { return fabs(z.re) < 1e250 && fabs(z.im) < 1e250; }
+
+/// Fills the samples from node p to before node q; false where they might overflow.
+static bool fill_stretch(const chain *c, const chain_node *p, const chain_node *q, double *x_re, double *x_im)
 {
     const chain_stretch *s = &c->stretches[p->stretch];
-    cplx xp = {p->value, p->x_im}, ep = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, eq = {q->d_re, q->d_im};
+    cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, dq = {q->d_re, q->d_im};
     cplx weight[4] = {
         xp,
-        ep,
-        cplx_sub(cplx_add(cplx_scale(s->v00, xq), cplx_mul(s->v01, eq)),
-                 cplx_add(cplx_mul(s->c00, xp), cplx_mul(s->c01, ep))),
-        cplx_sub(cplx_add(cplx_mul(cplx_conj(s->v01), xq), cplx_scale(s->v11, eq)),
-                 cplx_add(cplx_mul(s->c10, xp), cplx_mul(s->c11, ep))),
+        dp,
+        cplx_sub(cplx_add(cplx_scale(s->v00, xq), cplx_mul(s->v01, dq)),
+                 cplx_add(cplx_mul(s->c00, xp), cplx_mul(s->c01, dp))),
+        cplx_sub(cplx_add(cplx_mul(cplx_conj(s->v01), xq), cplx_scale(s->v11, dq)),
+                 cplx_add(cplx_mul(s->c10, xp), cplx_mul(s->c11, dp))),
     };
     if (c->is_complex) {
         chain_fill_complex(c, s, weight, x_re + p->sample, x_im + p->sample);
     } else {
         chain_fill_real(c, s, weight, x_re + p->sample);
     }
+    return is_tame(weight[0]) && is_tame(weight[1]) && is_tame(weight[2]) && is_tame(weight[3]);
 }
 
 /// After the last node nothing pulls: r = 0.
-static void run_free(const chain *c, const chain_node *last, double *x_re, double *x_im)
+static bool run_free(const chain *c, const chain_node *last, double *x_re, double *x_im)
 {
     cplx x = {last->value, last->x_im}, d = {last->d_re, last->d_im};
+    bool tame = is_tame(x) && is_tame(d);
     for (int k = last->sample; k < c->count; k++) {
         x_re[k] = x.re;
         if (x_im) x_im[k] = x.im;
@@ -51,6 +56,7 @@ static void run_free(const chain *c, const chain_node *last, double *x_re, doubl
         d = cplx_add(cplx_mul(c->delta2, x), cplx_mul(c->lambda, d));
         x = next;
     }
+    return tame;
 }
 
 /// Adds the solved unknowns to the nodes; returns the largest of them.
@@ -113,7 +119,9 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
     chain_solve_nodes(c);
     double size = take_solution(c);
     if (c->rank == CHAIN_WEAK && !refine(c, size)) return false;
-    for (int j = 0; j + 1 < c->node_count; j++) fill_stretch(c, &c->nodes[j], &c->nodes[j + 1], x_re, x_im);
-    run_free(c, &c->nodes[c->node_count - 1], x_re, x_im);
-    return true;
+    bool tame = run_free(c, &c->nodes[c->node_count - 1], x_re, x_im);
+    for (int j = 0; j + 1 < c->node_count; j++) {
+        tame = fill_stretch(c, &c->nodes[j], &c->nodes[j + 1], x_re, x_im) && tame;
+    }
+    return tame;
 }

@@ -70,7 +70,8 @@ typedef struct chain {
 } chain;
 
 /// Solves for the nodes and writes x of every sample of the system (x_im NULL outside complex mode). Where `kept` is set, only
-/// values have changed since the last solve and its factor is used again. false where the nodes' system has lost so many digits that its answer is not to be taken.
+/// values have changed since the last solve and its factor is used again. false where the nodes' system has lost so many digits
+/// that its answer is not to be taken, or numbers are so large that sums might overflow.
 bool chain_solve(chain *chain, double *x_re, double *x_im);
 
 /// Forgets tables and factor: another filter, or their memory was used for something else.

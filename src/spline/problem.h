@@ -23,7 +23,7 @@ typedef struct problem {
 bool problem_fits_chain(wiggly_solver *solver, const problem *p);
 
 /// Solves by the chain: x of the system, M numbers each (x_im in complex mode). false where it declines: one knot without any
-/// hold, digits lost, or a number that is not finite.
+/// hold, digits lost, or numbers so large that something might overflow.
 bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, double *x_im);
 
 #endif

@@ -8,8 +8,8 @@
 enum {
     MATRIX_DOUBLES = 3 + 4 + 4 + 2 * BORDER_MAX,
     CHAIN_DOUBLES = 16,
-    BYTES_PER_SAMPLE = (int)((MATRIX_DOUBLES + 1 + 2 + 2 + 4) * sizeof(double) + sizeof(coefficients) + sizeof(cplx) +
-                             2 * sizeof(int) + sizeof(unsigned char)),
+    BYTES_PER_SAMPLE = (int)((MATRIX_DOUBLES + 1 + 2 + 2 + 4 + 1) * sizeof(double) + sizeof(coefficients) +
+                             sizeof(cplx) + 2 * sizeof(int) + sizeof(unsigned char)),
     BYTES_PER_KNOT =
         (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) + sizeof(int)),
 };
@@ -52,6 +52,7 @@ static void carve(wiggly_solver *solver)
     rows->x = take(&at, 2 * n * sizeof(double));
     rows->gradient = take(&at, 2 * n * sizeof(double));
     rows->jet = take(&at, 4 * n * sizeof(double));
+    solver->y = take(&at, n * sizeof(double));
     size_t k = (size_t)solver->knots + 1;
     chain *c = &solver->chain;
     rows->slopes = take(&at, k * sizeof(slope_row));

@@ -26,6 +26,7 @@ struct wiggly_solver {
     pentadiagonal matrix;
     constant_filter filter;
     chain chain;  ///< its large arrays lie over the matrix's: a solve uses one of the two
+    double *y;    ///< equilibrium, where the curve has no array for it
     int *order;   ///< indices of the description's knots by sample
     int *knot_at; ///< scratch: index of the knot on each sample, or -1
 };

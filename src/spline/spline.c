@@ -27,9 +27,7 @@ static bool param_is_finite(wiggly_param param, int samples)
 
 static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *desc, const wiggly_curve *curve)
 {
-    if (!solver || !desc || !curve || !curve->total || !curve->y || !curve->re || !curve->im || !curve->omega) {
-        return WIGGLY_ERROR_ARGUMENT;
-    }
+    if (!solver || !desc || !curve) return WIGGLY_ERROR_ARGUMENT;
     if (desc->samples < 1 || desc->knot_count < 0 || (desc->knot_count > 0 && !desc->knots))
         return WIGGLY_ERROR_ARGUMENT;
     if (desc->samples > solver->samples || desc->knot_count > solver->knots) return WIGGLY_ERROR_CAPACITY;
@@ -331,7 +329,7 @@ static void complete(wiggly_solver *solver, const problem *p, wiggly_curve *curv
     double floor = rows->loop ? LEAST_DAMPING * p->calm : 0;
     bool constant = poles_are_constant(desc);
     double omega = constant && !rows->loop ? solver_filter(solver, desc)->at.centre : poles_at(desc, 0, floor).centre;
-    for (int i = 0; i < n; i++) curve->omega[i] = constant ? omega : poles_at(desc, i, floor).centre;
+    for (int i = 0; curve->omega && i < n; i++) curve->omega[i] = constant ? omega : poles_at(desc, i, floor).centre;
     curve->samples = n;
     curve->step = desc->step;
     curve->first = p->first;
@@ -382,23 +380,39 @@ wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, do
     return WIGGLY_OK;
 }
 
+/// The curve with the solver's own arrays in place of missing ones: they are free once x is found.
+static wiggly_curve with_arrays(const wiggly_solver *solver, const wiggly_curve *curve)
+{
+    wiggly_curve all = *curve;
+    if (!all.y) all.y = solver->y;
+    if (!all.re) all.re = solver->rows.gradient;
+    if (!all.im) all.im = solver->rows.gradient + solver->samples;
+    if (!all.total) all.total = solver->rows.jet;
+    return all;
+}
+
 wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
 {
     wiggly_status status = check_desc(solver, desc, curve);
+    if (status != WIGGLY_OK) return status;
     problem p;
-    if (status == WIGGLY_OK) status = pose_problem(solver, desc, curve->y, &p);
+    wiggly_curve all = with_arrays(solver, curve);
+    status = pose_problem(solver, desc, all.y, &p);
     if (status != WIGGLY_OK) return status;
     minimum result = {.solved = true};
     if (solver->rows.count < 3 || is_still(&p)) {
         solve_short(solver, &p);
-        unpack(solver, &p, curve);
+        unpack(solver, &p, &all);
     } else if (p.start == WIGGLY_REST && desc->knot_count == 0) {
         set_filter(solver, &p);
         solver_run_forward(solver);
-        unpack(solver, &p, curve);
+        unpack(solver, &p, &all);
     } else {
-        status = minimise_safely(solver, &p, curve, &result);
+        status = minimise_safely(solver, &p, &all, &result);
     }
-    complete(solver, &p, curve);
-    return judge(curve, &result, status);
+    complete(solver, &p, &all);
+    status = judge(&all, &result, status);
+    all.total = curve->total, all.y = curve->y, all.re = curve->re, all.im = curve->im;
+    *curve = all;
+    return status;
 }

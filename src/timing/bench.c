@@ -8,6 +8,7 @@
 #include <string.h>
 #include <time.h>
 
+enum { CROWD = 10000, CROWD_SAMPLES = 240 };
 enum { KNOT_EVERY = 24, KD = 5, COMPLEX_KD = 2, MIN_RUNS = 5, MAX_RUNS = 2000 };
 static const double seconds_a_case = 0.6;
 static const double agreement = 1e-6; ///< of the largest value: dpbsv's own error on these systems is about 1e-9
@@ -226,6 +227,91 @@ static bool run_case(struct work *w, const struct bench_case *c, const struct la
     return true;
 }
 
+/// 10,000 splines of 240 samples, every knot changed from run to run; total and Im x are asked for.
+struct crowd {
+    wiggly_desc *desc;
+    wiggly_curve *curve;
+    wiggly_knot *knots;
+    double *numbers;
+};
+
+static bool crowd_create(struct crowd *crowd)
+{
+    enum { PER_SPLINE = CROWD_SAMPLES / KNOT_EVERY };
+    *crowd = (struct crowd){
+        .desc = calloc(CROWD, sizeof *crowd->desc),
+        .curve = calloc(CROWD, sizeof *crowd->curve),
+        .knots = calloc((size_t)CROWD * PER_SPLINE, sizeof *crowd->knots),
+        .numbers = calloc((size_t)CROWD * 2 * CROWD_SAMPLES, sizeof *crowd->numbers),
+    };
+    if (!crowd->desc || !crowd->curve || !crowd->knots || !crowd->numbers) return false;
+    for (int s = 0; s < CROWD; s++) {
+        wiggly_desc *desc = &crowd->desc[s];
+        *desc = wiggly_default_desc();
+        desc->samples = CROWD_SAMPLES;
+        desc->frequency.value = 1;
+        desc->damping.value = 0.05;
+        desc->knots = crowd->knots + s * PER_SPLINE;
+        desc->knot_count = PER_SPLINE;
+        for (int k = 0; k < PER_SPLINE; k++) {
+            crowd->knots[s * PER_SPLINE + k] =
+                (wiggly_knot){.sample = KNOT_EVERY * k + (5 * s + 7 * k) % 11, .value = sin(s + 2.0 * k)};
+        }
+        crowd->curve[s].total = crowd->numbers + (size_t)s * 2 * CROWD_SAMPLES;
+        crowd->curve[s].im = crowd->curve[s].total + CROWD_SAMPLES;
+    }
+    return true;
+}
+
+static void crowd_destroy(struct crowd *crowd)
+{
+    free(crowd->desc);
+    free(crowd->curve);
+    free(crowd->knots);
+    free(crowd->numbers);
+}
+
+/// Times the crowd on some threads; `single` is the line to whose LAPACK figures it is compared.
+static bool run_crowd(struct crowd *crowd, int threads, const struct bench_result *single, double *times,
+                      struct bench_result *result)
+{
+    wiggly_batch *batch = NULL;
+    if (wiggly_batch_create(CROWD_SAMPLES, CROWD_SAMPLES / KNOT_EVERY, threads, &batch) != WIGGLY_OK) return false;
+    int runs = 0;
+    wiggly_status worst = WIGGLY_OK;
+    for (double end = now() + seconds_a_case; runs < MAX_RUNS && (runs < MIN_RUNS || now() < end); runs++) {
+        for (int k = 0; k < CROWD * (CROWD_SAMPLES / KNOT_EVERY); k++) crowd->knots[k].value *= -1;
+        double start = now();
+        wiggly_status status = wiggly_batch_solve(batch, crowd->desc, crowd->curve, NULL, CROWD);
+        times[runs] = now() - start;
+        worst = status > worst ? status : worst;
+    }
+    wiggly_batch_destroy(batch);
+    statistics_sort(times, runs);
+    *result = *single;
+    result->name = "batch/complex/10000x240";
+    result->splines = CROWD;
+    result->threads = threads;
+    result->ns_per_sample = 1e9 * times[0] / CROWD_SAMPLES / CROWD;
+    result->p50_us = 1e6 * statistics_quantile(times, runs, 0.5);
+    result->p99_us = 1e6 * statistics_quantile(times, runs, 0.99);
+    return worst == WIGGLY_OK;
+}
+
+static bool run_crowds(const struct bench_result *single, double *times,
+                       void (*done)(void *, const struct bench_result *), void *user, struct error *error)
+{
+    struct crowd crowd;
+    bool good = crowd_create(&crowd);
+    for (int threads = 1; good && threads <= 2; threads++) {
+        struct bench_result result;
+        good = run_crowd(&crowd, threads, single, times, &result);
+        if (good) done(user, &result);
+    }
+    crowd_destroy(&crowd);
+    return good || fail(error, ERROR_ENVIRONMENT, "batch/complex/10000x240 could not be solved");
+}
+
 static void name_cpu(char *name, size_t size)
 {
     char line[256];
@@ -248,14 +334,17 @@ bool bench_run(struct bench_machine *machine, void (*done)(void *user, const str
     lapack_load(&lapack, machine->library, sizeof machine->library);
     name_cpu(machine->cpu, sizeof machine->cpu);
     bool good = true;
+    struct bench_result first = {0};
     struct work *w = malloc(sizeof *w);
     for (size_t c = 0; good && w && c < sizeof cases / sizeof *cases; c++) {
         struct bench_result result;
         good = work_create(w, &cases[c]) || fail(error, ERROR_ENVIRONMENT, "out of memory for %s", cases[c].name);
         good = good && run_case(w, &cases[c], &lapack, &result, error);
         if (good) done(user, &result);
+        if (c == 0) first = result;
         work_destroy(w);
     }
+    good = good && w && run_crowds(&first, w->times, done, user, error);
     if (!w) good = fail(error, ERROR_ENVIRONMENT, "out of memory");
     free(w);
     lapack_unload(&lapack);

@@ -1,0 +1,141 @@
+// Many splines over threads: each thread has a solver of its own and takes the next few splines until none is left. Which thread
+// solves which spline does not matter to the bits, because what a solver keeps never does.
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <threads.h>
+#include <wiggly/wiggly.h>
+
+enum { MAX_THREADS = 256, AT_A_TIME = 8 };
+
+/// One call of wiggly_batch_solve().
+typedef struct job {
+    const wiggly_desc *desc;
+    wiggly_curve *curve;
+    wiggly_status *status;
+    int count;
+} job;
+
+typedef struct worker {
+    wiggly_batch *batch;
+    wiggly_solver *solver;
+    thrd_t thread;
+    wiggly_status worst;
+} worker;
+
+struct wiggly_batch {
+    int threads;
+    mtx_t lock;
+    cnd_t start, done;
+    job job;
+    atomic_int next; ///< spline to take
+    long round;      ///< number of the job; changes wake the workers
+    int busy;
+    bool stop;
+    worker workers[]; ///< the first is the caller's
+};
+
+static void work(worker *w)
+{
+    wiggly_batch *batch = w->batch;
+    const job *now = &batch->job;
+    w->worst = WIGGLY_OK;
+    for (;;) {
+        int from = atomic_fetch_add(&batch->next, AT_A_TIME), to = from + AT_A_TIME;
+        if (from >= now->count) return;
+        for (int i = from; i < to && i < now->count; i++) {
+            wiggly_status status = wiggly_solve(w->solver, &now->desc[i], &now->curve[i]);
+            if (now->status) now->status[i] = status;
+            if (status > w->worst) w->worst = status;
+        }
+    }
+}
+
+static int run(void *argument)
+{
+    worker *w = argument;
+    wiggly_batch *batch = w->batch;
+    long seen = 0;
+    mtx_lock(&batch->lock);
+    for (;;) {
+        while (batch->round == seen && !batch->stop) cnd_wait(&batch->start, &batch->lock);
+        if (batch->stop) break;
+        seen = batch->round;
+        mtx_unlock(&batch->lock);
+        work(w);
+        mtx_lock(&batch->lock);
+        if (--batch->busy == 0) cnd_signal(&batch->done);
+    }
+    mtx_unlock(&batch->lock);
+    return 0;
+}
+
+static bool add_worker(wiggly_batch *batch, int samples, int knots)
+{
+    worker *w = &batch->workers[batch->threads];
+    w->batch = batch;
+    if (wiggly_create(samples, knots, &w->solver) != WIGGLY_OK) return false;
+    if (batch->threads > 0 && thrd_create(&w->thread, run, w) != thrd_success) {
+        wiggly_destroy(w->solver);
+        return false;
+    }
+    batch->threads++;
+    return true;
+}
+
+wiggly_status wiggly_batch_create(int samples, int knots, int threads, wiggly_batch **out)
+{
+    if (!out || threads < 1 || threads > MAX_THREADS || wiggly_memsize(samples, knots) == 0)
+        return WIGGLY_ERROR_ARGUMENT;
+    wiggly_batch *batch = calloc(1, sizeof *batch + sizeof(worker) * (size_t)threads);
+    if (!batch) return WIGGLY_ERROR_MEMORY;
+    mtx_init(&batch->lock, mtx_plain);
+    cnd_init(&batch->start);
+    cnd_init(&batch->done);
+    while (batch->threads < threads) {
+        if (!add_worker(batch, samples, knots)) {
+            wiggly_batch_destroy(batch);
+            return WIGGLY_ERROR_MEMORY;
+        }
+    }
+    *out = batch;
+    return WIGGLY_OK;
+}
+
+wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, wiggly_curve *curve,
+                                 wiggly_status *status, int count)
+{
+    if (!batch || count < 0 || (count > 0 && (!desc || !curve))) return WIGGLY_ERROR_ARGUMENT;
+    mtx_lock(&batch->lock);
+    batch->job = (job){desc, curve, status, count};
+    atomic_store(&batch->next, 0);
+    batch->busy = batch->threads - 1;
+    batch->round++;
+    cnd_broadcast(&batch->start);
+    mtx_unlock(&batch->lock);
+    work(&batch->workers[0]);
+    mtx_lock(&batch->lock);
+    while (batch->busy > 0) cnd_wait(&batch->done, &batch->lock);
+    mtx_unlock(&batch->lock);
+    wiggly_status worst = WIGGLY_OK;
+    for (int t = 0; t < batch->threads; t++) {
+        if (batch->workers[t].worst > worst) worst = batch->workers[t].worst;
+    }
+    return worst;
+}
+
+void wiggly_batch_destroy(wiggly_batch *batch)
+{
+    if (!batch) return;
+    mtx_lock(&batch->lock);
+    batch->stop = true;
+    cnd_broadcast(&batch->start);
+    mtx_unlock(&batch->lock);
+    for (int t = 0; t < batch->threads; t++) {
+        if (t > 0) thrd_join(batch->workers[t].thread, NULL);
+        wiggly_destroy(batch->workers[t].solver);
+    }
+    cnd_destroy(&batch->start);
+    cnd_destroy(&batch->done);
+    mtx_destroy(&batch->lock);
+    free(batch);
+}
