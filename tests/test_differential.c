@@ -3,6 +3,7 @@
 #include "near.h"
 
 #include "curve.h"
+#include "spline/solver.h"
 #include "textbook.h"
 #include <lapacke.h>
 #include <stdio.h>
@@ -181,6 +182,17 @@ static void random_patterns_to_40_samples(void **state)
     assert_true(tally.solved > 9500 && tally.lapack > 5500);
 }
 
+/// The same patterns through the factorisation that long domains get.
+static void without_squaring(void **state)
+{
+    wiggly_solver *solver = *state;
+    int usual = solver->longest_squared;
+    solver->longest_squared = 2;
+    every_pattern_to_10_samples(state);
+    random_patterns_to_40_samples(state);
+    solver->longest_squared = usual;
+}
+
 static int create(void **state) { return wiggly_create(MAX, MAX, (wiggly_solver **)state); }
 
 static int destroy(void **state)
@@ -194,6 +206,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pattern_to_10_samples),
         cmocka_unit_test(random_patterns_to_40_samples),
+        cmocka_unit_test(without_squaring),
     };
     return cmocka_run_group_tests(tests, create, destroy);
 }

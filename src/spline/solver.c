@@ -14,6 +14,9 @@ enum {
         (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) + sizeof(int)),
 };
 
+/// Samples; beyond, a domain without knots would cost the squared matrix half its digits (N⁴ ε).
+enum { LONGEST_SQUARED = 1000 };
+
 _Static_assert((int)CHAIN_DOUBLES <= (int)MATRIX_DOUBLES, "the chain's tables lie over the matrix");
 
 size_t wiggly_memsize(int samples, int knots)
@@ -81,6 +84,7 @@ wiggly_status wiggly_create_at(void *memory, size_t size, int samples, int knots
     *solver = memory;
     (*solver)->samples = samples;
     (*solver)->knots = knots;
+    (*solver)->longest_squared = LONGEST_SQUARED;
     (*solver)->chain.powers_capacity = samples;
     (*solver)->chain.stretch_capacity = knots + 1;
     carve(*solver);

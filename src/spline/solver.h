@@ -22,6 +22,7 @@ typedef struct constant_filter {
 struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
+    int longest_squared; ///< longer domains are factored without squaring; tests set it
     system_rows rows;
     pentadiagonal matrix;
     constant_filter filter;

@@ -1,0 +1,327 @@
+// A row touches at most three neighbouring samples, so U is as narrow as the band:
+//
+//     | U00 U01 U02             |   Sample by sample: the rows that are left from before (they touch x_k and x_{k+1}) and those
+//     |     U11 U12 U13         |   that begin at x_k are stacked and made triangular. The top gives the rows U_k*, the rest is
+//     |         U22 U23 U24     |   what is left for x_{k+1}.
+//     |             U33 U34 U35 |
+//
+// In a loop the last two samples, the seam, are columns of their own at the right and are solved last. A reflection starts from
+// the row with the largest entry, so that stiff slope rows do not wash out soft ones.
+#include "spline/orthogonal.h"
+#include <math.h>
+#include <string.h>
+
+enum { MAX_COLUMNS = 10, MAX_ROWS = 40 };
+
+/// A pivot below this is rounding, every column having had a 1 of a jet in it; what holds Im x of a slow spline of N samples is N⁻² of it.
+static const double lost = 1e-13;
+
+/// Rows in hand: columns are x_k, x_{k+1}, x_{k+2} and the seam's two samples, `width` each.
+typedef struct stack {
+    double row[MAX_ROWS][MAX_COLUMNS];
+    int rows;
+} stack;
+
+typedef struct walk {
+    const system_rows *rows;
+    int width, columns;
+    int interior; ///< samples before the seam
+    int k;        ///< sample that is being eliminated
+    int slope;    ///< next slope row
+    stack stack;
+} walk;
+
+/// Column of a sample's real part while x_k is being eliminated.
+static int column_of(const walk *w, int sample)
+{
+    int n = w->rows->count;
+    if (sample >= n) sample -= n;
+    if (sample < 0) sample += n;
+    return sample >= w->interior ? w->width * (3 + sample - w->interior) : w->width * (sample - w->k);
+}
+
+static double *new_row(walk *w)
+{
+    double *row = w->stack.row[w->stack.rows++];
+    memset(row, 0, sizeof w->stack.row[0]);
+    return row;
+}
+
+/// A complex row (two real ones, or one outside complex mode) of coefficients on n samples, times a weight's root.
+static void add_row(walk *w, double root, int n, const int *samples, const cplx *c)
+{
+    double *re = new_row(w), *im = w->width == 2 ? new_row(w) : NULL;
+    for (int i = 0; i < n; i++) {
+        int column = column_of(w, samples[i]);
+        re[column] += root * c[i].re;
+        if (!im) continue;
+        re[column + 1] -= root * c[i].im;
+        im[column] += root * c[i].im;
+        im[column + 1] += root * c[i].re;
+    }
+}
+
+static void add_jet(walk *w, int i)
+{
+    cplx a = {2 + w->rows->at[i].m.re, w->rows->at[i].m.im};
+    cplx b = {a.re - 1 + w->rows->at[i].p.re, a.im + w->rows->at[i].p.im};
+    add_row(w, 1, 3, (int[]){i - 1, i, i + 1}, (cplx[]){b, {-a.re, -a.im}, {1, 0}});
+}
+
+static void add_slope(walk *w, const slope_row *slope)
+{
+    double *row = new_row(w), root = sqrt(slope->weight);
+    row[column_of(w, slope->p)] -= root;
+    row[column_of(w, slope->q)] += root;
+}
+
+static void add_imaginary(walk *w, int sample)
+{
+    if (w->width == 2) new_row(w)[column_of(w, sample) + 1] = sqrt(w->rows->im_weight[sample]);
+}
+
+static void add_start(walk *w)
+{
+    const start_cost *start = &w->rows->start;
+    if (!(start->h00 > 0)) return;
+    add_row(w, sqrt(start->h00), 2, (int[]){0, 1}, (cplx[]){{1, 0}, {start->e.re - 1, start->e.im}});
+    add_row(w, sqrt(start->d), 1, (int[]){1}, (cplx[]){{1, 0}});
+}
+
+/// Whether a slope row belongs to the first step though it does not come first in the list: implied ones, or across the seam.
+static bool is_out_of_order(const walk *w, const slope_row *slope)
+{
+    return slope->p == 0 || (slope->p >= w->interior && slope->q == 0);
+}
+
+/// All rows whose first interior sample is x_k.
+static void add_rows(walk *w)
+{
+    const system_rows *rows = w->rows;
+    if (w->k == 0) {
+        add_start(w);
+        if (rows->loop) add_jet(w, 0), add_jet(w, rows->count - 1);
+        for (int s = 0; s < rows->slope_count; s++) {
+            if (is_out_of_order(w, &rows->slopes[s])) add_slope(w, &rows->slopes[s]);
+        }
+    }
+    if (w->k + 2 < rows->count) add_jet(w, w->k + 1);
+    add_imaginary(w, w->k);
+    for (; w->slope < rows->slope_count && rows->slopes[w->slope].p <= w->k; w->slope++) {
+        if (!is_out_of_order(w, &rows->slopes[w->slope])) add_slope(w, &rows->slopes[w->slope]);
+    }
+}
+
+static bool is_fixed(const walk *w, int sample, int part)
+{
+    return w->rows->fixed[sample] & (part ? FIXED_IM : FIXED_RE);
+}
+
+static void clear_column(walk *w, int column)
+{
+    for (int r = 0; r < w->stack.rows; r++) w->stack.row[r][column] = 0;
+}
+
+static void clear_fixed(walk *w)
+{
+    for (int s = 0; s < 3; s++) {
+        int sample = w->k + s;
+        for (int part = 0; part < w->width && sample < w->interior; part++) {
+            if (is_fixed(w, sample, part)) clear_column(w, w->width * s + part);
+        }
+    }
+    for (int s = w->interior; s < w->rows->count; s++) {
+        for (int part = 0; part < w->width; part++) {
+            if (is_fixed(w, s, part)) clear_column(w, w->width * (3 + s - w->interior) + part);
+        }
+    }
+}
+
+static void swap_rows(stack *s, int a, int b)
+{
+    double kept[MAX_COLUMNS];
+    memcpy(kept, s->row[a], sizeof kept);
+    memcpy(s->row[a], s->row[b], sizeof kept);
+    memcpy(s->row[b], kept, sizeof kept);
+}
+
+/// Reflects rows `top` … so that column `c` is 0 below `top`. false where the column is 0 already, top included, or not finite.
+static bool reflect(walk *w, int top, int c)
+{
+    stack *s = &w->stack;
+    int largest = top;
+    for (int r = top + 1; r < s->rows; r++) {
+        if (fabs(s->row[r][c]) > fabs(s->row[largest][c])) largest = r;
+    }
+    if (top >= s->rows || s->row[largest][c] == 0) return false;
+    swap_rows(s, top, largest);
+    double *pivot = s->row[top], below = 0, v[MAX_ROWS];
+    for (int r = top + 1; r < s->rows; r++) {
+        v[r] = s->row[r][c] / pivot[c];
+        below += v[r] * v[r];
+    }
+    double length = sqrt(1 + below), head = 1 + length, scale = 1 / (length * head); // v = (head, v…), 2/|v|² = scale
+    for (int j = c; j < w->columns; j++) {
+        double dot = head * pivot[j];
+        for (int r = top + 1; r < s->rows; r++) dot += v[r] * s->row[r][j];
+        dot *= scale;
+        pivot[j] -= head * dot;
+        for (int r = top + 1; r < s->rows; r++) s->row[r][j] -= v[r] * dot;
+    }
+    for (int r = top + 1; r < s->rows; r++) s->row[r][c] = 0;
+    return pivot[c] * 0 == 0;
+}
+
+/// Triangular rows for the unknowns of a sample in columns `first` …, from row `top` on; `fixed` ones become the identity's.
+static pentadiagonal_rank eliminate(walk *w, int sample, int first, int *top)
+{
+    pentadiagonal_rank rank = RANK_FULL;
+    for (int part = 0; part < w->width; part++) {
+        int c = first + part;
+        if (is_fixed(w, sample, part)) { // an empty row of its own, kept in place
+            new_row(w);
+            swap_rows(&w->stack, *top, w->stack.rows - 1);
+            w->stack.row[*top][c] = 1;
+        } else {
+            if (!reflect(w, *top, c)) return RANK_BROKEN;
+            if (fabs(w->stack.row[*top][c]) < lost) rank = RANK_WEAK;
+        }
+        (*top)++;
+    }
+    return rank;
+}
+
+/// Writes U_k* and leaves what is below it, triangular and moved one sample to the left.
+static void finish_step(walk *w, pentadiagonal *m)
+{
+    stack *s = &w->stack;
+    int width = w->width, k = w->k, top = width;
+    double *d = m->diagonal + (width == 2 ? 3 : 1) * k;
+    d[0] = s->row[0][0];
+    if (width == 2) d[1] = s->row[0][1], d[2] = s->row[1][1];
+    for (int part = 0; part < width; part++) {
+        memcpy(m->below + width * (width * k + part), s->row[part] + width, sizeof(double) * (size_t)width);
+        memcpy(m->below2 + width * (width * k + part), s->row[part] + 2 * width, sizeof(double) * (size_t)width);
+        if (m->cyclic) {
+            memcpy(m->border + 2 * width * (width * k + part), s->row[part] + 3 * width,
+                   sizeof(double) * (size_t)(2 * width));
+        }
+    }
+    for (int c = width; c < w->columns; c++) top += reflect(w, top, c);
+    int rows = 0;
+    for (int r = width; r < top; r++, rows++) {
+        double *to = s->row[rows];
+        const double *from = s->row[r];
+        memmove(to, from + width, sizeof(double) * (size_t)(2 * width));
+        memset(to + 2 * width, 0, sizeof(double) * (size_t)width);
+        memcpy(to + 3 * width, from + 3 * width, sizeof(double) * (size_t)(2 * width));
+    }
+    s->rows = rows;
+}
+
+static pentadiagonal_rank eliminate_seam(walk *w, pentadiagonal *m)
+{
+    pentadiagonal_rank rank = RANK_FULL;
+    int width = w->width, top = 0;
+    for (int sample = w->interior; sample < w->rows->count; sample++) add_imaginary(w, sample);
+    for (int s = w->slope; s < w->rows->slope_count; s++) {
+        if (!is_out_of_order(w, &w->rows->slopes[s])) add_slope(w, &w->rows->slopes[s]);
+    }
+    clear_fixed(w);
+    for (int s = 0; s < 2; s++) {
+        pentadiagonal_rank of_sample = eliminate(w, w->interior + s, width * (3 + s), &top);
+        rank = of_sample < rank ? of_sample : rank;
+        if (rank == RANK_BROKEN) return rank;
+    }
+    for (int r = 0; r < 2 * width; r++) {
+        for (int c = 0; c < 2 * width; c++) m->corner[r][c] = w->stack.row[r][3 * width + c];
+    }
+    return rank;
+}
+
+pentadiagonal_rank orthogonal_factor(const system_rows *rows, pentadiagonal *m)
+{
+    walk w = {.rows = rows, .width = rows->is_complex ? 2 : 1};
+    w.columns = w.width * 5;
+    w.interior = rows->loop ? rows->count - 2 : rows->count;
+    m->count = rows->count;
+    m->width = w.width;
+    m->cyclic = rows->loop;
+    pentadiagonal_rank rank = RANK_FULL;
+    for (w.k = 0; w.k < w.interior; w.k++) {
+        int top = 0;
+        add_rows(&w);
+        clear_fixed(&w);
+        pentadiagonal_rank step = eliminate(&w, w.k, 0, &top);
+        rank = step < rank ? step : rank;
+        if (rank == RANK_BROKEN) return rank;
+        finish_step(&w, m);
+    }
+    if (!rows->loop) return rank;
+    pentadiagonal_rank seam = eliminate_seam(&w, m);
+    return seam < rank ? seam : rank;
+}
+
+/// The w×w triangle of sample k as (00, 01, 11); a lone number is (00, 0, 1).
+static void triangle(const pentadiagonal *m, int k, double u[3])
+{
+    u[0] = m->diagonal[m->width == 2 ? 3 * k : k];
+    u[1] = m->width == 2 ? m->diagonal[3 * k + 1] : 0;
+    u[2] = m->width == 2 ? m->diagonal[3 * k + 2] : 1;
+}
+
+/// y_k = U_kk⁻ᵀ (b_k − U_{k−1,k}ᵀ y_{k−1} − U_{k−2,k}ᵀ y_{k−2}); the seam's part of b loses what the interior takes.
+static void solve_transposed(const pentadiagonal *m, int interior, double *b)
+{
+    int w = m->width;
+    for (int k = 0; k < interior; k++) {
+        double u[3], *y = b + w * k;
+        triangle(m, k, u);
+        for (int part = 0; part < w; part++) {
+            for (int r = 0; r < w; r++) {
+                if (k > 0) y[part] -= m->below[w * (w * (k - 1) + r) + part] * b[w * (k - 1) + r];
+                if (k > 1) y[part] -= m->below2[w * (w * (k - 2) + r) + part] * b[w * (k - 2) + r];
+            }
+        }
+        y[0] /= u[0];
+        if (w == 2) y[1] = (y[1] - u[1] * y[0]) / u[2];
+        for (int c = 0; m->cyclic && c < 2 * w; c++) {
+            for (int r = 0; r < w; r++) b[w * interior + c] -= m->border[2 * w * (w * k + r) + c] * y[r];
+        }
+    }
+}
+
+static void solve_seam(const pentadiagonal *m, double *b)
+{
+    int size = 2 * m->width;
+    for (int c = 0; c < size; c++) {
+        for (int r = 0; r < c; r++) b[c] -= m->corner[r][c] * b[r];
+        b[c] /= m->corner[c][c];
+    }
+    for (int r = size - 1; r >= 0; r--) {
+        for (int c = r + 1; c < size; c++) b[r] -= m->corner[r][c] * b[c];
+        b[r] /= m->corner[r][r];
+    }
+}
+
+void orthogonal_solve(const pentadiagonal *m, double *b)
+{
+    int w = m->width, interior = m->cyclic ? m->count - 2 : m->count;
+    solve_transposed(m, interior, b);
+    if (m->cyclic) solve_seam(m, b + w * interior);
+    for (int k = interior - 1; k >= 0; k--) {
+        double u[3], *x = b + w * k;
+        triangle(m, k, u);
+        for (int part = 0; part < w; part++) {
+            for (int c = 0; c < w; c++) {
+                if (k + 1 < interior) x[part] -= m->below[w * (w * k + part) + c] * b[w * (k + 1) + c];
+                if (k + 2 < interior) x[part] -= m->below2[w * (w * k + part) + c] * b[w * (k + 2) + c];
+            }
+            for (int c = 0; m->cyclic && c < 2 * w; c++) {
+                x[part] -= m->border[2 * w * (w * k + part) + c] * b[w * interior + c];
+            }
+        }
+        if (w == 2) x[1] /= u[2];
+        x[0] = (x[0] - u[1] * (w == 2 ? x[1] : 0)) / u[0];
+    }
+}
