@@ -6,6 +6,7 @@ in vec3 fur;
 in float open_sky;
 uniform vec3 eye;
 uniform vec3 key_from;
+uniform float seam; // 0 in the first pass
 out vec4 pixel;
 
 const vec3 KEY = vec3(1.0, 0.8796, 0.7157);      // #FFF1DC
@@ -14,19 +15,35 @@ const vec3 EARTH = vec3(0.0232, 0.0176, 0.0144); // #2A2420
 const vec3 RIM = vec3(0.3325, 0.5711, 1.0);      // #9CC7FF
 const float EXPOSURE = 0.82;                     // the white tip, fully lit, just does not burn out
 
+// Unit vector; 0, not NaN, where there is no direction.
+vec3 direction(vec3 v)
+{
+    return v / max(length(v), 1e-12);
+}
+
+// How many pixels inside its silhouette a round shape's pixel is, at most 1: opacity of the soft seam (second pass;
+// the first does not blend). Where the radius is R, `facing` f falls to 0 over R·f²/2. A triangle is a chord of that
+// arc: f changes by `slope` a pixel of a chord that is foreshortened to `flat_facing`, so R = 1/(slope · flat_facing).
+// Unlike fwidth(f²), this is exact for facets smaller than a pixel, as nothing but what is linear in them is
+// differentiated.
+float seam_opacity(vec3 to_eye)
+{
+    float facing = dot(world_normal, to_eye);
+    float slope = length(vec2(dFdx(facing), dFdy(facing)));
+    float flat_facing = abs(dot(direction(cross(dFdx(world), dFdy(world))), to_eye));
+    return clamp(0.5 * facing * abs(facing) / max(slope * flat_facing, 1e-6), 0.0, 1.0);
+}
+
 void main()
 {
-    vec3 n = normalize(world_normal);
-    float facing = dot(n, normalize(eye - world));
+    vec3 n = direction(world_normal);
+    vec3 to_eye = normalize(eye - world);
+    float facing = dot(n, to_eye);
     float key = max((dot(n, key_from) + 0.4) / 1.4, 0.0);
     float graze = 1.0 - clamp(facing, 0.0, 1.0);
     float upward = 0.5 + 0.5 * n.y;
     vec3 light = KEY * key + mix(EARTH, SKY, upward) * open_sky;
     // The rim is the sky's: what faces the ground has less of it.
     vec3 linear = fur * light * EXPOSURE + RIM * (0.35 * graze * graze * graze * open_sky * upward);
-    // Across the silhouette of a round shape facing² grows linearly with the distance in pixels, so its slope tells
-    // how far inside this pixel is: the opacity of the soft seam (second pass); the first pass does not blend.
-    float square = facing * abs(facing);
-    float inside = clamp(square / max(length(vec2(dFdx(square), dFdy(square))), 1e-4), 0.0, 1.0);
-    pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), inside);
+    pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), seam > 0.0 ? seam_opacity(to_eye) : 1.0);
 }

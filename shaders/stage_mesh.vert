@@ -15,38 +15,48 @@ out vec3 world_normal;
 out vec3 fur;
 out float open_sky;
 
-void main()
+// Blends in what the joints do to a point: rows of bind → world, and how the weights' change along the tail moves it.
+// Weights are the uniform cubic B-spline along the tail, four joints at a time: smooth, and exact where it is straight.
+void follow_joints(vec4 bind, inout vec4 x, inout vec4 y, inout vec4 z, out vec3 stretch)
 {
-    vec4 bind = vec4(position * shape.x, 1.0);
-    // Weights: the uniform cubic B-spline along the tail, four joints at a time; smooth, and exact where it is
-    // straight.
     float along = bind.z / shape.z - 0.5;
     float first = floor(along);
     float t = along - first;
     float s = 1.0 - t;
     vec4 weight = vec4(s * s * s, 4.0 - 3.0 * t * t * (2.0 - t), 4.0 - 3.0 * s * s * (2.0 - s), t * t * t) / 6.0;
     vec4 slope = vec4(-s * s, t * (3.0 * t - 4.0), s * (4.0 - 3.0 * s), t * t) * (0.5 / shape.z);
-    vec4 x = vec4(0.0), y = vec4(0.0), z = vec4(0.0), dx = vec4(0.0), dy = vec4(0.0), dz = vec4(0.0);
+    vec4 bx = vec4(0.0), by = vec4(0.0), bz = vec4(0.0), dx = vec4(0.0), dy = vec4(0.0), dz = vec4(0.0);
     for (int k = 0; k < 4; k++) {
         int row = 3 * int(clamp(first + float(k), 0.0, shape.y));
-        x += weight[k] * rows[row];
-        y += weight[k] * rows[row + 1];
-        z += weight[k] * rows[row + 2];
+        bx += weight[k] * rows[row];
+        by += weight[k] * rows[row + 1];
+        bz += weight[k] * rows[row + 2];
         dx += slope[k] * rows[row];
         dy += slope[k] * rows[row + 1];
         dz += slope[k] * rows[row + 2];
     }
-    x = mix(rows[0], x, bend);
-    y = mix(rows[1], y, bend);
-    z = mix(rows[2], z, bend);
+    x = mix(x, bx, bend);
+    y = mix(y, by, bend);
+    z = mix(z, bz, bend);
+    stretch = bend * vec3(dot(dx, bind), dot(dy, bind), dot(dz, bind));
+}
+
+void main()
+{
+    vec4 bind = vec4(position * shape.x, 1.0);
+    vec4 x = rows[0], y = rows[1], z = rows[2];
+    vec3 stretch = vec3(0.0);
+    if (bend > 0.0) follow_joints(bind, x, y, z, stretch);
     world = vec3(dot(x, bind), dot(y, bind), dot(z, bind));
     // Normals go by the cofactors of the deformation's gradient, which counts how the weights change along the tail:
     // d world / d bind = blended matrix + (slopes · matrices · bind) ⊗ e_z.
     vec3 across = vec3(x.x, y.x, z.x);
     vec3 upward = vec3(x.y, y.y, z.y);
-    vec3 lengthwise = vec3(x.z, y.z, z.z) + bend * vec3(dot(dx, bind), dot(dy, bind), dot(dz, bind));
-    world_normal = normalize(cross(upward, lengthwise) * normal.x + cross(lengthwise, across) * normal.y +
-                             cross(across, upward) * normal.z);
+    vec3 lengthwise = vec3(x.z, y.z, z.z) + stretch;
+    // Where a bend is so tight that it flattens the skin, there is no direction; it must not be NaN.
+    vec3 cofactors = cross(upward, lengthwise) * normal.x + cross(lengthwise, across) * normal.y +
+                     cross(across, upward) * normal.z;
+    world_normal = cofactors / max(length(cofactors), 1e-9);
     fur = color;
     open_sky = 0.45 + 0.55 * smoothstep(0.0, 0.35 * shape.x, world.y - shape.w);
     // The seam is the same skin, 1.3 pixels larger (1 is too little where facets are large) and pushed back behind

@@ -51,7 +51,7 @@ static void the_body_is_closed(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_body(0.027f, &mesh);
+    mesh_body(0.042f, 0.0012f, &mesh);
     assert_false(mesh.failed);
     assert_int_equal(open_edges(&mesh), 0);
     mesh_free(&mesh);
@@ -101,6 +101,25 @@ static void normals_are_unit_and_agree_with_the_triangles(void **state)
     }
 }
 
+/// What an eye sees as round is nowhere cut off by an edge: at 250 pixels a metre not by a pixel.
+static void silhouettes_have_no_corners(void **state)
+{
+    (void)state;
+    struct mesh mesh = {0};
+    mesh_creature(0, &mesh);
+    for (int i = 0; i < mesh.index_count; i++) {
+        const struct vertex *a = &mesh.vertices[mesh.indices[i]];
+        const struct vertex *b = &mesh.vertices[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]];
+        float edge[3], turn[3];
+        for (int k = 0; k < 3; k++) {
+            edge[k] = a->position[k] - b->position[k];
+            turn[k] = a->normal[k] - b->normal[k];
+        }
+        assert_true(sqrtf(dot(edge, edge) * dot(turn, turn)) / 8.0f < 0.004f); // height of the arc over the edge
+    }
+    mesh_free(&mesh);
+}
+
 static void the_stage_stays_within_its_triangles(void **state)
 {
     (void)state;
@@ -116,7 +135,7 @@ static void the_body_stands_on_the_ground(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_body(0.027f, &mesh);
+    mesh_body(0.042f, 0.0012f, &mesh);
     float low = INFINITY;
     for (int v = 0; v < mesh.vertex_count; v++) low = fminf(low, mesh.vertices[v].position[1]);
     assert_near(low, -CREATURE_BASE_HEIGHT, 0.02);
@@ -128,7 +147,7 @@ static void tail_and_body_meet_smoothly(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_body(0.027f, &mesh);
+    mesh_body(0.042f, 0.0012f, &mesh);
     int seen = 0;
     for (int v = 0; v < mesh.vertex_count; v++) {
         const struct vertex *vertex = &mesh.vertices[v];
@@ -169,6 +188,7 @@ int main(void)
         cmocka_unit_test(the_body_is_closed),
         cmocka_unit_test(the_tail_is_open_only_inside_the_body),
         cmocka_unit_test(normals_are_unit_and_agree_with_the_triangles),
+        cmocka_unit_test(silhouettes_have_no_corners),
         cmocka_unit_test(the_stage_stays_within_its_triangles),
         cmocka_unit_test(the_body_stands_on_the_ground),
         cmocka_unit_test(tail_and_body_meet_smoothly),

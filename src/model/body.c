@@ -1,6 +1,7 @@
 #include "model/coat.h"
 #include "model/creature.h"
 #include "model/isosurface.h"
+#include "model/refine.h"
 #include <math.h>
 #include <stddef.h>
 
@@ -21,8 +22,8 @@ static const struct part trunk[] = {
     {{0, 0.265f, -0.25f}, {0, 0.56f, -0.34f}, 0.245f, 0.150f, 0.001f, COAT_FUR, false},            // rump to neck
     {{0.12f, 0.17f, -0.27f}, {0.17f, 0.13f, -0.42f}, 0.165f, 0.110f, 0.10f, COAT_FUR, true},       // haunches
     {{0.20f, 0.050f, -0.40f}, {0.225f, 0.045f, -0.50f}, 0.055f, 0.050f, 0.06f, COAT_FUR, true},    // hind feet
-    {{0, 0.58f, -0.42f}, {0, 0.36f, -0.45f}, 0.100f, 0.115f, 0.10f, COAT_BELLY, false},            // chest
     {{0.085f, 0.44f, -0.46f}, {0.085f, 0.06f, -0.52f}, 0.066f, 0.048f, 0.07f, COAT_FUR, true},     // fore legs
+    {{0, 0.58f, -0.445f}, {0, 0.36f, -0.465f}, 0.100f, 0.115f, 0.10f, COAT_BELLY, false},          // chest
     {{0.080f, 0.045f, -0.54f}, {0.082f, 0.045f, -0.575f}, 0.050f, 0.047f, 0.05f, COAT_BAND, true}, // paws
 };
 
@@ -47,8 +48,10 @@ static const float head_middle[3] = {0.01f, 0.80f, -0.385f};
 #define HEAD_TILT 0.12f
 #define HEAD_REACH 0.31f  /* of the face, from the head's middle, along each axis */
 #define HEAD_RADIUS 0.36f /* of the ball that holds the head */
-#define NECK_BLEND 0.09f
+#define NECK_BLEND 0.12f
 #define STUMP_BLEND 0.14f
+#define REFINE_ROUNDS 3
+#define LID_WIDTH 0.016f
 
 /// Direction, in the standing body, in which eyes and nose shine.
 static const float glint[3] = {0.68f, 0.69f, -0.25f};
@@ -129,6 +132,14 @@ static float body_distance_color(const float p[3], float rgb[3])
 
 static float body_distance(const float p[3]) { return body_distance_color(p, NULL); }
 
+static float face_distance(const float p[3])
+{
+    const float standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
+    float in_head[3];
+    into_head(standing, in_head);
+    return add_parts(face, sizeof face / sizeof *face, in_head, 1e3f, NULL);
+}
+
 /// The fur is the parts' own; round the stump it is the tail's, which also takes over the bending there.
 static void body_paint(struct vertex *vertex)
 {
@@ -140,15 +151,9 @@ static void body_paint(struct vertex *vertex)
     coat_tail(fmaxf(p[2], 0.0f), p[1] / fmaxf(hypotf(p[0], p[1]), 1e-6f), tail_rgb);
     const float share = near * coat_step(-0.10f, 0.05f, p[2]);
     for (int k = 0; k < 3; k++) vertex->color[k] += (tail_rgb[k] - vertex->color[k]) * share;
+    // A dark lid hides the hard line where eyes and nose sink into the fur.
+    coat_mix(vertex->color, COAT_DARK, coat_step(LID_WIDTH, 0.3f * LID_WIDTH, face_distance(p)));
     vertex->bend = near * coat_step(-0.25f, -0.05f, p[2]);
-}
-
-static float face_distance(const float p[3])
-{
-    const float standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
-    float in_head[3];
-    into_head(standing, in_head);
-    return add_parts(face, sizeof face / sizeof *face, in_head, 1e3f, NULL);
 }
 
 /// Dark, with a glint where a window above would be mirrored.
@@ -159,10 +164,12 @@ static void face_paint(struct vertex *vertex)
     coat_mix(vertex->color, COAT_TIP, coat_step(0.87f, 0.95f, n[0] * glint[0] + n[1] * glint[1] + n[2] * glint[2]));
 }
 
-void mesh_body(float cell, struct mesh *mesh)
+void mesh_body(float cell, float tolerance, struct mesh *mesh)
 {
     const struct solid body = {body_distance, body_paint};
+    const int first_index = mesh->index_count;
     isosurface(&body, creature_body_lo, creature_body_hi, cell, mesh);
+    refine(&body, tolerance, REFINE_ROUNDS, first_index, mesh);
     const struct solid features = {face_distance, face_paint};
     float lo[3], hi[3];
     for (int k = 0; k < 3; k++) {
@@ -170,5 +177,7 @@ void mesh_body(float cell, struct mesh *mesh)
         lo[k] = middle - HEAD_REACH;
         hi[k] = middle + HEAD_REACH;
     }
+    const int first_feature = mesh->index_count;
     isosurface(&features, lo, hi, 0.3f * cell, mesh);
+    refine(&features, tolerance, REFINE_ROUNDS - 1, first_feature, mesh);
 }

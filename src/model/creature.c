@@ -1,10 +1,15 @@
 #include "model/creature.h"
 
 static const struct level {
-    int animals; ///< up to how many
-    float cell;
-    int rings, segments;
-} levels[CREATURE_LEVELS] = {{1, 0.027f, 80, 32}, {3, 0.048f, 75, 20}, {8, 0.070f, 50, 10}};
+    int animals;           ///< up to how many
+    float cell, tolerance; ///< of the body, see mesh_body()
+    int rings, segments;   ///< of the tail
+} levels[CREATURE_LEVELS] = {
+    {1, 0.042f, 0.0016f, 96, 40},
+    {2, 0.050f, 0.0024f, 76, 27},
+    {4, 0.062f, 0.0060f, 58, 16},
+    {8, 0.076f, 0.0200f, 35, 7},
+};
 
 int creature_level(int animals)
 {
@@ -15,6 +20,6 @@ int creature_level(int animals)
 
 void mesh_creature(int level, struct mesh *mesh)
 {
-    mesh_body(levels[level].cell, mesh);
+    mesh_body(levels[level].cell, levels[level].tolerance, mesh);
     mesh_tail(levels[level].rings, levels[level].segments, mesh);
 }

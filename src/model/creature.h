@@ -19,7 +19,7 @@ float creature_tail_radius(float z);
 
 /// How finely the animal is meshed. Levels get coarser so that together all animals of a stage stay below 20,000
 /// triangles.
-enum { CREATURE_LEVELS = 3 };
+enum { CREATURE_LEVELS = 4 };
 
 /// The level at which that many animals are drawn.
 int creature_level(int animals);
@@ -27,8 +27,9 @@ int creature_level(int animals);
 /// Appends body and tail of a level.
 void mesh_creature(int level, struct mesh *mesh);
 
-/// Appends the body: everything but the tail, with the stump that the tail hides. Grid edges of `cell` metres.
-void mesh_body(float cell, struct mesh *mesh);
+/// Appends the body: everything but the tail, with the stump that the tail hides. Edges are about `cell` metres long,
+/// shorter where they would stay more than `tolerance` metres away from the round shape.
+void mesh_body(float cell, float tolerance, struct mesh *mesh);
 
 /// Appends the tail: `rings` rings of `segments` vertices each, from inside the body, where it is open, to a rounded
 /// tip.

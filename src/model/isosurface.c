@@ -86,8 +86,8 @@ static bool cell_crossing(const struct grid *grid, int x, int y, int z, float me
     return true;
 }
 
-/// Newton steps along the gradient bring the averaged point back onto the surface.
-static void settle(const struct solid *solid, float cell, struct vertex *vertex)
+/// Newton steps along the gradient bring the point onto the surface.
+void surface_place(const struct solid *solid, float cell, struct vertex *vertex)
 {
     float g[3];
     for (int step = 0; step < 2; step++) {
@@ -99,6 +99,7 @@ static void settle(const struct solid *solid, float cell, struct vertex *vertex)
     gradient(solid, vertex->position, 0.25f * cell, g);
     const float length = sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     for (int k = 0; k < 3; k++) vertex->normal[k] = g[k] / fmaxf(length, 1e-6f);
+    solid->paint(vertex);
 }
 
 static void place_vertices(const struct solid *solid, struct grid *grid, struct mesh *mesh)
@@ -112,8 +113,7 @@ static void place_vertices(const struct solid *solid, struct grid *grid, struct 
                 if (!cell_crossing(grid, x, y, z, mean)) continue;
                 struct vertex vertex = {0};
                 corner_point(grid, (float)x + mean[0], (float)y + mean[1], (float)z + mean[2], vertex.position);
-                settle(solid, grid->cell, &vertex);
-                solid->paint(&vertex);
+                surface_place(solid, grid->cell, &vertex);
                 *slot = mesh_vertex(mesh, &vertex);
             }
         }

@@ -16,4 +16,7 @@ struct solid {
 /// Vertices lie on the surface; normals are the distance's gradient. mesh->failed where memory is short.
 void isosurface(const struct solid *solid, const float lo[3], const float hi[3], float cell, struct mesh *mesh);
 
+/// Brings a vertex that is less than `cell` metres off onto the surface, and gives it the surface's normal and coat.
+void surface_place(const struct solid *solid, float cell, struct vertex *vertex);
+
 #endif

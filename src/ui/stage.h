@@ -5,7 +5,7 @@
 #include "rig/pose.h"
 #include "ui/drawlist.h"
 
-enum { STAGE_MAX_TAILS = 8, STAGE_MAX_BLOBS = 32 };
+enum { STAGE_MAX_TAILS = 8, STAGE_MAX_BLOBS = 16 * STAGE_MAX_TAILS };
 
 /// One tail to draw; its mesh is rebuilt only when joints, length or position change.
 struct stage_tail {
