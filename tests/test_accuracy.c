@@ -3,6 +3,8 @@
 
 #include "curve.h"
 #include "quad.h"
+#include "spline/solver.h"
+#include <lapacke.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -13,7 +15,56 @@ struct subject {
     bool slopes, irregular;
 };
 
-static wiggly_status solve(const struct subject *c, wiggly_curve *curve, double *error)
+/// Largest difference of two sets of Re x and Im x (may be NULL), relative to the larger of re's range and magnitude.
+static double relative_error(const double *expected, const double *re, const double *im, int count)
+{
+    double low = INFINITY, high = -INFINITY, worst = 0;
+    for (int i = 0; i < count; i++) {
+        low = fmin(low, expected[i]), high = fmax(high, expected[i]);
+        worst = fmax(worst, fabs(expected[i] - re[i]));
+        if (im) worst = fmax(worst, fabs(expected[count + i] - im[i]));
+    }
+    return worst / fmax(high - low, fmax(fabs(low), fabs(high)));
+}
+
+/// What LAPACKE's banded Cholesky makes of the squared matrix in double: its error, or infinity where it breaks down.
+static double lapack_error(const wiggly_desc *desc, const double *expected)
+{
+    wiggly_solver *solver = NULL;
+    assert_int_equal(wiggly_create(desc->samples, desc->knot_count, &solver), WIGGLY_OK);
+    double *y = calloc((size_t)desc->samples, sizeof *y);
+    solver_describe(solver, desc, y);
+    const system_rows *rows = &solver->rows;
+    const pentadiagonal *m = &solver->matrix;
+    int w = rows->is_complex ? 2 : 1, n = w * rows->count, kd = 3 * w - 1, first = desc->samples - rows->count;
+    system_gradient(rows);
+    double *band = calloc((size_t)(n * (kd + 1)), sizeof *band);
+    for (int u = 0; u < n; u++) {
+        int k = u / w, part = u % w;
+        double *column = band + (size_t)u * (size_t)(kd + 1);
+        column[0] = w == 2 ? m->diagonal[3 * k + 2 * part] : m->diagonal[k];
+        if (w == 2 && part == 0) column[1] = m->diagonal[3 * k + 1];
+        for (int r = 0; r < w; r++) {
+            column[w + r - part] = m->below[w * w * k + w * r + part];
+            column[2 * w + r - part] = m->below2[w * w * k + w * r + part];
+        }
+    }
+    double *x = rows->gradient, *re = calloc(2 * (size_t)desc->samples, sizeof *re), *im = re + desc->samples;
+    int info = LAPACKE_dpbsv(LAPACK_COL_MAJOR, 'L', n, kd, 1, band, kd + 1, x, n);
+    for (int i = 0; i < desc->samples; i++) {
+        int k = i < first ? 0 : i - first;
+        re[i] = x[w * k] + rows->x[w * k];
+        if (w == 2) im[i] = x[w * k + 1] + rows->x[w * k + 1];
+    }
+    double error = info == 0 ? relative_error(expected, re, w == 2 ? im : NULL, desc->samples) : INFINITY;
+    free(y);
+    free(re);
+    free(band);
+    wiggly_destroy(solver);
+    return error;
+}
+
+static wiggly_status solve(const struct subject *c, wiggly_curve *curve, double *error, double *lapack)
 {
     wiggly_knot *knots = calloc((size_t)(c->samples / c->gap + 2), sizeof *knots);
     wiggly_desc desc = wiggly_default_desc();
@@ -36,14 +87,10 @@ static wiggly_status solve(const struct subject *c, wiggly_curve *curve, double 
     *curve = curve_create(c->samples);
     wiggly_status status = wiggly_solve(solver, &desc, curve);
     wiggly_destroy(solver);
-    double *expected = malloc(2 * sizeof *expected * (size_t)c->samples), *im = expected + c->samples;
-    quad_solve(&desc, expected, im);
-    double low = INFINITY, high = -INFINITY, worst = 0;
-    for (int i = 0; i < c->samples; i++) {
-        low = fmin(low, expected[i]), high = fmax(high, expected[i]);
-        worst = fmax(worst, fmax(fabs(expected[i] - curve->re[i]), fabs(im[i] - curve->im[i])));
-    }
-    *error = worst / fmax(high - low, fmax(fabs(low), fabs(high)));
+    double *expected = malloc(2 * sizeof *expected * (size_t)c->samples);
+    quad_solve(&desc, expected, expected + c->samples);
+    *error = relative_error(expected, curve->re, curve->im, c->samples);
+    *lapack = lapack_error(&desc, expected);
     free(expected);
     free(knots);
     return status;
@@ -52,11 +99,11 @@ static wiggly_status solve(const struct subject *c, wiggly_curve *curve, double 
 static void check(const struct subject *c)
 {
     wiggly_curve curve;
-    double error;
-    wiggly_status status = solve(c, &curve, &error);
+    double error, lapack;
+    wiggly_status status = solve(c, &curve, &error, &lapack);
     double tolerance = c->mode == WIGGLY_CUBIC ? 1e-9 : 1e-8;
-    print_message("mode %d f %-6g zeta %-4g beta %-4g %6d samples, gap %6d: %.1e, %d sweeps\n", c->mode, c->frequency,
-                  c->damping, c->bandwidth, c->samples, c->gap, error, curve.refinements + 1);
+    print_message("mode %d f %-6g zeta %-4g beta %-4g %6d samples, gap %6d: %.1e, %d sweeps; dpbsv %.1e\n", c->mode,
+                  c->frequency, c->damping, c->bandwidth, c->samples, c->gap, error, curve.refinements + 1, lapack);
     curve_destroy(&curve);
     if (status != WIGGLY_OK) fail_msg("%s", wiggly_status_text(status));
     assert_near(error, 0, tolerance);
