@@ -139,6 +139,29 @@ wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, w
 /// Ends the threads and frees; NULL is fine.
 void wiggly_batch_destroy(wiggly_batch *batch);
 
+/// A long spline that is edited knot by knot and looked at through a window: kept condensed in a tree, so that an edit and a
+/// window of W samples cost O(log knots + W) and not O(N). For constant parameters on a constant equilibrium, start free or rest.
+typedef struct wiggly_take wiggly_take;
+
+/// Condenses a spline; the description's knots are copied and must be in order. WIGGLY_ERROR_ARGUMENT where it is not of that
+/// kind (tracks, a loop, so slow a complex spline that Im x is not held by its oscillation, fewer than two knots), else what
+/// wiggly_solve() says of a wrong description.
+wiggly_status wiggly_take_create(const wiggly_desc *desc, wiggly_take **take);
+
+/// Replaces the knot at `index` (in order of samples), which must stay between its neighbours: WIGGLY_ERROR_KNOT. The take is the
+/// same to the last bit as one created with that knot. Allocates nothing.
+wiggly_status wiggly_take_set_knot(wiggly_take *take, int index, wiggly_knot knot);
+
+/// The samples `from` … `from + count − 1`: total and Im x (each may be NULL). WIGGLY_INEXACT where pivots lost digits: then
+/// wiggly_solve() is the better one.
+wiggly_status wiggly_take_read(wiggly_take *take, int from, int count, double *total, double *im);
+
+/// The least and the largest total in each of `columns` equal parts of the samples `from` … `from + count − 1`, count ≥ columns.
+wiggly_status wiggly_take_range(wiggly_take *take, int from, int count, int columns, double *low, double *high);
+
+/// Frees; NULL is fine.
+void wiggly_take_destroy(wiggly_take *take);
+
 /// What a curve is at a time, in parts.
 typedef struct wiggly_value {
     double y, re, im;

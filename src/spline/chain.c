@@ -23,8 +23,7 @@ static const double acceptable = 1e-6; ///< of the same: still a curve to show, 
 /// Whether sums of tabled columns, none of them above 1e25, weighted with z stay finite.
 static bool is_tame(cplx z) { return fabs(z.re) < 1e250 && fabs(z.im) < 1e250; }
 
-/// Fills the samples from node p to before node q; false where they might overflow.
-static bool fill_stretch(const chain *c, const chain_node *p, const chain_node *q, double *x_re, double *x_im)
+bool chain_fill_stretch(const chain *c, const chain_node *p, const chain_node *q, double *re, double *im)
 {
     const chain_stretch *s = &c->stretches[p->stretch];
     cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, dq = {q->d_re, q->d_im};
@@ -37,21 +36,20 @@ static bool fill_stretch(const chain *c, const chain_node *p, const chain_node *
                  cplx_add(cplx_mul(s->c10, xp), cplx_mul(s->c11, dp))),
     };
     if (c->is_complex) {
-        chain_fill_complex(c, s, weight, x_re + p->sample, x_im + p->sample);
+        chain_fill_complex(c, s, weight, re, im);
     } else {
-        chain_fill_real(c, s, weight, x_re + p->sample);
+        chain_fill_real(c, s, weight, re);
     }
     return is_tame(weight[0]) && is_tame(weight[1]) && is_tame(weight[2]) && is_tame(weight[3]);
 }
 
-/// After the last node nothing pulls: r = 0.
-static bool run_free(const chain *c, const chain_node *last, double *x_re, double *x_im)
+bool chain_run_free(const chain *c, const chain_node *last, int count, double *re, double *im)
 {
     cplx x = {last->value, last->x_im}, d = {last->d_re, last->d_im};
     bool tame = is_tame(x) && is_tame(d);
-    for (int k = last->sample; k < c->count; k++) {
-        x_re[k] = x.re;
-        if (x_im) x_im[k] = x.im;
+    for (int i = 0; i < count; i++) { // nothing pulls: r = 0
+        re[i] = x.re;
+        if (im) im[i] = x.im;
         cplx next = cplx_add(cplx_mul(c->lambda, x), d);
         d = cplx_add(cplx_mul(c->delta2, x), cplx_mul(c->lambda, d));
         x = next;
@@ -59,18 +57,21 @@ static bool run_free(const chain *c, const chain_node *last, double *x_re, doubl
     return tame;
 }
 
+double chain_add_to_node(const chain *c, chain_node *node, const double *solved)
+{
+    double x_im = c->is_complex ? solved[0] : 0, d_re = solved[c->is_complex ? 1 : 0],
+           d_im = c->is_complex ? solved[2] : 0;
+    if (c->is_complex && node->fixed & NODE_FIXED_E) d_re += c->lambda.im * x_im;
+    node->x_im += x_im, node->d_re += d_re, node->d_im += d_im;
+    return fabs(x_im) + fabs(d_re) + fabs(d_im);
+}
+
 /// Adds the solved unknowns to the nodes; returns the largest of them.
 static double take_solution(chain *c)
 {
     double largest = 0;
     for (int j = 0; j < c->node_count; j++) {
-        chain_node *node = &c->nodes[j];
-        const double *solved = c->rows[j].right;
-        double x_im = c->is_complex ? solved[0] : 0, d_re = solved[c->is_complex ? 1 : 0];
-        double d_im = c->is_complex ? solved[2] : 0;
-        if (c->is_complex && node->fixed & NODE_FIXED_E) d_re += c->lambda.im * x_im;
-        node->x_im += x_im, node->d_re += d_re, node->d_im += d_im;
-        double size = fabs(x_im) + fabs(d_re) + fabs(d_im);
+        double size = chain_add_to_node(c, &c->nodes[j], c->rows[j].right);
         if (!(size <= largest)) largest = size;
     }
     return largest;
@@ -93,8 +94,7 @@ static bool refine(chain *c, double size)
     return false;
 }
 
-/// Everything unknown 0.
-static void reset_nodes(chain *c)
+void chain_reset_nodes(chain *c)
 {
     for (int j = 0; j < c->node_count; j++) {
         chain_node *node = &c->nodes[j];
@@ -114,14 +114,16 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
     }
     c->error = 0;
     if (c->rank == CHAIN_LOST) return false;
-    reset_nodes(c);
+    chain_reset_nodes(c);
     chain_gradient(c, false);
     chain_solve_nodes(c);
     double size = take_solution(c);
     if (c->rank == CHAIN_WEAK && !refine(c, size)) return false;
-    bool tame = run_free(c, &c->nodes[c->node_count - 1], x_re, x_im);
-    for (int j = 0; j + 1 < c->node_count; j++) {
-        tame = fill_stretch(c, &c->nodes[j], &c->nodes[j + 1], x_re, x_im) && tame;
+    const chain_node *last = &c->nodes[c->node_count - 1];
+    double *im = x_im ? x_im + last->sample : NULL;
+    bool tame = chain_run_free(c, last, c->count - last->sample, x_re + last->sample, im);
+    for (const chain_node *p = c->nodes; p < last; p++) {
+        tame = chain_fill_stretch(c, p, p + 1, x_re + p->sample, x_im ? x_im + p->sample : NULL) && tame;
     }
     return tame;
 }

@@ -81,11 +81,22 @@ void chain_forget(chain *chain);
 void chain_make_tables(chain *chain);
 void chain_assemble(chain *chain);
 chain_rank chain_factor(chain *chain);
+/// p ← inverse of the symmetric positive definite 3×3 s (00 01 02 11 12 22).
+chain_rank chain_invert(const double *s, double *p);
 /// rows' right ← solution.
 void chain_solve_nodes(chain *chain);
 /// rows' right ← −½ of the energy's gradient at the nodes' present state, `exact` in double-double; else everything unknown must
 /// be 0.
 void chain_gradient(chain *chain, bool exact);
+
+/// Everything unknown 0 at the nodes; what chain_gradient() then gives is the right-hand side.
+void chain_reset_nodes(chain *chain);
+/// Adds unknowns (Im x, Re d, Im d; or d alone) to a node; returns their size.
+double chain_add_to_node(const chain *chain, chain_node *node, const double *solved);
+/// x from node p to before node q, and `count` samples from the last node on; `re` and `im` (NULL outside complex mode) begin at the
+/// node. false where sums might overflow.
+bool chain_fill_stretch(const chain *chain, const chain_node *p, const chain_node *q, double *re, double *im);
+bool chain_run_free(const chain *chain, const chain_node *last, int count, double *re, double *im);
 
 /// x inside a stretch, from its first sample: four columns of the tables, weighted with the state (x, d) that it starts from and
 /// the costate ν of where it ends. Chosen for the processor's vector width at run time.

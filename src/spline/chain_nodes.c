@@ -117,8 +117,7 @@ static chain_rank factor_scalars(chain *c)
     return rank;
 }
 
-/// p ← inverse of the symmetric 3×3 s (00 01 02 11 12 22).
-static chain_rank invert(const double *s, double *p)
+chain_rank chain_invert(const double *s, double *p)
 {
     double c00 = s[3] * s[5] - s[4] * s[4], c01 = s[2] * s[4] - s[1] * s[5], c02 = s[1] * s[4] - s[2] * s[3];
     double det = s[0] * c00 + s[1] * c01 + s[2] * c02, full = s[0] * s[3] * s[5];
@@ -148,7 +147,7 @@ static chain_rank factor_blocks(chain *c)
             s[4] -= l[3] * n[6] + l[4] * n[7] + l[5] * n[8];
             s[5] -= l[6] * n[6] + l[7] * n[7] + l[8] * n[8];
         }
-        chain_rank block = invert(s, p);
+        chain_rank block = chain_invert(s, p);
         if (block == CHAIN_LOST) return block;
         if (block == CHAIN_WEAK || s[0] < weakest * d[0] || s[3] < weakest * d[3] || s[5] < weakest * d[5]) {
             rank = CHAIN_WEAK;

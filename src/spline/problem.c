@@ -81,11 +81,16 @@ static void set_chain(wiggly_solver *solver, const problem *p)
     c->delta2 = f->delta2;
 }
 
+bool problem_make_chain(wiggly_solver *solver, const problem *p)
+{
+    set_chain(solver, p);
+    return make_nodes(solver, p);
+}
+
 bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, double *x_im)
 {
     chain *c = &solver->chain;
-    set_chain(solver, p);
-    bool same_nodes = make_nodes(solver, p);
+    bool same_nodes = problem_make_chain(solver, p);
     c->kept = c->kept && same_nodes;
     if (c->node_count < 2 && !(c->start.h00 > 0)) return false;
     return chain_solve(c, x_re, c->is_complex ? x_im : NULL);

@@ -22,6 +22,12 @@ typedef struct problem {
 /// Whether the document is one for the chain: constant parameters, a constant equilibrium, no seam.
 bool problem_fits_chain(wiggly_solver *solver, const problem *p);
 
+/// Checks a description and applies the rules of the start; y receives the equilibrium, N numbers. What is wrong, or WIGGLY_OK.
+wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p);
+
+/// Puts filter, start and nodes into the solver's chain; true where the nodes differ from those before only in values.
+bool problem_make_chain(wiggly_solver *solver, const problem *p);
+
 /// Solves by the chain: x of the system, M numbers each (x_im in complex mode). false where it declines: one knot without any
 /// hold, digits lost, or numbers so large that something might overflow.
 bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, double *x_im);

@@ -75,19 +75,26 @@ static void carve(wiggly_solver *solver)
     for (int i = 0; i < CHAIN_DOUBLES; i++) *columns[i] = take(&tables, n * sizeof(double));
 }
 
+/// Lays a solver into zeroed memory.
+static wiggly_solver *lay_out(void *memory, int samples, int knots)
+{
+    wiggly_solver *solver = memory;
+    solver->samples = samples;
+    solver->knots = knots;
+    solver->longest_squared = LONGEST_SQUARED;
+    solver->chain.powers_capacity = samples;
+    solver->chain.stretch_capacity = knots + 1;
+    carve(solver);
+    return solver;
+}
+
 wiggly_status wiggly_create_at(void *memory, size_t size, int samples, int knots, wiggly_solver **solver)
 {
     size_t needed = wiggly_memsize(samples, knots);
     if (!memory || !solver || !needed || (uintptr_t)memory % sizeof(double) != 0) return WIGGLY_ERROR_ARGUMENT;
     if (size < needed) return WIGGLY_ERROR_MEMORY;
     memset(memory, 0, needed);
-    *solver = memory;
-    (*solver)->samples = samples;
-    (*solver)->knots = knots;
-    (*solver)->longest_squared = LONGEST_SQUARED;
-    (*solver)->chain.powers_capacity = samples;
-    (*solver)->chain.stretch_capacity = knots + 1;
-    carve(*solver);
+    *solver = lay_out(memory, samples, knots);
     return WIGGLY_OK;
 }
 
@@ -95,11 +102,11 @@ wiggly_status wiggly_create(int samples, int knots, wiggly_solver **solver)
 {
     size_t size = wiggly_memsize(samples, knots);
     if (!solver || !size) return WIGGLY_ERROR_ARGUMENT;
-    void *memory = malloc(size);
+    void *memory = calloc(1, size); // pages that a way of solving does not use are never touched
     if (!memory) return WIGGLY_ERROR_MEMORY;
-    wiggly_status status = wiggly_create_at(memory, size, samples, knots, solver);
+    *solver = lay_out(memory, samples, knots);
     (*solver)->owned = true;
-    return status;
+    return WIGGLY_OK;
 }
 
 void wiggly_destroy(wiggly_solver *solver)

@@ -25,9 +25,9 @@ static bool param_is_finite(wiggly_param param, int samples)
     return true;
 }
 
-static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *desc, const wiggly_curve *curve)
+static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *desc)
 {
-    if (!solver || !desc || !curve) return WIGGLY_ERROR_ARGUMENT;
+    if (!solver || !desc) return WIGGLY_ERROR_ARGUMENT;
     if (desc->samples < 1 || desc->knot_count < 0 || (desc->knot_count > 0 && !desc->knots))
         return WIGGLY_ERROR_ARGUMENT;
     if (desc->samples > solver->samples || desc->knot_count > solver->knots) return WIGGLY_ERROR_CAPACITY;
@@ -352,10 +352,10 @@ static wiggly_status judge(wiggly_curve *curve, const minimum *result, wiggly_st
     return status == WIGGLY_OK && !(curve->error <= tolerance(curve->mode)) ? WIGGLY_INEXACT : status;
 }
 
-/// Checks, and sets up the problem; y receives the equilibrium.
-static wiggly_status pose_problem(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p)
+wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p)
 {
-    wiggly_status status = order_knots(solver, desc);
+    wiggly_status status = check_desc(solver, desc);
+    if (status == WIGGLY_OK) status = order_knots(solver, desc);
     if (status != WIGGLY_OK) return status;
     for (int i = 0; i < desc->samples; i++) {
         y[i] = desc->equilibrium.track ? desc->equilibrium.track[i] : desc->equilibrium.value;
@@ -363,17 +363,15 @@ static wiggly_status pose_problem(wiggly_solver *solver, const wiggly_desc *desc
     if (desc->start == WIGGLY_LOOP) y[desc->samples - 1] = y[0];
     *p = (problem){.desc = desc, .y = y, .calm = desc->calm};
     set_domain(solver, p);
+    set_start(solver, p);
     return WIGGLY_OK;
 }
 
 wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, double *y)
 {
     problem p;
-    wiggly_curve any = {.total = y, .y = y, .re = y, .im = y, .omega = y};
-    wiggly_status status = check_desc(solver, desc, &any);
-    if (status == WIGGLY_OK) status = pose_problem(solver, desc, y, &p);
+    wiggly_status status = problem_pose(solver, desc, y, &p);
     if (status != WIGGLY_OK) return status;
-    set_start(solver, &p);
     set_filter(solver, &p);
     set_constraints(solver, &p);
     system_matrix(&solver->rows, &solver->matrix);
@@ -393,11 +391,10 @@ static wiggly_curve with_arrays(const wiggly_solver *solver, const wiggly_curve 
 
 wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
 {
-    wiggly_status status = check_desc(solver, desc, curve);
-    if (status != WIGGLY_OK) return status;
+    if (!solver || !curve) return WIGGLY_ERROR_ARGUMENT;
     problem p;
     wiggly_curve all = with_arrays(solver, curve);
-    status = pose_problem(solver, desc, all.y, &p);
+    wiggly_status status = problem_pose(solver, desc, all.y, &p);
     if (status != WIGGLY_OK) return status;
     minimum result = {.solved = true};
     if (solver->rows.count < 3 || is_still(&p)) {

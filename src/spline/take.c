@@ -1,0 +1,282 @@
+// A long spline under the hands of an animator: its chain of nodes with a tree over them (tree.c). Moving a knot changes two
+// stretches and three rows; the tree condenses the elements above these anew, and is descended where one looks.
+#include "spline/problem.h"
+#include "spline/tree.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { AROUND = 2 }; ///< nodes on each side that a changed node's neighbours' rows are made of
+
+struct wiggly_take {
+    wiggly_solver *solver; ///< whose chain this is
+    tree tree;
+    wiggly_desc desc;
+    wiggly_knot *knots;  ///< the description's
+    int *node_of;        ///< node of each knot
+    double *y, *re, *im; ///< equilibrium; scratch for a stretch
+    int first;
+};
+
+static wiggly_status build(wiggly_take *take)
+{
+    problem p;
+    chain *c = &take->solver->chain;
+    wiggly_status status = problem_pose(take->solver, &take->desc, take->y, &p);
+    if (status != WIGGLY_OK) return status;
+    if (!problem_fits_chain(take->solver, &p)) return WIGGLY_ERROR_ARGUMENT;
+    problem_make_chain(take->solver, &p);
+    if (c->node_count < 2) return WIGGLY_ERROR_ARGUMENT;
+    take->first = p.first;
+    for (int k = 0, j = p.start == WIGGLY_REST; k < take->desc.knot_count; k++) {
+        take->node_of[k] = j;
+        bool shares = k + 1 < take->desc.knot_count && take->knots[k + 1].sample == take->knots[k].sample + 1 &&
+                      c->nodes[j].sample == take->knots[k].sample - p.first;
+        if (!shares) j++;
+    }
+    chain_make_tables(c);
+    chain_assemble(c);
+    chain_reset_nodes(c);
+    chain_gradient(c, false);
+    int run_rows[TREE_MAX_LEVELS];
+    take->tree.levels = tree_shape(c->node_count, take->tree.count, run_rows);
+    return tree_update(&take->tree, 0, c->node_count - 1) ? WIGGLY_OK : WIGGLY_SINGULAR;
+}
+
+/// Memory of the tree for at most `rows` rows.
+static bool allocate_tree(tree *t, int rows)
+{
+    int count[TREE_MAX_LEVELS], run_rows[TREE_MAX_LEVELS], levels = tree_shape(rows, count, run_rows);
+    for (int level = 0; level < levels; level++) {
+        t->elements[level] = calloc((size_t)count[level], sizeof *t->elements[level]);
+        t->rows[level] = calloc((size_t)run_rows[level], sizeof *t->rows[level]);
+        if (!t->elements[level] || !t->rows[level]) return false;
+    }
+    return true;
+}
+
+static bool allocate(wiggly_take *take, int samples, int knots)
+{
+    size_t n = (size_t)samples, k = (size_t)knots + 1;
+    take->knots = malloc(k * sizeof *take->knots);
+    take->node_of = malloc(k * sizeof *take->node_of);
+    take->y = malloc(n * sizeof *take->y);
+    take->re = malloc(2 * n * sizeof *take->re);
+    if (!take->knots || !take->node_of || !take->y || !take->re) return false;
+    take->im = take->re + n;
+    if (wiggly_create(samples, knots, &take->solver) != WIGGLY_OK) return false;
+    take->tree.chain = &take->solver->chain;
+    return allocate_tree(&take->tree, knots + 1);
+}
+
+wiggly_status wiggly_take_create(const wiggly_desc *desc, wiggly_take **out)
+{
+    if (!desc || !out || desc->samples < 1 || desc->knot_count < 1 || !desc->knots) return WIGGLY_ERROR_ARGUMENT;
+    for (int k = 1; k < desc->knot_count; k++) {
+        if (desc->knots[k].sample <= desc->knots[k - 1].sample) return WIGGLY_ERROR_KNOT;
+    }
+    wiggly_take *take = calloc(1, sizeof *take);
+    if (!take || !allocate(take, desc->samples, desc->knot_count)) {
+        wiggly_take_destroy(take);
+        return WIGGLY_ERROR_MEMORY;
+    }
+    memcpy(take->knots, desc->knots, sizeof *take->knots * (size_t)desc->knot_count);
+    take->desc = *desc;
+    take->desc.knots = take->knots;
+    wiggly_status status = build(take);
+    if (status != WIGGLY_OK) {
+        wiggly_take_destroy(take);
+        return status;
+    }
+    *out = take;
+    return WIGGLY_OK;
+}
+
+void wiggly_take_destroy(wiggly_take *take)
+{
+    if (!take) return;
+    for (int level = 0; level < TREE_MAX_LEVELS; level++) {
+        free(take->tree.elements[level]);
+        free(take->tree.rows[level]);
+    }
+    wiggly_destroy(take->solver);
+    free(take->knots);
+    free(take->node_of);
+    free(take->y);
+    free(take->re);
+    free(take);
+}
+
+/// Whether a knot has another beside it: then nodes are shared, and which ones may change down the line.
+static bool has_company(const wiggly_take *take, int index)
+{
+    const wiggly_knot *k = &take->knots[index];
+    return (index > 0 && k[-1].sample == k->sample - 1) ||
+           (index + 1 < take->desc.knot_count && k[1].sample == k->sample + 1);
+}
+
+/// Makes the stretches and rows around node j anew. false where the tables were full and forgot other stretches.
+static bool renew_rows(wiggly_take *take, int j)
+{
+    chain *c = &take->solver->chain;
+    chain_row rows[2 * AROUND + 1];
+    int from = j - AROUND > 0 ? j - AROUND : 0, to = j + AROUND < c->node_count - 1 ? j + AROUND : c->node_count - 1;
+    chain part = *c;
+    part.nodes += from;
+    part.rows = rows;
+    part.node_count = to - from + 1;
+    if (from > 0) part.start = (start_cost){0};
+    chain_make_tables(&part);
+    bool forgot = part.stretch_count < c->stretch_count;
+    c->stretch_count = part.stretch_count;
+    c->forced_count = part.forced_count;
+    c->powers_count = part.powers_count;
+    if (forgot) return false;
+    chain_assemble(&part);
+    chain_reset_nodes(&part);
+    chain_gradient(&part, false);
+    int first = j > 0 ? j - 1 : 0, last = j + 1 < c->node_count ? j + 1 : j;
+    memcpy(&c->rows[first], &rows[first - from], sizeof *rows * (size_t)(last - first + 1));
+    return true;
+}
+
+wiggly_status wiggly_take_set_knot(wiggly_take *take, int index, wiggly_knot knot)
+{
+    if (!take || index < 0 || index >= take->desc.knot_count) return WIGGLY_ERROR_ARGUMENT;
+    wiggly_knot *knots = take->knots, before = knots[index];
+    int low = index > 0 ? knots[index - 1].sample + 1 : take->desc.start == WIGGLY_REST ? 2 : 0;
+    int high = index + 1 < take->desc.knot_count ? knots[index + 1].sample - 1 : take->desc.samples - 1;
+    if (knot.sample < low || knot.sample > high) return WIGGLY_ERROR_KNOT;
+    if (!isfinite(knot.value) ||
+        (knot.has_slope && !(isfinite(knot.slope) && knot.stiffness > 0 && isfinite(knot.stiffness)))) {
+        return WIGGLY_ERROR_NUMBER;
+    }
+    bool shared = has_company(take, index);
+    knots[index] = knot;
+    shared = shared || has_company(take, index);
+    bool moves_start = index == 0 && knot.sample != before.sample;
+    bool on_last = knot.has_slope && knot.sample == take->desc.samples - 1;
+    int j = take->node_of[index];
+    if (!shared && !moves_start && !on_last) {
+        chain_node *node = &take->solver->chain.nodes[j];
+        double h = take->desc.step;
+        node->sample = knot.sample - take->first;
+        node->value = knot.value - take->desc.equilibrium.value;
+        node->slope = knot.has_slope ? h * knot.slope : 0;
+        node->slope_weight = knot.has_slope ? fmin(knot.stiffness * h, STIFFEST) : 0;
+        if (renew_rows(take, j)) {
+            int last = take->solver->chain.node_count - 1;
+            return tree_update(&take->tree, j > 0 ? j - 1 : 0, j < last ? j + 1 : last) ? WIGGLY_OK : WIGGLY_SINGULAR;
+        }
+    }
+    wiggly_status status = build(take);
+    if (status == WIGGLY_OK) return status;
+    knots[index] = before; // what cannot be a take is refused, and the take is as it was
+    build(take);
+    return status;
+}
+
+/// Where samples of a window go.
+typedef struct sink {
+    int from, count;
+    double *total, *im; ///< or NULL
+    int columns;
+    double *low, *high;
+} sink;
+
+/// Takes samples at … at + count − 1 (numbers of the whole spline), of which some may lie outside the window.
+static void pour(const wiggly_take *take, const sink *s, int at, int count, const double *re, const double *im)
+{
+    int begin = at > s->from ? at : s->from, end = at + count < s->from + s->count ? at + count : s->from + s->count;
+    double y = take->desc.equilibrium.value;
+    for (int i = begin; i < end; i++) {
+        double total = y + re[i - at];
+        if (s->total) s->total[i - s->from] = total;
+        if (s->im) s->im[i - s->from] = im ? im[i - at] : 0;
+        if (!s->columns) continue;
+        int column = (int)((long long)(i - s->from) * s->columns / s->count);
+        s->low[column] = fmin(s->low[column], total);
+        s->high[column] = fmax(s->high[column], total);
+    }
+}
+
+/// The node at or before a sample of the system; the first where there is none.
+static int node_before(const chain *c, int sample)
+{
+    int low = 0, high = c->node_count - 1;
+    while (low < high) {
+        int middle = (low + high + 1) / 2;
+        if (c->nodes[middle].sample <= sample) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    return low;
+}
+
+static wiggly_status look(wiggly_take *take, const sink *s)
+{
+    chain *c = &take->solver->chain;
+    int from = s->from - take->first, to = from + s->count - 1; // of the system
+    int p = node_before(c, from), q = node_before(c, to), last = c->node_count - 1;
+    q = q < last ? q + 1 : last;
+    chain part = *c;
+    part.nodes += p;
+    part.node_count = q - p + 1;
+    chain_reset_nodes(&part);
+    if (!tree_solve(&take->tree, p, q)) return WIGGLY_SINGULAR;
+    double *im = c->is_complex ? take->im : NULL;
+    for (int i = s->from; i < take->first && i < s->from + s->count; i++)
+        pour(take, s, i, 1, &c->nodes[0].value, &c->nodes[0].x_im);
+    for (int j = p; j < q; j++) {
+        const chain_node *node = &c->nodes[j];
+        chain_fill_stretch(c, node, node + 1, take->re, im);
+        pour(take, s, take->first + node->sample, node[1].sample - node->sample, take->re, im);
+    }
+    const chain_node *end = &c->nodes[last];
+    if (q == last && to >= end->sample) {
+        int count = to - end->sample + 1;
+        chain_run_free(c, end, count, take->re, im);
+        pour(take, s, take->first + end->sample, count, take->re, im);
+    }
+    return take->tree.elements[take->tree.levels - 1][0].weak ? WIGGLY_INEXACT : WIGGLY_OK;
+}
+
+static bool is_inside(const wiggly_take *take, int from, int count)
+{
+    return take && from >= 0 && count >= 1 && from <= take->desc.samples - count;
+}
+
+/// Keys are hit to the bit: y + (value − y) may not be.
+static void set_keys(const wiggly_take *take, int from, int count, double *total)
+{
+    int low = 0, high = take->desc.knot_count;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (take->knots[middle].sample < from) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    for (; low < take->desc.knot_count && take->knots[low].sample < from + count; low++) {
+        total[take->knots[low].sample - from] = take->knots[low].value;
+    }
+}
+
+wiggly_status wiggly_take_read(wiggly_take *take, int from, int count, double *total, double *im)
+{
+    if (!is_inside(take, from, count)) return WIGGLY_ERROR_ARGUMENT;
+    wiggly_status status = look(take, &(sink){.from = from, .count = count, .total = total, .im = im});
+    if (total) set_keys(take, from, count, total);
+    return status;
+}
+
+wiggly_status wiggly_take_range(wiggly_take *take, int from, int count, int columns, double *low, double *high)
+{
+    if (!is_inside(take, from, count) || columns < 1 || columns > count || !low || !high)
+        return WIGGLY_ERROR_ARGUMENT;
+    for (int i = 0; i < columns; i++) low[i] = INFINITY, high[i] = -INFINITY;
+    return look(take, &(sink){.from = from, .count = count, .columns = columns, .low = low, .high = high});
+}
