@@ -65,18 +65,18 @@ static void work_destroy(struct work *w)
     free(w->zband);
 }
 
-static bool work_create(struct work *w, const struct bench_case *c)
+static bool work_create(struct work *w, const struct bench_case *c, int gap)
 {
     size_t n = (size_t)c->samples;
     memset(w, 0, sizeof *w);
-    w->knots = calloc(n / KNOT_EVERY + 2, sizeof *w->knots);
+    w->knots = calloc(n / (size_t)gap + 2, sizeof *w->knots);
     double *numbers = calloc(5 * n, sizeof *numbers);
     w->curve = (wiggly_curve){numbers,         numbers + n,     numbers + 2 * n,
                               numbers + 3 * n, numbers + 4 * n, .samples = c->samples};
     w->band = calloc(2 * (2 * n * (KD + 1) + 2 * n), sizeof(double));
     w->zband = calloc(n * (COMPLEX_KD + 1) + n, sizeof(double complex));
     if (!w->knots || !numbers || !w->band || !w->zband ||
-        wiggly_create(c->samples, c->samples / KNOT_EVERY + 2, &w->solver) != WIGGLY_OK) {
+        wiggly_create(c->samples, c->samples / gap + 2, &w->solver) != WIGGLY_OK) {
         return false;
     }
     w->right = w->band + 2 * n * (KD + 1);
@@ -89,7 +89,7 @@ static bool work_create(struct work *w, const struct bench_case *c)
     w->desc.frequency.value = 1;
     w->desc.damping.value = 0.05;
     w->desc.knots = w->knots;
-    for (int i = 0; i < c->samples; i += KNOT_EVERY) {
+    for (int i = 0; i < c->samples; i += gap) {
         w->knots[w->desc.knot_count] = (wiggly_knot){.sample = i, .value = sin(1.7 * w->desc.knot_count)};
         w->desc.knot_count++;
     }
@@ -312,6 +312,55 @@ static bool run_crowds(const struct bench_result *single, double *times,
     return good || fail(error, ERROR_ENVIRONMENT, "batch/complex/10000x240 could not be solved");
 }
 
+/// A knot in the middle of a million samples is dragged, up and down and along, and the thousand samples around it are read;
+/// compared with wiggly_solve() of the same spline first.
+static bool run_edit(double *times, void (*done)(void *, const struct bench_result *), void *user,
+                     struct error *error)
+{
+    enum { SAMPLES = 1000000, GAP = 100, WINDOW = 1000, EDITED = SAMPLES / GAP / 2 };
+    struct work *w = malloc(sizeof *w);
+    wiggly_take *take = NULL;
+    double window[WINDOW], worst = 0;
+    struct bench_result result = {.name = "edit/complex/1000000",
+                                  .mode = "complex",
+                                  .samples = SAMPLES,
+                                  .splines = 1,
+                                  .threads = 1,
+                                  .lanes = 1,
+                                  .dpbsv_ns_per_sample = NAN,
+                                  .zpbsv_ns_per_sample = NAN};
+    bool good =
+        w &&
+        work_create(w, &(struct bench_case){.name = result.name, .mode = WIGGLY_COMPLEX, .samples = SAMPLES}, GAP) &&
+        wiggly_take_create(&w->desc, &take) == WIGGLY_OK;
+    for (int run = 0; good && run < MAX_RUNS; run++) {
+        wiggly_knot knot = w->knots[EDITED];
+        knot.value += 1e-3;
+        knot.sample = EDITED * GAP + (13 * run) % 41 - 20;
+        int from = knot.sample - WINDOW / 2;
+        double start = now();
+        good = wiggly_take_set_knot(take, EDITED, knot) == WIGGLY_OK &&
+               wiggly_take_read(take, from, WINDOW, window, NULL) == WIGGLY_OK;
+        times[run] = now() - start;
+        w->knots[EDITED] = knot;
+        if (run > 0) continue;
+        good = good && wiggly_solve(w->solver, &w->desc, &w->curve) == WIGGLY_OK;
+        for (int i = 0; good && i < WINDOW; i++) worst = fmax(worst, fabs(window[i] - w->curve.total[from + i]));
+    }
+    if (good) {
+        statistics_sort(times, MAX_RUNS);
+        result.ns_per_sample = 1e9 * times[0] / WINDOW;
+        result.p50_us = 1e6 * statistics_quantile(times, MAX_RUNS, 0.5);
+        result.p99_us = 1e6 * statistics_quantile(times, MAX_RUNS, 0.99);
+        result.error = worst;
+        done(user, &result);
+    }
+    wiggly_take_destroy(take);
+    if (w) work_destroy(w);
+    free(w);
+    return (good && worst <= 1e-9) || fail(error, ERROR_ENVIRONMENT, "%s: off by %g", result.name, worst);
+}
+
 static void name_cpu(char *name, size_t size)
 {
     char line[256];
@@ -338,13 +387,14 @@ bool bench_run(struct bench_machine *machine, void (*done)(void *user, const str
     struct work *w = malloc(sizeof *w);
     for (size_t c = 0; good && w && c < sizeof cases / sizeof *cases; c++) {
         struct bench_result result;
-        good = work_create(w, &cases[c]) || fail(error, ERROR_ENVIRONMENT, "out of memory for %s", cases[c].name);
+        good = work_create(w, &cases[c], KNOT_EVERY) ||
+               fail(error, ERROR_ENVIRONMENT, "out of memory for %s", cases[c].name);
         good = good && run_case(w, &cases[c], &lapack, &result, error);
         if (good) done(user, &result);
         if (c == 0) first = result;
         work_destroy(w);
     }
-    good = good && w && run_crowds(&first, w->times, done, user, error);
+    good = good && w && run_crowds(&first, w->times, done, user, error) && run_edit(w->times, done, user, error);
     if (!w) good = fail(error, ERROR_ENVIRONMENT, "out of memory");
     free(w);
     lapack_unload(&lapack);

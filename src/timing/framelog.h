@@ -10,8 +10,9 @@ struct frame_row {
     long frame; ///< from 0 in every run
     double t_s; ///< seconds since the start of the process, when the timed part (input to the end of the swap) began
     double frame_ms, wait_us, input_us, edit_us, solve_us, pose_us, upload_us, draw_us, gpu_us, swap_us;
-    long splines_solved, samples, knots, edited;
-    double event_to_swap_us; ///< oldest event of the frame to the end of the swap; NAN where none came
+    long splines_solved, samples, knots; ///< solved in this frame: splines, their samples, their knots
+    long edited;                         ///< 1 where the document is not what the frame before it showed
+    double event_to_swap_us;             ///< oldest event of the frame to the end of the swap; NAN where none came
     long allocations, uploaded_bytes;
 };
 
