@@ -155,19 +155,21 @@ static bool reflect(walk *w, int top, int c)
     }
     if (top >= s->rows || s->row[largest][c] == 0) return false;
     swap_rows(s, top, largest);
-    double *pivot = s->row[top], below = 0, v[MAX_ROWS];
-    for (int r = top + 1; r < s->rows; r++) {
-        v[r] = s->row[r][c] / pivot[c];
-        below += v[r] * v[r];
+    double *pivot = s->row[top], below = 0;
+    for (int r = top + 1; r < s->rows;
+         r++) { // the reflection's vector is (1 + length, v…), v kept in the column itself
+        s->row[r][c] /= pivot[c];
+        below += s->row[r][c] * s->row[r][c];
     }
-    double length = sqrt(1 + below), head = 1 + length, scale = 1 / (length * head); // v = (head, v…), 2/|v|² = scale
-    for (int j = c; j < w->columns; j++) {
+    double length = sqrt(1 + below), head = 1 + length, scale = 1 / (length * head);
+    for (int j = c + 1; j < w->columns; j++) {
         double dot = head * pivot[j];
-        for (int r = top + 1; r < s->rows; r++) dot += v[r] * s->row[r][j];
+        for (int r = top + 1; r < s->rows; r++) dot += s->row[r][c] * s->row[r][j];
         dot *= scale;
         pivot[j] -= head * dot;
-        for (int r = top + 1; r < s->rows; r++) s->row[r][j] -= v[r] * dot;
+        for (int r = top + 1; r < s->rows; r++) s->row[r][j] -= s->row[r][c] * dot;
     }
+    pivot[c] *= -length;
     for (int r = top + 1; r < s->rows; r++) s->row[r][c] = 0;
     return pivot[c] * 0 == 0;
 }
