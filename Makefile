@@ -71,11 +71,13 @@ $(B)/obj/src/spline/%.o: CFLAGS += $(SPLINE_CFLAGS)
 
 all: $(B)/wiggly $(B)/libwiggly.a $(TOOLS:%=$(B)/%)
 
-# Without a display the app runs headless by itself; then it is asked for a picture and a log to show for it.
-HEADLESS_ARGS := --log $(B)/live.csv --screenshot $(B)/live.png
+# The app itself finds out whether it has a display; however it ran, it leaves its log and its last picture.
+LIVE_LOG := $(B)/live.csv
+LIVE_PICTURE := $(B)/live.png
 run: $(B)/wiggly
-	$(Q)if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ]; then exec $(B)/wiggly live $(ARGS); fi; \
-	$(B)/wiggly live $(HEADLESS_ARGS) $(ARGS) && echo "Picture: $(B)/live.png, timing log: $(B)/live.csv"
+	$(Q)rm -f $(LIVE_LOG) $(LIVE_PICTURE)
+	$(Q)$(B)/wiggly live --log $(LIVE_LOG) --screenshot $(LIVE_PICTURE) $(ARGS)
+	$(Q)[ ! -s $(LIVE_PICTURE) ] || echo "Picture: $(LIVE_PICTURE), timing log: $(LIVE_LOG)"
 
 test: $(B)/wiggly $(B)/libwiggly.a $(TOOLS:%=$(B)/%) $(TEST_PROGRAMS)
 	$(Q)B=$(B) WIGGLY=$(B)/wiggly TEST_OUT=$(B)/test-out CC="$(CC)" tools/run-tests.sh \

@@ -91,6 +91,21 @@ expect 0 "the document at the end is a good scene" "$WIGGLY" check "$scratch/end
 expect 0 "it opens again" live --frames 2 "$scratch/end.json"
 expect 0 "without a display and without --headless" "$WIGGLY" live --frames 2 --size 640x360
 says "it says that it runs headless" "headless" "$out$err"
+expect 0 "a display that does not open" env DISPLAY=:987 "$WIGGLY" live --frames 2 --size 640x360
+says "is like none" "headless" "$out$err"
+
+# `make run` finds nothing out by itself: whatever became of the display, there is something to show for it.
+make_run() { DISPLAY=:987 make B="${B:-build}" SANITIZE="${SANITIZE:-}" ARGS="--frames 2 --size 640x360 $*" run; }
+picture=${B:-build}/live.png
+log=${B:-build}/live.csv
+rm -f "$picture" "$log"
+expect 0 "make run with a display that does not open" make_run
+[ -s "$picture" ] && [ -s "$log" ]
+ok "leaves a picture and a log" $?
+says "and says where" "Picture: $picture, timing log: $log" "$out"
+expect 0 "make run ARGS=--help" make_run --help
+[[ ! -e $picture && $out != *Picture:* ]]
+ok "promises no picture that it did not make" $?
 elsewhere() { (cd "$scratch" && "$binary" live --headless --frames 2 --size 640x360); }
 binary=$(realpath "$WIGGLY")
 expect 0 "the built-in tail is found from any folder" elsewhere
