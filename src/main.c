@@ -60,7 +60,7 @@ static int wrong_command(const char *word)
     return 2;
 }
 
-int main(int argc, char **argv)
+static int run(int argc, char **argv)
 {
     static char live[] = "live";
     char *no_arguments[] = {live, NULL};
@@ -75,4 +75,13 @@ int main(int argc, char **argv)
     if (!means_live(argv[1])) return wrong_command(argv[1]);
     argv[0] = live;
     return command_live(argc, argv);
+}
+
+int main(int argc, char **argv)
+{
+    int status = run(argc, argv);
+    bool written = fflush(stdout) == 0 && !ferror(stdout);
+    if (written || status != 0) return status;
+    fprintf(stderr, "wiggly: standard output cannot be written: is the disk full?\n");
+    return 3;
 }

@@ -85,6 +85,7 @@ static void test_what_is_refused(void **state)
         "a --frames 101",
         "a --frames 7x",
         "a --frames=",
+        "a --out=",
         "a --frames 99999999999999999999",
         "a --scale nan",
         "a --scale 1e400",

@@ -384,6 +384,19 @@ static const char chain[] =
     "{\"frame\": 48, \"value\": 2}]},"
     "{\"name\": \"a\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 9, \"value\": 3}]}]}";
 
+static void test_a_scene_without_splines(void **state)
+{
+    (void)state;
+    struct document *document = parse("{\"frames\": [0, 120]}");
+    struct evaluation evaluation = {0};
+    struct error error = {0};
+    assert_true(evaluation_resize(&evaluation, document, &error));
+    evaluation_update(&evaluation, document, NULL, false);
+    assert_int_equal(evaluation.solved_splines, 0);
+    evaluation_free(&evaluation);
+    document_destroy(document);
+}
+
 static void test_only_followers_are_solved(void **state)
 {
     (void)state;
@@ -483,6 +496,7 @@ int main(void)
         cmocka_unit_test(test_every_error_is_reported),
         cmocka_unit_test(test_escaped_keys),
         cmocka_unit_test(test_save),
+        cmocka_unit_test(test_a_scene_without_splines),
         cmocka_unit_test(test_only_followers_are_solved),
         cmocka_unit_test(test_partial_solves_agree),
         cmocka_unit_test(test_evaluation_fits_the_document),

@@ -28,6 +28,90 @@ static bool open_platform(struct app *app, bool offscreen, struct error *error)
     return app->platform != NULL;
 }
 
+/// After the first frame: opens the log. The reference frame is measured where a log is wanted, but nobody at a window is
+/// kept waiting for it.
+static bool open_log(struct app *app, struct error *error)
+{
+    const struct app_options *o = app->options;
+    struct frame_header header = {
+        .gl_renderer = draw_renderer_name(),
+        .vsync = platform_is_window(app->platform) && !app->replay && !o->frames,
+        .warm_up = WARM_UP,
+        .reference_ms = NAN,
+        .first_frame_ms = 1e3 * process_age(),
+    };
+    platform_size(app->platform, &header.width, &header.height, &header.scale);
+    if (o->log && !header.vsync) {
+        header.reference_ms = draw_reference_ms(app->draw, header.width, header.height, REFERENCE_FRAMES);
+        app->lost = true;
+    }
+    app->log = framelog_open(o->log, &header, LOG_ROWS, error);
+    if (!app->log) return false;
+    framelog_push(app->log, &app->row);
+    printf("first frame after %.0f ms\n", header.first_frame_ms);
+    return true;
+}
+
+static bool run_frames(struct app *app, long frames, bool timed, struct error *error)
+{
+    while (!app->quit && !app->failed && !process_was_told_to_end() && (frames == 0 || app->frame < frames)) {
+        app_frame(app);
+        if (app->frame == 1 && timed && !app->log && !open_log(app, error)) return false;
+    }
+    if (app->failed) *error = app->error;
+    return !app->failed;
+}
+
+/// Somebody's work is at stake, not a script's.
+static bool is_live(const struct app *app)
+{
+    return app->platform && platform_is_window(app->platform) && !app->replay;
+}
+
+/// Where the run ends without the user's own word on what is unsaved.
+static bool rescue(struct app *app, bool good, struct error *error)
+{
+    bool told = process_was_told_to_end(), unsaved = !history_is_saved(app->history);
+    if (!is_live(app) || !unsaved || (good && !told)) return good;
+    if (good) fail(error, ERROR_ENVIRONMENT, "told to end by a signal");
+    app_rescue(app, error);
+    return false;
+}
+
+/// What was asked for at the end: document, log, recording. Goes on past a failure and reports the first.
+static bool close_files(struct app *app, struct error *error)
+{
+    const char *result = app->document && app->frame > 0 ? app->options->result : NULL;
+    struct error other = {0};
+    bool good = !result || scene_save(app->document, result, error);
+    if (app->log) {
+        good = framelog_close(app->log, stdout, good ? error : &other) && good;
+        printf("largest resident memory %.0f MB\n", process_peak_memory());
+    }
+    return recording_close(app->recording, app->frame, good ? error : &other) && good;
+}
+
+/// The same with the picture, which needs the display.
+static bool finish(struct app *app, struct error *error)
+{
+    const char *screenshot = app->platform && app->frame > 0 ? app->options->screenshot : NULL;
+    struct error other = {0};
+    bool good = !screenshot || app_screenshot(app, screenshot, error);
+    return close_files(app, good ? error : &other) && good;
+}
+
+/// The display is gone, and with it what draws: saves what can be saved. The process ends on return.
+static void on_lost(void *user)
+{
+    struct app *app = user;
+    struct error error, other = {0};
+    fail(&error, ERROR_ENVIRONMENT, "the display is gone");
+    app_rescue(app, &error);
+    close_files(app, &other);
+    fflush(stdout);
+    fprintf(stderr, "wiggly live: %s\n", error.text);
+}
+
 static bool start(struct app *app, bool offscreen, struct error *error)
 {
     const struct app_options *o = app->options;
@@ -39,7 +123,7 @@ static bool start(struct app *app, bool offscreen, struct error *error)
     if (!(app->draw = draw_create(scale, error)) || !(app->editor = editor_create(error))) return false;
     if (!(app->history = history_create())) return fail(error, ERROR_ENVIRONMENT, "out of memory");
     app_connect_files(app);
-    editor_resize(app->editor, (float)width / scale, (float)height / scale, scale);
+    app_resize(app, (float)width / scale, (float)height / scale, scale);
     if (!app_open(app, o->scene, error)) return false;
     uint64_t hash = scene_hash(app->document);
     if (app->replay && replay_get_header(app->replay)->scene_hash != hash) {
@@ -57,57 +141,11 @@ static bool start(struct app *app, bool offscreen, struct error *error)
     if (o->frames_dir) mkdir(o->frames_dir, 0777);
     app->fixed_clock = offscreen || app->replay || app->recording;
     app->lost = true;
+    if (!offscreen) {
+        platform_on_lost(on_lost, app);
+        if (!app->replay) process_catch_end();
+    }
     return true;
-}
-
-/// After the first frame: measures the reference frame where a log is wanted, and opens it.
-static bool open_log(struct app *app, struct error *error)
-{
-    const struct app_options *o = app->options;
-    struct frame_header header = {
-        .gl_renderer = draw_renderer_name(),
-        .vsync = platform_is_window(app->platform) && !app->replay && !o->frames,
-        .warm_up = WARM_UP,
-        .reference_ms = NAN,
-        .first_frame_ms = 1e3 * process_age(),
-    };
-    platform_size(app->platform, &header.width, &header.height, &header.scale);
-    if (o->log) {
-        header.reference_ms = draw_reference_ms(app->draw, header.width, header.height, REFERENCE_FRAMES);
-        app->lost = true;
-    }
-    app->log = framelog_open(o->log, &header, LOG_ROWS, error);
-    if (!app->log) return false;
-    framelog_push(app->log, &app->row);
-    printf("first frame after %.0f ms\n", header.first_frame_ms);
-    return true;
-}
-
-static bool run_frames(struct app *app, long frames, bool timed, struct error *error)
-{
-    while (!app->quit && !app->failed && (frames == 0 || app->frame < frames)) {
-        app_frame(app);
-        if (app->frame == 1 && timed && !app->log && !open_log(app, error)) return false;
-    }
-    if (app->failed) *error = app->error;
-    return !app->failed;
-}
-
-/// What was asked for at the end: picture, document, log, recording. Goes on past a failure and reports the first.
-static bool finish(struct app *app, struct error *error)
-{
-    const struct app_options *o = app->options;
-    struct error other = {0};
-    bool good = true;
-    if (app->platform && app->frame > 0 && o->screenshot) good = app_screenshot(app, o->screenshot, error) && good;
-    if (app->document && app->frame > 0 && o->result) {
-        good = scene_save(app->document, o->result, good ? error : &other) && good;
-    }
-    if (app->log) {
-        good = framelog_close(app->log, stdout, good ? error : &other) && good;
-        printf("largest resident memory %.0f MB\n", process_peak_memory());
-    }
-    return recording_close(app->recording, app->frame, good ? error : &other) && good;
 }
 
 static void destroy(struct app *app)
@@ -130,13 +168,15 @@ int app_run(const struct app_options *options, struct error *error)
         fprintf(stderr, "wiggly: no display, running headless (see wiggly live --help for what it can write)\n");
         offscreen = true;
     }
+    double age = process_age();
+    app.process_start = clock_now() - (isnan(age) ? 0 : age);
     bool good = start(&app, offscreen, error);
     if (good) {
         long frames = options->frames ? options->frames
                       : app.replay    ? replay_get_header(app.replay)->frames
                       : offscreen     ? HEADLESS_FRAMES
                                       : 0;
-        good = run_frames(&app, frames, frames > 0 || options->log, error);
+        good = rescue(&app, run_frames(&app, frames, frames > 0 || options->log, error), error);
     }
     struct error late = {0};
     if (!finish(&app, good ? error : &late)) good = false;

@@ -16,7 +16,8 @@ static const char built_in_scene[] = "scenes/tail.json";
 static const char new_scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1,"
     " \"knots\": [{\"frame\": 0, \"value\": 0}]}],"
-    " \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], \"rest\": 2, \"spline\": \"sway\"}]}";
+    " \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], \"rest\": 2,"
+    " \"spline\": \"sway\"}]}";
 
 static const char *file_name(const char *path)
 {
@@ -61,6 +62,10 @@ static bool is_asset(const char *path)
 bool app_open(struct app *app, const char *path, struct error *error)
 {
     struct document *document;
+    if (path && strlen(path) >= sizeof app->path) {
+        return fail(error, ERROR_INPUT, "expected a path of at most %zu bytes, got %zu: %s", sizeof app->path - 1,
+                    strlen(path), path);
+    }
     if (path) {
         document = scene_load(path, NULL, error);
     } else {

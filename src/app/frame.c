@@ -1,5 +1,6 @@
 #include "app/state.h"
 #include "platform/process.h"
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +8,8 @@
 static const double replay_dt = 1.0 / 60;
 static const double frame_time = 1.0 / 60; ///< the limiter's: a swap interval of 1 does not hold everywhere
 static const double idle_wait = 0.5;
-static const double longest_step = 0.1; ///< after a stall playback goes on, it does not jump
+static const float smallest_width = 320, smallest_height = 240; ///< of the layout; less shows a part of it
+static const double longest_step = 0.1;                         ///< after a stall playback goes on, it does not jump
 
 static double microseconds(double from, double to) { return 1e6 * (to - from); }
 
@@ -18,11 +20,16 @@ static bool locate(void *user, const char *target, float *x, float *y, struct er
     return editor_target(app->editor, &world, target, x, y, error);
 }
 
+void app_resize(struct app *app, float width, float height, float scale)
+{
+    editor_resize(app->editor, fmaxf(width, smallest_width), fmaxf(height, smallest_height), scale);
+}
+
 static void handle_event(struct app *app, const struct event *event)
 {
     if (app->recording) recording_event(app->recording, app->frame, event);
     if (event->kind == EVENT_EXPOSE) app->lost = true;
-    if (event->kind == EVENT_SIZE) editor_resize(app->editor, event->x, event->y, event->scale);
+    if (event->kind == EVENT_SIZE) app_resize(app, event->x, event->y, event->scale);
     struct editor_world world = app_world(app);
     editor_event(app->editor, &world, event);
 }
@@ -94,13 +101,6 @@ static bool fit_evaluation(struct app *app)
     return true;
 }
 
-static long count_knots(const struct document *document)
-{
-    long knots = 0;
-    for (int i = 0; i < document->spline_count; i++) knots += document->splines[i].knot_count;
-    return knots;
-}
-
 static void solve(struct app *app)
 {
     double start = clock_now();
@@ -119,10 +119,10 @@ static void solve(struct app *app)
         evaluation_update(&app->evaluation, document, resized ? NULL : app->dirty, cubic);
         app->row.splines_solved = app->evaluation.solved_splines;
         app->row.samples = app->evaluation.solved_samples;
+        app->row.knots = app->evaluation.solved_knots;
         app->solved_revision = revision;
         app->solved_cubic = cubic;
     }
-    app->row.knots = count_knots(document);
     app->row.solve_us = microseconds(start, clock_now());
 }
 
@@ -154,7 +154,7 @@ static void draw(struct app *app)
     app->row.gpu_us = cost.gpu_us < 0 ? NAN : cost.gpu_us;
     app->row.uploaded_bytes = cost.uploaded_bytes;
     app->row.swap_us = microseconds(swap_start, end);
-    app->row.t_s = app->frame_start;
+    app->row.t_s = app->frame_start - app->process_start;
     app->row.frame_ms = 1e3 * (end - app->frame_start);
     app->row.event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
     app->row.allocations = allocation_count() - app->row.allocations;
@@ -172,7 +172,7 @@ static void log_frame(struct app *app)
         app->stats_frame = app->frame;
     }
     if (!app->options->frames_dir) return;
-    char path[1024];
+    char path[PATH_MAX + 32]; // what is cut off here is longer than the system takes
     snprintf(path, sizeof path, "%s/frame_%05ld.png", app->options->frames_dir, app->frame);
     if (!app_screenshot(app, path, &app->error)) app->failed = true;
 }

@@ -7,14 +7,16 @@
 #include <string.h>
 #include <wiggly/wiggly.h>
 
-enum { MAX_REPLAY = 64 << 20, MAX_WORDS = 8 };
+enum { MAX_REPLAY = 64 << 20, MAX_WORDS = 16, MIN_PIXELS = 64, MAX_PIXELS = 16384, MAX_FRAMES = 10000000 };
 
 static const char first_line[] = "wiggly-replay 1";
+static const char size_limits[] = "a width and a height from 64 to 16384";
 
 struct replay {
     char *path, *text;
     char *at; ///< the next line
-    int line;
+    int next_line;
+    int line; ///< the last one that was looked at, for messages
     struct replay_header header;
     char drop_path[1024];
 };
@@ -31,17 +33,38 @@ static bool bad_line(const struct replay *replay, struct error *error, const cha
                 got ? "\"" : "", got ? got : "the end of the line", got ? "\"" : "");
 }
 
-/// Cuts the next line off; NULL at the end of the text. Empty lines and `#` comments are passed over.
-static char *next_line(struct replay *replay)
+/// Goes to the next line that says something and returns where it begins; NULL at the end of the text. Blank lines and
+/// `#` comments are passed over.
+static char *seek_line(struct replay *replay)
 {
-    while (*replay->at) {
-        char *line = replay->at, *end = strchr(line, '\n');
-        replay->at = end ? end + 1 : line + strlen(line);
-        if (end) *end = '\0';
-        replay->line++;
-        if (*line && *line != '#') return line;
+    for (; *replay->at; replay->at++, replay->next_line++) {
+        replay->at += strspn(replay->at, " \t\r");
+        if (*replay->at && *replay->at != '\n' && *replay->at != '#') break;
+        replay->at = strchrnul(replay->at, '\n');
+        if (!*replay->at) break;
     }
-    return NULL;
+    replay->line = replay->next_line;
+    return *replay->at ? replay->at : NULL;
+}
+
+/// Behind the line that seek_line() found; returns where that one ends.
+static char *pass_line(struct replay *replay)
+{
+    char *end = strchrnul(replay->at, '\n');
+    replay->at = *end ? end + 1 : end;
+    replay->next_line++;
+    return end;
+}
+
+/// Cuts the next line off; NULL at the end of the text.
+static char *take_line(struct replay *replay)
+{
+    char *line = seek_line(replay);
+    if (!line) return NULL;
+    char *end = pass_line(replay);
+    while (isspace((unsigned char)end[-1])) end--; // a line begins with something else
+    *end = '\0';
+    return line;
 }
 
 /// Words are separated by spaces; within a target's brackets spaces belong to it.
@@ -71,6 +94,11 @@ static bool read_number(const char *word, double *value)
     return end != word && !*end && isfinite(*value);
 }
 
+static bool is_size(double width, double height)
+{
+    return fmin(width, height) >= MIN_PIXELS && fmax(width, height) <= MAX_PIXELS;
+}
+
 static bool read_header_line(struct replay *replay, const struct words *w, struct error *error)
 {
     struct replay_header *h = &replay->header;
@@ -79,8 +107,7 @@ static bool read_header_line(struct replay *replay, const struct words *w, struc
     bool one = w->count > 1 && read_number(w->word[1], &a), two = one && w->count > 2 && read_number(w->word[2], &b);
     if (strcmp(name, "version") == 0) return true;
     if (strcmp(name, "size") == 0) {
-        if (!two || a < 64 || a > 16384 || b < 64 || b > 16384)
-            return bad_line(replay, error, "size WIDTH HEIGHT", w->word[1]);
+        if (!two || !is_size(a, b)) return bad_line(replay, error, size_limits, w->word[1]);
         h->width = (int)a, h->height = (int)b;
     } else if (strcmp(name, "scale") == 0) {
         if (!one || a < 0.25 || a > 8) return bad_line(replay, error, "a scale from 0.25 to 8", w->word[1]);
@@ -92,7 +119,8 @@ static bool read_header_line(struct replay *replay, const struct words *w, struc
     } else if (strcmp(name, "dt") == 0) {
         if (w->count < 2 || strcmp(w->word[1], "1/60") != 0) return bad_line(replay, error, "dt 1/60", w->word[1]);
     } else if (strcmp(name, "frames") == 0) {
-        if (!one || a < 1 || a > 10000000) return bad_line(replay, error, "a number of frames", w->word[1]);
+        bool whole = one && a >= 0 && a <= MAX_FRAMES && a == floor(a);
+        if (!whole) return bad_line(replay, error, "a number of frames", w->word[1]);
         h->frames = (long)a;
     } else {
         return bad_line(replay, error, "version, size, scale, scene, dt, frames or an event", name);
@@ -102,25 +130,36 @@ static bool read_header_line(struct replay *replay, const struct words *w, struc
 
 static bool read_header(struct replay *replay, struct error *error)
 {
-    char *line = next_line(replay);
+    char *line = take_line(replay);
     if (!line || strcmp(line, first_line) != 0) return bad_line(replay, error, "\"wiggly-replay 1\"", line);
-    for (;;) {
-        char *start = replay->at;
-        int number = replay->line;
-        line = next_line(replay);
-        if (!line || isdigit((unsigned char)*line)) {
-            if (line && replay->at != line + strlen(line))
-                line[strlen(line)] = '\n'; // it is the first event: put it back
-            replay->at = line ? line : start;
-            replay->line = line ? replay->line - 1 : number;
-            break;
+    while ((line = seek_line(replay)) != NULL && !isdigit((unsigned char)*line)) {
+        struct words words = split(take_line(replay));
+        if (!read_header_line(replay, &words, error)) return false;
+    }
+    if (replay->header.width > 0 && replay->header.frames >= 0) return true;
+    return fail(error, ERROR_INPUT, "%s:%d: expected a header with size and frames", replay->path, replay->line);
+}
+
+/// Whether the events' frames are in order and within the length, so that a replay is refused before it starts. One that
+/// was cut short while it was recorded has no length yet (0) and ends with its last event.
+static bool check_frames(struct replay *replay, struct error *error)
+{
+    char *at = replay->at;
+    int next_line = replay->next_line;
+    long last = 0, limit = replay->header.frames ? replay->header.frames : MAX_FRAMES;
+    for (char *line; (line = seek_line(replay)) != NULL; pass_line(replay)) {
+        char *end;
+        long frame = strtol(line, &end, 10);
+        if (end == line || !isspace((unsigned char)*end) || frame < last || frame >= limit) {
+            struct words words = split(take_line(replay));
+            return fail(error, ERROR_INPUT, "%s:%d: expected an event in a frame from %ld to %ld, got \"%.40s\"",
+                        replay->path, replay->line, last, limit - 1, words.word[0]);
         }
-        struct words words = split(line);
-        if (words.count > 0 && !read_header_line(replay, &words, error)) return false;
+        last = frame;
     }
-    if (replay->header.width == 0 || replay->header.frames == 0) {
-        return fail(error, ERROR_INPUT, "%s:%d: expected a header with size and frames", replay->path, replay->line);
-    }
+    if (replay->header.frames == 0) replay->header.frames = last + 1;
+    replay->at = at;
+    replay->next_line = next_line;
     return true;
 }
 
@@ -134,16 +173,16 @@ struct replay *replay_load(const char *path, struct error *error)
     }
     replay->path = strdup(path);
     replay->header.scale = 1;
-    if (!replay->path || !file_read(path, MAX_REPLAY, &replay->text, &size, error)) {
-        replay_destroy(replay);
-        return NULL;
-    }
+    replay->header.frames = -1;
+    replay->next_line = 1;
+    bool good = replay->path && file_read(path, MAX_REPLAY, &replay->text, &size, error);
     replay->at = replay->text;
-    if (!read_header(replay, error)) {
-        replay_destroy(replay);
-        return NULL;
+    if (good && strlen(replay->text) != size) {
+        good = fail(error, ERROR_INPUT, "%s: expected text, got a NUL byte", path);
     }
-    return replay;
+    if (good && read_header(replay, error) && check_frames(replay, error)) return replay;
+    replay_destroy(replay);
+    return NULL;
 }
 
 void replay_destroy(struct replay *replay)
@@ -316,7 +355,12 @@ static bool read_event(struct cursor *c, struct event *event)
         if (strcmp(word, verbs[v].name) != 0) continue;
         *event = (struct event){.kind = verbs[v].kind, .action = verbs[v].action, .clicks = verbs[v].clicks};
         if (event->kind == EVENT_SIZE) event->scale = (float)c->replay->header.scale;
-        return read_operands(c, &verbs[v], event);
+        if (!read_operands(c, &verbs[v], event)) return false;
+        if (event->kind == EVENT_SIZE && !is_size((double)event->x, (double)event->y)) {
+            return bad_line(c->replay, c->error, size_limits, c->words.word[2]);
+        }
+        word = take_word(c);
+        return !word || bad_line(c->replay, c->error, "the end of the line", word);
     }
     return bad_line(c->replay, c->error, "an event (pointer, press, key, …)", word);
 }
@@ -324,17 +368,14 @@ static bool read_event(struct cursor *c, struct event *event)
 bool replay_next(struct replay *replay, long frame, replay_locate *locate, void *user, struct event *event,
                  struct error *error)
 {
-    char *end;
-    while (*replay->at == '#' || *replay->at == '\n') {
-        if (!next_line(replay)) return false;
-    }
-    long at = strtol(replay->at, &end, 10);
-    if (!*replay->at || (end != replay->at && at > frame)) return false;
-    char *line = next_line(replay);
-    if (!line) return false;
-    struct cursor c = {.replay = replay, .words = split(line), .locate = locate, .user = user, .error = error};
-    char *number = take_word(&c);
-    if (end == line || at < frame) return bad_line(replay, error, "a frame not before the last one", number);
+    char *line = seek_line(replay);
+    if (!line || strtol(line, NULL, 10) > frame) return false;
+    struct cursor c = {.replay = replay,
+                       .words = split(take_line(replay)),
+                       .next = 1,
+                       .locate = locate,
+                       .user = user,
+                       .error = error};
     return read_event(&c, event);
 }
 
@@ -360,10 +401,11 @@ struct recording *recording_open(const char *path, const struct replay_header *h
         free(recording);
         return NULL;
     }
+    setvbuf(recording->file, NULL, _IOLBF, 0); // whatever ends the program, the events up to then are there
     fprintf(recording->file, "%s\nversion %s\nsize %d %d\nscale %g\nscene %016" PRIx64 "\ndt 1/60\nframes ",
             first_line, WIGGLY_VERSION, header->width, header->height, header->scale, header->scene_hash);
     recording->length_at = ftell(recording->file);
-    fprintf(recording->file, "%-10d\n", 1);
+    fprintf(recording->file, "%-10d\n", 0);
     return recording;
 }
 

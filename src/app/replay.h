@@ -24,7 +24,7 @@ struct replay_header {
     int width, height;
     double scale;
     uint64_t scene_hash;
-    long frames; ///< length
+    long frames; ///< length; in a file 0 where the recording was cut short
 };
 
 struct replay;

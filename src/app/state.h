@@ -31,8 +31,9 @@ struct app {
     struct framelog *log;
     struct frame_row row; ///< of the frame in progress
     double frame_start, oldest_event;
-    bool fixed_clock; ///< every frame is 1/60 s (headless, replays, recordings)
-    bool lost;        ///< the framebuffer does not hold the last frame
+    bool fixed_clock;     ///< every frame is 1/60 s (headless, replays, recordings)
+    bool lost;            ///< the framebuffer does not hold the last frame
+    double process_start; ///< on the clock
     double last_time, next_time, stats_time;
     long frame, stats_frame;
     bool shown_saved; ///< what the window's title says
@@ -54,6 +55,13 @@ bool app_open(struct app *app, const char *path, struct error *error);
 
 /// Carries out what the editor asked for: files, window, end.
 void app_requests(struct app *app);
+
+/// Writes unsaved work to a new file, beside the scene's own one where that is possible, and adds to the error's sentence
+/// where it is.
+void app_rescue(struct app *app, struct error *error);
+
+/// A new size of the window, in logical pixels.
+void app_resize(struct app *app, float width, float height, float scale);
 
 /// Where the editor's dialogs look for files.
 void app_connect_files(struct app *app);

@@ -38,7 +38,7 @@ static int edit_distance(const char *a, const char *b)
 const char *options_nearest(const char *word, const char *const *candidates, int count)
 {
     const char *nearest = NULL;
-    int best = (int)strnlen(word, WORD_MAX) / 2 + 1; // farther than that it is another word
+    int best = (int)strnlen(word, WORD_MAX) / 3 + 1; // as far as that it is another word
     for (int i = 0; i < count; i++) {
         int distance = edit_distance(word, candidates[i]);
         if (distance < best) {
@@ -128,6 +128,7 @@ static enum options_result store(const struct usage *usage, const struct option_
         *(bool *)option->target = true;
         return OPTIONS_RUN;
     case OPTION_TEXT:
+        if (!*text) return wrong(usage, "%s: expected %s, got nothing", option->name, option->argument);
         *(const char **)option->target = text;
         return OPTIONS_RUN;
     case OPTION_INT:
@@ -176,6 +177,8 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
             only_operands = true;
         } else if (!only_operands && argv[i][0] == '-' && argv[i][1]) {
             if (read_option(usage, argc, argv, &i) == OPTIONS_WRONG) return OPTIONS_WRONG;
+        } else if (!*argv[i]) {
+            return wrong(usage, "expected %s, got an empty argument", usage->operands);
         } else if (count < usage->operand_maximum) {
             operands[count++] = argv[i];
         } else {

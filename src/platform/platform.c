@@ -1,8 +1,8 @@
 #include "platform/platform.h"
+#include "platform/process.h"
 #include "platform/surface.h"
 #include <epoxy/gl.h>
 #include <stdlib.h>
-#include <time.h>
 
 static struct platform *allocate(struct error *error)
 {
@@ -46,19 +46,12 @@ void platform_destroy(struct platform *platform)
     free(platform);
 }
 
-static void sleep_for(double seconds)
-{
-    struct timespec rest = {.tv_sec = (time_t)seconds};
-    rest.tv_nsec = (long)((seconds - (double)rest.tv_sec) * 1.0e9);
-    nanosleep(&rest, NULL);
-}
-
 const struct event *platform_events(struct platform *platform, double seconds, int *count)
 {
     if (platform->window) {
         window_wait(platform->window, seconds);
-    } else if (seconds > 0.0) {
-        sleep_for(seconds);
+    } else {
+        process_sleep(seconds);
     }
     return event_queue_take(&platform->queue, count);
 }

@@ -38,6 +38,11 @@ bool platform_is_fullscreen(const struct platform *platform);
 enum cursor { CURSOR_ARROW, CURSOR_HAND, CURSOR_HORIZONTAL, CURSOR_VERTICAL, CURSOR_MOVE, CURSOR_TEXT };
 void platform_cursor(struct platform *platform, enum cursor cursor);
 
+/// Called when the connection to the display is lost; after that the process ends with exit status 3, because nothing of
+/// the window can be used any more. Register it once the window is open.
+typedef void platform_rescue(void *user);
+void platform_on_lost(platform_rescue *function, void *user);
+
 /// Seconds on a monotonic clock.
 double clock_now(void);
 

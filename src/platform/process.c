@@ -1,6 +1,6 @@
 #include "platform/process.h"
 #include <math.h>
-#include <stdbool.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -36,3 +36,21 @@ void process_sleep(double seconds)
     struct timespec left = {.tv_sec = (time_t)seconds, .tv_nsec = (long)(1e9 * (seconds - (double)(time_t)seconds))};
     nanosleep(&left, NULL);
 }
+
+static volatile sig_atomic_t told_to_end;
+
+static void on_signal(int signal)
+{
+    (void)signal;
+    told_to_end = 1;
+}
+
+void process_catch_end(void)
+{
+    static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
+    struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++) sigaction(signals[i], &action, NULL);
+}
+
+bool process_was_told_to_end(void) { return told_to_end != 0; }

@@ -2,6 +2,8 @@
 #ifndef PLATFORM_PROCESS_H
 #define PLATFORM_PROCESS_H
 
+#include <stdbool.h>
+
 /// Seconds since the process was started by its parent (to about 10 ms: the kernel's tick), or NAN where unknown.
 double process_age(void);
 
@@ -9,5 +11,10 @@ double process_age(void);
 double process_peak_memory(void);
 
 void process_sleep(double seconds);
+
+/// From now on a polite request to end (SIGINT, SIGTERM, SIGHUP) is kept for process_was_told_to_end() instead of ending
+/// the process; a second one of the same kind does end it.
+void process_catch_end(void);
+bool process_was_told_to_end(void);
 
 #endif

@@ -2,7 +2,6 @@
 #include "base/checked.h"
 #include "scene/order.h"
 #include <stdlib.h>
-#include <string.h>
 
 enum { ROWS = 5, FIRST_KNOTS = 256 }; ///< rows of numbers a curve: total, y, re, im, omega
 
@@ -215,7 +214,7 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     bool all = !dirty || storage->is_new || cubic != evaluation->cubic;
     evaluation->cubic = cubic;
     if (!scene_order(document, storage->space, storage->order, &cycle)) return; // no document has one
-    memset(storage->solved, 0, (size_t)evaluation->count);
+    for (int i = 0; i < evaluation->count; i++) storage->solved[i] = false;
     for (int i = 0; i < evaluation->count; i++) {
         int spline = storage->order[i];
         if (!all && !dirty[spline] && !follows_solved(storage, &document->splines[spline], cubic)) continue;

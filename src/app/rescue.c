@@ -1,0 +1,60 @@
+// Unsaved work when the program cannot go on: it is written beside the original, which stays as it is.
+#include "app/state.h"
+#include "scene/load.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MAX_NAMES = 1000 };
+
+/// Where the work may go: `folder` "" is the working folder, `name` has no ending.
+struct place {
+    const char *folder, *name;
+    int name_length;
+};
+
+static bool write_to(const struct app *app, const struct place *place, char *path, size_t size, struct error *error)
+{
+    const char *slash = place->folder[0] ? "/" : "";
+    for (int i = 1; i <= MAX_NAMES; i++) {
+        char number[16] = "";
+        if (i > 1) snprintf(number, sizeof number, "-%d", i);
+        int length = snprintf(path, size, "%s%s%.*s.recovered%s.json", place->folder, slash, place->name_length,
+                              place->name, number);
+        if (length >= (int)size) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", place->name);
+        if (access(path, F_OK) != 0) return scene_save(app->document, path, error);
+    }
+    return fail(error, ERROR_ENVIRONMENT, "%s: older recovered scenes are in the way", path);
+}
+
+/// Beside the scene's own file, else in the home folder, else where everybody may write.
+static bool write_somewhere(const struct app *app, char *path, size_t size, struct error *error)
+{
+    const char *home = getenv("HOME"), *own = app->path[0] ? app->path : "untitled.json";
+    const char *slash = strrchr(own, '/'), *name = slash ? slash + 1 : own, *dot = strrchr(name, '.');
+    int stem = (int)(dot && dot > name ? dot - name : (long)strlen(name));
+    const struct place places[] = {
+        {"", own, (int)(name - own) + stem},
+        {home ? home : "", name, stem},
+        {"/tmp", name, stem},
+    };
+    struct error first = {0};
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        if (write_to(app, &places[i], path, size, i == 0 ? &first : error)) return true;
+    }
+    *error = first;
+    return false;
+}
+
+void app_rescue(struct app *app, struct error *error)
+{
+    char path[4096];
+    struct error trouble = {0}, why = *error;
+    if (!app->document || history_is_saved(app->history)) return;
+    if (write_somewhere(app, path, sizeof path, &trouble)) {
+        fail(error, why.kind, "%s; the unsaved scene is in %s: open that to go on", why.text, path);
+    } else {
+        fail(error, why.kind, "%s; the unsaved scene is lost: %s", why.text, trouble.text);
+    }
+}

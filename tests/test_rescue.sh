@@ -1,0 +1,56 @@
+# What happens to unsaved work when the program cannot go on: the X server dies, or the session ends by a signal.
+. tests/check.sh
+WIGGLY=${WIGGLY:-build/wiggly}
+unset WAYLAND_DISPLAY
+xvfb=""
+app=""
+trap 'kill $app $xvfb 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
+
+start_server() {
+    rm -f "$scratch/display"
+    Xvfb -displayfd 3 -noreset -screen 0 1280x720x24 -nolisten tcp 3>"$scratch/display" 2>"$scratch/xvfb.log" &
+    xvfb=$!
+    disown $xvfb
+    for _ in $(seq 100); do [ -s "$scratch/display" ] && break; sleep 0.1; done
+    export DISPLAY=:$(cat "$scratch/display")
+}
+
+# Starts the app on a fresh scene and inserts a knot that is not saved.
+start_edited() {
+    cp assets/scenes/tail.json "$scratch/mine.json"
+    "$WIGGLY" live "$scratch/mine.json" --record "$scratch/mine.replay" >"$scratch/app.out" 2>"$scratch/app.err" &
+    app=$!
+    timeout 20 xdotool search --sync --onlyvisible --name wiggly >/dev/null
+    sleep 0.7
+    xdotool key --delay 30 space Home shift+Left Right Right Right i
+    timeout 20 xdotool search --sync --onlyvisible --name '^\*mine.json' >/dev/null
+    ok "the title shows unsaved work" $?
+}
+
+knots() { grep -o '"frame":' "$1" | wc -l; }
+
+# Waits for the app's own end and looks at what it left.
+check_rescue() { # <cause> <recovered file>
+    local status=0
+    for _ in $(seq 100); do kill -0 $app 2>/dev/null || break; sleep 0.1; done
+    wait $app || status=$?
+    app=""
+    [ $status -eq 3 ]
+    ok "$1: exit status 3" $?
+    says "$1: one sentence says where the work is" "$2: open that to go on" "$(cat "$scratch/app.err")"
+    [ "$(wc -l <"$scratch/app.err")" -eq 1 ] && cmp "$scratch/mine.json" assets/scenes/tail.json
+    ok "$1: the scene's own file is as it was" $?
+    [ "$(knots "$2")" -eq $(($(knots "$scratch/mine.json") + 1)) ] && "$WIGGLY" check "$2" >/dev/null
+    ok "$1: the work is whole" $?
+}
+
+start_server
+start_edited
+kill $app
+check_rescue "a signal" "$scratch/mine.recovered.json"
+start_edited
+kill -9 $xvfb
+check_rescue "a lost display" "$scratch/mine.recovered-2.json"
+grep -q '^frames [1-9]' "$scratch/mine.replay"
+ok "the recording has its length" $?
+exit $((cases_failed > 0))
