@@ -150,7 +150,8 @@ static void test_no_text_leaves_its_panel_or_overlaps(void **state)
         int calls = 0;
         struct session f;
         panel_open(&f, scenes[i % 2], sizes[i / 2][0], sizes[i / 2][1]);
-        editor_set_title(f.editor, i % 2 ? "a scene with a name that is rather too long to show.json" : "x", true);
+        editor_set_title(f.editor, i % 2 ? "a scene with a name that is rather too long to show.json" : "x",
+                         "x.json");
         editor_set_files(f.editor, &(struct dialog_files){list_names, &calls});
         for (int s = 0; s < f.document->spline_count; s++) {
             editor_activate(f.editor, &f.world, s);
@@ -215,7 +216,7 @@ static void test_save_as_stays_until_it_succeeds(void **state)
     (void)state;
     struct session f;
     panel_open(&f, small_scene, 1280, 720);
-    editor_set_title(f.editor, "untitled", false);
+    editor_set_title(f.editor, "untitled", "");
     session_key(&f, 'S', MOD_CTRL); // has no file yet, so it asks
     assert_int_equal(f.editor->dialog.kind, DIALOG_SAVE_AS);
     assert_string_equal(f.editor->dialog.ui.text.bytes, "untitled.json");
@@ -232,10 +233,12 @@ static void test_save_as_stays_until_it_succeeds(void **state)
     panel_type(&f, "dog.json");
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_SAVE_AS, "dog.json");
-    editor_set_title(f.editor, "dog.json", true);
+    editor_set_title(f.editor, "dog.json", "pets/dog.json");
     assert_int_equal(f.editor->dialog.kind, DIALOG_NONE);
     session_key(&f, 'S', MOD_CTRL);
     expect_request(&f, REQUEST_SAVE, "");
+    session_key(&f, 'S', MOD_CTRL | MOD_SHIFT); // starts from where the file is, not from its bare name
+    assert_string_equal(f.editor->dialog.ui.text.bytes, "pets/dog.json");
     session_close(&f);
 }
 
@@ -243,7 +246,7 @@ static void test_save_as_stays_until_it_succeeds(void **state)
 static void open_unsaved(struct session *f, bool has_path)
 {
     panel_open(f, small_scene, 1280, 720);
-    editor_set_title(f->editor, "dog.json", has_path);
+    editor_set_title(f->editor, "dog.json", has_path ? "pets/dog.json" : "");
     panel_click(f, "mode.real");
     session_key(f, 'Q', MOD_CTRL);
     assert_int_equal(f->editor->dialog.kind, DIALOG_UNSAVED);
@@ -288,7 +291,7 @@ static void test_quit_waits_for_the_save(void **state)
     panel_type(&f, "s");
     expect_request(&f, REQUEST_SAVE, "");
     history_mark_saved(f.history);
-    editor_set_title(f.editor, "dog.json", true);
+    editor_set_title(f.editor, "dog.json", "pets/dog.json");
     expect_request(&f, REQUEST_QUIT, "");
     session_close(&f);
 
@@ -298,7 +301,7 @@ static void test_quit_waits_for_the_save(void **state)
     assert_string_equal(f.editor->dialog.ui.text.bytes, "dog.json"); // and the S is no part of the name
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_SAVE_AS, "dog.json");
-    editor_set_title(f.editor, "dog.json", true);
+    editor_set_title(f.editor, "dog.json", "pets/dog.json");
     expect_request(&f, REQUEST_QUIT, "");
     session_close(&f);
 }
@@ -313,7 +316,7 @@ static void test_cancelled_save_as_forgets_what_was_to_follow(void **state)
     session_key(&f, 'S', MOD_CTRL | MOD_SHIFT);
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_SAVE_AS, "dog.json");
-    editor_set_title(f.editor, "dog.json", true);
+    editor_set_title(f.editor, "dog.json", "pets/dog.json");
     expect_request(&f, REQUEST_NONE, ""); // does not quit after all
     session_close(&f);
 }

@@ -483,6 +483,25 @@ static void test_evaluation_fits_the_document(void **state)
     document_destroy(large);
 }
 
+/// A value that no curve can pass: nothing moves, the status says why, and nothing that reads the curve falls over.
+static void test_a_value_beyond_reach_is_flat(void **state)
+{
+    (void)state;
+    static const char text[] = "{\"wiggly\": 1, \"frames\": [0, 40], \"splines\": [{\"name\": \"a\", \"knots\": "
+                               "[{\"frame\": 0, \"value\": 1.7e308}, {\"frame\": 30, \"value\": -1.7e308}]}]}";
+    struct error error = {0};
+    struct document *document = scene_parse("huge.json", text, sizeof text - 1, NULL, &error);
+    assert_non_null(document);
+    struct evaluation evaluation = {0};
+    assert_true(evaluation_resize(&evaluation, document, &error));
+    evaluation_update(&evaluation, document, NULL, false);
+    assert_int_equal(evaluation.status[0], WIGGLY_ERROR_NUMBER);
+    wiggly_value value = wiggly_evaluate(&evaluation.curves[0], 12.5);
+    assert_near(value.y + value.re, 0, 0);
+    evaluation_free(&evaluation);
+    document_destroy(document);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -500,6 +519,7 @@ int main(void)
         cmocka_unit_test(test_only_followers_are_solved),
         cmocka_unit_test(test_partial_solves_agree),
         cmocka_unit_test(test_evaluation_fits_the_document),
+        cmocka_unit_test(test_a_value_beyond_reach_is_flat),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

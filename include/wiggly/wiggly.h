@@ -28,7 +28,7 @@ typedef enum wiggly_status {
     WIGGLY_SINGULAR,       ///< singular whatever was tried: knots joined by straight lines
     WIGGLY_ERROR_ARGUMENT, ///< a pointer is missing or a count is out of range
     WIGGLY_ERROR_CAPACITY, ///< more samples or knots than the solver was created for
-    WIGGLY_ERROR_NUMBER,   ///< a number is NaN or infinite, a stiffness not above 0, or calm outside 0 … 1
+    WIGGLY_ERROR_NUMBER, ///< a number is NaN or infinite, a value beyond 1e300, a stiffness not above 0, or calm outside 0 … 1
     WIGGLY_ERROR_KNOT,   ///< two knots on one sample, or a knot outside the domain (a loop's last sample is outside)
     WIGGLY_ERROR_LOOP,   ///< a loop of one sample
     WIGGLY_ERROR_SPRING, ///< spring and friction in complex mode

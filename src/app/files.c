@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static const char built_in_scene[] = "scenes/tail.json";
 
@@ -47,7 +48,7 @@ static void adopt(struct app *app, struct document *document, const char *path)
     app->solved_revision = 0;
     struct editor_world world = app_world(app);
     editor_open(app->editor, &world, shown_name(app));
-    editor_set_title(app->editor, shown_name(app), app->path[0] != '\0');
+    editor_set_title(app->editor, shown_name(app), app->path);
     show_title(app);
 }
 
@@ -83,7 +84,7 @@ static bool save(struct app *app, const char *path, struct error *error)
     if (!scene_save(app->document, path, error)) return false;
     if (path != app->path) snprintf(app->path, sizeof app->path, "%s", path);
     history_mark_saved(app->history);
-    editor_set_title(app->editor, shown_name(app), true);
+    editor_set_title(app->editor, shown_name(app), app->path);
     show_title(app);
     editor_message(app->editor, false, "Saved.");
     return true;
@@ -125,6 +126,14 @@ static bool take_picture(struct app *app, struct error *error)
     return true;
 }
 
+/// "Save as" over a file that is not the document's own: refused once, done when it is asked for again.
+static bool may_replace(struct app *app, const char *path, struct error *error)
+{
+    if (access(path, F_OK) != 0 || strcmp(path, app->path) == 0 || strcmp(path, app->replaceable) == 0) return true;
+    snprintf(app->replaceable, sizeof app->replaceable, "%s", path);
+    return fail(error, ERROR_INPUT, "%s is there already: press Enter again to replace it", path);
+}
+
 static bool carry_out(struct app *app, const struct request *request, struct error *error)
 {
     switch (request->kind) {
@@ -141,7 +150,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_SAVE:
         return save(app, app->path, error);
     case REQUEST_SAVE_AS:
-        return save(app, request->path, error);
+        return may_replace(app, request->path, error) && save(app, request->path, error);
     case REQUEST_QUIT:
         app->quit = true;
         return true;

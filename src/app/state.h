@@ -21,8 +21,9 @@ struct app {
     struct document *document;
     struct history *history;
     struct evaluation evaluation;
-    bool *dirty;     ///< one a spline
-    char path[1024]; ///< the document's own file; "" for an untitled one
+    bool *dirty;            ///< one a spline
+    char replaceable[1024]; ///< "save as" was asked for this existing file once
+    char path[1024];        ///< the document's own file; "" for an untitled one
     uint64_t solved_revision;
     bool solved_cubic;
 

@@ -38,7 +38,8 @@ void dialog_ask_save_as(struct editor *editor)
 {
     size_t length = strlen(editor->title);
     bool named = length > 5 && strcmp(editor->title + length - 5, ".json") == 0;
-    open_dialog(editor, DIALOG_SAVE_AS, named ? editor->title : "untitled.json");
+    const char *name = named ? editor->title : "untitled.json";
+    open_dialog(editor, DIALOG_SAVE_AS, editor->path[0] ? editor->path : name);
 }
 
 static void go_on(struct editor *editor, const struct request *after)
@@ -82,7 +83,7 @@ static void decide(struct editor *editor, int choice)
 {
     struct dialog *dialog = &editor->dialog;
     struct request after = dialog->after;
-    if (choice == CHOICE_SAVE && editor->has_path) {
+    if (choice == CHOICE_SAVE && editor->path[0]) {
         dialog->waiting = true;
         editor_request(editor, REQUEST_SAVE, NULL);
     } else if (choice == CHOICE_SAVE) {

@@ -112,10 +112,10 @@ void editor_open(struct editor *editor, const struct editor_world *world, const 
     dialog_done(editor);
 }
 
-void editor_set_title(struct editor *editor, const char *title, bool has_path)
+void editor_set_title(struct editor *editor, const char *title, const char *path)
 {
     snprintf(editor->title, sizeof editor->title, "%s", title);
-    editor->has_path = has_path;
+    snprintf(editor->path, sizeof editor->path, "%s", path);
     dialog_done(editor);
 }
 

@@ -43,8 +43,8 @@ void editor_destroy(struct editor *editor);
 /// calls it ("tail.json", "untitled").
 void editor_open(struct editor *editor, const struct editor_world *world, const char *title);
 
-/// Whether the document has a file of its own to save to (else Ctrl+S asks for a path).
-void editor_set_title(struct editor *editor, const char *title, bool has_path);
+/// What the document is called, and the path of its own file ("" where it has none: Ctrl+S then asks for one).
+void editor_set_title(struct editor *editor, const char *title, const char *path);
 
 /// Logical size of the window, and device pixels a logical pixel.
 void editor_resize(struct editor *editor, float width, float height, float scale);

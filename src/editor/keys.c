@@ -32,7 +32,7 @@ static void run_leave(struct editor *e, const struct editor_world *w, int argume
 static void run_save(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
-    if (argument == REQUEST_SAVE && e->has_path) {
+    if (argument == REQUEST_SAVE && e->path[0]) {
         editor_request(e, REQUEST_SAVE, NULL);
     } else {
         dialog_ask_save_as(e);

@@ -168,7 +168,7 @@ struct editor {
     struct status status;
 
     char title[256];
-    bool has_path;
+    char path[1024]; ///< of the document's own file, or ""
     struct message message;
     double fps, solve_us; ///< from editor_set_stats()
 

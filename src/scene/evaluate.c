@@ -2,6 +2,7 @@
 #include "base/checked.h"
 #include "scene/order.h"
 #include <stdlib.h>
+#include <string.h>
 
 enum { ROWS = 5, FIRST_KNOTS = 256 }; ///< rows of numbers a curve: total, y, re, im, omega
 
@@ -189,16 +190,31 @@ static bool follows_solved(const struct storage *storage, const struct spline *s
     return false;
 }
 
+/// What is shown where there is no solution: nothing moves.
+static void flatten(wiggly_curve *curve, const wiggly_desc *desc)
+{
+    double *const rows[] = {curve->total, curve->y, curve->re, curve->im, curve->omega};
+    for (int r = 0; r < ROWS; r++) memset(rows[r], 0, sizeof(double) * (size_t)desc->samples);
+    curve->samples = desc->samples;
+    curve->step = desc->step;
+    curve->first = 0;
+    curve->mode = desc->mode;
+    curve->start = WIGGLY_FREE;
+}
+
 static void solve(struct evaluation *evaluation, const struct document *document, int spline, bool cubic)
 {
     struct storage *storage = evaluation->storage;
     int knots = document->splines[spline].knot_count;
-    if (knots > storage->solver_knots) {
-        evaluation->status[spline] = WIGGLY_ERROR_CAPACITY;
-        return;
+    wiggly_curve *curve = &evaluation->curves[spline];
+    wiggly_desc desc = {.samples = evaluation->samples, .step = document_step(document)};
+    wiggly_status status = WIGGLY_ERROR_CAPACITY;
+    if (knots <= storage->solver_knots) {
+        desc = evaluation_desc(evaluation, document, spline, cubic, storage->knots);
+        status = wiggly_solve(storage->solver, &desc, curve);
     }
-    wiggly_desc desc = evaluation_desc(evaluation, document, spline, cubic, storage->knots);
-    evaluation->status[spline] = wiggly_solve(storage->solver, &desc, &evaluation->curves[spline]);
+    if (status >= WIGGLY_ERROR_ARGUMENT) flatten(curve, &desc);
+    evaluation->status[spline] = status;
     evaluation->solved_splines++;
     evaluation->solved_samples += desc.samples;
     evaluation->solved_knots += knots;

@@ -4,6 +4,9 @@
 
 #include "spline/solver.h"
 
+/// Values and equilibria beyond this are refused: sums of them must not overflow.
+#define LARGEST_VALUE 1e300
+
 /// A slope row heavier than this is met to the last digit anyway, and could overflow.
 #define STIFFEST 1e20
 

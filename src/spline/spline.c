@@ -40,9 +40,13 @@ static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *
     for (size_t p = 0; p < sizeof params / sizeof *params; p++) {
         if (!param_is_finite(*params[p], desc->samples)) return WIGGLY_ERROR_NUMBER;
     }
+    for (int i = 0; desc->equilibrium.track && i < desc->samples; i++) {
+        if (!(fabs(desc->equilibrium.track[i]) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;
+    }
+    if (!(fabs(desc->equilibrium.value) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;
     for (int k = 0; k < desc->knot_count; k++) {
         const wiggly_knot *knot = &desc->knots[k];
-        if (!isfinite(knot->value)) return WIGGLY_ERROR_NUMBER;
+        if (!(fabs(knot->value) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;
         if (knot->has_slope && !(isfinite(knot->slope) && knot->stiffness > 0 && knot->stiffness < INFINITY)) {
             return WIGGLY_ERROR_NUMBER;
         }
@@ -254,7 +258,8 @@ static void join_knots(wiggly_solver *solver, const problem *p)
         if (!(rows->fixed[k] & FIXED_RE)) continue;
         for (int i = before + 1; i < k; i++) {
             double from = before < 0 ? rows->x[width * k] : rows->x[width * before];
-            rows->x[width * i] = from + (rows->x[width * k] - from) * (i - before) / (k - before);
+            double u = (double)(i - before) / (k - before); // each part by itself: the difference might overflow
+            rows->x[width * i] = from * (1 - u) + rows->x[width * k] * u;
         }
         before = k;
     }
