@@ -63,14 +63,14 @@ static bool run(const char *path, struct error *error)
     strftime(date, sizeof date, "%Y-%m-%d", gmtime(&seconds));
     if (good) {
         printf("\n%s; %s %s; commit %s; %s\nLAPACKE: %s\n", machine.cpu, build_compiler, build_flags, build_commit,
-               date, machine.library);
+               date, machine.blas);
     }
     FILE *json = good && path ? open_memstream(&text, &size) : NULL;
     if (json) {
         fprintf(json,
                 "{\n  \"machine\": \"%s\",\n  \"compiler\": \"%s\",\n  \"flags\": \"%s\",\n  \"commit\": \"%s\",\n"
                 "  \"date\": \"%s\",\n  \"lapack\": \"%s\",\n  \"cases\": [\n%s\n  ]\n}\n",
-                machine.cpu, build_compiler, build_flags, build_commit, date, machine.library, cases);
+                machine.cpu, build_compiler, build_flags, build_commit, date, machine.blas, cases);
         fclose(json);
         good = file_write_atomic(path, text, size, error);
     }

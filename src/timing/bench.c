@@ -380,7 +380,7 @@ bool bench_run(struct bench_machine *machine, void (*done)(void *user, const str
                struct error *error)
 {
     struct lapack lapack;
-    lapack_load(&lapack, machine->library, sizeof machine->library);
+    lapack_load(&lapack, machine->blas, sizeof machine->blas);
     name_cpu(machine->cpu, sizeof machine->cpu);
     bool good = true;
     struct bench_result first = {0};

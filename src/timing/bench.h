@@ -19,7 +19,7 @@ struct bench_result {
 /// What ran it, for the report.
 struct bench_machine {
     char cpu[128];
-    char library[256]; ///< the BLAS that was loaded, or why there is none
+    char blas[256]; ///< the BLAS that was loaded, or why there is none
 };
 
 /// Runs every case; `done` is called after each. false with a sentence where a result is wrong.
