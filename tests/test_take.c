@@ -29,7 +29,7 @@ static void make_example(struct example *e, uint64_t *seed, int samples, int gap
     e->desc.samples = samples;
     e->desc.mode = (wiggly_mode)below(seed, 3);
     e->desc.start = below(seed, 3) ? WIGGLY_FREE : WIGGLY_REST;
-    e->desc.frequency.value = 0.5 + 2 * uniform(seed);
+    e->desc.frequency.value = 2 + 2 * uniform(seed);
     e->desc.damping.value = 0.3 * uniform(seed);
     e->desc.bandwidth.value = 0.2 * uniform(seed);
     e->desc.equilibrium.value = below(seed, 2) ? 0 : 0.7;
