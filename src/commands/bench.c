@@ -92,14 +92,8 @@ int command_bench(int argc, char **argv)
         .options = specs,
         .option_count = sizeof specs / sizeof *specs,
     };
-    switch (options_parse(&usage, argc, argv, NULL)) {
-    case OPTIONS_HELP:
-        return 0;
-    case OPTIONS_WRONG:
-        return 2;
-    case OPTIONS_RUN:
-        break;
-    }
+    enum options_result result = options_parse(&usage, argc, argv, NULL);
+    if (result != OPTIONS_RUN) return (int)result;
     struct error error = {0};
     if (run(json, &error)) return 0;
     fprintf(stderr, "wiggly bench: %s\n", error.text);

@@ -74,6 +74,6 @@ int command_check(int argc, char **argv)
         .operand_maximum = 1,
     };
     enum options_result result = options_parse(&usage, argc, argv, &scene);
-    if (result != OPTIONS_RUN) return result == OPTIONS_HELP ? 0 : ERROR_USAGE;
+    if (result != OPTIONS_RUN) return (int)result;
     return check(scene);
 }

@@ -29,14 +29,8 @@ int command_live(int argc, char **argv)
         .option_count = sizeof specs / sizeof *specs,
         .operand_maximum = 1,
     };
-    switch (options_parse(&usage, argc, argv, &options.scene)) {
-    case OPTIONS_HELP:
-        return 0;
-    case OPTIONS_WRONG:
-        return 2;
-    case OPTIONS_RUN:
-        break;
-    }
+    enum options_result result = options_parse(&usage, argc, argv, &options.scene);
+    if (result != OPTIONS_RUN) return (int)result;
     options.width = size[0];
     options.height = size[1];
     struct error error = {0};

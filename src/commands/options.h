@@ -33,10 +33,11 @@ struct usage {
     int operand_minimum, operand_maximum;
 };
 
+/// What options_parse() returns: whether to go on, or the exit status at once.
 enum options_result {
-    OPTIONS_RUN,   ///< go on
-    OPTIONS_HELP,  ///< --help was printed: return 0
-    OPTIONS_WRONG, ///< a sentence was printed on stderr: return 2
+    OPTIONS_RUN = -1, ///< go on
+    OPTIONS_HELP = 0, ///< --help was printed
+    OPTIONS_WRONG = 2 ///< a sentence was printed on stderr
 };
 
 /// Reads argv[1 …] (argv[0] is the subcommand's name). Options and operands may mix; after `--` all are operands.

@@ -114,7 +114,7 @@ int command_solve(int argc, char **argv)
         .operand_maximum = 1,
     };
     enum options_result result = options_parse(&usage, argc, argv, &scene);
-    if (result != OPTIONS_RUN) return result == OPTIONS_HELP ? 0 : ERROR_USAGE;
+    if (result != OPTIONS_RUN) return (int)result;
     struct error error;
     if (solve(scene, out, &error)) return 0;
     fprintf(stderr, "%s\n", error.text);

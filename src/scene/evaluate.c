@@ -150,7 +150,8 @@ static wiggly_param solver_param(const struct evaluation *evaluation, const stru
     return (wiggly_param){param->value, param->track >= 0 ? evaluation->curves[param->track].total : NULL};
 }
 
-wiggly_desc evaluation_desc(const struct evaluation *evaluation, const struct document *document, int spline_index,
+/// What is to be solved for one spline; tracks point into the evaluation, `knots` has room for the spline's.
+static wiggly_desc describe(const struct evaluation *evaluation, const struct document *document, int spline_index,
                             bool cubic, wiggly_knot *knots)
 {
     const struct spline *spline = &document->splines[spline_index];
@@ -210,7 +211,7 @@ static void solve(struct evaluation *evaluation, const struct document *document
     wiggly_desc desc = {.samples = evaluation->samples, .step = document_step(document)};
     wiggly_status status = WIGGLY_ERROR_CAPACITY;
     if (knots <= storage->solver_knots) {
-        desc = evaluation_desc(evaluation, document, spline, cubic, storage->knots);
+        desc = describe(evaluation, document, spline, cubic, storage->knots);
         status = wiggly_solve(storage->solver, &desc, curve);
     }
     if (status >= WIGGLY_ERROR_ARGUMENT) flatten(curve, &desc);

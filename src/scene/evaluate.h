@@ -28,9 +28,4 @@ void evaluation_free(struct evaluation *evaluation);
 /// solves all.
 void evaluation_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic);
 
-/// The description that evaluation_update() solves for one spline (tracks point into the evaluation).
-/// `knots` has room for the spline's knots.
-wiggly_desc evaluation_desc(const struct evaluation *evaluation, const struct document *document, int spline,
-                            bool cubic, wiggly_knot *knots);
-
 #endif

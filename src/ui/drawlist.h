@@ -18,7 +18,6 @@ static inline bool rect_contains(struct rect r, float x, float y)
 }
 
 struct rect rect_intersect(struct rect a, struct rect b);
-struct rect rect_union(struct rect a, struct rect b);
 struct rect rect_inset(struct rect r, float by);
 
 enum font { FONT_LABEL, FONT_LABEL_BOLD, FONT_NUMBER, FONT_COUNT }; ///< Inter, Inter semi-bold, JetBrains Mono

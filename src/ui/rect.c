@@ -8,14 +8,6 @@ struct rect rect_intersect(struct rect a, struct rect b)
     return (struct rect){x, y, fmaxf(w, 0.0f), fmaxf(h, 0.0f)};
 }
 
-struct rect rect_union(struct rect a, struct rect b)
-{
-    if (a.w <= 0.0f || a.h <= 0.0f) return b;
-    if (b.w <= 0.0f || b.h <= 0.0f) return a;
-    float x = fminf(a.x, b.x), y = fminf(a.y, b.y);
-    return (struct rect){x, y, fmaxf(a.x + a.w, b.x + b.w) - x, fmaxf(a.y + a.h, b.y + b.h) - y};
-}
-
 struct rect rect_inset(struct rect r, float by)
 {
     return (struct rect){r.x + by, r.y + by, fmaxf(r.w - 2.0f * by, 0.0f), fmaxf(r.h - 2.0f * by, 0.0f)};
