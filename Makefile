@@ -72,8 +72,9 @@ $(B)/obj/src/spline/%.o: CFLAGS += $(SPLINE_CFLAGS)
 all: $(B)/wiggly $(B)/libwiggly.a $(TOOLS:%=$(B)/%)
 
 # The app itself finds out whether it has a display; however it ran, it leaves its log and its last picture.
-LIVE_LOG := $(B)/live.csv
-LIVE_PICTURE := $(B)/live.png
+LIVE_OUT ?= $(B)
+LIVE_LOG := $(LIVE_OUT)/live.csv
+LIVE_PICTURE := $(LIVE_OUT)/live.png
 run: $(B)/wiggly
 	$(Q)rm -f $(LIVE_LOG) $(LIVE_PICTURE)
 	$(Q)$(B)/wiggly live --log $(LIVE_LOG) --screenshot $(LIVE_PICTURE) $(ARGS)

@@ -95,10 +95,11 @@ expect 0 "a display that does not open" env DISPLAY=:987 "$WIGGLY" live --frames
 says "is like none" "headless" "$out$err"
 
 # `make run` finds nothing out by itself: whatever became of the display, there is something to show for it.
-make_run() { DISPLAY=:987 make B="${B:-build}" SANITIZE="${SANITIZE:-}" ARGS="--frames 2 --size 640x360 $*" run; }
-picture=${B:-build}/live.png
-log=${B:-build}/live.csv
-rm -f "$picture" "$log"
+make_run() { DISPLAY=:987 make B="${B:-build}" SANITIZE="${SANITIZE:-}" LIVE_OUT="$shown" ARGS="--frames 2 --size 640x360 $*" run; }
+shown=$scratch/shown # not where the user's own `make run` has left something
+mkdir "$shown"
+picture=$shown/live.png
+log=$shown/live.csv
 expect 0 "make run with a display that does not open" make_run
 [ -s "$picture" ] && [ -s "$log" ]
 ok "leaves a picture and a log" $?
