@@ -1,0 +1,19 @@
+/// The planners behind edit_plan(), one a kind of edit: each checks an edit and adds the changes that make it up, none
+/// where nothing would change; false with a sentence where it is not possible. Private to src/scene.
+#ifndef SCENE_EDIT_PLAN_H
+#define SCENE_EDIT_PLAN_H
+
+#include "scene/change.h"
+
+typedef bool planner(struct document *document, const struct edit *edit, struct change_list *list,
+                     struct error *error);
+
+planner plan_knot_insert, plan_knot_remove, plan_knot_set;
+planner plan_parameter, plan_mode, plan_start, plan_spring;
+planner plan_range;
+planner plan_angles, plan_axis;
+
+/// Adds one change to a plan.
+bool plan_add(struct change_list *list, const struct change *change, struct error *error);
+
+#endif
