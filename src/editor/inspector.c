@@ -6,6 +6,40 @@
 
 enum { FOOTER = 40 }; ///< height of the look switch, which never scrolls away
 
+static bool has_spline(const struct inspection *in) { return editor_active_spline(in->editor, in->world) != NULL; }
+
+static bool has_tail(const struct inspection *in) { return in->document->tail_count > 0; }
+
+/// From the top down; `name` is what replays call the header.
+static const struct section {
+    const char *name, *title;
+    void (*build)(struct inspection *in);
+    bool (*shown)(const struct inspection *in); ///< NULL: always
+    bool closed;                                ///< at first
+} sections[] = {
+    {"section.splines", "Splines", inspector_splines, NULL, false},
+    {"section.spline", "Spline", inspector_spline, has_spline, false},
+    {"section.knot", "Knot", inspector_knot, has_spline, false},
+    {"section.tail", "Tail", inspector_tail, has_tail, false},
+};
+
+_Static_assert(sizeof sections / sizeof sections[0] <= INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
+
+static void build_sections(struct inspection *in)
+{
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+        const struct section *section = &sections[i];
+        bool *flipped = &in->editor->inspector.flipped[i];
+        if (section->shown && !section->shown(in)) continue;
+        bool closed = *flipped != section->closed;
+        bool open = ui_section(in->ui, section->name, section->title, &closed);
+        *flipped = closed != section->closed;
+        if (!open) continue;
+        section->build(in);
+        ui_space(in->ui, 4);
+    }
+}
+
 static void build_look(struct inspection *in, struct rect footer)
 {
     static const struct ui_choice looks[] = {
@@ -26,11 +60,8 @@ static void build(struct inspection *in, struct rect area)
     struct ui *ui = in->ui;
     struct rect view = {area.x, area.y, area.w, fmaxf(0, area.h - FOOTER)};
     ui_scroll_begin(ui, &in->editor->inspector.scroll, view);
-    inspector_splines(in);
-    inspector_spline(in);
-    inspector_knot(in);
-    inspector_tail(in);
-    ui_space(ui, 8);
+    build_sections(in);
+    ui_space(ui, 4);
     ui_scroll_end(ui);
     build_look(in, (struct rect){area.x, area.y + view.h, area.w, FOOTER});
 }

@@ -16,6 +16,7 @@ struct inspection {
 /// A number's limits where there are none.
 #define INSPECTOR_NO_LIMIT 1e300
 
+/// The sections; inspector.c has the table. Each builds what is below its header.
 void inspector_splines(struct inspection *in);
 void inspector_spline(struct inspection *in);
 void inspector_knot(struct inspection *in);

@@ -100,8 +100,6 @@ void inspector_knot(struct inspection *in)
 {
     struct ui *ui = in->ui;
     const struct spline *spline = editor_active_spline(in->editor, in->world);
-    if (!spline) return;
-    if (!ui_section(ui, "section.knot", "Knot", &in->editor->inspector.closed[SECTION_KNOT])) return;
     int count = selection_count(&in->editor->selection, spline);
     int single = selection_single(&in->editor->selection, spline);
     if (count > 1) {
@@ -119,5 +117,4 @@ void inspector_knot(struct inspection *in)
         const struct knot *knot = &spline->knots[spline_find_id(spline, id)];
         if (knot->has_slope) build_stiffness(in, knot);
     }
-    ui_space(ui, 4);
 }

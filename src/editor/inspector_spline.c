@@ -9,7 +9,6 @@ void inspector_splines(struct inspection *in)
 {
     struct ui *ui = in->ui;
     const struct document *document = in->document;
-    if (!ui_section(ui, "section.splines", "Splines", &in->editor->inspector.closed[SECTION_SPLINES])) return;
     int count = document->spline_count, first = 0;
     if (count == 0) ui_paragraph(ui, "This scene has no splines.", THEME_TEXT_DIM);
     if (count > MAX_ROWS) {
@@ -31,7 +30,6 @@ void inspector_splines(struct inspection *in)
         snprintf(text, sizeof text, "%d of %d splines; PgUp and PgDn go on", MAX_ROWS, count);
         ui_paragraph(ui, text, THEME_TEXT_DIM);
     }
-    ui_space(ui, 4);
 }
 
 /// How each parameter is shown. `maximum` of the bar for all modes; frequency and damping have their own rule.
@@ -208,8 +206,6 @@ void inspector_spline(struct inspection *in)
 {
     struct ui *ui = in->ui;
     struct spline *spline = editor_active_spline(in->editor, in->world);
-    if (!spline) return;
-    if (!ui_section(ui, "section.spline", "Spline", &in->editor->inspector.closed[SECTION_SPLINE])) return;
     build_mode(in, spline);
     ui_space(ui, 4);
     bool pair = spline->mode == WIGGLY_REAL && spline->spring_friction;
@@ -226,5 +222,4 @@ void inspector_spline(struct inspection *in)
     build_parameter(in, spline, PARAMETER_EQUILIBRIUM);
     build_start(in, spline);
     build_warnings(in, spline);
-    ui_space(ui, 4);
 }

@@ -111,9 +111,7 @@ void inspector_tail(struct inspection *in)
     struct ui *ui = in->ui;
     struct inspector *inspector = &in->editor->inspector;
     const struct document *document = in->document;
-    if (document->tail_count == 0) return;
     if (inspector->tail >= document->tail_count) inspector->tail = 0;
-    if (!ui_section(ui, "section.tail", "Tail", &inspector->closed[SECTION_TAIL])) return;
     build_tails(in);
     const struct tail *tail = &document->tails[inspector->tail];
     if (inspector->channel >= tail->channel_count) inspector->channel = 0;

@@ -10,14 +10,14 @@
 #include "editor/editor.h"
 #include "ui/widgets.h"
 
-enum inspector_section { SECTION_SPLINES, SECTION_SPLINE, SECTION_KNOT, SECTION_TAIL, SECTION_COUNT };
+enum { INSPECTOR_MAX_SECTIONS = 16 };
 
 /// The inspector's own view state; zero is a valid start.
 struct inspector {
     struct ui ui;
     struct ui_scroll scroll;
-    bool closed[SECTION_COUNT]; ///< collapsed sections
-    int tail, channel;          ///< shown under "Tail"
+    bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections that are not as they are at first, open or closed
+    int tail, channel;                    ///< shown under "Tail"
 };
 
 /// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.
