@@ -21,8 +21,11 @@ static struct tail plain_tail(enum axis axis)
     channels[0].axis = axis;
     channels[0].lag.value[0] = 6.5;
     channels[0].gain.value[0] = 5.0;
-    return (struct tail){
-        .joints = JOINTS, .length = 1.6, .position = {0.1, 0.2, 0.3}, .channels = channels, .channel_count = 1};
+    return (struct tail){.joints = JOINTS,
+                         .length = 1.6,
+                         .position = {{0.1, -1}, {0.2, -1}, {0.3, -1}},
+                         .channels = channels,
+                         .channel_count = 1};
 }
 
 /// Frame n's column c, relative to frame n − 1 (frame −1 is the world).
@@ -101,6 +104,23 @@ static void segments_keep_their_length_and_frames_stay_square(void **state)
         }
     }
     assert_near(pose_length(&pose), 1.6, 1e-5);
+}
+
+/// A channel of the displacement leaves the equilibrium, the base's own motion, out; moving takes the whole pose along.
+static void displacement_leaves_out_what_the_base_does(void **state)
+{
+    (void)state;
+    static struct pose pose, moved;
+    struct tail tail = plain_tail(AXIS_SIDE);
+    const wiggly_value value = {.y = 7.0, .re = 0.4, .im = 0.3}, apart = {.re = 0.4, .im = 0.3};
+    pose_tail(&tail, &apart, LOOK_WIGGLY, &pose);
+    channels[0].of = PART_DISPLACEMENT;
+    pose_tail(&tail, &value, LOOK_WIGGLY, &moved);
+    assert_memory_equal(pose.matrix, moved.matrix, (size_t)pose.count * sizeof pose.matrix[0]);
+    pose_move(&moved, (const double[3]){1.0, -2.0, 0.5});
+    assert_near(moved.matrix[JOINTS][12], pose.matrix[JOINTS][12] + 1.0, 1e-6);
+    assert_near(moved.matrix[0][13], pose.matrix[0][13] - 2.0, 1e-6);
+    assert_near(moved.matrix[5][14], pose.matrix[5][14] + 0.5, 1e-6);
 }
 
 /// Joint n now bends as the base did n·lag earlier.
@@ -291,6 +311,7 @@ int main(void)
         cmocka_unit_test(side_turns_about_y_and_up_lifts),
         cmocka_unit_test(rest_bends_without_any_channel),
         cmocka_unit_test(segments_keep_their_length_and_frames_stay_square),
+        cmocka_unit_test(displacement_leaves_out_what_the_base_does),
         cmocka_unit_test(every_joint_lags_behind_the_base),
         cmocka_unit_test(the_stiff_look_moves_all_joints_in_phase),
         cmocka_unit_test(arrays_give_each_joint_its_own_lag_and_gain),

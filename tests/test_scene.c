@@ -169,6 +169,31 @@ static void test_unknown_keys_are_kept(void **state)
     document_destroy(document);
 }
 
+/// A tail on a moving base: coordinates that follow splines, a channel without the base's part, and what only others know.
+static void test_moving_bases_are_kept(void **state)
+{
+    (void)state;
+    struct document *document = parse(
+        "{\"frames\": [0, 9], \"splines\": [{\"name\": \"walk\", \"position\": 3}], \"rigs\": [{\"type\": \"tail\", "
+        "\"name\": \"t\", \"frequency\": 1, \"position\": [{\"by\": \"me\", \"spline\": \"walk\"}, 0.26, "
+        "{\"spline\": "
+        "\"walk\"}], \"spline\": \"walk\", \"of\": \"displacement\"}]}");
+    const struct tail *tail = &document->tails[0];
+    assert_int_equal(tail->position[0].track, 0);
+    assert_int_equal(tail->position[1].track, -1);
+    assert_near(tail->position[1].value, 0.26, 0);
+    assert_int_equal(tail->channels[0].of, PART_DISPLACEMENT);
+    size_t size;
+    char *text = scene_print(document, &size);
+    assert_non_null(
+        strstr(text, "\"position\": [{ \"spline\": \"walk\", \"by\": \"me\" }, 0.26, { \"spline\": \"walk\" }],"));
+    assert_non_null(strstr(text, "\"axis\": \"side\", \"of\": \"displacement\", \"lag\": 6.5"));
+    assert_non_null(strstr(text, "\"position\": 3\n"));  // a spline's unknown key
+    assert_non_null(strstr(text, "\"frequency\": 1\n")); // a tail's
+    free(text);
+    document_destroy(document);
+}
+
 static void assert_round_trip(const char *path)
 {
     struct error error = {0};
@@ -509,6 +534,7 @@ int main(void)
         cmocka_unit_test(test_numbers_read_back),
         cmocka_unit_test(test_defaults),
         cmocka_unit_test(test_unknown_keys_are_kept),
+        cmocka_unit_test(test_moving_bases_are_kept),
         cmocka_unit_test(test_round_trips),
         cmocka_unit_test(test_knots_on_samples),
         cmocka_unit_test(test_warnings),

@@ -24,7 +24,7 @@ static void arrange(double side)
     static struct channel channel;
     struct tail tail = {.joints = JOINTS,
                         .length = 1.6,
-                        .position = {0.0, CREATURE_BASE_HEIGHT, 0.0},
+                        .position = {{0.0, -1}, {CREATURE_BASE_HEIGHT, -1}, {0.0, -1}},
                         .channels = &channel,
                         .channel_count = 1};
     tail.rest.value[0] = 2.0;

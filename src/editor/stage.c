@@ -13,6 +13,16 @@ enum { FIT_STEPS = 120, BLOBS_OF_ONE_TAIL = 16, RING_SIZE = 13 };
 static const float GRAB_REACH = 16;   ///< pixels from the tail's centre line
 static const double ZOOM_STEP = 0.12; ///< of a wheel's notch, as a power of e
 
+/// Where the coordinates of a tail's position that follow splines are; 0 for the others.
+static void tail_base(const struct editor_world *world, const struct tail *tail, double position, double moved[3])
+{
+    for (int k = 0; k < 3; k++) {
+        wiggly_value value = {0};
+        if (tail->position[k].track >= 0) value = curves_solved(world, tail->position[k].track, position);
+        moved[k] = value.y + value.re;
+    }
+}
+
 void stage_pose_tail(const struct editor *editor, const struct editor_world *world, int tail,
                      const struct what_if *change, struct pose *pose)
 {
@@ -26,6 +36,9 @@ void stage_pose_tail(const struct editor *editor, const struct editor_world *wor
         values[c].im += change->im;
     }
     pose_tail(shown, values, editor->look, pose);
+    double moved[3];
+    tail_base(world, shown, editor->playback.position, moved);
+    pose_move(pose, moved);
 }
 
 static void add_blobs(struct stage_view *view, const struct pose *pose)
@@ -72,7 +85,6 @@ static uint64_t view_hash(const struct stage_view *view)
         const struct stage_tail *tail = &view->tails[t];
         hash = hash_bytes(hash, &tail->joints, sizeof tail->joints);
         hash = hash_bytes(hash, &tail->length, sizeof tail->length);
-        hash = hash_bytes(hash, tail->position, sizeof tail->position);
         hash = hash_bytes(hash, tail->pose.matrix, (size_t)tail->pose.count * sizeof tail->pose.matrix[0]);
     }
     return hash_bytes(hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
@@ -89,7 +101,6 @@ void stage_pose(struct editor *editor, const struct editor_world *world)
         struct stage_tail *shown = &view->tails[t];
         shown->joints = tail->joints;
         shown->length = (float)tail->length;
-        for (int i = 0; i < 3; i++) shown->position[i] = (float)tail->position[i];
         stage_pose_tail(editor, world, t, NULL, &shown->pose);
         add_blobs(view, &shown->pose);
     }

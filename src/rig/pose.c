@@ -1,7 +1,6 @@
 #include "rig/pose.h"
 #include "model/creature.h"
 #include <math.h>
-#include <string.h>
 
 static double radians(double degrees) { return degrees * 3.14159265358979323846 / 180.0; }
 
@@ -23,7 +22,9 @@ static void bend_at(const struct tail *tail, const wiggly_value *values, enum lo
     *up = angle_at(&tail->rest, n);
     for (int c = 0; c < tail->channel_count; c++) {
         const struct channel *channel = &tail->channels[c];
-        const double bend = angle_at(&channel->gain, n) * wiggly_lagged(values[c], lag_at(channel, n, look));
+        wiggly_value value = values[c];
+        if (channel->of == PART_DISPLACEMENT) value.y = 0.0;
+        const double bend = angle_at(&channel->gain, n) * wiggly_lagged(value, lag_at(channel, n, look));
         *(channel->axis == AXIS_UP ? up : side) += bend;
     }
 }
@@ -45,7 +46,7 @@ static void bend_frame(double frame[16], double side, double up)
 void pose_tail(const struct tail *tail, const wiggly_value *values, enum look look, struct pose *pose)
 {
     double frame[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    memcpy(frame + 12, tail->position, sizeof tail->position);
+    for (int k = 0; k < 3; k++) frame[12 + k] = tail->position[k].track < 0 ? tail->position[k].value : 0.0;
     const double segment = tail->length / tail->joints;
     pose->count = tail->joints + 1;
     for (int n = 0; n <= tail->joints; n++) {
@@ -56,6 +57,13 @@ void pose_tail(const struct tail *tail, const wiggly_value *values, enum look lo
         }
         for (int k = 0; k < 16; k++) pose->matrix[n][k] = (float)frame[k];
         for (int k = 0; k < 3; k++) frame[12 + k] += segment * frame[8 + k];
+    }
+}
+
+void pose_move(struct pose *pose, const double by[3])
+{
+    for (int n = 0; n < pose->count; n++) {
+        for (int k = 0; k < 3; k++) pose->matrix[n][12 + k] += (float)by[k];
     }
 }
 

@@ -15,10 +15,14 @@ struct pose {
     float matrix[TAIL_MAX_JOINTS + 1][16];
 };
 
-/// Poses a tail. `values[c]` is the spline value of channel c at the time shown. Joint n bends by gain·(y +
-/// Re(e^{−j·n·lag} x)) about each channel's axis, over rest (which bends up about the `up` axis, positive lifts).
-/// LOOK_STIFF takes every lag as 0. `side` turns before `up`. Allocates nothing.
+/// Poses a tail at its position, coordinates that follow a spline being 0 (see pose_move()). `values[c]` is the spline value of
+/// channel c at the time shown. Joint n bends by gain·(y + Re(e^{−j·n·lag} x)) about each channel's axis, without y for
+/// PART_DISPLACEMENT, over rest (which bends up about the `up` axis, positive lifts). LOOK_STIFF takes every lag as 0.
+/// `side` turns before `up`. Allocates nothing.
 void pose_tail(const struct tail *tail, const wiggly_value *values, enum look look, struct pose *pose);
+
+/// Moves a posed tail, metres: where its position follows splines, and while it is dragged.
+void pose_move(struct pose *pose, const double by[3]);
 
 /// Length of the tail that was posed, in metres.
 float pose_length(const struct pose *pose);

@@ -20,6 +20,12 @@ static const struct {
 
 const char *parameter_name(enum parameter parameter) { return parameter_table[parameter].name; }
 
+const char *coordinate_name(int index)
+{
+    static const char *const names[] = {"x", "y", "z"};
+    return names[index];
+}
+
 double parameter_minimum(enum parameter parameter, enum wiggly_mode mode)
 {
     (void)mode;

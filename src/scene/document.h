@@ -67,9 +67,14 @@ struct angles {
 
 enum axis { AXIS_SIDE, AXIS_UP };
 
+/// What of its spline a channel bends by: y + Re(e^{−j·n·lag} x), or without the equilibrium y. The latter is for what hangs on
+/// something that moves: y is the base's motion, and x the motion relative to it.
+enum channel_part { PART_TOTAL, PART_DISPLACEMENT };
+
 struct channel {
     int spline; ///< index
     enum axis axis;
+    enum channel_part of;
     struct angles lag;  ///< n·lag at joint n, or each joint's own lag
     struct angles gain; ///< degrees per unit of the spline
     const void *extra;
@@ -79,7 +84,7 @@ struct tail {
     char *name;
     int joints; ///< 1 … TAIL_MAX_JOINTS
     double length;
-    double position[3]; ///< metres
+    struct param position[3]; ///< metres; a track is the spline's total
     struct angles rest;
     struct channel *channels;
     int channel_count;
@@ -135,6 +140,9 @@ int spline_find_id(const struct spline *spline, unsigned id);
 const char *parameter_name(enum parameter parameter);
 double parameter_minimum(enum parameter parameter, enum wiggly_mode mode);
 double parameter_maximum(enum parameter parameter, enum wiggly_mode mode);
+
+/// "x", "y" or "z".
+const char *coordinate_name(int index);
 
 /// Gives a spline the file format's defaults (complex, free, calm 1, bandwidth 0.1); name and knots are left alone.
 void spline_reset(struct spline *spline);

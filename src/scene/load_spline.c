@@ -6,7 +6,6 @@
 static const char *const spline_keys[] = {"name",     "mode", "frequency",   "damping", "bandwidth", "spring",
                                           "friction", "calm", "equilibrium", "start",   "knots",     NULL};
 static const char *const knot_keys[] = {"frame", "value", "slope", "stiffness", NULL};
-static const char *const track_keys[] = {"spline", NULL};
 static const char *const modes[] = {"complex", "real", "cubic", NULL};
 static const char *const starts[] = {"free", "rest", "loop", NULL};
 
@@ -17,20 +16,6 @@ struct part {
     struct spline *spline;
 };
 
-/// `{"spline": "other"}`. Its unknown keys are kept among the spline's own, under the parameter's name.
-static void load_track(struct reader *reader, const struct where *at, json_t *object, struct param *param,
-                       json_t **extra)
-{
-    struct where name_at;
-    const json_t *name = reader_member(at, object, "spline", &name_at);
-    int track = reader_spline_name(reader, &name_at, name);
-    if (track >= 0) *param = (struct param){0, track};
-    json_t *unknown = reader_extra(reader, at, object, track_keys);
-    if (!unknown) return;
-    if (!*extra) *extra = json_object();
-    if (!*extra || json_object_set_new(*extra, at->key, unknown) != 0) reader_no_memory(reader);
-}
-
 static void load_parameter(struct reader *reader, const struct part *part, enum parameter parameter, json_t **extra)
 {
     struct where at;
@@ -40,7 +25,7 @@ static void load_parameter(struct reader *reader, const struct part *part, enum 
     struct range range = {parameter_minimum(parameter, mode), parameter_maximum(parameter, mode), false};
     if (!value) return;
     if (json_is_object(value) && parameter != PARAMETER_CALM) {
-        load_track(reader, &at, value, param, extra);
+        reader_track(reader, &at, value, at.key, param, extra);
     } else if (!json_is_number(value)) {
         const char *expected = parameter == PARAMETER_CALM ? "a number" : "a number or {\"spline\": name}";
         reader_unexpected(reader, &at, expected, value);

@@ -3,11 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const tail_keys[] = {"type",     "name",   "joints", "length", "position", "rest",
-                                        "channels", "spline", "axis",   "lag",    "gain",     NULL};
-static const char *const channel_keys[] = {"spline", "axis", "lag", "gain", NULL};
+static const char *const tail_keys[] = {"type",   "name", "joints", "length", "position", "rest", "channels",
+                                        "spline", "axis", "of",     "lag",    "gain",     NULL};
+static const char *const channel_keys[] = {"spline", "axis", "of", "lag", "gain", NULL};
 static const char *const types[] = {"tail", NULL};
 static const char *const axes[] = {"side", "up", NULL};
+static const char *const parts[] = {"total", "displacement", NULL};
 
 /// A number for all joints, or an array of one for each.
 static void load_angles(struct reader *reader, const struct where *at, const json_t *value, int joints,
@@ -34,8 +35,11 @@ static void load_angles(struct reader *reader, const struct where *at, const jso
     }
 }
 
-static void load_position(struct reader *reader, const struct where *at, const json_t *value, double position[3])
+/// Metres, or a spline to follow, for each coordinate. Unknown keys of the tracks are kept under "position" among the tail's.
+static void load_position(struct reader *reader, const struct where *at, const json_t *value,
+                          struct param position[3], json_t **extra)
 {
+    json_t *tracks = NULL;
     if (!value) return;
     if (!json_is_array(value)) {
         reader_unexpected(reader, at, "[x, y, z]", value);
@@ -47,22 +51,35 @@ static void load_position(struct reader *reader, const struct where *at, const j
     }
     for (size_t i = 0; i < 3; i++) {
         struct where element_at = {.parent = at, .index = i};
-        reader_number(reader, &element_at, json_array_get(value, i), true, range_any, &position[i]);
+        json_t *element = json_array_get(value, i);
+        if (json_is_object(element)) {
+            reader_track(reader, &element_at, element, coordinate_name((int)i), &position[i], &tracks);
+        } else if (!json_is_number(element)) {
+            reader_unexpected(reader, &element_at, "a number or {\"spline\": name}", element);
+        } else {
+            reader_number(reader, &element_at, element, true, range_any, &position[i].value);
+        }
     }
+    if (!tracks) return;
+    if (!*extra) *extra = json_object();
+    if (!*extra || json_object_set_new(*extra, at->key, tracks) != 0) reader_no_memory(reader);
 }
 
 /// From a channel's object, or from a tail's own in the short form.
 static void load_channel(struct reader *reader, const struct where *at, const json_t *object, int joints,
                          struct channel *channel)
 {
-    struct where spline_at, axis_at, lag_at, gain_at;
+    struct where spline_at, axis_at, of_at, lag_at, gain_at;
     const json_t *spline = reader_member(at, object, "spline", &spline_at);
     const json_t *axis = reader_member(at, object, "axis", &axis_at);
+    const json_t *of = reader_member(at, object, "of", &of_at);
     const json_t *lag = reader_member(at, object, "lag", &lag_at);
     const json_t *gain = reader_member(at, object, "gain", &gain_at);
     channel->spline = reader_spline_name(reader, &spline_at, spline);
     int word = reader_word(reader, &axis_at, axis, axes, "\"side\" or \"up\"", AXIS_SIDE);
     channel->axis = word < 0 ? AXIS_SIDE : (enum axis)word;
+    word = reader_word(reader, &of_at, of, parts, "\"total\" or \"displacement\"", PART_TOTAL);
+    channel->of = word < 0 ? PART_TOTAL : (enum channel_part)word;
     channel->lag.value[0] = CHANNEL_DEFAULT_LAG;
     channel->gain.value[0] = CHANNEL_DEFAULT_GAIN;
     load_angles(reader, &lag_at, lag, joints, &channel->lag);
@@ -106,17 +123,19 @@ static void load_tail(struct reader *reader, const struct where *at, json_t *obj
     const json_t *position = reader_member(at, object, "position", &position_at);
     const json_t *rest = reader_member(at, object, "rest", &rest_at);
     struct range positive = {0, INFINITY, true};
+    json_t *unknown = reader_extra(reader, at, object, tail_keys);
     tail->joints = TAIL_DEFAULT_JOINTS;
     tail->length = TAIL_DEFAULT_LENGTH;
+    for (int i = 0; i < 3; i++) tail->position[i].track = -1;
     if (reader_word(reader, &type_at, type, types, "\"tail\"", -1) < 0) return;
     tail->name = reader_name(reader, &name_at, name);
     reader_number(reader, &length_at, length, false, positive, &tail->length);
-    load_position(reader, &position_at, position, tail->position);
+    load_position(reader, &position_at, position, tail->position, &unknown);
     if (reader_integer(reader, &joints_at, joints, 1, TAIL_MAX_JOINTS, &tail->joints)) {
         load_angles(reader, &rest_at, rest, tail->joints, &tail->rest);
         load_channels(reader, at, object, tail);
     }
-    tail->extra = reader_keep(reader, reader_extra(reader, at, object, tail_keys));
+    tail->extra = reader_keep(reader, unknown);
 }
 
 static void check_name(struct reader *reader, const struct where *tails_at, int index)

@@ -8,6 +8,7 @@
 static const char *const mode_names[] = {
     [WIGGLY_COMPLEX] = "complex", [WIGGLY_REAL] = "real", [WIGGLY_CUBIC] = "cubic"};
 static const char *const start_names[] = {[WIGGLY_FREE] = "free", [WIGGLY_REST] = "rest", [WIGGLY_LOOP] = "loop"};
+static const char *const part_names[] = {[PART_TOTAL] = "total", [PART_DISPLACEMENT] = "displacement"};
 static const char *const axis_names[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up"};
 
 /// An object being written: members are set apart by `separator`, which opens the object before the first.
@@ -40,7 +41,9 @@ static void member_string(struct members *members, const char *key, const char *
 /// The unknown keys of an object, or those of a track inside of it.
 static json_t *extra_of(const void *extra) { return (json_t *)(uintptr_t)extra; }
 
-/// Whether a key of a spline's extra object holds the unknown keys of a track and is no key of the spline itself.
+/// Whether a key of an object's extra one holds the unknown keys of tracks inside of it, and is none of its own.
+typedef bool holds_tracks(const char *key);
+
 static bool is_parameter(const char *key)
 {
     for (int i = 0; i < PARAMETER_COUNT; i++) {
@@ -49,13 +52,15 @@ static bool is_parameter(const char *key)
     return false;
 }
 
-static void members_extra(struct members *members, const void *extra, bool of_spline)
+static bool is_position(const char *key) { return strcmp(key, "position") == 0; }
+
+static void members_extra(struct members *members, const void *extra, holds_tracks *skips)
 {
     const char *key;
     json_t *value;
     json_object_foreach(extra_of(extra), key, value)
     {
-        if (of_spline && is_parameter(key)) continue;
+        if (skips && skips(key)) continue;
         member(members, key);
         text_json(members->text, value);
     }
@@ -88,7 +93,7 @@ static void print_knot(struct text *text, const struct knot *knot)
     member_number(&members, "value", knot->value);
     if (knot->has_slope) member_number(&members, "slope", knot->slope);
     if (knot->stiffness != KNOT_DEFAULT_STIFFNESS) member_number(&members, "stiffness", knot->stiffness);
-    members_extra(&members, knot->extra, false);
+    members_extra(&members, knot->extra, NULL);
     text_string(text, " }");
 }
 
@@ -105,20 +110,18 @@ static bool is_printed(const struct spline *spline, enum parameter parameter)
     return spline_uses(spline, parameter, false);
 }
 
-static void print_parameter(struct members *members, const struct document *document, const struct spline *spline,
-                            enum parameter parameter)
+/// A number or a track; `extras` holds the unknown keys of tracks, by `key`.
+static void print_param(struct text *text, const struct document *document, const struct param *param, json_t *extras,
+                        const char *key)
 {
-    const struct param *param = &spline->parameter[parameter];
-    const char *name = parameter_name(parameter);
     if (param->track < 0) {
-        member_number(members, name, param->value);
+        text_number(text, param->value);
         return;
     }
-    struct members track = {members->text, "{ ", ", ", false};
-    member(members, name);
+    struct members track = {text, "{ ", ", ", false};
     member_string(&track, "spline", document->splines[param->track].name);
-    members_extra(&track, json_object_get(extra_of(spline->extra), name), false);
-    text_string(members->text, " }");
+    members_extra(&track, json_object_get(extras, key), NULL);
+    text_string(text, " }");
 }
 
 static void print_spline(struct text *text, const struct document *document, const struct spline *spline)
@@ -127,7 +130,10 @@ static void print_spline(struct text *text, const struct document *document, con
     member_string(&members, "name", spline->name);
     member_string(&members, "mode", mode_names[spline->mode]);
     for (int i = 0; i < PARAMETER_COUNT; i++) {
-        if (is_printed(spline, (enum parameter)i)) print_parameter(&members, document, spline, (enum parameter)i);
+        const char *name = parameter_name((enum parameter)i);
+        if (!is_printed(spline, (enum parameter)i)) continue;
+        member(&members, name);
+        print_param(text, document, &spline->parameter[i], extra_of(spline->extra), name);
     }
     member_string(&members, "start", start_names[spline->start]);
     member(&members, "knots");
@@ -136,7 +142,7 @@ static void print_spline(struct text *text, const struct document *document, con
         print_knot(text, &spline->knots[i]);
     }
     text_string(text, spline->knot_count > 0 ? "\n      ]" : "[]");
-    members_extra(&members, spline->extra, true);
+    members_extra(&members, spline->extra, is_parameter);
     text_string(text, "\n    }");
 }
 
@@ -146,10 +152,21 @@ static void print_channel(struct text *text, const struct document *document, co
     struct members members = {text, "{ ", ", ", false};
     member_string(&members, "spline", document->splines[channel->spline].name);
     member_string(&members, "axis", axis_names[channel->axis]);
+    if (channel->of != PART_TOTAL) member_string(&members, "of", part_names[channel->of]);
     print_angles(&members, "lag", &channel->lag, tail->joints);
     print_angles(&members, "gain", &channel->gain, tail->joints);
-    members_extra(&members, channel->extra, false);
+    members_extra(&members, channel->extra, NULL);
     text_string(text, " }");
+}
+
+static void print_position(struct text *text, const struct document *document, const struct tail *tail)
+{
+    json_t *extras = json_object_get(extra_of(tail->extra), "position");
+    for (int i = 0; i < 3; i++) {
+        text_string(text, i > 0 ? ", " : "[");
+        print_param(text, document, &tail->position[i], extras, coordinate_name(i));
+    }
+    text_string(text, "]");
 }
 
 static void print_tail(struct text *text, const struct document *document, const struct tail *tail)
@@ -160,7 +177,7 @@ static void print_tail(struct text *text, const struct document *document, const
     member_number(&members, "joints", tail->joints);
     member_number(&members, "length", tail->length);
     member(&members, "position");
-    print_numbers(text, tail->position, 3);
+    print_position(text, document, tail);
     print_angles(&members, "rest", &tail->rest, tail->joints);
     member(&members, "channels");
     for (int i = 0; i < tail->channel_count; i++) {
@@ -168,7 +185,7 @@ static void print_tail(struct text *text, const struct document *document, const
         print_channel(text, document, tail, &tail->channels[i]);
     }
     text_string(text, tail->channel_count > 0 ? "\n      ]" : "[]");
-    members_extra(&members, tail->extra, false);
+    members_extra(&members, tail->extra, is_position);
     text_string(text, "\n    }");
 }
 
@@ -193,7 +210,7 @@ static void print_document(struct text *text, const struct document *document)
         print_tail(text, document, &document->tails[i]);
     }
     text_string(text, document->tail_count > 0 ? "\n  ]" : "[]");
-    members_extra(&members, document->extra, false);
+    members_extra(&members, document->extra, NULL);
     text_string(text, "\n}\n");
 }
 

@@ -245,6 +245,20 @@ json_t *reader_extra(struct reader *reader, const struct where *object_at, json_
     return extra;
 }
 
+void reader_track(struct reader *reader, const struct where *at, json_t *object, const char *key, struct param *param,
+                  json_t **extra)
+{
+    static const char *const known[] = {"spline", NULL};
+    struct where name_at;
+    const json_t *name = reader_member(at, object, "spline", &name_at);
+    int track = reader_spline_name(reader, &name_at, name);
+    if (track >= 0) *param = (struct param){0, track};
+    json_t *unknown = reader_extra(reader, at, object, known);
+    if (!unknown) return;
+    if (!*extra) *extra = json_object();
+    if (!*extra || json_object_set_new(*extra, key, unknown) != 0) reader_no_memory(reader);
+}
+
 const void *reader_keep(struct reader *reader, json_t *extra)
 {
     struct document *document = reader->document;

@@ -86,6 +86,10 @@ int reader_spline_name(struct reader *reader, const struct where *at, const json
 /// where there are none.
 json_t *reader_extra(struct reader *reader, const struct where *object_at, json_t *object, const char *const *known);
 
+/// `{"spline": "other"}`. Its unknown keys go into the object `*extra` (made where it is NULL) under `key`.
+void reader_track(struct reader *reader, const struct where *at, json_t *object, const char *key, struct param *param,
+                  json_t **extra);
+
 /// Gives an object of unknown keys (or NULL) to the document.
 const void *reader_keep(struct reader *reader, json_t *extra);
 

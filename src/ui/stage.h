@@ -7,11 +7,10 @@
 
 enum { STAGE_MAX_TAILS = 8, STAGE_MAX_BLOBS = 16 * STAGE_MAX_TAILS };
 
-/// One tail to draw; its mesh is rebuilt only when joints, length or position change.
+/// One tail to draw; its mesh is rebuilt only when joints or length change.
 struct stage_tail {
     int joints;
     float length;
-    float position[3];
     struct pose pose;
 };
 
