@@ -4,6 +4,7 @@
 #   make run      builds and starts the live app (ARGS="scene.json --size 960x600" for more)
 #   make test     builds and runs every test (TESTS="tests/test_timing.c tests/test_cli.sh" for some)
 #   make bench    the solver against LAPACKE
+#   make models   the generated character, build/models/creature.obj
 #   make check    formatting, static analysis, include arrows, lengths
 #   make regress BASE=path/to/other/wiggly    frame times of two builds on the committed session
 #   make install  PREFIX=/usr/local DESTDIR=
@@ -67,7 +68,7 @@ $(B)/obj/src/spline/%.o: CFLAGS += $(SPLINE_CFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all run test bench check regress install clean packages FORCE
+.PHONY: all run test bench models check regress install clean packages FORCE
 
 all: $(B)/wiggly $(B)/libwiggly.a $(TOOLS:%=$(B)/%)
 
@@ -86,6 +87,11 @@ test: $(B)/wiggly $(B)/libwiggly.a $(TOOLS:%=$(B)/%) $(TEST_PROGRAMS)
 
 bench: $(B)/wiggly
 	$(Q)$(B)/wiggly bench $(ARGS)
+
+models: $(B)/models/creature.obj
+$(B)/models/%.obj: $(B)/%_obj
+	@mkdir -p $(@D)
+	$(Q)$< $@
 
 check: | packages
 	$(Q)tools/check.sh

@@ -1,22 +1,14 @@
 #include "model/coat.h"
 #include "model/creature.h"
 #include "model/isosurface.h"
+#include "model/parts.h"
 #include "model/refine.h"
 #include <math.h>
 #include <stddef.h>
 
-/// The body is a smooth union of round cones (two balls and all between them), each in a colour of its own.
+/// The body is a smooth union of round cones. Metres, bind size, but with y = 0 on the ground. The animal looks towards
+/// −z. Parts of the head are relative to its middle and also look towards −z: the head is turned afterwards.
 ///
-/// Metres, bind size, but with y = 0 on the ground. The animal looks towards −z; mirrored parts are given for x > 0.
-/// Parts of the head are relative to its middle and also look towards −z: the head is turned afterwards.
-struct part {
-    float a[3], b[3];
-    float radius_a, radius_b;
-    float blend; ///< width of the fillet to the parts before it
-    uint32_t color;
-    bool mirror;
-};
-
 /// Later parts lie on top of earlier ones with their colours and fillets.
 static const struct part trunk[] = {
     {{0, 0.265f, -0.25f}, {0, 0.56f, -0.34f}, 0.245f, 0.150f, 0.001f, COAT_FUR, false},            // rump to neck
@@ -59,42 +51,6 @@ static const float glint[3] = {0.68f, 0.69f, -0.25f};
 const float creature_body_lo[3] = {-0.36f, -CREATURE_BASE_HEIGHT, -0.68f};
 const float creature_body_hi[3] = {0.36f, 1.16f - CREATURE_BASE_HEIGHT, 0.38f};
 
-/// Distance to a round cone. Seen in the half plane through its axis (x along it, r from it), the ball that is
-/// nearest to a point sits where the cone's surface normal, tilted by asin((radius_a − radius_b)/length), meets the
-/// axis.
-static float part_distance(const struct part *part, const float p[3])
-{
-    const float q[3] = {(part->mirror ? fabsf(p[0]) : p[0]) - part->a[0], p[1] - part->a[1], p[2] - part->a[2]};
-    const float axis[3] = {part->b[0] - part->a[0], part->b[1] - part->a[1], part->b[2] - part->a[2]};
-    const float length = sqrtf(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
-    const float x = (q[0] * axis[0] + q[1] * axis[1] + q[2] * axis[2]) / length;
-    const float r = sqrtf(fmaxf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] - x * x, 0.0f));
-    const float tilt = (part->radius_a - part->radius_b) / length;
-    const float ball = fminf(fmaxf(x - r * tilt / sqrtf(1.0f - tilt * tilt), 0.0f), length);
-    return sqrtf((x - ball) * (x - ball) + r * r) - part->radius_a -
-           (part->radius_b - part->radius_a) * ball / length;
-}
-
-/// Smooth minimum of two distances (polynomial, with a fillet `blend` wide); colours mix in the same measure, into
-/// `rgb`, where that is not NULL.
-static float smooth_union(float old, float added, float blend, float rgb[3], const float added_rgb[3])
-{
-    const float h = fmaxf(blend - fabsf(added - old), 0.0f) / blend;
-    const float share = added < old ? 1.0f - 0.5f * h * h : 0.5f * h * h;
-    for (int k = 0; rgb && k < 3; k++) rgb[k] += (added_rgb[k] - rgb[k]) * share;
-    return fminf(added, old) - 0.25f * h * h * blend;
-}
-
-static float add_parts(const struct part *table, size_t count, const float p[3], float distance, float rgb[3])
-{
-    for (size_t i = 0; i < count; i++) {
-        float part_rgb[3] = {0};
-        if (rgb) coat_linear(table[i].color, part_rgb);
-        distance = smooth_union(distance, part_distance(&table[i], p), table[i].blend, rgb, part_rgb);
-    }
-    return distance;
-}
-
 /// Standing coordinates → the head's own, before it was turned and tilted.
 static void into_head(const float p[3], float q[3])
 {
@@ -118,16 +74,16 @@ static float stump_distance(const float p[3])
 static float body_distance_color(const float p[3], float rgb[3])
 {
     const float standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
-    float distance = add_parts(trunk, sizeof trunk / sizeof *trunk, standing, 1e3f, rgb);
+    float distance = parts_add(trunk, sizeof trunk / sizeof *trunk, standing, 1e3f, rgb);
     float fur[3] = {0}, in_head[3], head_rgb[3] = {0};
     if (rgb) coat_linear(COAT_FUR, fur);
-    distance = smooth_union(distance, stump_distance(p), STUMP_BLEND, rgb, fur);
+    distance = parts_union(distance, stump_distance(p), STUMP_BLEND, rgb, fur);
     into_head(standing, in_head);
     const float bound =
         sqrtf(in_head[0] * in_head[0] + in_head[1] * in_head[1] + in_head[2] * in_head[2]) - HEAD_RADIUS;
     if (bound > distance + NECK_BLEND) return distance;
-    const float head_distance = add_parts(head, sizeof head / sizeof *head, in_head, 1e3f, rgb ? head_rgb : NULL);
-    return smooth_union(distance, head_distance, NECK_BLEND, rgb, head_rgb);
+    const float head_distance = parts_add(head, sizeof head / sizeof *head, in_head, 1e3f, rgb ? head_rgb : NULL);
+    return parts_union(distance, head_distance, NECK_BLEND, rgb, head_rgb);
 }
 
 static float body_distance(const float p[3]) { return body_distance_color(p, NULL); }
@@ -137,7 +93,7 @@ static float face_distance(const float p[3])
     const float standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
     float in_head[3];
     into_head(standing, in_head);
-    return add_parts(face, sizeof face / sizeof *face, in_head, 1e3f, NULL);
+    return parts_add(face, sizeof face / sizeof *face, in_head, 1e3f, NULL);
 }
 
 /// The fur is the parts' own; round the stump it is the tail's, which also takes over the bending there.

@@ -1,0 +1,37 @@
+#include "model/parts.h"
+#include "model/coat.h"
+#include <math.h>
+
+/// Distance to a round cone. Seen in the half plane through its axis (x along it, r from it), the ball that is
+/// nearest to a point sits where the cone's surface normal, tilted by asin((radius_a − radius_b)/length), meets the
+/// axis.
+static float part_distance(const struct part *part, const float p[3])
+{
+    const float q[3] = {(part->mirror ? fabsf(p[0]) : p[0]) - part->a[0], p[1] - part->a[1], p[2] - part->a[2]};
+    const float axis[3] = {part->b[0] - part->a[0], part->b[1] - part->a[1], part->b[2] - part->a[2]};
+    const float length = sqrtf(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+    const float x = (q[0] * axis[0] + q[1] * axis[1] + q[2] * axis[2]) / length;
+    const float r = sqrtf(fmaxf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] - x * x, 0.0f));
+    const float tilt = (part->radius_a - part->radius_b) / length;
+    const float ball = fminf(fmaxf(x - r * tilt / sqrtf(1.0f - tilt * tilt), 0.0f), length);
+    return sqrtf((x - ball) * (x - ball) + r * r) - part->radius_a -
+           (part->radius_b - part->radius_a) * ball / length;
+}
+
+float parts_union(float old, float added, float blend, float rgb[3], const float added_rgb[3])
+{
+    const float h = fmaxf(blend - fabsf(added - old), 0.0f) / blend;
+    const float share = added < old ? 1.0f - 0.5f * h * h : 0.5f * h * h;
+    for (int k = 0; rgb && k < 3; k++) rgb[k] += (added_rgb[k] - rgb[k]) * share;
+    return fminf(added, old) - 0.25f * h * h * blend;
+}
+
+float parts_add(const struct part *table, size_t count, const float p[3], float distance, float rgb[3])
+{
+    for (size_t i = 0; i < count; i++) {
+        float part_rgb[3] = {0};
+        if (rgb) coat_linear(table[i].color, part_rgb);
+        distance = parts_union(distance, part_distance(&table[i], p), table[i].blend, rgb, part_rgb);
+    }
+    return distance;
+}

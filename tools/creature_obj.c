@@ -1,0 +1,109 @@
+/// creature_obj OUT.obj: the soft character of the paper's Figure 7 as a closed mesh, for `wiggly simulate`.
+///
+/// One solid, so that the mesh is one closed manifold: a smooth union of round cones, cut off flat at the ground. It is
+/// 1.5 m high, looks towards +z and stands on y = 0; its arms hang well clear of the body, so that a lattice around the
+/// mesh does not glue them together. Colours are kept as `v x y z r g b`, linear.
+#include "base/file.h"
+#include "model/coat.h"
+#include "model/isosurface.h"
+#include "model/parts.h"
+#include "model/refine.h"
+#include <math.h>
+
+#define SKIN 0x62A9B5u
+#define DARKER 0x3D8496u
+#define BELLY 0xF3E6CBu
+#define CHEEK 0xE79A8Eu
+
+/// Later parts lie on top of earlier ones with their colours and fillets.
+static const struct part body[] = {
+    {{0, 0.40f, 0}, {0, 0.88f, -0.01f}, 0.345f, 0.215f, 0.001f, SKIN, false},                        // rump to chest
+    {{0, 0.42f, 0.10f}, {0, 0.76f, 0.08f}, 0.270f, 0.185f, 0.09f, BELLY, false},                     // belly
+    {{0.165f, 0.22f, 0.02f}, {0.180f, 0.10f, 0.05f}, 0.155f, 0.125f, 0.10f, SKIN, true},             // legs
+    {{0.185f, 0.075f, 0.06f}, {0.215f, 0.070f, 0.235f}, 0.115f, 0.100f, 0.06f, DARKER, true},        // feet
+    {{0.200f, 0.94f, 0}, {0.440f, 0.88f, 0.03f}, 0.105f, 0.082f, 0.12f, SKIN, true},                 // upper arms
+    {{0.440f, 0.88f, 0.03f}, {0.650f, 0.72f, 0.09f}, 0.082f, 0.078f, 0.06f, SKIN, true},             // lower arms
+    {{0.690f, 0.680f, 0.10f}, {0.725f, 0.635f, 0.11f}, 0.105f, 0.095f, 0.06f, DARKER, true},         // hands
+    {{0.640f, 0.640f, 0.135f}, {0.625f, 0.610f, 0.165f}, 0.046f, 0.038f, 0.035f, DARKER, true},      // thumbs
+    {{-0.045f, 1.215f, 0.015f}, {0.045f, 1.215f, 0.015f}, 0.280f, 0.280f, 0.10f, SKIN, false},       // head
+    {{0.13f, 1.125f, 0.105f}, {0.09f, 1.13f, 0.17f}, 0.155f, 0.125f, 0.09f, SKIN, true},             // cheeks
+    {{0, 1.125f, 0.210f}, {0, 1.125f, 0.280f}, 0.115f, 0.088f, 0.08f, BELLY, false},                 // muzzle
+    {{0.215f, 1.42f, -0.01f}, {0.235f, 1.465f, -0.01f}, 0.090f, 0.080f, 0.05f, SKIN, true},          // ears
+    {{0.215f, 1.425f, 0.050f}, {0.232f, 1.458f, 0.050f}, 0.050f, 0.045f, 0.03f, CHEEK, true},        // and insides
+    {{-0.014f, 1.170f, 0.345f}, {0.014f, 1.170f, 0.345f}, 0.034f, 0.034f, 0.006f, COAT_DARK, false}, // nose
+    {{0.122f, 1.248f, 0.268f}, {0.124f, 1.272f, 0.262f}, 0.044f, 0.044f, 0.004f, COAT_DARK, true},   // eyes
+};
+
+/// What the cheeks blush around, for x > 0, and the nose and eyes' place in the table: they shine.
+static const float blush[3] = {0.205f, 1.135f, 0.245f};
+static const float glint[3] = {0.30f, 0.72f, 0.62f};
+enum { FIRST_SHINING = 13, PART_COUNT = sizeof body / sizeof *body };
+
+static const float lo[3] = {-0.90f, -0.02f, -0.45f}, hi[3] = {0.90f, 1.60f, 0.55f};
+
+#define CELL 0.0273f         /* makes about 20,000 triangles */
+#define TOLERANCE 0.0016f    /* of flat triangles, metres */
+#define GROUND_FILLET 0.035f /* of the soles' edges */
+enum { REFINE_ROUNDS = 3 };
+
+/// Everything below the ground is cut off, so that the soles are flat.
+static float distance(const float p[3])
+{
+    return -parts_union(-parts_add(body, PART_COUNT, p, 1e3f, NULL), p[1], GROUND_FILLET, NULL, NULL);
+}
+
+static void paint(struct vertex *vertex)
+{
+    const float *p = vertex->position, *n = vertex->normal;
+    const float q[3] = {fabsf(p[0]) - blush[0], p[1] - blush[1], p[2] - blush[2]};
+    parts_add(body, PART_COUNT, p, 1e3f, vertex->color);
+    const float face = parts_add(body + FIRST_SHINING, PART_COUNT - FIRST_SHINING, p, 1e3f, NULL);
+    const float away = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
+    coat_mix(vertex->color, CHEEK, 0.75f * coat_step(0.085f, 0.025f, away));
+    // A dark lid hides the hard line where eyes and nose sink into the skin.
+    coat_mix(vertex->color, COAT_DARK, coat_step(0.014f, 0.004f, face));
+    const float shine = coat_step(0.92f, 0.95f, n[0] * glint[0] + n[1] * glint[1] + n[2] * glint[2]);
+    if (face < 0.002f) coat_mix(vertex->color, COAT_TIP, shine);
+}
+
+static void print(const struct mesh *mesh, FILE *out)
+{
+    fputs("# wiggly's creature: metres, y up, looks towards +z, stands on y = 0; colours are linear\n", out);
+    for (int i = 0; i < mesh->vertex_count; i++) {
+        const struct vertex *v = &mesh->vertices[i];
+        fprintf(out, "v %.6f %.6f %.6f %.4f %.4f %.4f\n", (double)v->position[0], (double)v->position[1],
+                (double)v->position[2], (double)v->color[0], (double)v->color[1], (double)v->color[2]);
+    }
+    for (int i = 0; i < mesh->vertex_count; i++) {
+        const float *n = mesh->vertices[i].normal;
+        fprintf(out, "vn %.4f %.4f %.4f\n", (double)n[0], (double)n[1], (double)n[2]);
+    }
+    for (int i = 0; i < mesh->index_count; i += 3) {
+        const unsigned a = mesh->indices[i] + 1, b = mesh->indices[i + 1] + 1, c = mesh->indices[i + 2] + 1;
+        fprintf(out, "f %u//%u %u//%u %u//%u\n", a, a, b, b, c, c);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    if (argc != 2) {
+        fputs("usage: creature_obj OUT.obj\n", stderr);
+        return ERROR_USAGE;
+    }
+    const struct solid solid = {distance, paint};
+    struct mesh mesh = {0};
+    struct file_output output;
+    struct error error = {0};
+    isosurface(&solid, lo, hi, CELL, &mesh);
+    refine(&solid, TOLERANCE, REFINE_ROUNDS, 0, &mesh);
+    if (mesh.failed) {
+        fail(&error, ERROR_ENVIRONMENT, "not enough memory for the creature");
+    } else if (file_output_open(&output, argv[1], &error)) {
+        print(&mesh, output.stream);
+        if (file_output_commit(&output, &error))
+            printf("%s: %d vertices, %d triangles\n", argv[1], mesh.vertex_count, mesh.index_count / 3);
+    }
+    mesh_free(&mesh);
+    if (error.kind != ERROR_NONE) fprintf(stderr, "creature_obj: %s\n", error.text);
+    return (int)error.kind;
+}
