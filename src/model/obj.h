@@ -1,0 +1,31 @@
+/// Triangle surfaces and their OBJ files: the rest meshes that are simulated and analysed.
+#ifndef MODEL_OBJ_H
+#define MODEL_OBJ_H
+
+#include "base/error.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+/// Metres, right-handed, y up; triangles counter-clockwise seen from outside. All zero is the empty surface.
+struct surface {
+    float (*position)[3];
+    float (*color)[3]; ///< linear RGB per vertex, or NULL
+    int vertex_count;
+    uint32_t *indices; ///< three a triangle
+    int index_count;
+};
+
+/// Reads an OBJ file. Vertices keep the file's order and number, which is what simulations refer to. Polygons become fans
+/// of triangles; texture coordinates, normals, materials, groups and lines are passed over. Colours after a position
+/// (`v x y z r g b`) are sRGB in the file, as Blender writes them, and white where a vertex has none while others do.
+/// Errors say "file:line: expected …, got …".
+bool obj_read(const char *path, struct surface *surface, struct error *error);
+
+/// Writes positions, colours and triangles with 9 digits, so that they read back equal; the old file or the new one is
+/// there, nothing between.
+bool obj_write(const char *path, const struct surface *surface, struct error *error);
+
+/// Leaves an empty surface.
+void surface_free(struct surface *surface);
+
+#endif

@@ -1,0 +1,31 @@
+/// Files that tests write: a folder of the test's own below TEST_OUT, emptied by the test that made it.
+#ifndef TESTS_TEMPORARY_H
+#define TESTS_TEMPORARY_H
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+/// The path of a file called `name`; the same storage at each fourth call.
+static inline const char *temporary_path(const char *name)
+{
+    static char paths[4][512];
+    static int next;
+    const char *folder = getenv("TEST_OUT");
+    next = (next + 1) % 4;
+    if (!folder) folder = "/tmp";
+    mkdir(folder, 0777);
+    snprintf(paths[next], sizeof paths[next], "%s/%s", folder, name);
+    return paths[next];
+}
+
+/// Writes a file of `size` bytes and returns its path; a failure ends the test program.
+static inline const char *temporary_file(const char *name, const void *bytes, size_t size)
+{
+    const char *path = temporary_path(name);
+    FILE *file = fopen(path, "wb");
+    if (!file || fwrite(bytes, 1, size, file) != size || fclose(file) != 0) abort();
+    return path;
+}
+
+#endif

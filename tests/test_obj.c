@@ -1,0 +1,115 @@
+/// OBJ files as they come: every form of a face, polygons, colours, continuations, and what must be refused with its line.
+#include "model/obj.h"
+#include "near.h"
+#include "temporary.h"
+#include <string.h>
+
+static bool read_text(const char *text, struct surface *surface, struct error *error)
+{
+    return obj_read(temporary_file("form.obj", text, strlen(text)), surface, error);
+}
+
+static void all_forms_of_a_face(void **state)
+{
+    (void)state;
+    const char *text = "# a pyramid\r\nmtllib a.mtl\r\no thing\r\n"
+                       "v 0 0 0\r\nv 1 0 0\nv 1 1e0 0\nv 0 1 0 1.0\nv .5 .5 \\\n 1\n"
+                       "vt 0 0\nvn 0 0 1\ns off\nusemtl m\n"
+                       "f 4/1/1 3/1/1 2/1/1 1/1/1\n" // a quad: two triangles
+                       "f 1//1 2//1 5//1\nf 2/1 3/1 5/1\n\tf  3 4 -1 # counted backwards\n"
+                       "f -2 -5 \\\r\n-1";
+    struct surface s;
+    struct error error;
+    assert_true(read_text(text, &s, &error));
+    assert_int_equal(s.vertex_count, 5);
+    assert_null(s.color);
+    const uint32_t indices[] = {3, 2, 1, 3, 1, 0, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
+    assert_int_equal(s.index_count, 18);
+    assert_memory_equal(s.indices, indices, sizeof indices);
+    assert_near(s.position[4][2], 1, 0);
+    surface_free(&s);
+}
+
+/// Some vertices have a colour: it is sRGB, and the others are white.
+static void colours_become_linear(void **state)
+{
+    (void)state;
+    struct surface s;
+    struct error error;
+    assert_true(read_text("v 0 0 0\nv 1 0 0 0.5 1 0\nv 0 1 0\nf 1 2 3\n", &s, &error));
+    assert_non_null(s.color);
+    assert_near(s.color[0][0], 1, 0);
+    assert_near(s.color[1][0], 0.21404114, 1e-6); // the sRGB curve at a half
+    assert_near(s.color[1][1], 1, 1e-6);
+    assert_near(s.color[1][2], 0, 0);
+    assert_near(s.color[2][2], 1, 0);
+    surface_free(&s);
+}
+
+static void what_is_written_reads_back_equal(void **state)
+{
+    (void)state;
+    float position[3][3] = {{0.1f, -1e-20f, 3.4e38f}, {1.0f / 3, 16777214, 0}, {-0.25f, 7, 1e10f}};
+    float color[3][3] = {{0, 1, 0.5f}, {0.001f, 0.2f, 0.9f}, {1, 1, 1}};
+    uint32_t indices[] = {2, 0, 1};
+    const struct surface out = {position, color, 3, indices, 3};
+    struct surface in;
+    struct error error;
+    const char *path = temporary_path("round.obj");
+    assert_true(obj_write(path, &out, &error));
+    assert_true(obj_read(path, &in, &error));
+    assert_int_equal(in.vertex_count, 3);
+    assert_memory_equal(in.position, position, sizeof position);
+    assert_memory_equal(in.indices, indices, sizeof indices);
+    for (int i = 0; i < 9; i++) assert_near(in.color[i / 3][i % 3], color[i / 3][i % 3], 1e-6);
+    surface_free(&in);
+    assert_false(obj_write("/nowhere/a.obj", &out, &error));
+    assert_non_null(strstr(error.text, "/nowhere/a.obj"));
+}
+
+static void bad_files_get_one_sentence(void **state)
+{
+    (void)state;
+    const struct {
+        const char *text, *says;
+    } cases[] = {
+        {"v 0 0\n", "form.obj:1: expected three coordinates of a vertex, got nothing"},
+        {"v 0 0 0\nv 0 0 x1\n", "form.obj:2: expected a finite number, got 'x1'"},
+        {"v 0 0 nan\n", "form.obj:1: expected a finite number, got 'nan'"},
+        {"v 0 0 1e99\n", "form.obj:1: expected a finite number, got '1e99'"},
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", "form.obj:4: expected a face of three corners or more, got 2"},
+        {"v 0 0 0\nv 1 0 0\n\\\n\nf 1 2 3\n", "form.obj:5: expected a vertex from 1 to 2, got '3'"},
+        {"v 0 0 0\nf 0 1 1\n", "form.obj:2: expected the number of a vertex, got '0'"},
+        {"v 0 0 0\nf 1 -2 1\n", "form.obj:2: expected the number of a vertex, got '-2'"},
+        {"v 0 0 0\nf 1 1x 1\n", "form.obj:2: expected the number of a vertex, got '1x'"},
+        {"v 0 0 0\nf 1 99999999999999999999 1\n",
+         "form.obj:2: expected the number of a vertex, got '99999999999999999999'"},
+        {"", "expected an OBJ file with vertices, got none"},
+        {"v 0 0 0\n", "expected an OBJ file with faces, got none"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct surface s;
+        struct error error = {0};
+        assert_false(read_text(cases[i].text, &s, &error));
+        if (!strstr(error.text, cases[i].says)) fail_msg("'%s' lacks '%s'", error.text, cases[i].says);
+        assert_int_equal(error.kind, ERROR_INPUT);
+        assert_null(s.position);
+    }
+    struct surface s;
+    struct error error;
+    assert_false(obj_read(temporary_file("form.obj", "v 0\0 0", 6), &s, &error));
+    assert_non_null(strstr(error.text, "got binary data"));
+    assert_false(obj_read("/nowhere.obj", &s, &error));
+    assert_non_null(strstr(error.text, "/nowhere.obj: cannot be opened"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_forms_of_a_face),
+        cmocka_unit_test(colours_become_linear),
+        cmocka_unit_test(what_is_written_reads_back_equal),
+        cmocka_unit_test(bad_files_get_one_sentence),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
