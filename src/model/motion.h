@@ -1,0 +1,54 @@
+/// Motion of a mesh: the positions of all vertices in every frame, in NumPy's .npy, in PC2 (Blender, 3ds Max) and in MDD
+/// (LightWave, Blender, Houdini). Read in slabs of columns, so that a file need not fit into memory; written frame by frame.
+#ifndef MODEL_MOTION_H
+#define MODEL_MOTION_H
+
+#include "base/file.h"
+#include <stdint.h>
+
+/// A motion that is open for reading. Column 3v + k is coordinate k (x, y, z) of vertex v.
+struct motion {
+    int frames, vertices;
+    double fps;       ///< frames per second, 0 where the file does not say (.npy and .pc2 never do)
+    const char *path; ///< the caller's, for messages
+    // private
+    int file;
+    int64_t data;        ///< where the numbers start
+    int number_size;     ///< 4 or 8 bytes
+    bool swapped;        ///< big endian
+    bool columns_follow; ///< all frames of a column lie together (Fortran order)
+    int64_t strides[3];  ///< bytes from one frame, vertex, coordinate to the next
+};
+
+/// Opens a file and checks its header and its size. .npy: float32 or float64, little or big endian, C or Fortran order,
+/// shape (frames, vertices, 3) or (frames, 3 vertices). What is read is told from the file's content; `path` must live as long.
+/// Errors name the path and say what was expected.
+bool motion_open(struct motion *motion, const char *path, struct error *error);
+
+/// Reads columns [first, first + count) of all frames: slab[frame · count + column − first]. A number that is not finite is
+/// an error that names frame and vertex, both from 0. Read by pread, not mapped: what is in memory stays the caller's
+/// slab, and a file that shrinks meanwhile is an error and no signal.
+bool motion_columns(const struct motion *motion, int first, int count, double *slab, struct error *error);
+
+void motion_close(struct motion *motion);
+
+/// A motion being written.
+struct motion_writer {
+    struct file_output output; // all private
+    int frames, vertices, written;
+};
+
+/// Starts a file of `frames` frames: .npy (float32, C order, (frames, vertices, 3)) or, where the path ends in .pc2,
+/// PC2. `path` must live until the end.
+bool motion_write_open(struct motion_writer *writer, const char *path, int frames, int vertices, struct error *error);
+
+/// Appends a frame of vertices × 3 numbers.
+bool motion_write_frame(struct motion_writer *writer, const float (*position)[3], struct error *error);
+
+/// Puts the file in place once all frames are written; on failure the old file is intact. Ends the writer in any case.
+bool motion_write_commit(struct motion_writer *writer, struct error *error);
+
+/// Ends the writer and leaves nothing behind.
+void motion_write_discard(struct motion_writer *writer);
+
+#endif
