@@ -19,6 +19,7 @@ static const struct section {
 } sections[] = {
     {"section.splines", "Splines", inspector_splines, NULL, false},
     {"section.spline", "Spline", inspector_spline, has_spline, false},
+    {"section.poles", "Poles and response", inspector_poles, has_spline, true},
     {"section.knot", "Knot", inspector_knot, has_spline, false},
     {"section.tail", "Tail", inspector_tail, has_tail, false},
 };
@@ -198,6 +199,12 @@ void inspector_take_back(struct inspection *in, enum ui_change change)
 void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
                       const struct edit *edit)
 {
+    inspector_change_all(in, change, label, what, edit, 1);
+}
+
+void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
+                          const struct edit *edits, int count)
+{
     struct history *history = in->world->history;
     uint64_t merge = 0;
     switch (change) {
@@ -206,7 +213,7 @@ void inspector_change(struct inspection *in, enum ui_change change, const char *
     case UI_DRAG:
         inspector_take_back(in, change);
         if (!history_is_open(history)) history_begin(history, label, 0);
-        editor_edit(in->editor, in->world, edit);
+        for (int i = 0; i < count; i++) editor_edit(in->editor, in->world, &edits[i]);
         return;
     case UI_CANCEL:
     case UI_DROP:
@@ -220,7 +227,10 @@ void inspector_change(struct inspection *in, enum ui_change change, const char *
     case UI_SET:
         break;
     }
-    editor_step(in->editor, in->world, label, merge, edit);
+    if (history_is_open(history)) return; // as editor_step()
+    history_begin(history, label, merge);
+    for (int i = 0; i < count; i++) editor_edit(in->editor, in->world, &edits[i]);
+    history_end(history);
 }
 
 struct rect inspector_labelled(struct inspection *in, const char *label)

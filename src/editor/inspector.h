@@ -19,6 +19,7 @@ struct inspection {
 /// The sections; inspector.c has the table. Each builds what is below its header.
 void inspector_splines(struct inspection *in);
 void inspector_spline(struct inspection *in);
+void inspector_poles(struct inspection *in);
 void inspector_knot(struct inspection *in);
 void inspector_tail(struct inspection *in);
 
@@ -29,6 +30,9 @@ void inspector_take_back(struct inspection *in, enum ui_change change);
 /// (the number's name, of the active spline) is one; Esc takes the drag back. `edit` says the document's new state.
 void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
                       const struct edit *edit);
+/// The same for edits that belong together.
+void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
+                          const struct edit *edits, int count);
 
 /// A row with a label; returns what is right of it.
 struct rect inspector_labelled(struct inspection *in, const char *label);

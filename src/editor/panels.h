@@ -8,6 +8,7 @@
 
 #include "editor/dialog_files.h"
 #include "editor/editor.h"
+#include "editor/poles.h"
 #include "ui/widgets.h"
 
 enum { INSPECTOR_MAX_SECTIONS = 16 };
@@ -18,6 +19,7 @@ struct inspector {
     struct ui_scroll scroll;
     bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections that are not as they are at first, open or closed
     int tail, channel;                    ///< shown under "Tail"
+    struct poles_view poles;
 };
 
 /// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.

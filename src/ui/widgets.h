@@ -56,8 +56,9 @@ struct ui {
     bool by_pointer; ///< typing began with a double-click, so it leaves no focus behind
     bool moved;      ///< the held widget was dragged, not only pressed
     bool fine;
-    float press_x;
-    float anchor_x; ///< where the drag's mapping starts anew: at the press and where Shift changes
+    float press_x, press_y;
+    float handle_x, handle_y; ///< of the held handle
+    float anchor_x;           ///< where the drag's mapping starts anew: at the press and where Shift changes
     double anchor_value;
     float pointer_x, pointer_y;
     const char *hint;    ///< of the widget that the pointer is over; NULL: none
@@ -149,6 +150,16 @@ enum ui_change {
 /// Drag to change (Shift: a tenth as fast), double-click or Enter to type, right-click for the default, arrows when focused.
 /// `*value` is set for UI_DRAG, UI_SET and UI_NUDGE.
 enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *number, double *value);
+
+/// A point that is dragged in two directions, or moved by the arrow keys.
+struct ui_handle {
+    const char *name, *hint;
+    float x, y;         ///< where it is; for UI_DRAG where it was dragged to, which may be outside the area
+    int step_x, step_y; ///< UI_NUDGE: arrow keys to the right and up (Shift: 10 at once)
+};
+
+/// Several handles in an area; a press takes the nearest. `*which` is the one that a change is of. The caller paints them.
+enum ui_change ui_handles(struct ui *ui, struct rect area, struct ui_handle *handles, int count, int *which);
 
 /// A line of text to type in; its content is ui->text while `typing`. true where the text changed.
 bool ui_text_field(struct ui *ui, struct rect r, const char *name);

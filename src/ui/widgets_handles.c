@@ -1,0 +1,120 @@
+/// Points that are dragged in two directions.
+#include "ui/widgets_internal.h"
+#include <math.h>
+
+enum { REACH = 11, DRAG_THRESHOLD = 2 }; ///< pixels around a point where a press takes it; a shorter way is a click
+
+static uint32_t id_of(const struct ui_handle *handle) { return ui_id(handle->name); }
+
+static int nearest(const struct ui_handle *handles, int count, float x, float y)
+{
+    int best = -1;
+    float least = REACH;
+    for (int i = 0; i < count; i++) {
+        float away = hypotf(handles[i].x - x, handles[i].y - y);
+        if (away < least) {
+            least = away;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/// The handle follows the pointer at the distance at which it was taken; Shift: a tenth as fast.
+static enum ui_change held_event(struct ui *ui, struct ui_handle *handle)
+{
+    const struct event *event = ui->event;
+    ui->used = true;
+    if (event->kind == EVENT_KEY) {
+        if (event->key != KEY_ESCAPE || event->action != ACTION_PRESS) return UI_NONE;
+        ui->held = 0;
+        return ui->moved ? UI_CANCEL : UI_NONE;
+    }
+    if (event->kind == EVENT_BUTTON) {
+        if (event->button != BUTTON_LEFT || event->action != ACTION_RELEASE) return UI_NONE;
+        ui->held = 0;
+        return ui->moved ? UI_DROP : UI_NONE;
+    }
+    if (event->kind != EVENT_POINTER) {
+        ui->used = false;
+        return UI_NONE;
+    }
+    if (!ui->moved && hypotf(event->x - ui->press_x, event->y - ui->press_y) < DRAG_THRESHOLD) return UI_NONE;
+    float rate = event->mods & MOD_SHIFT ? 0.1f : 1;
+    ui->moved = true;
+    ui->handle_x += rate * (event->x - ui->press_x);
+    ui->handle_y += rate * (event->y - ui->press_y);
+    ui->press_x = event->x;
+    ui->press_y = event->y;
+    handle->x = ui->handle_x;
+    handle->y = ui->handle_y;
+    return UI_DRAG;
+}
+
+static enum ui_change focused_event(struct ui *ui, struct ui_handle *handle)
+{
+    if (!ui_focused_key(ui, id_of(handle))) return UI_NONE;
+    int steps = ui->event->mods & MOD_SHIFT ? 10 : 1;
+    switch (ui->event->key) {
+    case KEY_LEFT:
+        handle->step_x = -steps;
+        break;
+    case KEY_RIGHT:
+        handle->step_x = steps;
+        break;
+    case KEY_DOWN:
+        handle->step_y = -steps;
+        break;
+    case KEY_UP:
+        handle->step_y = steps;
+        break;
+    default:
+        return UI_NONE;
+    }
+    ui->used = true;
+    return UI_NUDGE;
+}
+
+static void press(struct ui *ui, struct rect area, const struct ui_handle *handles, int count)
+{
+    int at = nearest(handles, count, ui->event->x, ui->event->y);
+    if (at < 0 || !ui_pressed(ui, area, BUTTON_LEFT)) return;
+    ui->held = id_of(&handles[at]);
+    ui->moved = false;
+    ui->press_x = ui->event->x;
+    ui->press_y = ui->event->y;
+    ui->handle_x = handles[at].x;
+    ui->handle_y = handles[at].y;
+}
+
+static void show(struct ui *ui, struct rect area, const struct ui_handle *handles, int count)
+{
+    int hot = ui_hovered(ui, area) && !ui->held ? nearest(handles, count, ui->pointer_x, ui->pointer_y) : -1;
+    for (int i = 0; i < count; i++) {
+        struct rect around = {handles[i].x - 8, handles[i].y - 8, 16, 16};
+        bool held = ui->held == id_of(&handles[i]);
+        if (held || i == hot) {
+            ui->over = UI_OVER_NUMBER;
+            drawlist_rounded_line(ui->list, around, 8, 1.5f, held ? THEME_ACCENT : THEME_TEXT_DIM);
+        }
+        if (i == hot) ui->hint = handles[i].hint;
+        ui_focus_ring(ui, id_of(&handles[i]), around);
+    }
+}
+
+enum ui_change ui_handles(struct ui *ui, struct rect area, struct ui_handle *handles, int count, int *which)
+{
+    for (int i = 0; i < count; i++) {
+        ui_register(ui, id_of(&handles[i]), (struct rect){handles[i].x - 1, handles[i].y - 1, 2, 2});
+    }
+    if (ui->pass == UI_PASS_DRAW) show(ui, area, handles, count);
+    if (ui->pass != UI_PASS_EVENT || ui->used) return UI_NONE;
+    for (*which = 0; *which < count; ++*which) {
+        struct ui_handle *handle = &handles[*which];
+        if (ui->held == id_of(handle)) return held_event(ui, handle);
+        enum ui_change change = focused_event(ui, handle);
+        if (change != UI_NONE) return change;
+    }
+    press(ui, area, handles, count);
+    return UI_NONE;
+}

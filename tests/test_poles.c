@@ -1,0 +1,135 @@
+/// The inspector's poles: dragged in the inset they set frequency, damping and bandwidth.
+#include "panel_session.h"
+
+static const char scene[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": ["
+    "{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1, \"bandwidth\": 0.1234, \"knots\": ["
+    "  {\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}]},"
+    "{\"name\": \"pace\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 1}]},"
+    "{\"name\": \"pluck\", \"mode\": \"real\", \"spring\": 40, \"friction\": 1},"
+    "{\"name\": \"lift\", \"frequency\": {\"spline\": \"pace\"}, \"damping\": 0.2, \"knots\": ["
+    "  {\"frame\": 10, \"value\": 1}]}], \"rigs\": []}";
+
+static double value(const struct session *f, enum parameter which)
+{
+    return f->document->splines[f->editor->active].parameter[which].value;
+}
+
+static void open_poles(struct session *f, int spline)
+{
+    panel_open(f, scene, 1280, 720);
+    editor_activate(f->editor, &f->world, spline);
+    panel_click(f, "section.poles");
+    session_frame(f);
+}
+
+/// Takes a handle and moves the pointer by so many pixels; the button stays down.
+static void drag(struct session *f, const char *name, float dx, float dy)
+{
+    float x, y;
+    assert_true(inspector_target(f->editor, &f->world, name, &x, &y));
+    panel_press(f, name, 1);
+    session_move(f, x + dx, y + dy);
+    session_frame(f);
+}
+
+static void test_centre_sets_frequency_and_damping(void **state)
+{
+    (void)state;
+    struct session f;
+    open_poles(&f, 0);
+    drag(&f, "pole.centre", 40, -15);
+    assert_true(value(&f, PARAMETER_FREQUENCY) > 1.1 && value(&f, PARAMETER_FREQUENCY) < 2);
+    assert_true(value(&f, PARAMETER_DAMPING) > 0.15 && value(&f, PARAMETER_DAMPING) < 0.5);
+    assert_near(value(&f, PARAMETER_BANDWIDTH), 0.1234, 0);
+    panel_release(&f);
+    assert_string_equal(history_undo_label(f.history), "Move poles");
+    session_key(&f, 'Z', MOD_CTRL);
+    assert_near(value(&f, PARAMETER_FREQUENCY), 1, 0);
+    assert_near(value(&f, PARAMETER_DAMPING), 0.1, 0);
+    assert_null(history_undo_label(f.history));
+    session_close(&f);
+}
+
+/// Whichever of the two is taken, away from the other one is wider.
+static void test_pole_opens_the_band(void **state)
+{
+    (void)state;
+    const char *const poles[] = {"pole.lower", "pole.upper"};
+    for (int i = 0; i < 2; i++) {
+        struct session f;
+        open_poles(&f, 0);
+        drag(&f, poles[i], i == 0 ? -30 : 30, 0);
+        double wide = value(&f, PARAMETER_BANDWIDTH);
+        assert_true(wide > 0.2 && wide < 0.5);
+        assert_near(value(&f, PARAMETER_FREQUENCY), 1, 0);
+        assert_near(value(&f, PARAMETER_DAMPING), 0.1, 0.001);
+        session_move(&f, 1140, 10); // far out: clamped, so that it loads again
+        session_move(&f, 5, 10);
+        session_frame(&f);
+        assert_in_range(value(&f, PARAMETER_BANDWIDTH) * 1000, 0, 1000);
+        session_key(&f, KEY_ESCAPE, 0);
+        assert_near(value(&f, PARAMETER_BANDWIDTH), 0.1234, 0);
+        assert_null(history_undo_label(f.history));
+        session_close(&f);
+    }
+}
+
+/// The paper's own pair is set where the spline uses it: ω² and 2ζω.
+static void test_spring_and_friction(void **state)
+{
+    (void)state;
+    struct session f;
+    open_poles(&f, 2);
+    assert_false(panel_shows(&f, "pole.upper"));
+    drag(&f, "pole.centre", 30, -10);
+    panel_release(&f);
+    assert_true(value(&f, PARAMETER_SPRING) > 45);
+    assert_true(value(&f, PARAMETER_FRICTION) > 1.1);
+    session_key(&f, 'Z', MOD_CTRL);
+    assert_near(value(&f, PARAMETER_SPRING), 40, 0);
+    assert_near(value(&f, PARAMETER_FRICTION), 1, 0);
+    session_close(&f);
+}
+
+/// A parameter that follows another spline is not torn off it.
+static void test_tracks_stay(void **state)
+{
+    (void)state;
+    struct session f;
+    open_poles(&f, 3);
+    drag(&f, "pole.centre", 30, -12);
+    panel_release(&f);
+    assert_int_equal(f.document->splines[3].parameter[PARAMETER_FREQUENCY].track, 1);
+    assert_true(value(&f, PARAMETER_DAMPING) > 0.25);
+    session_close(&f);
+}
+
+static void test_arrow_keys_move_a_focused_pole(void **state)
+{
+    (void)state;
+    struct session f;
+    open_poles(&f, 0);
+    f.editor->inspector.ui.focus = ui_id("pole.centre");
+    session_key(&f, KEY_RIGHT, 0);
+    session_key(&f, KEY_RIGHT, 0);
+    assert_near(value(&f, PARAMETER_FREQUENCY), 1.1, 1e-12);
+    session_key(&f, 'Z', MOD_CTRL);
+    assert_near(value(&f, PARAMETER_FREQUENCY), 1, 0);
+    f.editor->inspector.ui.focus = ui_id("pole.lower");
+    session_key(&f, KEY_LEFT, 0);
+    assert_near(value(&f, PARAMETER_BANDWIDTH), 0.133, 1e-12);
+    session_close(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_centre_sets_frequency_and_damping),
+        cmocka_unit_test(test_pole_opens_the_band),
+        cmocka_unit_test(test_spring_and_friction),
+        cmocka_unit_test(test_tracks_stay),
+        cmocka_unit_test(test_arrow_keys_move_a_focused_pole),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
