@@ -70,6 +70,29 @@ static void swap_settings(struct spline *spline, struct settings *settings)
         (b) = swapped;                                                                                               \
     } while (0)
 
+struct angles *angles_at(struct document *document, struct angles_place at)
+{
+    struct tail *tail = &document->tails[at.tail];
+    if (at.kind == ANGLE_REST) return &tail->rest;
+    struct channel *channel = &tail->channels[at.channel];
+    return at.kind == ANGLE_LAG ? &channel->lag : &channel->gain;
+}
+
+static void swap_channel(struct change *change, struct document *document)
+{
+    struct channel *channel = &document->tails[change->channel.tail].channels[change->channel.channel];
+    SWAP(int, channel->spline, change->channel.spline);
+    SWAP(enum axis, channel->axis, change->channel.axis);
+    SWAP(enum channel_part, channel->of, change->channel.of);
+}
+
+static void swap_tail_place(struct change *change, struct document *document)
+{
+    struct tail *tail = &document->tails[change->place.tail];
+    SWAP(double, tail->length, change->place.length);
+    for (int i = 0; i < 3; i++) SWAP(struct param, tail->position[i], change->place.position[i]);
+}
+
 void change_swap(struct change *change, struct document *document)
 {
     struct spline *spline = change->spline >= 0 ? &document->splines[change->spline] : NULL;
@@ -86,14 +109,17 @@ void change_swap(struct change *change, struct document *document)
         SWAP(int, document->first_frame, change->range.first);
         SWAP(int, document->last_frame, change->range.last);
         break;
-    case CHANGE_AXIS:
-        SWAP(enum axis, *change->axis.target, change->axis.axis);
+    case CHANGE_CHANNEL:
+        swap_channel(change, document);
+        break;
+    case CHANGE_PLACE:
+        swap_tail_place(change, document);
         break;
     case CHANGE_EACH:
-        SWAP(bool, *change->each.target, change->each.each);
+        SWAP(bool, angles_at(document, change->each.at)->each, change->each.each);
         break;
     case CHANGE_ANGLE:
-        SWAP(double, *change->angle.target, change->angle.value);
+        SWAP(double, angles_at(document, change->angle.at)->value[change->angle.joint], change->angle.value);
         break;
     }
 }

@@ -13,7 +13,8 @@ enum change_kind {
     CHANGE_KNOT,     ///< a knot's numbers
     CHANGE_SETTINGS, ///< a spline's mode, start and parameters
     CHANGE_RANGE,    ///< the scene's frames
-    CHANGE_AXIS,     ///< a channel's axis
+    CHANGE_CHANNEL,  ///< a channel's spline, axis and part
+    CHANGE_PLACE,    ///< a tail's length and position
     CHANGE_EACH,     ///< whether angles are one for all joints or one for each
     CHANGE_ANGLE,    ///< one of them
 };
@@ -26,7 +27,12 @@ struct settings {
     struct param parameter[PARAMETER_COUNT];
 };
 
-/// Targets point into the document's tails and channels, which no edit moves.
+/// Angles of a tail.
+struct angles_place {
+    int tail, channel; ///< the channel is not read for ANGLE_REST
+    enum angle_kind kind;
+};
+
 struct change {
     enum change_kind kind;
     int spline; ///< -1 where no spline's solution is concerned
@@ -37,13 +43,24 @@ struct change {
             int first, last;
         } range;
         struct {
-            enum axis *target, axis;
-        } axis;
+            int tail, channel;
+            int spline;
+            enum axis axis;
+            enum channel_part of;
+        } channel;
         struct {
-            bool *target, each;
+            int tail;
+            double length;
+            struct param position[3];
+        } place;
+        struct {
+            struct angles_place at;
+            bool each;
         } each;
         struct {
-            double *target, value;
+            struct angles_place at;
+            int joint;
+            double value;
         } angle;
     };
 };
@@ -55,6 +72,9 @@ struct change_list {
 
 /// Room for `count` more. Capacities are powers of two. false where memory is short.
 bool change_list_reserve(struct change_list *list, size_t count);
+
+/// The angles at a place that exists.
+struct angles *angles_at(struct document *document, struct angles_place at);
 
 struct settings settings_of(const struct spline *spline);
 

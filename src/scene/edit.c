@@ -24,6 +24,10 @@ static const struct {
     [EDIT_RANGE] = {plan_range, TARGET_SCENE},
     [EDIT_ANGLES] = {plan_angles, TARGET_TAIL},
     [EDIT_AXIS] = {plan_axis, TARGET_TAIL},
+    [EDIT_PART] = {plan_part, TARGET_TAIL},
+    [EDIT_FEED] = {plan_feed, TARGET_TAIL},
+    [EDIT_POSITION] = {plan_position, TARGET_TAIL},
+    [EDIT_LENGTH] = {plan_length, TARGET_TAIL},
 };
 
 bool edit_plan(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)

@@ -19,6 +19,10 @@ enum edit_kind {
     EDIT_RANGE,       ///< first, last: the scene's frames; refused where a knot would lie outside
     EDIT_ANGLES,      ///< tail, channel (-1: rest), angle: which, angles
     EDIT_AXIS,        ///< tail, channel, axis
+    EDIT_PART,        ///< tail, channel, of
+    EDIT_FEED,        ///< tail, channel, spline: the spline that the channel bends by
+    EDIT_POSITION,    ///< tail, coordinate, param: metres, or a spline to follow
+    EDIT_LENGTH,      ///< tail, number: metres, above 0
 };
 
 enum angle_kind { ANGLE_REST, ANGLE_LAG, ANGLE_GAIN };
@@ -36,6 +40,9 @@ struct edit {
     int tail, channel;
     enum angle_kind angle;
     enum axis axis;
+    enum channel_part of;
+    int coordinate; ///< 0 … 2: x, y, z
+    double number;
     const struct angles *angles; ///< read during the call only
 };
 

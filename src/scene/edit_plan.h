@@ -11,7 +11,7 @@ typedef bool planner(struct document *document, const struct edit *edit, struct 
 planner plan_knot_insert, plan_knot_remove, plan_knot_set;
 planner plan_parameter, plan_mode, plan_start, plan_spring;
 planner plan_range;
-planner plan_angles, plan_axis;
+planner plan_angles, plan_axis, plan_part, plan_feed, plan_position, plan_length;
 
 /// Adds one change to a plan.
 bool plan_add(struct change_list *list, const struct change *change, struct error *error);

@@ -8,18 +8,13 @@ static struct channel *find_channel(struct document *document, const struct edit
     return edit->channel >= 0 && edit->channel < tail->channel_count ? &tail->channels[edit->channel] : NULL;
 }
 
-static struct angles *find_angles(struct document *document, const struct edit *edit)
-{
-    struct channel *channel = find_channel(document, edit);
-    if (edit->angle == ANGLE_REST) return &document->tails[edit->tail].rest;
-    if (!channel) return NULL;
-    return edit->angle == ANGLE_LAG ? &channel->lag : &channel->gain;
-}
+static bool no_channel(struct error *error) { return fail(error, ERROR_INPUT, "there is no such channel"); }
 
 bool plan_angles(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
-    struct angles *target = find_angles(document, edit);
-    if (!target) return fail(error, ERROR_INPUT, "there is no such channel");
+    if (edit->angle != ANGLE_REST && !find_channel(document, edit)) return no_channel(error);
+    const struct angles_place at = {edit->tail, edit->channel, edit->angle};
+    const struct angles *target = angles_at(document, at);
     int count = edit->angles->each ? document->tails[edit->tail].joints : 1;
     for (int i = 0; i < count; i++) {
         if (!isfinite(edit->angles->value[i])) return fail(error, ERROR_INPUT, "angles must be finite");
@@ -28,24 +23,91 @@ bool plan_angles(struct document *document, const struct edit *edit, struct chan
         return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit");
     }
     if (target->each != edit->angles->each) {
-        list->items[list->count++] = (struct change){
-            .kind = CHANGE_EACH, .spline = -1, .each = {.target = &target->each, .each = edit->angles->each}};
+        list->items[list->count++] =
+            (struct change){.kind = CHANGE_EACH, .spline = -1, .each = {at, edit->angles->each}};
     }
     for (int i = 0; i < count; i++) {
         double value = edit->angles->value[i] + 0.0;
         if (target->value[i] == value) continue;
-        list->items[list->count++] = (struct change){
-            .kind = CHANGE_ANGLE, .spline = -1, .angle = {.target = &target->value[i], .value = value}};
+        list->items[list->count++] = (struct change){.kind = CHANGE_ANGLE, .spline = -1, .angle = {at, i, value}};
     }
     return true;
 }
 
+/// The change of a channel that leaves it as it is, to be filled in.
+static struct change channel_change(const struct edit *edit, const struct channel *channel)
+{
+    return (struct change){.kind = CHANGE_CHANNEL,
+                           .spline = -1,
+                           .channel = {edit->tail, edit->channel, channel->spline, channel->axis, channel->of}};
+}
+
 bool plan_axis(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
-    struct channel *channel = find_channel(document, edit);
-    if (!channel) return fail(error, ERROR_INPUT, "there is no such channel");
+    const struct channel *channel = find_channel(document, edit);
+    if (!channel) return no_channel(error);
     if ((unsigned)edit->axis > AXIS_UP) return fail(error, ERROR_INPUT, "there is no such axis");
-    struct change change = {
-        .kind = CHANGE_AXIS, .spline = -1, .axis = {.target = &channel->axis, .axis = edit->axis}};
+    struct change change = channel_change(edit, channel);
+    change.channel.axis = edit->axis;
     return channel->axis == edit->axis || plan_add(list, &change, error);
+}
+
+bool plan_part(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+{
+    const struct channel *channel = find_channel(document, edit);
+    if (!channel) return no_channel(error);
+    if ((unsigned)edit->of > PART_DISPLACEMENT) return fail(error, ERROR_INPUT, "there is no such part of a spline");
+    struct change change = channel_change(edit, channel);
+    change.channel.of = edit->of;
+    return channel->of == edit->of || plan_add(list, &change, error);
+}
+
+bool plan_feed(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+{
+    const struct channel *channel = find_channel(document, edit);
+    if (!channel) return no_channel(error);
+    if (edit->spline < 0 || edit->spline >= document->spline_count) {
+        return fail(error, ERROR_INPUT, "there is no such spline");
+    }
+    struct change change = channel_change(edit, channel);
+    change.channel.spline = edit->spline;
+    return channel->spline == edit->spline || plan_add(list, &change, error);
+}
+
+/// The change of a tail's place that leaves it as it is, to be filled in.
+static struct change place_change(const struct edit *edit, const struct tail *tail)
+{
+    return (struct change){.kind = CHANGE_PLACE,
+                           .spline = -1,
+                           .place = {.tail = edit->tail,
+                                     .length = tail->length,
+                                     .position = {tail->position[0], tail->position[1], tail->position[2]}}};
+}
+
+bool plan_position(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+{
+    const struct tail *tail = &document->tails[edit->tail];
+    struct change change = place_change(edit, tail);
+    if (edit->coordinate < 0 || edit->coordinate > 2) return fail(error, ERROR_INPUT, "there is no such coordinate");
+    const struct param *old = &tail->position[edit->coordinate];
+    struct param *param = &change.place.position[edit->coordinate];
+    *param =
+        edit->param.track >= 0 ? (struct param){0, edit->param.track} : (struct param){edit->param.value + 0.0, -1};
+    if (param->track >= document->spline_count) {
+        return fail(error, ERROR_INPUT, "%s: there is no spline to follow", tail->name);
+    }
+    if (!isfinite(param->value)) return fail(error, ERROR_INPUT, "%s: the position must be finite", tail->name);
+    bool same = old->track == param->track && old->value == param->value;
+    return same || plan_add(list, &change, error);
+}
+
+bool plan_length(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+{
+    const struct tail *tail = &document->tails[edit->tail];
+    struct change change = place_change(edit, tail);
+    if (!isfinite(edit->number) || edit->number <= 0) {
+        return fail(error, ERROR_INPUT, "%s: the length must be above 0", tail->name);
+    }
+    change.place.length = edit->number;
+    return tail->length == edit->number || plan_add(list, &change, error);
 }
