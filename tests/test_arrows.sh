@@ -19,7 +19,7 @@ refuses editor/a.c '#include "draw/draw.h"' "editor must not include draw/draw.h
 refuses draw/a.c '#include "editor/editor.h"' "draw must not include editor/editor.h"
 refuses draw/a.c '#include <epoxy/gl.h>' "src/draw reaches GL through draw/gl.h alone"
 refuses editor/a.c '#include <GLFW/glfw3.h>' "GLFW/glfw3.h belongs in src/draw and src/platform alone"
-refuses model/a.c '#include <jansson.h>' "jansson.h belongs in src/scene alone"
+refuses model/a.c '#include <jansson.h>' "jansson.h belongs in src/scene and the .glb files of src/model alone"
 refuses base/a.c '#include "error.h"' '"error.h" must be written with its folder'
 refuses misc/a.c '#include "base/error.h"' "src/misc is not a room of the house"
 

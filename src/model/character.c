@@ -1,0 +1,97 @@
+#include "model/character.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// Twice the triangle's area times its normal: (b − a) × (c − a).
+static void face_normal(const float a[3], const float b[3], const float c[3], float normal[3])
+{
+    const float u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const float v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    for (int k = 0; k < 3; k++) {
+        int next = (k + 1) % 3, last = (k + 2) % 3;
+        normal[k] = u[next] * v[last] - u[last] * v[next];
+    }
+}
+
+void character_normals(struct character *c)
+{
+    memset(c->normal, 0, (size_t)c->vertex_count * sizeof *c->normal);
+    for (int i = 0; i + 2 < c->index_count; i += 3) {
+        const uint32_t *corner = c->indices + i;
+        float normal[3];
+        face_normal(c->position[corner[0]], c->position[corner[1]], c->position[corner[2]], normal);
+        for (int n = 0; n < 9; n++) c->normal[corner[n / 3]][n % 3] += normal[n % 3];
+    }
+    for (int i = 0; i < c->vertex_count; i++) {
+        float *n = c->normal[i];
+        double length = sqrt((double)n[0] * n[0] + (double)n[1] * n[1] + (double)n[2] * n[2]);
+        bool known = length > 0 && isfinite(length);
+        for (int k = 0; k < 3; k++) n[k] = known ? (float)(n[k] / length) : (float)(k == 1);
+    }
+}
+
+static void *copy_of(const void *bytes, size_t size)
+{
+    void *copy = malloc(size);
+    if (copy) memcpy(copy, bytes, size);
+    return copy;
+}
+
+/// `color` as it is, or white.
+static float (*copy_colors(const struct surface *s))[3]
+{
+    float(*color)[3] = malloc((size_t)s->vertex_count * sizeof *color);
+    for (int n = 0; color && n < 3 * s->vertex_count; n++)
+        color[n / 3][n % 3] = s->color ? s->color[n / 3][n % 3] : 1;
+    return color;
+}
+
+static bool create_coordinates(struct character *c, int count)
+{
+    size_t vertices = (size_t)c->vertex_count;
+    bool whole = true;
+    c->coordinates = calloc((size_t)count + 1, sizeof *c->coordinates);
+    if (!c->coordinates) return false;
+    c->coordinate_count = count;
+    for (int i = 0; i < count; i++) {
+        c->coordinates[i].re = calloc(vertices, sizeof *c->coordinates[i].re);
+        c->coordinates[i].im = calloc(vertices, sizeof *c->coordinates[i].im);
+        whole = whole && c->coordinates[i].re && c->coordinates[i].im;
+    }
+    return whole;
+}
+
+bool character_create(struct character *c, const struct surface *surface, int coordinates)
+{
+    size_t vectors = (size_t)surface->vertex_count * sizeof *c->position;
+    *c = (struct character){
+        .vertex_count = surface->vertex_count,
+        .index_count = surface->index_count,
+        .position = copy_of(surface->position, vectors),
+        .normal = malloc(vectors),
+        .color = copy_colors(surface),
+        .indices = copy_of(surface->indices, (size_t)surface->index_count * sizeof *c->indices),
+    };
+    if (c->position && c->normal && c->color && c->indices && create_coordinates(c, coordinates)) {
+        character_normals(c);
+        return true;
+    }
+    character_free(c);
+    return false;
+}
+
+void character_free(struct character *c)
+{
+    for (int i = 0; i < c->coordinate_count; i++) {
+        free(c->coordinates[i].name);
+        free(c->coordinates[i].re);
+        free(c->coordinates[i].im);
+    }
+    free(c->coordinates);
+    free(c->position);
+    free(c->normal);
+    free(c->color);
+    free(c->indices);
+    *c = (struct character){0};
+}

@@ -1,0 +1,55 @@
+/// A character: a rest mesh and the complex normal coordinates that it oscillates in (the paper's section 7.2), and its file.
+///
+/// creature.glb is plain glTF 2.0. Each coordinate is two morph targets, NAME.re = Re Ñ and NAME.im = −Im Ñ, so that with
+/// the weights Re z and Im z of z = A e^{jφ} x the deformation is Re(z Ñ) (equations 29 and 30) in any viewer. The mesh's
+/// extras say {"targetNames": […], "wiggly": {"coordinates": [{"name", "frequency", "damping", …}]}}.
+#ifndef MODEL_CHARACTER_H
+#define MODEL_CHARACTER_H
+
+#include "base/error.h"
+#include "model/obj.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+/// One complex normal coordinate Ñ: how far, and how much later, each vertex moves when x does. Numbers that are not
+/// known are 0.
+struct coordinate {
+    char *name;
+    double frequency;  ///< Hz, undamped
+    double damping;    ///< ratio
+    double explained;  ///< share of the complex variance, 0 … 1
+    double pca1, pca2; ///< what real PCA's first component and first two explain, 0 … 1
+    float (*re)[3];    ///< Re Ñ, metres a unit of the spline, per vertex
+    float (*im)[3];    ///< Im Ñ; a vertex with a positive argument of Ñ leads
+};
+
+/// All zero is the empty character. Metres, y up, triangles counter-clockwise seen from outside.
+struct character {
+    int vertex_count;
+    float (*position)[3], (*normal)[3];
+    float (*color)[3]; ///< linear RGB, 1 where the file has none
+    uint32_t *indices;
+    int index_count;
+    struct coordinate *coordinates;
+    int coordinate_count;
+};
+
+/// A character at rest: the surface's vertices in their order, normals from its triangles, `coordinates` coordinates whose
+/// Ñ are zero and whose names are NULL. False where memory is short.
+bool character_create(struct character *character, const struct surface *surface, int coordinates);
+
+/// Reads a .glb: the first mesh with morph targets (else the first mesh), all its triangles as one. Coordinates are the
+/// pairs of morph targets called NAME.re and NAME.im; without our extras their numbers are 0. Normals are computed where
+/// there are none. Nodes are not applied. Errors name the file, the place in it, what was expected and what was there.
+bool character_read(const char *path, struct character *character, struct error *error);
+
+/// Writes a .glb, whole or not at all.
+bool character_write(const char *path, const struct character *character, struct error *error);
+
+/// Normals from the triangles, weighted by their area; (0, 1, 0) where there are none.
+void character_normals(struct character *character);
+
+/// Leaves an empty character.
+void character_free(struct character *character);
+
+#endif

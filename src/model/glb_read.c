@@ -1,0 +1,256 @@
+#include "model/character.h"
+#include "model/glb.h"
+#include <stdlib.h>
+#include <string.h>
+
+enum { COUNT_LIMIT = 1 << 28, TRIANGLES = 4 };
+
+/// The numbers of an accessor that must have this many components and, unless 0, this many elements.
+static bool read_numbers(const struct glb *glb, int64_t accessor, int components, int count,
+                         struct glb_numbers *numbers, struct error *error)
+{
+    if (!glb_numbers(glb, accessor, numbers, error)) return false;
+    bool fits = numbers->components == components || (components == 3 && numbers->components == 4);
+    if (fits && (count == 0 || numbers->count == count)) return true;
+    fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected %d elements of %d numbers, got %d of %d", glb->path,
+         (long long)accessor, count ? count : numbers->count, components, numbers->count, numbers->components);
+    free(numbers->values);
+    return false;
+}
+
+static int64_t attribute(const json_t *primitive, const char *name)
+{
+    return glb_integer(json_object_get(primitive, "attributes"), name, -1);
+}
+
+static int64_t vertex_count_of(const struct glb *glb, const json_t *primitive)
+{
+    int64_t position = attribute(primitive, "POSITION");
+    const json_t *accessors = json_object_get(glb->json, "accessors");
+    return position >= 0 ? glb_integer(json_array_get(accessors, (size_t)position), "count", 0) : 0;
+}
+
+/// Reads x y z (of x y z w too) of each element into `vectors`.
+static bool read_vectors(const struct glb *glb, int64_t accessor, int count, float (*vectors)[3], float sign,
+                         struct error *error)
+{
+    struct glb_numbers numbers;
+    if (!read_numbers(glb, accessor, 3, count, &numbers, error)) return false;
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < 3; k++) vectors[i][k] = sign * (float)numbers.values[i * numbers.components + k];
+    }
+    free(numbers.values);
+    return true;
+}
+
+static bool read_colors(const struct glb *glb, const json_t *primitive, int count, float (*color)[3],
+                        struct error *error)
+{
+    int64_t accessor = attribute(primitive, "COLOR_0");
+    if (accessor >= 0) return read_vectors(glb, accessor, count, color, 1, error);
+    for (int n = 0; n < 3 * count; n++) color[n / 3][n % 3] = 1;
+    return true;
+}
+
+/// The triangles of a primitive whose vertices start at `base`; without indices they are in order.
+static bool read_indices(const struct glb *glb, const json_t *primitive, int base, int count, struct surface *s,
+                         struct error *error)
+{
+    struct glb_numbers numbers = {.count = count};
+    int64_t accessor = glb_integer(primitive, "indices", -1);
+    if (accessor >= 0 && !read_numbers(glb, accessor, 1, 0, &numbers, error)) return false;
+    size_t total = (size_t)s->index_count + (size_t)numbers.count;
+    uint32_t *larger = total <= COUNT_LIMIT ? realloc(s->indices, (total + 1) * sizeof *larger) : NULL;
+    bool good = larger && numbers.count % 3 == 0;
+    if (larger) s->indices = larger;
+    for (int i = 0; good && i < numbers.count; i++) {
+        double index = numbers.values ? numbers.values[i] : i;
+        good = index >= 0 && index < count;
+        if (good) s->indices[s->index_count++] = (uint32_t)base + (uint32_t)index;
+    }
+    free(numbers.values);
+    if (!larger) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", glb->path);
+    return good ||
+           fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected three vertices of %d a triangle, got others",
+                glb->path, (long long)accessor, count);
+}
+
+static bool check_primitive(const struct glb *glb, const json_t *primitive, struct error *error)
+{
+    const json_t *extensions = json_object_get(primitive, "extensions");
+    if (json_object_get(extensions, "KHR_draco_mesh_compression"))
+        return fail(error, ERROR_INPUT, "%s: expected a mesh that is not compressed, got Draco", glb->path);
+    if (glb_integer(primitive, "mode", TRIANGLES) != TRIANGLES)
+        return fail(error, ERROR_INPUT, "%s: expected a mesh of triangles, got strips, lines or points", glb->path);
+    if (vertex_count_of(glb, primitive) > 0) return true;
+    return fail(error, ERROR_INPUT, "%s: expected a mesh with positions, got none", glb->path);
+}
+
+/// All primitives of a mesh as one surface.
+static bool read_surface(const struct glb *glb, const json_t *primitives, struct surface *s, struct error *error)
+{
+    int64_t total = 0;
+    size_t i;
+    const json_t *primitive;
+    json_array_foreach(primitives, i, primitive)
+    {
+        if (!check_primitive(glb, primitive, error)) return false;
+        total += vertex_count_of(glb, primitive);
+    }
+    if (total > COUNT_LIMIT) return fail(error, ERROR_INPUT, "%s: expected fewer vertices", glb->path);
+    s->position = calloc((size_t)total, sizeof *s->position);
+    s->color = calloc((size_t)total, sizeof *s->color);
+    if (!s->position || !s->color) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", glb->path);
+    json_array_foreach(primitives, i, primitive)
+    {
+        int base = s->vertex_count, count = (int)vertex_count_of(glb, primitive);
+        if (!read_vectors(glb, attribute(primitive, "POSITION"), count, s->position + base, 1, error)) return false;
+        if (!read_colors(glb, primitive, count, s->color + base, error)) return false;
+        if (!read_indices(glb, primitive, base, count, s, error)) return false;
+        s->vertex_count += count;
+    }
+    return true;
+}
+
+/// The file's normals where every primitive has them; computed ones are there before.
+static bool read_normals(const struct glb *glb, const json_t *primitives, struct character *c, struct error *error)
+{
+    size_t i;
+    const json_t *primitive;
+    int base = 0;
+    json_array_foreach(primitives, i, primitive)
+    {
+        int count = (int)vertex_count_of(glb, primitive);
+        int64_t accessor = attribute(primitive, "NORMAL");
+        if (accessor >= 0 && !read_vectors(glb, accessor, count, c->normal + base, 1, error)) return false;
+        base += count;
+    }
+    return true;
+}
+
+/// The target called `name` followed by `part`, or −1.
+static int target_called(const json_t *names, const char *name, size_t length, const char *part)
+{
+    size_t i;
+    const json_t *value;
+    json_array_foreach(names, i, value)
+    {
+        const char *text = json_string_value(value);
+        if (text && strlen(text) == length + strlen(part) && strncmp(text, name, length) == 0 &&
+            strcmp(text + length, part) == 0)
+            return (int)i;
+    }
+    return -1;
+}
+
+/// Whether target i is the real part of a coordinate, and which target is its imaginary part.
+static bool is_coordinate(const json_t *names, size_t i, size_t *name_length, int *im)
+{
+    const char *name = json_string_value(json_array_get(names, i));
+    size_t length = name ? strlen(name) : 0;
+    if (length < 4 || strcmp(name + length - 3, ".re") != 0) return false;
+    *name_length = length - 3;
+    *im = target_called(names, name, length - 3, ".im");
+    return *im >= 0;
+}
+
+static bool read_target(const struct glb *glb, const json_t *primitives, int target, float sign, float (*vectors)[3],
+                        struct error *error)
+{
+    size_t i;
+    const json_t *primitive;
+    int base = 0;
+    json_array_foreach(primitives, i, primitive)
+    {
+        int count = (int)vertex_count_of(glb, primitive);
+        const json_t *targets = json_object_get(primitive, "targets");
+        int64_t accessor = glb_integer(json_array_get(targets, (size_t)target), "POSITION", -1);
+        if (accessor >= 0 && !read_vectors(glb, accessor, count, vectors + base, sign, error)) return false;
+        base += count;
+    }
+    return true;
+}
+
+static double real_of(const json_t *object, const char *key)
+{
+    return json_number_value(json_object_get(object, key));
+}
+
+/// What our extras say of a coordinate; zeros where they say nothing.
+static void read_extras(const json_t *extras, struct coordinate *c)
+{
+    size_t i;
+    const json_t *known;
+    json_array_foreach(json_object_get(json_object_get(extras, "wiggly"), "coordinates"), i, known)
+    {
+        const char *name = json_string_value(json_object_get(known, "name"));
+        if (!name || strcmp(name, c->name) != 0) continue;
+        c->frequency = real_of(known, "frequency");
+        c->damping = real_of(known, "damping");
+        c->explained = real_of(known, "explained");
+        c->pca1 = real_of(known, "pca1");
+        c->pca2 = real_of(known, "pca2");
+        return;
+    }
+}
+
+static bool read_coordinates(const struct glb *glb, const json_t *mesh, struct character *c, struct error *error)
+{
+    const json_t *primitives = json_object_get(mesh, "primitives"), *extras = json_object_get(mesh, "extras");
+    const json_t *names = json_object_get(extras, "targetNames");
+    struct coordinate *coordinate = c->coordinates;
+    for (size_t i = 0; i < json_array_size(names); i++) {
+        size_t length;
+        int im;
+        if (!is_coordinate(names, i, &length, &im)) continue;
+        coordinate->name = strndup(json_string_value(json_array_get(names, i)), length);
+        if (!coordinate->name) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", glb->path);
+        if (!read_target(glb, primitives, (int)i, 1, coordinate->re, error)) return false;
+        if (!read_target(glb, primitives, im, -1, coordinate->im, error)) return false;
+        read_extras(extras, coordinate++);
+    }
+    return true;
+}
+
+/// The first mesh with morph targets, else the first with triangles.
+static const json_t *choose_mesh(const struct glb *glb)
+{
+    const json_t *mesh, *first = NULL;
+    size_t i;
+    json_array_foreach(json_object_get(glb->json, "meshes"), i, mesh)
+    {
+        const json_t *primitives = json_object_get(mesh, "primitives");
+        if (json_array_size(primitives) == 0) continue;
+        if (json_array_size(json_object_get(json_array_get(primitives, 0), "targets")) > 0) return mesh;
+        if (!first) first = mesh;
+    }
+    return first;
+}
+
+static bool read_character(const struct glb *glb, struct surface *surface, struct character *c, struct error *error)
+{
+    const json_t *mesh = choose_mesh(glb);
+    if (!mesh) return fail(error, ERROR_INPUT, "%s: expected a mesh, got none", glb->path);
+    const json_t *primitives = json_object_get(mesh, "primitives");
+    const json_t *names = json_object_get(json_object_get(mesh, "extras"), "targetNames");
+    int coordinates = 0, im;
+    size_t length;
+    for (size_t i = 0; i < json_array_size(names); i++) coordinates += is_coordinate(names, i, &length, &im);
+    if (!read_surface(glb, primitives, surface, error)) return false;
+    if (!character_create(c, surface, coordinates))
+        return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", glb->path);
+    return read_normals(glb, primitives, c, error) && read_coordinates(glb, mesh, c, error);
+}
+
+bool character_read(const char *path, struct character *character, struct error *error)
+{
+    struct glb glb;
+    struct surface surface = {0};
+    *character = (struct character){0};
+    if (!glb_open(&glb, path, error)) return false;
+    bool done = read_character(&glb, &surface, character, error);
+    surface_free(&surface);
+    glb_close(&glb);
+    if (!done) character_free(character);
+    return done;
+}

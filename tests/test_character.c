@@ -1,0 +1,220 @@
+/// creature.glb: what is written reads back equal; what other programs write reads too; what is broken is refused.
+#include "model/character.h"
+#include "near.h"
+#include "temporary.h"
+#include <string.h>
+
+/// A tetrahedron with two coordinates and coloured corners.
+static void make_character(struct character *c)
+{
+    float position[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    float color[4][3] = {{1, 0.5f, 0}, {1, 1, 1}, {0.25f, 0, 1}, {0, 0, 0}};
+    uint32_t indices[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    const struct surface surface = {position, color, 4, indices, 12};
+    assert_true(character_create(c, &surface, 2));
+    for (int n = 0; n < 24; n++) {
+        c->coordinates[n / 12].re[n / 3 % 4][n % 3] = (float)sin(n);
+        c->coordinates[n / 12].im[n / 3 % 4][n % 3] = (float)cos(n);
+    }
+    c->coordinates[0].name = strdup("up");
+    c->coordinates[1].name = strdup("g\xc3\xb6 \"left\"");
+    c->coordinates[0].frequency = 1.8 / 0.7;
+    c->coordinates[0].damping = 0.04;
+    c->coordinates[1].explained = 0.99;
+    c->coordinates[1].pca1 = 0.6;
+    c->coordinates[1].pca2 = 0.98;
+}
+
+static void read_good(const char *path, struct character *c)
+{
+    struct error error;
+    if (!character_read(path, c, &error)) fail_msg("%s", error.text);
+}
+
+static void what_is_written_reads_back_equal(void **state)
+{
+    (void)state;
+    struct character out, in;
+    struct error error;
+    make_character(&out);
+    if (!character_write(temporary_path("character.glb"), &out, &error)) fail_msg("%s", error.text);
+    read_good(temporary_path("character.glb"), &in);
+    assert_int_equal(in.vertex_count, 4);
+    assert_int_equal(in.index_count, 12);
+    assert_int_equal(in.coordinate_count, 2);
+    assert_memory_equal(in.position, out.position, 4 * sizeof *in.position);
+    assert_memory_equal(in.normal, out.normal, 4 * sizeof *in.normal);
+    assert_memory_equal(in.color, out.color, 4 * sizeof *in.color);
+    assert_memory_equal(in.indices, out.indices, 12 * sizeof *in.indices);
+    for (int i = 0; i < 2; i++) {
+        const struct coordinate *a = &in.coordinates[i], *b = &out.coordinates[i];
+        assert_string_equal(a->name, b->name);
+        assert_memory_equal(a->re, b->re, 4 * sizeof *a->re);
+        assert_memory_equal(a->im, b->im, 4 * sizeof *a->im);
+        assert_near(a->frequency, b->frequency, 0);
+        assert_near(a->damping, b->damping, 0);
+        assert_near(a->explained, b->explained, 0);
+        assert_near(a->pca1, b->pca1, 0);
+        assert_near(a->pca2, b->pca2, 0);
+    }
+    character_free(&out);
+    character_free(&in);
+}
+
+/// The deformation that a viewer makes of the morph targets is Re(z Ñ): the imaginary target is −Im Ñ.
+static void the_imaginary_target_is_negated(void **state)
+{
+    (void)state;
+    struct character c;
+    struct error error;
+    make_character(&c);
+    assert_true(character_write(temporary_path("sign.glb"), &c, &error));
+    FILE *file = fopen(temporary_path("sign.glb"), "rb");
+    float last[12];
+    fseek(file, -(long)sizeof last, SEEK_END); // the last accessor is the last coordinate's imaginary part
+    assert_int_equal(fread(last, sizeof last, 1, file), 1);
+    fclose(file);
+    for (int n = 0; n < 12; n++) assert_near(last[n], -c.coordinates[1].im[n / 3][n % 3], 0);
+    character_free(&c);
+}
+
+static void normals_point_outwards(void **state)
+{
+    (void)state;
+    struct character c;
+    make_character(&c);
+    for (int i = 0; i < 4; i++) {
+        double length = 0, outwards = 0;
+        for (int k = 0; k < 3; k++) {
+            length += (double)c.normal[i][k] * c.normal[i][k];
+            outwards += (double)c.normal[i][k] * (c.position[i][k] - 0.25);
+        }
+        assert_near(length, 1, 1e-6);
+        assert_true(outwards > 0);
+    }
+    character_free(&c);
+}
+
+/// A .glb of this JSON and these bytes.
+static const char *glb(const char *json, const void *bin, size_t bin_size)
+{
+    static unsigned char data[8192];
+    uint32_t length = (uint32_t)strlen(json), size = (uint32_t)bin_size;
+    const uint32_t header[5] = {0x46546C67, 2, 20 + length + 8 + size, length, 0x4E4F534A};
+    const uint32_t chunk[2] = {size, 0x004E4942};
+    memcpy(data, header, sizeof header);
+    memcpy(data + 20, json, length);
+    memcpy(data + 20 + length, chunk, sizeof chunk);
+    memcpy(data + 28 + length, bin, bin_size);
+    return temporary_file("other.glb", data, 28 + length + bin_size);
+}
+
+/// What another exporter may write: interleaved positions and byte colours with alpha, short indices, two primitives, a
+/// target that is sparse and one that is left out, and other targets between ours.
+static void a_file_of_another_program(void **state)
+{
+    (void)state;
+    struct {
+        struct {
+            float position[3];
+            uint8_t color[4];
+        } vertices[3];
+        uint16_t indices[4];
+        float target[3];
+    } bin = {{{{0, 0, 0}, {255, 0, 51, 255}}, {{1, 0, 0}, {0, 0, 0, 255}}, {{0, 0, -1}, {0, 255, 0, 0}}},
+             {2, 1, 0, 1}, // three indices, then the place of the sparse element
+             {0.5f, 0, 2}};
+    const char *json =
+        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":68}],\"bufferViews\":["
+        "{\"buffer\":0,\"byteLength\":48,\"byteStride\":16},{\"buffer\":0,\"byteOffset\":48,\"byteLength\":8},"
+        "{\"buffer\":0,\"byteOffset\":56,\"byteLength\":12}],\"accessors\":["
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+        "{\"bufferView\":0,\"byteOffset\":12,\"componentType\":5121,\"normalized\":true,\"count\":3,\"type\":"
+        "\"VEC4\"},"
+        "{\"bufferView\":1,\"componentType\":5123,\"count\":3,\"type\":\"SCALAR\"},"
+        "{\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":1,"
+        "\"byteOffset\":6,\"componentType\":5123},\"values\":{\"bufferView\":2}}}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{}}]},{\"primitives\":["
+        "{\"attributes\":{\"POSITION\":0,\"COLOR_0\":1},\"indices\":2,\"targets\":[{},{\"POSITION\":3},{}]},"
+        "{\"attributes\":{\"POSITION\":0},\"targets\":[{},{},{}]}],"
+        "\"extras\":{\"targetNames\":[\"up.re\",\"up.im\",\"smile\"]}}]}";
+    struct character c;
+    read_good(glb(json, &bin, sizeof bin), &c);
+    assert_int_equal(c.vertex_count, 6);
+    assert_int_equal(c.coordinate_count, 1);
+    const uint32_t indices[] = {2, 1, 0, 3, 4, 5};
+    assert_int_equal(c.index_count, 6);
+    assert_memory_equal(c.indices, indices, sizeof indices);
+    assert_near(c.color[0][2], 0.2, 1e-6);
+    assert_near(c.color[3][2], 1, 0);
+    assert_near(c.normal[0][1], -1, 0); // computed
+    assert_string_equal(c.coordinates[0].name, "up");
+    assert_near(c.coordinates[0].frequency, 0, 0);
+    assert_near(c.coordinates[0].re[1][2], 0, 0);
+    assert_near(c.coordinates[0].im[1][2], -2, 0);
+    assert_near(c.coordinates[0].im[0][2], 0, 0);
+    character_free(&c);
+}
+
+static void assert_refused(const char *path, const char *says)
+{
+    struct character c;
+    struct error error = {0};
+    assert_false(character_read(path, &c, &error));
+    if (!strstr(error.text, says)) fail_msg("'%s' lacks '%s'", error.text, says);
+    assert_null(c.position);
+}
+
+#define MESH "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]"
+#define VIEW "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}]"
+
+static void bad_files_get_one_sentence(void **state)
+{
+    (void)state;
+    float bin[9] = {0, 0, 0, 1, 0, 0, 0, (float)NAN, 0};
+    assert_refused("/nowhere.glb", "/nowhere.glb: cannot be opened");
+    assert_refused(temporary_file("text.glb", "{\"asset\": {\"version\": \"2.0\"}}", 29),
+                   "expected a binary glTF 2.0 file");
+    assert_refused(glb("{", bin, 0), "JSON, line 1");
+    assert_refused(glb("{}", bin, 0), "expected a mesh, got none");
+    assert_refused(glb("{" MESH "}", bin, 0), "expected a mesh with positions, got none");
+    assert_refused(glb("{" MESH "," VIEW
+                       ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":"
+                       "\"VEC3\"}]}",
+                       bin, sizeof bin),
+                   "accessors[0]: expected data within the file");
+    assert_refused(glb("{" MESH "," VIEW
+                       ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
+                       "\"VEC3\"}]}",
+                       bin, sizeof bin),
+                   "accessors[0]: expected finite numbers, got NaN");
+    assert_refused(glb("{" MESH "," VIEW
+                       ",\"accessors\":[{\"bufferView\":7,\"componentType\":5126,\"count\":3,\"type\":"
+                       "\"VEC2\"}]}",
+                       bin, sizeof bin),
+                   "accessors[0]: expected ");
+    struct character c;
+    struct error error;
+    make_character(&c);
+    assert_true(character_write(temporary_path("cut.glb"), &c, &error));
+    assert_false(character_write("/nowhere/a.glb", &c, &error));
+    character_free(&c);
+    char whole[8192];
+    FILE *file = fopen(temporary_path("cut.glb"), "rb");
+    size_t size = fread(whole, 1, sizeof whole, file);
+    fclose(file);
+    for (size_t cut = 0; cut < size; cut++) { // every length that is too short
+        const char *path = temporary_file("cut.glb", whole, cut);
+        assert_false(character_read(path, &c, &error));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_written_reads_back_equal), cmocka_unit_test(the_imaginary_target_is_negated),
+        cmocka_unit_test(normals_point_outwards),           cmocka_unit_test(a_file_of_another_program),
+        cmocka_unit_test(bad_files_get_one_sentence),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
