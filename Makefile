@@ -6,6 +6,7 @@
 #   make bench    the solver against LAPACKE
 #   make models   the generated character, build/models/creature.obj
 #   make check    formatting, static analysis, include arrows, lengths
+#   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
 #   make regress BASE=path/to/other/wiggly    frame times of two builds on the committed session
 #   make install  PREFIX=/usr/local DESTDIR=
 #   make clean
@@ -95,6 +96,10 @@ $(B)/models/%.obj: $(B)/%_obj
 
 check: | packages
 	$(Q)tools/check.sh
+
+FIGURES ?= $(B)/figures
+figures: $(B)/paper_figures
+	$(Q)mkdir -p $(FIGURES) && $< $(FIGURES) && echo "Figures: $(FIGURES)"
 
 regress: $(B)/wiggly $(B)/timing_diff
 	$(Q)$(if $(BASE),,echo "make regress: BASE=path/to/other/wiggly is missing" >&2; exit 2;) \

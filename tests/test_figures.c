@@ -1,8 +1,11 @@
 /// The paper's figures as scenes: each shows what the paper says it shows.
 #include "near.h"
 
+#include "rig/pose.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
+#include <complex.h>
+#include <stdlib.h>
 
 static struct document *document;
 static struct evaluation evaluation;
@@ -109,7 +112,31 @@ static void test_figure4(void **state)
     int moved = count_extrema(curve("moved")->total, 36 + 3, 115 - 3, &moved_smallest);
     assert_int_equal(before, 5);
     assert_int_equal(moved, 5);
-    assert_near(moved_smallest, 0.795, 0.0005); // 0.598 without the second pole
+    assert_near(moved_smallest, 0.795, 0.0005);
+    for (int i = 0; i < document->spline_count; i++) document->splines[i].mode = WIGGLY_REAL;
+    evaluation_update(&evaluation, document, NULL, false);
+    assert_int_equal(count_extrema(curve("moved")->total, 36 + 3, 115 - 3, &moved_smallest), 5);
+    assert_near(moved_smallest, 0.598, 0.0005); // the sharp resonance cannot stretch, and finds another way
+}
+
+/// The same filter run forwards on its own: x_{i+1} = a x_i + b x_{i−1} − g (y_{i+1} − 2y_i + y_{i−1}) from rest (eq. 25).
+static void assert_forward_response(const wiggly_curve *shown, const struct spline *spline, double step)
+{
+    const double omega = 2 * M_PI * spline->parameter[PARAMETER_FREQUENCY].value;
+    const double zeta = spline->parameter[PARAMETER_DAMPING].value;
+    const double turn = omega * spline->parameter[PARAMETER_BANDWIDTH].value;
+    const double complex pole = -zeta * omega + I * omega * sqrt(1 - zeta * zeta);
+    const double complex l0 = cexp((pole + I * turn) * step), l1 = cexp((pole - I * turn) * step);
+    const double complex a = l0 + l1, b = -l0 * l1, g = cexp(pole * step);
+    const double *y = shown->y;
+    double complex before = 0, now = 0;
+    for (int i = 1; i + 1 < shown->samples; i++) {
+        double complex next = a * now + b * before - g * (y[i + 1] - 2 * y[i] + y[i - 1]);
+        assert_near(shown->re[i + 1], creal(next), 1e-9);
+        assert_near(shown->im[i + 1], cimag(next), 1e-9);
+        before = now;
+        now = next;
+    }
 }
 
 /// Figure 5: the passive response follows the step of the equilibrium late, overshoots and dies down; the edited curve goes
@@ -124,6 +151,8 @@ static void test_figure5(void **state)
         assert_near(loose->y[i], still->total[i], 0);
         largest = fmax(largest, loose->total[i]);
     }
+    assert_forward_response(loose, &document->splines[document_find_spline(document, "free")],
+                            document_step(document));
     assert_true(largest > 1.1);
     assert_true(count_extrema(loose->total, 55, 150, &smallest) >= 6);
     assert_true(fabs(loose->re[192]) < 0.1 * (largest - 1));
@@ -133,6 +162,123 @@ static void test_figure5(void **state)
     assert_near(edited->total[0], loose->total[0], 1e-12); // both start from rest
 }
 
+/// How far a tail's joint has turned the tail aside, radians.
+static double heading(const struct pose *pose, int joint)
+{
+    const float *z = &pose->matrix[joint][8];
+    return atan2(z[0], z[2]);
+}
+
+/// Figure 6: each joint bends as the first one does, later by its lag: the tip reaches its turning point well after the base.
+static void test_figure6(void **state)
+{
+    (void)state;
+    enum { BASE = 0, LATE = 18 };
+    open_figure("assets/scenes/figure6.json");
+    const struct tail *tail = &document->tails[0];
+    double bend[2][128], best = -INFINITY;
+    int lag = 0, count = evaluation.samples;
+    assert_in_range(count, 100, 128);
+    for (int i = 0; i < count; i++) {
+        struct pose pose;
+        wiggly_value value = wiggly_evaluate(curve("sway"), i);
+        pose_tail(tail, &value, LOOK_WIGGLY, &pose);
+        bend[0][i] = heading(&pose, BASE);
+        bend[1][i] = heading(&pose, LATE) - heading(&pose, LATE - 1);
+    }
+    for (int shift = 0; shift < 24; shift++) {
+        double sum = 0;
+        for (int i = 24; i + shift < count; i++) sum += bend[0][i] * bend[1][i + shift];
+        if (sum > best) lag = shift, best = sum;
+    }
+    double expected = LATE * tail->channels[0].lag.value[0] / 360 * 24; // frames, at 1 Hz
+    assert_true(fabs(lag - expected) <= 1.5);
+}
+
+static const double knot_value[] = {0, 1, -0.5, 0.7}, knot_slope[] = {0.5, 0, -1, 2};
+static const int knot_frame[] = {0, 24, 60, 96};
+
+/// The largest difference, at every eighth frame, between our cubic through four knots and numbers that SciPy made.
+static double cubic_error(int substeps, double stiffness, const double *expected)
+{
+    enum { KNOTS = 4, FRAMES = 96 };
+    double *rows = malloc(sizeof *rows * 4 * (FRAMES * (size_t)substeps + 1)), worst = 0;
+    wiggly_solver *solver;
+    wiggly_knot knots[KNOTS];
+    wiggly_desc desc = wiggly_default_desc();
+    size_t n = FRAMES * (size_t)substeps + 1;
+    for (int i = 0; i < KNOTS; i++) {
+        knots[i] = (wiggly_knot){knot_frame[i] * substeps, stiffness > 0, knot_value[i], knot_slope[i], stiffness};
+    }
+    desc.mode = WIGGLY_CUBIC;
+    desc.samples = (int)n;
+    desc.step = 1.0 / (24 * substeps);
+    desc.knots = knots;
+    desc.knot_count = KNOTS;
+    wiggly_curve solved = {.total = rows, .y = rows + n, .re = rows + 2 * n, .im = rows + 3 * n};
+    assert_non_null(rows);
+    assert_int_equal(wiggly_create((int)n, KNOTS, &solver), WIGGLY_OK);
+    assert_int_equal(wiggly_solve(solver, &desc, &solved), WIGGLY_OK);
+    for (int i = 0; i <= FRAMES / 8; i++) worst = fmax(worst, fabs(rows[8 * i * substeps] - expected[i]));
+    wiggly_destroy(solver);
+    free(rows);
+    return worst;
+}
+
+/// Without tangents the classical spline is the natural C² cubic (scipy.interpolate.CubicSpline, bc_type="natural").
+static void test_cubic_is_the_natural_spline(void **state)
+{
+    (void)state;
+    static const double natural[] = {
+        0,
+        0.4902902902902902,
+        0.86286286286286262,
+        1,
+        0.82736069402736068,
+        0.44411077744411065,
+        -0.0072072072072071336,
+        -0.38405071738405083,
+        -0.54818151484818145,
+        -0.46036036036036038,
+        -0.18034701368034683,
+        0.22779446112779428,
+        0.70000000000000051,
+    };
+    double coarse = cubic_error(4, 0, natural), fine = cubic_error(32, 0, natural);
+    assert_true(coarse < 1e-3 && fine < 1e-5);
+    assert_true(fine < coarse / 50); // as h²
+}
+
+/// With tangents that are held more and more firmly it becomes the Hermite cubic (scipy.interpolate.CubicHermiteSpline): global
+/// smoothness at one end of the scale, local support at the other.
+static void test_stiff_tangents_make_the_hermite_cubic(void **state)
+{
+    (void)state;
+    static const double hermite[] = {
+        0,
+        0.33333333333333326,
+        0.77777777777777768,
+        1,
+        0.86831275720164613,
+        0.53909465020576131,
+        0.11111111111111116,
+        -0.3168724279835391,
+        -0.62345679012345667,
+        -0.63333333333333341,
+        -0.37654320987654311,
+        0.087654320987654077,
+        0.69999999999999984,
+    };
+    double before = INFINITY;
+    for (double stiffness = 0.01; stiffness < 1e5; stiffness *= 100) {
+        double error = cubic_error(32, stiffness, hermite);
+        assert_true(error < before);
+        before = error;
+    }
+    double coarse = cubic_error(16, 1e8, hermite), fine = cubic_error(64, 1e8, hermite);
+    assert_true(coarse < 0.01 && fine < 0.3 * coarse); // as h: eq. 9 holds the slope half a sample late
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -140,6 +286,9 @@ int main(void)
         cmocka_unit_test_teardown(test_figure3, close_figure),
         cmocka_unit_test_teardown(test_figure4, close_figure),
         cmocka_unit_test_teardown(test_figure5, close_figure),
+        cmocka_unit_test_teardown(test_figure6, close_figure),
+        cmocka_unit_test(test_cubic_is_the_natural_spline),
+        cmocka_unit_test(test_stiff_tangents_make_the_hermite_cubic),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
