@@ -4,19 +4,52 @@
 
 #include "editor/state.h"
 
+/// Whether knots go to whole frames: Ctrl turns around what the panel is set to.
+bool drag_snaps(const struct editor *editor, unsigned mods);
 /// Starts a drag at a press; a history step is opened only once the pointer has moved.
 void drag_begin(struct editor *editor, enum drag_kind kind, const struct event *event);
 /// Starts to move the selected knots of the active spline; `knot` is the one under the pointer.
 void drag_begin_knots(struct editor *editor, const struct editor_world *world, unsigned knot,
                       const struct event *event);
+/// X and Y while knots are dragged: only the frame, only the value may change. false for other keys.
+bool drag_lock(struct drag *drag, int key);
+/// Whether a knot, as it was before the drag, moves with it.
+bool drag_moves(const struct editor *editor, const struct knot *knot);
+/// The copies of all selected knots that the edits of a drag start from.
+void drag_collect(struct editor *editor, const struct spline *spline);
 void drag_begin_slope(struct editor *editor, const struct editor_world *world, unsigned knot, int handle,
                       const struct event *event);
+/// The pointer left the place of the press: this is a drag, not a click. Opens its history step.
+void drag_start_moving(struct editor *editor, const struct editor_world *world);
 /// Events of a running drag; true where the event is used up.
 bool drag_event(struct editor *editor, const struct editor_world *world, const struct event *event);
 /// Makes the drag's edits for where the pointer is now.
 void drag_apply(struct editor *editor, const struct editor_world *world);
 /// Ends a drag; `keep` false takes everything back.
 void drag_end(struct editor *editor, const struct editor_world *world, bool keep);
+
+/// Starts to select knots of the active spline by a box; Shift adds them, Ctrl or Alt removes them.
+void box_begin(struct editor *editor, const struct event *event);
+/// Selects what is in the box as it is now.
+void box_update(struct editor *editor, const struct editor_world *world);
+/// Ends it: a press that did not move was a click on empty; `keep` false brings the former selection back.
+void box_end(struct editor *editor, bool keep);
+void box_show(struct editor *editor);
+
+/// Retiming (R while knots are dragged): the later knots of the spline keep their distances to the dragged ones.
+void ripple_toggle(struct editor *editor, const struct editor_world *world);
+bool ripple_moves(const struct drag *drag, const struct knot *knot);
+/// The furthest shift to the left, in frames: to the first frame, or with ripple to behind the knot that stays.
+double ripple_least(const struct editor *editor, const struct document *document, const struct spline *spline);
+/// Says why the knots go no further to the right.
+void ripple_stopped(struct editor *editor);
+
+/// Starts to scale the selected knots with the pointer, about the middle of the selection (P: the playhead).
+void scale_begin(struct editor *editor, const struct editor_world *world);
+/// Keys while it runs: axes, pivot, a typed factor, end; uses all of them up.
+void scale_key(struct editor *editor, const struct editor_world *world, const struct event *event);
+/// Makes the edits for where the pointer is now.
+void scale_apply(struct editor *editor, const struct editor_world *world);
 
 /// Keys; true where the event is used up.
 bool keys_event(struct editor *editor, const struct editor_world *world, const struct event *event);

@@ -1,5 +1,6 @@
 /// Draws the curves panel: lines, knots, slope handles, names, playhead.
 #include "editor/curves.h"
+#include "editor/actions.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -7,7 +8,7 @@
 
 enum { MAX_LABELS = CURVES_MAX_OTHERS + 2, RING_POINTS = 25 };
 
-static const float KNOT_RADIUS = 4.5f, HOVER_RADIUS = 6.5f, HANDLE_LENGTH = 40, HANDLE_RADIUS = 3;
+static const float KNOT_RADIUS = 4.5f, OTHER_RADIUS = 3, HOVER_RADIUS = 6.5f, HANDLE_LENGTH = 40, HANDLE_RADIUS = 3;
 static const float LABEL_STEP = 15;
 static const float FAN_NEAR = 0.24f,
                    FAN_STEP = 0.03f; ///< opacity of the least lagged copy, and less of each further one
@@ -150,6 +151,26 @@ static void show_knots(struct editor *editor, const struct editor_world *world)
     }
 }
 
+/// Knots of the other curves, small: a click on one makes its spline the active one.
+static void show_other_knots(struct editor *editor, const struct document *document, int s)
+{
+    const struct spline *spline = &document->splines[s];
+    const struct rect *plot = &editor->layout.plot;
+    uint32_t color = theme_fade(spline_color(s), 0.55f);
+    float last_x = -INFINITY;
+    for (int k = 0; k < spline->knot_count; k++) {
+        const struct knot *knot = &spline->knots[k];
+        bool hovered = editor->hover.kind == HOVER_KNOT && editor->hover.knot == knot->id;
+        float x = curves_x(editor, document_frame(document, document_sample(document, knot->frame)));
+        float y = curves_y_of(editor, s, knot->value);
+        if (x < plot->x || x > plot->x + plot->w || (x - last_x < 3 && !hovered)) continue;
+        last_x = x;
+        const float r = OTHER_RADIUS, xy[] = {x, y - r, x + r, y, x, y + r, x - r, y};
+        drawlist_convex(&editor->list, xy, 4, color);
+        if (hovered) show_ring(&editor->list, x, y, HOVER_RADIUS, 1.25f, THEME_PLAYHEAD);
+    }
+}
+
 static void insert_label(struct label *labels, int *count, struct label label)
 {
     int i = (*count)++;
@@ -203,7 +224,9 @@ static void show_labels(struct editor *editor, const struct editor_world *world)
 
 static void tag_text(const struct editor *editor, const struct document *document, char text[32])
 {
-    snprintf(text, 32, "%.0f", round(editor_frame(editor, document)) + 0.0); /* the frame that I would insert at */
+    double frame = round(editor_frame(editor, document)) + 0.0; /* the one that I would insert at */
+    snprintf(text, 32, editor->options.seconds ? "%.2f" : "%.0f",
+             editor->options.seconds ? frame / document->fps : frame);
 }
 
 struct rect playhead_tag(const struct editor *editor, const struct document *document)
@@ -262,7 +285,11 @@ void curves_show(struct editor *editor, const struct editor_world *world)
     grid_show(editor, world);
     struct rect panel = drawlist_push_clip(&editor->list, editor->layout.plot);
     show_lines(editor, world);
+    for (int i = 0; i < editor->cache.other_count; i++) {
+        show_other_knots(editor, world->document, editor->cache.other_spline[i]);
+    }
     show_knots(editor, world);
+    box_show(editor);
     show_empty(editor, world);
     drawlist_set_clip(&editor->list, panel);
     show_look(editor);

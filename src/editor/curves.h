@@ -16,6 +16,15 @@ double curves_value(const struct editor *editor, double y);
 double curves_pixels_per_frame(const struct editor *editor);
 double curves_pixels_per_value(const struct editor *editor);
 
+/// Height of a value of any spline that is drawn: the others are scaled where curves are normalised.
+float curves_y_of(const struct editor *editor, int spline, double value);
+struct value_map normal_map(const struct editor *editor, int spline);
+/// Measures the curves that are to be normalised; while a drag runs nothing is, so that what is not touched stays.
+void normal_update(struct editor *editor, const struct editor_world *world);
+/// Switches normalisation; another spline becomes the active one without a change of the picture.
+void normal_toggle(struct editor *editor, const struct editor_world *world);
+void normal_activate(struct editor *editor, int spline);
+
 /// A value with no more decimals than somebody who moves a mouse can mean: a multiple of the power of ten at or below
 /// `resolution` (> 0), so that files keep short numbers.
 double round_value(double value, double resolution);
@@ -25,6 +34,8 @@ void view_frame_all(struct editor *editor, const struct editor_world *world);
 void view_frame_selection(struct editor *editor, const struct editor_world *world);
 /// Pans so that a frame and value can be seen, and no further.
 void view_reveal(struct editor *editor, double frame, double value);
+/// Shows the values v that were shown as scale·v + offset.
+void view_rescale(struct editor *editor, double scale, double offset);
 /// Moves the view with the pointer, by logical pixels.
 void view_pan(struct editor *editor, double dx, double dy);
 /// Zooms about a point of the panel; factors below 1 come closer.
@@ -41,6 +52,10 @@ struct rect playhead_tag(const struct editor *editor, const struct document *doc
 void grid_show(struct editor *editor, const struct editor_world *world);
 /// The whole panel into the draw list. The playhead comes last: nothing before it depends on the time shown.
 void curves_show(struct editor *editor, const struct editor_world *world);
+
+/// The corner left of the ruler, which says what the ruler counts and changes it.
+struct rect ruler_corner(const struct editor *editor);
+void ruler_toggle(struct editor *editor);
 
 /// What is under a point of the panel.
 struct hover curves_hover(const struct editor *editor, const struct editor_world *world, float x, float y);

@@ -8,9 +8,11 @@
 static uint64_t cache_key(const struct editor *editor, const struct editor_world *world)
 {
     uint64_t revision = history_revision(world->history);
-    int choice[2] = {editor->active, (int)editor->look};
+    int choice[3] = {editor->active, (int)editor->look, editor->options.normalise};
+    bool held = editor->options.normalise && editor->drag.kind != DRAG_NONE;
     uint64_t key = hash_bytes(HASH_START, &revision, sizeof revision);
     key = hash_bytes(key, choice, sizeof choice);
+    key = hash_bytes(key, &held, sizeof held);
     key = hash_bytes(key, &editor->view, sizeof editor->view);
     key = hash_bytes(key, &editor->layout.plot, sizeof editor->layout.plot);
     return key ? key : 1;
@@ -115,12 +117,13 @@ static void draw_others(struct editor *editor, const struct editor_world *world)
     for (int s = 0; s < world->document->spline_count && cache->other_count < CURVES_MAX_OTHERS; s++) {
         if (s == editor->active) continue;
         polyline *line = &cache->others[cache->other_count];
+        const struct value_map map = normal_map(editor, s);
         cache->other_spline[cache->other_count++] = s;
         for (int c = 0; c < cache->count; c++) {
             double position = outermost(world->evaluation, s, cache->position[c], cache->by, c % 2);
             wiggly_value v = curves_solved(world, s, position);
             (*line)[c][0] = curves_x(editor, frame_of(world->document, position));
-            (*line)[c][1] = curves_y(editor, v.y + v.re);
+            (*line)[c][1] = curves_y(editor, map.scale * (v.y + v.re) + map.offset);
         }
     }
 }
@@ -132,6 +135,7 @@ void curves_update(struct editor *editor, const struct editor_world *world)
     editor->cache.key = key;
     place_columns(editor, world);
     draw_active(editor, world);
+    normal_update(editor, world);
     draw_others(editor, world);
 }
 

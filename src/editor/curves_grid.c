@@ -62,19 +62,21 @@ static void shade_outside(struct editor *editor, const struct document *document
     }
 }
 
-static void draw_lines(struct editor *editor, struct grid_step frames, struct grid_step values)
+/// `unit`: frames that one of the ruler's numbers counts.
+static void draw_lines(struct editor *editor, struct grid_step times, double unit, struct grid_step values)
 {
     const struct view *view = &editor->view;
-    double minor = frames.size / frames.parts;
+    double minor = times.size / times.parts * unit;
     for (double i = ceil(view->frame0 / minor); i * minor <= view->frame1; i++) {
-        if (fmod(i, frames.parts) != 0) vertical(editor, i * minor, THEME_GRID_MINOR);
+        if (fmod(i, times.parts) != 0) vertical(editor, i * minor, THEME_GRID_MINOR);
     }
     minor = values.size / values.parts;
     for (double i = ceil(view->value0 / minor); i * minor <= view->value1; i++) {
         if (fmod(i, values.parts) != 0) horizontal(editor, i * minor, THEME_GRID_MINOR);
     }
-    for (double i = ceil(view->frame0 / frames.size); i * frames.size <= view->frame1; i++) {
-        vertical(editor, i * frames.size, THEME_GRID_MAJOR);
+    double major = times.size * unit;
+    for (double i = ceil(view->frame0 / major); i * major <= view->frame1; i++) {
+        vertical(editor, i * major, THEME_GRID_MAJOR);
     }
     for (double i = ceil(view->value0 / values.size); i * values.size <= view->value1; i++) {
         horizontal(editor, i * values.size, i == 0 ? THEME_ZERO : THEME_GRID_MAJOR);
@@ -99,16 +101,44 @@ static void number_values(struct editor *editor, struct grid_step step)
     }
 }
 
+struct rect ruler_corner(const struct editor *editor)
+{
+    const struct layout *layout = &editor->layout;
+    return (struct rect){layout->value_axis.x, layout->ruler.y, layout->value_axis.w, layout->ruler.h};
+}
+
+void ruler_toggle(struct editor *editor)
+{
+    editor->options.seconds = !editor->options.seconds;
+    editor_message(editor, false, editor->options.seconds ? "The ruler counts seconds." : "The ruler counts frames.");
+}
+
+static void show_units(struct editor *editor)
+{
+    struct rect corner = ruler_corner(editor);
+    const char *text = editor->options.seconds ? "s" : "frame";
+    float x = corner.x + corner.w - 8 - font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
+    drawlist_text(&editor->list, x, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
+                  editor->hover.kind == HOVER_UNITS ? THEME_TEXT : THEME_TEXT_DIM, text);
+}
+
+/// Frames a unit of the ruler.
+static double ruler_unit(const struct editor *editor, const struct document *document)
+{
+    return editor->options.seconds ? document->fps : 1;
+}
+
 /// Numbers of the ruler, centred over their grid lines; the one under the playhead's tag makes room for it.
 static void number_frames(struct editor *editor, const struct document *document, struct grid_step step)
 {
     const struct rect *ruler = &editor->layout.ruler;
     const struct rect tag = playhead_tag(editor, document);
-    for (double i = ceil(editor->view.frame0 / step.size); i * step.size <= editor->view.frame1; i++) {
+    double unit = ruler_unit(editor, document);
+    for (double i = ceil(editor->view.frame0 / unit / step.size); i * step.size <= editor->view.frame1 / unit; i++) {
         char text[32];
         snprintf(text, sizeof text, "%.*f", step.decimals, i * step.size + 0.0);
         float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-        float x = curves_x(editor, i * step.size) - width / 2;
+        float x = curves_x(editor, i * step.size * unit) - width / 2;
         if (x < ruler->x || x + width > ruler->x + ruler->w) continue;
         if (x < tag.x + tag.w + TAG_GAP && x + width > tag.x - TAG_GAP) continue;
         drawlist_text(&editor->list, x, ruler->y + 15, FONT_NUMBER, THEME_TEXT_SMALL, THEME_TEXT_DIM, text);
@@ -118,18 +148,20 @@ static void number_frames(struct editor *editor, const struct document *document
 void grid_show(struct editor *editor, const struct editor_world *world)
 {
     const struct layout *layout = &editor->layout;
-    struct grid_step frames = round_step(MIN_FRAME_STEP / curves_pixels_per_frame(editor));
+    double unit = ruler_unit(editor, world->document);
+    struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(editor) * unit));
     struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(editor));
     drawlist_rect(&editor->list, layout->curves, THEME_PANEL);
     struct rect clip = drawlist_push_clip(&editor->list, layout->plot);
     shade_outside(editor, world->document);
-    draw_lines(editor, frames, values);
+    draw_lines(editor, times, unit, values);
     drawlist_set_clip(&editor->list, clip);
     drawlist_rect(&editor->list, (struct rect){layout->ruler.x, layout->plot.y - 1, layout->ruler.w, 1},
                   THEME_BORDER);
     clip = drawlist_push_clip(&editor->list, layout->ruler);
-    number_frames(editor, world->document, frames);
+    number_frames(editor, world->document, times);
     drawlist_set_clip(&editor->list, clip);
+    show_units(editor);
     clip = drawlist_push_clip(&editor->list, layout->value_axis);
     number_values(editor, values);
     drawlist_set_clip(&editor->list, clip);

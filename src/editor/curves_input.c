@@ -3,20 +3,34 @@
 #include "editor/curves.h"
 #include <math.h>
 
-static const float CURVE_REACH = 7;
+static const float CURVE_REACH = 7, OTHER_REACH = 7;
 static const double ZOOM_STEP = 0.15; ///< of a wheel's notch, as a power of e
 
-static void nearest_knot(const struct editor *editor, const struct document *document, const struct spline *spline,
-                         float x, float y, struct hover *hover)
+/// The nearest knot of one spline, where it is nearer than `reach`; returns its distance, else `reach`.
+static float nearest_knot(const struct editor *editor, const struct document *document, int of, float x, float y,
+                          float reach, struct hover *hover)
 {
-    float best = CURVES_HIT_RADIUS;
+    const struct spline *spline = &document->splines[of];
+    float best = reach;
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         float at = curves_x(editor, document_frame(document, document_sample(document, knot->frame)));
-        float distance = hypotf(x - at, y - curves_y(editor, knot->value));
+        float distance = hypotf(x - at, y - curves_y_of(editor, of, knot->value));
         if (distance > best) continue;
         best = distance;
-        *hover = (struct hover){.kind = HOVER_KNOT, .spline = editor->active, .knot = knot->id};
+        *hover = (struct hover){.kind = HOVER_KNOT, .spline = of, .knot = knot->id};
+    }
+    return best;
+}
+
+/// Knots of the other curves that are drawn: a press on one makes its spline the active one.
+static void nearest_other_knot(const struct editor *editor, const struct document *document, float x, float y,
+                               struct hover *hover)
+{
+    float best = OTHER_REACH;
+    for (int i = 0; i < editor->cache.other_count; i++) {
+        int spline = editor->cache.other_spline[i];
+        if (spline < document->spline_count) best = nearest_knot(editor, document, spline, x, y, best, hover);
     }
 }
 
@@ -47,7 +61,7 @@ static void nearest_curve(const struct editor *editor, const struct editor_world
     for (int i = 0; i < world->document->spline_count; i++) {
         int s = i == 0 ? editor->active : i <= editor->active ? i - 1 : i;
         wiggly_value v = curves_solved(world, s, position);
-        float distance = fabsf(y - curves_y(editor, v.y + v.re));
+        float distance = fabsf(y - curves_y_of(editor, s, v.y + v.re));
         if (distance >= best) continue;
         best = distance;
         *hover = (struct hover){.kind = HOVER_CURVE, .spline = s};
@@ -59,17 +73,21 @@ struct hover curves_hover(const struct editor *editor, const struct editor_world
     struct hover hover = {.kind = HOVER_NONE};
     const struct spline *spline = editor_active_spline(editor, world);
     if (rect_contains(editor->layout.ruler, x, y)) hover.kind = HOVER_RULER;
+    if (rect_contains(ruler_corner(editor), x, y)) hover.kind = HOVER_UNITS;
     if (!rect_contains(editor->layout.plot, x, y) || !spline) return hover;
-    nearest_knot(editor, world->document, spline, x, y, &hover);
+    nearest_knot(editor, world->document, editor->active, x, y, CURVES_HIT_RADIUS, &hover);
     if (hover.kind == HOVER_NONE) nearest_handle(editor, world->document, spline, x, y, &hover);
+    if (hover.kind == HOVER_NONE) nearest_other_knot(editor, world->document, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_curve(editor, world, x, y, &hover);
     return hover;
 }
 
 /// A press on a knot: Shift adds or removes it, else it is dragged with all that are selected.
-static void press_knot(struct editor *editor, const struct editor_world *world, unsigned id,
+static void press_knot(struct editor *editor, const struct editor_world *world, const struct hover *hover,
                        const struct event *event)
 {
+    unsigned id = hover->knot;
+    editor_activate(editor, world, hover->spline);
     bool selected = selection_has(&editor->selection, id);
     if (event->mods & MOD_SHIFT) {
         selection_set(&editor->selection, id, !selected);
@@ -87,14 +105,11 @@ static void press_empty(struct editor *editor, const struct editor_world *world,
 {
     if (event->clicks == 2) {
         double value = round_value(curves_value(editor, event->y), 0.01 / curves_pixels_per_value(editor));
-        insert_knot(editor, world, curves_frame(editor, event->x), value, !(event->mods & MOD_CTRL));
+        insert_knot(editor, world, curves_frame(editor, event->x), value, drag_snaps(editor, event->mods));
         return;
     }
-    if (hover->kind == HOVER_CURVE && hover->spline != editor->active) {
-        editor_activate(editor, world, hover->spline);
-    } else if (!(event->mods & MOD_SHIFT)) {
-        selection_clear(&editor->selection);
-    }
+    if (hover->kind == HOVER_CURVE) editor_activate(editor, world, hover->spline);
+    box_begin(editor, event);
 }
 
 void curves_press(struct editor *editor, const struct editor_world *world, const struct event *event)
@@ -112,8 +127,11 @@ void curves_press(struct editor *editor, const struct editor_world *world, const
         drag_begin(editor, DRAG_SCRUB, event);
         playback_seek(editor, world->document, round(curves_frame(editor, event->x)));
         break;
+    case HOVER_UNITS:
+        ruler_toggle(editor);
+        break;
     case HOVER_KNOT:
-        press_knot(editor, world, hover.knot, event);
+        press_knot(editor, world, &hover, event);
         break;
     case HOVER_SLOPE:
         drag_begin_slope(editor, world, hover.knot, hover.handle, event);

@@ -9,6 +9,8 @@ static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a secon
 static const double FINE = 0.1;              ///< of the pointer's way, with Shift
 static const float ORBIT_SPEED = 0.008f;     ///< radians a pixel
 
+bool drag_snaps(const struct editor *editor, unsigned mods) { return editor->options.no_snap == !!(mods & MOD_CTRL); }
+
 void drag_begin(struct editor *editor, enum drag_kind kind, const struct event *event)
 {
     struct drag *drag = &editor->drag;
@@ -20,10 +22,19 @@ void drag_begin(struct editor *editor, enum drag_kind kind, const struct event *
                           .y = event->y,
                           .start_x = event->x,
                           .start_y = event->y,
-                          .snap = true,
+                          .snap = drag_snaps(editor, event->mods),
                           .originals = originals,
                           .capacity = capacity};
     editor->ghost.visible = false;
+}
+
+void drag_collect(struct editor *editor, const struct spline *spline)
+{
+    struct drag *drag = &editor->drag;
+    drag->count = 0;
+    for (int k = 0; k < spline->knot_count && drag->count < drag->capacity; k++) {
+        if (drag_moves(editor, &spline->knots[k])) drag->originals[drag->count++] = spline->knots[k];
+    }
 }
 
 void drag_begin_knots(struct editor *editor, const struct editor_world *world, unsigned knot,
@@ -34,9 +45,7 @@ void drag_begin_knots(struct editor *editor, const struct editor_world *world, u
     assert(spline);
     drag_begin(editor, DRAG_KNOTS, event);
     drag->knot = knot;
-    for (int k = 0; k < spline->knot_count && drag->count < drag->capacity; k++) {
-        if (selection_has(&editor->selection, spline->knots[k].id)) drag->originals[drag->count++] = spline->knots[k];
-    }
+    drag_collect(editor, spline);
 }
 
 void drag_begin_slope(struct editor *editor, const struct editor_world *world, unsigned knot, int handle,
@@ -54,11 +63,12 @@ void drag_begin_slope(struct editor *editor, const struct editor_world *world, u
 
 static bool edits_document(const struct drag *drag)
 {
-    return drag->kind == DRAG_KNOTS || drag->kind == DRAG_SLOPE || drag->kind == DRAG_GRAB;
+    return drag->kind == DRAG_KNOTS || drag->kind == DRAG_SLOPE || drag->kind == DRAG_SCALE ||
+           drag->kind == DRAG_GRAB;
 }
 
 /// The shift in frames that the pointer asks for: whole frames for the knot that is held, inside the range for all.
-static double wanted_frames(const struct editor *editor, const struct document *document, const struct spline *spline)
+static double wanted_frames(struct editor *editor, const struct document *document, const struct spline *spline)
 {
     const struct drag *drag = &editor->drag;
     if (drag->lock_y) return 0;
@@ -69,7 +79,14 @@ static double wanted_frames(const struct editor *editor, const struct document *
     }
     if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->frame + frames) - held->frame;
     double end = document_frame(document, document_last_knot_sample(document, spline));
-    return fmax(fmin(frames, end - last->frame), document->first_frame - first->frame);
+    double most = end - last->frame, least = ripple_least(editor, document, spline);
+    if (drag->ripple && frames > most) ripple_stopped(editor);
+    return fmax(fmin(frames, most), least);
+}
+
+bool drag_moves(const struct editor *editor, const struct knot *knot)
+{
+    return selection_has(&editor->selection, knot->id) || ripple_moves(&editor->drag, knot);
 }
 
 /// Whether no knot that stays is on a sample to which one would move.
@@ -79,7 +96,7 @@ static bool is_free(const struct editor *editor, const struct document *document
     const struct drag *drag = &editor->drag;
     for (int k = 0; k < drag->count; k++) {
         int at = spline_find_knot(document, spline, document_sample(document, drag->originals[k].frame + frames));
-        if (at >= 0 && !selection_has(&editor->selection, spline->knots[at].id)) return false;
+        if (at >= 0 && !drag_moves(editor, &spline->knots[at])) return false;
     }
     return true;
 }
@@ -94,7 +111,9 @@ static bool move_knots(struct editor *editor, const struct editor_world *world, 
         struct edit edit = editor_edit_of(EDIT_KNOT_SET, editor->active);
         edit.knot = *original;
         edit.knot.frame += frames;
-        if (value != 0) edit.knot.value = round_value(original->value + value, resolution);
+        if (value != 0 && selection_has(&editor->selection, original->id)) {
+            edit.knot.value = round_value(original->value + value, resolution);
+        }
         if (!history_apply(world->history, world->document, &edit, NULL)) return false;
     }
     return true;
@@ -144,18 +163,20 @@ void drag_apply(struct editor *editor, const struct editor_world *world)
     drag->stale = false;
     if (drag->kind == DRAG_KNOTS) apply_knots(editor, world);
     if (drag->kind == DRAG_SLOPE) apply_slope(editor, world);
+    if (drag->kind == DRAG_SCALE) scale_apply(editor, world);
 }
 
-/// The pointer left the place of the press: this is a drag, not a click.
-static void start_moving(struct editor *editor, const struct editor_world *world)
+void drag_start_moving(struct editor *editor, const struct editor_world *world)
 {
     struct drag *drag = &editor->drag;
+    if (drag->moved) return;
     drag->moved = true;
     if (!edits_document(drag)) return;
-    const char *label = drag->kind == DRAG_SLOPE  ? "Change slope"
-                        : drag->kind == DRAG_GRAB ? "Pull tail"
-                        : drag->count == 1        ? "Move knot"
-                                                  : "Move knots";
+    const char *label = drag->kind == DRAG_SLOPE   ? "Change slope"
+                        : drag->kind == DRAG_GRAB  ? "Pull tail"
+                        : drag->kind == DRAG_SCALE ? "Scale knots"
+                        : drag->count == 1         ? "Move knot"
+                                                   : "Move knots";
     history_begin(world->history, label, 0);
     ghost_capture(editor, world);
 }
@@ -169,11 +190,11 @@ static void move_pointer(struct editor *editor, const struct editor_world *world
     drag->y = event->y;
     drag->moved_x += dx * fine;
     drag->moved_y += dy * fine;
-    drag->snap = !(event->mods & MOD_CTRL);
+    drag->snap = drag_snaps(editor, event->mods);
     drag->stale = true;
     if (!drag->moved) {
         if (hypotf(event->x - drag->start_x, event->y - drag->start_y) < CLICK_REACH) return;
-        start_moving(editor, world);
+        drag_start_moving(editor, world);
     }
     if (drag->kind == DRAG_PAN) view_pan(editor, drag->moved_x, drag->moved_y);
     if (drag->kind == DRAG_ORBIT) {
@@ -189,7 +210,19 @@ static void move_pointer(struct editor *editor, const struct editor_world *world
         double frame = curves_frame(editor, event->x);
         playback_seek(editor, world->document, drag->snap ? round(frame) : frame);
     }
+    if (drag->kind == DRAG_BOX) box_update(editor, world);
     if (!edits_document(drag)) drag->moved_x = drag->moved_y = 0;
+}
+
+bool drag_lock(struct drag *drag, int key)
+{
+    if (key != 'X' && key != 'Y') return false;
+    bool *lock = key == 'X' ? &drag->lock_x : &drag->lock_y;
+    bool on = !*lock;
+    drag->lock_x = drag->lock_y = false;
+    *lock = on;
+    drag->stale = true;
+    return true;
 }
 
 void drag_end(struct editor *editor, const struct editor_world *world, bool keep)
@@ -203,6 +236,7 @@ void drag_end(struct editor *editor, const struct editor_world *world, bool keep
         selection_clear(&editor->selection);
         selection_set(&editor->selection, drag->knot, true);
     }
+    if (drag->kind == DRAG_BOX) box_end(editor, keep);
     drag->kind = DRAG_NONE;
     editor->ghost.visible = false;
 }
@@ -216,8 +250,14 @@ bool drag_event(struct editor *editor, const struct editor_world *world, const s
         return true;
     }
     if (event->kind == EVENT_BUTTON) {
-        if (event->action == ACTION_RELEASE && event->button == drag->button) drag_end(editor, world, true);
+        bool ends = drag->kind == DRAG_SCALE ? event->action == ACTION_PRESS
+                                             : event->action == ACTION_RELEASE && event->button == drag->button;
+        if (ends) drag_end(editor, world, drag->kind != DRAG_SCALE || event->button == BUTTON_LEFT);
         return true;
+    }
+    if (event->kind == EVENT_KEY && drag->kind == DRAG_SCALE) {
+        if (event->action != ACTION_RELEASE) scale_key(editor, world, event);
+        return event->action != ACTION_RELEASE;
     }
     if (event->kind != EVENT_KEY || event->action != ACTION_PRESS) return false;
     bool locks = drag->kind == DRAG_KNOTS && !(event->mods & (MOD_CTRL | MOD_ALT));
@@ -225,11 +265,6 @@ bool drag_event(struct editor *editor, const struct editor_world *world, const s
         drag_end(editor, world, false);
         return true;
     }
-    if (!locks || (event->key != 'X' && event->key != 'Y')) return false;
-    bool *lock = event->key == 'X' ? &drag->lock_x : &drag->lock_y;
-    bool on = !*lock;
-    drag->lock_x = drag->lock_y = false;
-    *lock = on;
-    drag->stale = true;
-    return true;
+    if (locks && event->key == 'R') ripple_toggle(editor, world);
+    return locks && (event->key == 'R' || drag_lock(drag, event->key));
 }

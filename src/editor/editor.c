@@ -32,6 +32,7 @@ void editor_destroy(struct editor *editor)
     if (!editor) return;
     drawlist_destroy(&editor->list);
     free(editor->selection.bits);
+    free(editor->selection.before);
     free(editor->drag.originals);
     free(editor);
 }
@@ -48,9 +49,12 @@ static bool reserve_selection(struct selection *selection, unsigned next_id)
 {
     if (next_id < selection->capacity) return true;
     unsigned capacity = (next_id / 512 + 2) * 512;
-    uint64_t *bits = realloc(selection->bits, capacity / 8);
+    uint64_t *before = realloc(selection->before, capacity / 8);
+    if (before) selection->before = before;
+    uint64_t *bits = before ? realloc(selection->bits, capacity / 8) : NULL;
     if (!bits) return false;
     memset((char *)bits + selection->capacity / 8, 0, (capacity - selection->capacity) / 8);
+    memset((char *)before + selection->capacity / 8, 0, (capacity - selection->capacity) / 8);
     selection->bits = bits;
     selection->capacity = capacity;
     return true;
@@ -96,6 +100,7 @@ void editor_open(struct editor *editor, const struct editor_world *world, const 
     editor->ghost.visible = false;
     editor->hover = (struct hover){0};
     editor->cache.key = 0;
+    editor->cache.range_count = 0;
     editor->fitted = false;
     editor->look = LOOK_WIGGLY;
     editor->active = first_spline(document);
@@ -204,6 +209,7 @@ struct spline *editor_active_spline(const struct editor *editor, const struct ed
 void editor_activate(struct editor *editor, const struct editor_world *world, int spline)
 {
     if (spline == editor->active || spline < 0 || spline >= world->document->spline_count) return;
+    normal_activate(editor, spline);
     editor->active = spline;
     selection_clear(&editor->selection);
     int tail, channel;

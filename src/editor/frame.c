@@ -142,6 +142,8 @@ int editor_cursor(const struct editor *editor)
         [DRAG_KNOTS] = SHAPE_MOVE,
         [DRAG_SLOPE] = SHAPE_MOVE,
         [DRAG_PAN] = SHAPE_MOVE,
+        [DRAG_BOX] = SHAPE_ARROW,
+        [DRAG_SCALE] = SHAPE_MOVE,
         [DRAG_SCRUB] = SHAPE_HORIZONTAL,
         [DRAG_STAGE_PAN] = SHAPE_MOVE,
         [DRAG_GRAB] = SHAPE_HAND,
@@ -151,6 +153,7 @@ int editor_cursor(const struct editor *editor)
     static const enum pointer_shape of_hover[] = {
         [HOVER_NONE] = SHAPE_ARROW, [HOVER_KNOT] = SHAPE_MOVE,        [HOVER_SLOPE] = SHAPE_MOVE,
         [HOVER_CURVE] = SHAPE_HAND, [HOVER_RULER] = SHAPE_HORIZONTAL, [HOVER_JOINT] = SHAPE_HAND,
+        [HOVER_UNITS] = SHAPE_HAND,
     };
     static const enum pointer_shape of_widget[] = {
         [UI_OVER_NOTHING] = SHAPE_ARROW, [UI_OVER_NUMBER] = SHAPE_HORIZONTAL, [UI_OVER_TEXT] = SHAPE_TEXT};

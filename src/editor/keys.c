@@ -120,6 +120,35 @@ static void run_look(struct editor *e, const struct editor_world *w, int argumen
     editor_set_look(e, next[e->look]);
 }
 
+static void run_normalise(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    normal_toggle(e, w);
+}
+
+static void run_units(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    (void)argument;
+    ruler_toggle(e);
+}
+
+static void run_snap(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    (void)argument;
+    e->options.no_snap = !e->options.no_snap;
+    editor_message(e, false,
+                   e->options.no_snap ? "Knots go between the frames, onto them with Ctrl."
+                                      : "Knots go to whole frames, between them with Ctrl.");
+}
+
+static void run_scale(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    scale_begin(e, w);
+}
+
 /// ↑ and ↓ while a letter is held: that parameter.
 static void run_held(struct editor *e, const struct editor_world *w, int argument)
 {
@@ -152,6 +181,10 @@ static const struct binding bindings[] = {
     {.key = 'D', .mods = MOD_SHIFT, .repeats = true, .run = run_stiffness, .argument = -1},
     {.key = 'E', .mods = MOD_SHIFT, .repeats = true, .run = run_stiffness, .argument = 1},
     {.key = 'M', .run = run_mode},
+    {.key = 'S', .run = run_scale},
+    {.key = 'N', .run = run_normalise},
+    {.key = 'U', .any_time = true, .run = run_units},
+    {.key = 'G', .any_time = true, .run = run_snap},
     {.key = KEY_UP, .repeats = true, .run = run_held, .argument = 1},
     {.key = KEY_DOWN, .repeats = true, .run = run_held, .argument = -1},
     {.key = KEY_LEFT, .repeats = true, .run = playback_step, .argument = -1},

@@ -14,8 +14,9 @@
 enum {
     EDITOR_MAX_COLUMNS = 4096, ///< vertices of one drawn curve
     EDITOR_MAX_REQUESTS = 8,
-    CURVES_MAX_OTHERS = 9, ///< splines drawn besides the active one
-    CURVES_FAN = 7,        ///< lagged copies of the active curve
+    CURVES_MAX_OTHERS = 9,   ///< splines drawn besides the active one
+    CURVES_MAX_RANGES = 256, ///< splines that can be normalised
+    CURVES_FAN = 7,          ///< lagged copies of the active curve
 };
 
 /// Rectangles of the panels, in logical pixels; made by editor_layout().
@@ -28,6 +29,18 @@ struct layout {
     float inspector_width;
 };
 
+/// How the curves panel shows things; a view, never part of the document.
+struct curve_options {
+    bool normalise; ///< every curve as high as the active one; the axis shows the active one's values
+    bool seconds;   ///< on the ruler, in place of frames
+    bool no_snap;   ///< knots go between the frames, and onto them with Ctrl
+};
+
+/// Where a spline's values are drawn, as values of the active one: scale·value + offset.
+struct value_map {
+    double scale, offset;
+};
+
 /// Visible part of the curves panel.
 struct view {
     double frame0, frame1; ///< at the plot's left and right edge
@@ -37,6 +50,7 @@ struct view {
 /// Selected knots: one bit an id. Only knots of the active spline are ever selected.
 struct selection {
     uint64_t *bits;
+    uint64_t *before;  ///< as they were when a box was begun
     unsigned capacity; ///< ids
 };
 
@@ -44,6 +58,8 @@ enum drag_kind {
     DRAG_NONE,
     DRAG_KNOTS,
     DRAG_SLOPE,
+    DRAG_BOX,
+    DRAG_SCALE, ///< without a button: begun by S, ended by a click or Enter
     DRAG_SCRUB,
     DRAG_PAN,
     DRAG_ORBIT,
@@ -52,6 +68,9 @@ enum drag_kind {
     DRAG_STAGE_DIVIDER,
     DRAG_INSPECTOR_DIVIDER,
 };
+
+/// What a box does with the knots in it.
+enum box_mode { BOX_REPLACE, BOX_ADD, BOX_REMOVE };
 
 /// A mouse drag in progress. Its edits are made anew from the original document at every step.
 struct drag {
@@ -70,6 +89,18 @@ struct drag {
     int handle;         ///< DRAG_SLOPE: which end, as in curves_handle()
     bool stale;         ///< the pointer moved since the edits were made
     bool collapse;      ///< a click on a selected knot selects it alone, a drag moves all
+    enum box_mode box;  ///< DRAG_BOX
+    bool ripple;        ///< DRAG_KNOTS: what comes after the first moved knot moves along in time
+    double ripple_from; ///< frame of that knot, before
+};
+
+/// Scaling of the selected knots (DRAG_SCALE), about a frame and a value.
+struct scaling {
+    bool about_playhead; ///< else about the middle of the selection
+    double frame, value; ///< the pivot
+    double free_time;    ///< last factor by which no knot was hit
+    char typed[16];      ///< a factor in place of the pointer's
+    char sentence[256];
 };
 
 /// One channel that a grab steers through a knot at the playhead. The solution is affine in the knot's value v: at
@@ -94,7 +125,7 @@ struct grab {
 };
 
 /// What the pointer is over in the curves and on the stage.
-enum hover_kind { HOVER_NONE, HOVER_KNOT, HOVER_SLOPE, HOVER_CURVE, HOVER_RULER, HOVER_JOINT };
+enum hover_kind { HOVER_NONE, HOVER_KNOT, HOVER_SLOPE, HOVER_CURVE, HOVER_RULER, HOVER_UNITS, HOVER_JOINT };
 
 struct hover {
     enum hover_kind kind;
@@ -124,6 +155,8 @@ struct curve_cache {
     polyline re, im, equilibrium, fan[CURVES_FAN], others[CURVES_MAX_OTHERS];
     int fan_count, other_count;
     int other_spline[CURVES_MAX_OTHERS];
+    double range[CURVES_MAX_RANGES][2]; ///< lowest and highest value of each spline, where curves are normalised
+    int range_count;
 };
 
 /// The active curve as it was before a drag, in frames and values so that it survives a change of the view.
@@ -143,10 +176,12 @@ struct editor {
     struct layout layout;
     float scale;
     struct view view;
+    struct curve_options options;
     int active; ///< spline, -1 where there is none
     struct selection selection;
     struct playback playback;
     struct drag drag;
+    struct scaling scaling;
     struct grab grab;
     struct hover hover;
     struct ghost ghost;

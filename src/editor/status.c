@@ -21,15 +21,18 @@ void status_advance(struct editor *editor, double dt)
 
 static const char *hover_hint(const struct editor *editor, const struct document *document)
 {
+    if (editor->drag.kind == DRAG_SCALE) return editor->scaling.sentence;
     switch (editor->hover.kind) {
     case HOVER_KNOT:
-        return "Drag to move (X, Y lock an axis, Shift fine, Ctrl off the frames); Del deletes";
+        return "Drag to move (X, Y lock an axis, R takes the later knots along, Shift fine, Ctrl off the frames)";
     case HOVER_SLOPE:
-        return "Drag to turn the slope; T takes it away";
+        return "Drag to turn the slope, longer to hold it more firmly; T takes it away";
     case HOVER_CURVE:
         return editor->hover.spline == editor->active ? "Double-click to insert a knot" : "Click to edit this spline";
     case HOVER_RULER:
         return "Drag to scrub";
+    case HOVER_UNITS:
+        return "Click to count frames or seconds (U)";
     case HOVER_JOINT:
         return "Pull the tail: it sets the knot at the playhead";
     case HOVER_NONE:

@@ -105,6 +105,7 @@ void view_frame_all(struct editor *editor, const struct editor_world *world)
     double range[2] = {INFINITY, -INFINITY};
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = &document->splines[s];
+        if (editor->options.normalise && s != editor->active) continue;
         for (int k = 0; k < spline->knot_count; k++) include_value(range, spline->knots[k].value);
         if (!evaluation || s >= evaluation->count) continue;
         for (int i = 0; i < evaluation->samples; i++) include_value(range, evaluation->curves[s].total[i]);
@@ -154,6 +155,13 @@ void view_reveal(struct editor *editor, double frame, double value)
     view->value0 += dy;
     view->value1 += dy;
     keep_sane(view);
+}
+
+void view_rescale(struct editor *editor, double scale, double offset)
+{
+    editor->view.value0 = (editor->view.value0 - offset) / scale;
+    editor->view.value1 = (editor->view.value1 - offset) / scale;
+    keep_sane(&editor->view);
 }
 
 void view_pan(struct editor *editor, double dx, double dy)

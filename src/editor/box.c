@@ -1,0 +1,61 @@
+/// Selecting knots by a box that is dragged on empty, shown while it grows.
+#include "editor/actions.h"
+#include "editor/curves.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <string.h>
+
+void box_begin(struct editor *editor, const struct event *event)
+{
+    struct selection *selection = &editor->selection;
+    drag_begin(editor, DRAG_BOX, event);
+    bool removes = event->mods & (MOD_CTRL | MOD_ALT);
+    editor->drag.box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
+    if (selection->bits) memcpy(selection->before, selection->bits, selection->capacity / 8);
+}
+
+static struct rect box_rect(const struct drag *drag)
+{
+    return (struct rect){fminf(drag->start_x, drag->x), fminf(drag->start_y, drag->y), fabsf(drag->x - drag->start_x),
+                         fabsf(drag->y - drag->start_y)};
+}
+
+/// Ids may have been given since the box was begun, never before it.
+static bool was_selected(const struct selection *selection, unsigned id)
+{
+    return id < selection->capacity && (selection->before[id / 64] >> (id % 64) & 1u);
+}
+
+void box_update(struct editor *editor, const struct editor_world *world)
+{
+    const struct spline *spline = editor_active_spline(editor, world);
+    const struct rect box = box_rect(&editor->drag);
+    for (int k = 0; spline && k < spline->knot_count; k++) {
+        const struct knot *knot = &spline->knots[k];
+        double frame = document_frame(world->document, document_sample(world->document, knot->frame));
+        bool inside = rect_contains(box, curves_x(editor, frame), curves_y(editor, knot->value));
+        bool before = was_selected(&editor->selection, knot->id);
+        bool selected = editor->drag.box == BOX_REPLACE ? inside
+                        : editor->drag.box == BOX_ADD   ? before || inside
+                                                        : before && !inside;
+        selection_set(&editor->selection, knot->id, selected);
+    }
+}
+
+void box_end(struct editor *editor, bool keep)
+{
+    struct selection *selection = &editor->selection;
+    if (!keep && selection->bits) memcpy(selection->bits, selection->before, selection->capacity / 8);
+    if (keep && !editor->drag.moved && editor->drag.box == BOX_REPLACE) selection_clear(selection);
+}
+
+void box_show(struct editor *editor)
+{
+    const struct drag *drag = &editor->drag;
+    if (drag->kind != DRAG_BOX || !drag->moved) return;
+    const struct rect r = box_rect(drag);
+    const float outline[] = {r.x, r.y, r.x + r.w, r.y, r.x + r.w, r.y + r.h, r.x, r.y + r.h, r.x, r.y};
+    uint32_t color = drag->box == BOX_REMOVE ? THEME_ERROR : THEME_PLAYHEAD;
+    drawlist_rect(&editor->list, r, theme_fade(color, 0.08f));
+    drawlist_dashed(&editor->list, outline, 5, 1, 4, 3, theme_fade(color, 0.7f));
+}

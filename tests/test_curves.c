@@ -1,0 +1,319 @@
+// The curves panel as an animator uses it: boxes, scaling, retiming, other curves, ruler. Events in, document out.
+#include "panel_session.h"
+
+static const char FIVE[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
+    "\"damping\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 0}, {\"frame\": 20, \"value\": 1, \"slope\": 2},"
+    "{\"frame\": 30, \"value\": -1}, {\"frame\": 40, \"value\": 0.5}, {\"frame\": 60, \"value\": 0}]},"
+    "{\"name\": \"up\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 5, \"value\": 1.3},"
+    "{\"frame\": 70, \"value\": 0.75}]}]}";
+
+static const struct spline *spline(const struct session *s, int i) { return &s->document->splines[i]; }
+
+static char *saved(const struct session *s)
+{
+    size_t size;
+    char *text = scene_print(s->document, &size);
+    assert_non_null(text);
+    return text;
+}
+
+/// One undo brings back `original` (which is freed) byte by byte, one redo what was there.
+static void assert_one_step(struct session *s, char *original)
+{
+    char *changed = saved(s), *undone, *redone;
+    assert_string_not_equal(changed, original);
+    session_key(s, 'Z', MOD_CTRL);
+    undone = saved(s);
+    assert_string_equal(undone, original);
+    session_key(s, 'Y', MOD_CTRL);
+    redone = saved(s);
+    assert_string_equal(redone, changed);
+    free(original);
+    free(changed);
+    free(undone);
+    free(redone);
+}
+
+static void assert_frames(const struct session *s, const double *frames)
+{
+    for (int k = 0; k < spline(s, 0)->knot_count; k++) assert_near(spline(s, 0)->knots[k].frame, frames[k], 1e-9);
+}
+
+/// Which knots of the first spline are selected, as digits from the first.
+static void assert_selected(const struct session *s, const char *expected)
+{
+    char text[64] = "";
+    for (int k = 0; k < spline(s, 0)->knot_count; k++) {
+        text[k] = selection_has(&s->editor->selection, spline(s, 0)->knots[k].id) ? '1' : '0';
+    }
+    assert_string_equal(text, expected);
+}
+
+/// Drags a box from one target to another; the button stays down.
+static void drag_box(struct session *s, const char *from, const char *to, unsigned mods)
+{
+    session_point(s, from);
+    s->mods = mods;
+    session_press(s, BUTTON_LEFT, 1);
+    session_point(s, to);
+    session_frame(s);
+}
+
+static void box(struct session *s, const char *from, const char *to, unsigned mods)
+{
+    drag_box(s, from, to, mods);
+    session_release(s, BUTTON_LEFT);
+    s->mods = 0;
+}
+
+static void test_a_box_selects_adds_and_removes(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    drag_box(&s, "curve(sway,15,1.4)", "curve(sway,35,-1.2)", 0);
+    assert_selected(&s, "01100"); // already while the box grows
+    session_point(&s, "curve(sway,25,-1.2)");
+    session_frame(&s);
+    assert_selected(&s, "01000"); // and where it shrinks again
+    session_release(&s, BUTTON_LEFT);
+    box(&s, "curve(sway,45,1.4)", "curve(sway,65,-1.2)", MOD_SHIFT);
+    assert_selected(&s, "01001");
+    box(&s, "curve(sway,16,1.4)", "curve(sway,24,-1.2)", MOD_CTRL);
+    assert_selected(&s, "00001");
+    box(&s, "curve(sway,55,0.3)", "curve(sway,66,-0.4)", MOD_ALT);
+    assert_selected(&s, "00000");
+    assert_null(history_undo_label(s.history));
+    session_close(&s);
+}
+
+static void test_escape_takes_a_box_back_and_a_click_clears(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    session_click(&s, "knot(sway,3)");
+    drag_box(&s, "curve(sway,5,1.4)", "curve(sway,35,-1.2)", 0);
+    assert_selected(&s, "11100");
+    session_key(&s, KEY_ESCAPE, 0);
+    assert_selected(&s, "00010");
+    session_release(&s, BUTTON_LEFT);
+    session_point(&s, "curve(sway,66,-1.2)");
+    session_press(&s, BUTTON_LEFT, 1);
+    session_release(&s, BUTTON_LEFT);
+    assert_selected(&s, "00000");
+    session_close(&s);
+}
+
+static void test_a_knot_of_another_curve_makes_it_active(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    assert_int_equal(s.editor->active, 0);
+    session_point(&s, "knot(up,1)");
+    session_press(&s, BUTTON_LEFT, 1);
+    assert_int_equal(s.editor->active, 1);
+    session_drag(&s, 0, -20, 4); // and the same press drags it
+    session_release(&s, BUTTON_LEFT);
+    assert_true(spline(&s, 1)->knots[1].value > 0.8);
+    session_close(&s);
+}
+
+static void type_keys(struct session *s, const char *text)
+{
+    for (; *text; text++) session_key(s, *text, 0);
+}
+
+static void test_scaling_by_a_typed_factor(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    box(&s, "curve(sway,5,1.4)", "curve(sway,35,-1.2)", 0);
+    char *original = saved(&s);
+    session_key(&s, 'S', 0);
+    session_key(&s, 'X', 0);
+    type_keys(&s, "1.3");
+    session_key(&s, KEY_ENTER, 0);
+    const double frames[] = {7, 20, 33, 40, 60}; // about the middle of 10 … 30
+    assert_frames(&s, frames);
+    assert_near(spline(&s, 0)->knots[1].value, 1, 0);
+    assert_near(spline(&s, 0)->knots[1].slope, 2 / 1.3, 1e-5); // the shape is stretched with the knots
+    assert_one_step(&s, original);
+    original = saved(&s);
+    session_key(&s, 'S', 0);
+    session_key(&s, 'Y', 0);
+    type_keys(&s, "-2");
+    session_key(&s, KEY_ENTER, 0);
+    assert_frames(&s, frames);
+    assert_near(spline(&s, 0)->knots[1].value, -2, 1e-9);
+    assert_near(spline(&s, 0)->knots[2].value, 2, 1e-9);
+    assert_near(spline(&s, 0)->knots[1].slope, -4 / 1.3, 1e-5);
+    assert_one_step(&s, original);
+    session_close(&s);
+}
+
+static void test_scaling_by_pointer_about_the_playhead(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    session_click(&s, "ruler(20)");
+    session_key(&s, 'A', MOD_CTRL);
+    session_point(&s, "curve(sway,40,0)");
+    session_key(&s, 'S', 0);
+    session_key(&s, 'P', 0);
+    session_key(&s, 'X', 0);
+    session_point(&s, "curve(sway,50,0.7)"); // one and a half times as far
+    session_frame(&s);
+    const double frames[] = {5, 20, 35, 50, 80};
+    assert_frames(&s, frames);
+    session_press(&s, BUTTON_LEFT, 1); // a click keeps it
+    session_release(&s, BUTTON_LEFT);
+    assert_false(history_is_open(s.history));
+    assert_frames(&s, frames);
+    session_close(&s);
+}
+
+static void test_scaling_can_mirror_and_be_taken_back(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    box(&s, "curve(sway,5,1.4)", "curve(sway,35,-1.2)", 0);
+    char *original = saved(&s);
+    session_key(&s, 'S', 0);
+    session_key(&s, 'X', 0);
+    type_keys(&s, "-1");
+    session_frame(&s);
+    assert_near(spline(&s, 0)->knots[0].value, -1, 0); // in reverse order
+    assert_near(spline(&s, 0)->knots[1].slope, -2, 1e-5);
+    assert_near(spline(&s, 0)->knots[2].value, 0, 0);
+    assert_selected(&s, "11100");
+    session_key(&s, KEY_ESCAPE, 0);
+    char *now = saved(&s);
+    assert_string_equal(now, original);
+    assert_null(history_undo_label(s.history));
+    free(now);
+    free(original);
+    session_close(&s);
+}
+
+/// 4 would lie on 40, which is not selected; 0 would put all on one frame; 9 leads out of the range.
+static void test_scaling_never_swallows_a_knot(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    box(&s, "curve(sway,5,1.4)", "curve(sway,35,-1.2)", 0);
+    const char *const bad[] = {"2", "0", "9"};
+    for (int i = 0; i < 3; i++) {
+        char *original = saved(&s);
+        session_key(&s, 'S', 0);
+        session_key(&s, 'X', 0);
+        type_keys(&s, bad[i]);
+        session_key(&s, KEY_ENTER, 0);
+        assert_int_equal(spline(&s, 0)->knot_count, 5);
+        char *now = saved(&s);
+        assert_string_equal(now, original);
+        free(now);
+        free(original);
+    }
+    session_close(&s);
+}
+
+static void test_a_ripple_moves_what_comes_after(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    char *original = saved(&s);
+    float frame = (float)(s.editor->layout.plot.w / (s.editor->view.frame1 - s.editor->view.frame0));
+    session_point(&s, "knot(sway,2)");
+    session_press(&s, BUTTON_LEFT, 1);
+    session_key(&s, 'R', 0);
+    session_key(&s, 'X', 0);
+    session_drag(&s, 7 * frame, 0, 7);
+    const double later[] = {10, 20, 37, 47, 67}, alone[] = {10, 20, 37, 40, 60}, sooner[] = {10, 20, 21, 31, 51};
+    assert_frames(&s, later);
+    session_key(&s, 'R', 0);
+    assert_frames(&s, alone);
+    session_key(&s, 'R', 0);
+    session_drag(&s, -30 * frame, 0, 10);
+    assert_frames(&s, sooner); // it stops behind the knot that stays
+    session_drag(&s, 200 * frame, 0, 10);
+    const double end[] = {10, 20, 66, 76, 96};
+    assert_frames(&s, end); // and at the end of the range
+    assert_non_null(strstr(s.editor->message.text, "end of the range"));
+    session_release(&s, BUTTON_LEFT);
+    assert_near(spline(&s, 0)->knots[3].value, 0.5, 0);
+    assert_one_step(&s, original);
+    session_close(&s);
+}
+
+static void test_ruler_units_and_snap(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    session_move(&s, s.editor->layout.ruler.x / 2, s.editor->layout.ruler.y + 8);
+    session_press(&s, BUTTON_LEFT, 1);
+    session_release(&s, BUTTON_LEFT);
+    assert_true(s.editor->options.seconds);
+    session_key(&s, 'U', 0);
+    assert_false(s.editor->options.seconds);
+    float frame = (float)(s.editor->layout.plot.w / (s.editor->view.frame1 - s.editor->view.frame0));
+    session_key(&s, 'G', 0); // off the frames
+    session_point(&s, "knot(sway,0)");
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, 2.25f * frame, 0, 3);
+    assert_near(spline(&s, 0)->knots[0].frame, 12.25, 1e-3);
+    s.mods = MOD_CTRL;
+    session_drag(&s, 0.1f * frame, 0, 1);
+    assert_near(spline(&s, 0)->knots[0].frame, 12, 1e-9);
+    session_release(&s, BUTTON_LEFT);
+    session_close(&s);
+}
+
+static void test_normalised_curves_keep_their_picture(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    session_key(&s, 'N', 0);
+    const float(*line)[2] = (const float(*)[2])s.editor->cache.others[0];
+    int count = s.editor->cache.count;
+    float low = line[0][1], high = line[0][1], own_low = 1e9f, own_high = -1e9f;
+    for (int c = 0; c < count; c++) {
+        low = fminf(low, line[c][1]);
+        high = fmaxf(high, line[c][1]);
+        own_low = fminf(own_low, s.editor->cache.re[c][1]);
+        own_high = fmaxf(own_high, s.editor->cache.re[c][1]);
+    }
+    assert_near(low, own_low, 1.5); // as high as the active one
+    assert_near(high, own_high, 1.5);
+    float before = line[count / 2][1];
+    session_key(&s, KEY_PAGE_DOWN, 0);
+    assert_int_equal(s.editor->active, 1);
+    assert_near(s.editor->cache.re[count / 2][1], before, 1.5); // nothing jumps
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_box_selects_adds_and_removes),
+        cmocka_unit_test(test_escape_takes_a_box_back_and_a_click_clears),
+        cmocka_unit_test(test_a_knot_of_another_curve_makes_it_active),
+        cmocka_unit_test(test_scaling_by_a_typed_factor),
+        cmocka_unit_test(test_scaling_by_pointer_about_the_playhead),
+        cmocka_unit_test(test_scaling_can_mirror_and_be_taken_back),
+        cmocka_unit_test(test_scaling_never_swallows_a_knot),
+        cmocka_unit_test(test_a_ripple_moves_what_comes_after),
+        cmocka_unit_test(test_ruler_units_and_snap),
+        cmocka_unit_test(test_normalised_curves_keep_their_picture),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
