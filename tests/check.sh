@@ -29,3 +29,6 @@ says() { # <what> <fragment> <text>
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+
+# The tests leave the user's own files alone.
+export XDG_CONFIG_HOME=$scratch/config XDG_STATE_HOME=$scratch/state

@@ -152,7 +152,7 @@ static void test_no_text_leaves_its_panel_or_overlaps(void **state)
         panel_open(&f, scenes[i % 2], sizes[i / 2][0], sizes[i / 2][1]);
         editor_set_title(f.editor, i % 2 ? "a scene with a name that is rather too long to show.json" : "x",
                          "x.json");
-        editor_set_files(f.editor, &(struct dialog_files){list_names, &calls});
+        editor_set_files(f.editor, &(struct dialog_files){.list = list_names, .user = &calls});
         for (int s = 0; s < f.document->spline_count; s++) {
             editor_activate(f.editor, &f.world, s);
             check_inspector(&f);
@@ -327,7 +327,7 @@ static void test_open_completes_paths(void **state)
     int calls = 0;
     struct session f;
     panel_open(&f, small_scene, 1280, 720);
-    editor_set_files(f.editor, &(struct dialog_files){list_names, &calls});
+    editor_set_files(f.editor, &(struct dialog_files){.list = list_names, .user = &calls});
     session_key(&f, 'O', MOD_CTRL);
     struct dialog *dialog = &f.editor->dialog;
     assert_int_equal(dialog->match_count, 5);

@@ -30,27 +30,40 @@ start_edited() {
 knots() { grep -o '"frame":' "$1" | wc -l; }
 
 # Waits for the app's own end and looks at what it left.
-check_rescue() { # <cause> <recovered file>
+check_rescue() { # <cause> <file with the work> <what the sentence says>
     local status=0
     for _ in $(seq 100); do kill -0 $app 2>/dev/null || break; sleep 0.1; done
     wait $app || status=$?
     app=""
     [ $status -eq 3 ]
     ok "$1: exit status 3" $?
-    says "$1: one sentence says where the work is" "$2: open that to go on" "$(cat "$scratch/app.err")"
+    says "$1: one sentence says where the work is" "$3" "$(cat "$scratch/app.err")"
     [ "$(wc -l <"$scratch/app.err")" -eq 1 ] && cmp "$scratch/mine.json" assets/scenes/tail.json
     ok "$1: the scene's own file is as it was" $?
-    [ "$(knots "$2")" -eq $(($(knots "$scratch/mine.json") + 1)) ] && "$WIGGLY" check "$2" >/dev/null
+    grep -v '^wiggly-recovery 1 ' "$2" >"$scratch/work.json"
+    [ "$(knots "$2")" -eq $(($(knots "$scratch/mine.json") + 1)) ] && "$WIGGLY" check "$scratch/work.json" >/dev/null
     ok "$1: the work is whole" $?
 }
 
+recovery=$XDG_STATE_HOME/wiggly/recovery
 start_server
 start_edited
 kill $app
-check_rescue "a signal" "$scratch/mine.recovered.json"
+check_rescue "a signal" "$recovery-1" "$recovery-1: the next start offers it"
 start_edited
 kill -9 $xvfb
-check_rescue "a lost display" "$scratch/mine.recovered-2.json"
+check_rescue "a lost display" "$recovery-2" "$recovery-2: the next start offers it"
 grep -q '^frames [1-9]' "$scratch/mine.replay"
 ok "the recording has its length" $?
+
+start_server
+chmod -R a-w "$XDG_STATE_HOME"
+if [ -w "$XDG_STATE_HOME/wiggly" ]; then # root may write everywhere
+    rm -r "$XDG_STATE_HOME"
+    touch "$XDG_STATE_HOME"
+fi
+start_edited
+kill $app
+check_rescue "no place for recovery files" "$scratch/mine.recovered.json" "$scratch/mine.recovered.json: open that to go on"
+chmod -R u+w "$XDG_STATE_HOME"
 exit $((cases_failed > 0))

@@ -145,11 +145,13 @@ static bool start(struct app *app, bool offscreen, struct error *error)
         platform_on_lost(on_lost, app);
         if (!app->replay) process_catch_end();
     }
+    personal_start(app);
     return true;
 }
 
-static void destroy(struct app *app)
+static void destroy(struct app *app, bool good)
 {
+    personal_end(app, !good);
     evaluation_free(&app->evaluation);
     free(app->dirty);
     history_destroy(app->history);
@@ -180,6 +182,6 @@ int app_run(const struct app_options *options, struct error *error)
     }
     struct error late = {0};
     if (!finish(&app, good ? error : &late)) good = false;
-    destroy(&app);
+    destroy(&app, good);
     return good ? 0 : error->kind == ERROR_NONE ? ERROR_ENVIRONMENT : (int)error->kind;
 }

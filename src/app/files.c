@@ -37,8 +37,7 @@ static void show_title(struct app *app)
     platform_title(app->platform, title);
 }
 
-/// Puts a document on the table in place of the one there.
-static void adopt(struct app *app, struct document *document, const char *path)
+void app_adopt(struct app *app, struct document *document, const char *path)
 {
     document_destroy(app->document);
     app->document = document;
@@ -75,7 +74,8 @@ bool app_open(struct app *app, const char *path, struct error *error)
         document = scene_parse("tail.json", (const char *)file->data, file->size, NULL, error);
     }
     if (!document) return false;
-    adopt(app, document, path && !is_asset(path) ? path : "");
+    app_adopt(app, document, path && !is_asset(path) ? path : "");
+    personal_note_file(app, app->path);
     return true;
 }
 
@@ -86,6 +86,7 @@ static bool save(struct app *app, const char *path, struct error *error)
     history_mark_saved(app->history);
     editor_set_title(app->editor, shown_name(app), app->path);
     show_title(app);
+    personal_note_file(app, app->path);
     editor_message(app->editor, false, "Saved.");
     return true;
 }
@@ -142,7 +143,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_NEW: {
         struct document *document = scene_parse("new", new_scene, sizeof new_scene - 1, NULL, error);
         if (!document) return false;
-        adopt(app, document, "");
+        app_adopt(app, document, "");
         return true;
     }
     case REQUEST_OPEN:
@@ -154,6 +155,10 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_QUIT:
         app->quit = true;
         return true;
+    case REQUEST_RECOVER:
+        return personal_recover(app, error);
+    case REQUEST_FORGET:
+        return personal_forget(app, error);
     case REQUEST_SCREENSHOT:
         return take_picture(app, error);
     case REQUEST_FULLSCREEN:
@@ -206,5 +211,6 @@ static int list_folder(void *user, const char *folder, char names[][256], int ma
 
 void app_connect_files(struct app *app)
 {
-    editor_set_files(app->editor, &(struct dialog_files){.list = list_folder});
+    editor_set_files(app->editor,
+                     &(struct dialog_files){.list = list_folder, .recent = personal_recent, .user = app});
 }

@@ -87,6 +87,7 @@ static void edit(struct app *app)
     struct editor_world world = app_world(app);
     editor_advance(app->editor, &world, dt);
     app_requests(app);
+    personal_update(app);
     app->row.edit_us = microseconds(start, clock_now());
 }
 
@@ -179,7 +180,10 @@ static void log_frame(struct app *app)
 
 void app_frame(struct app *app)
 {
-    if (!take_input(app)) return;
+    if (!take_input(app)) {
+        personal_update(app);
+        return;
+    }
     edit(app);
     solve(app);
     if (app->failed) return;

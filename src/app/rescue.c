@@ -1,4 +1,5 @@
-// Unsaved work when the program cannot go on: it is written beside the original, which stays as it is.
+// Unsaved work when the program cannot go on: it goes to the recovery file, which the next start offers; where there is none,
+// beside the original, which stays as it is.
 #include "app/state.h"
 #include "scene/load.h"
 #include <stdio.h>
@@ -52,7 +53,10 @@ void app_rescue(struct app *app, struct error *error)
     char path[4096];
     struct error trouble = {0}, why = *error;
     if (!app->document || history_is_saved(app->history)) return;
-    if (write_somewhere(app, path, sizeof path, &trouble)) {
+    const char *kept = personal_rescue(app);
+    if (kept) {
+        fail(error, why.kind, "%s; the unsaved scene is kept in %s: the next start offers it", why.text, kept);
+    } else if (write_somewhere(app, path, sizeof path, &trouble)) {
         fail(error, why.kind, "%s; the unsaved scene is in %s: open that to go on", why.text, path);
     } else {
         fail(error, why.kind, "%s; the unsaved scene is lost: %s", why.text, trouble.text);

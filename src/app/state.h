@@ -3,6 +3,7 @@
 #define APP_STATE_H
 
 #include "app/app.h"
+#include "app/personal.h"
 #include "app/replay.h"
 #include "draw/draw.h"
 #include "editor/editor.h"
@@ -26,6 +27,8 @@ struct app {
     char path[1024];        ///< the document's own file; "" for an untitled one
     uint64_t solved_revision;
     bool solved_cubic;
+
+    struct personal *personal; ///< NULL where nobody sits at a window
 
     struct replay *replay;
     struct recording *recording;
@@ -54,10 +57,13 @@ void app_frame(struct app *app);
 /// Opens a scene file, or the built-in one for NULL; the document on the table stays where that fails.
 bool app_open(struct app *app, const char *path, struct error *error);
 
+/// Puts a document on the table in place of the one there; `path` is its own file, "" for an untitled one.
+void app_adopt(struct app *app, struct document *document, const char *path);
+
 /// Carries out what the editor asked for: files, window, end.
 void app_requests(struct app *app);
 
-/// Writes unsaved work to a new file, beside the scene's own one where that is possible, and adds to the error's sentence
+/// Writes unsaved work to the recovery file, else to a new file beside the scene's own one, and adds to the error's sentence
 /// where it is.
 void app_rescue(struct app *app, struct error *error);
 

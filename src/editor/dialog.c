@@ -1,5 +1,6 @@
-/// The dialogs: open, save as, and what to do with unsaved work.
+/// The dialogs: open, save as, and the questions.
 #include "editor/dialog.h"
+#include "editor/dialog_question.h"
 #include "editor/state.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -7,9 +8,14 @@
 #include <string.h>
 
 enum { LIST_ROWS = 8, BUTTON_WIDTH = 104 };
-enum { CHOICE_SAVE, CHOICE_DISCARD, CHOICE_CANCEL, CHOICE_COUNT };
+enum { ANSWER_SAVE, ANSWER_DISCARD, ANSWER_CANCEL };
 
 void editor_set_files(struct editor *editor, const struct dialog_files *files) { editor->dialog.files = *files; }
+
+static bool is_question(const struct dialog *dialog)
+{
+    return dialog->kind == DIALOG_UNSAVED || dialog->kind == DIALOG_RECOVER;
+}
 
 static void open_dialog(struct editor *editor, enum dialog_kind kind, const char *path)
 {
@@ -22,11 +28,14 @@ static void open_dialog(struct editor *editor, enum dialog_kind kind, const char
     ui_release(&dialog->ui);
     ui_text_set(&dialog->ui.text, path);
     dialog->ui.text.all = path[0] != '\0';
-    if (kind != DIALOG_UNSAVED) dialog_match(dialog);
+    if (!is_question(dialog)) dialog_match(dialog);
 }
 
-static void close_dialog(struct dialog *dialog)
+void dialog_open(struct editor *editor, enum dialog_kind kind) { open_dialog(editor, kind, ""); }
+
+void dialog_close(struct editor *editor)
 {
+    struct dialog *dialog = &editor->dialog;
     dialog->kind = DIALOG_NONE;
     dialog->waiting = false;
     dialog->after.kind = REQUEST_NONE;
@@ -66,7 +75,7 @@ void dialog_done(struct editor *editor)
 {
     if (!editor->dialog.waiting) return;
     struct request after = editor->dialog.after;
-    close_dialog(&editor->dialog);
+    dialog_close(editor);
     go_on(editor, &after);
 }
 
@@ -83,14 +92,14 @@ static void decide(struct editor *editor, int choice)
 {
     struct dialog *dialog = &editor->dialog;
     struct request after = dialog->after;
-    if (choice == CHOICE_SAVE && editor->path[0]) {
+    if (choice == ANSWER_SAVE && editor->path[0]) {
         dialog->waiting = true;
         editor_request(editor, REQUEST_SAVE, NULL);
-    } else if (choice == CHOICE_SAVE) {
+    } else if (choice == ANSWER_SAVE) {
         dialog_ask_save_as(editor);
     } else {
-        close_dialog(dialog);
-        if (choice == CHOICE_DISCARD) go_on(editor, &after);
+        dialog_close(editor);
+        if (choice == ANSWER_DISCARD) go_on(editor, &after);
     }
 }
 
@@ -107,7 +116,7 @@ static void confirm(struct editor *editor)
     char path[sizeof((struct request *)0)->path];
     const char *typed = dialog->ui.text.bytes;
     bool saving = dialog->kind == DIALOG_SAVE_AS;
-    if (dialog->kind == DIALOG_UNSAVED) return;
+    if (is_question(dialog)) return;
     if (!typed[0] || ends_with(typed, "/")) {
         snprintf(dialog->error, sizeof dialog->error, "Type the name of a file.");
         return;
@@ -122,36 +131,51 @@ static void confirm(struct editor *editor)
     editor_request(editor, saving ? REQUEST_SAVE_AS : REQUEST_OPEN, path);
 }
 
-static bool unsaved_key(struct editor *editor, int key)
+static void unsaved_question(const struct editor *editor, struct question *question)
 {
-    struct dialog *dialog = &editor->dialog;
-    switch (key) {
-    case 'S':
-        decide(editor, CHOICE_SAVE);
-        return true;
-    case 'D':
-        decide(editor, CHOICE_DISCARD);
-        return true;
-    case 'C':
-    case KEY_ESCAPE:
-        decide(editor, CHOICE_CANCEL);
-        return true;
-    case KEY_LEFT:
-    case KEY_UP:
-        dialog->choice = (dialog->choice + CHOICE_COUNT - 1) % CHOICE_COUNT;
-        return true;
-    case KEY_TAB:
-    case KEY_RIGHT:
-    case KEY_DOWN:
-        dialog->choice = (dialog->choice + 1) % CHOICE_COUNT;
-        return true;
-    case KEY_SPACE:
-    case KEY_ENTER:
-        decide(editor, dialog->choice);
-        return true;
-    default:
-        return false;
+    static const struct answer answers[] = {
+        [ANSWER_SAVE] = {"dialog.save", "Save", 'S'},
+        [ANSWER_DISCARD] = {"dialog.discard", "Discard", 'D'},
+        [ANSWER_CANCEL] = {"dialog.cancel", "Cancel", 'C'},
+    };
+    question->answers = answers;
+    question->count = sizeof answers / sizeof answers[0];
+    snprintf(question->title, sizeof question->title, "%s has unsaved changes", editor->title);
+    snprintf(question->note, sizeof question->note,
+             "They are lost unless you save them.  S saves, D discards, Esc cancels.");
+}
+
+/// The question that is on the screen.
+static struct question question_of(const struct editor *editor)
+{
+    struct question question = {0};
+    if (editor->dialog.kind == DIALOG_UNSAVED) {
+        unsaved_question(editor, &question);
+    } else {
+        dialog_recover_question(editor, &question);
     }
+    return question;
+}
+
+static void answer(struct editor *editor, int given)
+{
+    if (given < 0) return;
+    if (editor->dialog.kind == DIALOG_UNSAVED) {
+        decide(editor, given);
+    } else {
+        dialog_recover_answer(editor, given);
+    }
+}
+
+/// A letter that answers brings its character along, which is no part of a path that is typed next.
+static bool question_event(struct editor *editor, int key)
+{
+    struct question question = question_of(editor);
+    int given = question_key(&editor->dialog, &question, key);
+    if (given == QUESTION_UNUSED) return false;
+    editor->dialog.skip_text = true;
+    answer(editor, given);
+    return true;
 }
 
 static void move_choice(struct dialog *dialog, int direction)
@@ -166,7 +190,7 @@ static bool path_key(struct editor *editor, int key)
     struct dialog *dialog = &editor->dialog;
     switch (key) {
     case KEY_ESCAPE:
-        close_dialog(dialog);
+        dialog_close(editor);
         return true;
     case KEY_TAB:
         dialog_complete(dialog);
@@ -228,30 +252,7 @@ static void build_path(struct editor *editor)
     struct rect left = {right.x - UI_GAP - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
     bool cancelled = ui_button(ui, left, "dialog.cancel", "Cancel", false);
     if (ui_button(ui, right, "dialog.confirm", saving ? "Save" : "Open", true)) confirm(editor);
-    if (cancelled) close_dialog(dialog);
-}
-
-static void build_unsaved(struct editor *editor)
-{
-    static const char *const names[CHOICE_COUNT] = {"dialog.save", "dialog.discard", "dialog.cancel"};
-    static const char *const labels[CHOICE_COUNT] = {"Save", "Discard", "Cancel"};
-    struct dialog *dialog = &editor->dialog;
-    struct ui *ui = &dialog->ui;
-    char text[sizeof editor->title + 40];
-    snprintf(text, sizeof text, "%s has unsaved changes", editor->title);
-    ui_label(ui, ui_row(ui, UI_ROW), text, THEME_TEXT);
-    float top = ui->y;
-    const char *note = "They are lost unless you save them.  S saves, D discards, Esc cancels.";
-    ui_paragraph(ui, dialog->error[0] ? dialog->error : note, dialog->error[0] ? THEME_ERROR : THEME_TEXT_DIM);
-    ui_space(ui, fmaxf(8, 40 - (ui->y - top)));
-    struct rect row = ui_row(ui, 28);
-    int pressed = -1;
-    for (int i = 0; i < CHOICE_COUNT; i++) {
-        float x = row.x + row.w - (float)(CHOICE_COUNT - i) * (BUTTON_WIDTH + UI_GAP) + UI_GAP;
-        struct rect r = {x, row.y, BUTTON_WIDTH, row.h};
-        if (ui_button(ui, r, names[i], labels[i], i == dialog->choice)) pressed = i;
-    }
-    if (pressed >= 0) decide(editor, pressed);
+    if (cancelled) dialog_close(editor);
 }
 
 static void build(struct editor *editor)
@@ -259,8 +260,9 @@ static void build(struct editor *editor)
     struct dialog *dialog = &editor->dialog;
     struct ui *ui = &dialog->ui;
     ui_space(ui, 8);
-    if (dialog->kind == DIALOG_UNSAVED) {
-        build_unsaved(editor);
+    if (is_question(dialog)) {
+        struct question question = question_of(editor);
+        answer(editor, question_build(dialog, &question));
     } else {
         ui->focus = ui_id("dialog.path"); // the path is all there is to type in
         build_path(editor);
@@ -273,7 +275,7 @@ static struct rect dialog_box(struct editor *editor)
 {
     struct rect window = editor->layout.window;
     struct ui *ui = &editor->dialog.ui;
-    float w = fminf(editor->dialog.kind == DIALOG_UNSAVED ? 440 : 560, window.w - 48);
+    float w = fminf(is_question(&editor->dialog) ? 440 : 560, window.w - 48);
     ui_begin_find(ui, (struct rect){0, 0, w, window.h}, "", NULL);
     build(editor);
     float h = fminf(ui->y, window.h - 16);
@@ -286,6 +288,10 @@ bool dialog_event(struct editor *editor, const struct editor_world *world, const
     (void)world;
     struct dialog *dialog = &editor->dialog;
     if (dialog->kind == DIALOG_NONE || event->kind == EVENT_SIZE || event->kind == EVENT_EXPOSE) return false;
+    if (dialog->kind == DIALOG_RECOVER && event->kind == EVENT_CLOSE && !dialog->waiting) {
+        dialog_close(editor);
+        return false;
+    }
     bool key = event->kind == EVENT_KEY;
     if (key && event->action == ACTION_RELEASE) return false; // of a key that was pressed before the dialog came
     bool typed_by_answer = dialog->skip_text && event->kind == EVENT_TEXT;
@@ -293,11 +299,8 @@ bool dialog_event(struct editor *editor, const struct editor_world *world, const
     if (dialog->waiting || typed_by_answer) return true;
     bool chord = event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER);
     if (key && !chord) {
-        bool answer = dialog->kind == DIALOG_UNSAVED;
-        if (answer ? unsaved_key(editor, event->key) : path_key(editor, event->key)) {
-            dialog->skip_text = answer;
-            return true;
-        }
+        bool done = is_question(dialog) ? question_event(editor, event->key) : path_key(editor, event->key);
+        if (done) return true;
     }
     struct rect box = dialog_box(editor);
     ui_begin_event(&dialog->ui, box, event);

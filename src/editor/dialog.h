@@ -2,7 +2,7 @@
 #ifndef EDITOR_DIALOG_H
 #define EDITOR_DIALOG_H
 
-#include "editor/panels.h"
+#include "editor/dialog_question.h"
 
 /// Lists the folder of the path where it is a new one, and picks the names that fit what is typed after it.
 void dialog_match(struct dialog *dialog);
@@ -12,5 +12,14 @@ void dialog_complete(struct dialog *dialog);
 bool dialog_take(struct dialog *dialog, int match);
 /// Whether the path is one of the names listed.
 bool dialog_exists(const struct dialog *dialog);
+
+/// Shows a dialog that has no text, and closes whichever is shown.
+void dialog_open(struct editor *editor, enum dialog_kind kind);
+void dialog_close(struct editor *editor);
+
+/// DIALOG_RECOVER: its question, and what an answer (enum recover_answer) does.
+enum recover_answer { RECOVER_RECOVER, RECOVER_DISCARD, RECOVER_LATER };
+void dialog_recover_question(const struct editor *editor, struct question *question);
+void dialog_recover_answer(struct editor *editor, int answer);
 
 #endif

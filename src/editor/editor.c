@@ -2,6 +2,7 @@
 #include "editor/actions.h"
 #include "editor/curves.h"
 #include "ui/theme.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,6 +42,19 @@ void editor_resize(struct editor *editor, float width, float height, float scale
 {
     editor->layout.window = (struct rect){0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
     editor->scale = scale > 0 ? scale : 1;
+    editor_layout(editor);
+}
+
+void editor_panels(const struct editor *editor, double *stage_share, double *inspector_width)
+{
+    *stage_share = (double)editor->layout.stage_share;
+    *inspector_width = (double)editor->layout.inspector_width;
+}
+
+void editor_set_panels(struct editor *editor, double stage_share, double inspector_width)
+{
+    editor->layout.stage_share = (float)fmin(fmax(stage_share, 0), 1);
+    editor->layout.inspector_width = (float)fmin(fmax(inspector_width, 0), 1e4);
     editor_layout(editor);
 }
 

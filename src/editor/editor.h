@@ -26,6 +26,8 @@ enum request_kind {
     REQUEST_SAVE,    ///< to the document's own path, or ask
     REQUEST_SAVE_AS, ///< path
     REQUEST_QUIT,
+    REQUEST_RECOVER, ///< the work that was offered
+    REQUEST_FORGET,  ///< the same, for good
     REQUEST_SCREENSHOT,
     REQUEST_FULLSCREEN,
 };
@@ -45,6 +47,22 @@ void editor_open(struct editor *editor, const struct editor_world *world, const 
 
 /// What the document is called, and the path of its own file ("" where it has none: Ctrl+S then asks for one).
 void editor_set_title(struct editor *editor, const char *title, const char *path);
+
+/// Unsaved work that an earlier run left behind.
+struct recovery_offer {
+    char name[256]; ///< what its document was called
+    char when[64];  ///< date and time, as text
+    int others;     ///< older ones there are besides
+};
+
+/// Asks what to do with it: REQUEST_RECOVER, REQUEST_FORGET, or nothing yet. Answer the request with editor_open() and
+/// editor_set_title(), editor_offer_recovery() of the next one, editor_recovery_done(), or an error message.
+void editor_offer_recovery(struct editor *editor, const struct recovery_offer *offer);
+void editor_recovery_done(struct editor *editor);
+
+/// The panels' sizes, which the user drags: the stage's share of the height, the inspector's width.
+void editor_panels(const struct editor *editor, double *stage_share, double *inspector_width);
+void editor_set_panels(struct editor *editor, double stage_share, double inspector_width);
 
 /// Logical size of the window, and device pixels a logical pixel.
 void editor_resize(struct editor *editor, float width, float height, float scale);

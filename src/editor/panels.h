@@ -55,7 +55,7 @@ struct help {
 bool help_event(struct editor *editor, const struct event *event);
 void help_show(struct editor *editor);
 
-enum dialog_kind { DIALOG_NONE, DIALOG_OPEN, DIALOG_SAVE_AS, DIALOG_UNSAVED };
+enum dialog_kind { DIALOG_NONE, DIALOG_OPEN, DIALOG_SAVE_AS, DIALOG_UNSAVED, DIALOG_RECOVER };
 
 enum { DIALOG_MAX_NAMES = 256, DIALOG_NAME_SIZE = 256, DIALOG_ERROR_SIZE = 400 };
 
@@ -64,16 +64,17 @@ struct dialog {
     enum dialog_kind kind;
     struct ui ui; ///< its text is the path
     struct dialog_files files;
-    struct request after; ///< what to do once the work is saved or discarded; REQUEST_NONE: nothing
-    bool waiting;         ///< a save or open was requested; its outcome is not known yet
-    bool skip_text;       ///< the key S or D has answered: the letter that comes with it is no part of a path
+    struct recovery_offer offer; ///< of DIALOG_RECOVER
+    struct request after;        ///< what to do once the work is saved or discarded; REQUEST_NONE: nothing
+    bool waiting;                ///< a save or open was requested; its outcome is not known yet
+    bool skip_text;              ///< a letter has answered: the character that comes with it is no part of a path
     char error[DIALOG_ERROR_SIZE];
     char listed[UI_TEXT_SIZE]; ///< folder whose names are in `names`
     char names[DIALOG_MAX_NAMES][DIALOG_NAME_SIZE];
     int name_count;              ///< -1: nothing is listed
     int match[DIALOG_MAX_NAMES]; ///< names that begin with what is typed after the folder
     int match_count;
-    int choice; ///< highlighted match (-1: none), or button of DIALOG_UNSAVED
+    int choice; ///< highlighted match (-1: none), or answer of a question
 };
 
 void dialog_ask_open(struct editor *editor);

@@ -79,6 +79,8 @@ const char *history_redo_label(const struct history *history);
 uint64_t history_revision(const struct history *history);
 /// Marks the present state as saved; history_is_saved() is true again whenever undo or redo comes back to it.
 void history_mark_saved(struct history *history);
+/// No state of the history is a saved one (the document was recovered).
+void history_mark_unsaved(struct history *history);
 bool history_is_saved(const struct history *history);
 
 /// Splines whose solution the edits since the last call may have changed, as flags; followers of tracks are not

@@ -247,6 +247,8 @@ void history_mark_saved(struct history *history)
     history->saved_state = history->open.count > 0 && history->is_open ? 0 : current_state(history);
 }
 
+void history_mark_unsaved(struct history *history) { history->saved_state = 0; }
+
 bool history_is_saved(const struct history *history)
 {
     bool changing = history->is_open && history->open.count > 0;

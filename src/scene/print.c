@@ -214,14 +214,23 @@ static void print_document(struct text *text, const struct document *document)
     text_string(text, "\n}\n");
 }
 
-char *scene_print(const struct document *document, size_t *size)
+bool scene_print_into(const struct document *document, char **buffer, size_t *capacity, size_t *size)
 {
-    struct text text = {0};
+    struct text text = {.data = *buffer, .capacity = *capacity};
     print_document(&text, document);
     *size = text.size;
     text_bytes(&text, "", 1);
-    if (!text.no_memory) return text.data;
-    free(text.data);
+    *buffer = text.data;
+    *capacity = text.capacity;
+    return !text.no_memory;
+}
+
+char *scene_print(const struct document *document, size_t *size)
+{
+    char *text = NULL;
+    size_t capacity = 0;
+    if (scene_print_into(document, &text, &capacity, size)) return text;
+    free(text);
     return NULL;
 }
 

@@ -1,0 +1,201 @@
+#include "app/personal.h"
+#include "app/autosave.h"
+#include "app/folders.h"
+#include "app/recent.h"
+#include "app/settings.h"
+#include "app/state.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static const char settings_name[] = "settings";
+
+struct personal {
+    char settings_path[RECOVERY_PATH + 16]; ///< "" where there is no folder for it
+    char state_folder[RECOVERY_PATH];
+    struct autosave *autosave;        ///< NULL: unsaved work is not kept
+    struct recovery_entry offered;    ///< what the dialog asks about
+    bool is_offered;                  ///< `offered` is claimed
+    double stage_share, panels_width; ///< as they were at the start
+};
+
+static void complain(struct app *app, const struct error *error)
+{
+    if (error->kind != ERROR_NONE) editor_message(app->editor, true, error->text);
+}
+
+/// Another window may have changed the file since: it is read anew for every change.
+static struct settings *load_settings(const struct personal *personal, struct error *error)
+{
+    return personal->settings_path[0] ? settings_load(personal->settings_path, error) : NULL;
+}
+
+static void store_settings(struct app *app, struct settings *settings)
+{
+    struct error error = {0};
+    if (settings && !settings_save(settings, app->personal->settings_path, &error)) complain(app, &error);
+    settings_free(settings);
+}
+
+static void start_settings(struct app *app)
+{
+    struct personal *personal = app->personal;
+    struct error error = {0};
+    char folder[RECOVERY_PATH];
+    if (folder_make(FOLDER_CONFIG, folder, sizeof folder, &error)) {
+        snprintf(personal->settings_path, sizeof personal->settings_path, "%s/%s", folder, settings_name);
+    }
+    struct settings *settings = load_settings(personal, &error);
+    editor_panels(app->editor, &personal->stage_share, &personal->panels_width);
+    if (settings) {
+        personal->stage_share = settings_number(settings, "stage_share", personal->stage_share);
+        personal->panels_width = settings_number(settings, "inspector_width", personal->panels_width);
+        editor_set_panels(app->editor, personal->stage_share, personal->panels_width);
+    }
+    settings_free(settings);
+    complain(app, &error);
+}
+
+static void end_settings(struct app *app)
+{
+    struct personal *personal = app->personal;
+    double share, width;
+    editor_panels(app->editor, &share, &width);
+    if (share == personal->stage_share && width == personal->panels_width) return;
+    struct error error = {0};
+    struct settings *settings = load_settings(personal, &error);
+    if (!settings) return;
+    settings_set_number(settings, "stage_share", share);
+    settings_set_number(settings, "inspector_width", width);
+    store_settings(app, settings);
+}
+
+void personal_note_file(struct app *app, const char *path)
+{
+    struct error error = {0};
+    if (!app->personal || !path[0]) return;
+    struct settings *settings = load_settings(app->personal, &error);
+    if (!settings) return;
+    recent_note(settings, path);
+    store_settings(app, settings);
+}
+
+int personal_recent(void *user, struct dialog_recent *files, int most)
+{
+    struct app *app = user;
+    struct error error = {0};
+    struct settings *settings = app->personal ? load_settings(app->personal, &error) : NULL;
+    int count = settings ? recent_list(settings, files, most) : 0;
+    settings_free(settings);
+    return count;
+}
+
+/// Asks about the newest file that was left behind; false where there is none.
+static bool offer(struct app *app)
+{
+    struct personal *personal = app->personal;
+    struct recovery_entry *entry = &personal->offered;
+    struct recovery_offer shown = {0};
+    int count;
+    personal->is_offered = recovery_find(personal->state_folder, entry, &count);
+    if (!personal->is_offered) return false;
+    const char *slash = strrchr(entry->original, '/');
+    snprintf(shown.name, sizeof shown.name, "%.255s",
+             !entry->original[0] ? "an untitled scene"
+             : slash             ? slash + 1
+                                 : entry->original);
+    struct tm local;
+    if (!localtime_r(&entry->time, &local) ||
+        strftime(shown.when, sizeof shown.when, "%d %B %Y, %H:%M:%S", &local) == 0) {
+        snprintf(shown.when, sizeof shown.when, "an unknown day");
+    }
+    shown.others = count - 1;
+    editor_offer_recovery(app->editor, &shown);
+    return true;
+}
+
+static void start_autosave(struct app *app)
+{
+    struct personal *personal = app->personal;
+    struct error error = {0};
+    struct recovery_slot slot;
+    if (!folder_make(FOLDER_STATE, personal->state_folder, sizeof personal->state_folder, &error) ||
+        !recovery_claim(personal->state_folder, &slot, &error) ||
+        !(personal->autosave = autosave_open(&slot, &error))) {
+        complain(app, &error);
+    }
+}
+
+void personal_start(struct app *app)
+{
+    const struct app_options *o = app->options;
+    if (!platform_is_window(app->platform) || o->replay) return;
+    app->personal = calloc(1, sizeof *app->personal);
+    if (!app->personal) return;
+    start_autosave(app);
+    if (o->record || o->frames) return; // a script's run, that must not depend on who runs it
+    start_settings(app);
+    personal_note_file(app, app->path);
+    if (app->personal->autosave) offer(app);
+}
+
+static struct autosave_work work_of(const struct app *app)
+{
+    return (struct autosave_work){.document = app->document,
+                                  .path = app->path,
+                                  .revision = history_revision(app->history),
+                                  .saved = history_is_saved(app->history)};
+}
+
+void personal_update(struct app *app)
+{
+    struct error error = {0};
+    if (!app->personal || !app->personal->autosave) return;
+    struct autosave_work work = work_of(app);
+    if (!autosave_update(app->personal->autosave, &work, clock_now(), &error)) complain(app, &error);
+}
+
+bool personal_recover(struct app *app, struct error *error)
+{
+    struct personal *personal = app->personal;
+    if (!personal || !personal->is_offered) return true;
+    struct document *document = recovery_read(&personal->offered.slot, error);
+    if (!document) return false;
+    app_adopt(app, document, personal->offered.original);
+    history_mark_unsaved(app->history);
+    autosave_move(personal->autosave, &personal->offered.slot);
+    personal->is_offered = false;
+    return true;
+}
+
+bool personal_forget(struct app *app, struct error *error)
+{
+    (void)error;
+    struct personal *personal = app->personal;
+    if (!personal || !personal->is_offered) return true;
+    recovery_remove(&personal->offered.slot);
+    recovery_release(&personal->offered.slot);
+    if (!offer(app)) editor_recovery_done(app->editor);
+    return true;
+}
+
+const char *personal_rescue(struct app *app)
+{
+    struct error error;
+    if (!app->personal || !app->personal->autosave) return NULL;
+    struct autosave_work work = work_of(app);
+    bool kept = autosave_flush(app->personal->autosave, &work, &error);
+    return kept ? autosave_path(app->personal->autosave) : NULL;
+}
+
+void personal_end(struct app *app, bool keep)
+{
+    struct personal *personal = app->personal;
+    if (!personal) return;
+    end_settings(app);
+    if (personal->is_offered) recovery_release(&personal->offered.slot);
+    autosave_close(personal->autosave, keep && !history_is_saved(app->history));
+    free(personal);
+    app->personal = NULL;
+}

@@ -1,0 +1,126 @@
+#include "app/recovery.h"
+#include "base/file.h"
+#include "scene/load.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char first_line[] = "wiggly-recovery 1";
+static const size_t LARGEST = (size_t)1 << 30;
+
+/// Takes slot `n`. The lock file stays for good: removing it would let two programs hold two locks of one name.
+static bool take(const char *folder, int n, struct recovery_slot *slot)
+{
+    char lock[RECOVERY_PATH + 16];
+    int length = snprintf(slot->path, sizeof slot->path, "%s/recovery-%d", folder, n);
+    if (length >= (int)sizeof slot->path) {
+        errno = ENAMETOOLONG;
+        return false;
+    }
+    snprintf(lock, sizeof lock, "%s.lock", slot->path);
+    slot->lock = open(lock, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (slot->lock < 0) return false;
+    if (flock(slot->lock, LOCK_EX | LOCK_NB) == 0) return true;
+    int cause = errno;
+    close(slot->lock);
+    errno = cause;
+    return false;
+}
+
+bool recovery_claim(const char *folder, struct recovery_slot *slot, struct error *error)
+{
+    for (int n = 1; n <= RECOVERY_SLOTS; n++) {
+        if (take(folder, n, slot)) {
+            if (access(slot->path, F_OK) != 0) return true;
+            recovery_release(slot);
+        } else if (errno != EWOULDBLOCK) {
+            return fail(error, ERROR_ENVIRONMENT, "%s: no recovery file can be kept there: %s", folder,
+                        strerror(errno));
+        }
+    }
+    return fail(error, ERROR_ENVIRONMENT, "%s: all %d recovery files are taken: recover or discard some", folder,
+                RECOVERY_SLOTS);
+}
+
+void recovery_release(struct recovery_slot *slot)
+{
+    if (slot->lock >= 0) close(slot->lock);
+    slot->lock = -1;
+}
+
+/// The path in a file's first line; "" where it has none.
+static void read_original(const char *path, char original[RECOVERY_PATH])
+{
+    char line[RECOVERY_PATH + sizeof first_line] = "";
+    const size_t prefix = sizeof first_line - 1;
+    FILE *file = fopen(path, "r");
+    original[0] = '\0';
+    if (!file) return;
+    bool good = fgets(line, sizeof line, file) && strncmp(line, first_line, prefix) == 0 && line[prefix] == ' ';
+    fclose(file);
+    if (!good) return;
+    line[strcspn(line, "\n")] = '\0';
+    memcpy(original, line + prefix + 1, strlen(line + prefix + 1) + 1);
+}
+
+bool recovery_find(const char *folder, struct recovery_entry *entry, int *count)
+{
+    struct timespec newest = {0};
+    int found = 0;
+    for (int n = 1; n <= RECOVERY_SLOTS; n++) {
+        struct recovery_slot slot;
+        struct stat about;
+        char path[RECOVERY_PATH];
+        snprintf(path, sizeof path, "%s/recovery-%d", folder, n);
+        if (stat(path, &about) != 0 || !take(folder, n, &slot)) continue;
+        bool newer = found++ == 0 || about.st_mtim.tv_sec > newest.tv_sec ||
+                     (about.st_mtim.tv_sec == newest.tv_sec && about.st_mtim.tv_nsec > newest.tv_nsec);
+        if (newer && found > 1) recovery_release(&entry->slot);
+        if (newer) {
+            newest = about.st_mtim;
+            entry->slot = slot;
+        } else {
+            recovery_release(&slot);
+        }
+    }
+    if (count) *count = found;
+    if (found == 0) return false;
+    entry->time = newest.tv_sec;
+    read_original(entry->slot.path, entry->original);
+    return true;
+}
+
+struct document *recovery_read(const struct recovery_slot *slot, struct error *error)
+{
+    char *data;
+    size_t size;
+    struct document *document = NULL;
+    if (!file_read(slot->path, LARGEST, &data, &size, error)) return NULL;
+    const char *line_end = memchr(data, '\n', size);
+    if (line_end && strncmp(data, first_line, sizeof first_line - 1) == 0) {
+        const char *text = line_end + 1;
+        document = scene_parse(slot->path, text, size - (size_t)(text - data), NULL, error);
+    } else {
+        fail(error, ERROR_INPUT, "%s:1: expected \"%s\", got something else", slot->path, first_line);
+    }
+    free(data);
+    return document;
+}
+
+bool recovery_write(const struct recovery_slot *slot, const char *original, const char *text, size_t size,
+                    struct error *error)
+{
+    struct file_output output;
+    bool one_line = !strchr(original, '\n'); // else it is recovered as untitled
+    if (!file_output_open(&output, slot->path, error)) return false;
+    fprintf(output.stream, "%s %s\n", first_line, one_line ? original : "");
+    fwrite(text, 1, size, output.stream);
+    return file_output_commit(&output, error);
+}
+
+void recovery_remove(const struct recovery_slot *slot) { unlink(slot->path); }

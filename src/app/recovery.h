@@ -1,0 +1,49 @@
+/// Recovery files: unsaved work that outlives the program, one slot a running program.
+///
+/// Slot n of a folder is the file recovery-n and its lock recovery-n.lock, which its program holds as long as it runs: the
+/// lock goes with the process, however that ends. A file whose lock is free was left behind and can be offered. It holds
+///
+///     wiggly-recovery 1 /home/me/walk.json      (the path of the document's own file; nothing for an untitled one)
+///     { "wiggly": 1, …                          (the document's canonical text)
+#ifndef APP_RECOVERY_H
+#define APP_RECOVERY_H
+
+#include "base/error.h"
+#include "scene/document.h"
+#include <stddef.h>
+#include <time.h>
+
+enum { RECOVERY_SLOTS = 64, RECOVERY_PATH = 1024 };
+
+struct recovery_slot {
+    int lock; ///< descriptor
+    char path[RECOVERY_PATH];
+};
+
+/// Takes a free slot without a file. false with a sentence where there is none or the folder cannot be written.
+bool recovery_claim(const char *folder, struct recovery_slot *slot, struct error *error);
+
+/// Gives the slot back; its file, where there is one, is what the next start finds.
+void recovery_release(struct recovery_slot *slot);
+
+/// A file that was left behind.
+struct recovery_entry {
+    struct recovery_slot slot;
+    time_t time;                  ///< when it was written
+    char original[RECOVERY_PATH]; ///< path of the document's own file, or ""
+};
+
+/// Claims the slot with the newest file left behind; the caller releases it. `count` (may be NULL) says how many there
+/// are. false where there is none.
+bool recovery_find(const char *folder, struct recovery_entry *entry, int *count);
+
+/// The document in a file. NULL with a sentence where it is not whole.
+struct document *recovery_read(const struct recovery_slot *slot, struct error *error);
+
+/// Writes a slot's file, atomically: `text` is the document's canonical text.
+bool recovery_write(const struct recovery_slot *slot, const char *original, const char *text, size_t size,
+                    struct error *error);
+
+void recovery_remove(const struct recovery_slot *slot);
+
+#endif

@@ -1,0 +1,167 @@
+#include "app/settings.h"
+#include "base/file.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MAX_LINES = 1000 };
+
+static const size_t LARGEST = 1 << 20;
+
+/// One line of the file: a key with a value, or (key NULL) a remark.
+struct line {
+    char *key, *value;
+};
+
+struct settings {
+    struct line lines[MAX_LINES];
+    int count;
+};
+
+static void drop(struct settings *settings, int at)
+{
+    free(settings->lines[at].key);
+    free(settings->lines[at].value);
+    settings->count--;
+    memmove(&settings->lines[at], &settings->lines[at + 1],
+            (size_t)(settings->count - at) * sizeof settings->lines[0]);
+}
+
+/// Puts a line in at `at`; what finds no room is left out.
+static void insert(struct settings *settings, int at, const char *key, const char *value)
+{
+    struct line line = {key ? strdup(key) : NULL, strdup(value)};
+    if (settings->count == MAX_LINES || !line.value || (key && !line.key)) {
+        free(line.key);
+        free(line.value);
+        return;
+    }
+    memmove(&settings->lines[at + 1], &settings->lines[at],
+            (size_t)(settings->count - at) * sizeof settings->lines[0]);
+    settings->lines[at] = line;
+    settings->count++;
+}
+
+static char *trim(char *text)
+{
+    text += strspn(text, " \t\r");
+    size_t length = strlen(text);
+    while (length > 0 && strchr(" \t\r", text[length - 1])) text[--length] = '\0';
+    return text;
+}
+
+static void read_line(struct settings *settings, const char *path, int number, char *text, struct error *error)
+{
+    char *equals = strchr(text, '=');
+    if (text[0] == '\0' || text[0] == '#') {
+        insert(settings, settings->count, NULL, text);
+    } else if (!equals || equals == text) {
+        if (error->kind == ERROR_NONE)
+            fail(error, ERROR_INPUT, "%s:%d: expected key = value, got \"%.40s\": the line is left out", path, number,
+                 text);
+    } else {
+        *equals = '\0';
+        insert(settings, settings->count, trim(text), trim(equals + 1));
+    }
+}
+
+struct settings *settings_load(const char *path, struct error *error)
+{
+    struct settings *settings = calloc(1, sizeof *settings);
+    char *data, *rest;
+    size_t size;
+    *error = (struct error){0};
+    if (!settings || access(path, F_OK) != 0 || !file_read(path, LARGEST, &data, &size, error)) return settings;
+    rest = data;
+    for (int number = 1; rest && *rest; number++) {
+        char *line = strsep(&rest, "\n");
+        read_line(settings, path, number, trim(line), error);
+    }
+    free(data);
+    return settings;
+}
+
+void settings_free(struct settings *settings)
+{
+    while (settings && settings->count > 0) drop(settings, settings->count - 1);
+    free(settings);
+}
+
+/// Index of the `n`th line with that key, or -1.
+static int find(const struct settings *settings, const char *key, int n)
+{
+    for (int i = 0; i < settings->count; i++) {
+        const char *other = settings->lines[i].key;
+        if (other && strcmp(other, key) == 0 && n-- == 0) return i;
+    }
+    return -1;
+}
+
+const char *settings_get(const struct settings *settings, const char *key, int n)
+{
+    int at = find(settings, key, n);
+    return at >= 0 ? settings->lines[at].value : NULL;
+}
+
+double settings_number(const struct settings *settings, const char *key, double fallback)
+{
+    const char *text = settings_get(settings, key, 0);
+    char *end = NULL;
+    double value = text ? strtod(text, &end) : NAN;
+    return text && end != text && *end == '\0' && isfinite(value) ? value : fallback;
+}
+
+void settings_remove(struct settings *settings, const char *key)
+{
+    for (int at = find(settings, key, 0); at >= 0; at = find(settings, key, 0)) drop(settings, at);
+}
+
+/// What trim() or a line break would change does not come back from the file.
+static bool is_storable(const char *value)
+{
+    size_t length = strlen(value);
+    return !strchr(value, '\n') &&
+           (length == 0 || (!strchr(" \t\r", value[0]) && !strchr(" \t\r", value[length - 1])));
+}
+
+void settings_set(struct settings *settings, const char *key, const char *value)
+{
+    int at = find(settings, key, 0);
+    settings_remove(settings, key);
+    if (is_storable(value)) insert(settings, at >= 0 ? at : settings->count, key, value);
+}
+
+void settings_set_number(struct settings *settings, const char *key, double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.6g", value);
+    settings_set(settings, key, text);
+}
+
+void settings_push(struct settings *settings, const char *key, const char *value, int most)
+{
+    if (!is_storable(value)) return;
+    int first = find(settings, key, 0);
+    for (int n = 0, at; (at = find(settings, key, n)) >= 0;) {
+        if (strcmp(settings->lines[at].value, value) == 0) {
+            drop(settings, at);
+        } else {
+            n++;
+        }
+    }
+    insert(settings, first >= 0 ? first : settings->count, key, value);
+    for (int at; (at = find(settings, key, most)) >= 0;) drop(settings, at);
+}
+
+bool settings_save(const struct settings *settings, const char *path, struct error *error)
+{
+    struct file_output output;
+    if (!file_output_open(&output, path, error)) return false;
+    for (int i = 0; i < settings->count; i++) {
+        const struct line *line = &settings->lines[i];
+        fprintf(output.stream, "%s%s%s\n", line->key ? line->key : "", line->key ? " = " : "", line->value);
+    }
+    return file_output_commit(&output, error);
+}

@@ -1,0 +1,279 @@
+/// Recovery files: what is in them when, who may have them, and that a program that is killed leaves them whole.
+#include "near.h"
+
+#include "app/autosave.h"
+#include "base/file.h"
+#include "scene/load.h"
+#include "world.h"
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+static char folder[64];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof folder, "/tmp/wiggly-test-XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+static void wait_a_moment(void) { nanosleep(&(struct timespec){.tv_nsec = 5000000}, NULL); }
+
+static bool has_file(const struct autosave *autosave) { return access(autosave_path(autosave), F_OK) == 0; }
+
+/// Waits for the thread: until the file is there, or gone.
+static void wait_for_file(const struct autosave *autosave, bool there)
+{
+    for (int i = 0; i < 1000 && has_file(autosave) != there; i++) wait_a_moment();
+    assert_int_equal(has_file(autosave), there);
+}
+
+static struct autosave_work work_of(const struct world *world)
+{
+    return (struct autosave_work){.document = world->document,
+                                  .path = "/home/me/walk.json",
+                                  .revision = history_revision(world->history),
+                                  .saved = history_is_saved(world->history)};
+}
+
+static void update(struct autosave *autosave, const struct world *world, double now)
+{
+    struct error error = {0};
+    struct autosave_work work = work_of(world);
+    if (!autosave_update(autosave, &work, now, &error)) fail_msg("%s", error.text);
+}
+
+static struct autosave *open_autosave(void)
+{
+    struct error error = {0};
+    struct recovery_slot slot;
+    if (!recovery_claim(folder, &slot, &error)) fail_msg("%s", error.text);
+    struct autosave *autosave = autosave_open(&slot, &error);
+    assert_non_null(autosave);
+    return autosave;
+}
+
+/// The document in the newest file that was left behind, as text.
+static char *recovered_text(struct recovery_entry *entry)
+{
+    struct error error = {0};
+    size_t size;
+    assert_true(recovery_find(folder, entry, NULL));
+    struct document *document = recovery_read(&entry->slot, &error);
+    if (!document) fail_msg("%s", error.text);
+    char *text = scene_print(document, &size);
+    document_destroy(document);
+    return text;
+}
+
+/// Nothing while nothing is unsaved; the first edit at once, later ones a second apart; gone with the save.
+static void test_when(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    struct autosave *autosave = open_autosave();
+    update(autosave, &world, 10);
+    wait_a_moment();
+    assert_false(has_file(autosave));
+    world_must(&world, edit_insert(SWAY, 5, 5));
+    update(autosave, &world, 10.1);
+    wait_for_file(autosave, true);
+    assert_int_equal(unlink(autosave_path(autosave)), 0); // so that the next write shows
+    world_must(&world, edit_insert(SWAY, 6, 5));
+    update(autosave, &world, 10.9); // less than a second after the one before
+    wait_a_moment();
+    assert_false(has_file(autosave));
+    update(autosave, &world, 11.2); // still within two seconds of the edit
+    wait_for_file(autosave, true);
+    assert_int_equal(unlink(autosave_path(autosave)), 0);
+    update(autosave, &world, 20); // nothing new to write
+    wait_a_moment();
+    assert_false(has_file(autosave));
+    world_must(&world, edit_insert(SWAY, 7, 5));
+    update(autosave, &world, 30);
+    wait_for_file(autosave, true);
+    history_mark_saved(world.history);
+    update(autosave, &world, 30.1);
+    wait_for_file(autosave, false);
+    autosave_close(autosave, false);
+    world_close(&world);
+}
+
+/// What is left behind is the document, byte for byte, with its path; it is offered once nobody runs on it any more.
+static void test_left_behind(void **state)
+{
+    (void)state;
+    struct world world;
+    struct error error = {0};
+    struct recovery_entry entry;
+    world_open(&world);
+    struct autosave *autosave = open_autosave();
+    world_must(&world, edit_insert(SWAY, 5, 5));
+    struct autosave_work work = work_of(&world);
+    assert_true(autosave_flush(autosave, &work, &error));
+    assert_false(recovery_find(folder, &entry, NULL)); // the running app's own
+    autosave_close(autosave, true);
+    char *text = recovered_text(&entry);
+    assert_document(&world, text);
+    assert_string_equal(entry.original, "/home/me/walk.json");
+    free(text);
+    struct autosave *other = open_autosave(); // claimed by the one that asks: others take a slot of their own
+    assert_string_not_equal(autosave_path(other), entry.slot.path);
+    autosave_move(other, &entry.slot); // recovered: the file stays until the work is saved
+    assert_true(has_file(other));
+    history_mark_saved(world.history);
+    update(other, &world, 1);
+    wait_for_file(other, false);
+    autosave_close(other, false);
+    assert_false(recovery_find(folder, &entry, NULL));
+    world_close(&world);
+}
+
+/// Several left behind: the newest comes first, and the number is told.
+static void test_newest_first(void **state)
+{
+    (void)state;
+    struct recovery_slot slots[3];
+    struct recovery_entry entry;
+    struct error error = {0};
+    static const char *const originals[] = {"/a", "/c", "/b"};
+    for (int i = 0; i < 3; i++) assert_true(recovery_claim(folder, &slots[i], &error));
+    static const int order[] = {0, 2, 1};
+    for (int i = 0; i < 3; i++) {
+        assert_true(recovery_write(&slots[order[i]], originals[order[i]], "{}", 2, &error));
+        nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL); // the clock of file times is a coarse one
+    }
+    for (int i = 0; i < 3; i++) recovery_release(&slots[i]);
+    static const char *const expected[] = {"/c", "/b", "/a"};
+    for (int i = 0, count; i < 3; i++) {
+        assert_true(recovery_find(folder, &entry, &count));
+        assert_int_equal(count, 3 - i);
+        assert_string_equal(entry.original, expected[i]);
+        recovery_remove(&entry.slot);
+        recovery_release(&entry.slot);
+    }
+}
+
+static void test_not_a_recovery_file(void **state)
+{
+    (void)state;
+    struct recovery_slot slot;
+    struct error error = {0};
+    static const char *const texts[] = {"", "{}", "wiggly-recovery 1 /a\n{\"wiggly\": 1", "wiggly-recovery 1"};
+    assert_true(recovery_claim(folder, &slot, &error));
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        assert_true(file_write_atomic(slot.path, texts[i], strlen(texts[i]), &error));
+        error = (struct error){0};
+        assert_null(recovery_read(&slot, &error));
+        assert_int_equal(error.kind, ERROR_INPUT);
+    }
+    recovery_remove(&slot);
+    recovery_release(&slot);
+}
+
+/// A folder that cannot be written any more is said once, and tried again.
+static void test_cannot_write(void **state)
+{
+    (void)state;
+    struct world world;
+    struct error error = {0};
+    world_open(&world);
+    struct autosave *autosave = open_autosave();
+    char moved[80];
+    snprintf(moved, sizeof moved, "%s.away", folder);
+    assert_int_equal(rename(folder, moved), 0);
+    world_must(&world, edit_insert(SWAY, 5, 5));
+    int complaints = 0;
+    for (int i = 0; i < 100; i++) {
+        struct autosave_work work = work_of(&world);
+        if (!autosave_update(autosave, &work, i, &error)) complaints++;
+        wait_a_moment();
+    }
+    assert_int_equal(complaints, 1);
+    assert_non_null(strstr(error.text, folder));
+    assert_int_equal(rename(moved, folder), 0);
+    update(autosave, &world, 1000);
+    wait_a_moment();
+    update(autosave, &world, 2000);
+    wait_for_file(autosave, true);
+    autosave_close(autosave, false);
+    world_close(&world);
+}
+
+enum { KILLS = 60 };
+
+/// Saves two documents in turn for ever. The larger one takes several writes.
+static void save_for_ever(const char *path, const struct document *small, const struct document *large)
+{
+    struct error error;
+    for (int i = 0;; i++) {
+        if (!scene_save(i % 2 ? large : small, path, &error)) _exit(1);
+    }
+}
+
+/// kill −9 at any moment of a save leaves the old document or the new one, whole.
+static void test_killed_while_saving(void **state)
+{
+    (void)state;
+    struct world small, large;
+    char path[80];
+    struct error error = {0};
+    world_open(&small);
+    world_open(&large);
+    world_must(&large, edit_range(0, 4000));
+    for (int f = 31; f < 4000; f++) world_must(&large, edit_insert(SWAY, f, sin(f)));
+    char *texts[] = {world_print(&small), world_print(&large)};
+    snprintf(path, sizeof path, "%s/mine.json", folder);
+    assert_true(scene_save(small.document, path, &error));
+    srand(7);
+    int seen[2] = {0, 0};
+    for (int i = 0; i < KILLS; i++) {
+        pid_t child = fork();
+        assert_true(child >= 0);
+        if (child == 0) save_for_ever(path, small.document, large.document);
+        nanosleep(&(struct timespec){.tv_nsec = 1000 * (1000 + rand() % 40000)}, NULL);
+        kill(child, SIGKILL);
+        int status;
+        waitpid(child, &status, 0);
+        assert_true(WIFSIGNALED(status));
+        char *data;
+        size_t size;
+        if (!file_read(path, 1 << 24, &data, &size, &error)) fail_msg("%s", error.text);
+        bool is_large = strcmp(data, texts[1]) == 0;
+        if (!is_large) assert_string_equal(data, texts[0]);
+        seen[is_large]++;
+        free(data);
+    }
+    assert_true(seen[0] > 0 && seen[1] > 0); // else no save was ever cut short
+    free(texts[0]);
+    free(texts[1]);
+    world_close(&small);
+    world_close(&large);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_when, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_left_behind, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_newest_first, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_not_a_recovery_file, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_cannot_write, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_killed_while_saving, make_folder, remove_folder),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

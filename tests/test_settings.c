@@ -1,0 +1,154 @@
+/// The settings file, and the list of recent files in it.
+#include "near.h"
+
+#include "app/recent.h"
+#include "base/file.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char folder[64], path[96];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof folder, "/tmp/wiggly-test-XXXXXX");
+    if (!mkdtemp(folder)) return -1;
+    snprintf(path, sizeof path, "%s/settings", folder);
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+static void write_text(const char *file, const char *text)
+{
+    struct error error;
+    if (!file_write_atomic(file, text, strlen(text), &error)) fail_msg("%s", error.text);
+}
+
+static struct settings *load(const char *text)
+{
+    struct error error;
+    write_text(path, text);
+    struct settings *settings = settings_load(path, &error);
+    assert_non_null(settings);
+    if (error.kind != ERROR_NONE) fail_msg("%s", error.text);
+    return settings;
+}
+
+static void assert_saved(const struct settings *settings, const char *expected)
+{
+    struct error error;
+    char *data;
+    size_t size;
+    assert_true(settings_save(settings, path, &error));
+    assert_true(file_read(path, 1 << 20, &data, &size, &error));
+    assert_string_equal(data, expected);
+    free(data);
+}
+
+/// What this program does not know, remarks included, is there again after a save.
+static void test_unknown_lines_stay(void **state)
+{
+    (void)state;
+    struct settings *settings = load("# mine\ntheme = dark\n\nfuture = 1 = 2\n");
+    assert_string_equal(settings_get(settings, "future", 0), "1 = 2");
+    assert_null(settings_get(settings, "future", 1));
+    settings_set(settings, "theme", "light");
+    settings_set_number(settings, "inspector_width", 300);
+    assert_saved(settings, "# mine\ntheme = light\n\nfuture = 1 = 2\ninspector_width = 300\n");
+    settings_free(settings);
+}
+
+static void test_numbers(void **state)
+{
+    (void)state;
+    struct settings *settings = load("a = 0.25\nb = wide\nc =\nd = inf\n");
+    assert_near(settings_number(settings, "a", 1), 0.25, 0);
+    assert_near(settings_number(settings, "b", 1), 1, 0);
+    assert_near(settings_number(settings, "c", 1), 1, 0);
+    assert_near(settings_number(settings, "d", 1), 1, 0);
+    assert_near(settings_number(settings, "e", 2), 2, 0);
+    settings_free(settings);
+}
+
+/// One sentence about the first broken line; the others count.
+static void test_broken(void **state)
+{
+    (void)state;
+    struct error error;
+    write_text(path, "theme dark\n= x\ninspector_width = 300\n");
+    struct settings *settings = settings_load(path, &error);
+    assert_non_null(settings);
+    assert_int_equal(error.kind, ERROR_INPUT);
+    assert_non_null(strstr(error.text, "settings:1: expected key = value, got \"theme dark\""));
+    assert_near(settings_number(settings, "inspector_width", 0), 300, 0);
+    settings_free(settings);
+    settings = settings_load(folder, &error); // a directory in its place
+    assert_non_null(settings);
+    assert_int_equal(error.kind, ERROR_INPUT);
+    settings_free(settings);
+    char missing[128];
+    snprintf(missing, sizeof missing, "%s.none", path);
+    settings = settings_load(missing, &error);
+    assert_non_null(settings);
+    assert_int_equal(error.kind, ERROR_NONE);
+    settings_free(settings);
+}
+
+/// Values that a line cannot hold are left out, never written so that they read back as others.
+static void test_unstorable(void **state)
+{
+    (void)state;
+    struct settings *settings = load("recent = /a\n");
+    settings_push(settings, "recent", "/b\nrecent = /c", 12);
+    settings_push(settings, "recent", " /d", 12);
+    settings_set(settings, "theme", "light\n");
+    assert_saved(settings, "recent = /a\n");
+    settings_free(settings);
+}
+
+static void test_recent(void **state)
+{
+    (void)state;
+    struct settings *settings = load("theme = dark\n");
+    struct dialog_recent files[DIALOG_MAX_RECENT + 4];
+    char file[96];
+    for (int i = 0; i < 15; i++) {
+        snprintf(file, sizeof file, "%s/%d.json", folder, i);
+        write_text(file, "{}");
+        recent_note(settings, file);
+    }
+    snprintf(file, sizeof file, "%s/9.json", folder);
+    recent_note(settings, file); // again: it moves to the top
+    snprintf(file, sizeof file, "%s/14.json", folder);
+    assert_int_equal(unlink(file), 0);
+    int count = recent_list(settings, files, DIALOG_MAX_RECENT + 4);
+    assert_int_equal(count, DIALOG_MAX_RECENT);
+    assert_non_null(strstr(files[0].path, "/9.json"));
+    assert_false(files[0].missing);
+    assert_non_null(strstr(files[1].path, "/14.json"));
+    assert_true(files[1].missing);
+    assert_non_null(strstr(files[11].path, "/3.json"));
+    for (int i = 1; i < count; i++) assert_null(strstr(files[i].path, "/9.json"));
+    settings_free(settings);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_unknown_lines_stay, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_numbers, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_broken, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_unstorable, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_recent, make_folder, remove_folder),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
