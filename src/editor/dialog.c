@@ -28,7 +28,10 @@ static void open_dialog(struct editor *editor, enum dialog_kind kind, const char
     ui_release(&dialog->ui);
     ui_text_set(&dialog->ui.text, path);
     dialog->ui.text.all = path[0] != '\0';
-    if (!is_question(dialog)) dialog_match(dialog);
+    if (is_question(dialog)) return;
+    bool lists = kind == DIALOG_OPEN && dialog->files.recent;
+    dialog->recent_count = lists ? dialog->files.recent(dialog->files.user, dialog->recent, DIALOG_MAX_RECENT) : 0;
+    dialog_match(dialog);
 }
 
 void dialog_open(struct editor *editor, enum dialog_kind kind) { open_dialog(editor, kind, ""); }
@@ -210,23 +213,31 @@ static bool path_key(struct editor *editor, int key)
     }
 }
 
+/// The second press of a double-click on a name, which the first one has put into the path.
+static bool is_confirmed(const struct dialog *dialog, struct rect list)
+{
+    const struct ui *ui = &dialog->ui;
+    const struct event *event = ui->event;
+    bool twice = ui->pass == UI_PASS_EVENT && event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
+                 event->button == BUTTON_LEFT && event->clicks == 2;
+    return twice && rect_contains(list, event->x, event->y) && ui->text.bytes[0] && !ends_with(ui->text.bytes, "/");
+}
+
 static void build_list(struct editor *editor)
 {
     struct dialog *dialog = &editor->dialog;
     struct ui *ui = &dialog->ui;
+    struct rect list = {ui->area.x, ui->y, ui->area.w, LIST_ROWS * UI_ROW};
+    bool confirmed = is_confirmed(dialog, list);
     int first = dialog->choice >= LIST_ROWS ? dialog->choice - LIST_ROWS + 1 : 0, taken = -1;
     for (int row = 0; row < LIST_ROWS; row++) {
         struct rect r = ui_row(ui, UI_ROW);
-        int m = first + row;
-        if (m >= dialog->match_count) continue;
-        char name[32];
-        snprintf(name, sizeof name, "dialog.match.%d", m);
-        const char *text = dialog->names[dialog->match[m]];
-        if (ui_list_row(ui, r, name, text, 0, m == dialog->choice)) taken = m;
+        if (first + row < dialog->match_count && dialog_row(dialog, r, first + row)) taken = first + row;
     }
-    if (taken < 0) return;
-    bool twice = ui->event->clicks == 2;
-    if (dialog_take(dialog, taken) && twice) confirm(editor);
+    if (taken >= 0) dialog->error[0] = '\0';
+    bool direct = taken >= 0 && dialog_recent_of(dialog, taken); // a recent file is opened by one click
+    bool done = taken >= 0 && !confirmed && dialog_take(dialog, taken);
+    if (confirmed || (done && direct)) confirm(editor);
 }
 
 static void build_path(struct editor *editor)
@@ -243,7 +254,10 @@ static void build_path(struct editor *editor)
     ui_space(ui, 8);
     if (dialog->files.list) build_list(editor);
     const char *note = saving && dialog_exists(dialog) ? "Replaces the file that is there." : "";
+    if (dialog->match_count > 0 && dialog_recent_of(dialog, 0))
+        note = "Recent files first.  Type or choose; Tab completes.";
     if (!note[0] && dialog->files.list) note = "Tab completes, arrows choose.";
+    ui_space(ui, 4);
     float top = ui->y;
     ui_paragraph(ui, dialog->error[0] ? dialog->error : note, dialog->error[0] ? THEME_ERROR : THEME_TEXT_DIM);
     ui_space(ui, fmaxf(8, 40 - (ui->y - top)));

@@ -8,8 +8,12 @@
 void dialog_match(struct dialog *dialog);
 /// Tab: adds what all matches have in common.
 void dialog_complete(struct dialog *dialog);
-/// Puts the chosen match into the path; true where it is a file (a folder is listed instead).
+/// Puts the chosen match into the path; true where it is a file (a folder is listed instead, of one that is gone it is said).
 bool dialog_take(struct dialog *dialog, int match);
+/// The recent file that a match is, or NULL.
+const struct dialog_recent *dialog_recent_of(const struct dialog *dialog, int match);
+/// Lays out one match of the list; true where it was pressed.
+bool dialog_row(struct dialog *dialog, struct rect r, int match);
 /// Whether the path is one of the names listed.
 bool dialog_exists(const struct dialog *dialog);
 

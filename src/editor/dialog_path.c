@@ -1,5 +1,7 @@
-/// Completion of the path in the file dialogs.
+/// Completion of the path in the file dialogs, and the list of what it may become.
 #include "editor/dialog.h"
+#include "ui/theme.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -29,6 +31,9 @@ void dialog_match(struct dialog *dialog)
     list_folder(dialog, folder);
     dialog->match_count = 0;
     dialog->choice = -1;
+    bool empty = dialog->kind == DIALOG_OPEN && !dialog->ui.text.bytes[0];
+    for (int i = 0; empty && i < dialog->recent_count; i++)
+        dialog->match[dialog->match_count++] = DIALOG_MAX_NAMES + i;
     size_t length = strlen(name);
     for (int i = 0; i < dialog->name_count; i++) {
         // While the whole name is selected, the next character replaces it: everything is still open.
@@ -48,7 +53,7 @@ static void set_name(struct dialog *dialog, const char *name, size_t length)
 
 void dialog_complete(struct dialog *dialog)
 {
-    if (dialog->match_count == 0) return;
+    if (dialog->match_count == 0 || dialog_recent_of(dialog, 0)) return;
     const char *first = dialog->names[dialog->match[0]];
     size_t common = strlen(first);
     for (int m = 1; m < dialog->match_count; m++) {
@@ -61,8 +66,27 @@ void dialog_complete(struct dialog *dialog)
     if (common > 0 || dialog->ui.text.all) set_name(dialog, first, common);
 }
 
+const struct dialog_recent *dialog_recent_of(const struct dialog *dialog, int match)
+{
+    int recent = dialog->match[match] - DIALOG_MAX_NAMES;
+    return recent >= 0 ? &dialog->recent[recent] : NULL;
+}
+
+static bool take_recent(struct dialog *dialog, const struct dialog_recent *recent)
+{
+    if (recent->missing) {
+        snprintf(dialog->error, sizeof dialog->error, "%.300s is not there any more.", recent->path);
+        return false;
+    }
+    ui_text_set(&dialog->ui.text, recent->path);
+    dialog_match(dialog);
+    return true;
+}
+
 bool dialog_take(struct dialog *dialog, int match)
 {
+    const struct dialog_recent *recent = dialog_recent_of(dialog, match);
+    if (recent) return take_recent(dialog, recent);
     const char *name = dialog->names[dialog->match[match]];
     size_t length = strlen(name);
     bool folder = length > 0 && name[length - 1] == '/';
@@ -74,7 +98,33 @@ bool dialog_exists(const struct dialog *dialog)
 {
     const char *name = name_part(dialog);
     for (int m = 0; m < dialog->match_count; m++) {
-        if (strcmp(dialog->names[dialog->match[m]], name) == 0) return true;
+        if (!dialog_recent_of(dialog, m) && strcmp(dialog->names[dialog->match[m]], name) == 0) return true;
     }
     return false;
+}
+
+/// A recent file: its name, and right of it the folder that it is in.
+static void label_recent(struct ui *ui, struct rect r, const struct dialog_recent *recent)
+{
+    char folder[DIALOG_PATH_SIZE];
+    const char *slash = strrchr(recent->path, '/');
+    int length = slash && slash > recent->path ? (int)(slash - recent->path) : 1;
+    snprintf(folder, sizeof folder, "%.*s", length, recent->path);
+    float half = floorf(r.w * 0.45f);
+    uint32_t faded = theme_fade(THEME_TEXT_DIM, 0.6f);
+    ui_label(ui, (struct rect){r.x + 6, r.y, half - 6, r.h}, slash ? slash + 1 : recent->path,
+             recent->missing ? faded : THEME_TEXT);
+    ui_label_right(ui, (struct rect){r.x + half + UI_GAP, r.y, r.w - half - UI_GAP - 6, r.h},
+                   recent->missing ? "not there any more" : folder, recent->missing ? faded : THEME_TEXT_DIM);
+}
+
+bool dialog_row(struct dialog *dialog, struct rect r, int match)
+{
+    char name[32];
+    const struct dialog_recent *recent = dialog_recent_of(dialog, match);
+    const char *text = recent ? "" : dialog->names[dialog->match[match]];
+    snprintf(name, sizeof name, "dialog.match.%d", match);
+    bool pressed = ui_list_row(&dialog->ui, r, name, text, 0, match == dialog->choice);
+    if (recent) label_recent(&dialog->ui, r, recent);
+    return pressed;
 }

@@ -71,8 +71,11 @@ struct dialog {
     char error[DIALOG_ERROR_SIZE];
     char listed[UI_TEXT_SIZE]; ///< folder whose names are in `names`
     char names[DIALOG_MAX_NAMES][DIALOG_NAME_SIZE];
-    int name_count;              ///< -1: nothing is listed
-    int match[DIALOG_MAX_NAMES]; ///< names that begin with what is typed after the folder
+    int name_count; ///< -1: nothing is listed
+    struct dialog_recent recent[DIALOG_MAX_RECENT];
+    int recent_count;
+    /// Names that begin with what is typed after the folder; before them, as DIALOG_MAX_NAMES + n, recent files.
+    int match[DIALOG_MAX_NAMES + DIALOG_MAX_RECENT];
     int match_count;
     int choice; ///< highlighted match (-1: none), or answer of a question
 };
