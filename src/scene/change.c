@@ -1,5 +1,7 @@
 #include "scene/change.h"
+#include "scene/reference.h"
 #include <assert.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -63,6 +65,113 @@ static void swap_settings(struct spline *spline, struct settings *settings)
     *settings = old;
 }
 
+struct timing timing_of(const struct document *document)
+{
+    return (struct timing){document->fps, document->substeps, document->first_frame, document->last_frame, NULL};
+}
+
+static void swap_frames(struct document *document, double *frames)
+{
+    for (int s = 0; s < document->spline_count; s++) {
+        struct spline *spline = &document->splines[s];
+        for (int k = 0; k < spline->knot_count; k++) {
+            double frame = spline->knots[k].frame;
+            spline->knots[k].frame = *frames;
+            *frames++ = frame;
+        }
+    }
+}
+
+static void swap_timing(struct document *document, struct timing *timing)
+{
+    struct timing old = timing_of(document);
+    old.frames = timing->frames;
+    document->fps = timing->fps;
+    document->substeps = timing->substeps;
+    document->first_frame = timing->first;
+    document->last_frame = timing->last;
+    if (timing->frames) swap_frames(document, timing->frames);
+    *timing = old;
+}
+
+/// Where the spline at `index` is after the one at `from` has gone to `to`.
+static int moved_index(int index, int from, int to)
+{
+    if (index == from) return to;
+    if (from < index && index <= to) return index - 1;
+    return to <= index && index < from ? index + 1 : index;
+}
+
+struct moving {
+    int from, to;
+};
+
+static void move_reference(const struct reference *reference, void *context)
+{
+    const struct moving *moving = context;
+    *reference->spline = moved_index(*reference->spline, moving->from, moving->to);
+}
+
+/// Gives every reference its spline's new index. INT_MAX as `from` or `to` is a place beyond the list.
+static void move_references(struct document *document, int from, int to)
+{
+    struct moving moving = {from, to};
+    reference_each(document, move_reference, &moving);
+}
+
+/// Tracks of the spline itself are those of the document without it; nothing refers to it.
+static void swap_spline(struct change *change, struct document *document)
+{
+    int at = change->spline;
+    struct spline *place = &document->splines[at];
+    if (change->kind == CHANGE_SPLINE_IN) {
+        size_t after = (size_t)(document->spline_count - at - 1);
+        move_references(document, at, INT_MAX);
+        *change->held = *place;
+        memmove(place, place + 1, after * sizeof *place);
+        document->spline_count--;
+        change->kind = CHANGE_SPLINE_OUT;
+    } else {
+        assert(document->spline_count < document->spline_capacity);
+        size_t after = (size_t)(document->spline_count - at);
+        memmove(place + 1, place, after * sizeof *place);
+        *place = *change->held;
+        document->spline_count++;
+        move_references(document, INT_MAX, at);
+        change->kind = CHANGE_SPLINE_IN;
+    }
+}
+
+static void swap_place(struct change *change, struct document *document)
+{
+    int from = change->spline, to = change->to;
+    struct spline *low = &document->splines[from < to ? from : to];
+    size_t between = (size_t)(from < to ? to - from : from - to);
+    move_references(document, from, to);
+    struct spline moved = document->splines[from];
+    memmove(from < to ? low : low + 1, from < to ? low + 1 : low, between * sizeof *low);
+    document->splines[to] = moved;
+    change->spline = to;
+    change->to = from;
+}
+
+void change_release(struct change *change)
+{
+    if (change->kind == CHANGE_SPLINE_OUT) {
+        free(change->held->name);
+        free(change->held->knots);
+    }
+    if (change->kind == CHANGE_SPLINE_OUT || change->kind == CHANGE_SPLINE_IN) free(change->held);
+    if (change->kind == CHANGE_NAME) free(change->name);
+    if (change->kind == CHANGE_TIMING) free(change->timing.frames);
+}
+
+bool change_concerns_all(const struct change *change)
+{
+    return change->kind == CHANGE_TIMING || change->kind == CHANGE_SPLINE_IN || change->kind == CHANGE_SPLINE_OUT ||
+           change->kind == CHANGE_SPLINE_MOVE;
+}
+
 #define SWAP(type, a, b)                                                                                             \
     do {                                                                                                             \
         type swapped = (a);                                                                                          \
@@ -105,9 +214,21 @@ void change_swap(struct change *change, struct document *document)
     case CHANGE_SETTINGS:
         swap_settings(spline, &change->settings);
         break;
-    case CHANGE_RANGE:
-        SWAP(int, document->first_frame, change->range.first);
-        SWAP(int, document->last_frame, change->range.last);
+    case CHANGE_NAME:
+        SWAP(char *, spline->name, change->name);
+        break;
+    case CHANGE_COLOR:
+        SWAP(int, spline->color, change->color);
+        break;
+    case CHANGE_SPLINE_IN:
+    case CHANGE_SPLINE_OUT:
+        swap_spline(change, document);
+        break;
+    case CHANGE_SPLINE_MOVE:
+        swap_place(change, document);
+        break;
+    case CHANGE_TIMING:
+        swap_timing(document, &change->timing);
         break;
     case CHANGE_CHANNEL:
         swap_channel(change, document);

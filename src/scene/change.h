@@ -12,11 +12,16 @@ enum change_kind {
     CHANGE_KNOT_OUT, ///< and the other way round
     CHANGE_KNOT,     ///< a knot's numbers
     CHANGE_SETTINGS, ///< a spline's mode, start and parameters
-    CHANGE_RANGE,    ///< the scene's frames
-    CHANGE_CHANNEL,  ///< a channel's spline, axis and part
-    CHANGE_PLACE,    ///< a tail's length and position
-    CHANGE_EACH,     ///< whether angles are one for all joints or one for each
-    CHANGE_ANGLE,    ///< one of them
+    CHANGE_NAME,     ///< a spline's name
+    CHANGE_COLOR,    ///< a spline's colour
+    CHANGE_SPLINE_IN, ///< the spline is in the document, at `spline`; tracks and channels go by where it comes and goes
+    CHANGE_SPLINE_OUT,  ///< and the other way round
+    CHANGE_SPLINE_MOVE, ///< the spline at `spline` goes to another place in the list
+    CHANGE_TIMING,      ///< the scene's fps, substeps and frames, with them the frames of all knots
+    CHANGE_CHANNEL,     ///< a channel's spline, axis and part
+    CHANGE_PLACE,       ///< a tail's length and position
+    CHANGE_EACH,        ///< whether angles are one for all joints or one for each
+    CHANGE_ANGLE,       ///< one of them
 };
 
 /// What EDIT_PARAMETER, EDIT_MODE, EDIT_START and EDIT_SPRING change.
@@ -33,15 +38,24 @@ struct angles_place {
     enum angle_kind kind;
 };
 
+/// What EDIT_FPS, EDIT_SUBSTEPS and EDIT_RANGE change.
+struct timing {
+    double fps;
+    int substeps, first, last;
+    double *frames; ///< of all knots, in the order of splines and knots; owned. NULL: they stay
+};
+
 struct change {
     enum change_kind kind;
     int spline; ///< -1 where no spline's solution is concerned
     union {
         struct knot knot;
         struct settings settings;
-        struct {
-            int first, last;
-        } range;
+        char *name;          ///< owned
+        int color;           ///< 0xRRGGBB, or -1
+        struct spline *held; ///< owned; what it holds only while the spline is out of the document
+        int to;              ///< index in the list
+        struct timing timing;
         struct {
             int tail, channel;
             int spline;
@@ -78,8 +92,17 @@ struct angles *angles_at(struct document *document, struct angles_place at);
 
 struct settings settings_of(const struct spline *spline);
 
-/// Swaps the change's state with the document's. A knot's spline must have room for it.
+struct timing timing_of(const struct document *document);
+
+/// Swaps the change's state with the document's. A knot's spline must have room for it, and so must the document for
+/// a spline.
 void change_swap(struct change *change, struct document *document);
+
+/// Frees what a change holds, when it is forgotten.
+void change_release(struct change *change);
+
+/// Whether the change may alter every spline's solution, or the number or order of them.
+bool change_concerns_all(const struct change *change);
 
 /// Checks an edit and adds the changes that make it up, not yet swapped, none where nothing would change.
 /// false with a sentence where the edit is not possible.

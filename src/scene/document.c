@@ -45,6 +45,7 @@ void spline_reset(struct spline *spline)
     spline->mode = WIGGLY_COMPLEX;
     spline->start = WIGGLY_FREE;
     spline->spring_friction = false;
+    spline->color = -1;
     for (int i = 0; i < PARAMETER_COUNT; i++) {
         spline->parameter[i] = (struct param){parameter_table[i].standard, -1};
     }
@@ -57,7 +58,7 @@ struct document *document_create(void)
     document->fps = 24;
     document->substeps = 1;
     document->last_frame = 120;
-    document->next_id = 1;
+    document->next_id = document->next_spline_id = 1;
     return document;
 }
 
@@ -107,6 +108,14 @@ int document_find_spline(const struct document *document, const char *name)
 {
     for (int i = 0; i < document->spline_count; i++) {
         if (strcmp(document->splines[i].name, name) == 0) return i;
+    }
+    return -1;
+}
+
+int document_find_spline_id(const struct document *document, unsigned id)
+{
+    for (int i = 0; i < document->spline_count; i++) {
+        if (document->splines[i].id == id) return i;
     }
     return -1;
 }

@@ -56,6 +56,8 @@ struct spline {
     struct param parameter[PARAMETER_COUNT];
     struct knot *knots; ///< by sample
     int knot_count, knot_capacity;
+    int color;   ///< 0xRRGGBB, or -1: the theme's colours in turn
+    unsigned id; ///< unique among the splines, kept through edits and undo; not saved
     const void *extra;
 };
 
@@ -96,10 +98,11 @@ struct document {
     int substeps;
     int first_frame, last_frame;
     struct spline *splines;
-    int spline_count;
+    int spline_count, spline_capacity;
     struct tail *tails;
     int tail_count;
-    unsigned next_id;
+    unsigned next_id;        ///< of a knot
+    unsigned next_spline_id; ///< of a spline
     const void *extra;
     void *owned; ///< what `extra` pointers point into; freed with the document
 };
@@ -127,6 +130,9 @@ int document_last_knot_sample(const struct document *document, const struct spli
 /// Index of the spline with that name, or -1.
 int document_find_spline(const struct document *document, const char *name);
 
+/// Index of the spline with that id, or -1.
+int document_find_spline_id(const struct document *document, unsigned id);
+
 /// Index of the knot on that sample, or -1 (binary search).
 int spline_find_knot(const struct document *document, const struct spline *spline, int sample);
 
@@ -144,7 +150,8 @@ double parameter_maximum(enum parameter parameter, enum wiggly_mode mode);
 /// "x", "y" or "z".
 const char *coordinate_name(int index);
 
-/// Gives a spline the file format's defaults (complex, free, calm 1, bandwidth 0.1); name and knots are left alone.
+/// Gives a spline the file format's defaults (complex, free, calm 1, bandwidth 0.1, no colour of its own); name, knots
+/// and id are left alone.
 void spline_reset(struct spline *spline);
 
 /// The default of a parameter.

@@ -2,7 +2,11 @@
 
 bool plan_add(struct change_list *list, const struct change *change, struct error *error)
 {
-    if (!change_list_reserve(list, 1)) return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit");
+    if (!change_list_reserve(list, 1)) {
+        struct change lost = *change;
+        change_release(&lost);
+        return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit");
+    }
     list->items[list->count++] = *change;
     return true;
 }
@@ -21,6 +25,14 @@ static const struct {
     [EDIT_MODE] = {plan_mode, TARGET_SPLINE},
     [EDIT_START] = {plan_start, TARGET_SPLINE},
     [EDIT_SPRING] = {plan_spring, TARGET_SPLINE},
+    [EDIT_SPLINE_ADD] = {plan_spline_add, TARGET_SCENE},
+    [EDIT_SPLINE_COPY] = {plan_spline_copy, TARGET_SPLINE},
+    [EDIT_SPLINE_REMOVE] = {plan_spline_remove, TARGET_SPLINE},
+    [EDIT_SPLINE_MOVE] = {plan_spline_move, TARGET_SPLINE},
+    [EDIT_SPLINE_NAME] = {plan_spline_name, TARGET_SPLINE},
+    [EDIT_SPLINE_COLOR] = {plan_spline_color, TARGET_SPLINE},
+    [EDIT_FPS] = {plan_fps, TARGET_SCENE},
+    [EDIT_SUBSTEPS] = {plan_substeps, TARGET_SCENE},
     [EDIT_RANGE] = {plan_range, TARGET_SCENE},
     [EDIT_ANGLES] = {plan_angles, TARGET_TAIL},
     [EDIT_AXIS] = {plan_axis, TARGET_TAIL},

@@ -16,13 +16,28 @@ enum edit_kind {
     EDIT_MODE,        ///< spline, mode: converts ω = √k, ζ = γ/2√k and clamps, so that what is saved loads
     EDIT_START,       ///< spline, start
     EDIT_SPRING,      ///< spline, flag: whether spring and friction are in use (real mode only)
-    EDIT_RANGE,       ///< first, last: the scene's frames; refused where a knot would lie outside
-    EDIT_ANGLES,      ///< tail, channel (-1: rest), angle: which, angles
-    EDIT_AXIS,        ///< tail, channel, axis
-    EDIT_PART,        ///< tail, channel, of
-    EDIT_FEED,        ///< tail, channel, spline: the spline that the channel bends by
-    EDIT_POSITION,    ///< tail, coordinate, param: metres, or a spline to follow
-    EDIT_LENGTH,      ///< tail, number: metres, above 0
+    EDIT_SPLINE_ADD,  ///< spline: its place in the list, text (NULL: a free name), knot where `flag`: its first. f 1,
+                      ///< ζ 0.1, β 0.1
+    EDIT_SPLINE_COPY, ///< spline: a copy behind it, under a free name, with knots of its own ids
+    EDIT_SPLINE_REMOVE, ///< spline; refused where something follows it
+    EDIT_SPLINE_MOVE,   ///< spline, to: its new place in the list
+    EDIT_SPLINE_NAME,   ///< spline, text: not empty, and no other's name
+    EDIT_SPLINE_COLOR,  ///< spline, color: 0xRRGGBB, or -1
+    EDIT_FPS, ///< number; flag: knots and range keep their seconds, not their frames. Slopes are per second anyway
+    EDIT_SUBSTEPS, ///< substeps
+    EDIT_RANGE,    ///< first, last: the scene's frames; fit: what becomes of knots that would lie outside
+    EDIT_ANGLES,   ///< tail, channel (-1: rest), angle: which, angles
+    EDIT_AXIS,     ///< tail, channel, axis
+    EDIT_PART,     ///< tail, channel, of
+    EDIT_FEED,     ///< tail, channel, spline: the spline that the channel bends by
+    EDIT_POSITION, ///< tail, coordinate, param: metres, or a spline to follow
+    EDIT_LENGTH,   ///< tail, number: metres, above 0
+};
+
+enum range_fit {
+    RANGE_REFUSE,
+    RANGE_MOVE, ///< to the nearest free samples inside, in their order
+    RANGE_TRIM, ///< they go
 };
 
 enum angle_kind { ANGLE_REST, ANGLE_LAG, ANGLE_GAIN };
@@ -36,7 +51,10 @@ struct edit {
     enum wiggly_mode mode;
     enum wiggly_start start;
     bool flag;
-    int first, last;
+    const char *text; ///< read during the call only
+    int to, color;
+    int substeps, first, last;
+    enum range_fit fit;
     int tail, channel;
     enum angle_kind angle;
     enum axis axis;

@@ -10,10 +10,11 @@ typedef bool planner(struct document *document, const struct edit *edit, struct 
 
 planner plan_knot_insert, plan_knot_remove, plan_knot_set;
 planner plan_parameter, plan_mode, plan_start, plan_spring;
-planner plan_range;
+planner plan_spline_add, plan_spline_copy, plan_spline_remove, plan_spline_move, plan_spline_name, plan_spline_color;
+planner plan_fps, plan_substeps, plan_range;
 planner plan_angles, plan_axis, plan_part, plan_feed, plan_position, plan_length;
 
-/// Adds one change to a plan.
+/// Adds one change to a plan. What the change owns is the plan's from here on, and is freed on failure.
 bool plan_add(struct change_list *list, const struct change *change, struct error *error);
 
 #endif

@@ -26,12 +26,17 @@ struct history {
     bool is_open, can_merge;
     const char *label;
     uint64_t merge;
-    unsigned next_id; ///< the document's, before the open step's first change
+    unsigned next_id, next_spline_id; ///< the document's, before the open step's first change
 
     bool *dirty;
     size_t dirty_capacity;
     bool all_dirty;
 };
+
+static void release_from(struct change_list *list, size_t count)
+{
+    while (list->count > count) change_release(&list->items[--list->count]);
+}
 
 struct history *history_create(void)
 {
@@ -53,6 +58,8 @@ struct history *history_create(void)
 void history_destroy(struct history *history)
 {
     if (!history) return;
+    release_from(&history->changes, 0);
+    release_from(&history->open, 0);
     free(history->changes.items);
     free(history->open.items);
     free(history->steps);
@@ -62,7 +69,7 @@ void history_destroy(struct history *history)
 
 static void forget_steps(struct history *history)
 {
-    history->changes.count = 0;
+    release_from(&history->changes, 0);
     history->step_count = history->done = 0;
     history->first_state = ++history->last_state;
     history->can_merge = false;
@@ -71,7 +78,7 @@ static void forget_steps(struct history *history)
 void history_clear(struct history *history)
 {
     forget_steps(history);
-    history->open.count = 0;
+    release_from(&history->open, 0);
     history->is_open = false;
     history->saved_state = history->first_state;
     history->revision++;
@@ -94,7 +101,7 @@ void history_begin(struct history *history, const char *label, uint64_t merge)
 
 static void mark_dirty(struct history *history, const struct change *change)
 {
-    if (change->kind == CHANGE_RANGE) history->all_dirty = true;
+    if (change_concerns_all(change)) history->all_dirty = true;
     if (change->spline < 0) return;
     size_t spline = (size_t)change->spline, capacity = history->dirty_capacity;
     while (capacity <= spline) capacity *= 2;
@@ -121,8 +128,14 @@ bool history_apply(struct history *history, struct document *document, const str
 {
     assert(history->is_open);
     size_t from = history->open.count;
-    if (from == 0) history->next_id = document->next_id;
-    if (!edit_plan(document, edit, &history->open, error)) return false;
+    if (from == 0) {
+        history->next_id = document->next_id;
+        history->next_spline_id = document->next_spline_id;
+    }
+    if (!edit_plan(document, edit, &history->open, error)) {
+        release_from(&history->open, from);
+        return false;
+    }
     for (size_t i = from; i < history->open.count; i++) swap_change(history, &history->open.items[i], document);
     history->revision++;
     return true;
@@ -133,8 +146,10 @@ void history_restart(struct history *history, struct document *document)
     struct change_list *open = &history->open;
     assert(history->is_open);
     if (open->count == 0) return;
-    while (open->count > 0) swap_change(history, &open->items[--open->count], document);
-    document->next_id = history->next_id; // the ids of knots inserted again are then the same again
+    for (size_t i = open->count; i > 0; i--) swap_change(history, &open->items[i - 1], document);
+    release_from(open, 0);
+    document->next_id = history->next_id; // the ids of what is inserted again are then the same again
+    document->next_spline_id = history->next_spline_id;
     history->revision++;
 }
 
@@ -159,6 +174,7 @@ static void drop_oldest(struct history *history)
     history->first_state = history->steps[drop - 1].state;
     history->step_count -= drop;
     history->done -= drop;
+    for (size_t i = 0; i < changes; i++) change_release(&history->changes.items[i]);
     history->changes.count -= changes;
     memmove(history->steps, history->steps + drop, history->step_count * sizeof *history->steps);
     memmove(history->changes.items, history->changes.items + changes,
@@ -169,7 +185,7 @@ static void drop_oldest(struct history *history)
 static void forget_undone(struct history *history)
 {
     history->step_count = history->done;
-    history->changes.count = history->done > 0 ? history->steps[history->done - 1].end : 0;
+    release_from(&history->changes, history->done > 0 ? history->steps[history->done - 1].end : 0);
 }
 
 /// A saved state stays a step of its own, so that undo can come back to it.
@@ -191,7 +207,7 @@ void history_end(struct history *history)
     bool joins = wants_to_join && history->done > 0;
     if (!change_list_reserve(all, open->count) || !reserve_step(history)) {
         forget_steps(history); // the work matters more than the way back
-        open->count = 0;
+        release_from(open, 0);
         return;
     }
     memcpy(all->items + all->count, open->items, open->count * sizeof *open->items);

@@ -1,10 +1,12 @@
+#include "scene/color.h"
 #include "scene/reader.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const spline_keys[] = {"name",     "mode", "frequency",   "damping", "bandwidth", "spring",
-                                          "friction", "calm", "equilibrium", "start",   "knots",     NULL};
+static const char *const spline_keys[] = {"name",   "mode",     "frequency", "damping",     "bandwidth",
+                                          "spring", "friction", "calm",      "equilibrium", "start",
+                                          "knots",  "color",    NULL};
 static const char *const knot_keys[] = {"frame", "value", "slope", "stiffness", NULL};
 static const char *const modes[] = {"complex", "real", "cubic", NULL};
 static const char *const starts[] = {"free", "rest", "loop", NULL};
@@ -166,6 +168,19 @@ static void load_start(struct reader *reader, const struct part *part)
     }
 }
 
+static void load_color(struct reader *reader, const struct part *part)
+{
+    struct where at;
+    const json_t *value = reader_member(part->at, part->object, "color", &at);
+    const char *text = json_string_value(value);
+    if (!value || (text && color_parse(text, &part->spline->color))) return;
+    if (text) {
+        reader_fail(reader, &at, "expected a colour such as \"#FFB000\", got \"%s\"", text);
+    } else {
+        reader_unexpected(reader, &at, "a colour such as \"#FFB000\"", value);
+    }
+}
+
 static void load_spline(struct reader *reader, const struct where *at, json_t *object, struct spline *spline)
 {
     struct part part = {at, object, spline};
@@ -179,6 +194,7 @@ static void load_spline(struct reader *reader, const struct where *at, json_t *o
     json_t *extra = reader_extra(reader, at, object, spline_keys);
     for (int i = 0; i < PARAMETER_COUNT; i++) load_parameter(reader, &part, (enum parameter)i, &extra);
     spline->extra = reader_keep(reader, extra);
+    load_color(reader, &part);
     load_start(reader, &part);
     load_knots(reader, &part);
 }
@@ -225,11 +241,12 @@ void load_splines(struct reader *reader, const struct where *scene_at, const jso
         reader_no_memory(reader);
         return;
     }
-    document->spline_count = count;
+    document->spline_count = document->spline_capacity = count;
     for (int i = 0; i < count; i++) {
         struct where at = {.parent = &splines_at, .index = (size_t)i};
         const json_t *name = reader_member(&at, json_array_get(splines, (size_t)i), "name", &name_at);
         spline_reset(&document->splines[i]);
+        document->splines[i].id = document->next_spline_id++;
         document->splines[i].name = reader_name(reader, &name_at, name);
     }
     index_names(reader, &splines_at);

@@ -123,11 +123,11 @@ static void load_tail(struct reader *reader, const struct where *at, json_t *obj
     const json_t *position = reader_member(at, object, "position", &position_at);
     const json_t *rest = reader_member(at, object, "rest", &rest_at);
     struct range positive = {0, INFINITY, true};
-    json_t *unknown = reader_extra(reader, at, object, tail_keys);
     tail->joints = TAIL_DEFAULT_JOINTS;
     tail->length = TAIL_DEFAULT_LENGTH;
     for (int i = 0; i < 3; i++) tail->position[i].track = -1;
     if (reader_word(reader, &type_at, type, types, "\"tail\"", -1) < 0) return;
+    json_t *unknown = reader_extra(reader, at, object, tail_keys);
     tail->name = reader_name(reader, &name_at, name);
     reader_number(reader, &length_at, length, false, positive, &tail->length);
     load_position(reader, &position_at, position, tail->position, &unknown);

@@ -1,4 +1,5 @@
 #include "base/file.h"
+#include "scene/color.h"
 #include "scene/load.h"
 #include "scene/order.h"
 #include "scene/text.h"
@@ -128,6 +129,11 @@ static void print_spline(struct text *text, const struct document *document, con
 {
     struct members members = {text, "    {\n      ", ",\n      ", false};
     member_string(&members, "name", spline->name);
+    if (spline->color >= 0) {
+        char color[COLOR_TEXT_SIZE];
+        color_print(spline->color, color);
+        member_string(&members, "color", color);
+    }
     member_string(&members, "mode", mode_names[spline->mode]);
     for (int i = 0; i < PARAMETER_COUNT; i++) {
         const char *name = parameter_name((enum parameter)i);
