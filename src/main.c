@@ -16,6 +16,8 @@ static const struct command {
     {"live", command_live, "[scene.json]", "the live app; without a scene, the swinging tail"},
     {"solve", command_solve, "scene.json [-o out.csv]", "every spline, every sample, as CSV"},
     {"check", command_check, "scene.json", "prints every problem of a scene file"},
+    {"simulate", command_simulate, "mesh.obj -o sim.npy",
+     "shakes a closed mesh as a soft body; its vertices in every frame"},
     {"bench", command_bench, "[--json FILE]", "the solver against LAPACKE"},
 };
 

@@ -8,6 +8,7 @@ BEGIN {
     sees["base"]     = "base"
     sees["spline"]   = "spline"
     sees["model"]    = "model base"
+    sees["simulation"] = "simulation model base"
     sees["scene"]    = "scene spline base"
     sees["rig"]      = "rig scene model spline base"
     sees["ui"]       = "ui rig scene model spline base"
@@ -16,7 +17,7 @@ BEGIN {
     sees["platform"] = "platform ui rig scene model spline base"
     sees["timing"]   = "timing ui rig scene model spline base"
     sees["app"]      = "app editor draw platform timing ui rig scene model spline base"
-    sees["commands"] = "commands " sees["app"]
+    sees["commands"] = "commands simulation " sees["app"]
     sees["main"]     = "commands base"
     sees["include"]  = ""
 }

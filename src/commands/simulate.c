@@ -1,0 +1,272 @@
+/// `wiggly simulate`: a closed mesh as a soft body that is shaken, or its normal modes.
+#include "base/file.h"
+#include "commands/commands.h"
+#include "commands/options.h"
+#include "model/motion.h"
+#include "simulation/soft.h"
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <time.h>
+#include <unistd.h>
+
+struct job {
+    const char *mesh, *output;
+    char rest[4096]; ///< the rest mesh beside the output
+    const char *shake_text;
+    struct shake shake;
+    struct soft_options soft;
+    double seconds, fps;
+    int substeps;
+    bool modal, verbose;
+};
+
+static volatile sig_atomic_t interrupted;
+
+static void interrupt(int signal_number)
+{
+    (void)signal_number;
+    interrupted = 1;
+}
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/// Says how far it is and how long it will still take: on a terminal in one line, else ten times.
+static void report_progress(const struct job *job, int done, int frames, double started)
+{
+    bool terminal = isatty(STDERR_FILENO);
+    if (!terminal && !(job->verbose && done * 10 / frames != (done - 1) * 10 / frames)) return;
+    double left = (now() - started) * (frames - done) / done;
+    fprintf(stderr, "%sframe %d of %d, %.0f s left%s", terminal ? "\r" : "", done, frames, ceil(left),
+            terminal ? "   " : "\n");
+    if (terminal && done == frames) fputs("\r\033[K", stderr);
+    fflush(stderr);
+}
+
+/// One frame: so many steps of the integrator, then the surface.
+static bool simulate_frame(const struct job *job, const struct soft *soft, struct midpoint *midpoint, int frame,
+                           float (*position)[3], struct error *error)
+{
+    for (int s = 0; frame > 0 && s < job->substeps; s++) {
+        if (interrupted) return fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
+        if (midpoint_step(midpoint)) continue;
+        return fail(error, ERROR_INPUT,
+                    "frame %d: no equilibrium of forces was found: try more --substeps or a smaller "
+                    "--amplitude",
+                    frame);
+    }
+    lattice_embed(&soft->lattice, (const double(*)[3])midpoint->x, position);
+    return true;
+}
+
+static bool write_frames(const struct job *job, const struct soft *soft, struct midpoint *midpoint, int frames,
+                         float (*position)[3], struct error *error)
+{
+    struct motion_writer writer;
+    double started = now();
+    if (!motion_write_open(&writer, job->output, frames, soft->lattice.vertex_count, error)) return false;
+    for (int frame = 0; frame < frames; frame++) {
+        if (!simulate_frame(job, soft, midpoint, frame, position, error) ||
+            !motion_write_frame(&writer, (const float(*)[3])position, error)) {
+            motion_write_discard(&writer);
+            return false;
+        }
+        report_progress(job, frame + 1, frames, started);
+    }
+    if (!motion_write_commit(&writer, error)) return false;
+    printf("%s: %d frames of %d vertices, %g a second, in %.1f s; rest mesh: %s\n", job->output, frames,
+           soft->lattice.vertex_count, job->fps, now() - started, job->rest);
+    return true;
+}
+
+static bool shake(const struct job *job, const struct soft *soft, struct body *body, struct error *error)
+{
+    struct midpoint midpoint;
+    int frames = (int)fmax(1, round(job->seconds * job->fps));
+    float(*position)[3] = calloc((size_t)soft->lattice.vertex_count + 1, sizeof *position);
+    bool good = position && midpoint_create(&midpoint, body, 1 / (job->fps * job->substeps));
+    if (!good) {
+        free(position);
+        return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    }
+    midpoint.alpha = soft->alpha;
+    midpoint.beta = soft->beta;
+    midpoint.tolerance = 1e-4 * soft->lattice.cell; // the next step of Newton's would be a thousandth of that
+    soft_shake(soft, &job->shake, &midpoint);
+    good = write_frames(job, soft, &midpoint, frames, position, error);
+    midpoint_free(&midpoint);
+    free(position);
+    return good;
+}
+
+/// Each mode's displacement of the vertices, scaled so that the largest is 1.
+static bool write_modes(const struct job *job, const struct soft *soft, struct error *error)
+{
+    const int vertices = soft->lattice.vertex_count, nodes = soft->body.node_count;
+    struct motion_writer writer;
+    float(*shape)[3] = calloc((size_t)vertices + 1, sizeof *shape);
+    if (!shape) return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    bool good = motion_write_open(&writer, job->output, soft->modes.count, vertices, error);
+    for (int k = 0; good && k < soft->modes.count; k++) {
+        lattice_embed(&soft->lattice, (const double(*)[3])(soft->modes.shape + (size_t)k * (size_t)nodes), shape);
+        float largest = 0;
+        for (int i = 0; i < vertices; i++) {
+            const float *d = shape[i];
+            largest = fmaxf(largest, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        }
+        float scale = largest > 0 ? 1 / sqrtf(largest) : 1;
+        for (int i = 0; i < 3 * vertices; i++) (*shape)[i] *= scale;
+        good = motion_write_frame(&writer, (const float(*)[3])shape, error);
+        if (!good) motion_write_discard(&writer);
+    }
+    good = good && motion_write_commit(&writer, error);
+    free(shape);
+    if (!good) return false;
+    printf("%4s %12s\n", "mode", "Hz");
+    for (int k = 0; k < soft->modes.count; k++) printf("%4d %12.6g\n", k + 1, soft->modes.frequency[k]);
+    printf("%s: %d modes of %d vertices; rest mesh: %s\n", job->output, soft->modes.count, vertices, job->rest);
+    return true;
+}
+
+static bool run(const struct job *job, struct error *error)
+{
+    struct surface surface = {0};
+    struct soft soft;
+    if (!obj_read(job->mesh, &surface, error)) return false;
+    bool good = soft_create(&soft, &surface, job->mesh, &job->soft, error);
+    if (good) {
+        printf("%s: %d tetrahedra, %d nodes, %d of them pinned; Young's modulus %.4g Pa, lowest mode %.4g Hz\n",
+               job->mesh, soft.lattice.tet_count, soft.body.node_count, soft.pinned, soft.young,
+               soft.modes.count ? soft.modes.frequency[0] : 0);
+        fflush(stdout);
+        if (soft.loose_parts > 0) {
+            fprintf(stderr, "%s: warning: %d of %d separate parts are not pinned and will drift\n", job->mesh,
+                    soft.loose_parts, soft.lattice.part_count);
+        }
+        good = obj_write(job->rest, &surface, error);
+        good = good && (job->modal ? write_modes(job, &soft, error) : shake(job, &soft, &soft.body, error));
+        soft_free(&soft);
+    }
+    surface_free(&surface);
+    return good;
+}
+
+/// "up", "side", "front" or "x,y,z" as a vector of length 1.
+static bool read_direction(const char *text, double direction[3])
+{
+    static const struct {
+        const char *name;
+        double direction[3];
+    } known[] = {{"up", {0, 1, 0}}, {"side", {1, 0, 0}}, {"front", {0, 0, 1}}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        if (strcmp(text, known[i].name) != 0) continue;
+        memcpy(direction, known[i].direction, sizeof known[i].direction);
+        return true;
+    }
+    int end = 0;
+    if (sscanf(text, "%lf,%lf,%lf%n", &direction[0], &direction[1], &direction[2], &end) != 3 || text[end])
+        return false;
+    double length = sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
+    if (!isfinite(length) || !(length > 0)) return false;
+    for (int c = 0; c < 3; c++) direction[c] /= length;
+    return true;
+}
+
+static bool ends_in(const char *path, const char *extension)
+{
+    size_t length = strlen(path), tail = strlen(extension);
+    return length > tail && strcasecmp(path + length - tail, extension) == 0;
+}
+
+/// What the table of options cannot say; 0 or the exit status.
+static int check(struct job *job)
+{
+    const char *wrong = NULL;
+    if (!job->output) {
+        wrong = "-o FILE is missing: what to write";
+    } else if (!ends_in(job->output, ".npy") && (job->modal || !ends_in(job->output, ".pc2"))) {
+        wrong = job->modal ? "--output: expected a name ending in .npy for --modal"
+                           : "--output: expected a name ending in .npy or .pc2";
+    } else if (strlen(job->output) + 16 > sizeof job->rest) {
+        wrong = "--output: the name is too long";
+    } else if (!read_direction(job->shake_text, job->shake.direction)) {
+        wrong = "--shake: expected up, side, front or a vector x,y,z";
+    }
+    if (!wrong) {
+        snprintf(job->rest, sizeof job->rest, "%.*s.rest.obj", (int)strlen(job->output) - 4, job->output);
+        return 0;
+    }
+    fprintf(stderr, "wiggly simulate: %s; see wiggly simulate --help\n", wrong);
+    return ERROR_USAGE;
+}
+
+/// Lets Ctrl+C end the run in order, so that no temporary file stays.
+static void catch_interrupts(void)
+{
+    struct sigaction action = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+int command_simulate(int argc, char **argv)
+{
+    struct job job = {.soft = soft_default_options(),
+                      .shake = {.amplitude = 0.2},
+                      .shake_text = "up",
+                      .seconds = 4,
+                      .fps = 24,
+                      .substeps = 8};
+    int modes = 0;
+    const struct option_spec options[] = {
+        {"--output", "-o", "FILE", "write there, .npy or .pc2 (--modal: .npy); FILE.rest.obj beside it", OPTION_TEXT,
+         &job.output, 0, 0},
+        {"--shake", NULL, "DIR", "up, side, front or a vector x,y,z (default: up)", OPTION_TEXT, &job.shake_text, 0,
+         0},
+        {"--amplitude", NULL, "A", "how far the top goes, as a part of the height (0.2)", OPTION_REAL,
+         &job.shake.amplitude, -2, 2},
+        {"--impulse", NULL, NULL, "start with a push, not deformed", OPTION_FLAG, &job.shake.impulse, 0, 0},
+        {"--seconds", NULL, "S", "how long (4)", OPTION_REAL, &job.seconds, 1e-3, 3600},
+        {"--fps", NULL, "N", "frames a second (24)", OPTION_REAL, &job.fps, 1, 1000},
+        {"--substeps", NULL, "N", "steps of the integrator a frame (8)", OPTION_INT, &job.substeps, 1, 1000},
+        {"--tets", NULL, "N", "about how many tetrahedra (3000)", OPTION_INT, &job.soft.tets, 50, 200000},
+        {"--pin", NULL, "H", "pin what is up to H above the lowest point (a twentieth of the height)", OPTION_REAL,
+         &job.soft.pin, 0, 1e6},
+        {"--frequency", NULL, "HZ", "of the lowest mode: sets the stiffness (2)", OPTION_REAL, &job.soft.frequency,
+         1e-3, 1e3},
+        {"--young", NULL, "E", "Young's modulus in Pa, in place of --frequency", OPTION_REAL, &job.soft.young, 1e-6,
+         1e15},
+        {"--poisson", NULL, "NU", "Poisson's ratio (0.35)", OPTION_REAL, &job.soft.poisson, 0, 0.49},
+        {"--density", NULL, "RHO", "kg/m^3 (1000)", OPTION_REAL, &job.soft.density, 1e-6, 1e9},
+        {"--damping", NULL, "Z", "damping ratio at the lowest mode (0.03)", OPTION_REAL, &job.soft.damping, 0, 1},
+        {"--modal", NULL, "K", "no shake: the K lowest normal modes", OPTION_INT, &modes, 1, 200},
+        {"--verbose", NULL, NULL, "progress although standard error is no terminal", OPTION_FLAG, &job.verbose, 0, 0},
+    };
+    const struct usage usage = {
+        .command = "simulate",
+        .operands = "mesh.obj",
+        .summary = "Shakes a closed mesh as a soft body (finite elements) and writes its vertices in every frame.",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+        .operand_minimum = 1,
+        .operand_maximum = 1,
+    };
+    enum options_result result = options_parse(&usage, argc, argv, &job.mesh);
+    if (result != OPTIONS_RUN) return (int)result;
+    job.modal = modes > 0;
+    if (job.modal) job.soft.modes = modes;
+    int status = check(&job);
+    if (status) return status;
+    catch_interrupts();
+    struct error error;
+    if (run(&job, &error)) return 0;
+    fprintf(stderr, "wiggly simulate: %s\n", error.text);
+    return (int)error.kind;
+}

@@ -1,0 +1,45 @@
+/// An elastic body: nodes with masses, tetrahedra, and its energy, forces and stiffness in any position.
+///
+/// Masses are lumped: a quarter of each element's at each of its nodes.
+#ifndef SIMULATION_BODY_H
+#define SIMULATION_BODY_H
+
+#include "simulation/blocks.h"
+#include "simulation/element.h"
+#include "simulation/material.h"
+#include <stdbool.h>
+
+struct body {
+    int node_count, element_count;
+    double (*rest)[3];        ///< m
+    double *mass;             ///< kg
+    bool *pinned;             ///< never moves
+    struct element *elements; ///< what is left of it may be empty nowhere: volume > 0
+    struct material material;
+    struct svd *svd;          ///< a workspace: of each element's F where body_forces() was last called
+    int (*place)[16];         ///< of each element's blocks in the matrix, or −1 where a node is pinned
+    struct blocks stiffness;  ///< what body_stiffness() fills
+    struct conjugate scratch; ///< for systems of that size
+};
+
+/// The body of `element_count` tetrahedra, tets[e] naming four nodes. `fraction` says how much of each is filled, or is
+/// NULL; density in kg/m³. False where memory is short or an element is flat.
+bool body_create(struct body *body, const double (*rest)[3], int node_count, const int (*tets)[4],
+                 const double *fraction, int element_count, struct material material, double density);
+void body_free(struct body *body);
+
+/// Pins a node. Call body_ready() after the last one and before anything below.
+void body_pin(struct body *body, int node);
+void body_ready(struct body *body);
+
+/// The forces at the positions x (N; 0 at pinned nodes); returns the energy (J).
+double body_forces(struct body *body, const double (*x)[3], double (*force)[3]);
+
+/// K = −∂f/∂x, made semidefinite, where body_forces() was last called, into body->stiffness. Rows and columns of pinned nodes are
+/// those of the identity.
+void body_stiffness(struct body *body);
+
+/// ½ Σ m v², J.
+double body_kinetic(const struct body *body, const double (*v)[3]);
+
+#endif

@@ -1,0 +1,225 @@
+#include "simulation/lattice.h"
+#include "simulation/element.h"
+#include "simulation/tiling.h"
+#include "simulation/vec3.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Cutting takes some 13 bytes a voxel; a thinner sheet than that many allow gets fewer tetrahedra than asked for.
+static const double voxels_max = 3e7;
+
+/// Volume inside, m³: the tetrahedra from the first vertex to each triangle.
+static double surface_volume(const struct surface *surface)
+{
+    double sum = 0;
+    for (int i = 0; i < surface->index_count; i += 3) {
+        double edge[3][3], across[3];
+        for (int k = 0; k < 3; k++) {
+            const float *p = surface->position[surface->indices[i + k]];
+            for (int c = 0; c < 3; c++) edge[k][c] = (double)p[c] - (double)surface->position[0][c];
+        }
+        vec3_cross(edge[0], edge[1], across);
+        sum += vec3_dot(across, edge[2]) / 6;
+    }
+    return fabs(sum);
+}
+
+/// The smallest cube's edge that keeps the voxels within bounds.
+static double smallest_cell(const struct surface *surface)
+{
+    double volume = 1;
+    for (int c = 0; c < 3; c++) {
+        double lo = INFINITY, hi = -INFINITY;
+        for (int i = 0; i < surface->vertex_count; i++) {
+            lo = fmin(lo, (double)surface->position[i][c]);
+            hi = fmax(hi, (double)surface->position[i][c]);
+        }
+        volume *= fmax(hi - lo, 1e-30);
+    }
+    return VOXELS_A_CELL * cbrt(3 * volume / voxels_max); // 3 for the margin
+}
+
+/// Tries cubes of several sizes, twelve tetrahedra each inside, until the number is within 3 % or no longer gets nearer.
+static bool fit(struct tiling *best, const struct surface *surface, int target, double *best_cell)
+{
+    enum { TRIES = 8 };
+    double cell = cbrt(12 * surface_volume(surface) / target), least = smallest_cell(surface), nearest = INFINITY;
+    *best = (struct tiling){0};
+    for (int i = 0; i < TRIES && nearest > 0.03; i++) {
+        struct tiling tiling;
+        cell = fmax(cell, least);
+        if (!tiling_create(&tiling, surface, cell)) return false;
+        double ratio = fmax(tiling.kept, 1) / target;
+        if (fabs(log(ratio)) < nearest) {
+            nearest = fabs(log(ratio));
+            tiling_free(best);
+            *best = tiling;
+            *best_cell = cell;
+        } else {
+            tiling_free(&tiling);
+        }
+        cell *= pow(ratio, 0.4); // the number falls with a power between 2 (all surface) and 3 (all inside)
+    }
+    return true;
+}
+
+/// Consecutive numbers for nodes, elements and parts, without those left out. index[e] is where element e went.
+static bool number(struct lattice *lattice, const struct tiling *t, int *index, int *node_number)
+{
+    size_t n = (size_t)t->kept;
+    lattice->node = calloc(4 * n + 1, sizeof *lattice->node);
+    lattice->tet = calloc(n + 1, sizeof *lattice->tet);
+    lattice->fraction = calloc(n + 1, sizeof *lattice->fraction);
+    lattice->part = calloc(n + 1, sizeof *lattice->part);
+    if (!lattice->node || !lattice->tet || !lattice->fraction || !lattice->part) return false;
+    const double whole = VOXELS_A_CELL * VOXELS_A_CELL * VOXELS_A_CELL / 12.0; // a tetrahedron's volume in voxels
+    for (int e = 0; e < t->count; e++) {
+        if (t->part[e] < 0) continue;
+        int k = index[e] = lattice->tet_count++;
+        lattice->fraction[k] = t->filled[e] / whole;
+        lattice->part[k] = t->part[e] == e ? lattice->part_count++ : lattice->part[index[t->part[e]]];
+        for (int a = 0; a < 4; a++) {
+            int *known = &node_number[t->node[e][a]];
+            if (*known < 0) {
+                *known = lattice->node_count++;
+                tiling_point(t, t->key[e][a], lattice->node[*known]);
+            }
+            lattice->tet[k][a] = *known;
+        }
+    }
+    return true;
+}
+
+/// The voxel inside that is nearest to a point given in voxels: shells of growing distance around it.
+static int nearest_inside(const struct tiling *t, const double at[3])
+{
+    const int *size = t->voxels.size;
+    int middle[3], reach = size[0] > size[1] ? size[0] : size[1], found = -1;
+    reach = reach > size[2] ? reach : size[2];
+    for (int c = 0; c < 3; c++) middle[c] = (int)fmax(0, fmin(size[c] - 1, floor(at[c])));
+    double nearest = INFINITY;
+    for (int r = 0; r <= reach && r - 1 <= nearest; r++) {
+        for (int i = middle[0] - r; i <= middle[0] + r; i++) {
+            for (int j = middle[1] - r; j <= middle[1] + r; j++) {
+                bool wall = abs(i - middle[0]) == r || abs(j - middle[1]) == r;
+                for (int k = middle[2] - r; k <= middle[2] + r; k += wall || r == 0 ? 1 : 2 * r) {
+                    if (i < 0 || j < 0 || k < 0 || i >= size[0] || j >= size[1] || k >= size[2]) continue;
+                    int voxel = (i * size[1] + j) * size[2] + k;
+                    const double away[3] = {i + 0.5 - at[0], j + 0.5 - at[1], k + 0.5 - at[2]};
+                    if (t->element[voxel] < 0 || vec3_length(away) >= nearest) continue;
+                    nearest = vec3_length(away);
+                    found = voxel;
+                }
+            }
+        }
+    }
+    return found;
+}
+
+/// Barycentric coordinates of a point.
+static void locate(const struct lattice *lattice, int tet, const float point[3], double weight[4])
+{
+    struct element element;
+    const int *node = lattice->tet[tet];
+    double away[3];
+    element_init(&element, node, (const double(*)[3])lattice->node, 1);
+    for (int c = 0; c < 3; c++) away[c] = (double)point[c] - lattice->node[node[0]][c];
+    for (int a = 0; a < 4; a++) weight[a] = (a == 0) + vec3_dot(element.gradient[a], away);
+}
+
+/// Hosts each vertex in the element of the nearest voxel, looked for half a voxel under the surface, lest it be another limb's.
+static bool embed(struct lattice *lattice, const struct tiling *t, const int *index, const struct surface *surface)
+{
+    size_t count = (size_t)surface->vertex_count;
+    lattice->vertex_count = surface->vertex_count;
+    lattice->host = calloc(count + 1, sizeof *lattice->host);
+    lattice->weight = calloc(count + 1, sizeof *lattice->weight);
+    double(*normal)[3] = calloc(count + 1, sizeof *normal);
+    bool good = lattice->host && lattice->weight && normal;
+    for (int i = 0; good && i < surface->index_count; i++) { // each corner adds its triangle's normal
+        double edge[2][3], across[3];
+        const uint32_t *corner = surface->indices + i / 3 * 3;
+        for (int c = 0; c < 3; c++) {
+            for (int k = 0; k < 2; k++) {
+                edge[k][c] = (double)surface->position[corner[k + 1]][c] - (double)surface->position[corner[0]][c];
+            }
+        }
+        vec3_cross(edge[0], edge[1], across);
+        for (int c = 0; c < 3; c++) normal[surface->indices[i]][c] += across[c];
+    }
+    for (int i = 0; good && i < surface->vertex_count; i++) {
+        double at[3], length = vec3_length(normal[i]);
+        for (int c = 0; c < 3; c++) {
+            double inward = length > 0 ? 0.5 * normal[i][c] / length : 0;
+            at[c] = ((double)surface->position[i][c] - t->voxels.origin[c]) / t->voxels.spacing - inward;
+        }
+        lattice->host[i] = index[t->element[nearest_inside(t, at)]];
+        locate(lattice, lattice->host[i], surface->position[i], lattice->weight[i]);
+    }
+    free(normal);
+    return good;
+}
+
+static bool build(struct lattice *lattice, const struct tiling *t, const struct surface *surface)
+{
+    int *index = calloc((size_t)t->count + 1, sizeof *index);
+    int *node_number = malloc(((size_t)t->count * 4 + 1) * sizeof *node_number);
+    bool good = index && node_number;
+    if (good) {
+        memset(node_number, 0xFF, (size_t)t->count * 4 * sizeof *node_number); // −1
+        good = number(lattice, t, index, node_number) && embed(lattice, t, index, surface);
+    }
+    free(index);
+    free(node_number);
+    return good;
+}
+
+bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, const char *name,
+                    struct error *error)
+{
+    *lattice = (struct lattice){0};
+    int open = surface->index_count ? surface_open_edges(surface) : 0;
+    if (open < 0) return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    if (open > 0) {
+        return fail(error, ERROR_INPUT, "%s: the mesh is not closed: %d %s no triangle on the other side", name, open,
+                    open == 1 ? "edge has" : "edges have");
+    }
+    if (surface->index_count == 0 || !(surface_volume(surface) > 0)) {
+        return fail(error, ERROR_INPUT, "%s: the mesh encloses no volume", name);
+    }
+    struct tiling tiling;
+    bool fitted = fit(&tiling, surface, target, &lattice->cell);
+    if (fitted && tiling.kept == 0) {
+        tiling_free(&tiling);
+        return fail(error, ERROR_INPUT, "%s: the mesh is too thin for a lattice of %d tetrahedra", name, target);
+    }
+    bool good = fitted && build(lattice, &tiling, surface);
+    tiling_free(&tiling);
+    if (good) return true;
+    lattice_free(lattice);
+    return fail(error, ERROR_ENVIRONMENT, "out of memory");
+}
+
+void lattice_free(struct lattice *lattice)
+{
+    free(lattice->node);
+    free(lattice->tet);
+    free(lattice->fraction);
+    free(lattice->part);
+    free(lattice->host);
+    free(lattice->weight);
+    *lattice = (struct lattice){0};
+}
+
+void lattice_embed(const struct lattice *lattice, const double (*x)[3], float (*position)[3])
+{
+    for (int i = 0; i < lattice->vertex_count; i++) {
+        const int *node = lattice->tet[lattice->host[i]];
+        for (int c = 0; c < 3; c++) {
+            double sum = 0;
+            for (int a = 0; a < 4; a++) sum += lattice->weight[i][a] * x[node[a]][c];
+            position[i][c] = (float)sum;
+        }
+    }
+}

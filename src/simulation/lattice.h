@@ -1,0 +1,42 @@
+/// A coarse lattice of tetrahedra around a closed surface, and the surface's vertices embedded in it.
+///
+/// The tetrahedra are those of the body-centred cubic lattice: the nodes are the corners and the centres of cubes, and each tetrahedron
+/// joins two neighbouring centres with an edge of the face between them. All are alike, well shaped, and mirror
+/// images of each other left and right.
+///
+/// A tetrahedron is not all or nothing. The solid is sampled by voxels an eighth of a cube wide, and the connected pieces of
+/// it inside one tetrahedron become one element each, with nodes of their own and the volume of their voxels; nodes of two
+/// elements are joined where the pieces touch (the virtual nodes of Molino, Bao and Fedkiw 2004). So an arm beside the
+/// body moves freely although both lie in the same cubes, unless less than about a voxel parts them, and a sliver of solid in a
+/// tetrahedron weighs and resists as little as it should. Pieces that hang on no face of their neighbours and fill less than a
+/// hundredth of the solid, such as the tip of a hair, are left out; their vertices follow the nearest element.
+#ifndef SIMULATION_LATTICE_H
+#define SIMULATION_LATTICE_H
+
+#include "base/error.h"
+#include "model/obj.h"
+#include <stdbool.h>
+
+struct lattice {
+    double cell; ///< edge of the cubes, m
+    int node_count, tet_count;
+    double (*node)[3];
+    int (*tet)[4];
+    double *fraction; ///< how much of each tetrahedron the solid fills, 0 … 1
+    int *part;        ///< per tetrahedron: which connected part it belongs to
+    int part_count;
+    int vertex_count;
+    int *host;           ///< per vertex: its tetrahedron
+    double (*weight)[4]; ///< and its barycentric coordinates there, a little outside 0 … 1 for some
+};
+
+/// The lattice with about `target` tetrahedra. Errors say: not closed and how many edges are open, no volume, no memory.
+/// `name` is the surface's, for messages.
+bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, const char *name,
+                    struct error *error);
+void lattice_free(struct lattice *lattice);
+
+/// Vertex positions, float, from node positions: Σ_a w_a x_a.
+void lattice_embed(const struct lattice *lattice, const double (*x)[3], float (*position)[3]);
+
+#endif

@@ -1,0 +1,53 @@
+/// A surface made soft: lattice, body, pinned feet and material, ready to be shaken.
+#ifndef SIMULATION_SOFT_H
+#define SIMULATION_SOFT_H
+
+#include "base/error.h"
+#include "model/obj.h"
+#include "simulation/body.h"
+#include "simulation/lattice.h"
+#include "simulation/midpoint.h"
+#include "simulation/modes.h"
+
+/// Start from soft_default_options().
+struct soft_options {
+    int tets;     ///< about how many tetrahedra
+    double pin;   ///< nodes up to this far above the lowest vertex are pinned, m; below 0: a twentieth of the height
+    double young; ///< Young's modulus, Pa; 0: whatever gives `frequency`
+    double frequency; ///< of the lowest mode, Hz, where young is 0
+    double poisson;   ///< 0 … 0.49
+    double density;   ///< kg/m³
+    double damping;   ///< ratio at the lowest mode: half of it by mass, half by stiffness (Rayleigh)
+    int modes;        ///< how many normal modes to find, at least 1
+};
+struct soft_options soft_default_options(void);
+
+struct soft {
+    struct lattice lattice;
+    struct body body;
+    struct modes modes;    ///< with the body's final stiffness
+    double bottom, height; ///< of the surface along y, m
+    double young;          ///< Pa
+    double alpha, beta;    ///< Rayleigh's coefficients, 1/s and s
+    int pinned;            ///< nodes
+    int loose_parts;       ///< parts of the lattice without a pinned node
+};
+
+/// `name` is the surface's, for messages. Errors are the lattice's, no memory, everything pinned.
+bool soft_create(struct soft *soft, const struct surface *surface, const char *name,
+                 const struct soft_options *options, struct error *error);
+void soft_free(struct soft *soft);
+
+/// How a shake starts.
+struct shake {
+    double direction[3]; ///< of length 1
+    double amplitude;    ///< how far the top goes, as a fraction of the height
+    bool impulse; ///< starts undeformed with the velocity that swings so far at the lowest frequency; else starts
+                  ///< deformed and at rest
+};
+
+/// Puts a simulation of the body into its first state: the displacement, or the velocity, grows with the square of the
+/// height above the pinned nodes.
+void soft_shake(const struct soft *soft, const struct shake *shake, struct midpoint *midpoint);
+
+#endif

@@ -1,0 +1,14 @@
+/// Singular values of 3×3 matrices with the sign convention of Irving, Teran and Fedkiw (2004), section 3.
+#ifndef SIMULATION_SVD_H
+#define SIMULATION_SVD_H
+
+/// F = U diag(σ) Vᵀ with U and V rotations (determinant +1) and σ₀ ≥ σ₁ ≥ |σ₂|: where det F < 0 the smallest one is
+/// negative, so that an inverted tetrahedron is turned back along the direction that needs the least.
+struct svd {
+    double u[3][3], sigma[3], v[3][3]; ///< u[row][column]
+};
+
+/// Any finite F, singular ones included.
+void svd3(const double f[3][3], struct svd *svd);
+
+#endif

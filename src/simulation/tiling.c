@@ -1,0 +1,259 @@
+#include "simulation/tiling.h"
+#include "simulation/union.h"
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// The half of a voxel's 26 neighbours that come later.
+static const int neighbours[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1, 1}, {1, -1, -1},
+                                      {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0}, {1, 0, 1},
+                                      {1, 1, -1}, {1, 1, 0},  {1, 1, 1}};
+
+/// Voxels over the surface's box and at least one cube more on each side, centred, so that a symmetric solid is cut
+/// symmetrically.
+static void lay_out(struct voxels *voxels, const struct surface *surface, double cell)
+{
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int i = 0; i < surface->vertex_count; i++) {
+        for (int c = 0; c < 3; c++) {
+            lo[c] = fmin(lo[c], (double)surface->position[i][c]);
+            hi[c] = fmax(hi[c], (double)surface->position[i][c]);
+        }
+    }
+    voxels->spacing = cell / VOXELS_A_CELL;
+    for (int c = 0; c < 3; c++) {
+        int cells = (int)ceil((hi[c] - lo[c]) / cell) + 2;
+        voxels->size[c] = cells * VOXELS_A_CELL;
+        voxels->origin[c] = (lo[c] + hi[c] - cells * cell) / 2;
+    }
+}
+
+/// Number of a point of the lattice, given in half cells from the origin.
+static int point_key(const struct voxels *voxels, const int p[3])
+{
+    int ny = voxels->size[1] / VOXELS_A_CELL * 2 + 1, nz = voxels->size[2] / VOXELS_A_CELL * 2 + 1;
+    return (p[0] * ny + p[1]) * nz + p[2];
+}
+
+void tiling_point(const struct tiling *tiling, int key, double position[3])
+{
+    const struct voxels *v = &tiling->voxels;
+    int ny = v->size[1] / VOXELS_A_CELL * 2 + 1, nz = v->size[2] / VOXELS_A_CELL * 2 + 1;
+    const int p[3] = {key / (ny * nz), key / nz % ny, key % nz};
+    for (int c = 0; c < 3; c++) position[c] = v->origin[c] + p[c] * v->spacing * VOXELS_A_CELL / 2;
+}
+
+/// The tetrahedron that holds a voxel's centre: from the cube's centre towards the face that is nearest, then to that face's nearest
+/// edge. `key` names its nodes: the two cubes' centres and the edge's ends.
+static void tetrahedron_at(const struct voxels *voxels, const int voxel[3], int key[4])
+{
+    int from_centre[3], centre[3], order[3] = {0, 1, 2};
+    for (int c = 0; c < 3; c++) {
+        from_centre[c] = 2 * (voxel[c] % VOXELS_A_CELL) - (VOXELS_A_CELL - 1);
+        centre[c] = 2 * (voxel[c] / VOXELS_A_CELL) + 1;
+    }
+    for (int pass = 0; pass < 3; pass++) { // farthest axis first
+        int i = pass % 2, swap = order[i];
+        if (abs(from_centre[order[i]]) >= abs(from_centre[order[i + 1]])) continue;
+        order[i] = order[i + 1];
+        order[i + 1] = swap;
+    }
+    int k = order[0], u = order[1], w = order[2], toward = from_centre[k] > 0 ? 1 : -1;
+    int other[3] = {centre[0], centre[1], centre[2]}, end[3] = {centre[0], centre[1], centre[2]};
+    other[k] += 2 * toward;
+    end[k] += toward;
+    end[u] += from_centre[u] > 0 ? 1 : -1;
+    end[w] -= 1;
+    // The lower cube's centre first, so that a tetrahedron is named alike from both of its halves.
+    key[0] = point_key(voxels, toward > 0 ? centre : other);
+    key[1] = point_key(voxels, toward > 0 ? other : centre);
+    key[2] = point_key(voxels, end);
+    end[w] += 2;
+    key[3] = point_key(voxels, end);
+}
+
+/// Calls `visit` for each pair of neighbouring voxels inside. None is at the grid's border.
+static void visit_neighbours(struct tiling *t, int *voxel_set, const uint64_t *tetrahedron,
+                             void (*visit)(struct tiling *t, int *set, const uint64_t *tetrahedron, int a, int b))
+{
+    const int *size = t->voxels.size;
+    int count = (int)voxels_count(&t->voxels), offset[13];
+    for (int n = 0; n < 13; n++) {
+        offset[n] = (neighbours[n][0] * size[1] + neighbours[n][1]) * size[2] + neighbours[n][2];
+    }
+    for (int i = 0; i < count; i++) {
+        if (!t->voxels.inside[i]) continue;
+        for (int n = 0; n < 13; n++) {
+            if (t->voxels.inside[i + offset[n]]) visit(t, voxel_set, tetrahedron, i, i + offset[n]);
+        }
+    }
+}
+
+static void join_voxels(struct tiling *t, int *set, const uint64_t *tetrahedron, int a, int b)
+{
+    (void)t;
+    if (tetrahedron[a] == tetrahedron[b]) union_join(set, a, b);
+}
+
+/// Nodes of touching elements that are at the same point become one.
+static void join_nodes(struct tiling *t, int *set, const uint64_t *tetrahedron, int a, int b)
+{
+    (void)tetrahedron;
+    int e = t->element[a], f = t->element[b];
+    if (e == f) return;
+    for (int k = 0; k < 16; k++) {
+        if (t->key[e][k / 4] == t->key[f][k % 4]) union_join(set, 4 * e + k / 4, 4 * f + k % 4);
+    }
+}
+
+/// Numbers the sets of voxels: elements with their nodes' places and their size.
+static bool number_elements(struct tiling *t, int *set)
+{
+    const int *size = t->voxels.size;
+    int count = (int)voxels_count(&t->voxels);
+    for (int i = 0; i < count; i++) {
+        if (t->voxels.inside[i]) t->element[i] = union_root(set, i) == i ? t->count++ : t->element[set[i]];
+    }
+    size_t n = (size_t)t->count + 1;
+    t->filled = calloc(n, sizeof *t->filled);
+    t->key = calloc(n, sizeof *t->key);
+    t->node = calloc(n, sizeof *t->node);
+    t->part = calloc(n, sizeof *t->part);
+    if (!t->filled || !t->key || !t->node || !t->part) return false;
+    for (int i = 0; i < count; i++) {
+        if (t->element[i] < 0 || t->filled[t->element[i]]++ > 0) continue;
+        const int voxel[3] = {i / (size[1] * size[2]), i / size[2] % size[1], i % size[2]};
+        tetrahedron_at(&t->voxels, voxel, t->key[t->element[i]]);
+    }
+    return true;
+}
+
+/// Each voxel's tetrahedron as one number: the middle of its face and the middle of its edge (twice) tell it from others.
+static void name_tetrahedra(const struct voxels *voxels, uint64_t *tetrahedron, int *set)
+{
+    int count = (int)voxels_count(voxels);
+    const int *size = voxels->size;
+    for (int i = 0; i < count; i++) {
+        set[i] = i;
+        if (!voxels->inside[i]) continue;
+        const int voxel[3] = {i / (size[1] * size[2]), i / size[2] % size[1], i % size[2]};
+        int key[4];
+        tetrahedron_at(voxels, voxel, key);
+        tetrahedron[i] = (uint64_t)(key[2] + key[3]) << 32 | (uint32_t)(key[0] + key[1]);
+    }
+}
+
+struct face {
+    int node[3], element;
+};
+
+static int compare_faces(const void *a, const void *b)
+{
+    const struct face *x = a, *y = b;
+    return memcmp(x->node, y->node, sizeof x->node);
+}
+
+static struct face face_of(const struct tiling *t, int element, int opposite)
+{
+    struct face face = {.element = element};
+    for (int k = 0; k < 3; k++) face.node[k] = t->node[element][(opposite + 1 + k) % 4];
+    for (int pass = 0; pass < 3; pass++) {
+        int i = pass % 2, swap = face.node[i];
+        if (swap <= face.node[i + 1]) continue;
+        face.node[i] = face.node[i + 1];
+        face.node[i + 1] = swap;
+    }
+    return face;
+}
+
+/// Elements that share a face are one part.
+static bool find_parts(struct tiling *t)
+{
+    size_t count = (size_t)t->count * 4;
+    struct face *faces = calloc(count + 1, sizeof *faces);
+    if (!faces) return false;
+    for (int e = 0; e < t->count; e++) {
+        t->part[e] = e;
+        for (int a = 0; a < 4; a++) faces[4 * e + a] = face_of(t, e, a);
+    }
+    qsort(faces, count, sizeof *faces, compare_faces);
+    for (size_t i = 1; i < count; i++) {
+        if (compare_faces(&faces[i - 1], &faces[i]) == 0) {
+            union_join(t->part, faces[i - 1].element, faces[i].element);
+        }
+    }
+    free(faces);
+    return true;
+}
+
+/// Leaves out the parts below a hundredth of the whole, but never the largest.
+static bool drop_crumbs(struct tiling *t)
+{
+    int *voxels = calloc((size_t)t->count + 1, sizeof *voxels), total = 0, largest = 0;
+    if (!voxels) return false;
+    for (int e = 0; e < t->count; e++) {
+        t->part[e] = union_root(t->part, e);
+        voxels[t->part[e]] += t->filled[e];
+        total += t->filled[e];
+    }
+    for (int e = 0; e < t->count; e++) largest = voxels[e] > largest ? voxels[e] : largest;
+    for (int e = 0; e < t->count; e++) {
+        int size = voxels[t->part[e]];
+        bool crumb = size < largest && size < total / 100;
+        if (crumb) t->part[e] = -1;
+        t->kept += !crumb;
+    }
+    free(voxels);
+    int count = (int)voxels_count(&t->voxels);
+    for (int i = 0; i < count; i++) {
+        if (t->element[i] >= 0 && t->part[t->element[i]] < 0) t->element[i] = -1;
+    }
+    return true;
+}
+
+/// Elements, their nodes and their parts; `set` and `tetrahedron` have room for each voxel.
+static bool cut(struct tiling *t, int *set, uint64_t *tetrahedron)
+{
+    name_tetrahedra(&t->voxels, tetrahedron, set);
+    visit_neighbours(t, set, tetrahedron, join_voxels);
+    if (!number_elements(t, set)) return false;
+    int *nodes = calloc((size_t)t->count * 4 + 1, sizeof *nodes);
+    if (!nodes) return false;
+    for (int i = 0; i < 4 * t->count; i++) nodes[i] = i;
+    visit_neighbours(t, nodes, tetrahedron, join_nodes);
+    for (int i = 0; i < 4 * t->count; i++) t->node[i / 4][i % 4] = union_root(nodes, i);
+    free(nodes);
+    return find_parts(t) && drop_crumbs(t);
+}
+
+bool tiling_create(struct tiling *t, const struct surface *surface, double cell)
+{
+    *t = (struct tiling){0};
+    lay_out(&t->voxels, surface, cell);
+    if (!voxels_fill(&t->voxels, surface)) return false;
+    size_t count = voxels_count(&t->voxels);
+    int *set = calloc(count, sizeof *set);
+    uint64_t *tetrahedron = calloc(count, sizeof *tetrahedron);
+    t->element = malloc(count * sizeof *t->element);
+    bool good = set && tetrahedron && t->element;
+    if (good) {
+        memset(t->element, 0xFF, count * sizeof *t->element); // −1
+        good = cut(t, set, tetrahedron);
+    }
+    free(set);
+    free(tetrahedron);
+    if (!good) tiling_free(t);
+    return good;
+}
+
+void tiling_free(struct tiling *t)
+{
+    voxels_free(&t->voxels);
+    free(t->element);
+    free(t->filled);
+    free(t->key);
+    free(t->node);
+    free(t->part);
+    *t = (struct tiling){0};
+}

@@ -1,0 +1,152 @@
+/// Winding numbers along columns.
+///
+/// A column of voxel centres along z is a ray; each triangle that it passes through changes the winding number by one.
+/// In the (x, y) plane everything is rounded to a grid of 2⁻²⁴ of the largest side, on which the test of a point against an
+/// edge is exact in 64-bit integers; a point on an edge counts as moved by (ε, ε²). So no ray ever slips between two
+/// triangles or hits both, and the winding number returns to 0 in every column.
+#include "simulation/voxels.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct crossing {
+    int column; ///< i·size[1] + j
+    int turn;   ///< +1 or −1
+    double z;   ///< in voxels from the origin
+};
+
+struct crossings {
+    struct crossing *items;
+    size_t count, capacity;
+    bool failed;
+};
+
+struct point {
+    int64_t x, y;
+};
+
+static void push(struct crossings *list, struct crossing crossing)
+{
+    if (list->count == list->capacity) {
+        size_t capacity = list->capacity ? 2 * list->capacity : 4096;
+        struct crossing *items = realloc(list->items, capacity * sizeof *items);
+        if (!items) {
+            list->failed = true;
+            return;
+        }
+        list->items = items;
+        list->capacity = capacity;
+    }
+    list->items[list->count++] = crossing;
+}
+
+/// Twice the signed area of (a, b, p): positive where p is on the left.
+static int64_t area(struct point a, struct point b, struct point p)
+{
+    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+/// Whether p, moved by (ε, ε²), is on the left of a → b.
+static bool left_of(struct point a, struct point b, struct point p)
+{
+    int64_t side = area(a, b, p);
+    if (side != 0) return side > 0;
+    return a.y != b.y ? b.y < a.y : b.x > a.x;
+}
+
+/// How the rounded plane lies over the voxels.
+struct raster {
+    const struct voxels *voxels;
+    double scale; ///< steps of the rounded plane a metre
+};
+
+static struct point rounded(const struct raster *raster, double x, double y)
+{
+    const double *origin = raster->voxels->origin;
+    return (struct point){llround((x - origin[0]) * raster->scale), llround((y - origin[1]) * raster->scale)};
+}
+
+/// Records where the column passes through the triangle, if it does.
+static void cross(const struct raster *raster, const struct point p[3], const double z[3], int i, int j,
+                  struct crossings *list)
+{
+    const struct voxels *v = raster->voxels;
+    struct point at = rounded(raster, v->origin[0] + (i + 0.5) * v->spacing, v->origin[1] + (j + 0.5) * v->spacing);
+    int lefts = left_of(p[0], p[1], at) + left_of(p[1], p[2], at) + left_of(p[2], p[0], at);
+    if (lefts != 0 && lefts != 3) return;
+    double weight[3], sum = 0, height = 0;
+    for (int k = 0; k < 3; k++) {
+        weight[k] = (double)area(p[(k + 1) % 3], p[(k + 2) % 3], at);
+        sum += weight[k];
+        height += weight[k] * z[k];
+    }
+    height /= sum;
+    push(list, (struct crossing){i * v->size[1] + j, lefts ? 1 : -1, (height - v->origin[2]) / v->spacing});
+}
+
+static void rasterise(const struct raster *raster, const struct surface *surface, const uint32_t index[3],
+                      struct crossings *list)
+{
+    const struct voxels *v = raster->voxels;
+    struct point p[3];
+    double z[3];
+    int lo[2] = {v->size[0], v->size[1]}, hi[2] = {-1, -1};
+    for (int k = 0; k < 3; k++) {
+        const float *at = surface->position[index[k]];
+        p[k] = rounded(raster, (double)at[0], (double)at[1]);
+        z[k] = (double)at[2];
+        for (int c = 0; c < 2; c++) {
+            double place = ((double)at[c] - v->origin[c]) / v->spacing - 0.5; // a margin makes up for rounding
+            lo[c] = (int)fmax(0, fmin(lo[c], floor(place - 0.01)));
+            hi[c] = (int)fmin(v->size[c] - 1, fmax(hi[c], ceil(place + 0.01)));
+        }
+    }
+    for (int i = lo[0]; i <= hi[0]; i++) {
+        for (int j = lo[1]; j <= hi[1]; j++) cross(raster, p, z, i, j, list);
+    }
+}
+
+static int compare(const void *a, const void *b)
+{
+    const struct crossing *x = a, *y = b;
+    if (x->column != y->column) return x->column < y->column ? -1 : 1;
+    return x->z < y->z ? -1 : x->z > y->z;
+}
+
+/// Marks the voxels between two crossings of a column.
+static void fill(struct voxels *voxels, int column, double from, double to)
+{
+    int first = (int)fmax(0, ceil(from - 0.5)), end = (int)fmin(voxels->size[2], ceil(to - 0.5));
+    uint8_t *start = voxels->inside + (size_t)column * (size_t)voxels->size[2];
+    if (end > first) memset(start + first, 1, (size_t)(end - first));
+}
+
+bool voxels_fill(struct voxels *voxels, const struct surface *surface)
+{
+    double side = voxels->spacing * fmax(voxels->size[0], voxels->size[1]);
+    struct raster raster = {.voxels = voxels, .scale = (1 << 24) / side};
+    struct crossings list = {0};
+    voxels->inside = calloc(voxels_count(voxels), 1);
+    for (int i = 0; i < surface->index_count; i += 3) rasterise(&raster, surface, surface->indices + i, &list);
+    bool good = voxels->inside && !list.failed;
+    if (good && list.count) qsort(list.items, list.count, sizeof *list.items, compare);
+    int winding = 0;
+    for (size_t i = 0; good && i + 1 < list.count; i++) {
+        const struct crossing *here = &list.items[i], *next = here + 1;
+        winding += here->turn;
+        if (next->column != here->column) {
+            winding = 0;
+        } else if (winding != 0) {
+            fill(voxels, here->column, here->z, next->z);
+        }
+    }
+    free(list.items);
+    if (!good) voxels_free(voxels);
+    return good;
+}
+
+void voxels_free(struct voxels *voxels)
+{
+    free(voxels->inside);
+    voxels->inside = NULL;
+}

@@ -1,0 +1,30 @@
+/// Which points of a regular grid are inside a closed surface.
+#ifndef SIMULATION_VOXELS_H
+#define SIMULATION_VOXELS_H
+
+#include "model/obj.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/// Cubes of edge `spacing`; the one at (i, j, k) is number (i·size[1] + j)·size[2] + k and centred at origin + (i + ½, …)·spacing.
+struct voxels {
+    int size[3];
+    double origin[3], spacing; ///< m
+    uint8_t *inside;           ///< 1 where the winding number at the centre is not 0
+};
+
+/// Fills `inside` for the given grid, which must hold the surface. False where memory is short.
+bool voxels_fill(struct voxels *voxels, const struct surface *surface);
+void voxels_free(struct voxels *voxels);
+
+static inline size_t voxels_count(const struct voxels *voxels)
+{
+    return (size_t)voxels->size[0] * (size_t)voxels->size[1] * (size_t)voxels->size[2];
+}
+
+/// Number of edges that no second triangle uses in the opposite direction; 0 for a closed surface. Vertices at the same
+/// place count as one. −1 where memory is short.
+int surface_open_edges(const struct surface *surface);
+
+#endif

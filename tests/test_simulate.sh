@@ -1,0 +1,98 @@
+# wiggly simulate: what it writes, and what it says of meshes and options that it cannot use.
+. tests/check.sh
+WIGGLY=${WIGGLY:-build/wiggly}
+
+# A box of 1 × 2 × 1 m; its twin without the last triangle; one without volume.
+cat >"$scratch/box.obj" <<'END'
+v 0 0 0
+v 1 0 0
+v 1 0 1
+v 0 0 1
+v 0 2 0
+v 1 2 0
+v 1 2 1
+v 0 2 1
+f 1 2 3 4
+f 8 7 6 5
+f 1 5 6 2
+f 2 6 7 3
+f 3 7 8 4
+f 4 8 5
+END
+cp "$scratch/box.obj" "$scratch/open.obj"
+echo "f 4 5 1" >>"$scratch/box.obj"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n' >"$scratch/flat.obj"
+quick="--tets 60 --seconds 0.25 --fps 24 --substeps 2"
+
+# shellcheck disable=SC2086 # the options are split on purpose
+expect 0 "a box is shaken" "$WIGGLY" simulate "$scratch/box.obj" --shake side $quick -o "$scratch/box.npy"
+says "says what was written" "box.npy: 6 frames of 8 vertices, 24 a second" "$out"
+[ "$(stat -c %s "$scratch/box.npy")" -eq $((128 + 6 * 8 * 3 * 4)) ]
+ok "the .npy holds 6 × 8 × 3 floats" $?
+[ "$(grep -c '^v ' "$scratch/box.rest.obj")" -eq 8 ]
+ok "the rest mesh has the same vertices" $?
+first=$(cat "$scratch/box.npy" | cksum)
+# shellcheck disable=SC2086
+expect 0 "again" "$WIGGLY" simulate "$scratch/box.obj" --shake side $quick -o "$scratch/box.npy" --verbose
+[ "$first" = "$(cat "$scratch/box.npy" | cksum)" ]
+ok "the same command gives the same bytes" $?
+says "--verbose tells how far it is" "frame 6 of 6" "$err"
+
+# shellcheck disable=SC2086
+expect 0 "PC2, a push along a vector" "$WIGGLY" simulate "$scratch/box.obj" --shake 1,0,1 --impulse $quick -o "$scratch/box.pc2"
+[ "$(head -c 11 "$scratch/box.pc2")" = POINTCACHE2 ]
+ok "is PC2" $?
+expect 0 "normal modes" "$WIGGLY" simulate "$scratch/box.obj" --modal 3 --tets 60 --frequency 1.5 -o "$scratch/modes.npy"
+says "prints their frequencies, the lowest as asked for" "   1          1.5" "$out"
+[ "$(stat -c %s "$scratch/modes.npy")" -eq $((128 + 3 * 8 * 3 * 4)) ]
+ok "writes three shapes" $?
+
+refused() { # <exit status> <what it says> <arguments>...
+    local status=$1 what=$2
+    shift 2
+    expect "$status" "refuses: $what" "$WIGGLY" simulate "$@"
+    says "in one line" "$what" "$err"
+    [ "$(printf '%s\n' "$err" | wc -l)" -eq 1 ]
+    ok "and no more" $?
+}
+o="-o $scratch/none.npy"
+# shellcheck disable=SC2086
+{
+    refused 1 "open.obj: the mesh is not closed: 3 edges have no triangle on the other side" "$scratch/open.obj" $o
+    refused 1 "flat.obj: the mesh encloses no volume" "$scratch/flat.obj" $o
+    refused 1 "nowhere.obj" "$scratch/nowhere.obj" $o
+    refused 1 "nothing is left to move" "$scratch/box.obj" --tets 60 --pin 9 $o
+    refused 2 "there is no option --yuong (did you mean --young?)" "$scratch/box.obj" --yuong 1 $o
+    refused 2 "--poisson" "$scratch/box.obj" --poisson 0.5 $o
+    refused 2 "--shake: expected up, side, front or a vector x,y,z" "$scratch/box.obj" --shake 0,0,0 $o
+    refused 2 "-o FILE is missing" "$scratch/box.obj"
+    refused 2 "expected a name ending in .npy or .pc2" "$scratch/box.obj" -o "$scratch/box.abc"
+    refused 2 "expected a name ending in .npy for --modal" "$scratch/box.obj" --modal 2 -o "$scratch/box.pc2"
+    refused 3 "$scratch/no/such/none.rest.obj" "$scratch/box.obj" --tets 60 -o "$scratch/no/such/none.npy"
+}
+[ -z "$(find "$scratch" -name '*none*')" ]
+ok "nothing was written" $?
+
+# A disk of one block: the old file stays, nothing half-written beside it.
+(
+    ulimit -f 2
+    trap '' XFSZ
+    "$WIGGLY" simulate "$scratch/box.obj" --tets 60 --seconds 4 -o "$scratch/box.npy" >"$scratch/full" 2>&1
+)
+[ $? -eq 3 ]
+ok "a file that cannot grow is exit status 3" $?
+says "and a sentence" "box.npy" "$(grep -v tetrahedra "$scratch/full")"
+[ "$first" = "$(cat "$scratch/box.npy" | cksum)" ]
+ok "the old file is intact" $?
+[ "$(find "$scratch" -name '*box.npy*' | wc -l)" -eq 1 ]
+ok "no temporary file stays" $?
+
+"$WIGGLY" simulate "$scratch/box.obj" --tets 2000 --seconds 1000 -o "$scratch/stopped.npy" >/dev/null 2>"$scratch/said" &
+sleep 1
+kill -INT $!
+wait $!
+[ $? -eq 3 ]
+ok "Ctrl+C ends it in order" $?
+[ -z "$(find "$scratch" -name '*stopped.npy*')" ]
+ok "and leaves no half a file" $?
+exit $((cases_failed > 0))
