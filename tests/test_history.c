@@ -287,20 +287,84 @@ static void test_random_walks(void **state)
     }
 }
 
-/// More changes than the history keeps: the oldest steps go, the rest still leads back and forth.
+/// More than the history may keep: the oldest steps go, the rest still leads back and forth.
 static void test_history_is_bounded(void **state)
 {
     (void)state;
-    enum { STEPS = 700000 };
+    enum { STEPS = 3000, LIMIT = 100000 };
     struct world world;
     world_open(&world);
-    for (int i = 1; i <= STEPS; i++) nudge(&world, i, 0);
+    history_set_limit(world.history, LIMIT);
+    for (int i = 1; i <= STEPS; i++) {
+        nudge(&world, i, 0);
+        assert_true(history_bytes(world.history) <= LIMIT);
+        assert_int_equal(history_count(world.history) + history_dropped(world.history), i);
+    }
+    assert_true(history_bytes(world.history) > LIMIT / 2); // no more is dropped than has to be
+    size_t dropped = history_dropped(world.history);
     int undone = world_undo_all(&world);
-    assert_true(undone > 100000);
-    assert_true(undone < STEPS);
+    assert_true(undone > 100);
+    assert_int_equal(dropped + (size_t)undone, STEPS);
     assert_near(world.document->splines[SWAY].knots[0].value, STEPS - undone, 0);
     while (history_redo(world.history, world.document)) continue;
     assert_near(world.document->splines[SWAY].knots[0].value, STEPS, 0);
+    history_set_limit(world.history, 1);
+    nudge(&world, -1, 0); // one step is always kept
+    assert_int_equal(history_count(world.history), 1);
+    assert_true(history_undo(world.history, world.document));
+    assert_near(world.document->splines[SWAY].knots[0].value, STEPS, 0);
+    world_close(&world);
+}
+
+/// What was undone and then written over is counted no longer; a run of nudges counts as what it holds.
+static void test_bytes(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    nudge(&world, 1, 0);
+    size_t one = history_bytes(world.history);
+    assert_true(one > 0);
+    nudge(&world, 2, 0);
+    assert_int_equal(history_bytes(world.history), 2 * one);
+    assert_true(history_undo(world.history, world.document));
+    nudge(&world, 3, 0);
+    assert_int_equal(history_bytes(world.history), 2 * one);
+    nudge(&world, 4, 9);
+    nudge(&world, 5, 9);
+    assert_true(history_bytes(world.history) > 3 * one);
+    assert_true(history_bytes(world.history) < 4 * one);
+    history_clear(world.history);
+    assert_int_equal(history_bytes(world.history), 0);
+    assert_int_equal(history_dropped(world.history), 0);
+    world_close(&world);
+}
+
+/// Any step of the list can be gone to directly, from either side.
+static void test_jump(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    char *first = world_print(&world);
+    for (int i = 1; i <= 6; i++) nudge(&world, i, 0);
+    history_mark_saved(world.history);
+    assert_false(history_jump(world.history, world.document, 6));
+    assert_true(history_jump(world.history, world.document, 2));
+    assert_near(world.document->splines[SWAY].knots[0].value, 2, 0);
+    assert_int_equal(history_done(world.history), 2);
+    assert_int_equal(history_count(world.history), 6);
+    assert_true(history_step_is_saved(world.history, 6));
+    assert_false(history_step_is_saved(world.history, 2));
+    assert_true(history_jump(world.history, world.document, 5));
+    assert_near(world.document->splines[SWAY].knots[0].value, 5, 0);
+    assert_true(history_jump(world.history, world.document, 0));
+    assert_document(&world, first);
+    assert_false(history_jump(world.history, world.document, 7));
+    assert_string_equal(history_label(world.history, 5), "Nudge");
+    history_mark_unsaved(world.history);
+    for (size_t done = 0; done <= 6; done++) assert_false(history_step_is_saved(world.history, done));
+    free(first);
     world_close(&world);
 }
 
@@ -316,6 +380,8 @@ int main(void)
         cmocka_unit_test(test_drag_allocates_nothing),
         cmocka_unit_test(test_random_walks),
         cmocka_unit_test(test_history_is_bounded),
+        cmocka_unit_test(test_bytes),
+        cmocka_unit_test(test_jump),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

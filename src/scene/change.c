@@ -19,6 +19,30 @@ bool change_list_reserve(struct change_list *list, size_t count)
     return true;
 }
 
+static size_t knots_of(const struct document *document)
+{
+    size_t count = 0;
+    for (int s = 0; s < document->spline_count; s++) count += (size_t)document->splines[s].knot_count;
+    return count;
+}
+
+size_t change_bytes(const struct change *change, const struct document *document)
+{
+    const size_t own = sizeof *change;
+    switch (change->kind) {
+    case CHANGE_SPLINE_IN:
+        return own + sizeof *change->held;
+    case CHANGE_SPLINE_OUT:
+        return own + sizeof *change->held + (size_t)change->held->knot_capacity * sizeof *change->held->knots;
+    case CHANGE_NAME:
+        return own + strlen(change->name) + 1;
+    case CHANGE_TIMING:
+        return own + (change->timing.frames ? knots_of(document) * sizeof *change->timing.frames : 0);
+    default:
+        return own;
+    }
+}
+
 static void insert_knot(const struct document *document, struct spline *spline, const struct knot *knot)
 {
     assert(spline->knot_count < spline->knot_capacity);

@@ -87,6 +87,9 @@ struct change_list {
 /// Room for `count` more. Capacities are powers of two. false where memory is short.
 bool change_list_reserve(struct change_list *list, size_t count);
 
+/// Memory that a change of this document takes, with what it holds.
+size_t change_bytes(const struct change *change, const struct document *document);
+
 /// The angles at a place that exists.
 struct angles *angles_at(struct document *document, struct angles_place at);
 

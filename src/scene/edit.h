@@ -7,6 +7,7 @@
 #define SCENE_EDIT_H
 
 #include "scene/document.h"
+#include <stddef.h>
 
 enum edit_kind {
     EDIT_KNOT_INSERT, ///< spline, knot (id 0: a new one is given)
@@ -92,6 +93,20 @@ bool history_redo(struct history *history, struct document *document);
 /// Label of what undo / redo would do next, or NULL.
 const char *history_undo_label(const struct history *history);
 const char *history_redo_label(const struct history *history);
+
+/// The steps from the oldest kept one on: how many there are, how many of them are not undone, their labels.
+size_t history_count(const struct history *history);
+size_t history_done(const struct history *history);
+const char *history_label(const struct history *history, size_t step);
+/// Whether the document was saved as it is after the first `done` steps.
+bool history_step_is_saved(const struct history *history, size_t done);
+/// Undoes or does again until `done` steps are done; false where nothing changes. A step must not be open.
+bool history_jump(struct history *history, struct document *document, size_t done);
+/// Older steps that were dropped, and bytes that the others take. The limit (128 MiB; with what the arrays have in
+/// reserve, at most 256) is kept by dropping the oldest; the newest step stays, however large.
+size_t history_dropped(const struct history *history);
+size_t history_bytes(const struct history *history);
+void history_set_limit(struct history *history, size_t bytes);
 
 /// Changes with every apply, undo and redo and never repeats: "has the document changed since".
 uint64_t history_revision(const struct history *history);

@@ -4,14 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// So many changes and their steps stay under 256 MB, with as many in the open step.
-enum { MAX_CHANGES = 1 << 19, FIRST_STEPS = 1024, FIRST_DIRTY = 64 };
+enum { FIRST_STEPS = 1024, FIRST_DIRTY = 64 };
+
+/// Of what is used: the arrays grow by doubling, so that the memory they take stays under 256 MB.
+static const size_t DEFAULT_LIMIT = (size_t)128 << 20;
 
 struct step {
     const char *label;
     uint64_t merge;
     uint64_t state; ///< the document's, after it
     size_t end;     ///< its changes end here in the list of all
+    size_t bytes;   ///< that it takes with its changes
 };
 
 struct history {
@@ -19,10 +22,13 @@ struct history {
     struct step *steps;
     size_t step_count, step_capacity;
     size_t done;          ///< steps that are not undone
+    size_t bytes, limit;  ///< of all steps
+    size_t dropped;       ///< steps that made room for newer ones
     uint64_t first_state; ///< the document's before the first step
     uint64_t last_state, saved_state, revision;
 
     struct change_list open; ///< the open step's: kept apart, so that a cancelled drag leaves redo alone
+    size_t open_bytes;       ///< that it takes
     bool is_open, can_merge;
     const char *label;
     uint64_t merge;
@@ -44,6 +50,7 @@ struct history *history_create(void)
     if (!history) return NULL;
     history->steps = malloc(FIRST_STEPS * sizeof *history->steps);
     history->step_capacity = FIRST_STEPS;
+    history->limit = DEFAULT_LIMIT;
     history->dirty = calloc(FIRST_DIRTY, sizeof *history->dirty);
     history->dirty_capacity = FIRST_DIRTY;
     if (history->steps && history->dirty && change_list_reserve(&history->changes, 1) &&
@@ -70,7 +77,9 @@ void history_destroy(struct history *history)
 static void forget_steps(struct history *history)
 {
     release_from(&history->changes, 0);
+    history->dropped += history->step_count;
     history->step_count = history->done = 0;
+    history->bytes = 0;
     history->first_state = ++history->last_state;
     history->can_merge = false;
 }
@@ -79,6 +88,7 @@ void history_clear(struct history *history)
 {
     forget_steps(history);
     release_from(&history->open, 0);
+    history->dropped = 0;
     history->is_open = false;
     history->saved_state = history->first_state;
     history->revision++;
@@ -136,7 +146,11 @@ bool history_apply(struct history *history, struct document *document, const str
         release_from(&history->open, from);
         return false;
     }
-    for (size_t i = from; i < history->open.count; i++) swap_change(history, &history->open.items[i], document);
+    if (from == 0) history->open_bytes = 0;
+    for (size_t i = from; i < history->open.count; i++) {
+        swap_change(history, &history->open.items[i], document);
+        history->open_bytes += change_bytes(&history->open.items[i], document);
+    }
     history->revision++;
     return true;
 }
@@ -163,18 +177,19 @@ static bool reserve_step(struct history *history)
     return true;
 }
 
-/// Drops the oldest steps, half of what there may be at once: moving the rest is then rare.
-static void drop_oldest(struct history *history)
+/// Makes room for `more` bytes: the oldest steps go. An eighth of the room is freed at once, so that moving the rest is rare.
+static void drop_oldest(struct history *history, size_t more)
 {
-    size_t drop = 0, excess = history->changes.count + history->open.count;
-    if (excess <= MAX_CHANGES || history->step_count == 0) return;
-    excess -= MAX_CHANGES / 2;
-    while (drop < history->step_count && (drop == 0 || history->steps[drop - 1].end < excess)) drop++;
+    size_t drop = 0, kept = history->bytes, room = history->limit - history->limit / 8;
+    if (history->step_count == 0 || kept + more <= history->limit) return;
+    while (drop < history->step_count && (drop == 0 || kept + more > room)) kept -= history->steps[drop++].bytes;
     size_t changes = history->steps[drop - 1].end;
     history->first_state = history->steps[drop - 1].state;
+    history->dropped += drop;
     history->step_count -= drop;
     history->done -= drop;
     for (size_t i = 0; i < changes; i++) change_release(&history->changes.items[i]);
+    history->bytes = kept;
     history->changes.count -= changes;
     memmove(history->steps, history->steps + drop, history->step_count * sizeof *history->steps);
     memmove(history->changes.items, history->changes.items + changes,
@@ -184,7 +199,7 @@ static void drop_oldest(struct history *history)
 
 static void forget_undone(struct history *history)
 {
-    history->step_count = history->done;
+    while (history->step_count > history->done) history->bytes -= history->steps[--history->step_count].bytes;
     release_from(&history->changes, history->done > 0 ? history->steps[history->done - 1].end : 0);
 }
 
@@ -203,7 +218,8 @@ void history_end(struct history *history)
     if (open->count == 0) return;
     forget_undone(history);
     bool wants_to_join = joins_last(history);
-    drop_oldest(history);
+    size_t bytes = history->open_bytes + sizeof *history->steps;
+    drop_oldest(history, bytes);
     bool joins = wants_to_join && history->done > 0;
     if (!change_list_reserve(all, open->count) || !reserve_step(history)) {
         forget_steps(history); // the work matters more than the way back
@@ -213,10 +229,14 @@ void history_end(struct history *history)
     memcpy(all->items + all->count, open->items, open->count * sizeof *open->items);
     all->count += open->count;
     open->count = 0;
-    if (!joins) history->steps[history->step_count++] = (struct step){history->label, history->merge, 0, 0};
+    if (joins) bytes -= sizeof *history->steps;
+    if (!joins)
+        history->steps[history->step_count++] = (struct step){.label = history->label, .merge = history->merge};
     history->done = history->step_count;
     history->steps[history->done - 1].state = ++history->last_state;
     history->steps[history->done - 1].end = all->count;
+    history->steps[history->done - 1].bytes += bytes;
+    history->bytes += bytes;
     history->can_merge = true;
 }
 
@@ -255,6 +275,36 @@ const char *history_redo_label(const struct history *history)
 {
     return history->done < history->step_count ? history->steps[history->done].label : NULL;
 }
+
+bool history_jump(struct history *history, struct document *document, size_t done)
+{
+    if (done > history->step_count || done == history->done) return false;
+    while (history->done > done) history_undo(history, document);
+    while (history->done < done) history_redo(history, document);
+    return true;
+}
+
+size_t history_count(const struct history *history) { return history->step_count; }
+
+size_t history_done(const struct history *history) { return history->done; }
+
+size_t history_dropped(const struct history *history) { return history->dropped; }
+
+size_t history_bytes(const struct history *history) { return history->bytes; }
+
+const char *history_label(const struct history *history, size_t step)
+{
+    assert(step < history->step_count);
+    return history->steps[step].label;
+}
+
+bool history_step_is_saved(const struct history *history, size_t done)
+{
+    uint64_t state = done > 0 ? history->steps[done - 1].state : history->first_state;
+    return state == history->saved_state;
+}
+
+void history_set_limit(struct history *history, size_t bytes) { history->limit = bytes; }
 
 uint64_t history_revision(const struct history *history) { return history->revision; }
 
