@@ -115,7 +115,8 @@ static double take_snapshot(struct autosave *autosave, const struct autosave_wor
     double start = seconds_now();
     autosave->revision = work->revision;
     snprintf(snapshot->path, sizeof snapshot->path, "%s", work->path);
-    bool good = scene_print_into(work->document, &snapshot->text, &snapshot->capacity, &snapshot->size);
+    bool good =
+        scene_print_into(work->document, RECOVERY_FOLDER, &snapshot->text, &snapshot->capacity, &snapshot->size);
     return good ? seconds_now() - start : NAN;
 }
 

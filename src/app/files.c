@@ -1,6 +1,7 @@
 // What the editor may not do itself: files, the window, and the end of the run.
 #include "app/state.h"
 #include "base/embedded.h"
+#include "base/path.h"
 #include "base/png.h"
 #include "editor/dialog_files.h"
 #include "scene/load.h"
@@ -81,7 +82,11 @@ bool app_open(struct app *app, const char *path, struct error *error)
 
 static bool save(struct app *app, const char *path, struct error *error)
 {
+    char folder[PATH_LIMIT];
     if (!scene_save(app->document, path, error)) return false;
+    if (!path_folder(path, folder) || !document_set_folder(app->document, folder)) {
+        return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to go on with it", path);
+    }
     if (path != app->path) snprintf(app->path, sizeof app->path, "%s", path);
     history_mark_saved(app->history);
     editor_set_title(app->editor, shown_name(app), app->path);

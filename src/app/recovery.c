@@ -105,6 +105,7 @@ struct document *recovery_read(const struct recovery_slot *slot, struct error *e
     if (line_end && strncmp(data, first_line, sizeof first_line - 1) == 0) {
         const char *text = line_end + 1;
         document = scene_parse(slot->path, text, size - (size_t)(text - data), NULL, error);
+        if (document) document->folder = strdup(RECOVERY_FOLDER);
     } else {
         fail(error, ERROR_INPUT, "%s:1: expected \"%s\", got something else", slot->path, first_line);
     }

@@ -4,7 +4,7 @@
 /// lock goes with the process, however that ends. A file whose lock is free was left behind and can be offered. It holds
 ///
 ///     wiggly-recovery 1 /home/me/walk.json      (the path of the document's own file; nothing for an untitled one)
-///     { "wiggly": 1, …                          (the document's canonical text)
+///     { "wiggly": 1, …                          (the document's canonical text, for a file in RECOVERY_FOLDER)
 #ifndef APP_RECOVERY_H
 #define APP_RECOVERY_H
 
@@ -12,6 +12,8 @@
 #include "scene/document.h"
 #include <stddef.h>
 #include <time.h>
+
+#define RECOVERY_FOLDER "/" /* paths in the text are relative to it: an untitled document has no folder of its own */
 
 enum { RECOVERY_SLOTS = 64, RECOVERY_PATH = 1024 };
 
@@ -40,7 +42,7 @@ bool recovery_find(const char *folder, struct recovery_entry *entry, int *count)
 /// The document in a file. NULL with a sentence where it is not whole.
 struct document *recovery_read(const struct recovery_slot *slot, struct error *error);
 
-/// Writes a slot's file, atomically: `text` is the document's canonical text.
+/// Writes a slot's file, atomically: `text` is the document's canonical text for RECOVERY_FOLDER.
 bool recovery_write(const struct recovery_slot *slot, const char *original, const char *text, size_t size,
                     struct error *error);
 

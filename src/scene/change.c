@@ -226,6 +226,13 @@ static void swap_tail_place(struct change *change, struct document *document)
     for (int i = 0; i < 3; i++) SWAP(struct param, tail->position[i], change->place.position[i]);
 }
 
+static void swap_drives(struct change *change, struct document *document)
+{
+    struct character_rig *rig = &document->characters[change->drives.character];
+    SWAP(int, rig->drive_count, change->drives.count);
+    for (int i = 0; i < CHARACTER_MAX_DRIVES; i++) SWAP(struct drive, rig->drives[i], change->drives.drives[i]);
+}
+
 void change_swap(struct change *change, struct document *document)
 {
     struct spline *spline = change->spline >= 0 ? &document->splines[change->spline] : NULL;
@@ -265,6 +272,9 @@ void change_swap(struct change *change, struct document *document)
         break;
     case CHANGE_ANGLE:
         SWAP(double, angles_at(document, change->angle.at)->value[change->angle.joint], change->angle.value);
+        break;
+    case CHANGE_DRIVES:
+        swap_drives(change, document);
         break;
     }
 }

@@ -22,6 +22,7 @@ enum change_kind {
     CHANGE_PLACE,       ///< a tail's length and position
     CHANGE_EACH,        ///< whether angles are one for all joints or one for each
     CHANGE_ANGLE,       ///< one of them
+    CHANGE_DRIVES,      ///< what moves a character's coordinates
 };
 
 /// What EDIT_PARAMETER, EDIT_MODE, EDIT_START and EDIT_SPRING change.
@@ -76,6 +77,10 @@ struct change {
             int joint;
             double value;
         } angle;
+        struct {
+            int character, count;
+            struct drive drives[CHARACTER_MAX_DRIVES];
+        } drives;
     };
 };
 

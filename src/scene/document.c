@@ -1,4 +1,5 @@
 #include "scene/document.h"
+#include "base/path.h"
 #include <jansson.h>
 #include <limits.h>
 #include <math.h>
@@ -73,10 +74,50 @@ void document_destroy(struct document *document)
         free(document->tails[i].name);
         free(document->tails[i].channels);
     }
+    for (int i = 0; i < document->character_count; i++) {
+        free(document->characters[i].name);
+        free(document->characters[i].model);
+        free(document->characters[i].paint);
+    }
     free(document->splines);
     free(document->tails);
+    free(document->characters);
+    free(document->folder);
     json_decref(document->owned);
     free(document);
+}
+
+/// Replaces a path by the one from the new folder.
+static bool move_path(char **path, const char *from, const char *to)
+{
+    char moved[PATH_LIMIT];
+    if (!*path || !path_rebase(*path, from, to, moved)) return true;
+    char *copy = strdup(moved);
+    if (!copy) return false;
+    free(*path);
+    *path = copy;
+    return true;
+}
+
+bool document_set_folder(struct document *document, const char *folder)
+{
+    char *copy = folder ? strdup(folder) : NULL;
+    if (folder && !copy) return false;
+    bool moved = true;
+    for (int i = 0; i < document->character_count; i++) {
+        moved &= move_path(&document->characters[i].model, document->folder, folder);
+        moved &= move_path(&document->characters[i].paint, document->folder, folder);
+    }
+    free(document->folder);
+    document->folder = copy;
+    return moved;
+}
+
+const char *document_keep_text(struct document *document, const char *text)
+{
+    json_t *string = json_string(text);
+    if (!document->owned) document->owned = json_array();
+    return json_array_append_new(document->owned, string) == 0 ? json_string_value(string) : NULL;
 }
 
 int document_samples(const struct document *document)

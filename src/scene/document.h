@@ -15,9 +15,10 @@ enum {
     SCENE_MAX_KNOTS = 1000000,    ///< over all splines together
     SCENE_MAX_FPS = 100000,
     SCENE_MAX_FRAME = 1000000000, ///< of first and last, to both sides
-    SCENE_MAX_TAILS = 1024,
+    SCENE_MAX_RIGS = 1024,
     SCENE_MAX_CHANNELS = 64, ///< of one tail
     TAIL_MAX_JOINTS = 256,
+    CHARACTER_MAX_DRIVES = 4,
 };
 
 /// The parameters of a spline, in the order in which they are saved.
@@ -93,6 +94,26 @@ struct tail {
     const void *extra;
 };
 
+/// What moves one complex normal coordinate of a character (eq. 30): A e^{−j·lag} x.
+struct drive {
+    const char *name; ///< of the coordinate in the model; the document owns it
+    int spline;       ///< index
+    double amplitude; ///< A
+    double lag;       ///< degrees
+    const void *extra;
+};
+
+/// A soft character. Its model is a file of its own, which is not read here and may be missing.
+struct character_rig {
+    char *name;          ///< NULL where the file has none
+    char *model, *paint; ///< files, relative to the document's folder unless absolute; paint may be NULL
+    double position[3];  ///< metres
+    struct drive drives[CHARACTER_MAX_DRIVES];
+    int drive_count;
+    int tails_before; ///< its place among the rigs of the file
+    const void *extra;
+};
+
 struct document {
     double fps;
     int substeps;
@@ -101,6 +122,9 @@ struct document {
     int spline_count, spline_capacity;
     struct tail *tails;
     int tail_count;
+    struct character_rig *characters;
+    int character_count;
+    char *folder;            ///< that paths in it are relative to; NULL: the working folder
     unsigned next_id;        ///< of a knot
     unsigned next_spline_id; ///< of a spline
     const void *extra;
@@ -110,6 +134,13 @@ struct document {
 /// An empty document: 24 fps, frames 0 … 120, no splines. NULL where memory is short.
 struct document *document_create(void);
 void document_destroy(struct document *document);
+
+/// Tells the document that it is now in another folder (NULL: the working folder), as after "save as": paths that are
+/// relative are rewritten so that they lead to the same files. false where memory is short.
+bool document_set_folder(struct document *document, const char *folder);
+
+/// A copy of a text that lives as long as the document; NULL where memory is short.
+const char *document_keep_text(struct document *document, const char *text);
 
 /// Number of samples N of every spline.
 int document_samples(const struct document *document);
@@ -162,5 +193,6 @@ double parameter_default(enum parameter parameter);
 #define TAIL_DEFAULT_LENGTH 1.6  /* m */
 #define CHANNEL_DEFAULT_LAG 6.5  /* degrees a joint */
 #define CHANNEL_DEFAULT_GAIN 5.0 /* degrees a unit of the spline */
+#define DRIVE_DEFAULT_AMPLITUDE 1.0
 
 #endif

@@ -12,7 +12,7 @@ bool plan_add(struct change_list *list, const struct change *change, struct erro
 }
 
 /// Which index of an edit must name something that exists.
-enum target { TARGET_SCENE, TARGET_SPLINE, TARGET_TAIL };
+enum target { TARGET_SCENE, TARGET_SPLINE, TARGET_TAIL, TARGET_CHARACTER };
 
 static const struct {
     planner *plan;
@@ -40,6 +40,9 @@ static const struct {
     [EDIT_FEED] = {plan_feed, TARGET_TAIL},
     [EDIT_POSITION] = {plan_position, TARGET_TAIL},
     [EDIT_LENGTH] = {plan_length, TARGET_TAIL},
+    [EDIT_DRIVE] = {plan_drive, TARGET_CHARACTER},
+    [EDIT_DRIVE_ADD] = {plan_drive_add, TARGET_CHARACTER},
+    [EDIT_DRIVE_REMOVE] = {plan_drive_remove, TARGET_CHARACTER},
 };
 
 bool edit_plan(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
@@ -50,6 +53,9 @@ bool edit_plan(struct document *document, const struct edit *edit, struct change
     }
     if (target == TARGET_TAIL && (edit->tail < 0 || edit->tail >= document->tail_count)) {
         return fail(error, ERROR_INPUT, "there is no such tail");
+    }
+    if (target == TARGET_CHARACTER && (edit->character < 0 || edit->character >= document->character_count)) {
+        return fail(error, ERROR_INPUT, "there is no such character");
     }
     return planners[edit->kind].plan(document, edit, list, error);
 }

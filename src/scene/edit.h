@@ -25,14 +25,17 @@ enum edit_kind {
     EDIT_SPLINE_NAME,   ///< spline, text: not empty, and no other's name
     EDIT_SPLINE_COLOR,  ///< spline, color: 0xRRGGBB, or -1
     EDIT_FPS, ///< number; flag: knots and range keep their seconds, not their frames. Slopes are per second anyway
-    EDIT_SUBSTEPS, ///< substeps
-    EDIT_RANGE,    ///< first, last: the scene's frames; fit: what becomes of knots that would lie outside
-    EDIT_ANGLES,   ///< tail, channel (-1: rest), angle: which, angles
-    EDIT_AXIS,     ///< tail, channel, axis
-    EDIT_PART,     ///< tail, channel, of
-    EDIT_FEED,     ///< tail, channel, spline: the spline that the channel bends by
-    EDIT_POSITION, ///< tail, coordinate, param: metres, or a spline to follow
-    EDIT_LENGTH,   ///< tail, number: metres, above 0
+    EDIT_SUBSTEPS,     ///< substeps
+    EDIT_RANGE,        ///< first, last: the scene's frames; fit: what becomes of knots that would lie outside
+    EDIT_ANGLES,       ///< tail, channel (-1: rest), angle: which, angles
+    EDIT_AXIS,         ///< tail, channel, axis
+    EDIT_PART,         ///< tail, channel, of
+    EDIT_FEED,         ///< tail, channel, spline: the spline that the channel bends by
+    EDIT_POSITION,     ///< tail, coordinate, param: metres, or a spline to follow
+    EDIT_LENGTH,       ///< tail, number: metres, above 0
+    EDIT_DRIVE,        ///< character, channel: which drive, drive: replaces spline, amplitude and lag
+    EDIT_DRIVE_ADD,    ///< character, drive (its name is copied)
+    EDIT_DRIVE_REMOVE, ///< character, channel: which drive
 };
 
 enum range_fit {
@@ -62,6 +65,8 @@ struct edit {
     enum channel_part of;
     int coordinate; ///< 0 … 2: x, y, z
     double number;
+    int character;
+    struct drive drive;
     const struct angles *angles; ///< read during the call only
 };
 

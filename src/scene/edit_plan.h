@@ -13,6 +13,7 @@ planner plan_parameter, plan_mode, plan_start, plan_spring;
 planner plan_spline_add, plan_spline_copy, plan_spline_remove, plan_spline_move, plan_spline_name, plan_spline_color;
 planner plan_fps, plan_substeps, plan_range;
 planner plan_angles, plan_axis, plan_part, plan_feed, plan_position, plan_length;
+planner plan_drive, plan_drive_add, plan_drive_remove;
 
 /// Adds one change to a plan. What the change owns is the plan's from here on, and is freed on failure.
 bool plan_add(struct change_list *list, const struct change *change, struct error *error);

@@ -1,5 +1,6 @@
 #include "scene/load.h"
 #include "base/file.h"
+#include "base/path.h"
 #include "scene/reader.h"
 #include <stdlib.h>
 #include <string.h>
@@ -118,7 +119,7 @@ static void load_scene(struct reader *reader, json_t *scene)
     if (!load_version(reader, &scene_at, scene)) return;
     load_domain(reader, &scene_at, scene);
     load_splines(reader, &scene_at, scene);
-    load_tails(reader, &scene_at, scene);
+    load_rigs(reader, &scene_at, scene);
     reader->document->extra = reader_keep(reader, reader_extra(reader, &scene_at, scene, scene_keys));
     if (!reader->failed) validate_scene(reader, &scene_at);
 }
@@ -166,6 +167,18 @@ static struct document *parse_document(const char *name, const char *text, size_
     return NULL;
 }
 
+/// Paths in the document start at the folder of its file.
+static struct document *set_folder(struct document *document, const char *path, struct error *error)
+{
+    char folder[PATH_LIMIT];
+    if (!document) return NULL;
+    document->folder = path_folder(path, folder) ? strdup(folder) : NULL;
+    if (document->folder) return document;
+    fail(error, ERROR_ENVIRONMENT, "%s: not enough memory, or the path is too long", path);
+    document_destroy(document);
+    return NULL;
+}
+
 struct document *scene_load(const char *path, struct problems *problems, struct error *error)
 {
     char *text;
@@ -178,7 +191,7 @@ struct document *scene_load(const char *path, struct problems *problems, struct 
     }
     struct document *document = parse_document(path, text, size, problems, error);
     free(text);
-    return document;
+    return set_folder(document, path, error);
 }
 
 struct document *scene_parse(const char *name, const char *text, size_t size, struct problems *problems,

@@ -26,9 +26,11 @@ struct document *scene_parse(const char *name, const char *text, size_t size, st
 /// document.
 char *scene_print(const struct document *document, size_t *size);
 
-/// The same into `*buffer` of `*capacity` bytes (NULL and 0 to begin with), which grows where it must and stays the
-/// caller's to free: printing the same document again and again allocates nothing. false where memory is short.
-bool scene_print_into(const struct document *document, char **buffer, size_t *capacity, size_t *size);
+/// The same for a file in `folder` (document.h), into `*buffer` of `*capacity` bytes (NULL and 0 to begin with), which grows
+/// where it must and stays the caller's to free: printing the same document again and again allocates nothing. false where
+/// memory is short.
+bool scene_print_into(const struct document *document, const char *folder, char **buffer, size_t *capacity,
+                      size_t *size);
 
 /// scene_print() into a file, atomically.
 bool scene_save(const struct document *document, const char *path, struct error *error);

@@ -6,7 +6,6 @@
 static const char *const tail_keys[] = {"type",   "name", "joints", "length", "position", "rest", "channels",
                                         "spline", "axis", "of",     "lag",    "gain",     NULL};
 static const char *const channel_keys[] = {"spline", "axis", "of", "lag", "gain", NULL};
-static const char *const types[] = {"tail", NULL};
 static const char *const axes[] = {"side", "up", NULL};
 static const char *const parts[] = {"total", "displacement", NULL};
 
@@ -113,21 +112,19 @@ static void load_channels(struct reader *reader, const struct where *tail_at, co
     }
 }
 
-static void load_tail(struct reader *reader, const struct where *at, json_t *object, struct tail *tail)
+void load_tail(struct reader *reader, const struct where *at, json_t *object, struct tail *tail)
 {
-    struct where type_at, name_at, joints_at, length_at, position_at, rest_at;
-    const json_t *type = reader_member(at, object, "type", &type_at);
+    struct where name_at, joints_at, length_at, position_at, rest_at;
     const json_t *name = reader_member(at, object, "name", &name_at);
     const json_t *joints = reader_member(at, object, "joints", &joints_at);
     const json_t *length = reader_member(at, object, "length", &length_at);
     const json_t *position = reader_member(at, object, "position", &position_at);
     const json_t *rest = reader_member(at, object, "rest", &rest_at);
     struct range positive = {0, INFINITY, true};
+    json_t *unknown = reader_extra(reader, at, object, tail_keys);
     tail->joints = TAIL_DEFAULT_JOINTS;
     tail->length = TAIL_DEFAULT_LENGTH;
     for (int i = 0; i < 3; i++) tail->position[i].track = -1;
-    if (reader_word(reader, &type_at, type, types, "\"tail\"", -1) < 0) return;
-    json_t *unknown = reader_extra(reader, at, object, tail_keys);
     tail->name = reader_name(reader, &name_at, name);
     reader_number(reader, &length_at, length, false, positive, &tail->length);
     load_position(reader, &position_at, position, tail->position, &unknown);
@@ -136,36 +133,4 @@ static void load_tail(struct reader *reader, const struct where *at, json_t *obj
         load_channels(reader, at, object, tail);
     }
     tail->extra = reader_keep(reader, unknown);
-}
-
-static void check_name(struct reader *reader, const struct where *tails_at, int index)
-{
-    const struct tail *tails = reader->document->tails;
-    struct where tail_at = {.parent = tails_at, .index = (size_t)index};
-    struct where at = {.parent = &tail_at, .key = "name"};
-    for (int i = 0; i < index && tails[index].name; i++) {
-        if (!tails[i].name || strcmp(tails[i].name, tails[index].name) != 0) continue;
-        reader_fail(reader, &at, "expected a name of its own, got \"%s\" as rigs[%d] has", tails[i].name, i);
-        return;
-    }
-}
-
-void load_tails(struct reader *reader, const struct where *scene_at, const json_t *scene)
-{
-    struct where tails_at;
-    const json_t *tails = reader_member(scene_at, scene, "rigs", &tails_at);
-    int count = reader_objects(reader, &tails_at, tails, SCENE_MAX_TAILS);
-    if (count <= 0) return;
-    struct document *document = reader->document;
-    document->tails = calloc((size_t)count, sizeof *document->tails);
-    if (!document->tails) {
-        reader_no_memory(reader);
-        return;
-    }
-    document->tail_count = count;
-    for (int i = 0; i < count; i++) {
-        struct where at = {.parent = &tails_at, .index = (size_t)i};
-        load_tail(reader, &at, json_array_get(tails, (size_t)i), &document->tails[i]);
-        check_name(reader, &tails_at, i);
-    }
 }

@@ -1,8 +1,10 @@
 #include "base/file.h"
+#include "base/path.h"
 #include "scene/color.h"
 #include "scene/load.h"
+#include "scene/members.h"
 #include "scene/order.h"
-#include "scene/text.h"
+#include "scene/print_character.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,39 +13,6 @@ static const char *const mode_names[] = {
 static const char *const start_names[] = {[WIGGLY_FREE] = "free", [WIGGLY_REST] = "rest", [WIGGLY_LOOP] = "loop"};
 static const char *const part_names[] = {[PART_TOTAL] = "total", [PART_DISPLACEMENT] = "displacement"};
 static const char *const axis_names[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up"};
-
-/// An object being written: members are set apart by `separator`, which opens the object before the first.
-struct members {
-    struct text *text;
-    const char *open, *separator;
-    bool any;
-};
-
-static void member(struct members *members, const char *key)
-{
-    text_string(members->text, members->any ? members->separator : members->open);
-    text_quoted(members->text, key);
-    text_string(members->text, ": ");
-    members->any = true;
-}
-
-static void member_number(struct members *members, const char *key, double value)
-{
-    member(members, key);
-    text_number(members->text, value);
-}
-
-static void member_string(struct members *members, const char *key, const char *string)
-{
-    member(members, key);
-    text_quoted(members->text, string);
-}
-
-/// The unknown keys of an object, or those of a track inside of it.
-static json_t *extra_of(const void *extra) { return (json_t *)(uintptr_t)extra; }
-
-/// Whether a key of an object's extra one holds the unknown keys of tracks inside of it, and is none of its own.
-typedef bool holds_tracks(const char *key);
 
 static bool is_parameter(const char *key)
 {
@@ -55,33 +24,11 @@ static bool is_parameter(const char *key)
 
 static bool is_position(const char *key) { return strcmp(key, "position") == 0; }
 
-static void members_extra(struct members *members, const void *extra, holds_tracks *skips)
-{
-    const char *key;
-    json_t *value;
-    json_object_foreach(extra_of(extra), key, value)
-    {
-        if (skips && skips(key)) continue;
-        member(members, key);
-        text_json(members->text, value);
-    }
-}
-
-static void print_numbers(struct text *text, const double *values, int count)
-{
-    text_string(text, "[");
-    for (int i = 0; i < count; i++) {
-        if (i > 0) text_string(text, ", ");
-        text_number(text, values[i]);
-    }
-    text_string(text, "]");
-}
-
 static void print_angles(struct members *members, const char *key, const struct angles *angles, int joints)
 {
     member(members, key);
     if (angles->each) {
-        print_numbers(members->text, angles->value, joints);
+        text_numbers(members->text, angles->value, joints);
     } else {
         text_number(members->text, angles->value[0]);
     }
@@ -195,7 +142,24 @@ static void print_tail(struct text *text, const struct document *document, const
     text_string(text, "\n    }");
 }
 
-static void print_document(struct text *text, const struct document *document)
+/// Tails and characters in the order of the file.
+static void print_rigs(struct text *text, const struct document *document, const char *folder)
+{
+    int tail = 0, character = 0, count = document->tail_count + document->character_count;
+    while (tail + character < count) {
+        text_string(text, tail + character > 0 ? ",\n" : "[\n");
+        bool is_next = character < document->character_count && document->characters[character].tails_before <= tail;
+        if (is_next || tail == document->tail_count) {
+            print_character(text, document, &document->characters[character++], folder);
+        } else {
+            print_tail(text, document, &document->tails[tail++]);
+        }
+    }
+    text_string(text, count > 0 ? "\n  ]" : "[]");
+}
+
+/// `folder` is that of the file that the text is for: paths in it are relative to it.
+static void print_document(struct text *text, const struct document *document, const char *folder)
 {
     struct members members = {text, "{\n  ", ",\n  ", false};
     double frames[] = {document->first_frame, document->last_frame};
@@ -203,7 +167,7 @@ static void print_document(struct text *text, const struct document *document)
     member_number(&members, "fps", document->fps);
     member_number(&members, "substeps", document->substeps);
     member(&members, "frames");
-    print_numbers(text, frames, 2);
+    text_numbers(text, frames, 2);
     member(&members, "splines");
     for (int i = 0; i < document->spline_count; i++) {
         text_string(text, i > 0 ? ",\n" : "[\n");
@@ -211,19 +175,16 @@ static void print_document(struct text *text, const struct document *document)
     }
     text_string(text, document->spline_count > 0 ? "\n  ]" : "[]");
     member(&members, "rigs");
-    for (int i = 0; i < document->tail_count; i++) {
-        text_string(text, i > 0 ? ",\n" : "[\n");
-        print_tail(text, document, &document->tails[i]);
-    }
-    text_string(text, document->tail_count > 0 ? "\n  ]" : "[]");
+    print_rigs(text, document, folder);
     members_extra(&members, document->extra, NULL);
     text_string(text, "\n}\n");
 }
 
-bool scene_print_into(const struct document *document, char **buffer, size_t *capacity, size_t *size)
+bool scene_print_into(const struct document *document, const char *folder, char **buffer, size_t *capacity,
+                      size_t *size)
 {
     struct text text = {.data = *buffer, .capacity = *capacity};
-    print_document(&text, document);
+    print_document(&text, document, folder);
     *size = text.size;
     text_bytes(&text, "", 1);
     *buffer = text.data;
@@ -235,18 +196,20 @@ char *scene_print(const struct document *document, size_t *size)
 {
     char *text = NULL;
     size_t capacity = 0;
-    if (scene_print_into(document, &text, &capacity, size)) return text;
+    if (scene_print_into(document, document->folder, &text, &capacity, size)) return text;
     free(text);
     return NULL;
 }
 
 bool scene_save(const struct document *document, const char *path, struct error *error)
 {
-    size_t size;
-    char *text = scene_print(document, &size);
-    if (!text) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
-    bool saved = file_write_atomic(path, text, size, error);
-    free(text);
+    struct text text = {0};
+    char folder[PATH_LIMIT];
+    if (!path_folder(path, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", path);
+    print_document(&text, document, folder);
+    bool saved = text.no_memory ? fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path)
+                                : file_write_atomic(path, text.data, text.size, error);
+    free(text.data);
     return saved;
 }
 

@@ -26,6 +26,13 @@ void reference_each(struct document *document, reference_visitor *visit, void *c
             visit(&reference, context);
         }
     }
+    for (int c = 0; c < document->character_count; c++) {
+        struct character_rig *rig = &document->characters[c];
+        for (int i = 0; i < rig->drive_count; i++) {
+            struct reference reference = {REFERENCE_DRIVE, c, i, &rig->drives[i].spline};
+            visit(&reference, context);
+        }
+    }
 }
 
 struct counting {

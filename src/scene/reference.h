@@ -1,4 +1,4 @@
-/// Every place of a document that names a spline by its index: tracks, positions and channels.
+/// Every place of a document that names a spline by its index: tracks, positions, channels and drives.
 #ifndef SCENE_REFERENCE_H
 #define SCENE_REFERENCE_H
 
@@ -8,12 +8,13 @@ enum reference_kind {
     REFERENCE_TRACK,    ///< a spline's parameter that follows
     REFERENCE_POSITION, ///< a coordinate of a tail's position that follows
     REFERENCE_CHANNEL,  ///< a tail's channel
+    REFERENCE_DRIVE,    ///< what moves a coordinate of a character
 };
 
 struct reference {
     enum reference_kind kind;
-    int owner;   ///< index of the spline or tail
-    int which;   ///< enum parameter, coordinate 0 … 2, or channel
+    int owner;   ///< index of the spline, tail or character
+    int which;   ///< enum parameter, coordinate 0 … 2, channel, or drive
     int *spline; ///< the index itself, which a visitor may change
 };
 

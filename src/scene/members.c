@@ -1,0 +1,46 @@
+#include "scene/members.h"
+#include <stdint.h>
+
+void member(struct members *members, const char *key)
+{
+    text_string(members->text, members->any ? members->separator : members->open);
+    text_quoted(members->text, key);
+    text_string(members->text, ": ");
+    members->any = true;
+}
+
+void member_number(struct members *members, const char *key, double value)
+{
+    member(members, key);
+    text_number(members->text, value);
+}
+
+void member_string(struct members *members, const char *key, const char *string)
+{
+    member(members, key);
+    text_quoted(members->text, string);
+}
+
+json_t *extra_of(const void *extra) { return (json_t *)(uintptr_t)extra; }
+
+void members_extra(struct members *members, const void *extra, holds_tracks *skips)
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach(extra_of(extra), key, value)
+    {
+        if (skips && skips(key)) continue;
+        member(members, key);
+        text_json(members->text, value);
+    }
+}
+
+void text_numbers(struct text *text, const double *values, int count)
+{
+    text_string(text, "[");
+    for (int i = 0; i < count; i++) {
+        if (i > 0) text_string(text, ", ");
+        text_number(text, values[i]);
+    }
+    text_string(text, "]");
+}

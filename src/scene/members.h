@@ -1,0 +1,31 @@
+/// Writing the objects of a scene file, key by key. Private to src/scene.
+#ifndef SCENE_MEMBERS_H
+#define SCENE_MEMBERS_H
+
+#include "scene/text.h"
+
+/// An object being written: members are set apart by `separator`, which opens the object before the first.
+struct members {
+    struct text *text;
+    const char *open, *separator;
+    bool any;
+};
+
+/// Writes a key; its value follows.
+void member(struct members *members, const char *key);
+void member_number(struct members *members, const char *key, double value);
+void member_string(struct members *members, const char *key, const char *string);
+
+/// The unknown keys of an object, or those of a track inside of it.
+json_t *extra_of(const void *extra);
+
+/// Whether a key of an object's extra one holds the unknown keys of tracks inside of it, and is none of its own.
+typedef bool holds_tracks(const char *key);
+
+/// Writes the unknown keys, but for those that `skips` (may be NULL) says.
+void members_extra(struct members *members, const void *extra, holds_tracks *skips);
+
+/// [1, 2, 3]
+void text_numbers(struct text *text, const double *values, int count);
+
+#endif

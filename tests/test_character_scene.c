@@ -1,0 +1,249 @@
+/// Characters in scene files: read, refused, printed, edited and carried along when the scene is saved elsewhere.
+#include "near.h"
+
+#include "base/path.h"
+#include "scene/edit.h"
+#include "scene/load.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define SPLINES "\"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": []}, {\"name\": \"t\", \"knots\": []}]"
+#define SCENE(rig) "{\"wiggly\": 1, \"frames\": [0, 48],\n" SPLINES ",\n\"rigs\": [" rig "]}"
+
+static struct document *parse(const char *text)
+{
+    struct error error = {0};
+    struct document *document = scene_parse("scene.json", text, strlen(text), NULL, &error);
+    if (!document) fail_msg("%s", error.text);
+    return document;
+}
+
+static const char whole[] = SCENE(
+    "{\"type\": \"character\", \"model\": \"../models/a.glb\", \"glow\": 3, \"coordinates\": [{\"name\": \"up\","
+    " \"spline\": \"s\", \"amplitude\": 0.5, \"lag\": 30, \"tint\": \"red\"}, {\"name\": \"side\", \"spline\":"
+    " \"t\"}], \"paint\": \"a.npy\"}, {\"type\": \"tail\", \"name\": \"tail\"}");
+
+static void a_character_is_read(void **state)
+{
+    (void)state;
+    struct document *document = parse(whole);
+    assert_int_equal(document->character_count, 1);
+    assert_int_equal(document->tail_count, 1);
+    const struct character_rig *rig = &document->characters[0];
+    assert_string_equal(rig->model, "../models/a.glb");
+    assert_string_equal(rig->paint, "a.npy");
+    assert_int_equal(rig->drive_count, 2);
+    assert_string_equal(rig->drives[0].name, "up");
+    assert_near(rig->drives[0].amplitude, 0.5, 0);
+    assert_near(rig->drives[0].lag, 30, 0);
+    assert_int_equal(rig->drives[1].spline, 1);
+    assert_near(rig->drives[1].amplitude, 1, 0);
+    assert_near(rig->drives[1].lag, 0, 0);
+    document_destroy(document);
+}
+
+/// The order of the rigs and what the file says beyond what we know are kept, and printing is stable.
+static void it_is_printed_as_it_was_read(void **state)
+{
+    (void)state;
+    struct document *document = parse(whole);
+    size_t size;
+    char *text = scene_print(document, &size);
+    assert_true(strstr(text, "\"character\"") < strstr(text, "\"tail\""));
+    assert_non_null(strstr(text, "\"model\": \"../models/a.glb\""));
+    assert_non_null(strstr(text, "\"lag\": 30, \"tint\": \"red\" }"));
+    assert_non_null(strstr(text, "\"paint\": \"a.npy\",\n      \"glow\": 3"));
+    struct document *again = parse(text);
+    char *second = scene_print(again, &size);
+    assert_string_equal(second, text);
+    free(text);
+    free(second);
+    document_destroy(document);
+    document_destroy(again);
+}
+
+static void bad_characters_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *sentence;
+    } cases[] = {
+        {SCENE("{\"type\": \"bear\"}"),
+         "scene.json:3: rigs[0].type: expected \"tail\" or \"character\", got \"bear\""},
+        {SCENE("{\"type\": \"character\"}"), "scene.json:3: rigs[0].model: expected a string, got nothing"},
+        {SCENE("{\"type\": \"character\", \"model\": 3}"),
+         "scene.json:3: rigs[0].model: expected a string, got a number"},
+        {SCENE("{\"type\": \"character\", \"model\": \"a.glb\", \"coordinates\": [{\"name\": \"up\", \"spline\": "
+               "\"x\"}]}"),
+         "scene.json:3: rigs[0].coordinates[0].spline: expected the name of a spline, got \"x\""},
+        {SCENE("{\"type\": \"character\", \"model\": \"a.glb\", \"coordinates\": [{\"spline\": \"s\"}]}"),
+         "scene.json:3: rigs[0].coordinates[0].name: expected a string, got nothing"},
+        {SCENE("{\"type\": \"character\", \"model\": \"a.glb\", \"coordinates\": [{\"name\": \"up\", \"spline\": "
+               "\"s\", \"lag\": \"x\"}]}"),
+         "scene.json:3: rigs[0].coordinates[0].lag: expected a number, got a string"},
+        {SCENE("{\"type\": \"character\", \"model\": \"a.glb\", \"position\": [1, 2]}"),
+         "scene.json:3: rigs[0].position: expected [x, y, z], got 2 elements"},
+        {SCENE("{\"type\": \"tail\", \"name\": \"a\"}, {\"type\": \"character\", \"name\": \"a\", \"model\": \"b\"}"),
+         "scene.json:3: rigs[1].name: expected a name of its own, got \"a\" as rigs[0] has"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct error error = {0};
+        assert_null(scene_parse("scene.json", cases[i].text, strlen(cases[i].text), NULL, &error));
+        assert_string_equal(error.text, cases[i].sentence);
+    }
+}
+
+static void apply(struct history *history, struct document *document, const struct edit *edit)
+{
+    struct error error = {0};
+    history_begin(history, "Edit", 0);
+    if (!history_apply(history, document, edit, &error)) fail_msg("%s", error.text);
+    history_end(history);
+}
+
+static void edits_are_undone_to_the_byte(void **state)
+{
+    (void)state;
+    struct document *document = parse(whole);
+    struct history *history = history_create();
+    size_t size;
+    char *before = scene_print(document, &size);
+    apply(history, document,
+          &(struct edit){.kind = EDIT_DRIVE, .channel = 0, .drive = {.spline = 1, .amplitude = -2, .lag = 45}});
+    apply(history, document,
+          &(struct edit){.kind = EDIT_DRIVE_ADD, .drive = {.name = "twist", .spline = 0, .amplitude = 1}});
+    apply(history, document, &(struct edit){.kind = EDIT_DRIVE_REMOVE, .channel = 0});
+    const struct character_rig *rig = &document->characters[0];
+    assert_int_equal(rig->drive_count, 2);
+    assert_string_equal(rig->drives[0].name, "side");
+    assert_string_equal(rig->drives[1].name, "twist");
+    char *after = scene_print(document, &size);
+    while (history_undo(history, document)) continue;
+    char *undone = scene_print(document, &size);
+    assert_string_equal(undone, before);
+    while (history_redo(history, document)) continue;
+    char *redone = scene_print(document, &size);
+    assert_string_equal(redone, after);
+    free(before);
+    free(after);
+    free(undone);
+    free(redone);
+    history_destroy(history);
+    document_destroy(document);
+}
+
+static void impossible_edits_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        struct edit edit;
+        const char *sentence;
+    } cases[] = {
+        {{.kind = EDIT_DRIVE, .character = 1}, "there is no such character"},
+        {{.kind = EDIT_DRIVE, .channel = 2}, "this character has no such coordinate"},
+        {{.kind = EDIT_DRIVE, .drive = {.spline = 2}}, "there is no such spline"},
+        {{.kind = EDIT_DRIVE, .drive = {.amplitude = (double)INFINITY}}, "amplitude and lag must be finite"},
+        {{.kind = EDIT_DRIVE_ADD}, "a coordinate needs a name"},
+        {{.kind = EDIT_DRIVE_REMOVE, .channel = -1}, "this character has no such coordinate"},
+    };
+    struct document *document = parse(whole);
+    struct history *history = history_create();
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct error error = {0};
+        history_begin(history, "Edit", 0);
+        assert_false(history_apply(history, document, &cases[i].edit, &error));
+        history_end(history);
+        assert_string_equal(error.text, cases[i].sentence);
+    }
+    assert_true(history_is_saved(history) || history_undo_label(history) == NULL);
+    history_destroy(history);
+    document_destroy(document);
+}
+
+/// Splines move in their list, and what moves the character goes with them; one that moves it stays.
+static void drives_follow_their_splines(void **state)
+{
+    (void)state;
+    struct document *document = parse(whole);
+    struct history *history = history_create();
+    apply(history, document, &(struct edit){.kind = EDIT_SPLINE_MOVE, .spline = 0, .to = 1});
+    assert_int_equal(document->characters[0].drives[0].spline, 1);
+    assert_int_equal(document->characters[0].drives[1].spline, 0);
+    struct error error = {0};
+    history_begin(history, "Remove", 0);
+    assert_false(history_apply(history, document, &(struct edit){.kind = EDIT_SPLINE_REMOVE, .spline = 0}, &error));
+    history_end(history);
+    history_destroy(history);
+    document_destroy(document);
+}
+
+static void paths_are_rebased(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *path, *from, *to, *moved;
+    } cases[] = {
+        {"a.glb", "/x/y", "/x/y/z", "../a.glb"},    {"a.glb", "/x/y", "/x", "y/a.glb"},
+        {"../m/a.glb", "/x/y", "/", "x/m/a.glb"},   {"a.glb", "/x/yy", "/x/y", "../yy/a.glb"},
+        {"./b/../a.glb", "/x", "/y", "../x/a.glb"},
+    };
+    char moved[PATH_LIMIT];
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        assert_true(path_rebase(cases[i].path, cases[i].from, cases[i].to, moved));
+        assert_string_equal(moved, cases[i].moved);
+    }
+    assert_false(path_rebase("/x/a.glb", "/x", "/y", moved));
+    assert_false(path_rebase("a.glb", "/x", "/x", moved));
+    assert_false(path_rebase("a.glb", "/x/", "/x", moved));
+}
+
+/// "Save as" into another folder: the file there leads to the same model, and so does the document that goes on.
+static void a_scene_saved_elsewhere_finds_its_model(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/wiggly-test-XXXXXX", deeper[64], path[128], absolute[PATH_LIMIT];
+    assert_non_null(mkdtemp(folder));
+    snprintf(deeper, sizeof deeper, "%s/deeper", folder);
+    assert_int_equal(mkdir(deeper, 0777), 0);
+    struct document *document = parse(whole);
+    assert_true(document_set_folder(document, folder));
+    free(document->characters[0].model);
+    document->characters[0].model = strdup("models/a.glb");
+    snprintf(path, sizeof path, "%s/scene.json", deeper);
+    struct error error = {0};
+    assert_true(scene_save(document, path, &error));
+    assert_string_equal(document->characters[0].model, "models/a.glb");
+    struct document *loaded = scene_load(path, NULL, &error);
+    assert_non_null(loaded);
+    assert_string_equal(loaded->characters[0].model, "../models/a.glb");
+    snprintf(path, sizeof path, "%s/models/a.glb", folder);
+    assert_true(path_resolve(loaded->folder, loaded->characters[0].model, absolute));
+    assert_string_equal(absolute, path);
+    assert_true(document_set_folder(document, deeper));
+    assert_string_equal(document->characters[0].model, "../models/a.glb");
+    document_destroy(document);
+    document_destroy(loaded);
+    snprintf(path, sizeof path, "%s/scene.json", deeper);
+    unlink(path);
+    rmdir(deeper);
+    rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_character_is_read),
+        cmocka_unit_test(it_is_printed_as_it_was_read),
+        cmocka_unit_test(bad_characters_are_refused),
+        cmocka_unit_test(edits_are_undone_to_the_byte),
+        cmocka_unit_test(impossible_edits_are_refused),
+        cmocka_unit_test(drives_follow_their_splines),
+        cmocka_unit_test(paths_are_rebased),
+        cmocka_unit_test(a_scene_saved_elsewhere_finds_its_model),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
