@@ -1,5 +1,6 @@
 /// Mouse drags: of knots and slopes (edits made anew from the original at every step), view, playhead and dividers.
 #include "editor/actions.h"
+#include "editor/body.h"
 #include "editor/curves.h"
 #include <assert.h>
 #include <math.h>
@@ -64,7 +65,7 @@ void drag_begin_slope(struct editor *editor, const struct editor_world *world, u
 static bool edits_document(const struct drag *drag)
 {
     return drag->kind == DRAG_KNOTS || drag->kind == DRAG_SLOPE || drag->kind == DRAG_SCALE ||
-           drag->kind == DRAG_GRAB;
+           drag->kind == DRAG_GRAB || drag->kind == DRAG_BODY;
 }
 
 /// The shift in frames that the pointer asks for: whole frames for the knot that is held, inside the range for all.
@@ -174,6 +175,7 @@ void drag_start_moving(struct editor *editor, const struct editor_world *world)
     if (!edits_document(drag)) return;
     const char *label = drag->kind == DRAG_SLOPE   ? "Change slope"
                         : drag->kind == DRAG_GRAB  ? "Pull tail"
+                        : drag->kind == DRAG_BODY  ? "Move body"
                         : drag->kind == DRAG_SCALE ? "Scale knots"
                         : drag->count == 1         ? "Move knot"
                                                    : "Move knots";
@@ -230,6 +232,7 @@ void drag_end(struct editor *editor, const struct editor_world *world, bool keep
     struct drag *drag = &editor->drag;
     bool open = drag->moved && edits_document(drag);
     if (open && keep) drag_apply(editor, world);
+    if (open && drag->kind == DRAG_BODY) body_release(editor, world, keep);
     if (open && !keep) history_restart(world->history, world->document);
     if (open) history_end(world->history);
     if (!drag->moved && keep && drag->kind == DRAG_KNOTS && drag->collapse) {
@@ -260,7 +263,7 @@ bool drag_event(struct editor *editor, const struct editor_world *world, const s
         return event->action != ACTION_RELEASE;
     }
     if (event->kind != EVENT_KEY || event->action != ACTION_PRESS) return false;
-    bool locks = drag->kind == DRAG_KNOTS && !(event->mods & (MOD_CTRL | MOD_ALT));
+    bool locks = (drag->kind == DRAG_KNOTS || drag->kind == DRAG_BODY) && !(event->mods & (MOD_CTRL | MOD_ALT));
     if (event->key == KEY_ESCAPE) {
         drag_end(editor, world, false);
         return true;

@@ -1,6 +1,7 @@
 /// The editor's public functions: who gets an event, and what happens once a frame.
 #include "editor/actions.h"
 #include "editor/curves.h"
+#include "editor/follow.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
@@ -113,6 +114,7 @@ void editor_open(struct editor *editor, const struct editor_world *world, const 
     editor->drag.kind = DRAG_NONE;
     editor->ghost.visible = false;
     editor->hover = (struct hover){0};
+    memset(editor->follow, 0, sizeof editor->follow);
     editor->cache.key = 0;
     editor->cache.range_count = 0;
     editor->fitted = false;
@@ -250,7 +252,8 @@ bool editor_is_playing(const struct editor *editor) { return editor->playback.pl
 
 bool editor_wants_frames(const struct editor *editor)
 {
-    return editor->playback.playing || editor->drag.kind == DRAG_GRAB || editor->message.seconds_left > 0;
+    return editor->playback.playing || editor->drag.kind == DRAG_GRAB || follow_is_moving(editor) ||
+           editor->message.seconds_left > 0;
 }
 
 double editor_frame(const struct editor *editor, const struct document *document)

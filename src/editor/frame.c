@@ -1,6 +1,7 @@
 /// One frame of the editor: events are handed to who wants them, time passes, everything is shown.
 #include "editor/actions.h"
 #include "editor/curves.h"
+#include "editor/follow.h"
 #include "ui/theme.h"
 #include <stdio.h>
 
@@ -93,6 +94,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
     playback_advance(editor, world, dt);
     drag_apply(editor, world);
     grab_apply(editor, world);
+    follow_advance(editor, world, dt);
 }
 
 void editor_pose(struct editor *editor, const struct editor_world *world)
@@ -147,13 +149,14 @@ int editor_cursor(const struct editor *editor)
         [DRAG_SCRUB] = SHAPE_HORIZONTAL,
         [DRAG_STAGE_PAN] = SHAPE_MOVE,
         [DRAG_GRAB] = SHAPE_HAND,
+        [DRAG_BODY] = SHAPE_MOVE,
         [DRAG_STAGE_DIVIDER] = SHAPE_VERTICAL,
         [DRAG_INSPECTOR_DIVIDER] = SHAPE_HORIZONTAL,
     };
     static const enum pointer_shape of_hover[] = {
         [HOVER_NONE] = SHAPE_ARROW, [HOVER_KNOT] = SHAPE_MOVE,        [HOVER_SLOPE] = SHAPE_MOVE,
         [HOVER_CURVE] = SHAPE_HAND, [HOVER_RULER] = SHAPE_HORIZONTAL, [HOVER_JOINT] = SHAPE_HAND,
-        [HOVER_UNITS] = SHAPE_HAND,
+        [HOVER_UNITS] = SHAPE_HAND, [HOVER_BODY] = SHAPE_MOVE,
     };
     static const enum pointer_shape of_widget[] = {
         [UI_OVER_NOTHING] = SHAPE_ARROW, [UI_OVER_NUMBER] = SHAPE_HORIZONTAL, [UI_OVER_TEXT] = SHAPE_TEXT};

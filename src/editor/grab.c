@@ -8,6 +8,7 @@
 ///     (JᵀJ + λ) dv = Jᵀ (target − p),   in radians of bend, so that both axes count alike.
 #include "editor/actions.h"
 #include "editor/curves.h"
+#include "editor/follow.h"
 #include <math.h>
 
 static const double DAMPING = 12; ///< √λ, pixels a radian: below this a channel moves the point too little to be used
@@ -66,6 +67,7 @@ void grab_begin(struct editor *editor, const struct editor_world *world, const s
     if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
         grab->axis[AXIS_UP].active = false;
     }
+    follow_stop(editor, grab->tail);
     grab->sample = sample_for(editor, world->document);
     editor->playback.playing = false;
     editor->playback.position = grab->sample;

@@ -68,6 +68,7 @@ static const struct help_group groups[] = {
       {"Home", "show everything"},
       {"End", "show the selection"},
       {"Drag the tail", "pull it"},
+      {"Drag the body", "the tail follows (X, Y, Shift)"},
       {"Right drag", "turn the camera"}}},
     {2,
      "Inspector",

@@ -1,7 +1,9 @@
 /// The stage: poses the tails, drives the camera, finds what the pointer is over.
 #include "base/hash.h"
 #include "editor/actions.h"
+#include "editor/body.h"
 #include "editor/curves.h"
+#include "editor/follow.h"
 #include "rig/shadow.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -30,14 +32,19 @@ void stage_pose_tail(const struct editor *editor, const struct editor_world *wor
     wiggly_value values[SCENE_MAX_CHANNELS] = {{0}};
     for (int c = 0; c < shown->channel_count; c++) {
         int spline = shown->channels[c].spline;
+        wiggly_value swing = follow_value(editor, tail, c);
         values[c] = curves_solved(world, spline, editor->playback.position);
+        values[c].re += swing.re;
+        values[c].im += swing.im;
         if (!change || change->spline != spline) continue;
         values[c].re += change->re;
         values[c].im += change->im;
     }
     pose_tail(shown, values, editor->look, pose);
-    double moved[3];
+    double moved[3], offset[3];
     tail_base(world, shown, editor->playback.position, moved);
+    body_offset(editor, tail, offset);
+    for (int k = 0; k < 3; k++) moved[k] += offset[k];
     pose_move(pose, moved);
 }
 
@@ -134,6 +141,7 @@ void stage_show(struct editor *editor)
         drawlist_text_fit(&editor->list, x, view->viewport.y + view->viewport.h / 2, room, FONT_LABEL,
                           THEME_TEXT_NORMAL, THEME_TEXT_DIM, text);
     }
+    body_show(editor);
     show_hold(editor);
     drawlist_set_clip(&editor->list, clip);
 }
@@ -185,7 +193,7 @@ struct hover stage_hover(const struct editor *editor, float x, float y)
                 .kind = HOVER_JOINT, .tail = t, .joint = n, .fraction = fraction, .x = at[0], .y = at[1]};
         }
     }
-    return hover;
+    return hover.kind == HOVER_NONE ? body_hover(editor, x, y) : hover;
 }
 
 void stage_press(struct editor *editor, const struct editor_world *world, const struct event *event)
@@ -197,7 +205,10 @@ void stage_press(struct editor *editor, const struct editor_world *world, const 
         return;
     }
     struct hover hover = stage_hover(editor, event->x, event->y);
-    if (event->button == BUTTON_LEFT && hover.kind == HOVER_JOINT) {
+    if (event->button == BUTTON_LEFT && hover.kind == HOVER_BODY) {
+        drag_begin(editor, DRAG_BODY, event);
+        body_begin(editor, hover.tail);
+    } else if (event->button == BUTTON_LEFT && hover.kind == HOVER_JOINT) {
         drag_begin(editor, DRAG_GRAB, event);
         grab_begin(editor, world, &hover);
     } else {

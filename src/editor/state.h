@@ -9,6 +9,7 @@
 #include "editor/editor.h"
 #include "editor/panels.h"
 #include "rig/camera.h"
+#include "rig/follow.h"
 #include <stdint.h>
 
 enum {
@@ -65,6 +66,7 @@ enum drag_kind {
     DRAG_ORBIT,
     DRAG_STAGE_PAN,
     DRAG_GRAB,
+    DRAG_BODY,
     DRAG_STAGE_DIVIDER,
     DRAG_INSPECTOR_DIVIDER,
 };
@@ -124,8 +126,33 @@ struct grab {
     bool applied;             ///< the open step holds edits
 };
 
+/// The body held by the pointer, and how the pointer's way becomes one over the ground.
+struct body {
+    int tail;
+    double pixels_per_metre; ///< at the body
+    double pitch;            ///< metres up the screen for one away from the eye
+    double right[2];         ///< x and z of what is to the right on the screen
+};
+
+/// A tail whose body is or was moved by hand.
+struct follow {
+    bool swings;
+    double offset[3], velocity[3]; ///< of the base from where the document has it, metres and metres per second
+    struct follower channel[SCENE_MAX_CHANNELS]; ///< in metres
+    double scale[SCENE_MAX_CHANNELS];            ///< follow_scale() of each
+};
+
 /// What the pointer is over in the curves and on the stage.
-enum hover_kind { HOVER_NONE, HOVER_KNOT, HOVER_SLOPE, HOVER_CURVE, HOVER_RULER, HOVER_UNITS, HOVER_JOINT };
+enum hover_kind {
+    HOVER_NONE,
+    HOVER_KNOT,
+    HOVER_SLOPE,
+    HOVER_CURVE,
+    HOVER_RULER,
+    HOVER_UNITS,
+    HOVER_JOINT,
+    HOVER_BODY,
+};
 
 struct hover {
     enum hover_kind kind;
@@ -183,6 +210,8 @@ struct editor {
     struct drag drag;
     struct scaling scaling;
     struct grab grab;
+    struct body body;
+    struct follow follow[STAGE_MAX_TAILS];
     struct hover hover;
     struct ghost ghost;
     struct curve_cache cache;

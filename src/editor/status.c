@@ -35,6 +35,8 @@ static const char *hover_hint(const struct editor *editor, const struct document
         return "Click to count frames or seconds (U)";
     case HOVER_JOINT:
         return "Pull the tail: it sets the knot at the playhead";
+    case HOVER_BODY:
+        return "Drag the body: the tail follows through (X, Y along one axis, Shift fine)";
     case HOVER_NONE:
         break;
     }

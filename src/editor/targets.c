@@ -1,5 +1,6 @@
 /// Names for places on the screen that survive a new layout, for replays: "knot(sway,2)", "tail(tail,0.9)".
 #include "editor/actions.h"
+#include "editor/body.h"
 #include "editor/curves.h"
 #include <math.h>
 #include <stdlib.h>
@@ -117,6 +118,20 @@ static bool find_tail(struct place *place, struct error *error)
     return fail(error, ERROR_INPUT, "there is no tail \"%s\" to be seen", place->target->name);
 }
 
+static bool find_body(struct place *place, struct error *error)
+{
+    const struct document *document = place->world->document;
+    for (int t = 0; t < place->editor->stage.tail_count && t < document->tail_count; t++) {
+        float xy[2];
+        if (strcmp(document->tails[t].name, place->target->name) != 0) continue;
+        if (!body_point(place->editor, t, xy)) break;
+        place->x = xy[0];
+        place->y = xy[1];
+        return true;
+    }
+    return fail(error, ERROR_INPUT, "there is no body of a tail \"%s\" to be seen", place->target->name);
+}
+
 static bool find_divider(struct place *place, struct error *error)
 {
     const struct layout *l = &place->editor->layout;
@@ -150,6 +165,7 @@ static const struct target_kind {
     {.kind = "ruler", .named = false, .numbers = 1, .find = find_ruler},
     {.kind = "stage", .named = false, .numbers = 2, .find = find_stage},
     {.kind = "tail", .named = true, .numbers = 1, .find = find_tail},
+    {.kind = "body", .named = true, .numbers = 0, .find = find_body},
     {.kind = "divider", .named = true, .numbers = 0, .find = find_divider},
     {.kind = "slider", .named = true, .numbers = 0, .find = find_widget},
     {.kind = "widget", .named = true, .numbers = 0, .find = find_widget},

@@ -86,7 +86,7 @@ static float body_distance_color(const float p[3], float rgb[3])
     return parts_union(distance, head_distance, NECK_BLEND, rgb, head_rgb);
 }
 
-static float body_distance(const float p[3]) { return body_distance_color(p, NULL); }
+float creature_body_distance(const float p[3]) { return body_distance_color(p, NULL); }
 
 static float face_distance(const float p[3])
 {
@@ -122,7 +122,7 @@ static void face_paint(struct vertex *vertex)
 
 void mesh_body(float cell, float tolerance, struct mesh *mesh)
 {
-    const struct solid body = {body_distance, body_paint};
+    const struct solid body = {creature_body_distance, body_paint};
     const int first_index = mesh->index_count;
     isosurface(&body, creature_body_lo, creature_body_hi, cell, mesh);
     refine(&body, tolerance, REFINE_ROUNDS, first_index, mesh);

@@ -14,6 +14,10 @@
 /// Box of the body without the tail, bind space.
 extern const float creature_body_lo[3], creature_body_hi[3];
 
+/// Distance from a point to the body's skin without the face, metres, bind space; negative inside, never more than it really is
+/// by much: a ray may be followed in steps of it.
+float creature_body_distance(const float p[3]);
+
 /// Radius of the tail at z metres from its base, bind size; 0 at the tip and beyond.
 float creature_tail_radius(float z);
 

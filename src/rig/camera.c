@@ -124,6 +124,15 @@ bool camera_project(const float view[16], const float projection[16], const floa
     return true;
 }
 
+void camera_ray(const float view[16], const float projection[16], const float viewport[4], const float screen[2],
+                float direction[3])
+{
+    const float eye[3] = {(2.0f * (screen[0] - viewport[0]) / viewport[2] - 1.0f) / projection[0],
+                          (1.0f - 2.0f * (screen[1] - viewport[1]) / viewport[3]) / projection[5], -1.0f};
+    const float length = sqrtf(dot(eye, eye));
+    for (int k = 0; k < 3; k++) direction[k] = dot(view + 4 * k, eye) / length;
+}
+
 void camera_orbit(struct camera *camera, float azimuth, float elevation)
 {
     camera->azimuth = remainderf(camera->azimuth + azimuth, 6.28318531f);

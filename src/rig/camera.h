@@ -32,6 +32,10 @@ void camera_fit(struct camera *camera, const float lo[3], const float hi[3], flo
 bool camera_project(const float view[16], const float projection[16], const float viewport[4], const float world[3],
                     float screen[2]);
 
+/// Direction (unit length, world) from the eye through a point of the screen.
+void camera_ray(const float view[16], const float projection[16], const float viewport[4], const float screen[2],
+                float direction[3]);
+
 /// Turns about the target: angles are added, elevation clamped.
 void camera_orbit(struct camera *camera, float azimuth, float elevation);
 

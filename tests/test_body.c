@@ -1,0 +1,196 @@
+/// The body dragged by hand: it goes along at once, its tail follows through, and the document gets one step at the end.
+#include "panel_session.h"
+
+#include "editor/follow.h"
+#include <math.h>
+
+static const char scene[] = "{\"frames\": [0, 48], \"splines\": ["
+                            "{\"name\": \"sway\", \"frequency\": 1.5, \"damping\": 0.2, \"bandwidth\": 0.1},"
+                            "{\"name\": \"walk\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 0.1}, "
+                            "{\"frame\": 48, \"value\": 0.1}]}],"
+                            "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], "
+                            "\"channels\": [{\"spline\": \"sway\"}]}]}";
+
+enum { JOINTS = 24, X = 12, Z = 14 };
+
+static const float *joint(const struct session *s, int n) { return editor_stage(s->editor)->tails[0].pose.matrix[n]; }
+
+static char *text_of(const struct session *s)
+{
+    size_t size;
+    char *text = scene_print(s->document, &size);
+    assert_non_null(text);
+    return text;
+}
+
+static void assert_text(const struct session *s, const char *expected)
+{
+    char *text = text_of(s);
+    assert_string_equal(text, expected);
+    free(text);
+}
+
+/// Takes hold of the body and moves the pointer along the screen; the button stays down.
+static void hold_and_drag(struct session *s, float dx, float dy, int steps)
+{
+    session_point(s, "body(tail)");
+    session_frame(s);
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, dx, dy, steps);
+}
+
+static void test_tail_follows_through_and_settles(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    char *before = text_of(&s);
+    hold_and_drag(&s, -150, 0, 12);
+    float base = joint(&s, 0)[X], trailing = joint(&s, JOINTS)[X] - base;
+    assert_true(base > 0.1f);       // the pointer went to the left, where +x is
+    assert_true(trailing < -0.05f); // the tip stayed behind
+    assert_text(&s, before);        // the document waits
+    session_release(&s, BUTTON_LEFT);
+    assert_near(joint(&s, 0)[X], base, 1e-3);
+    assert_near(s.document->tails[0].position[0].value, base, 1e-3);
+    float overshoot = -1;
+    for (int i = 0; i < 60; i++) {
+        session_frame(&s);
+        overshoot = fmaxf(overshoot, joint(&s, JOINTS)[X] - joint(&s, 0)[X]);
+    }
+    assert_true(overshoot > 0.05f); // and swung past
+    assert_true(editor_wants_frames(s.editor));
+    for (int i = 0; i < 60 * 20; i++) session_frame(&s);
+    assert_false(editor_wants_frames(s.editor));
+    assert_near(joint(&s, JOINTS)[X], joint(&s, 0)[X], 0); // hangs still: exactly nothing is left
+    assert_string_equal(history_undo_label(s.history), "Move body");
+    session_key(&s, 'Z', MOD_CTRL);
+    assert_null(history_undo_label(s.history));
+    assert_text(&s, before);
+    free(before);
+    session_close(&s);
+}
+
+/// Lagged joints come later: each extremum of the bend is at the base first and at the tip last.
+static void test_swing_runs_along_the_tail(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    hold_and_drag(&s, -150, 0, 12);
+    session_release(&s, BUTTON_LEFT);
+    float least_near = 0, least_far = 0;
+    int near_at = 0, far_at = 0;
+    for (int i = 0; i < 40; i++) {
+        float near = atan2f(joint(&s, 4)[8], joint(&s, 4)[10]) - atan2f(joint(&s, 3)[8], joint(&s, 3)[10]);
+        float far = atan2f(joint(&s, 20)[8], joint(&s, 20)[10]) - atan2f(joint(&s, 19)[8], joint(&s, 19)[10]);
+        if (near < least_near) near_at = i;
+        if (far < least_far) far_at = i;
+        least_near = fminf(least_near, near);
+        least_far = fminf(least_far, far);
+        session_frame(&s);
+    }
+    // 16 joints × 6.5° of a swing of 1.5 Hz: 0.19 s, 11.6 frames
+    assert_in_range(far_at - near_at, 8, 15);
+    session_close(&s);
+}
+
+static void test_escape_takes_it_back(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    char *before = text_of(&s);
+    hold_and_drag(&s, 80, 30, 6);
+    session_key(&s, KEY_ESCAPE, 0);
+    session_button(&s, BUTTON_LEFT, ACTION_RELEASE, 1);
+    session_frame(&s);
+    assert_near(joint(&s, 0)[X], 0, 0);
+    assert_near(joint(&s, JOINTS)[X], 0, 0);
+    assert_false(editor_wants_frames(s.editor));
+    assert_text(&s, before);
+    assert_null(history_undo_label(s.history));
+    free(before);
+    session_close(&s);
+}
+
+static void test_axes_lock_and_shift_is_fine(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    hold_and_drag(&s, -60, 40, 4);
+    assert_true(fabsf(joint(&s, 0)[Z]) > 0.05f);
+    session_key(&s, 'X', 0);
+    assert_near(joint(&s, 0)[Z], 0, 0);
+    assert_true(fabsf(joint(&s, 0)[X]) > 0.05f);
+    session_key(&s, 'Y', 0);
+    assert_near(joint(&s, 0)[X], 0, 0);
+    session_key(&s, 'Y', 0);
+    float x = joint(&s, 0)[X];
+    s.mods = MOD_SHIFT;
+    session_drag(&s, -60, 0, 4);
+    float fine = joint(&s, 0)[X] - x;
+    s.mods = 0;
+    session_drag(&s, -60, 0, 4);
+    assert_near(joint(&s, 0)[X] - x - fine, 10 * fine, 1e-3);
+    session_release(&s, BUTTON_LEFT);
+    session_close(&s);
+}
+
+/// Where a spline is followed, the drag leaves a knot at the playhead; the other coordinates stay numbers.
+static void test_a_tracked_body_gets_a_knot(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    s.document->tails[0].position[0] = (struct param){0, 1};
+    session_key(&s, KEY_RIGHT, 0);
+    session_key(&s, KEY_RIGHT, 0);
+    assert_near(joint(&s, 0)[X], 0.1, 1e-6);
+    char *before = text_of(&s);
+    hold_and_drag(&s, -60, 0, 4);
+    session_key(&s, 'X', 0);
+    float x = joint(&s, 0)[X];
+    session_release(&s, BUTTON_LEFT);
+    const struct spline *walk = &s.document->splines[1];
+    assert_int_equal(walk->knot_count, 3);
+    assert_near(walk->knots[1].frame, 2, 0);
+    assert_near(walk->knots[1].value, x, 1e-3);
+    assert_near(joint(&s, 0)[X], x, 1e-3);
+    assert_near(s.document->tails[0].position[2].value, 0, 0);
+    session_key(&s, 'Z', MOD_CTRL);
+    assert_text(&s, before);
+    free(before);
+    session_close(&s);
+}
+
+/// A click, or a press beside the body, moves nothing.
+static void test_clicks_leave_the_body_alone(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    session_click(&s, "body(tail)");
+    assert_null(history_undo_label(s.history));
+    session_point(&s, "stage(0.03,0.1)");
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, 40, 0, 3);
+    session_release(&s, BUTTON_LEFT);
+    assert_near(joint(&s, 0)[X], 0, 0);
+    assert_null(history_undo_label(s.history));
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_tail_follows_through_and_settles),
+        cmocka_unit_test(test_swing_runs_along_the_tail),
+        cmocka_unit_test(test_escape_takes_it_back),
+        cmocka_unit_test(test_axes_lock_and_shift_is_fine),
+        cmocka_unit_test(test_a_tracked_body_gets_a_knot),
+        cmocka_unit_test(test_clicks_leave_the_body_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
