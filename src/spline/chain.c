@@ -23,24 +23,44 @@ static const double acceptable = 1e-6; ///< of the same: still a curve to show, 
 /// Whether sums of tabled columns, none of them above 1e25, weighted with z stay finite.
 static bool is_tame(cplx z) { return fabs(z.re) < 1e250 && fabs(z.im) < 1e250; }
 
-bool chain_fill_stretch(const chain *c, const chain_node *p, const chain_node *q, double *re, double *im)
+/// The same for a real sum; NaN is not tame.
+static bool is_tame_real(double size) { return size < 1e250; }
+
+static bool fill_real(const chain *c, const chain_node *p, const chain_node *q, double *re)
+{
+    const chain_stretch *s = &c->stretches[p->stretch];
+    const double *f = s->form;
+    const double weight[4] = {
+        p->value,
+        p->d_re,
+        f[FORM_V00] * q->value + f[FORM_V01] * q->d_re - (f[FORM_C00] * p->value + f[FORM_C01] * p->d_re),
+        f[FORM_V01] * q->value + f[FORM_V11] * q->d_re - (f[FORM_C10] * p->value + f[FORM_C11] * p->d_re),
+    };
+    chain_fill_real(c, s, weight, re);
+    return is_tame_real(fabs(weight[0]) + fabs(weight[1]) + fabs(weight[2]) + fabs(weight[3]));
+}
+
+static bool fill_complex(const chain *c, const chain_node *p, const chain_node *q, double *re, double *im)
 {
     const chain_stretch *s = &c->stretches[p->stretch];
     cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, dq = {q->d_re, q->d_im};
+    cplx v01 = chain_entry(s, FORM_V01), c00 = chain_entry(s, FORM_C00), c01 = chain_entry(s, FORM_C01),
+         c10 = chain_entry(s, FORM_C10), c11 = chain_entry(s, FORM_C11);
     cplx weight[4] = {
         xp,
         dp,
-        cplx_sub(cplx_add(cplx_scale(s->v00, xq), cplx_mul(s->v01, dq)),
-                 cplx_add(cplx_mul(s->c00, xp), cplx_mul(s->c01, dp))),
-        cplx_sub(cplx_add(cplx_mul(cplx_conj(s->v01), xq), cplx_scale(s->v11, dq)),
-                 cplx_add(cplx_mul(s->c10, xp), cplx_mul(s->c11, dp))),
+        cplx_sub(cplx_add(cplx_scale(s->form[FORM_V00], xq), cplx_mul(v01, dq)),
+                 cplx_add(cplx_mul(c00, xp), cplx_mul(c01, dp))),
+        cplx_sub(cplx_add(cplx_mul(cplx_conj(v01), xq), cplx_scale(s->form[FORM_V11], dq)),
+                 cplx_add(cplx_mul(c10, xp), cplx_mul(c11, dp))),
     };
-    if (c->is_complex) {
-        chain_fill_complex(c, s, weight, re, im);
-    } else {
-        chain_fill_real(c, s, weight, re);
-    }
+    chain_fill_complex(c, s, weight, re, im);
     return is_tame(weight[0]) && is_tame(weight[1]) && is_tame(weight[2]) && is_tame(weight[3]);
+}
+
+bool chain_fill_stretch(const chain *c, const chain_node *p, const chain_node *q, double *re, double *im)
+{
+    return c->is_complex ? fill_complex(c, p, q, re, im) : fill_real(c, p, q, re);
 }
 
 bool chain_run_free(const chain *c, const chain_node *last, int count, double *re, double *im)
@@ -83,7 +103,7 @@ static bool refine(chain *c, double size)
 {
     double before = size;
     for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {
-        chain_gradient(c, true);
+        chain_gradient(c);
         chain_solve_nodes(c);
         double change = take_solution(c);
         c->error = fmax(change, before < size ? before : 0);
@@ -115,7 +135,7 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
     c->error = 0;
     if (c->rank == CHAIN_LOST) return false;
     chain_reset_nodes(c);
-    chain_gradient(c, false);
+    chain_pull_known(c);
     chain_solve_nodes(c);
     double size = take_solution(c);
     if (c->rank == CHAIN_WEAK && !refine(c, size)) return false;

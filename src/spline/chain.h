@@ -9,18 +9,32 @@ typedef struct cplx_array {
     double *re, *im;
 } cplx_array;
 
-/// F^k = [f00 f01; f10 f11] and W_k = [w00 w01; w01* w11] for k = 0 … longest stretch.
+/// F^k = p + q [0 1; δ² 0] and W_k = [w00 w01; w01* w11] for k = 0 … longest stretch.
 typedef struct chain_powers {
-    cplx_array f00, f01, f10, f11, w01;
+    cplx_array p, q, w01;
     double *w00, *w11;
 } chain_powers;
+
+/// Where the entries of a stretch's form are; the complex ones are two numbers, re and im.
+enum {
+    FORM_V00,
+    FORM_V11,
+    FORM_P00,
+    FORM_P11,
+    FORM_V01,
+    FORM_P01 = FORM_V01 + 2,
+    FORM_C00 = FORM_P01 + 2,
+    FORM_C01 = FORM_C00 + 2,
+    FORM_C10 = FORM_C01 + 2,
+    FORM_C11 = FORM_C10 + 2,
+    FORM_SIZE = FORM_C11 + 2
+};
 
 /// A stretch of a given length, condensed: s_q* V s_q − 2 Re s_q* C s_p + s_p* P s_p.
 typedef struct chain_stretch {
     int length;
     int first; ///< where its part of `forced` begins
-    double v00, v11, p00, p11;
-    cplx v01, p01, c00, c01, c10, c11;
+    double form[FORM_SIZE];
 } chain_stretch;
 
 enum { NODE_FIXED_E = 1, NODE_AT_REST = 2 };
@@ -59,8 +73,8 @@ typedef struct chain {
     int *stretch_of;      ///< 1 + index of the stretch of each length, 0 where there is none yet
     chain_stretch *stretches;
     int stretch_count, stretch_capacity;
-    int powers_count, powers_capacity; ///< k for which there are powers; room for that many, and as many of `forced`
-    int forced_count;
+    int powers_count; ///< k for which there are powers
+    int forced_count, forced_capacity;
     chain_node *nodes;
     int node_count;
     chain_row *rows;
@@ -77,6 +91,32 @@ bool chain_solve(chain *chain, double *x_re, double *x_im);
 /// Forgets tables and factor: another filter, or their memory was used for something else.
 void chain_forget(chain *chain);
 
+/// The start's cost as a form [h00 h01; h01* h11] of the first state.
+typedef struct start_form {
+    double h00, h11;
+    cplx h01;
+} start_form;
+
+start_form chain_start_form(const chain *chain);
+
+/// By how much Re d follows Im x at a node whose Re e is known.
+static inline double chain_node_tie(const chain *c, const chain_node *node)
+{
+    return node->fixed == NODE_FIXED_E && c->is_complex ? c->lambda.im : 0;
+}
+
+/// An entry of a table of powers.
+static inline cplx chain_power(const chain *c, const cplx_array *table, int k)
+{
+    return (cplx){table->re[k], c->is_complex ? table->im[k] : 0};
+}
+
+/// An entry of a stretch's form.
+static inline cplx chain_entry(const chain_stretch *stretch, int at)
+{
+    return (cplx){stretch->form[at], stretch->form[at + 1]};
+}
+
 /// The steps of chain_solve().
 void chain_make_tables(chain *chain);
 void chain_assemble(chain *chain);
@@ -85,12 +125,12 @@ chain_rank chain_factor(chain *chain);
 chain_rank chain_invert(const double *s, double *p);
 /// rows' right ← solution.
 void chain_solve_nodes(chain *chain);
-/// rows' right ← −½ of the energy's gradient at the nodes' present state, `exact` in double-double; else everything unknown must
-/// be 0.
-void chain_gradient(chain *chain, bool exact);
-
-/// Everything unknown 0 at the nodes; what chain_gradient() then gives is the right-hand side.
+/// Everything unknown 0 at the nodes.
 void chain_reset_nodes(chain *chain);
+/// rows' right ← the right-hand side: −½ of the energy's gradient where everything unknown is 0.
+void chain_pull_known(chain *chain);
+/// The same at the nodes' present state, in double-double.
+void chain_gradient(chain *chain);
 /// Adds unknowns (Im x, Re d, Im d; or d alone) to a node; returns their size.
 double chain_add_to_node(const chain *chain, chain_node *node, const double *solved);
 /// x from node p to before node q, and `count` samples from the last node on; `re` and `im` (NULL outside complex mode) begin at the
@@ -102,6 +142,6 @@ bool chain_run_free(const chain *chain, const chain_node *last, int count, doubl
 /// the costate ν of where it ends. Chosen for the processor's vector width at run time.
 void chain_fill_complex(const chain *chain, const chain_stretch *stretch, const cplx weight[4], double *restrict re,
                         double *restrict im);
-void chain_fill_real(const chain *chain, const chain_stretch *stretch, const cplx weight[4], double *restrict re);
+void chain_fill_real(const chain *chain, const chain_stretch *stretch, const double weight[4], double *restrict re);
 
 #endif

@@ -1,6 +1,6 @@
 // −½ of the energy's gradient at the nodes, without squaring: a stretch that ends in s_q and would run freely to F s_p has the
 // mismatch ε = s_q − F s_p, which cancels to a small part of both and is summed in double-double. Its costate ν = V ε then pulls
-// with −ν at q and with +F* ν at p. At the state where everything unknown is 0 nothing cancels, and the squared form will do.
+// with −ν at q and with +F* ν at p. (At the state where everything unknown is 0 nothing cancels: chain_pull_known().)
 #include "spline/chain.h"
 #include "spline/dd.h"
 
@@ -29,43 +29,22 @@ static void pull(const chain *c, int j, cplx on_x, cplx on_d)
     right[0] += on_x.im, right[1] += on_d.re, right[2] += on_d.im;
 }
 
-static cplx table(const chain *c, const cplx_array *a, int k)
-{
-    return (cplx){a->re[k], c->is_complex ? a->im[k] : 0};
-}
-
 static void pull_stretch(const chain *c, int j)
 {
     const chain_node *p = &c->nodes[j], *q = p + 1;
     const chain_stretch *s = &c->stretches[p->stretch];
     const chain_powers *t = &c->powers;
-    cplx f00 = table(c, &t->f00, s->length), f01 = table(c, &t->f01, s->length);
-    cplx f10 = table(c, &t->f10, s->length), f11 = table(c, &t->f11, s->length);
+    cplx f00 = chain_power(c, &t->p, s->length), f01 = chain_power(c, &t->q, s->length);
+    cplx f10 = cplx_mul(c->delta2, f01), f11 = f00;
     cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im};
     cplx e0 = mismatch((cplx){q->value, q->x_im}, f00, xp, f01, dp);
     cplx e1 = mismatch((cplx){q->d_re, q->d_im}, f10, xp, f11, dp);
-    cplx n0 = cplx_add(cplx_scale(s->v00, e0), cplx_mul(s->v01, e1));
-    cplx n1 = cplx_add(cplx_mul(cplx_conj(s->v01), e0), cplx_scale(s->v11, e1));
+    cplx v01 = chain_entry(s, FORM_V01);
+    cplx n0 = cplx_add(cplx_scale(s->form[FORM_V00], e0), cplx_mul(v01, e1));
+    cplx n1 = cplx_add(cplx_mul(cplx_conj(v01), e0), cplx_scale(s->form[FORM_V11], e1));
     pull(c, j + 1, cplx_scale(-1, n0), cplx_scale(-1, n1));
     pull(c, j, cplx_add(cplx_mul(cplx_conj(f00), n0), cplx_mul(cplx_conj(f10), n1)),
          cplx_add(cplx_mul(cplx_conj(f01), n0), cplx_mul(cplx_conj(f11), n1)));
-}
-
-/// The same where the states are real and hold only what is known: C s_p − V s_q at q, C* s_q − P s_p at p.
-static void pull_known(const chain *c, int j)
-{
-    const chain_node *p = &c->nodes[j], *q = p + 1;
-    const chain_stretch *s = &c->stretches[p->stretch];
-    double *at_p = c->rows[j].right, *at_q = c->rows[j + 1].right;
-    double xp = p->value, dp = p->d_re, xq = q->value, dq = q->d_re;
-    int u = c->is_complex ? 1 : 0;
-    at_q[u] += s->c10.re * xp + s->c11.re * dp - s->v01.re * xq - s->v11 * dq;
-    at_p[u] += s->c01.re * xq + s->c11.re * dq - s->p01.re * xp - s->p11 * dp;
-    if (!c->is_complex) return;
-    at_q[0] += s->c00.im * xp + s->c01.im * dp - s->v01.im * dq;
-    at_q[2] += s->c10.im * xp + s->c11.im * dp + s->v01.im * xq;
-    at_p[0] -= s->c00.im * xq + s->c10.im * dq + s->p01.im * dp;
-    at_p[2] -= s->c01.im * xq + s->c11.im * dq - s->p01.im * xp;
 }
 
 /// The start's two rows: on_x x + (e−1) d and λ x + d.
@@ -102,18 +81,13 @@ static void hold_fixed(const chain *c, int j)
     }
 }
 
-void chain_gradient(chain *c, bool exact)
+void chain_gradient(chain *c)
 {
     for (int j = 0; j < c->node_count; j++) c->rows[j].right[0] = c->rows[j].right[1] = c->rows[j].right[2] = 0;
     pull_start(c);
     for (int j = 0; j < c->node_count; j++) {
         if (c->nodes[j].slope_weight > 0) pull_slope(c, j);
-        if (j + 1 == c->node_count) continue;
-        if (exact) {
-            pull_stretch(c, j);
-        } else {
-            pull_known(c, j);
-        }
+        if (j + 1 < c->node_count) pull_stretch(c, j);
     }
     for (int j = 0; j < c->node_count; j++) {
         if (c->nodes[j].fixed) hold_fixed(c, j);

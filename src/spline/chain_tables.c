@@ -1,71 +1,112 @@
 // Powers of the filter and the condensed stretches (see chain.c for the mathematics).
 #include "spline/chain.h"
+#include "spline/wide.h"
 
-static cplx entry(const cplx_array *a, int k, bool is_complex) { return (cplx){a->re[k], is_complex ? a->im[k] : 0}; }
-
-static void set_entry(const cplx_array *a, int k, bool is_complex, cplx value)
+/// Tables p, q and W up to `longest`, from where they end now: p' = λ p + δ² q, q' = p + λ q, W' = W + (q p)* (q p).
+static void extend_complex(chain *c, int longest)
 {
-    a->re[k] = value.re;
-    if (is_complex) a->im[k] = value.im;
+    const chain_powers *t = &c->powers;
+    const cplx l = c->lambda, d = c->delta2;
+    int k = c->powers_count - 1;
+    cplx p = {t->p.re[k], t->p.im[k]}, q = {t->q.re[k], t->q.im[k]}, w01 = {t->w01.re[k], t->w01.im[k]};
+    double w00 = t->w00[k], w11 = t->w11[k];
+    while (k++ < longest) {
+        w00 += cplx_norm(q), w11 += cplx_norm(p);
+        w01 = cplx_add(w01, cplx_mul(q, cplx_conj(p)));
+        cplx next = cplx_add(cplx_mul(l, p), cplx_mul(d, q));
+        q = cplx_add(p, cplx_mul(l, q));
+        p = next;
+        t->p.re[k] = p.re, t->p.im[k] = p.im, t->q.re[k] = q.re, t->q.im[k] = q.im;
+        t->w00[k] = w00, t->w01.re[k] = w01.re, t->w01.im[k] = w01.im, t->w11[k] = w11;
+    }
 }
 
-/// Tables F^k and W_k up to `longest`, from where they end now: F^{k+1} = F F^k, W_{k+1} = F W_k F* + B B*.
+static void extend_real(chain *c, int longest)
+{
+    const chain_powers *t = &c->powers;
+    const double l = c->lambda.re, d = c->delta2.re;
+    int k = c->powers_count - 1;
+    double p = t->p.re[k], q = t->q.re[k], w00 = t->w00[k], w01 = t->w01.re[k], w11 = t->w11[k];
+    while (k++ < longest) {
+        w00 += q * q, w01 += q * p, w11 += p * p;
+        double next = l * p + d * q;
+        q = p + l * q;
+        p = next;
+        t->p.re[k] = p, t->q.re[k] = q;
+        t->w00[k] = w00, t->w01.re[k] = w01, t->w11[k] = w11;
+    }
+}
+
 static void extend_powers(chain *c, int longest)
 {
     const chain_powers *t = &c->powers;
-    bool z = c->is_complex;
-    const cplx l = c->lambda, d = c->delta2, ls = cplx_conj(l), ds = cplx_conj(d);
-    for (int k = c->powers_count; k <= longest; k++) {
-        cplx f00 = {1, 0}, f01 = {0, 0}, f10 = {0, 0}, f11 = {1, 0}, w01 = {0, 0};
-        double w00 = 0, w11 = 0;
-        if (k > 0) {
-            cplx g00 = entry(&t->f00, k - 1, z), g01 = entry(&t->f01, k - 1, z);
-            cplx g10 = entry(&t->f10, k - 1, z), g11 = entry(&t->f11, k - 1, z);
-            f00 = cplx_add(cplx_mul(l, g00), g10), f01 = cplx_add(cplx_mul(l, g01), g11);
-            f10 = cplx_add(cplx_mul(d, g00), cplx_mul(l, g10)), f11 = cplx_add(cplx_mul(d, g01), cplx_mul(l, g11));
-            cplx v01 = entry(&t->w01, k - 1, z), v10 = cplx_conj(v01); // rows of F W, then times F*
-            double v00 = t->w00[k - 1], v11 = t->w11[k - 1];
-            cplx a0 = cplx_add(cplx_scale(v00, l), v10), a1 = cplx_add(cplx_mul(l, v01), (cplx){v11, 0});
-            cplx b0 = cplx_add(cplx_scale(v00, d), cplx_mul(l, v10));
-            cplx b1 = cplx_add(cplx_mul(d, v01), cplx_scale(v11, l));
-            w00 = cplx_mul(a0, ls).re + a1.re;
-            w01 = cplx_add(cplx_mul(a0, ds), cplx_mul(a1, ls));
-            w11 = cplx_mul(b0, ds).re + cplx_mul(b1, ls).re + 1;
-        }
-        set_entry(&t->f00, k, z, f00), set_entry(&t->f01, k, z, f01);
-        set_entry(&t->f10, k, z, f10), set_entry(&t->f11, k, z, f11);
-        set_entry(&t->w01, k, z, w01);
-        t->w00[k] = w00, t->w11[k] = w11;
+    if (c->powers_count > longest) return;
+    if (c->powers_count == 0) {
+        t->p.re[0] = 1;
+        t->p.im[0] = t->q.re[0] = t->q.im[0] = t->w00[0] = t->w01.re[0] = t->w01.im[0] = t->w11[0] = 0;
+        c->powers_count = 1;
     }
-    if (c->powers_count <= longest) c->powers_count = longest + 1;
+    if (c->is_complex) {
+        extend_complex(c, longest);
+    } else {
+        extend_real(c, longest);
+    }
+    c->powers_count = longest + 1;
 }
 
-/// V = W⁻¹, C = V F, P = F* V F at the stretch's length, and its table of forced columns.
-static void make_stretch(const chain *c, chain_stretch *s)
+static void put_entry(chain_stretch *s, int at, cplx value) { s->form[at] = value.re, s->form[at + 1] = value.im; }
+
+/// V = W⁻¹, C = V F, P = F* V F at the stretch's length.
+static void set_form(const chain *c, chain_stretch *s)
 {
     const chain_powers *t = &c->powers;
-    bool z = c->is_complex;
     int n = s->length;
-    cplx f00 = entry(&t->f00, n, z), f01 = entry(&t->f01, n, z), f10 = entry(&t->f10, n, z),
-         f11 = entry(&t->f11, n, z);
-    cplx w01 = entry(&t->w01, n, z);
+    cplx p = chain_power(c, &t->p, n), q = chain_power(c, &t->q, n), r = cplx_mul(c->delta2, q);
+    cplx w01 = chain_power(c, &t->w01, n);
     double det = t->w00[n] * t->w11[n] - cplx_norm(w01);
-    s->v00 = t->w11[n] / det, s->v11 = t->w00[n] / det;
-    s->v01 = cplx_scale(-1 / det, w01);
-    cplx v10 = cplx_conj(s->v01);
-    s->c00 = cplx_add(cplx_scale(s->v00, f00), cplx_mul(s->v01, f10));
-    s->c01 = cplx_add(cplx_scale(s->v00, f01), cplx_mul(s->v01, f11));
-    s->c10 = cplx_add(cplx_mul(v10, f00), cplx_scale(s->v11, f10));
-    s->c11 = cplx_add(cplx_mul(v10, f01), cplx_scale(s->v11, f11));
-    s->p00 = cplx_mul(cplx_conj(f00), s->c00).re + cplx_mul(cplx_conj(f10), s->c10).re;
-    s->p01 = cplx_add(cplx_mul(cplx_conj(f00), s->c01), cplx_mul(cplx_conj(f10), s->c11));
-    s->p11 = cplx_mul(cplx_conj(f01), s->c01).re + cplx_mul(cplx_conj(f11), s->c11).re;
+    double v00 = t->w11[n] / det, v11 = t->w00[n] / det;
+    cplx v01 = cplx_scale(-1 / det, w01), v10 = cplx_conj(v01);
+    cplx c00 = cplx_add(cplx_scale(v00, p), cplx_mul(v01, r)), c01 = cplx_add(cplx_scale(v00, q), cplx_mul(v01, p));
+    cplx c10 = cplx_add(cplx_mul(v10, p), cplx_scale(v11, r)), c11 = cplx_add(cplx_mul(v10, q), cplx_scale(v11, p));
+    s->form[FORM_V00] = v00, s->form[FORM_V11] = v11;
+    s->form[FORM_P00] = cplx_mul(cplx_conj(p), c00).re + cplx_mul(cplx_conj(r), c10).re;
+    s->form[FORM_P11] = cplx_mul(cplx_conj(q), c01).re + cplx_mul(cplx_conj(p), c11).re;
+    put_entry(s, FORM_V01, v01);
+    put_entry(s, FORM_P01, cplx_add(cplx_mul(cplx_conj(p), c01), cplx_mul(cplx_conj(r), c11)));
+    put_entry(s, FORM_C00, c00), put_entry(s, FORM_C01, c01);
+    put_entry(s, FORM_C10, c10), put_entry(s, FORM_C11, c11);
+}
+
+/// The table of forced columns, the first row of W_i F*^{L−i}: (w00 p* + w01 q*, w00 (δ² q)* + w01 p*).
+WIDEST static void set_forced_complex(const chain *c, const chain_stretch *s)
+{
+    const chain_powers *t = &c->powers;
+    const double *restrict pr = t->p.re, *restrict pi = t->p.im, *restrict qr = t->q.re, *restrict qi = t->q.im;
+    const double *restrict w = t->w00, *restrict vr = t->w01.re, *restrict vi = t->w01.im;
+    double *restrict g0r = c->forced[0].re + s->first, *restrict g0i = c->forced[0].im + s->first;
+    double *restrict g1r = c->forced[1].re + s->first, *restrict g1i = c->forced[1].im + s->first;
+    const cplx d = c->delta2;
+    const int n = s->length;
     for (int i = 0; i < n; i++) {
-        cplx g00 = cplx_conj(entry(&t->f00, n - i, z)), g01 = cplx_conj(entry(&t->f01, n - i, z));
-        cplx g10 = cplx_conj(entry(&t->f10, n - i, z)), g11 = cplx_conj(entry(&t->f11, n - i, z));
-        cplx w = entry(&t->w01, i, z); // F* has the conjugates transposed
-        set_entry(&c->forced[0], s->first + i, z, cplx_add(cplx_scale(t->w00[i], g00), cplx_mul(w, g01)));
-        set_entry(&c->forced[1], s->first + i, z, cplx_add(cplx_scale(t->w00[i], g10), cplx_mul(w, g11)));
+        const int k = n - i;
+        double rr = d.re * qr[k] - d.im * qi[k], ri = d.re * qi[k] + d.im * qr[k];
+        g0r[i] = w[i] * pr[k] + (vr[i] * qr[k] + vi[i] * qi[k]);
+        g0i[i] = (vi[i] * qr[k] - vr[i] * qi[k]) - w[i] * pi[k];
+        g1r[i] = w[i] * rr + (vr[i] * pr[k] + vi[i] * pi[k]);
+        g1i[i] = (vi[i] * pr[k] - vr[i] * pi[k]) - w[i] * ri;
+    }
+}
+
+WIDEST static void set_forced_real(const chain *c, const chain_stretch *s)
+{
+    const double *restrict p = c->powers.p.re, *restrict q = c->powers.q.re;
+    const double *restrict w = c->powers.w00, *restrict v = c->powers.w01.re;
+    double *restrict g0 = c->forced[0].re + s->first, *restrict g1 = c->forced[1].re + s->first;
+    const double d = c->delta2.re;
+    const int n = s->length;
+    for (int i = 0; i < n; i++) {
+        g0[i] = w[i] * p[n - i] + v[i] * q[n - i];
+        g1[i] = w[i] * (d * q[n - i]) + v[i] * p[n - i];
     }
 }
 
@@ -86,12 +127,17 @@ void chain_forget(chain *c)
 static int find_stretch(chain *c, int length)
 {
     if (c->stretch_of[length] > 0) return c->stretch_of[length] - 1;
-    if (c->stretch_count == c->stretch_capacity || c->forced_count + length > c->powers_capacity) return -1;
+    if (c->stretch_count == c->stretch_capacity || c->forced_count + length > c->forced_capacity) return -1;
     extend_powers(c, length);
     chain_stretch *s = &c->stretches[c->stretch_count++];
     *s = (chain_stretch){.length = length, .first = c->forced_count};
     c->forced_count += length;
-    make_stretch(c, s);
+    set_form(c, s);
+    if (c->is_complex) {
+        set_forced_complex(c, s);
+    } else {
+        set_forced_real(c, s);
+    }
     c->stretch_of[length] = c->stretch_count;
     return c->stretch_count - 1;
 }

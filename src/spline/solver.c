@@ -7,7 +7,7 @@
 /// What carve() hands out for each sample and for each knot; keep in step with it.
 enum {
     MATRIX_DOUBLES = 3 + 4 + 4 + 2 * BORDER_MAX,
-    CHAIN_DOUBLES = 16,
+    CHAIN_DOUBLES = 12,
     BYTES_PER_SAMPLE = (int)((MATRIX_DOUBLES + 1 + 2 + 2 + 4 + 1) * sizeof(double) + sizeof(coefficients) +
                              sizeof(cplx) + 2 * sizeof(int) + sizeof(unsigned char)),
     BYTES_PER_KNOT =
@@ -67,10 +67,9 @@ static void carve(wiggly_solver *solver)
     c->stretch_of = take(&at, n * sizeof(int));
     rows->fixed = take(&at, n);
     unsigned char *tables = (unsigned char *)m->diagonal;
-    double **const columns[] = {&c->powers.f00.re, &c->powers.f00.im, &c->powers.f01.re, &c->powers.f01.im,
-                                &c->powers.f10.re, &c->powers.f10.im, &c->powers.f11.re, &c->powers.f11.im,
-                                &c->powers.w01.re, &c->powers.w01.im, &c->powers.w00,    &c->powers.w11,
-                                &c->forced[0].re,  &c->forced[0].im,  &c->forced[1].re,  &c->forced[1].im};
+    double **const columns[] = {&c->powers.p.re,   &c->powers.p.im,   &c->powers.q.re,  &c->powers.q.im,
+                                &c->powers.w01.re, &c->powers.w01.im, &c->powers.w00,   &c->powers.w11,
+                                &c->forced[0].re,  &c->forced[0].im,  &c->forced[1].re, &c->forced[1].im};
     _Static_assert(sizeof columns / sizeof *columns == CHAIN_DOUBLES, "CHAIN_DOUBLES counts the columns");
     for (int i = 0; i < CHAIN_DOUBLES; i++) *columns[i] = take(&tables, n * sizeof(double));
 }
@@ -82,7 +81,7 @@ static wiggly_solver *lay_out(void *memory, int samples, int knots)
     solver->samples = samples;
     solver->knots = knots;
     solver->longest_squared = LONGEST_SQUARED;
-    solver->chain.powers_capacity = samples;
+    solver->chain.forced_capacity = samples;
     solver->chain.stretch_capacity = knots + 1;
     carve(solver);
     return solver;

@@ -37,7 +37,7 @@ static wiggly_status build(wiggly_take *take)
     chain_make_tables(c);
     chain_assemble(c);
     chain_reset_nodes(c);
-    chain_gradient(c, false);
+    chain_pull_known(c);
     int run_rows[TREE_MAX_LEVELS];
     take->tree.levels = tree_shape(c->node_count, take->tree.count, run_rows);
     return tree_update(&take->tree, 0, c->node_count - 1) ? WIGGLY_OK : WIGGLY_SINGULAR;
@@ -134,7 +134,7 @@ static bool renew_rows(wiggly_take *take, int j)
     if (forgot) return false;
     chain_assemble(&part);
     chain_reset_nodes(&part);
-    chain_gradient(&part, false);
+    chain_pull_known(&part);
     int first = j > 0 ? j - 1 : 0, last = j + 1 < c->node_count ? j + 1 : j;
     memcpy(&c->rows[first], &rows[first - from], sizeof *rows * (size_t)(last - first + 1));
     return true;
