@@ -1,11 +1,12 @@
 // Many splines over threads: each thread has a solver of its own and takes the next few splines until none is left. Which thread
-// solves which spline does not matter to the bits, because what a solver keeps never does.
+// solves which spline does not matter to the bits, because neither what a solver keeps nor who is in a group does.
+#include "spline/group.h"
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <threads.h>
 #include <wiggly/wiggly.h>
 
-enum { MAX_THREADS = 256, AT_A_TIME = 8 };
+enum { MAX_THREADS = 256, AT_A_TIME = GROUP_ROOM };
 
 /// One call of wiggly_batch_solve().
 typedef struct job {
@@ -17,7 +18,7 @@ typedef struct job {
 
 typedef struct worker {
     wiggly_batch *batch;
-    wiggly_solver *solver;
+    group *group;
     thrd_t thread;
     wiggly_status worst;
 } worker;
@@ -42,10 +43,12 @@ static void work(worker *w)
     for (;;) {
         int from = atomic_fetch_add(&batch->next, AT_A_TIME), to = from + AT_A_TIME;
         if (from >= now->count) return;
-        for (int i = from; i < to && i < now->count; i++) {
-            wiggly_status status = wiggly_solve(w->solver, &now->desc[i], &now->curve[i]);
-            if (now->status) now->status[i] = status;
-            if (status > w->worst) w->worst = status;
+        for (int i = from; i < to && i < now->count; i++) group_add(w->group, &now->desc[i], &now->curve[i]);
+        wiggly_status statuses[AT_A_TIME];
+        int count = group_finish(w->group, statuses);
+        for (int i = 0; i < count; i++) {
+            if (now->status) now->status[from + i] = statuses[i];
+            if (statuses[i] > w->worst) w->worst = statuses[i];
         }
     }
 }
@@ -73,9 +76,10 @@ static bool add_worker(wiggly_batch *batch, int samples, int knots)
 {
     worker *w = &batch->workers[batch->threads];
     w->batch = batch;
-    if (wiggly_create(samples, knots, &w->solver) != WIGGLY_OK) return false;
+    w->group = group_create(samples, knots, chain_lanes());
+    if (!w->group) return false;
     if (batch->threads > 0 && thrd_create(&w->thread, run, w) != thrd_success) {
-        wiggly_destroy(w->solver);
+        group_destroy(w->group);
         return false;
     }
     batch->threads++;
@@ -132,7 +136,7 @@ void wiggly_batch_destroy(wiggly_batch *batch)
     mtx_unlock(&batch->lock);
     for (int t = 0; t < batch->threads; t++) {
         if (t > 0) thrd_join(batch->workers[t].thread, NULL);
-        wiggly_destroy(batch->workers[t].solver);
+        group_destroy(batch->workers[t].group);
     }
     cnd_destroy(&batch->start);
     cnd_destroy(&batch->done);

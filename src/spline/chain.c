@@ -124,6 +124,17 @@ void chain_reset_nodes(chain *c)
     }
 }
 
+bool chain_fill(const chain *c, double *x_re, double *x_im)
+{
+    const chain_node *last = &c->nodes[c->node_count - 1];
+    double *im = c->is_complex ? x_im : NULL;
+    bool tame = chain_run_free(c, last, c->count - last->sample, x_re + last->sample, im ? im + last->sample : NULL);
+    for (const chain_node *p = c->nodes; p < last; p++) {
+        tame = chain_fill_stretch(c, p, p + 1, x_re + p->sample, im ? im + p->sample : NULL) && tame;
+    }
+    return tame;
+}
+
 bool chain_solve(chain *c, double *x_re, double *x_im)
 {
     if (!c->kept) {
@@ -139,11 +150,5 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
     chain_solve_nodes(c);
     double size = take_solution(c);
     if (c->rank == CHAIN_WEAK && !refine(c, size)) return false;
-    const chain_node *last = &c->nodes[c->node_count - 1];
-    double *im = x_im ? x_im + last->sample : NULL;
-    bool tame = chain_run_free(c, last, c->count - last->sample, x_re + last->sample, im);
-    for (const chain_node *p = c->nodes; p < last; p++) {
-        tame = chain_fill_stretch(c, p, p + 1, x_re + p->sample, x_im ? x_im + p->sample : NULL) && tame;
-    }
-    return tame;
+    return chain_fill(c, x_re, x_im);
 }

@@ -73,6 +73,7 @@ typedef struct chain {
     int *stretch_of;      ///< 1 + index of the stretch of each length, 0 where there is none yet
     chain_stretch *stretches;
     int stretch_count, stretch_capacity;
+    unsigned forgotten; ///< how often all stretches were forgotten
     int powers_count; ///< k for which there are powers
     int forced_count, forced_capacity;
     chain_node *nodes;
@@ -83,10 +84,13 @@ typedef struct chain {
     double error;    ///< estimated error of x, where the nodes' system had to be refined
 } chain;
 
-/// Solves for the nodes and writes x of every sample of the system (x_im NULL outside complex mode). Where `kept` is set, only
+/// Solves for the nodes and writes x of every sample of the system (x_im only in complex mode). Where `kept` is set, only
 /// values have changed since the last solve and its factor is used again. false where the nodes' system has lost so many digits
 /// that its answer is not to be taken, or numbers are so large that sums might overflow.
 bool chain_solve(chain *chain, double *x_re, double *x_im);
+
+/// The last of its steps: x of every sample from the states at the nodes. false where sums might overflow.
+bool chain_fill(const chain *chain, double *x_re, double *x_im);
 
 /// Forgets tables and factor: another filter, or their memory was used for something else.
 void chain_forget(chain *chain);

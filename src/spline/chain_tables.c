@@ -114,6 +114,7 @@ static void forget_stretches(chain *c)
 {
     for (int s = 0; s < c->stretch_count; s++) c->stretch_of[c->stretches[s].length] = 0;
     c->stretch_count = c->forced_count = 0;
+    c->forgotten++;
 }
 
 void chain_forget(chain *c)

@@ -42,7 +42,7 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
     for (int n = 0; n < desc->knot_count; n++) {
         const wiggly_knot *knot = &desc->knots[solver->order[n]];
         const wiggly_knot *next = n + 1 < desc->knot_count ? &desc->knots[solver->order[n + 1]] : NULL;
-        double y = p->y[knot->sample];
+        double y = problem_y(p, knot->sample);
         chain_node node = {.sample = knot->sample - p->first, .value = knot->value - y};
         if (knot->has_slope) {
             node.slope = desc->step * knot->slope;
@@ -64,21 +64,47 @@ static bool same_cplx(cplx a, cplx b) { return a.re == b.re && a.im == b.im; }
 
 static bool same_start(start_cost a, start_cost b) { return a.h00 == b.h00 && a.d == b.d && same_cplx(a.e, b.e); }
 
+static bool same_filter(const wiggly_solver *solver)
+{
+    const chain *c = &solver->chain;
+    const constant_filter *f = &solver->filter;
+    return solver->rows.is_complex == c->is_complex && same_cplx(f->lambda, c->lambda) &&
+           same_cplx(f->delta2, c->delta2);
+}
+
 /// Sets filter and start, and forgets what was made for another.
 static void set_chain(wiggly_solver *solver, const problem *p)
 {
     chain *c = &solver->chain;
     const system_rows *rows = &solver->rows;
     const constant_filter *f = solver_filter(solver, p->desc);
-    bool same =
-        rows->is_complex == c->is_complex && same_cplx(f->lambda, c->lambda) && same_cplx(f->delta2, c->delta2);
-    if (!same) chain_forget(c);
+    if (!same_filter(solver)) chain_forget(c);
     if (!same_start(rows->start, c->start)) c->kept = false;
     c->is_complex = rows->is_complex;
     c->count = rows->count;
     c->start = rows->start;
     c->lambda = f->lambda;
     c->delta2 = f->delta2;
+}
+
+bool problem_shares_chain(wiggly_solver *solver, const problem *p)
+{
+    solver_filter(solver, p->desc);
+    return same_filter(solver) && same_start(solver->rows.start, solver->chain.start);
+}
+
+/// One knot without any hold has no single answer.
+static bool is_held(const chain *c) { return c->node_count >= 2 || c->start.h00 > 0; }
+
+bool problem_join(wiggly_solver *solver, const problem *p)
+{
+    chain *c = &solver->chain;
+    c->kept = false;
+    problem_make_chain(solver, p);
+    if (!is_held(c)) return false;
+    chain_make_tables(c);
+    chain_reset_nodes(c);
+    return true;
 }
 
 bool problem_make_chain(wiggly_solver *solver, const problem *p)
@@ -92,6 +118,6 @@ bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, 
     chain *c = &solver->chain;
     bool same_nodes = problem_make_chain(solver, p);
     c->kept = c->kept && same_nodes;
-    if (c->node_count < 2 && !(c->start.h00 > 0)) return false;
-    return chain_solve(c, x_re, c->is_complex ? x_im : NULL);
+    if (!is_held(c)) return false;
+    return chain_solve(c, x_re, x_im);
 }

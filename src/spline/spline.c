@@ -9,7 +9,6 @@
 
 static const double implied_stiffness = 1000;
 static const double fallback_calm = 0.05;
-static const double blow_up = 1e4;
 
 wiggly_desc wiggly_default_desc(void)
 {
@@ -77,16 +76,6 @@ static wiggly_status order_knots(wiggly_solver *solver, const wiggly_desc *desc)
     return WIGGLY_OK;
 }
 
-static double range_of(const double *values, int count)
-{
-    double low = values[0], high = values[0];
-    for (int i = 1; i < count; i++) {
-        low = fmin(low, values[i]);
-        high = fmax(high, values[i]);
-    }
-    return high - low;
-}
-
 static void set_domain(wiggly_solver *solver, problem *p)
 {
     const wiggly_desc *desc = p->desc;
@@ -97,13 +86,13 @@ static void set_domain(wiggly_solver *solver, problem *p)
     system_rows *rows = &solver->rows;
     rows->loop = p->start == WIGGLY_LOOP;
     rows->is_complex = desc->mode == WIGGLY_COMPLEX;
-    rows->count = rows->loop ? desc->samples - 1 : desc->samples - p->first;
+    rows->count = p->count = rows->loop ? desc->samples - 1 : desc->samples - p->first;
 }
 
 static double y_at(const problem *p, const system_rows *rows, int k)
 {
     if (rows->loop) k = (k + rows->count) % rows->count;
-    return p->y[p->first + k];
+    return problem_y(p, p->first + k);
 }
 
 /// Coefficients, drive and imaginary weights of every row.
@@ -173,24 +162,11 @@ static void set_constraints(wiggly_solver *solver, const problem *p)
         const wiggly_knot *knot = &p->desc->knots[solver->order[n]];
         int k = knot->sample - p->first;
         rows->fixed[k] |= FIXED_RE;
-        rows->x[width * k] = knot->value - p->y[knot->sample];
+        rows->x[width * k] = knot->value - problem_y(p, knot->sample);
         if (knot->has_slope) add_slope(rows, p, knot->sample, knot->slope, knot->stiffness);
     }
     bool alone = p->desc->knot_count == 1 && rows->slope_count == 0;
     if (p->level || (alone && p->free_end)) add_slope(rows, p, p->earliest, 0, implied_stiffness);
-}
-
-/// Largest of |value − y| over knots, T·|slope| over slopes, and y's range: what max |x| is measured against.
-static double problem_scale(const system_rows *rows, const problem *p)
-{
-    double scale = p->desc->equilibrium.track ? range_of(p->y, p->desc->samples) : 0;
-    double t = (rows->loop ? rows->count : rows->count - 1) * p->desc->step;
-    for (int k = 0; k < p->desc->knot_count; k++) {
-        const wiggly_knot *knot = &p->desc->knots[k];
-        scale = fmax(scale, fabs(knot->value - p->y[knot->sample]));
-        if (knot->has_slope) scale = fmax(scale, t * fabs(knot->slope));
-    }
-    return scale;
 }
 
 /// x of the system into the curve's arrays.
@@ -220,34 +196,6 @@ static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
     return result;
 }
 
-/// Largest |x|, eight at once.
-static double largest_magnitude(const double *x, int count)
-{
-    double largest[8] = {0}, all = 0;
-    int i = 0;
-    for (; i + 8 <= count; i += 8) {
-        for (int k = 0; k < 8; k++) largest[k] = fabs(x[i + k]) > largest[k] ? fabs(x[i + k]) : largest[k];
-    }
-    for (; i < count; i++) all = fmax(all, fabs(x[i]));
-    for (int k = 0; k < 8; k++) all = fmax(all, largest[k]);
-    return all;
-}
-
-/// Whether max |x| is beyond what the knots can mean.
-static bool blew_up(const wiggly_solver *solver, const problem *p, const wiggly_curve *curve)
-{
-    double scale = problem_scale(&solver->rows, p);
-    const double *re = curve->re + p->first, *im = curve->im + p->first;
-    int count = solver->rows.count;
-    double bound = largest_magnitude(re, count);
-    if (solver->rows.is_complex) bound = hypot(bound, largest_magnitude(im, count));
-    if (!(scale > 0) || bound <= blow_up * scale) return false;
-    for (int k = 0; k < count && solver->rows.is_complex; k++) {
-        if (hypot(re[k], im[k]) > blow_up * scale) return true;
-    }
-    return !solver->rows.is_complex;
-}
-
 /// Knots joined by straight lines: what is shown where the system is singular whatever was tried.
 static void join_knots(wiggly_solver *solver, const problem *p)
 {
@@ -273,7 +221,7 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
     for (;;) {
         *result = attempt(solver, p, curve);
         bool may_be_singular = p->start == WIGGLY_LOOP ? p->calm == 0 : p->free_end;
-        if (result->solved && !(may_be_singular && (result->weak || blew_up(solver, p, curve)))) return status;
+        if (result->solved && !(may_be_singular && (result->weak || problem_blew_up(p, curve)))) return status;
         if (may_be_singular && p->calm == 0) {
             p->calm = fallback_calm;
             status = WIGGLY_CALMED;
@@ -296,11 +244,11 @@ static void solve_short(wiggly_solver *solver, const problem *p)
     system_rows *rows = &solver->rows;
     const wiggly_desc *desc = p->desc;
     int width = rows->is_complex ? 2 : 1;
-    double other = p->earliest >= 0 ? desc->knots[solver->order[0]].value - p->y[p->earliest] : 0;
+    double other = p->earliest >= 0 ? desc->knots[solver->order[0]].value - problem_y(p, p->earliest) : 0;
     memset(rows->x, 0, sizeof(double) * (size_t)(width * rows->count));
     for (int k = 0; k < rows->count; k++) rows->x[width * k] = other;
     for (int n = 0; n < desc->knot_count; n++) {
-        rows->x[width * (desc->knots[n].sample - p->first)] = desc->knots[n].value - p->y[desc->knots[n].sample];
+        rows->x[width * (desc->knots[n].sample - p->first)] = desc->knots[n].value - problem_y(p, desc->knots[n].sample);
     }
 }
 
@@ -319,29 +267,6 @@ static bool is_still(const problem *p)
     return !moves || !rings;
 }
 
-/// What follows from x: samples outside the system, the total, the band's centre.
-static void complete(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
-{
-    const system_rows *rows = &solver->rows;
-    const wiggly_desc *desc = p->desc;
-    int n = desc->samples;
-    if (!rows->is_complex) memset(curve->im, 0, sizeof(double) * (size_t)n);
-    for (int i = 0; i < p->first; i++) curve->re[i] = curve->re[p->first], curve->im[i] = curve->im[p->first];
-    if (rows->loop) curve->re[n - 1] = curve->re[0], curve->im[n - 1] = curve->im[0];
-    for (int i = 0; i < n; i++) curve->total[i] = curve->y[i] + curve->re[i];
-    for (int k = 0; k < desc->knot_count; k++) curve->total[desc->knots[k].sample] = desc->knots[k].value;
-    if (rows->loop) curve->total[n - 1] = curve->total[0];
-    double floor = rows->loop ? LEAST_DAMPING * p->calm : 0;
-    bool constant = poles_are_constant(desc);
-    double omega = constant && !rows->loop ? solver_filter(solver, desc)->at.centre : poles_at(desc, 0, floor).centre;
-    for (int i = 0; curve->omega && i < n; i++) curve->omega[i] = constant ? omega : poles_at(desc, i, floor).centre;
-    curve->samples = n;
-    curve->step = desc->step;
-    curve->first = p->first;
-    curve->mode = desc->mode;
-    curve->start = p->start;
-}
-
 static double tolerance(wiggly_mode mode) { return mode == WIGGLY_CUBIC ? 1e-9 : 1e-8; }
 
 /// Error relative to the larger of the total's range and its largest magnitude.
@@ -349,9 +274,9 @@ static wiggly_status judge(wiggly_curve *curve, const minimum *result, wiggly_st
 {
     curve->error = 0;
     if (result->error > 0) {
-        double magnitude = range_of(curve->total, curve->samples);
-        for (int i = 0; i < curve->samples; i++) magnitude = fmax(magnitude, fabs(curve->total[i]));
-        curve->error = result->error / magnitude;
+        double low = curve->total[0], high = low;
+        for (int i = 1; i < curve->samples; i++) low = fmin(low, curve->total[i]), high = fmax(high, curve->total[i]);
+        curve->error = result->error / fmax(high - low, fmax(fabs(low), fabs(high)));
     }
     curve->refinements = result->sweeps > 1 ? result->sweeps - 1 : 0;
     return status == WIGGLY_OK && !(curve->error <= tolerance(curve->mode)) ? WIGGLY_INEXACT : status;
@@ -362,11 +287,12 @@ wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, doubl
     wiggly_status status = check_desc(solver, desc);
     if (status == WIGGLY_OK) status = order_knots(solver, desc);
     if (status != WIGGLY_OK) return status;
-    for (int i = 0; i < desc->samples; i++) {
-        y[i] = desc->equilibrium.track ? desc->equilibrium.track[i] : desc->equilibrium.value;
+    *p = (problem){.desc = desc, .calm = desc->calm};
+    if (desc->equilibrium.track) {
+        memmove(y, desc->equilibrium.track, sizeof *y * (size_t)desc->samples);
+        if (desc->start == WIGGLY_LOOP) y[desc->samples - 1] = y[0];
+        p->y = y;
     }
-    if (desc->start == WIGGLY_LOOP) y[desc->samples - 1] = y[0];
-    *p = (problem){.desc = desc, .y = y, .calm = desc->calm};
     set_domain(solver, p);
     set_start(solver, p);
     return WIGGLY_OK;
@@ -377,6 +303,7 @@ wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, do
     problem p;
     wiggly_status status = problem_pose(solver, desc, y, &p);
     if (status != WIGGLY_OK) return status;
+    for (int i = 0; i < desc->samples; i++) y[i] = problem_y(&p, i);
     set_filter(solver, &p);
     set_constraints(solver, &p);
     system_matrix(&solver->rows, &solver->matrix);
@@ -387,11 +314,34 @@ wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, do
 static wiggly_curve with_arrays(const wiggly_solver *solver, const wiggly_curve *curve)
 {
     wiggly_curve all = *curve;
-    if (!all.y) all.y = solver->y;
     if (!all.re) all.re = solver->rows.gradient;
     if (!all.im) all.im = solver->rows.gradient + solver->samples;
     if (!all.total) all.total = solver->rows.jet;
     return all;
+}
+
+/// Back to the caller's arrays.
+static void keep_asked(wiggly_curve *curve, wiggly_curve all)
+{
+    all.total = curve->total, all.re = curve->re, all.im = curve->im;
+    *curve = all;
+}
+
+/// Whether nothing is to be minimised: too short, nothing moves, or nothing constrains.
+static bool is_plain(const problem *p)
+{
+    return p->count < 3 || is_still(p) || (p->start == WIGGLY_REST && p->desc->knot_count == 0);
+}
+
+static void solve_plain(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
+{
+    if (p->count < 3 || is_still(p)) {
+        solve_short(solver, p);
+    } else {
+        set_filter(solver, p);
+        solver_run_forward(solver);
+    }
+    unpack(solver, p, curve);
 }
 
 wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
@@ -399,22 +349,33 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     if (!solver || !curve) return WIGGLY_ERROR_ARGUMENT;
     problem p;
     wiggly_curve all = with_arrays(solver, curve);
-    wiggly_status status = problem_pose(solver, desc, all.y, &p);
+    wiggly_status status = problem_pose(solver, desc, all.y ? all.y : solver->y, &p);
     if (status != WIGGLY_OK) return status;
     minimum result = {.solved = true};
-    if (solver->rows.count < 3 || is_still(&p)) {
-        solve_short(solver, &p);
-        unpack(solver, &p, &all);
-    } else if (p.start == WIGGLY_REST && desc->knot_count == 0) {
-        set_filter(solver, &p);
-        solver_run_forward(solver);
-        unpack(solver, &p, &all);
+    if (is_plain(&p)) {
+        solve_plain(solver, &p, &all);
     } else {
         status = minimise_safely(solver, &p, &all, &result);
     }
-    complete(solver, &p, &all);
+    problem_complete(solver, &p, &all);
     status = judge(&all, &result, status);
-    all.total = curve->total, all.y = curve->y, all.re = curve->re, all.im = curve->im;
-    *curve = all;
+    keep_asked(curve, all);
     return status;
+}
+
+bool problem_pose_for_group(wiggly_solver *solver, const wiggly_desc *desc, problem *p)
+{
+    return problem_pose(solver, desc, solver->y, p) == WIGGLY_OK && !is_plain(p) && problem_fits_chain(solver, p);
+}
+
+bool problem_finish(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
+{
+    wiggly_curve all = with_arrays(solver, curve);
+    if (!chain_fill(&solver->chain, all.re + p->first, all.im + p->first)) return false;
+    if (p->free_end && problem_blew_up(p, &all)) return false;
+    problem_complete(solver, p, &all);
+    all.error = 0;
+    all.refinements = 0;
+    keep_asked(curve, all);
+    return true;
 }

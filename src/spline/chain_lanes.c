@@ -1,0 +1,10 @@
+#include "spline/chain_lanes.h"
+
+int chain_lanes(void)
+{
+#if defined(__x86_64__) && defined(__GNUC__)
+    return __builtin_cpu_supports("avx512f") ? 8 : 4;
+#else
+    return 4;
+#endif
+}

@@ -1,0 +1,7 @@
+// 4 chains at once; compiled for avx2 where the processor has it (see chain_lanes_loop.h).
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#pragma GCC target("avx2")
+#endif
+#define LANES 4
+#define chain_solve_by_lanes chain_solve_by_4
+#include "spline/chain_lanes_loop.h"

@@ -1,0 +1,178 @@
+#include "spline/group.h"
+#include "spline/problem.h"
+#include <stdint.h>
+#include <stdlib.h>
+
+/// Columns of forced responses are kept for so many times the samples of a spline: for all lengths of stretches up to eight times
+/// that number's root.
+enum { TABLES = 32 };
+
+/// A spline in a lane.
+typedef struct member {
+    int index;
+    problem problem;
+} member;
+
+struct group {
+    wiggly_solver *solver;
+    int lanes;
+    chain_group chains; ///< its count is that of the members
+    member members[MOST_LANES];
+    int taken;
+    const wiggly_desc *desc[GROUP_ROOM];
+    wiggly_curve *curve[GROUP_ROOM];
+    wiggly_status status[GROUP_ROOM];
+    int alone[GROUP_ROOM]; ///< those that are left to wiggly_solve(): afterwards, because it may overwrite the tables
+    int alone_count;
+};
+
+typedef struct layout {
+    size_t rows, nodes, stretches, forced, size; ///< bytes
+    int columns, lengths;
+} layout;
+
+static bool plan(layout *l, int samples, int knots)
+{
+    size_t k = (size_t)knots + 1, n = (size_t)samples;
+    l->columns = samples > INT32_MAX / TABLES ? INT32_MAX : TABLES * samples;
+    l->lengths = samples;
+    return !__builtin_mul_overflow(k, DOUBLES_PER_LANE_ROW * sizeof(double), &l->rows) &&
+           !__builtin_mul_overflow(k, MOST_LANES * sizeof(chain_node), &l->nodes) &&
+           !__builtin_mul_overflow(n, sizeof(chain_stretch), &l->stretches) &&
+           !__builtin_mul_overflow((size_t)l->columns, 4 * sizeof(double), &l->forced) &&
+           !__builtin_add_overflow(l->rows, l->nodes, &l->size) &&
+           !__builtin_add_overflow(l->size, l->stretches, &l->size) &&
+           !__builtin_add_overflow(l->size, l->forced, &l->size) &&
+           !__builtin_add_overflow(l->size, sizeof(group) + LANE_ALIGNMENT, &l->size);
+}
+
+/// Memory of the lanes, and larger tables than a single spline needs: many splines have many lengths of stretches.
+static void lay_out(group *g, const layout *l, int knots)
+{
+    unsigned char *at = (unsigned char *)(g + 1);
+    at += (LANE_ALIGNMENT - (uintptr_t)at % LANE_ALIGNMENT) % LANE_ALIGNMENT;
+    g->chains.rows = (double *)(void *)at;
+    at += l->rows;
+    for (int k = 0; k < MOST_LANES; k++) g->chains.nodes[k] = (chain_node *)(void *)at + k * (knots + 1);
+    at += l->nodes;
+    chain *c = &g->solver->chain;
+    c->stretches = (chain_stretch *)(void *)at;
+    c->stretch_capacity = l->lengths;
+    double *columns = (double *)(void *)(at + l->stretches);
+    double **const forced[] = {&c->forced[0].re, &c->forced[0].im, &c->forced[1].re, &c->forced[1].im};
+    for (int i = 0; i < 4; i++) *forced[i] = columns + (size_t)i * (size_t)l->columns;
+    c->forced_capacity = l->columns;
+    g->chains.common = c;
+}
+
+group *group_create(int samples, int knots, int lanes)
+{
+    layout l;
+    if (!plan(&l, samples, knots)) return NULL;
+    group *g = calloc(1, l.size);
+    if (!g) return NULL;
+    if (wiggly_create(samples, knots, &g->solver) != WIGGLY_OK) {
+        free(g);
+        return NULL;
+    }
+    g->lanes = lanes;
+    lay_out(g, &l, knots);
+    return g;
+}
+
+void group_destroy(group *g)
+{
+    if (!g) return;
+    wiggly_destroy(g->solver);
+    free(g);
+}
+
+static void leave_alone(group *g, int index) { g->alone[g->alone_count++] = index; }
+
+/// Writes a member's curve from its nodes; false where it is one for wiggly_solve().
+static bool finish_member(group *g, int k)
+{
+    chain *c = &g->solver->chain, own = *c;
+    const member *m = &g->members[k];
+    if (g->chains.rank[k] != CHAIN_FIRM) return false;
+    c->nodes = g->chains.nodes[k];
+    c->node_count = g->chains.node_count[k];
+    c->count = m->problem.count;
+    bool good = problem_finish(g->solver, &m->problem, g->curve[m->index]);
+    c->nodes = own.nodes, c->node_count = own.node_count, c->count = own.count;
+    return good;
+}
+
+/// Solves the members.
+static void flush(group *g)
+{
+    int count = g->chains.count;
+    if (count == 0) return;
+    (g->lanes == 8 ? chain_solve_by_8 : chain_solve_by_4)(&g->chains);
+    for (int k = 0; k < count; k++) {
+        int index = g->members[k].index;
+        g->status[index] = WIGGLY_OK;
+        if (!finish_member(g, k)) leave_alone(g, index);
+    }
+    g->chains.count = 0;
+}
+
+/// The members' stretches are gone.
+static void dissolve(group *g)
+{
+    for (int k = 0; k < g->chains.count; k++) leave_alone(g, g->members[k].index);
+    g->chains.count = 0;
+}
+
+/// Makes a spline a member; false where nothing holds it.
+static bool join(group *g, const problem *p, int index)
+{
+    chain *c = &g->solver->chain;
+    chain_node *own = c->nodes;
+    c->nodes = g->chains.nodes[g->chains.count];
+    c->node_count = 0;
+    unsigned forgotten = c->forgotten;
+    bool held = problem_join(g->solver, p);
+    if (c->forgotten != forgotten && g->chains.count > 0) {
+        chain_node *first = g->chains.nodes[0];
+        g->chains.nodes[0] = c->nodes;
+        g->chains.nodes[g->chains.count] = first;
+        dissolve(g);
+    }
+    if (held) {
+        int k = g->chains.count++;
+        g->chains.node_count[k] = c->node_count;
+        g->members[k] = (member){index, *p};
+    }
+    c->nodes = own;
+    c->node_count = 0;
+    return held;
+}
+
+void group_add(group *g, const wiggly_desc *desc, wiggly_curve *curve)
+{
+    int index = g->taken++;
+    g->desc[index] = desc;
+    g->curve[index] = curve;
+    problem p;
+    if (!problem_pose_for_group(g->solver, desc, &p)) {
+        leave_alone(g, index);
+        return;
+    }
+    if (g->chains.count > 0 && !problem_shares_chain(g->solver, &p)) flush(g);
+    if (!join(g, &p, index)) leave_alone(g, index);
+    if (g->chains.count == g->lanes) flush(g);
+}
+
+int group_finish(group *g, wiggly_status *statuses)
+{
+    flush(g);
+    for (int k = 0; k < g->alone_count; k++) {
+        int index = g->alone[k];
+        g->status[index] = wiggly_solve(g->solver, g->desc[index], g->curve[index]);
+    }
+    int count = g->taken;
+    for (int i = 0; i < count; i++) statuses[i] = g->status[i];
+    g->taken = g->alone_count = 0;
+    return count;
+}

@@ -1,0 +1,22 @@
+/// Splines of a batch, a few at a time: those that share filter and start are solved side by side, the others one by one.
+#ifndef SPLINE_GROUP_H
+#define SPLINE_GROUP_H
+
+#include "spline/chain_lanes.h"
+#include <wiggly/wiggly.h>
+
+enum { GROUP_ROOM = 16 }; ///< splines between two calls of group_finish()
+
+typedef struct group group;
+
+/// For splines of up to `samples` samples and `knots` knots, `lanes` (4 or 8) side by side; NULL where memory is out.
+group *group_create(int samples, int knots, int lanes);
+void group_destroy(group *group);
+
+/// Takes a spline; it may be solved now or later.
+void group_add(group *group, const wiggly_desc *desc, wiggly_curve *curve);
+
+/// Solves what is left; returns how many were taken since the last time, and their statuses in that order.
+int group_finish(group *group, wiggly_status *statuses);
+
+#endif
