@@ -67,11 +67,17 @@ bool chain_run_free(const chain *c, const chain_node *last, int count, double *r
 {
     cplx x = {last->value, last->x_im}, d = {last->d_re, last->d_im};
     bool tame = is_tame(x) && is_tame(d);
-    for (int i = 0; i < count; i++) { // nothing pulls: r = 0
-        re[i] = x.re;
-        if (im) im[i] = x.im;
-        cplx next = cplx_add(cplx_mul(c->lambda, x), d);
-        d = cplx_add(cplx_mul(c->delta2, x), cplx_mul(c->lambda, d));
+    for (int i = 0; i < count; i += CHAIN_RUN) { // nothing pulls: r = 0
+        int run = count - i < CHAIN_RUN ? count - i : CHAIN_RUN;
+        if (c->is_complex) {
+            chain_fill_free_complex(c, run, x, d, re + i, im + i);
+        } else {
+            chain_fill_free_real(c, run, x.re, d.re, re + i);
+        }
+        if (i + run == count) break;
+        cplx p = chain_power(c, &c->powers.p, CHAIN_RUN), q = chain_power(c, &c->powers.q, CHAIN_RUN);
+        cplx next = cplx_add(cplx_mul(p, x), cplx_mul(q, d));
+        d = cplx_add(cplx_mul(cplx_mul(c->delta2, q), x), cplx_mul(p, d));
         x = next;
     }
     return tame;

@@ -57,6 +57,8 @@ typedef struct chain_row {
     double right[3];    ///< → solution
 } chain_row;
 
+enum { CHAIN_RUN = 64 }; ///< samples after the last node that are filled from one state
+
 typedef enum chain_rank {
     CHAIN_LOST, ///< a pivot is not positive
     CHAIN_WEAK, ///< a pivot has lost digits: to be refined
@@ -74,7 +76,7 @@ typedef struct chain {
     chain_stretch *stretches;
     int stretch_count, stretch_capacity;
     unsigned forgotten; ///< how often all stretches were forgotten
-    int powers_count; ///< k for which there are powers
+    int powers_count;   ///< k for which there are powers
     int forced_count, forced_capacity;
     chain_node *nodes;
     int node_count;
@@ -147,5 +149,9 @@ bool chain_run_free(const chain *chain, const chain_node *last, int count, doubl
 void chain_fill_complex(const chain *chain, const chain_stretch *stretch, const cplx weight[4], double *restrict re,
                         double *restrict im);
 void chain_fill_real(const chain *chain, const chain_stretch *stretch, const double weight[4], double *restrict re);
+
+/// x of `count` samples from the state (x, d) on where nothing pulls.
+void chain_fill_free_complex(const chain *chain, int count, cplx x, cplx d, double *restrict re, double *restrict im);
+void chain_fill_free_real(const chain *chain, int count, double x, double d, double *restrict re);
 
 #endif

@@ -25,3 +25,20 @@ WIDEST void chain_fill_real(const chain *c, const chain_stretch *s, const double
     const double a = weight[0], b = weight[1], d = weight[2], e = weight[3];
     for (int i = 0; i < s->length; i++) re[i] = (f0[i] * a + f1[i] * b) + (g0[i] * d + g1[i] * e);
 }
+
+WIDEST void chain_fill_free_complex(const chain *c, int count, cplx x, cplx d, double *restrict re,
+                                    double *restrict im)
+{
+    const double *restrict pr = c->powers.p.re, *restrict pi = c->powers.p.im;
+    const double *restrict qr = c->powers.q.re, *restrict qi = c->powers.q.im;
+    for (int i = 0; i < count; i++) {
+        re[i] = (pr[i] * x.re - pi[i] * x.im) + (qr[i] * d.re - qi[i] * d.im);
+        im[i] = (pr[i] * x.im + pi[i] * x.re) + (qr[i] * d.im + qi[i] * d.re);
+    }
+}
+
+WIDEST void chain_fill_free_real(const chain *c, int count, double x, double d, double *restrict re)
+{
+    const double *restrict p = c->powers.p.re, *restrict q = c->powers.q.re;
+    for (int i = 0; i < count; i++) re[i] = p[i] * x + q[i] * d;
+}

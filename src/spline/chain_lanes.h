@@ -13,7 +13,7 @@ typedef struct chain_group {
     chain_node *nodes[MOST_LANES];
     int node_count[MOST_LANES];
     chain_rank rank[MOST_LANES]; ///< CHAIN_FIRM, else chain_solve() must have a look; result
-    double *rows;                ///< scratch, DOUBLES_PER_LANE_ROW for each node of the longest, aligned to LANE_ALIGNMENT
+    double *rows; ///< scratch, DOUBLES_PER_LANE_ROW for each node of the longest, aligned to LANE_ALIGNMENT
 } chain_group;
 
 /// Solves for the states at the nodes, which must have been given their stretches and been reset.

@@ -145,6 +145,8 @@ static int find_stretch(chain *c, int length)
 
 void chain_make_tables(chain *c)
 {
+    int after = c->count - 1 - c->nodes[c->node_count - 1].sample;
+    extend_powers(c, after < CHAIN_RUN ? after : CHAIN_RUN);
     for (int j = 0; j + 1 < c->node_count; j++) {
         int stretch = find_stretch(c, c->nodes[j + 1].sample - c->nodes[j].sample);
         if (stretch <

@@ -22,12 +22,14 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p)
     return true;
 }
 
-/// Puts a node in its place; true where the one that was there differs in nothing but its values.
-static bool put_node(chain_node *at, chain_node node)
+/// Writes what a knot says into a node, field by field; true where the node there differed in nothing but its values.
+static bool put_node(chain_node *at, int sample, unsigned fixed, double slope, double slope_weight)
 {
-    bool same = at->sample == node.sample && at->fixed == node.fixed && at->slope_weight == node.slope_weight;
-    node.stretch = at->stretch;
-    *at = node;
+    bool same = at->sample == sample && at->fixed == fixed && at->slope_weight == slope_weight;
+    at->sample = sample;
+    at->fixed = fixed;
+    at->slope = slope;
+    at->slope_weight = slope_weight;
     return same;
 }
 
@@ -36,25 +38,26 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
     chain *c = &solver->chain;
-    int count = 0;
+    chain_node *node = c->nodes;
     bool same = true;
-    if (p->start == WIGGLY_REST) same = put_node(&c->nodes[count++], (chain_node){.fixed = NODE_AT_REST});
-    for (int n = 0; n < desc->knot_count; n++) {
+    if (p->start == WIGGLY_REST) {
+        same = put_node(node, 0, NODE_AT_REST, 0, 0);
+        node->value = node->e = 0;
+        node++;
+    }
+    for (int n = 0; n < desc->knot_count; n++, node++) {
         const wiggly_knot *knot = &desc->knots[solver->order[n]];
         const wiggly_knot *next = n + 1 < desc->knot_count ? &desc->knots[solver->order[n + 1]] : NULL;
         double y = problem_y(p, knot->sample);
-        chain_node node = {.sample = knot->sample - p->first, .value = knot->value - y};
-        if (knot->has_slope) {
-            node.slope = desc->step * knot->slope;
-            node.slope_weight = fmin(knot->stiffness * desc->step, STIFFEST);
-        }
-        if (next && next->sample == knot->sample + 1) {
-            node.fixed = NODE_FIXED_E;
-            node.e = (next->value - y) - node.value;
-            n++;
-        }
-        same = put_node(&c->nodes[count++], node) && same;
+        bool pair = next && next->sample == knot->sample + 1;
+        double slope = knot->has_slope ? desc->step * knot->slope : 0;
+        double weight = knot->has_slope ? fmin(knot->stiffness * desc->step, STIFFEST) : 0;
+        same = put_node(node, knot->sample - p->first, pair ? NODE_FIXED_E : 0, slope, weight) && same;
+        node->value = knot->value - y;
+        node->e = pair ? (next->value - y) - node->value : 0;
+        if (pair) n++;
     }
+    int count = (int)(node - c->nodes);
     same = same && count == c->node_count;
     c->node_count = count;
     return same;

@@ -248,7 +248,8 @@ static void solve_short(wiggly_solver *solver, const problem *p)
     memset(rows->x, 0, sizeof(double) * (size_t)(width * rows->count));
     for (int k = 0; k < rows->count; k++) rows->x[width * k] = other;
     for (int n = 0; n < desc->knot_count; n++) {
-        rows->x[width * (desc->knots[n].sample - p->first)] = desc->knots[n].value - problem_y(p, desc->knots[n].sample);
+        rows->x[width * (desc->knots[n].sample - p->first)] =
+            desc->knots[n].value - problem_y(p, desc->knots[n].sample);
     }
 }
 
