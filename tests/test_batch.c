@@ -11,6 +11,7 @@ static void *failing_calloc(size_t count, size_t size) { return granted-- == 0 ?
 
 #define calloc failing_calloc
 #include "spline/batch.c"
+#include "spline/group.c"
 #include "spline/solver.c"
 #undef calloc
 
@@ -79,6 +80,114 @@ static void a_batch_is_the_same_to_the_bit(void **state)
     }
 }
 
+/// Splines that are solved side by side: one filter and start, all else different.
+typedef struct company {
+    const char *what;
+    wiggly_mode mode;
+    wiggly_start start;
+    double frequency, damping, calm;
+    int count; ///< not a multiple of the lanes
+    int grid;  ///< knots only on multiples of this
+    bool pairs_only;
+} company;
+
+static const company companies[] = {
+    {"complex", WIGGLY_COMPLEX, WIGGLY_FREE, 1.5, 0.1, 1, 37, 1, false},
+    {"complex from rest", WIGGLY_COMPLEX, WIGGLY_REST, 2.5, 0.3, 1, 21, 1, false},
+    {"fewer than lanes", WIGGLY_COMPLEX, WIGGLY_FREE, 1.5, 0.1, 0.5, 3, 1, false},
+    {"real", WIGGLY_REAL, WIGGLY_FREE, 1.5, 0.1, 1, 37, 1, false},
+    {"real from rest", WIGGLY_REAL, WIGGLY_REST, 1.5, 2, 1, 19, 1, false},
+    {"cubic", WIGGLY_CUBIC, WIGGLY_FREE, 0, 0, 1, 37, 1, false},
+    {"pivots that lose digits", WIGGLY_COMPLEX, WIGGLY_FREE, 1.5, 0, 0.001, 29, 8, false},
+    {"more lengths than there is room for", WIGGLY_COMPLEX, WIGGLY_FREE, 1.5, 0.1, 1, SAMPLES - 1, 1, true},
+};
+
+/// Knots of spline i: from none on, in twos side by side now and then, some with slopes.
+static int make_knots(const company *c, int i, uint64_t *seed, wiggly_knot *knots)
+{
+    if (c->pairs_only) {
+        knots[0] = (wiggly_knot){.value = 1};
+        knots[1] = (wiggly_knot){.sample = i + 1, .value = uniform(seed)};
+        return 2;
+    }
+    int count = 0, room = SAMPLES / KNOTS;
+    for (int k = 0; k < i % (KNOTS + 1); k++) {
+        int sample = room * k + (int)(uniform(seed) * (room - 1));
+        bool beside = c->grid == 1 && k > 0 && uniform(seed) < 0.2;
+        if (beside) sample = knots[count - 1].sample + 1;
+        sample -= sample % c->grid;
+        if (count > 0 && sample <= knots[count - 1].sample) continue;
+        knots[count] = (wiggly_knot){.sample = sample, .value = uniform(seed) - 0.5, .stiffness = 100, .slope = 2};
+        knots[count].has_slope = uniform(seed) < 0.2;
+        count++;
+    }
+    return count;
+}
+
+static void assert_same_curve(const wiggly_curve *one, const wiggly_curve *many)
+{
+    const size_t size = SAMPLES * sizeof(double);
+    assert_memory_equal(one->total, many->total, size);
+    assert_memory_equal(one->y, many->y, size);
+    assert_memory_equal(one->re, many->re, size);
+    assert_memory_equal(one->im, many->im, size);
+    assert_memory_equal(one->omega, many->omega, size);
+    assert_true(one->samples == many->samples && one->step == many->step && one->first == many->first);
+    assert_true(one->mode == many->mode && one->start == many->start);
+    assert_true(one->error == many->error && one->refinements == many->refinements);
+}
+
+static int check_company(const company *c, int lanes)
+{
+    static wiggly_knot knots[SAMPLES][KNOTS];
+    wiggly_desc desc[SAMPLES];
+    wiggly_curve curve[SAMPLES];
+    wiggly_status status[SAMPLES];
+    wiggly_batch *batch = NULL;
+    wiggly_solver *solver = NULL;
+    uint64_t seed = 5;
+    int refined = 0;
+    assert_int_equal(batch_of_lanes(SAMPLES, KNOTS, 1, lanes, &batch), WIGGLY_OK);
+    assert_int_equal(wiggly_create(SAMPLES, KNOTS, &solver), WIGGLY_OK);
+    for (int i = 0; i < c->count; i++) {
+        desc[i] = wiggly_default_desc();
+        desc[i].samples = SAMPLES;
+        desc[i].mode = c->mode, desc[i].start = c->start, desc[i].calm = c->calm;
+        desc[i].frequency.value = c->frequency, desc[i].damping.value = c->damping;
+        desc[i].bandwidth.value = c->damping;
+        desc[i].equilibrium.value = 0.25 * i;
+        desc[i].knots = knots[i];
+        desc[i].knot_count = make_knots(c, i, &seed, knots[i]);
+        curve[i] = curve_create(SAMPLES);
+    }
+    for (int round = 0; round < 2; round++) { // the second time with tables that are kept
+        wiggly_batch_solve(batch, desc, curve, status, c->count);
+        for (int i = 0; i < c->count; i++) {
+            wiggly_curve one = curve_create(SAMPLES);
+            assert_int_equal(wiggly_solve(solver, &desc[i], &one), status[i]);
+            assert_same_curve(&one, &curve[i]);
+            refined += one.error > 0;
+            curve_destroy(&one);
+        }
+    }
+    for (int i = 0; i < c->count; i++) curve_destroy(&curve[i]);
+    wiggly_destroy(solver);
+    wiggly_batch_destroy(batch);
+    return refined;
+}
+
+static void lanes_are_the_same_to_the_bit(void **state)
+{
+    (void)state;
+    for (size_t c = 0; c < sizeof companies / sizeof *companies; c++) {
+        for (int lanes = 0; lanes <= chain_lanes(); lanes += 4) {
+            print_message("%s, %d lanes\n", companies[c].what, lanes);
+            int refined = check_company(&companies[c], lanes);
+            assert_true(companies[c].grid == 1 || refined > 0);
+        }
+    }
+}
+
 static void empty_and_wrong_calls(void **state)
 {
     (void)state;
@@ -119,7 +228,7 @@ static void running_out_of_memory_is_said(void **state)
         failures++;
     }
     granted = -1;
-    assert_int_equal(failures, 4); // the batch, and a solver for each thread
+    assert_int_equal(failures, 7); // the batch, and lanes and a solver for each thread
     wiggly_solver *solver = NULL;
     granted = 0;
     assert_int_equal(wiggly_create(50, 4, &solver), WIGGLY_ERROR_MEMORY);
@@ -131,6 +240,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_batch_is_the_same_to_the_bit),
+        cmocka_unit_test(lanes_are_the_same_to_the_bit),
         cmocka_unit_test(empty_and_wrong_calls),
         cmocka_unit_test(running_out_of_memory_is_said),
     };

@@ -1,5 +1,6 @@
 // Many splines over threads: each thread has a solver of its own and takes the next few splines until none is left. Which thread
 // solves which spline does not matter to the bits, because neither what a solver keeps nor who is in a group does.
+#include "spline/batch.h"
 #include "spline/group.h"
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -72,11 +73,11 @@ static int run(void *argument)
     return 0;
 }
 
-static bool add_worker(wiggly_batch *batch, int samples, int knots)
+static bool add_worker(wiggly_batch *batch, int samples, int knots, int lanes)
 {
     worker *w = &batch->workers[batch->threads];
     w->batch = batch;
-    w->group = group_create(samples, knots, chain_lanes());
+    w->group = group_create(samples, knots, lanes);
     if (!w->group) return false;
     if (batch->threads > 0 && thrd_create(&w->thread, run, w) != thrd_success) {
         group_destroy(w->group);
@@ -86,7 +87,7 @@ static bool add_worker(wiggly_batch *batch, int samples, int knots)
     return true;
 }
 
-wiggly_status wiggly_batch_create(int samples, int knots, int threads, wiggly_batch **out)
+wiggly_status batch_of_lanes(int samples, int knots, int threads, int lanes, wiggly_batch **out)
 {
     if (!out || threads < 1 || threads > MAX_THREADS || wiggly_memsize(samples, knots) == 0)
         return WIGGLY_ERROR_ARGUMENT;
@@ -96,13 +97,18 @@ wiggly_status wiggly_batch_create(int samples, int knots, int threads, wiggly_ba
     cnd_init(&batch->start);
     cnd_init(&batch->done);
     while (batch->threads < threads) {
-        if (!add_worker(batch, samples, knots)) {
+        if (!add_worker(batch, samples, knots, lanes)) {
             wiggly_batch_destroy(batch);
             return WIGGLY_ERROR_MEMORY;
         }
     }
     *out = batch;
     return WIGGLY_OK;
+}
+
+wiggly_status wiggly_batch_create(int samples, int knots, int threads, wiggly_batch **out)
+{
+    return batch_of_lanes(samples, knots, threads, chain_lanes(), out);
 }
 
 wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, wiggly_curve *curve,

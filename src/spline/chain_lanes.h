@@ -20,7 +20,7 @@ typedef struct chain_group {
 typedef void chain_group_solver(chain_group *group);
 chain_group_solver chain_solve_by_4, chain_solve_by_8;
 
-/// Lanes that this processor's vectors have.
+/// Lanes that this processor's vectors have: 8, 4, or 0 where chain_solve() is the better one.
 int chain_lanes(void);
 
 #endif

@@ -47,7 +47,7 @@ static bool plan(layout *l, int samples, int knots)
 }
 
 /// Memory of the lanes, and larger tables than a single spline needs: many splines have many lengths of stretches.
-static void lay_out(group *g, const layout *l, int knots)
+static void hand_out(group *g, const layout *l, int knots)
 {
     unsigned char *at = (unsigned char *)(g + 1);
     at += (LANE_ALIGNMENT - (uintptr_t)at % LANE_ALIGNMENT) % LANE_ALIGNMENT;
@@ -76,7 +76,7 @@ group *group_create(int samples, int knots, int lanes)
         return NULL;
     }
     g->lanes = lanes;
-    lay_out(g, &l, knots);
+    hand_out(g, &l, knots);
     return g;
 }
 
@@ -155,7 +155,7 @@ void group_add(group *g, const wiggly_desc *desc, wiggly_curve *curve)
     g->desc[index] = desc;
     g->curve[index] = curve;
     problem p;
-    if (!problem_pose_for_group(g->solver, desc, &p)) {
+    if (g->lanes == 0 || !problem_pose_for_group(g->solver, desc, &p)) {
         leave_alone(g, index);
         return;
     }

@@ -9,7 +9,7 @@ enum { GROUP_ROOM = 16 }; ///< splines between two calls of group_finish()
 
 typedef struct group group;
 
-/// For splines of up to `samples` samples and `knots` knots, `lanes` (4 or 8) side by side; NULL where memory is out.
+/// For splines of up to `samples` samples and `knots` knots, `lanes` (8, 4 or 0: none) side by side; NULL where memory is out.
 group *group_create(int samples, int knots, int lanes);
 void group_destroy(group *group);
 
