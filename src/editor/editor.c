@@ -190,6 +190,16 @@ void editor_redo(struct editor *editor, const struct editor_world *world)
     editor_message(editor, false, text);
 }
 
+void editor_jump(struct editor *editor, const struct editor_world *world, size_t done)
+{
+    if (history_is_open(world->history)) return;
+    size_t before = history_done(world->history), steps = before > done ? before - done : done - before;
+    if (!history_jump(world->history, world->document, done)) return;
+    char text[64];
+    snprintf(text, sizeof text, "%s %zu step%s", before > done ? "Undone:" : "Redone:", steps, steps == 1 ? "" : "s");
+    editor_message(editor, false, text);
+}
+
 void editor_request(struct editor *editor, enum request_kind kind, const char *path)
 {
     if (editor->request_count == EDITOR_MAX_REQUESTS) return;

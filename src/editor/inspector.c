@@ -22,6 +22,7 @@ static const struct section {
     {"section.poles", "Poles and response", inspector_poles, has_spline, true},
     {"section.knot", "Knot", inspector_knot, has_spline, false},
     {"section.tail", "Tail", inspector_tail, has_tail, false},
+    {"section.history", "History", inspector_history, NULL, true}, // the last one: see there
 };
 
 _Static_assert(sizeof sections / sizeof sections[0] <= INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");

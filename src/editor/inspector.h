@@ -22,6 +22,7 @@ void inspector_spline(struct inspection *in);
 void inspector_poles(struct inspection *in);
 void inspector_knot(struct inspection *in);
 void inspector_tail(struct inspection *in);
+void inspector_history(struct inspection *in);
 
 /// While a drag runs: the document as it was at the press, until inspector_change() makes the edit anew.
 void inspector_take_back(struct inspection *in, enum ui_change change);

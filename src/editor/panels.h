@@ -13,6 +13,12 @@
 
 enum { INSPECTOR_MAX_SECTIONS = 16 };
 
+/// What the list of the history's steps shows.
+struct history_view {
+    size_t top;         ///< its first row
+    size_t count, done; ///< of the history, when it was last laid out
+};
+
 /// The inspector's own view state; zero is a valid start.
 struct inspector {
     struct ui ui;
@@ -20,6 +26,7 @@ struct inspector {
     bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections that are not as they are at first, open or closed
     int tail, channel;                    ///< shown under "Tail"
     struct poles_view poles;
+    struct history_view history;
 };
 
 /// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.

@@ -268,6 +268,8 @@ double editor_frame(const struct editor *editor, const struct document *document
 /// Undo and redo; what they take away leaves the selection.
 void editor_undo(struct editor *editor, const struct editor_world *world);
 void editor_redo(struct editor *editor, const struct editor_world *world);
+/// Undoes or does again until `done` of the history's steps are done.
+void editor_jump(struct editor *editor, const struct editor_world *world, size_t done);
 
 /// Memory for the document's knots in selection and drags; allocates only where knots were added.
 void editor_reserve(struct editor *editor, const struct document *document);
