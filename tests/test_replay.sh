@@ -67,6 +67,10 @@ refused "words behind the event" 'lines.replay:8: expected the end of the line, 
 refused "a window of no size" 'lines.replay:8: expected a width and a height from 64' "5 size 0 0"
 expect 0 "the smallest window, CRLF, blank lines, a wheel with all modifiers" play_lines \
     $'5 size 64 64\r' "  " $'\t' "9 wheel 0 1 400 500 shift ctrl alt super"
+expect 0 "a paste" play_lines "5 key Escape" "6 paste 0,0.5%0a1,0.25%20"
+grep -q '"value": 0.25 }' "$scratch/lines.json"
+ok "sets the knots of its text" $?
+refused "a paste of nothing" 'lines.replay:8: expected a text, got the end of the line' "5 paste"
 printf 'wiggly-replay 1\0\n' >"$scratch/nul.replay"
 expect 1 "a NUL byte in a replay" play "$scratch/nul.replay" $scene nul
 says "is named" "nul.replay: expected text, got a NUL byte" "$err"

@@ -169,6 +169,12 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_FULLSCREEN:
         platform_fullscreen(app->platform, !platform_is_fullscreen(app->platform));
         return true;
+    case REQUEST_COPY:
+        app_copy(app);
+        return true;
+    case REQUEST_PASTE:
+        app->paste = !app->replay; /* a replay has the text that was pasted when it was recorded */
+        return true;
     }
     return true;
 }

@@ -45,6 +45,15 @@ static void play_events(struct app *app)
     if (app->error.kind != ERROR_NONE) app->failed = true;
 }
 
+/// The text that the editor asked for in the frame before: an event, so that it is recorded.
+static void paste(struct app *app)
+{
+    if (!app->paste) return;
+    app->paste = false;
+    const char *text = app_clipboard_text(app);
+    if (text) handle_event(app, &(struct event){.kind = EVENT_PASTE, .text = text});
+}
+
 /// How long the next frame may wait for input: to its turn (an event brings it forward), or for a while where nothing moves by
 /// itself. The frames of a live recording all come in their turn, because its clock counts frames.
 static double waiting_time(const struct app *app, bool wanted)
@@ -59,7 +68,7 @@ static double waiting_time(const struct app *app, bool wanted)
 static bool take_input(struct app *app)
 {
     double wait_start = clock_now();
-    bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->editor);
+    bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->editor) || app->paste;
     int count = 0;
     const struct event *events = platform_events(app->platform, waiting_time(app, wanted), &count);
     if (!wanted && count == 0) return false;
@@ -67,6 +76,7 @@ static bool take_input(struct app *app)
     app->oldest_event = NAN;
     app->row = (struct frame_row){.frame = app->frame, .wait_us = microseconds(wait_start, app->frame_start)};
     app->row.allocations = allocation_count();
+    paste(app);
     for (int i = 0; i < count; i++) {
         if (app->replay && events[i].kind != EVENT_EXPOSE && events[i].kind != EVENT_CLOSE) continue;
         if (isnan(app->oldest_event)) app->oldest_event = events[i].time;

@@ -18,7 +18,6 @@ struct replay {
     int next_line;
     int line; ///< the last one that was looked at, for messages
     struct replay_header header;
-    char drop_path[1024];
 };
 
 /// One line, cut into words in place.
@@ -213,7 +212,8 @@ enum operands {
     WITH_WHEEL = 8,
     WITH_CODE = 16,
     WITH_PATH = 32,
-    WITH_MODS = 64
+    WITH_MODS = 64,
+    WITH_TEXT = 128
 };
 
 static const struct verb {
@@ -234,6 +234,7 @@ static const struct verb {
     {"wheel", EVENT_WHEEL, ACTION_PRESS, 0, WITH_WHEEL | WITH_POSITION | WITH_MODS},
     {"size", EVENT_SIZE, ACTION_PRESS, 0, WITH_POSITION},
     {"drop", EVENT_DROP, ACTION_PRESS, 0, WITH_PATH},
+    {"paste", EVENT_PASTE, ACTION_PRESS, 0, WITH_TEXT},
     {"close", EVENT_CLOSE, ACTION_PRESS, 0, 0},
 };
 
@@ -323,19 +324,20 @@ static bool read_code(struct cursor *c, struct event *event)
            bad_line(c->replay, c->error, "U+ and a code", word);
 }
 
-/// Spaces and percent signs of a path are written as %20 and %25, so that it stays one word.
-static bool read_path(struct cursor *c, struct event *event)
+/// Spaces, percent signs and the like are written as %20 and %25, so that a text stays one word. Decoded in place.
+static bool read_escaped(struct cursor *c, const char *expected, const char **text)
 {
-    char *word = take_word(c), *out = c->replay->drop_path, *end = out + sizeof c->replay->drop_path - 1;
-    if (!word) return bad_line(c->replay, c->error, "a path", word);
-    while (*word && out < end) {
+    char *word = take_word(c), *out = word;
+    *text = word;
+    if (!word) return bad_line(c->replay, c->error, expected, word);
+    while (*word) {
         unsigned code;
-        bool escaped = *word == '%' && sscanf(word + 1, "%2x", &code) == 1 && code > 0;
+        bool escaped = *word == '%' && isxdigit((unsigned char)word[1]) && isxdigit((unsigned char)word[2]) &&
+                       sscanf(word + 1, "%2x", &code) == 1 && code > 0;
         *out++ = escaped ? (char)code : *word;
         word += escaped ? 3 : 1;
     }
     *out = '\0';
-    event->path = c->replay->drop_path;
     return true;
 }
 
@@ -345,7 +347,9 @@ static bool read_operands(struct cursor *c, const struct verb *verb, struct even
     return (!(with & WITH_KEY) || read_key(c, event)) && (!(with & WITH_BUTTON) || read_button(c, event)) &&
            (!(with & WITH_WHEEL) || (read_float(c, &event->dx) && read_float(c, &event->dy))) &&
            (!(with & WITH_CODE) || read_code(c, event)) && (!(with & WITH_POSITION) || read_position(c, event)) &&
-           (!(with & WITH_PATH) || read_path(c, event)) && (!(with & WITH_MODS) || read_mods(c, event));
+           (!(with & WITH_PATH) || read_escaped(c, "a path", &event->path)) &&
+           (!(with & WITH_TEXT) || read_escaped(c, "a text", &event->text)) &&
+           (!(with & WITH_MODS) || read_mods(c, event));
 }
 
 static bool read_event(struct cursor *c, struct event *event)
@@ -421,12 +425,13 @@ static const struct verb *verb_of(const struct event *event)
     return NULL;
 }
 
-static void write_path(FILE *f, const char *path)
+/// What would end a word or open a target's brackets is escaped.
+static void write_escaped(FILE *f, const char *text)
 {
     fputc(' ', f);
-    for (; *path; path++) {
-        bool plain = *path != ' ' && *path != '%' && *path != '\n' && *path != '\t';
-        fprintf(f, plain ? "%c" : "%%%02x", (unsigned char)*path);
+    for (; *text; text++) {
+        bool plain = isgraph((unsigned char)*text) && !strchr("%()", *text);
+        fprintf(f, plain ? "%c" : "%%%02x", (unsigned char)*text);
     }
 }
 
@@ -441,7 +446,8 @@ void recording_event(struct recording *recording, long frame, const struct event
     if (verb->operands & WITH_WHEEL) fprintf(f, " %.9g %.9g", (double)event->dx, (double)event->dy);
     if (verb->operands & WITH_CODE) fprintf(f, " U+%04" PRIX32, event->codepoint);
     if (verb->operands & WITH_POSITION) fprintf(f, " %.9g %.9g", (double)event->x, (double)event->y);
-    if (verb->operands & WITH_PATH) write_path(f, event->path);
+    if (verb->operands & WITH_PATH) write_escaped(f, event->path);
+    if (verb->operands & WITH_TEXT) write_escaped(f, event->text);
     for (int m = 0; m < MOD_COUNT && verb->operands & WITH_MODS; m++) {
         if (event->mods & mod_names[m].mod) fprintf(f, " %s", mod_names[m].name);
     }

@@ -41,6 +41,7 @@ struct app {
     double last_time, next_time, stats_time;
     long frame, stats_frame;
     bool shown_saved; ///< what the window's title says
+    bool paste; ///< the editor asked for the clipboard's text: it comes with the next frame's events
     bool quit;
     bool failed; ///< with `error`: the run ends
     struct error error;
@@ -72,6 +73,11 @@ void app_resize(struct app *app, float width, float height, float scale);
 
 /// Where the editor's dialogs look for files.
 void app_connect_files(struct app *app);
+
+/// The editor's text onto the clipboard (not in a replay, which must leave the user's own alone).
+void app_copy(struct app *app);
+/// What is on the clipboard, or NULL with a sentence to the user where it is no text or too much.
+const char *app_clipboard_text(struct app *app);
 
 /// The framebuffer's content as PNG.
 bool app_screenshot(struct app *app, const char *path, struct error *error);

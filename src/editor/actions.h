@@ -72,7 +72,16 @@ void cycle_mode(struct editor *editor, const struct editor_world *world);
 void insert_knot(struct editor *editor, const struct editor_world *world, double frame, double value, bool snap);
 /// A knot at the playhead that leaves the curve where it is.
 void insert_knot_at_playhead(struct editor *editor, const struct editor_world *world);
+/// Removes the selected knots as a step of that name.
+void remove_knots(struct editor *editor, const struct editor_world *world, const char *label);
 void delete_knots(struct editor *editor, const struct editor_world *world);
+/// The selected knots as text for the clipboard; `cut` also deletes them. false where there is nothing to copy.
+bool copy_knots(struct editor *editor, const struct editor_world *world, bool cut);
+/// Knots from text: the first one at the playhead, the others as far behind it as they are in the text; selected. All or, where
+/// one would not fit, none.
+void paste_knots(struct editor *editor, const struct editor_world *world, const char *text);
+/// Copies of the selected knots behind them, selected.
+void duplicate_knots(struct editor *editor, const struct editor_world *world);
 void select_all(struct editor *editor, const struct editor_world *world);
 /// The selected knot's neighbour (from the playhead where not just one is selected).
 void select_neighbour(struct editor *editor, const struct editor_world *world, int direction);

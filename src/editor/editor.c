@@ -35,6 +35,7 @@ void editor_destroy(struct editor *editor)
     drawlist_destroy(&editor->list);
     free(editor->selection.bits);
     free(editor->selection.before);
+    free(editor->clipboard);
     free(editor->drag.originals);
     free(editor);
 }

@@ -30,6 +30,8 @@ enum request_kind {
     REQUEST_FORGET,  ///< the same, for good
     REQUEST_SCREENSHOT,
     REQUEST_FULLSCREEN,
+    REQUEST_COPY,  ///< editor_clipboard() onto the clipboard
+    REQUEST_PASTE, ///< an EVENT_PASTE with what is there
 };
 
 struct request {
@@ -83,6 +85,9 @@ const struct stage_view *editor_stage(const struct editor *editor);
 
 /// Takes the oldest request; REQUEST_NONE where there is none.
 struct request editor_take_request(struct editor *editor);
+
+/// The text that was copied last; "" where nothing was.
+const char *editor_clipboard(const struct editor *editor);
 
 /// Shows a sentence in the status line (an error until the next key or click, else for some seconds of `dt`).
 void editor_message(struct editor *editor, bool is_error, const char *text);

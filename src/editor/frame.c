@@ -35,6 +35,9 @@ static void dispatch(struct editor *editor, const struct editor_world *world, co
         if (rect_contains(editor->layout.curves, event->x, event->y)) curves_wheel(editor, event);
         if (rect_contains(editor->layout.stage, event->x, event->y)) stage_wheel(editor, event);
         break;
+    case EVENT_PASTE:
+        paste_knots(editor, world, event->text);
+        break;
     case EVENT_CLOSE:
         dialog_leave(editor, world, &request);
         break;

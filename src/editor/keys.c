@@ -120,6 +120,21 @@ static void run_look(struct editor *e, const struct editor_world *w, int argumen
     editor_set_look(e, next[e->look]);
 }
 
+enum clipboard_use { CLIPBOARD_COPY, CLIPBOARD_CUT, CLIPBOARD_PASTE, CLIPBOARD_DUPLICATE };
+
+/// Not while a value is typed: knots are not what is meant then.
+static void run_clipboard(struct editor *e, const struct editor_world *w, int argument)
+{
+    if (inspector_is_typing(e)) return;
+    if (argument == CLIPBOARD_DUPLICATE) {
+        duplicate_knots(e, w);
+    } else if (argument == CLIPBOARD_PASTE) {
+        editor_request(e, REQUEST_PASTE, NULL);
+    } else if (copy_knots(e, w, argument == CLIPBOARD_CUT)) {
+        editor_request(e, REQUEST_COPY, NULL);
+    }
+}
+
 static void run_normalise(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
@@ -171,6 +186,10 @@ static const struct binding bindings[] = {
     {.key = KEY_BACKSPACE, .run = run_delete},
     {.key = 'A', .mods = MOD_CTRL, .run = run_select_all},
     {.key = KEY_ESCAPE, .run = run_select_none},
+    {.key = 'C', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_COPY},
+    {.key = 'X', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_CUT},
+    {.key = 'V', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_PASTE},
+    {.key = 'D', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_DUPLICATE},
     {.key = KEY_COMMA, .repeats = true, .run = select_neighbour, .argument = -1},
     {.key = KEY_PERIOD, .repeats = true, .run = select_neighbour, .argument = 1},
     {.key = KEY_PAGE_UP, .repeats = true, .run = activate_neighbour, .argument = -1},

@@ -56,12 +56,11 @@ void insert_knot_at_playhead(struct editor *editor, const struct editor_world *w
     insert_knot(editor, world, document_frame(document, sample), v.y + v.re, false);
 }
 
-void delete_knots(struct editor *editor, const struct editor_world *world)
+void remove_knots(struct editor *editor, const struct editor_world *world, const char *label)
 {
     const struct spline *spline = editor_active_spline(editor, world);
-    int count = selection_count(&editor->selection, spline);
-    if (count == 0 || history_is_open(world->history)) return;
-    history_begin(world->history, count == 1 ? "Delete knot" : "Delete knots", 0);
+    if (!spline || history_is_open(world->history)) return;
+    history_begin(world->history, label, 0);
     for (int k = spline->knot_count - 1; k >= 0; k--) {
         if (!selection_has(&editor->selection, spline->knots[k].id)) continue;
         struct edit edit = editor_edit_of(EDIT_KNOT_REMOVE, editor->active);
@@ -70,6 +69,12 @@ void delete_knots(struct editor *editor, const struct editor_world *world)
     }
     history_end(world->history);
     selection_clear(&editor->selection);
+}
+
+void delete_knots(struct editor *editor, const struct editor_world *world)
+{
+    int count = selection_count(&editor->selection, editor_active_spline(editor, world));
+    remove_knots(editor, world, count == 1 ? "Delete knot" : "Delete knots");
 }
 
 void select_all(struct editor *editor, const struct editor_world *world)

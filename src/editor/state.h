@@ -236,6 +236,7 @@ struct editor {
     struct message message;
     double fps, solve_us; ///< from editor_set_stats()
 
+    char *clipboard; ///< knots that were copied, as text; NULL at first
     struct request requests[EDITOR_MAX_REQUESTS];
     int request_count;
     struct drawlist list;

@@ -3,6 +3,7 @@
 #include "platform/surface.h"
 #include <epoxy/gl.h>
 #include <stdlib.h>
+#include <string.h>
 
 static struct platform *allocate(struct error *error)
 {
@@ -43,6 +44,7 @@ void platform_destroy(struct platform *platform)
     if (!platform) return;
     if (platform->window) window_destroy(platform->window);
     if (platform->offscreen) offscreen_destroy(platform->offscreen);
+    free(platform->clipboard);
     free(platform);
 }
 
@@ -90,6 +92,21 @@ void platform_fullscreen(struct platform *platform, bool on)
 bool platform_is_fullscreen(const struct platform *platform)
 {
     return platform->window && window_is_fullscreen(platform->window);
+}
+
+const char *platform_clipboard(struct platform *platform)
+{
+    return platform->window ? window_clipboard(platform->window) : platform->clipboard;
+}
+
+void platform_set_clipboard(struct platform *platform, const char *text)
+{
+    if (platform->window) {
+        window_set_clipboard(platform->window, text);
+    } else {
+        free(platform->clipboard);
+        platform->clipboard = strdup(text);
+    }
 }
 
 void platform_cursor(struct platform *platform, enum cursor cursor)

@@ -35,6 +35,10 @@ bool platform_has_display(void);
 void platform_title(struct platform *platform, const char *title);
 void platform_fullscreen(struct platform *platform, bool on);
 bool platform_is_fullscreen(const struct platform *platform);
+/// The system's clipboard as UTF-8, the process's own without a window. NULL where it holds no text; valid until the next
+/// call.
+const char *platform_clipboard(struct platform *platform);
+void platform_set_clipboard(struct platform *platform, const char *text);
 enum cursor { CURSOR_ARROW, CURSOR_HAND, CURSOR_HORIZONTAL, CURSOR_VERTICAL, CURSOR_MOVE, CURSOR_TEXT };
 void platform_cursor(struct platform *platform, enum cursor cursor);
 

@@ -14,6 +14,7 @@ struct platform {
     struct offscreen *offscreen;
     struct event_queue queue;
     bool keeps;
+    char *clipboard; ///< what stands for the system's where there is no window
 };
 
 /// What both kinds say about their framebuffer.
@@ -33,6 +34,8 @@ void window_title(struct window *window, const char *title);
 void window_fullscreen(struct window *window, bool on);
 bool window_is_fullscreen(const struct window *window);
 void window_cursor(struct window *window, enum cursor cursor);
+const char *window_clipboard(struct window *window);
+void window_set_clipboard(struct window *window, const char *text);
 
 struct offscreen *offscreen_create(int width, int height, float scale, struct error *error);
 void offscreen_destroy(struct offscreen *offscreen);

@@ -278,6 +278,10 @@ void window_wait(struct window *window, double seconds)
 
 void window_swap(struct window *window) { glfwSwapBuffers(window->handle); }
 
+const char *window_clipboard(struct window *window) { return glfwGetClipboardString(window->handle); }
+
+void window_set_clipboard(struct window *window, const char *text) { glfwSetClipboardString(window->handle, text); }
+
 void window_title(struct window *window, const char *title) { glfwSetWindowTitle(window->handle, title); }
 
 /// The monitor that shows most of the window.

@@ -132,19 +132,23 @@ static json_t *parse_json(const struct source *source, json_error_t *syntax)
     return json_loadb(source->text, source->size, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, syntax);
 }
 
-static void parse(struct reader *reader)
+json_t *reader_parse(struct reader *reader)
 {
     struct error error;
     json_error_t syntax;
     if (!source_check_limits(&reader->source, &error)) {
         reader_report(reader, &error);
-        return;
+        return NULL;
     }
-    json_t *scene = parse_json(&reader->source, &syntax);
-    if (!scene) {
-        fail_syntax(reader, &syntax);
-        return;
-    }
+    json_t *json = parse_json(&reader->source, &syntax);
+    if (!json) fail_syntax(reader, &syntax);
+    return json;
+}
+
+static void parse(struct reader *reader)
+{
+    json_t *scene = reader_parse(reader);
+    if (!scene) return;
     load_scene(reader, scene);
     json_decref(scene);
     free(reader->names);

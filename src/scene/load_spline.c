@@ -53,7 +53,7 @@ static void load_spring(struct reader *reader, const struct part *part)
     }
 }
 
-static bool load_knot(struct reader *reader, const struct where *at, json_t *object, struct knot *knot)
+bool reader_knot(struct reader *reader, const struct where *at, json_t *object, struct knot *knot)
 {
     struct where frame_at, value_at, slope_at, stiffness_at;
     const json_t *frame = reader_member(at, object, "frame", &frame_at);
@@ -151,7 +151,7 @@ static void load_knots(struct reader *reader, const struct part *part)
     bool good = true;
     for (int i = 0; i < count; i++) {
         struct where knot_at = {.parent = &at, .index = (size_t)i};
-        good &= load_knot(reader, &knot_at, json_array_get(knots, (size_t)i), &spline->knots[i]);
+        good &= reader_knot(reader, &knot_at, json_array_get(knots, (size_t)i), &spline->knots[i]);
     }
     if (good && reader->has_domain) check_knots(reader, &at, spline, first_id);
 }

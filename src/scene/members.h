@@ -2,6 +2,7 @@
 #ifndef SCENE_MEMBERS_H
 #define SCENE_MEMBERS_H
 
+#include "scene/document.h"
 #include "scene/text.h"
 
 /// An object being written: members are set apart by `separator`, which opens the object before the first.
@@ -24,6 +25,9 @@ typedef bool holds_tracks(const char *key);
 
 /// Writes the unknown keys, but for those that `skips` (may be NULL) says.
 void members_extra(struct members *members, const void *extra, holds_tracks *skips);
+
+/// A knot on one line.
+void print_knot(struct text *text, const struct knot *knot);
 
 /// [1, 2, 3]
 void text_numbers(struct text *text, const double *values, int count);

@@ -34,17 +34,6 @@ static void print_angles(struct members *members, const char *key, const struct 
     }
 }
 
-static void print_knot(struct text *text, const struct knot *knot)
-{
-    struct members members = {text, "{ ", ", ", false};
-    member_number(&members, "frame", knot->frame);
-    member_number(&members, "value", knot->value);
-    if (knot->has_slope) member_number(&members, "slope", knot->slope);
-    if (knot->stiffness != KNOT_DEFAULT_STIFFNESS) member_number(&members, "stiffness", knot->stiffness);
-    members_extra(&members, knot->extra, NULL);
-    text_string(text, " }");
-}
-
 /// A parameter that the mode does not use is written where it differs from the default: another mode may want it
 /// again. Of the two pairs (frequency, damping and spring, friction) a file has one.
 static bool is_printed(const struct spline *spline, enum parameter parameter)

@@ -73,6 +73,12 @@ bool reader_integer(struct reader *reader, const struct where *at, const json_t 
 int reader_word(struct reader *reader, const struct where *at, const json_t *value, const char *const *words,
                 const char *expected, int missing);
 
+/// The reader's text as JSON; NULL after an error (syntax, too deep, too much).
+json_t *reader_parse(struct reader *reader);
+
+/// Reads a knot and gives it an id; false after an error.
+bool reader_knot(struct reader *reader, const struct where *at, json_t *object, struct knot *knot);
+
 /// A copy of a required, non-empty string; NULL after an error.
 char *reader_name(struct reader *reader, const struct where *at, const json_t *value);
 

@@ -13,6 +13,7 @@ enum event_kind {
     EVENT_WHEEL,   ///< dx, dy, mods, x, y
     EVENT_SIZE,    ///< x, y: new logical size; scale
     EVENT_DROP,    ///< path
+    EVENT_PASTE,   ///< text: the clipboard's, as the editor has asked for
     EVENT_CLOSE,   ///< the window's close button
     EVENT_EXPOSE,  ///< the window's content was lost
 };
@@ -70,6 +71,7 @@ struct event {
     float scale;      ///< device pixels a logical pixel
     double time;      ///< seconds, when it arrived
     const char *path; ///< EVENT_DROP: valid during the frame
+    const char *text; ///< EVENT_PASTE: UTF-8, valid during the call
 };
 
 /// Names for replays: "A", "Left", "F1", ","; 0 / NULL where there is none.

@@ -1,0 +1,84 @@
+/// Knots as JSON text and back.
+#include "scene/knots.h"
+#include "scene/members.h"
+#include "scene/reader.h"
+#include <stdlib.h>
+#include <string.h>
+
+void knot_list_free(struct knot_list *list)
+{
+    free(list->knots);
+    *list = (struct knot_list){0};
+}
+
+void print_knot(struct text *text, const struct knot *knot)
+{
+    struct members members = {text, "{ ", ", ", false};
+    member_number(&members, "frame", knot->frame);
+    member_number(&members, "value", knot->value);
+    if (knot->has_slope) member_number(&members, "slope", knot->slope);
+    if (knot->stiffness != KNOT_DEFAULT_STIFFNESS) member_number(&members, "stiffness", knot->stiffness);
+    members_extra(&members, knot->extra, NULL);
+    text_string(text, " }");
+}
+
+char *knots_print(const struct knot *knots, int count)
+{
+    struct text text = {0};
+    for (int i = 0; i < count; i++) {
+        text_string(&text, i > 0 ? ",\n  " : "[\n  ");
+        print_knot(&text, &knots[i]);
+    }
+    text_string(&text, count > 0 ? "\n]\n" : "[]\n");
+    text_bytes(&text, "", 1);
+    if (!text.no_memory) return text.data;
+    free(text.data);
+    return NULL;
+}
+
+static void read_array(struct reader *reader, const struct where *at, const json_t *array, struct knot_list *list)
+{
+    int count = reader_objects(reader, at, array, SCENE_MAX_KNOTS);
+    if (count == 0) reader_fail(reader, at, "expected at least one knot, got none");
+    if (count <= 0) return;
+    list->knots = calloc((size_t)count, sizeof *list->knots);
+    if (!list->knots) {
+        reader_no_memory(reader);
+        return;
+    }
+    list->count = count;
+    for (int i = 0; i < count; i++) {
+        struct where knot_at = {.parent = at, .index = (size_t)i};
+        reader_knot(reader, &knot_at, json_array_get(array, (size_t)i), &list->knots[i]);
+        list->knots[i].id = 0;
+        list->knots[i].extra = NULL; /* the reader's document goes */
+    }
+}
+
+static bool parse_json(const char *name, const char *text, struct knot_list *list, struct error *error)
+{
+    struct reader reader = {.source = {.name = name, .text = text, .size = strlen(text)}, .error = error};
+    reader.document = document_create();
+    if (!reader.document) return reader_no_memory(&reader);
+    json_t *json = reader_parse(&reader);
+    const struct where root = {0};
+    struct where knots_at;
+    if (json_is_object(json)) {
+        const json_t *knots = reader_member(&root, json, "knots", &knots_at);
+        read_array(&reader, &knots_at, knots, list);
+    } else if (json) {
+        read_array(&reader, &root, json, list);
+    }
+    json_decref(json);
+    document_destroy(reader.document);
+    if (reader.failed) knot_list_free(list);
+    return !reader.failed;
+}
+
+bool knots_parse(const char *name, const char *text, struct knot_list *list, struct error *error)
+{
+    *list = (struct knot_list){0};
+    char first = text[strspn(text, " \t\r\n")];
+    bool is_json = first == '[' || first == '{';
+    return is_json ? parse_json(name, text, list, error) : knots_parse_csv(name, text, list, error);
+}
