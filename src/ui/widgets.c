@@ -14,8 +14,11 @@ static void begin(struct ui *ui, enum ui_pass pass, struct rect area)
     ui->find = 0;
     ui->found = false;
     ui->used = false;
+    ui->began = false;
     ui->scroll = NULL;
     ui->stop_count = 0;
+    ui->popup.built = ui->popup.fresh = false;
+    ui->blocked = ui->popup.id != 0 && pass != UI_PASS_FIND;
 }
 
 void ui_begin_event(struct ui *ui, struct rect area, const struct event *event)
@@ -60,7 +63,7 @@ static void reveal(struct ui *ui, struct rect r)
     }
 }
 
-static void move_focus(struct ui *ui, int direction)
+void ui_move_focus(struct ui *ui, int direction)
 {
     if (ui->stop_count == 0) return;
     int at = -1;
@@ -92,7 +95,7 @@ static void end_event(struct ui *ui)
     if (!is_shown(ui, ui->typing)) ui->typing = 0;
     if (ui->used || event->kind != EVENT_KEY || event->action == ACTION_RELEASE) return;
     if (event->key == KEY_TAB && !(event->mods & (MOD_CTRL | MOD_ALT))) {
-        move_focus(ui, event->mods & MOD_SHIFT ? -1 : 1);
+        ui_move_focus(ui, event->mods & MOD_SHIFT ? -1 : 1);
         ui->used = true;
     } else if (event->key == KEY_ESCAPE && ui->focus) {
         ui->focus = 0;
@@ -102,6 +105,8 @@ static void end_event(struct ui *ui)
 
 bool ui_end(struct ui *ui)
 {
+    if (ui->popup.id && !ui->popup.built && ui->pass == UI_PASS_EVENT)
+        ui_popup_close(ui); // what it was about is gone
     if (ui->pass == UI_PASS_EVENT) end_event(ui);
     if (ui->pass == UI_PASS_DRAW) drawlist_set_clip(ui->list, ui->list_clip);
     ui->event = NULL;
@@ -114,6 +119,7 @@ void ui_release(struct ui *ui)
     ui->focus = 0;
     ui->held = 0;
     ui->typing = 0;
+    ui->popup.id = 0;
     ui->hint = NULL;
     ui->complaint[0] = '\0';
 }
@@ -177,12 +183,13 @@ uint32_t ui_id(const char *name)
 
 bool ui_hovered(const struct ui *ui, struct rect r)
 {
-    return rect_contains(r, ui->pointer_x, ui->pointer_y) && rect_contains(ui->clip, ui->pointer_x, ui->pointer_y);
+    return !ui->blocked && rect_contains(r, ui->pointer_x, ui->pointer_y) &&
+           rect_contains(ui->clip, ui->pointer_x, ui->pointer_y);
 }
 
 void ui_register(struct ui *ui, uint32_t id, struct rect r)
 {
-    if (ui->stop_count < UI_MAX_FOCUS) ui->stop[ui->stop_count++] = (struct ui_stop){id, r};
+    if (!ui->blocked && ui->stop_count < UI_MAX_FOCUS) ui->stop[ui->stop_count++] = (struct ui_stop){id, r};
     if (ui->pass == UI_PASS_FIND && ui->find == id && !ui->found) {
         ui->found_x = r.x + r.w / 2;
         ui->found_y = r.y + r.h / 2;
@@ -202,8 +209,9 @@ bool ui_pressed(struct ui *ui, struct rect r, enum event_button button)
 
 bool ui_focused_key(const struct ui *ui, uint32_t id)
 {
-    return ui->pass == UI_PASS_EVENT && !ui->used && ui->focus == id && ui->event->kind == EVENT_KEY &&
-           ui->event->action != ACTION_RELEASE && !(ui->event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER));
+    return ui->pass == UI_PASS_EVENT && !ui->used && !ui->blocked && ui->focus == id &&
+           ui->event->kind == EVENT_KEY && ui->event->action != ACTION_RELEASE &&
+           !(ui->event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER));
 }
 
 bool ui_activated(struct ui *ui, uint32_t id)

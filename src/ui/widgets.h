@@ -45,11 +45,26 @@ struct ui_stop {
     struct rect rect;
 };
 
+/// What opened over the panel; while it is open it alone gets the events.
+struct ui_popup {
+    uint32_t id;        ///< of its name; 0: none
+    int which;          ///< the caller's own: what it is about
+    struct rect anchor; ///< what it hangs on
+    struct ui_scroll scroll;
+    uint32_t focus;  ///< what begins with the focus; 0: its first widget
+    uint32_t opener; ///< what gets the focus back; 0 where the pointer opened it
+    bool fresh;      ///< opened in the running event
+    bool built;      ///< in the running pass
+};
+
 /// One panel's widgets; zero is a valid start.
 struct ui {
     uint32_t focus;  ///< has the keyboard, drawn with a ring; 0: none
     uint32_t held;   ///< has the pointer while the button is down
     uint32_t typing; ///< its value is being typed into `text`
+    struct ui_popup popup;
+    bool began;   ///< ui_line_begin() was called in the running pass
+    bool blocked; ///< what is built now lies under the popup
     struct ui_text text;
     bool typed;      ///< `text` was changed since typing began
     bool refused;    ///< `text` was refused and not changed since
@@ -160,6 +175,57 @@ struct ui_handle {
 
 /// Several handles in an area; a press takes the nearest. `*which` is the one that a change is of. The caller paints them.
 enum ui_change ui_handles(struct ui *ui, struct rect area, struct ui_handle *handles, int count, int *which);
+
+/// Small shapes in the place of words.
+enum ui_icon {
+    UI_ICON_ADD,
+    UI_ICON_COPY,
+    UI_ICON_DELETE,
+    UI_ICON_UP,
+    UI_ICON_DOWN,
+    UI_ICON_EYE,
+    UI_ICON_EYE_CLOSED,
+    UI_ICON_SOLO,
+    UI_ICON_FOLLOW,   ///< a link
+    UI_ICON_UNFOLLOW, ///< the same, broken
+};
+/// A square button with an icon; `lit`: it stands for something that is on. true where it was pressed.
+bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon icon, bool lit, const char *hint);
+
+/// A field that shows a text (behind a swatch where `color` is not 0) and opens the popup `name`, about `which`.
+void ui_dropdown(struct ui *ui, struct rect r, const char *name, int which, const char *text, uint32_t color);
+/// A swatch that opens the popup `name`.
+void ui_swatch(struct ui *ui, struct rect r, const char *name, int which, uint32_t color);
+
+struct ui_item {
+    const char *name, *label; ///< its row is found as "item.<name>"
+    uint32_t color;           ///< of a swatch; 0: none
+};
+/// The popup of a drop-down: its rows, one of them chosen (-1: none). Built as ui_popup_begin() says. Returns the one
+/// that was picked, which closes it; -1: none.
+int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, int count, int chosen);
+
+/// Opens a popup under (or, where there is no room, above) `anchor`.
+void ui_popup_open(struct ui *ui, const char *name, int which, struct rect anchor);
+void ui_popup_close(struct ui *ui);
+/// Whether the popup is open; then its content is built between begin and end, after all else in the panel. Arrows and Tab go
+/// from widget to widget, Esc and a press outside close it.
+bool ui_popup_is_open(const struct ui *ui, const char *name);
+void ui_popup_begin(struct ui *ui, float width, float height);
+void ui_popup_end(struct ui *ui);
+
+/// A row of a list that a drag moves to another place: `ui->pointer_y` says where when it is dropped.
+enum ui_row_event { UI_ROW_NONE, UI_ROW_PRESSED, UI_ROW_TWICE, UI_ROW_DROPPED };
+enum ui_row_event ui_sort_row(struct ui *ui, struct rect r, const char *name, const char *text, bool selected);
+/// Whether that row is being dragged.
+bool ui_is_dragged(const struct ui *ui, const char *name);
+
+/// A line of text that is edited in place, between ui_line_begin() and Enter, Tab or a press elsewhere (UI_LINE_DONE:
+/// `ui->text` is the result) or Esc (UI_LINE_CANCEL).
+enum ui_line { UI_LINE_NONE, UI_LINE_DONE, UI_LINE_CANCEL };
+void ui_line_begin(struct ui *ui, const char *name, const char *text);
+bool ui_line_is_open(const struct ui *ui, const char *name);
+enum ui_line ui_line(struct ui *ui, struct rect r, const char *name);
 
 /// A line of text to type in; its content is ui->text while `typing`. true where the text changed.
 bool ui_text_field(struct ui *ui, struct rect r, const char *name);

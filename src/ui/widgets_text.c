@@ -151,6 +151,57 @@ void ui_paint_text(struct ui *ui, struct rect r, const struct ui_text *text, enu
     if (focused) drawlist_rect(ui->list, (struct rect){roundf(caret), r.y + 3, 1, r.h - 6}, THEME_ACCENT);
 }
 
+void ui_line_begin(struct ui *ui, const char *name, const char *text)
+{
+    ui_text_set(&ui->text, text);
+    ui->text.all = true;
+    ui->focus = ui->typing = ui_id(name);
+    ui->began = true; // the press that began it does not end it
+}
+
+bool ui_line_is_open(const struct ui *ui, const char *name) { return ui->typing == ui_id(name); }
+
+static enum ui_line line_event(struct ui *ui, struct rect r)
+{
+    const struct event *event = ui->event;
+    if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) {
+        if (!ui_hovered(ui, r)) return UI_LINE_DONE; // and the press is for whatever is there
+        ui->text.all = event->clicks == 2;
+        ui->used = true;
+    }
+    if (!ui_is_typing_key(ui, event)) return UI_LINE_NONE;
+    ui->used = true;
+    bool press = event->kind == EVENT_KEY && event->action == ACTION_PRESS;
+    if (press && event->key == KEY_ESCAPE) return UI_LINE_CANCEL;
+    if (press && event->key == KEY_ENTER) return UI_LINE_DONE;
+    if (press && event->key == KEY_TAB) {
+        ui->used = false; // ui_end() moves on from here
+        return UI_LINE_DONE;
+    }
+    ui_text_event(&ui->text, event, NULL);
+    return UI_LINE_NONE;
+}
+
+enum ui_line ui_line(struct ui *ui, struct rect r, const char *name)
+{
+    uint32_t id = ui_id(name);
+    struct rect field = ui_field_of(r);
+    ui_register(ui, id, field);
+    if (ui->typing != id) return UI_LINE_NONE;
+    if (ui->pass == UI_PASS_DRAW) {
+        if (ui_hovered(ui, field)) ui->over = UI_OVER_TEXT;
+        drawlist_rounded(ui->list, field, UI_RADIUS, THEME_RAISED);
+        drawlist_rounded_line(ui->list, field, UI_RADIUS, 1.5f, THEME_ACCENT);
+        struct rect inner = {field.x + 6, field.y, field.w - 12, field.h};
+        ui_paint_text(ui, inner, &ui->text, FONT_LABEL, THEME_TEXT_NORMAL, true);
+    }
+    if (ui->pass != UI_PASS_EVENT || ui->blocked || ui->began) return UI_LINE_NONE;
+    bool press = ui->event->kind == EVENT_BUTTON && ui->event->action == ACTION_PRESS;
+    enum ui_line line = ui->used && !press ? UI_LINE_NONE : line_event(ui, field);
+    if (line != UI_LINE_NONE) ui->typing = 0;
+    return line;
+}
+
 bool ui_text_field(struct ui *ui, struct rect r, const char *name)
 {
     uint32_t id = ui_id(name);

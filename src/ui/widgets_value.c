@@ -345,7 +345,7 @@ enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *nu
     // A press elsewhere ends the typing even where another widget has used it.
     bool press = ui->event->kind == EVENT_BUTTON && ui->event->action == ACTION_PRESS;
     if (ui->typing == id && (press || !ui->used)) return typing_event(ui, id, field, number, value);
-    if (ui->used) return UI_NONE;
+    if (ui->used || ui->blocked) return UI_NONE;
     if (ui->held == id) return held_event(ui, field, number, value);
     return idle_event(ui, id, field, number, value);
 }

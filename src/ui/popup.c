@@ -1,0 +1,149 @@
+/// Popups: what opens over a panel, and the widgets that open one.
+#include "ui/widgets_internal.h"
+#include <math.h>
+#include <stdio.h>
+
+enum { POPUP_PAD = 4, MAX_ROWS = 10 }; ///< around its content; rows of a list seen at once
+
+void ui_popup_open(struct ui *ui, const char *name, int which, struct rect anchor)
+{
+    bool by_key = ui->event && ui->event->kind == EVENT_KEY;
+    ui->popup = (struct ui_popup){
+        .id = ui_id(name), .which = which, .anchor = anchor, .opener = by_key ? ui->focus : 0, .fresh = true};
+    ui->held = 0;
+    ui->typing = 0;
+}
+
+void ui_popup_close(struct ui *ui)
+{
+    ui->focus = ui->popup.opener;
+    if (ui->focus && ui->stop_count < UI_MAX_FOCUS) ui->stop[ui->stop_count++].id = ui->focus; // it is shown
+    ui->popup.id = 0;
+}
+
+bool ui_popup_is_open(const struct ui *ui, const char *name) { return ui->popup.id == ui_id(name); }
+
+/// Below the anchor, or above it where there is more room; inside the panel in any case.
+static struct rect place(const struct ui *ui, float width, float height)
+{
+    struct rect anchor = ui->popup.anchor, area = ui->area;
+    float below = area.y + area.h - (anchor.y + anchor.h), above = anchor.y - area.y;
+    bool up = height > below && above > below;
+    height = fminf(height, up ? above : below);
+    float x = fminf(anchor.x, area.x + area.w - width - POPUP_PAD);
+    return (struct rect){fmaxf(x, area.x), up ? anchor.y - height : anchor.y + anchor.h, width, height};
+}
+
+void ui_popup_begin(struct ui *ui, float width, float height)
+{
+    struct rect box = place(ui, width, height + 2 * POPUP_PAD);
+    ui->blocked = false;
+    ui->popup.built = true;
+    ui->stop_count = 0; // Tab stays inside
+    if (ui->pass == UI_PASS_DRAW) {
+        drawlist_rounded(ui->list, rect_inset(box, -1), UI_RADIUS + 2, theme_fade(0x000000FFu, 0.5f));
+        drawlist_rounded(ui->list, box, UI_RADIUS + 1, THEME_RAISED);
+        drawlist_rounded_line(ui->list, box, UI_RADIUS + 1, 1, THEME_ZERO);
+    }
+    ui_scroll_begin(ui, &ui->popup.scroll, rect_inset(box, POPUP_PAD));
+}
+
+static void popup_key(struct ui *ui)
+{
+    const struct event *event = ui->event;
+    if (event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER)) {
+        ui_popup_close(ui); // the key is the editor's
+        return;
+    }
+    ui->used = true;
+    if (event->action == ACTION_RELEASE) return;
+    if (event->key == KEY_ESCAPE) ui_popup_close(ui);
+    if (event->key == KEY_UP || event->key == KEY_LEFT) ui_move_focus(ui, -1);
+    if (event->key == KEY_DOWN || event->key == KEY_RIGHT) ui_move_focus(ui, 1);
+    if (event->key == KEY_TAB) ui_move_focus(ui, event->mods & MOD_SHIFT ? -1 : 1);
+}
+
+void ui_popup_end(struct ui *ui)
+{
+    struct rect box = ui->scroll_area;
+    ui_scroll_end(ui);
+    if (ui->pass != UI_PASS_EVENT || ui->popup.id == 0) return;
+    if (ui->popup.fresh) {
+        ui->focus = ui->popup.focus ? ui->popup.focus : ui->stop_count > 0 ? ui->stop[0].id : 0;
+        return;
+    }
+    if (ui->used) return;
+    const struct event *event = ui->event;
+    bool press = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS;
+    if (press) ui->used = true; // outside of its widgets: for nothing else either
+    if (press && !rect_contains(box, event->x, event->y)) ui_popup_close(ui);
+    if (event->kind == EVENT_KEY) popup_key(ui);
+    if (event->kind == EVENT_WHEEL || event->kind == EVENT_TEXT) ui->used = true;
+}
+
+/// Whether the field was pressed, and so its popup opens; one that is pressed again closes by the press outside.
+static void open_where_pressed(struct ui *ui, struct rect field, uint32_t id, const char *name, int which)
+{
+    bool pressed = ui_pressed(ui, field, BUTTON_LEFT);
+    if (pressed || ui_activated(ui, id)) ui_popup_open(ui, name, which, field);
+}
+
+/// The name of the field that opens the popup: several fields may open the same one.
+static uint32_t opener_id(const char *name, int which)
+{
+    char full[96];
+    snprintf(full, sizeof full, "%s.%d", name, which);
+    return ui_id(full);
+}
+
+void ui_dropdown(struct ui *ui, struct rect r, const char *name, int which, const char *text, uint32_t color)
+{
+    struct rect field = ui_field_of(r);
+    uint32_t id = opener_id(name, which);
+    ui_register(ui, id, field);
+    open_where_pressed(ui, field, id, name, which);
+    if (ui->pass != UI_PASS_DRAW) return;
+    bool hot = ui_hovered(ui, field) || (ui_popup_is_open(ui, name) && ui->popup.which == which);
+    drawlist_rounded(ui->list, field, UI_RADIUS, THEME_RAISED);
+    if (hot) drawlist_rounded_line(ui->list, field, UI_RADIUS, 1, UI_HOVER);
+    float left = field.x + UI_GAP, x = field.x + field.w - 14, y = field.y + field.h / 2;
+    if (color) {
+        drawlist_rounded(ui->list, (struct rect){left, y - 4, 8, 8}, 3, color);
+        left += 14;
+    }
+    ui_label(ui, (struct rect){left, field.y, x - 4 - left, field.h}, text, THEME_TEXT);
+    const float arrow[6] = {x - 1, y - 2, x + 7, y - 2, x + 3, y + 2};
+    drawlist_convex(ui->list, arrow, 3, hot ? THEME_TEXT : THEME_TEXT_DIM);
+    ui_focus_ring(ui, id, field);
+}
+
+void ui_swatch(struct ui *ui, struct rect r, const char *name, int which, uint32_t color)
+{
+    uint32_t id = opener_id(name, which);
+    ui_register(ui, id, r);
+    open_where_pressed(ui, r, id, name, which);
+    if (ui->pass != UI_PASS_DRAW) return;
+    struct rect chip = {r.x + (r.w - 10) / 2, r.y + (r.h - 10) / 2, 10, 10};
+    drawlist_rounded(ui->list, chip, 3, color);
+    if (ui_hovered(ui, r)) drawlist_rounded_line(ui->list, rect_inset(chip, -2), 4, 1, THEME_TEXT_DIM);
+    ui_focus_ring(ui, id, rect_inset(chip, -1));
+}
+
+int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, int count, int chosen)
+{
+    int picked = -1;
+    if (!ui_popup_is_open(ui, name)) return -1;
+    ui_popup_begin(ui, ui->popup.anchor.w, (float)(UI_ROW * (count < MAX_ROWS ? count : MAX_ROWS)));
+    struct rect area = ui->scroll_area;
+    for (int i = 0; i < count; i++) {
+        char row[96];
+        snprintf(row, sizeof row, "item.%s", items[i].name);
+        if (ui->popup.fresh && i == chosen) ui->popup.focus = ui_id(row);
+        struct rect r = {area.x + 6, ui->y, area.w - 12, UI_ROW};
+        ui_space(ui, UI_ROW);
+        if (ui_list_row(ui, r, row, items[i].label, items[i].color, i == chosen)) picked = i;
+    }
+    ui_popup_end(ui);
+    if (picked >= 0) ui_popup_close(ui);
+    return picked;
+}

@@ -1,0 +1,46 @@
+/// Rows of a list that the pointer moves to another place.
+#include "ui/widgets_internal.h"
+#include <math.h>
+
+enum { DRAG_THRESHOLD = 4 }; ///< pixels below which a press is a click
+
+bool ui_is_dragged(const struct ui *ui, const char *name) { return ui->held == ui_id(name) && ui->moved; }
+
+static enum ui_row_event held_event(struct ui *ui)
+{
+    const struct event *event = ui->event;
+    bool release = event->kind == EVENT_BUTTON && event->action == ACTION_RELEASE && event->button == BUTTON_LEFT;
+    bool escape = event->kind == EVENT_KEY && event->key == KEY_ESCAPE;
+    bool dropped = release && ui->moved;
+    if (event->kind == EVENT_POINTER) ui->moved |= fabsf(event->y - ui->press_y) >= DRAG_THRESHOLD;
+    if (event->kind == EVENT_WHEEL) return UI_ROW_NONE;
+    ui->used = true;
+    if (release || escape) ui->held = 0;
+    return dropped ? UI_ROW_DROPPED : UI_ROW_NONE;
+}
+
+static enum ui_row_event row_event(struct ui *ui, struct rect r, uint32_t id)
+{
+    if (ui->pass != UI_PASS_EVENT || ui->used || ui->blocked) return UI_ROW_NONE;
+    if (ui->held == id) return held_event(ui);
+    if (ui_activated(ui, id)) return UI_ROW_PRESSED;
+    if (!ui_pressed(ui, r, BUTTON_LEFT)) return UI_ROW_NONE;
+    if (ui->event->clicks == 2) return UI_ROW_TWICE;
+    ui->held = id;
+    ui->moved = false;
+    ui->press_y = ui->event->y;
+    return UI_ROW_PRESSED;
+}
+
+enum ui_row_event ui_sort_row(struct ui *ui, struct rect r, const char *name, const char *text, bool selected)
+{
+    uint32_t id = ui_id(name);
+    ui_register(ui, id, r);
+    enum ui_row_event event = row_event(ui, r, id);
+    if (ui->pass == UI_PASS_DRAW) {
+        bool bright = selected || ui_hovered(ui, r);
+        ui_label(ui, (struct rect){r.x + 4, r.y, r.w - 4, r.h}, text, bright ? THEME_TEXT : THEME_TEXT_DIM);
+        ui_focus_ring(ui, id, rect_inset(r, 2));
+    }
+    return event;
+}
