@@ -16,6 +16,7 @@ BEGIN {
     sees["draw"]     = "draw ui model base"
     sees["platform"] = "platform ui rig scene model spline base"
     sees["timing"]   = "timing ui rig scene model spline base"
+    sees["analysis"] = "analysis model base"
     sees["app"]      = "app editor draw platform timing ui rig scene model spline base"
     sees["commands"] = "commands simulation " sees["app"]
     sees["main"]     = "commands base"

@@ -1,6 +1,6 @@
 #include "timing/bench.h"
 #include "spline/solver.h"
-#include "timing/lapack.h"
+#include "base/lapack.h"
 #include "timing/statistics.h"
 #include <math.h>
 #include <stdio.h>

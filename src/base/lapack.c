@@ -1,4 +1,4 @@
-#include "timing/lapack.h"
+#include "base/lapack.h"
 #include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +10,7 @@ static void find(void *library, const char *name, void *function)
     memcpy(function, &symbol, sizeof symbol);
 }
 
-void lapack_load(struct lapack *lapack, char *description, size_t size)
+bool lapack_load(struct lapack *lapack, char *description, size_t size)
 {
     *lapack = (struct lapack){0};
     void (*set_threads)(int) = NULL;
@@ -19,14 +19,21 @@ void lapack_load(struct lapack *lapack, char *description, size_t size)
     lapack->lapacke = dlopen("liblapacke.so.3", RTLD_NOW);
     find(lapack->blas, "openblas_set_num_threads", &set_threads);
     find(lapack->blas, "openblas_get_config", &get_config);
+    find(lapack->blas, "cblas_dsyrk", &lapack->dsyrk);
+    find(lapack->blas, "cblas_dgemm", &lapack->dgemm);
     find(lapack->lapacke, "LAPACKE_dpbsv", &lapack->dpbsv);
     find(lapack->lapacke, "LAPACKE_zpbsv", &lapack->zpbsv);
+    find(lapack->lapacke, "LAPACKE_dsyevd", &lapack->dsyevd);
+    find(lapack->lapacke, "LAPACKE_zheevd", &lapack->zheevd);
     if (set_threads) set_threads(1);
-    if (!lapack->dpbsv || !lapack->zpbsv) {
+    bool whole = lapack->dpbsv && lapack->zpbsv && lapack->dsyevd && lapack->zheevd && lapack->dsyrk && lapack->dgemm;
+    if (!whole) {
+        lapack_unload(lapack);
         snprintf(description, size, "not found (install liblapacke and libopenblas0)");
     } else {
         snprintf(description, size, "%s, one thread", get_config ? get_config() : "liblapacke.so.3");
     }
+    return whole;
 }
 
 void lapack_unload(struct lapack *lapack)

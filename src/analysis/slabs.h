@@ -1,0 +1,15 @@
+/// The two passes over a motion, a slab of columns at a time, each column without its mean over time.
+#ifndef ANALYSIS_SLABS_H
+#define ANALYSIS_SLABS_H
+
+#include "base/lapack.h"
+#include "model/motion.h"
+
+/// G = S Sᵀ, frames × frames, row after row, both halves filled.
+bool slabs_gram(const struct lapack *lapack, const struct motion *motion, double *gram, struct error *error);
+
+/// W S: `rows` weightings of the frames (rows × frames) give rows × columns.
+bool slabs_combine(const struct lapack *lapack, const struct motion *motion, const double *weights, int rows,
+                   double *combined, struct error *error);
+
+#endif

@@ -1,0 +1,116 @@
+#include "analysis/spectrum.h"
+#include "analysis/hilbert.h"
+#include <stdlib.h>
+#include <string.h>
+
+/// S̃ S̃ᴴ = (1 + jH) G (1 − jHᵀ) = G + H G Hᵀ + j (H G − (H G)ᵀ)
+static bool covariance(const struct lapack *lapack, const double *h, const double *gram, int frames,
+                       double complex *result)
+{
+    size_t n = (size_t)frames;
+    double *hg = malloc(2 * n * n * sizeof *hg), *hgh = hg + n * n;
+    if (!hg) return false;
+    memcpy(hgh, gram, n * n * sizeof *hgh);
+    lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, frames, frames, frames, 1, h, frames, gram, frames, 0,
+                  hg, frames);
+    lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_TRANSPOSED, frames, frames, frames, 1, hg, frames, h, frames, 1,
+                  hgh, frames);
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j < n; j++) // columns first, as LAPACK has it
+            result[j * n + i] = CMPLX(hgh[i * n + j], hg[i * n + j] - hg[j * n + i]);
+    }
+    free(hg);
+    return true;
+}
+
+/// Eigenvalues of G: what real PCA explains. Overwrites `gram`.
+static bool real_shares(const struct lapack *lapack, double *gram, int n, double *values, struct spectrum *s)
+{
+    double total = 0;
+    if (lapack->dsyevd(LAPACK_COLUMNS_FIRST, 'N', 'L', n, gram, n, values) != 0) return false;
+    for (int i = 0; i < n; i++) total += values[i] > 0 ? values[i] : 0;
+    s->pca1 = values[n - 1] / total;
+    s->pca2 = s->pca1 + (n > 1 ? values[n - 2] / total : 0);
+    return true;
+}
+
+/// LAPACK sorts upwards.
+static void turn_round(struct spectrum *s)
+{
+    size_t n = (size_t)s->frames;
+    for (size_t i = 0, j = n - 1; i < j; i++, j--) {
+        double value = s->values[i];
+        s->values[i] = s->values[j];
+        s->values[j] = value;
+        for (size_t t = 0; t < n; t++) {
+            double complex number = s->vectors[i * n + t];
+            s->vectors[i * n + t] = s->vectors[j * n + t];
+            s->vectors[j * n + t] = number;
+        }
+    }
+    s->total = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (s->values[i] < 0) s->values[i] = 0; // by rounding
+        s->total += s->values[i];
+    }
+}
+
+/// `copy` is n² numbers of room.
+static bool decompose(struct spectrum *s, const struct lapack *lapack, const double *gram, double *copy)
+{
+    int n = s->frames;
+    double coefficients[HILBERT_ORDER_MAX + 1];
+    memcpy(copy, gram, (size_t)n * (size_t)n * sizeof *copy);
+    if (!real_shares(lapack, copy, n, s->values, s)) return false;
+    int order = hilbert_predictor(gram, n, coefficients);
+    if (!hilbert_transform(lapack, coefficients, order, n, s->transform)) return false;
+    if (!covariance(lapack, s->transform, gram, n, s->vectors)) return false;
+    if (lapack->zheevd(LAPACK_COLUMNS_FIRST, 'V', 'L', n, s->vectors, n, s->values) != 0) return false;
+    turn_round(s);
+    return true;
+}
+
+bool spectrum_create(struct spectrum *s, const struct lapack *lapack, const double *gram, int frames,
+                     const char *name, struct error *error)
+{
+    size_t n = (size_t)frames;
+    double trace = 0;
+    *s = (struct spectrum){.frames = frames};
+    for (size_t i = 0; i < n; i++) trace += gram[i * n + i];
+    if (!(trace > 0)) return fail(error, ERROR_INPUT, "%s: expected a motion, got one in which nothing moves", name);
+    s->transform = malloc(n * n * sizeof *s->transform);
+    s->vectors = malloc(n * n * sizeof *s->vectors);
+    s->values = malloc(n * sizeof *s->values);
+    double *copy = malloc(n * n * sizeof *copy);
+    bool done = s->transform && s->vectors && s->values && copy && decompose(s, lapack, gram, copy);
+    free(copy);
+    if (done) return true;
+    spectrum_free(s);
+    return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory for %d frames", name, frames);
+}
+
+void spectrum_free(struct spectrum *s)
+{
+    free(s->transform);
+    free(s->vectors);
+    free(s->values);
+    *s = (struct spectrum){0};
+}
+
+void spectrum_weights(const struct spectrum *s, int k, double *weights)
+{
+    // w = uᴴ (1 + jH): Re w = Re u + Im u H, Im w = −Im u + Re u H
+    int n = s->frames;
+    const double complex *u = s->vectors + (size_t)k * (size_t)n;
+    double *re = weights, *im = weights + n;
+    for (int t = 0; t < n; t++) {
+        re[t] = im[t] = 0;
+        for (int i = 0; i < n; i++) {
+            double h = s->transform[(size_t)i * (size_t)n + (size_t)t];
+            re[t] += cimag(u[i]) * h;
+            im[t] += creal(u[i]) * h;
+        }
+        re[t] += creal(u[t]);
+        im[t] -= cimag(u[t]);
+    }
+}
