@@ -18,7 +18,7 @@ BEGIN {
     sees["timing"]   = "timing ui rig scene model spline base"
     sees["analysis"] = "analysis model base"
     sees["app"]      = "app editor draw platform timing ui rig scene model spline base"
-    sees["commands"] = "commands simulation " sees["app"]
+    sees["commands"] = "commands simulation analysis " sees["app"]
     sees["main"]     = "commands base"
     sees["include"]  = ""
 }

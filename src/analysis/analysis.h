@@ -8,7 +8,7 @@
 
 enum {
     ANALYSIS_FRAMES_MIN = 8,
-    ANALYSIS_FRAMES_MAX = 8192, ///< the memory grows with the square of the frames: 100 n² bytes
+    ANALYSIS_FRAMES_MAX = 4096, ///< the memory grows with the square of the frames: 100 n² bytes
 };
 
 struct analysis {

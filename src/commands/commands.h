@@ -8,5 +8,6 @@ int command_solve(int argc, char **argv);
 int command_check(int argc, char **argv);
 int command_bench(int argc, char **argv);
 int command_simulate(int argc, char **argv);
+int command_analyze(int argc, char **argv);
 
 #endif

@@ -1,6 +1,7 @@
 /// `wiggly simulate`: a closed mesh as a soft body that is shaken, or its normal modes.
 #include "base/file.h"
 #include "commands/commands.h"
+#include "commands/direction.h"
 #include "commands/options.h"
 #include "model/motion.h"
 #include "simulation/soft.h"
@@ -159,27 +160,6 @@ static bool run(const struct job *job, struct error *error)
     return good;
 }
 
-/// "up", "side", "front" or "x,y,z" as a vector of length 1.
-static bool read_direction(const char *text, double direction[3])
-{
-    static const struct {
-        const char *name;
-        double direction[3];
-    } known[] = {{"up", {0, 1, 0}}, {"side", {1, 0, 0}}, {"front", {0, 0, 1}}};
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        if (strcmp(text, known[i].name) != 0) continue;
-        memcpy(direction, known[i].direction, sizeof known[i].direction);
-        return true;
-    }
-    int end = 0;
-    if (sscanf(text, "%lf,%lf,%lf%n", &direction[0], &direction[1], &direction[2], &end) != 3 || text[end])
-        return false;
-    double length = sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
-    if (!isfinite(length) || !(length > 0)) return false;
-    for (int c = 0; c < 3; c++) direction[c] /= length;
-    return true;
-}
-
 static bool ends_in(const char *path, const char *extension)
 {
     size_t length = strlen(path), tail = strlen(extension);
@@ -197,7 +177,7 @@ static int check(struct job *job)
                            : "--output: expected a name ending in .npy or .pc2";
     } else if (strlen(job->output) + 16 > sizeof job->rest) {
         wrong = "--output: the name is too long";
-    } else if (!read_direction(job->shake_text, job->shake.direction)) {
+    } else if (!direction_read(job->shake_text, job->shake.direction)) {
         wrong = "--shake: expected up, side, front or a vector x,y,z";
     }
     if (!wrong) {

@@ -1,0 +1,13 @@
+/// The scene that `wiggly analyze --scene` writes: a spline, and the character that it drives.
+#ifndef COMMANDS_ANALYZE_SCENE_H
+#define COMMANDS_ANALYZE_SCENE_H
+
+#include "model/character.h"
+
+/// Writes a scene beside or apart from the character's file `model`, which must exist. The spline has the first
+/// coordinate's frequency and damping. Of every `modes` coordinates, those of one motion, the first follows it and the
+/// others have the amplitude 0.
+bool analyze_scene_write(const char *path, const char *model, const struct character *character, int modes,
+                         struct error *error);
+
+#endif
