@@ -272,7 +272,7 @@ static void the_default_scene_swings_widely_above_the_ground(void **state)
             for (int k = 0; k < 3; k++) {
                 assert_true(pose.matrix[n][12 + k] >= lo[k] && pose.matrix[n][12 + k] <= hi[k]);
             }
-            low = fminf(low, pose.matrix[n][13] - 0.05f - pose_ground(&pose));
+            low = fminf(low, pose.matrix[n][13] - 0.05f - pose.ground);
         }
         left = fminf(left, pose.matrix[JOINTS][12]);
         right = fmaxf(right, pose.matrix[JOINTS][12]);

@@ -52,6 +52,7 @@ static void arrange_stage(struct stage_view *stage, struct rect panel)
     tail->joints = JOINTS;
     tail->length = 1.6f;
     tail->pose.count = JOINTS + 1;
+    tail->pose.ground = -0.26f;
     glm_mat4_identity(frame);
     glm_rotate(frame, glm_rad(-80.0f), (vec3){1.0f, 0.0f, 0.0f});
     for (int i = 0; i <= JOINTS; i++) {

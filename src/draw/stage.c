@@ -146,8 +146,7 @@ static void draw_animal(const struct stage_renderer *renderer, const struct mode
     const struct pose *pose = &view->tails[tail].pose;
     const int joints = pose->count - 1;
     const float length = pose_length(pose);
-    glUniform4f(renderer->shape, length / CREATURE_TAIL_LENGTH, (float)joints, length / (float)joints,
-                pose_ground(pose));
+    glUniform4f(renderer->shape, length / CREATURE_TAIL_LENGTH, (float)joints, length / (float)joints, pose->ground);
     glBindBufferRange(GL_UNIFORM_BUFFER, JOINT_BINDING, renderer->joints, tail * BLOCK_STRIDE, BLOCK_BYTES);
     glDrawElements(GL_TRIANGLES, model->index_count, GL_UNSIGNED_INT, NULL);
 }

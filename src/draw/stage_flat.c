@@ -110,30 +110,25 @@ static void add_disc(struct stage_flat *flat, const float clip_from_world[16], f
     flat->quads++;
 }
 
-/// Height of the ground that the lowest animal sits on, and the middle of all of them.
-static void find_ground(const struct stage_view *view, float middle[3])
+/// Height of the ground that the lowest animal stands on.
+static float lowest_ground(const struct stage_view *view)
 {
-    middle[0] = middle[1] = middle[2] = 0.0f;
-    for (int t = 0; t < view->tail_count; t++) {
-        const struct pose *pose = &view->tails[t].pose;
-        const float ground = pose_ground(pose);
-        middle[0] += pose->matrix[0][12] / (float)view->tail_count;
-        middle[1] = t == 0 ? ground : fminf(middle[1], ground);
-        middle[2] += pose->matrix[0][14] / (float)view->tail_count;
-    }
+    float lowest = view->tail_count > 0 ? view->tails[0].pose.ground : 0.0f;
+    for (int t = 1; t < view->tail_count; t++) lowest = fminf(lowest, view->tails[t].pose.ground);
+    return lowest;
 }
 
 long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view)
 {
-    float clip_from_world[16], middle[3];
+    const float ground = lowest_ground(view);
+    float clip_from_world[16];
     stage_clip_from_world(view, clip_from_world);
-    find_ground(view, middle);
     flat->quads = 0;
     add_background(flat);
-    add_disc(flat, clip_from_world, middle[0], middle[1], middle[2], GROUND_RADIUS, GROUND_COLOR, 1.0f);
+    add_disc(flat, clip_from_world, view->middle[0], ground, view->middle[1], GROUND_RADIUS, GROUND_COLOR, 1.0f);
     for (int b = 0; b < view->blob_count; b++) {
         const struct stage_blob *blob = &view->blobs[b];
-        add_disc(flat, clip_from_world, blob->x, middle[1], blob->z, blob->radius, SHADOW_COLOR, blob->strength);
+        add_disc(flat, clip_from_world, blob->x, ground, blob->z, blob->radius, SHADOW_COLOR, blob->strength);
     }
     const long bytes = flat->quads * CORNERS * (long)sizeof *flat->corners;
     glBindBuffer(GL_ARRAY_BUFFER, flat->vertices);

@@ -195,7 +195,7 @@ void body_show(struct editor *editor)
     for (int i = 0; i <= RING_POINTS; i++) { // from the right side of the picture over the near half
         float angle = 6.2831853f * (float)i / RING_POINTS - editor->camera.azimuth;
         const float world[3] = {base[0] + scale * (ring_middle[0] - RING_RADIUS * sinf(-angle)),
-                                pose_ground(&editor->stage.tails[tail].pose),
+                                editor->stage.tails[tail].pose.ground,
                                 base[2] + scale * (ring_middle[1] - RING_RADIUS * cosf(-angle))};
         if (!project(editor, world, point[i])) return;
     }

@@ -80,6 +80,7 @@ void stage_fit(struct editor *editor, const struct editor_world *world)
     editor->playback.position = shown;
     editor->camera = camera_default();
     if (world->document->tail_count == 0) return;
+    for (int k = 0; k < 2; k++) editor->stage.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
     camera_fit(&editor->camera, lo, hi, editor->layout.stage.w / editor->layout.stage.h);
 }
 
@@ -88,10 +89,12 @@ static uint64_t view_hash(const struct stage_view *view)
     uint64_t hash = hash_bytes(HASH_START, &view->viewport, sizeof view->viewport);
     hash = hash_bytes(hash, view->view, sizeof view->view);
     hash = hash_bytes(hash, view->projection, sizeof view->projection);
+    hash = hash_bytes(hash, view->middle, sizeof view->middle);
     for (int t = 0; t < view->tail_count; t++) {
         const struct stage_tail *tail = &view->tails[t];
         hash = hash_bytes(hash, &tail->joints, sizeof tail->joints);
         hash = hash_bytes(hash, &tail->length, sizeof tail->length);
+        hash = hash_bytes(hash, &tail->pose.ground, sizeof tail->pose.ground);
         hash = hash_bytes(hash, tail->pose.matrix, (size_t)tail->pose.count * sizeof tail->pose.matrix[0]);
     }
     return hash_bytes(hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);

@@ -47,7 +47,8 @@ void pose_tail(const struct tail *tail, const wiggly_value *values, enum look lo
 {
     double frame[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     for (int k = 0; k < 3; k++) frame[12 + k] = tail->position[k].track < 0 ? tail->position[k].value : 0.0;
-    const double segment = tail->length / tail->joints;
+    const double segment = tail->length / tail->joints, height = CREATURE_BASE_HEIGHT / CREATURE_TAIL_LENGTH;
+    pose->ground = tail->position[1].track < 0 ? (float)(tail->position[1].value - height * tail->length) : 0.0f;
     pose->count = tail->joints + 1;
     for (int n = 0; n <= tail->joints; n++) {
         if (n < tail->joints) {
@@ -72,11 +73,6 @@ float pose_length(const struct pose *pose)
     const float *a = pose->matrix[0] + 12, *b = pose->matrix[1] + 12;
     const float d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     return sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) * (float)(pose->count - 1);
-}
-
-float pose_ground(const struct pose *pose)
-{
-    return pose->matrix[0][13] - CREATURE_BASE_HEIGHT * pose_length(pose) / CREATURE_TAIL_LENGTH;
 }
 
 void pose_bounds(const struct pose *pose, float lo[3], float hi[3])

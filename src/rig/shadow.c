@@ -8,6 +8,7 @@
 /// Where the tail is looked at, and how far above the ground its shadow has faded to 1/e (bind size, metres).
 enum { TAIL_BLOBS = 14 };
 #define FADE_HEIGHT 0.22f
+#define BODY_FADE_HEIGHT 0.35f /* the same of a body that hops */
 
 /// What of the body touches the ground, bind space: rump and hind feet, then the fore paws.
 static const struct shadow_blob body_blobs[] = {{0.0f, -0.27f, 0.46f, 0.75f}, {0.0f, -0.50f, 0.27f, 0.55f}};
@@ -27,14 +28,16 @@ static struct shadow_blob tail_blob(const struct pose *pose, float along, float 
 
 int pose_blobs(const struct pose *pose, struct shadow_blob *blobs, int capacity)
 {
-    const float scale = pose_length(pose) / CREATURE_TAIL_LENGTH, ground = pose_ground(pose);
+    const float scale = pose_length(pose) / CREATURE_TAIL_LENGTH, ground = pose->ground;
+    const float above = fmaxf(pose->matrix[0][13] - ground - scale * CREATURE_BASE_HEIGHT, 0.0f);
     const int body_count = (int)(sizeof body_blobs / sizeof *body_blobs);
     int count = 0;
     for (int b = 0; b < body_count && count < capacity; b++) {
         const struct shadow_blob *blob = &body_blobs[b];
+        const float fade = expf(-above / (scale * BODY_FADE_HEIGHT));
         blobs[count++] =
             (struct shadow_blob){pose->matrix[0][12] + scale * blob->x, pose->matrix[0][14] + scale * blob->z,
-                                 scale * blob->radius, blob->strength};
+                                 scale * blob->radius * (1.5f - 0.5f * fade), blob->strength * fade};
     }
     for (int b = 0; b < TAIL_BLOBS && count < capacity; b++) {
         const struct shadow_blob blob = tail_blob(pose, ((float)b + 0.5f) / TAIL_BLOBS, scale, ground);

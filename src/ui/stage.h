@@ -24,6 +24,7 @@ struct stage_view {
     float view[16];       ///< world → eye, column-major
     float projection[16]; ///< eye → clip
     float eye[3];         ///< camera position, world
+    float middle[2];      ///< x and z of the middle of the lit ground
     struct stage_tail tails[STAGE_MAX_TAILS];
     int tail_count;
     struct stage_blob blobs[STAGE_MAX_BLOBS];

@@ -1,0 +1,108 @@
+/// assets/scenes/follow.json: a body that hops aside and back, and a tail that is keyed nowhere and follows through.
+#include "panel_session.h"
+
+#include <math.h>
+
+enum { JOINTS = 24, FRAMES = 96, X = 12, Y = 13 };
+
+static void open_scene(struct session *s)
+{
+    struct error error = {0};
+    size_t size;
+    struct document *document = scene_load("assets/scenes/follow.json", NULL, &error);
+    if (!document) fail_msg("%s", error.text);
+    char *text = scene_print(document, &size);
+    session_open(s, text);
+    free(text);
+    document_destroy(document);
+    session_key(s, KEY_LEFT, MOD_SHIFT);
+}
+
+static const struct pose *pose_of(const struct session *s) { return &editor_stage(s->editor)->tails[0].pose; }
+
+/// How far joint n turns sideways from the one before, radians.
+static double side_bend(const struct pose *pose, int n)
+{
+    const float *a = pose->matrix[n - 1], *b = pose->matrix[n];
+    double x = (double)(a[0] * b[8] + a[1] * b[9] + a[2] * b[10]);
+    double z = (double)(a[8] * b[8] + a[9] * b[9] + a[10] * b[10]);
+    return atan2(x, z);
+}
+
+/// The first step is to +x: joints bend to −x one after the other, and the swing has nearly gone before the second.
+static void test_tail_lags_and_settles(void **state)
+{
+    (void)state;
+    struct session s;
+    open_scene(&s);
+    double least_near = 0, least_far = 0, first = 0, last = 0;
+    int near_at = 0, far_at = 0, tip_stays_behind = 0;
+    for (int frame = 0; frame < FRAMES; frame++) {
+        const struct pose *pose = pose_of(&s);
+        double near = side_bend(pose, 3), far = side_bend(pose, 21);
+        double tip = (double)(pose->matrix[JOINTS][X] - pose->matrix[0][X]);
+        if (frame >= 8 && frame < 30 && near < least_near) least_near = near, near_at = frame;
+        if (frame >= 8 && frame < 40 && far < least_far) least_far = far, far_at = frame;
+        if (frame >= 8 && frame <= 18 && tip < 0) tip_stays_behind++;
+        if (frame > 18 && frame < 34) first = fmax(first, fabs(tip));
+        if (frame >= 42 && frame < 48) last = fmax(last, fabs(tip));
+        session_key(&s, KEY_RIGHT, 0);
+    }
+    assert_in_range(far_at - near_at, 3, 7); // 18 joints × 5° of 1.2 Hz: 5 frames
+    assert_true(tip_stays_behind >= 4);
+    assert_true(last < 0.75 * first);
+    session_close(&s);
+}
+
+/// It stands on the ground between the hops, and on that of the scene while it hops.
+static void test_hops_over_the_ground(void **state)
+{
+    (void)state;
+    struct session s;
+    open_scene(&s);
+    assert_near(pose_of(&s)->matrix[0][Y], 0.26, 1e-3);
+    assert_near(pose_of(&s)->ground, 0, 0);
+    for (int i = 0; i < 12; i++) session_key(&s, KEY_RIGHT, 0);
+    assert_near(pose_of(&s)->matrix[0][Y], 0.43, 1e-6);
+    assert_near(pose_of(&s)->ground, 0, 0);
+    session_close(&s);
+}
+
+/// Playing, stepping and jumping show the same pose at the same time, to the last bit; the last frame is the first again.
+static void test_playing_is_scrubbing(void **state)
+{
+    (void)state;
+    static struct pose played[4 * FRAMES];
+    struct session s;
+    open_scene(&s);
+    session_hold(&s, KEY_SPACE, ACTION_PRESS);
+    session_hold(&s, KEY_SPACE, ACTION_RELEASE);
+    double at[4 * FRAMES];
+    int count = 0;
+    while (count < 4 * FRAMES / 2) {
+        session_frame(&s);
+        at[count] = s.editor->playback.position;
+        played[count++] = *pose_of(&s);
+    }
+    session_key(&s, KEY_SPACE, 0);
+    for (int i = count - 1; i >= 0; i -= 7) {
+        s.editor->playback.position = at[i];
+        session_frame(&s);
+        assert_memory_equal(pose_of(&s)->matrix, played[i].matrix, (JOINTS + 1) * sizeof played[i].matrix[0]);
+    }
+    session_key(&s, KEY_LEFT, MOD_SHIFT);
+    struct pose first = *pose_of(&s);
+    session_key(&s, KEY_RIGHT, MOD_SHIFT);
+    assert_memory_equal(pose_of(&s)->matrix, first.matrix, (JOINTS + 1) * sizeof first.matrix[0]);
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_tail_lags_and_settles),
+        cmocka_unit_test(test_hops_over_the_ground),
+        cmocka_unit_test(test_playing_is_scrubbing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
