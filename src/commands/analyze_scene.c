@@ -1,5 +1,6 @@
 #include "commands/analyze_scene.h"
 #include "base/file.h"
+#include "scene/document.h"
 #include "scene/text.h"
 #include <errno.h>
 #include <limits.h>
@@ -69,11 +70,10 @@ static void add_scene(struct text *text, const struct character *character, int 
     text_string(text, "  ],\n  \"rigs\": [\n    { \"type\": \"character\", \"name\": \"character\", \"model\": ");
     add_relative(text, from, model);
     text_string(text, ",\n      \"coordinates\": [");
-    for (int i = 0; i < character->coordinate_count; i++) {
-        text_string(text, i > 0 ? ",\n        { \"name\": " : "\n        { \"name\": ");
+    for (int i = 0, drives = 0; i < character->coordinate_count && drives < CHARACTER_MAX_DRIVES; i += modes) {
+        text_string(text, drives++ > 0 ? ",\n        { \"name\": " : "\n        { \"name\": ");
         text_quoted(text, character->coordinates[i].name);
-        text_string(text, i % modes == 0 ? ", \"spline\": \"swing\", \"amplitude\": 1, \"lag\": 0 }"
-                                         : ", \"spline\": \"swing\", \"amplitude\": 0, \"lag\": 0 }");
+        text_string(text, ", \"spline\": \"swing\", \"amplitude\": 1, \"lag\": 0 }");
     }
     text_string(text, "] }\n  ]\n}\n");
 }

@@ -5,8 +5,8 @@
 #include "model/character.h"
 
 /// Writes a scene beside or apart from the character's file `model`, which must exist. The spline has the first
-/// coordinate's frequency and damping. Of every `modes` coordinates, those of one motion, the first follows it and the
-/// others have the amplitude 0.
+/// coordinate's frequency and damping. Of every `modes` coordinates, those of one motion, the first follows it, up
+/// to as many as a character in a scene can have.
 bool analyze_scene_write(const char *path, const char *model, const struct character *character, int modes,
                          struct error *error);
 

@@ -1,0 +1,93 @@
+# wiggly analyze: from simulated motions to a character and a scene; and what it says of files that it cannot use.
+. tests/check.sh
+WIGGLY=${WIGGLY:-build/wiggly}
+
+cat >"$scratch/box.obj" <<'END'
+v 0 0 0
+v 1 0 0
+v 1 0 1
+v 0 0 1
+v 0 2 0
+v 1 2 0
+v 1 2 1
+v 0 2 1
+f 1 2 3 4
+f 8 7 6 5
+f 1 5 6 2
+f 2 6 7 3
+f 3 7 8 4
+f 4 8 5 1
+END
+grep -v '^f' "$scratch/box.obj" | head -n 4 >"$scratch/small.obj"
+echo 'f 1 2 3' >>"$scratch/small.obj"
+
+simulate() { # <name> <options>...
+    local name=$1
+    shift
+    expect 0 "simulate $name" "$WIGGLY" simulate "$scratch/box.obj" --tets 60 --seconds 2 --fps 30 --substeps 2 "$@" \
+        -o "$scratch/$name"
+}
+simulate up.npy --shake up
+simulate side.pc2 --shake side --impulse
+
+mkdir "$scratch/out"
+analyze() { # <exit status> <what> <arguments>...
+    local status=$1 what=$2
+    shift 2
+    expect "$status" "$what" "$WIGGLY" analyze "$@"
+}
+analyze 0 "two motions, two modes each" "$scratch/up.npy" "$scratch/side.pc2" --rest "$scratch/up.rest.obj" --fps 30 --modes 2 \
+    --shake up:side -o "$scratch/out/box.glb" --scene "$scratch/box.json"
+says "says what was read" "up.npy: 60 frames of 8 vertices, 30 a second" "$out"
+says "names coordinates after files" "  side: explains " "$out"
+says "and further modes" "  up-2: explains " "$out"
+says "compares with real principal components" "real PCA's first " "$out"
+says "recommends a spline" '    spline: "mode": "complex", "frequency": ' "$out"
+says "and a range of lags" "lag over the surface: from " "$out"
+says "the file has the targets" '"targetNames":["up.re","up.im","up-2.re","up-2.im","side.re","side.im","side-2.re","side-2.im"]' \
+    "$(tr -d '\0' <"$scratch/out/box.glb")"
+says "the scene finds the file from where it is" '"model": "out/box.glb"' "$(cat "$scratch/box.json")"
+expect 0 "the scene is one" "$WIGGLY" check "$scratch/box.json"
+[ -z "$out$err" ]
+ok "without a complaint" $?
+first=$(cksum <"$scratch/out/box.glb")
+analyze 0 "one motion twice" "$scratch/up.npy" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 30 -o "$scratch/out/box.glb"
+says "gives names of their own" "  up-2: explains " "$out"
+analyze 0 "the first again" "$scratch/up.npy" "$scratch/side.pc2" --rest "$scratch/up.rest.obj" --fps 30 --modes 2 \
+    --shake up:side -o "$scratch/out/box.glb" --scene "$scratch/box.json"
+[ "$first" = "$(cksum <"$scratch/out/box.glb")" ]
+ok "gives the same bytes" $?
+if command -v ldd >/dev/null; then
+    ! ldd "$WIGGLY" | grep -qE 'lapack|blas'
+    ok "the program does without LAPACKE until it analyses" $?
+fi
+
+refused() { # <exit status> <what it says> <arguments>...
+    local status=$1 what=$2
+    shift 2
+    analyze "$status" "refuses: $what" "$@" -o "$scratch/none.glb"
+    says "in one line" "$what" "$err"
+    [ "$(printf '%s\n' "$err" | wc -l)" -eq 1 ] && [ ! -e "$scratch/none.glb" ]
+    ok "and no more, and writes nothing" $?
+}
+head -c 1000 "$scratch/up.npy" >"$scratch/cut.npy"
+rest="--rest $scratch/box.obj"
+# shellcheck disable=SC2086 # the options are split on purpose
+{
+    refused 2 "expected --fps N" "$scratch/up.npy" $rest
+    refused 2 "--rest mesh.obj is missing" "$scratch/up.npy"
+    refused 2 "--shake: expected up, side, front" "$scratch/up.npy" $rest --shake sideways
+    refused 2 "--shake: expected up, side, front" "$scratch/up.npy" $rest --shake up:side
+    refused 2 "an argument is missing" $rest
+    refused 2 "--modes: expected a whole number from 1 to 8" "$scratch/up.npy" $rest --modes 9
+    refused 1 "expected 4 vertices as $scratch/small.obj has, got 8" "$scratch/up.npy" --rest "$scratch/small.obj" --fps 30
+    refused 1 "cut.npy: expected 60 frames of 8 vertices, got a file that ends in frame 9" "$scratch/cut.npy" $rest --fps 30
+    refused 1 "box.obj: expected a motion (.npy, .pc2 or .mdd)" "$scratch/box.obj" $rest --fps 30
+    refused 1 "none.npy: cannot be opened" "$scratch/none.npy" $rest --fps 30
+    refused 1 "up.npy: expected the text of an OBJ file, got binary data" "$scratch/up.npy" --rest "$scratch/up.npy" --fps 30
+}
+analyze 2 "refuses to write nowhere" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 30
+says "and says so" "-o creature.glb is missing" "$err"
+analyze 3 "a folder that is not there" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 30 -o "$scratch/nowhere/a.glb"
+says "is named" "nowhere/a.glb: cannot be written" "$err"
+exit $((cases_failed > 0))
