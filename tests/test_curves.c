@@ -301,6 +301,74 @@ static void test_normalised_curves_keep_their_picture(void **state)
     session_close(&s);
 }
 
+static void test_slopes_flat_and_smooth(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    session_key(&s, 'A', MOD_CTRL);
+    char *original = saved(&s);
+    session_key(&s, 'T', MOD_CTRL);
+    assert_near(spline(&s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2); // only one neighbour
+    assert_near(spline(&s, 0)->knots[2].slope, (0.5 - 1) / 20 * 24, 1e-2);
+    assert_near(spline(&s, 0)->knots[3].slope, (0.0 + 1) / 30 * 24, 1e-2);
+    assert_one_step(&s, original);
+    original = saved(&s);
+    session_key(&s, 'T', MOD_SHIFT);
+    for (int k = 0; k < 5; k++) {
+        assert_true(spline(&s, 0)->knots[k].has_slope);
+        assert_near(spline(&s, 0)->knots[k].slope, 0, 0);
+    }
+    assert_one_step(&s, original);
+    session_close(&s);
+}
+
+static void test_a_longer_handle_is_stiffer(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    session_click(&s, "knot(sway,1)");
+    float x = s.x, y = s.y;
+    session_point(&s, "handle(sway,1,1)");
+    float along[2] = {(s.x - x) / hypotf(s.x - x, s.y - y), (s.y - y) / hypotf(s.x - x, s.y - y)};
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, 6 * along[0], 6 * along[1], 3);
+    assert_near(spline(&s, 0)->knots[1].stiffness, 1000, 0); // a hand is not that steady
+    session_drag(&s, 26 * along[0], 26 * along[1], 5);
+    assert_near(spline(&s, 0)->knots[1].stiffness, 100000, 10000); // 24 pixels are two powers of ten
+    assert_near(spline(&s, 0)->knots[1].slope, 2, 0.05);
+    session_drag(&s, -64 * along[0], -64 * along[1], 5);
+    assert_true(spline(&s, 0)->knots[1].stiffness < 50);
+    session_release(&s, BUTTON_LEFT);
+    session_close(&s);
+}
+
+/// A knot where the curve is, and with the slope that it has there, leaves every sample where it was.
+static void test_double_click_on_the_curve_keeps_it(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    for (unsigned mods = 0; mods <= MOD_SHIFT; mods += MOD_SHIFT) {
+        double before[97];
+        char target[64];
+        int frame = mods ? 52 : 24, count = spline(&s, 0)->knot_count;
+        memcpy(before, s.evaluation.curves[0].total, sizeof before);
+        snprintf(target, sizeof target, "curve(sway,%d,%.9g)", frame, before[frame]);
+        s.mods = mods;
+        session_click(&s, target);
+        session_press(&s, BUTTON_LEFT, 2);
+        session_release(&s, BUTTON_LEFT);
+        assert_int_equal(spline(&s, 0)->knot_count, count + 1);
+        int k = selection_single(&s.editor->selection, spline(&s, 0));
+        assert_near(spline(&s, 0)->knots[k].frame, frame, 0);
+        assert_int_equal(spline(&s, 0)->knots[k].has_slope, mods != 0);
+        for (int i = 0; i < 97; i++) assert_near(s.evaluation.curves[0].total[i], before[i], 1e-6);
+    }
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -314,6 +382,9 @@ int main(void)
         cmocka_unit_test(test_a_ripple_moves_what_comes_after),
         cmocka_unit_test(test_ruler_units_and_snap),
         cmocka_unit_test(test_normalised_curves_keep_their_picture),
+        cmocka_unit_test(test_slopes_flat_and_smooth),
+        cmocka_unit_test(test_a_longer_handle_is_stiffer),
+        cmocka_unit_test(test_double_click_on_the_curve_keeps_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

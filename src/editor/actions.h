@@ -44,12 +44,15 @@ double ripple_least(const struct editor *editor, const struct document *document
 /// Says why the knots go no further to the right.
 void ripple_stopped(struct editor *editor);
 
-/// Starts to scale the selected knots with the pointer, about the middle of the selection (P: the playhead).
+/// Starts to scale the selected knots with the pointer, about the middle of the selection (P: about the
+/// equilibrium at the playhead).
 void scale_begin(struct editor *editor, const struct editor_world *world);
 /// Keys while it runs: axes, pivot, a typed factor, end; uses all of them up.
 void scale_key(struct editor *editor, const struct editor_world *world, const struct event *event);
 /// Makes the edits for where the pointer is now.
 void scale_apply(struct editor *editor, const struct editor_world *world);
+/// The pivot, and the line from it to the pointer.
+void scale_show(struct editor *editor);
 
 /// Keys; true where the event is used up.
 bool keys_event(struct editor *editor, const struct editor_world *world, const struct event *event);
@@ -61,6 +64,9 @@ void nudge_slope(struct editor *editor, const struct editor_world *world, double
 void nudge_stiffness(struct editor *editor, const struct editor_world *world, double factor);
 /// Switches slopes on (as the curve runs there) or off.
 void toggle_slope(struct editor *editor, const struct editor_world *world);
+/// Slopes of the selected knots: level, or towards the neighbours' as Catmull and Rom have it.
+void flatten_slopes(struct editor *editor, const struct editor_world *world);
+void smooth_slopes(struct editor *editor, const struct editor_world *world);
 /// Changes the parameter that a held letter stands for (F Z B C L), in steps of design.
 void nudge_parameter(struct editor *editor, const struct editor_world *world, int letter, int direction);
 /// The channel that the active spline moves, the first of all where it moves none; NULL where there is none at all.
@@ -70,8 +76,8 @@ void cycle_mode(struct editor *editor, const struct editor_world *world);
 
 /// A knot on a frame (whole frames when `snap`), selected; where there is one already, that one is selected.
 void insert_knot(struct editor *editor, const struct editor_world *world, double frame, double value, bool snap);
-/// A knot at the playhead that leaves the curve where it is.
-void insert_knot_at_playhead(struct editor *editor, const struct editor_world *world);
+/// A knot that leaves the curve where it is, with its slope there too (eq. 9) where `slope` is set.
+void insert_on_curve(struct editor *editor, const struct editor_world *world, double frame, bool snap, bool slope);
 /// Removes the selected knots as a step of that name.
 void remove_knots(struct editor *editor, const struct editor_world *world, const char *label);
 void delete_knots(struct editor *editor, const struct editor_world *world);

@@ -8,7 +8,8 @@
 
 enum { MAX_LABELS = CURVES_MAX_OTHERS + 2, RING_POINTS = 25 };
 
-static const float KNOT_RADIUS = 4.5f, OTHER_RADIUS = 3, HOVER_RADIUS = 6.5f, HANDLE_LENGTH = 40, HANDLE_RADIUS = 3;
+static const float KNOT_RADIUS = 4.5f, OTHER_RADIUS = 3, HOVER_RADIUS = 6.5f, HANDLE_REACH = 130, HANDLE_RADIUS = 3;
+static const double FIRM_LENGTH = 48, DECADE_LENGTH = 12; ///< of a handle; of ten times the stiffness
 static const float LABEL_STEP = 15;
 static const float FAN_NEAR = 0.24f,
                    FAN_STEP = 0.03f; ///< opacity of the least lagged copy, and less of each further one
@@ -78,13 +79,24 @@ static void show_ring(struct drawlist *list, float x, float y, float radius, flo
     drawlist_line(list, &xy[0][0], RING_POINTS, width, color);
 }
 
+double handle_length(double stiffness)
+{
+    return fmin(fmax(FIRM_LENGTH + DECADE_LENGTH * log10(stiffness / KNOT_DEFAULT_STIFFNESS), 12), 120);
+}
+
+double handle_stiffness(double length)
+{
+    double stiffness = KNOT_DEFAULT_STIFFNESS * pow(10, (length - FIRM_LENGTH) / DECADE_LENGTH);
+    return round_value(stiffness, 0.05 * stiffness);
+}
+
 void curves_handle(const struct editor *editor, const struct document *document, const struct knot *knot, int end,
                    float xy[2])
 {
     double across = curves_pixels_per_frame(editor) * document->fps; /* pixels a second */
     double down = -curves_pixels_per_value(editor) * knot->slope;
     double length = hypot(across, down);
-    double factor = (end ? 1 : -1) * HANDLE_LENGTH / (isfinite(length) && length > 0 ? length : 1);
+    double factor = (end ? 1 : -1) * handle_length(knot->stiffness) / (isfinite(length) && length > 0 ? length : 1);
     int sample = document_sample(document, knot->frame);
     xy[0] = curves_x(editor, document_frame(document, sample)) + (float)fmin(fmax(across * factor, -1e3), 1e3);
     xy[1] = curves_y(editor, knot->value) + (float)fmin(fmax(down * factor, -1e3), 1e3);
@@ -128,26 +140,63 @@ static void show_tick(struct editor *editor, const struct document *document, co
     drawlist_line(&editor->list, &ends[0][0], 2, 1.5f, theme_fade(color, 0.7f));
 }
 
+static float knot_x(const struct editor *editor, const struct document *document, const struct knot *knot)
+{
+    return curves_x(editor, document_frame(document, document_sample(document, knot->frame)));
+}
+
+/// Which of the knots first … end − 1, all in one pixel column, stands for them: the hovered one, else a selected one.
+static int column_knot(const struct editor *editor, const struct spline *spline, int first, int end)
+{
+    int best = first;
+    for (int k = end - 1; k >= first; k--) {
+        unsigned id = spline->knots[k].id;
+        if (editor->hover.kind == HOVER_KNOT && editor->hover.knot == id) return k;
+        if (selection_has(&editor->selection, id)) best = k;
+    }
+    return best;
+}
+
+/// A stroke over the values of the knots in one pixel column, so that those that are not drawn are not missed.
+static void show_column(struct editor *editor, const struct spline *spline, int first, int end, float x,
+                        uint32_t color)
+{
+    double low = spline->knots[first].value, high = low;
+    for (int k = first + 1; k < end; k++) {
+        low = fmin(low, spline->knots[k].value);
+        high = fmax(high, spline->knots[k].value);
+    }
+    const float xy[] = {x, curves_y(editor, low), x, curves_y(editor, high)};
+    if (high > low) drawlist_line(&editor->list, xy, 2, 1.5f, theme_fade(color, 0.7f));
+}
+
+static void show_knot(struct editor *editor, const struct document *document, const struct knot *knot, float x,
+                      uint32_t color)
+{
+    bool selected = selection_has(&editor->selection, knot->id);
+    float y = curves_y(editor, knot->value);
+    if (knot->has_slope && selected) show_handle(editor, document, knot, color);
+    if (knot->has_slope && !selected) show_tick(editor, document, knot, color);
+    show_diamond(&editor->list, x, y, selected, color);
+    if (editor->hover.kind == HOVER_KNOT && editor->hover.knot == knot->id) {
+        show_ring(&editor->list, x, y, HOVER_RADIUS, 1.25f, THEME_PLAYHEAD);
+    }
+}
+
 static void show_knots(struct editor *editor, const struct editor_world *world)
 {
     const struct document *document = world->document;
     const struct spline *spline = editor_active_spline(editor, world);
     const struct rect *plot = &editor->layout.plot;
     uint32_t color = spline_color(editor->active);
-    float last_x = -1;
-    for (int k = 0; spline && k < spline->knot_count; k++) {
-        const struct knot *knot = &spline->knots[k];
-        bool selected = selection_has(&editor->selection, knot->id);
-        bool hovered = editor->hover.kind == HOVER_KNOT && editor->hover.knot == knot->id;
-        float x = curves_x(editor, document_frame(document, document_sample(document, knot->frame)));
-        float y = curves_y(editor, knot->value);
-        bool crowded = x - last_x < 1 && !selected && !hovered;
-        if (x < plot->x - HANDLE_LENGTH || x > plot->x + plot->w + HANDLE_LENGTH || crowded) continue;
-        last_x = x;
-        if (knot->has_slope && selected) show_handle(editor, document, knot, color);
-        if (knot->has_slope && !selected) show_tick(editor, document, knot, color);
-        show_diamond(&editor->list, x, y, selected, color);
-        if (hovered) show_ring(&editor->list, x, y, HOVER_RADIUS, 1.25f, THEME_PLAYHEAD);
+    for (int k = 0, end = 0; spline && k < spline->knot_count; k = end) {
+        float x = knot_x(editor, document, &spline->knots[k]);
+        for (end = k + 1; end < spline->knot_count; end++) {
+            if (knot_x(editor, document, &spline->knots[end]) - x >= 1) break;
+        }
+        if (x < plot->x - HANDLE_REACH || x > plot->x + plot->w + HANDLE_REACH) continue;
+        show_column(editor, spline, k, end, x, color);
+        show_knot(editor, document, &spline->knots[column_knot(editor, spline, k, end)], x, color);
     }
 }
 
@@ -186,23 +235,24 @@ static void spread_labels(struct label *labels, int count, float top, float bott
     for (int i = count - 1; i >= 0; i--, limit -= LABEL_STEP) labels[i].y = fminf(labels[i].y, limit);
 }
 
-/// Labels of all curves that are drawn, from the top of the panel down; how many there are.
-static int place_labels(const struct editor *editor, const struct editor_world *world, struct label *labels)
+/// Labels of the curves that are drawn, at most `most`, the active one's first; by height. How many there are.
+static int place_labels(const struct editor *editor, const struct editor_world *world, struct label *labels, int most)
 {
     const struct curve_cache *cache = &editor->cache;
     const struct spline *active = editor_active_spline(editor, world);
+    uint32_t color = spline_color(editor->active);
     int count = 0, end = cache->count - 1;
-    for (int i = 0; i < cache->other_count; i++) {
+    if (active) {
+        insert_label(labels, &count, (struct label){cache->re[end][1], FONT_LABEL_BOLD, color, active->name});
+    }
+    if (active && shows_imaginary(editor, active)) {
+        insert_label(labels, &count, (struct label){cache->im[end][1], FONT_LABEL, theme_fade(color, 0.6f), "Im"});
+    }
+    for (int i = 0; i < cache->other_count && count < most; i++) {
         int spline = cache->other_spline[i];
         insert_label(labels, &count,
                      (struct label){cache->others[i][end][1], FONT_LABEL, theme_fade(spline_color(spline), 0.8f),
                                     world->document->splines[spline].name});
-    }
-    if (!active) return count;
-    uint32_t color = spline_color(editor->active);
-    insert_label(labels, &count, (struct label){cache->re[end][1], FONT_LABEL_BOLD, color, active->name});
-    if (shows_imaginary(editor, active)) {
-        insert_label(labels, &count, (struct label){cache->im[end][1], FONT_LABEL, theme_fade(color, 0.6f), "Im"});
     }
     return count;
 }
@@ -212,8 +262,10 @@ static void show_labels(struct editor *editor, const struct editor_world *world)
     const struct rect *plot = &editor->layout.plot;
     struct label labels[MAX_LABELS];
     if (editor->cache.count < 2) return;
-    int count = place_labels(editor, world, labels);
-    spread_labels(labels, count, plot->y + 8, plot->y + plot->h - 8);
+    const float top = plot->y + 8, bottom = plot->y + plot->h - 8;
+    int most = (int)fmaxf(2, (bottom - top) / LABEL_STEP + 1);
+    int count = place_labels(editor, world, labels, most);
+    spread_labels(labels, count, top, bottom);
     float x = plot->x + plot->w + 6;
     float width = editor->layout.curves.x + editor->layout.curves.w - 6 - x;
     for (int i = 0; i < count; i++) {
@@ -290,6 +342,7 @@ void curves_show(struct editor *editor, const struct editor_world *world)
     }
     show_knots(editor, world);
     box_show(editor);
+    scale_show(editor);
     show_empty(editor, world);
     drawlist_set_clip(&editor->list, panel);
     show_look(editor);

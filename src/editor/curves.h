@@ -63,6 +63,10 @@ struct hover curves_hover(const struct editor *editor, const struct editor_world
 void curves_handle(const struct editor *editor, const struct document *document, const struct knot *knot, int end,
                    float xy[2]);
 
+/// The handle's length in pixels says how firmly the slope is held, 12 for each power of ten; and back.
+double handle_length(double stiffness);
+double handle_stiffness(double length);
+
 /// A press or wheel in the panel.
 void curves_press(struct editor *editor, const struct editor_world *world, const struct event *event);
 void curves_wheel(struct editor *editor, const struct event *event);

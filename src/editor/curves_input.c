@@ -103,6 +103,11 @@ static void press_knot(struct editor *editor, const struct editor_world *world, 
 static void press_empty(struct editor *editor, const struct editor_world *world, const struct hover *hover,
                         const struct event *event)
 {
+    if (event->clicks == 2 && hover->kind == HOVER_CURVE) {
+        insert_on_curve(editor, world, curves_frame(editor, event->x), drag_snaps(editor, event->mods),
+                        event->mods & MOD_SHIFT);
+        return;
+    }
     if (event->clicks == 2) {
         double value = round_value(curves_value(editor, event->y), 0.01 / curves_pixels_per_value(editor));
         insert_knot(editor, world, curves_frame(editor, event->x), value, drag_snaps(editor, event->mods));

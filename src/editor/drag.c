@@ -8,7 +8,8 @@
 static const float CLICK_REACH = 3;          ///< pixels that a click may wander
 static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
 static const double FINE = 0.1;              ///< of the pointer's way, with Shift
-static const float ORBIT_SPEED = 0.008f;     ///< radians a pixel
+static const double LENGTH_SLACK = 8;    ///< pixels by which a handle may be pulled before it says more than a slope
+static const float ORBIT_SPEED = 0.008f; ///< radians a pixel
 
 bool drag_snaps(const struct editor *editor, unsigned mods) { return editor->options.no_snap == !!(mods & MOD_CTRL); }
 
@@ -137,7 +138,7 @@ static void apply_knots(struct editor *editor, const struct editor_world *world)
     drag->free_frames = frames;
 }
 
-/// The slope that lets the held end of the handle point at the pointer.
+/// The slope that lets the held end of the handle point at the pointer; pulled out or pushed in, also the stiffness.
 static void apply_slope(struct editor *editor, const struct editor_world *world)
 {
     const struct drag *drag = &editor->drag;
@@ -153,6 +154,10 @@ static void apply_slope(struct editor *editor, const struct editor_world *world)
     edit.knot = *knot;
     double visible = editor->view.value1 - editor->view.value0;
     edit.knot.slope = round_value(-down / curves_pixels_per_value(editor) / seconds, SLOPE_RESOLUTION * visible);
+    double length = handle_length(knot->stiffness), longer = hypot(across, down) - length;
+    if (fabs(longer) > LENGTH_SLACK) {
+        edit.knot.stiffness = handle_stiffness(length + longer - copysign(LENGTH_SLACK, longer));
+    }
     history_restart(world->history, world->document);
     editor_edit(editor, world, &edit);
 }

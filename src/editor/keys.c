@@ -47,8 +47,7 @@ static void run_request(struct editor *e, const struct editor_world *w, int argu
 
 static void run_insert(struct editor *e, const struct editor_world *w, int argument)
 {
-    (void)argument;
-    insert_knot_at_playhead(e, w);
+    insert_on_curve(e, w, editor_frame(e, w->document), true, argument);
 }
 
 static void run_delete(struct editor *e, const struct editor_world *w, int argument)
@@ -74,6 +73,18 @@ static void run_toggle_slope(struct editor *e, const struct editor_world *w, int
 {
     (void)argument;
     toggle_slope(e, w);
+}
+
+static void run_flatten(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    flatten_slopes(e, w);
+}
+
+static void run_smooth(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    smooth_slopes(e, w);
 }
 
 static void run_slope(struct editor *e, const struct editor_world *w, int argument)
@@ -181,7 +192,8 @@ static const struct binding bindings[] = {
     {.key = 'S', .mods = MOD_CTRL | MOD_SHIFT, .run = run_save, .argument = REQUEST_SAVE_AS},
     {.key = KEY_F11, .any_time = true, .run = run_request, .argument = REQUEST_FULLSCREEN},
     {.key = KEY_F12, .any_time = true, .run = run_request, .argument = REQUEST_SCREENSHOT},
-    {.key = 'I', .run = run_insert},
+    {.key = 'I', .run = run_insert, .argument = false},
+    {.key = 'I', .mods = MOD_SHIFT, .run = run_insert, .argument = true},
     {.key = KEY_DELETE, .run = run_delete},
     {.key = KEY_BACKSPACE, .run = run_delete},
     {.key = 'A', .mods = MOD_CTRL, .run = run_select_all},
@@ -195,6 +207,8 @@ static const struct binding bindings[] = {
     {.key = KEY_PAGE_UP, .repeats = true, .run = activate_neighbour, .argument = -1},
     {.key = KEY_PAGE_DOWN, .repeats = true, .run = activate_neighbour, .argument = 1},
     {.key = 'T', .run = run_toggle_slope},
+    {.key = 'T', .mods = MOD_SHIFT, .run = run_flatten},
+    {.key = 'T', .mods = MOD_CTRL, .run = run_smooth},
     {.key = 'D', .repeats = true, .run = run_slope, .argument = -1},
     {.key = 'E', .repeats = true, .run = run_slope, .argument = 1},
     {.key = 'D', .mods = MOD_SHIFT, .repeats = true, .run = run_stiffness, .argument = -1},

@@ -4,8 +4,6 @@
 #include "editor/curves.h"
 #include <math.h>
 
-static const double FIRM = 1000; ///< stiffness of a new slope, 1/s (spec: default)
-
 uint64_t merge_key(const struct editor *editor, const struct editor_world *world, uint64_t kind)
 {
     const struct spline *spline = editor_active_spline(editor, world);
@@ -24,18 +22,16 @@ static void select_only(struct editor *editor, unsigned id)
     selection_set(&editor->selection, id, true);
 }
 
-void insert_knot(struct editor *editor, const struct editor_world *world, double frame, double value, bool snap)
+/// Inserts and selects a knot; where there is one on that sample already, that one is selected.
+static void insert_at(struct editor *editor, const struct editor_world *world, const struct knot *knot)
 {
     const struct document *document = world->document;
     const struct spline *spline = editor_active_spline(editor, world);
-    if (!spline || !isfinite(frame)) return;
-    double last = document_frame(document, document_last_knot_sample(document, spline));
-    frame = fmin(fmax(snap ? round(frame) : frame, document->first_frame), last);
-    int sample = document_sample(document, frame);
+    int sample = document_sample(document, knot->frame);
     int at = spline_find_knot(document, spline, sample);
     if (at < 0) {
         struct edit edit = editor_edit_of(EDIT_KNOT_INSERT, editor->active);
-        edit.knot = (struct knot){.frame = frame, .value = value, .stiffness = FIRM};
+        edit.knot = *knot;
         if (!editor_step(editor, world, "Insert knot", 0, &edit)) return;
         editor_reserve(editor, document);
         at = spline_find_knot(document, spline, sample);
@@ -43,17 +39,38 @@ void insert_knot(struct editor *editor, const struct editor_world *world, double
     if (at >= 0) select_only(editor, spline->knots[at].id);
 }
 
-void insert_knot_at_playhead(struct editor *editor, const struct editor_world *world)
+/// The frame for a knot of the active spline: a whole one when `snap`, inside the range.
+static double knot_frame(const struct editor *editor, const struct editor_world *world, double frame, bool snap)
 {
     const struct document *document = world->document;
     const struct spline *spline = editor_active_spline(editor, world);
-    if (!spline) return;
-    int last = document_last_knot_sample(document, spline);
-    double frame = round(editor_frame(editor, document));
-    int sample = document_sample(document, frame);
-    sample = sample < 0 ? 0 : sample > last ? last : sample;
-    wiggly_value v = curves_solved(world, editor->active, sample);
-    insert_knot(editor, world, document_frame(document, sample), v.y + v.re, false);
+    double last = document_frame(document, document_last_knot_sample(document, spline));
+    return fmin(fmax(snap ? round(frame) : frame, document->first_frame), last);
+}
+
+void insert_knot(struct editor *editor, const struct editor_world *world, double frame, double value, bool snap)
+{
+    if (!editor_active_spline(editor, world) || !isfinite(frame)) return;
+    const struct knot knot = {
+        .frame = knot_frame(editor, world, frame, snap), .value = value, .stiffness = KNOT_DEFAULT_STIFFNESS};
+    insert_at(editor, world, &knot);
+}
+
+void insert_on_curve(struct editor *editor, const struct editor_world *world, double frame, bool snap, bool slope)
+{
+    const struct document *document = world->document;
+    if (!editor_active_spline(editor, world) || !isfinite(frame)) return;
+    struct knot knot = {
+        .frame = knot_frame(editor, world, frame, snap), .stiffness = KNOT_DEFAULT_STIFFNESS, .has_slope = slope};
+    int sample = document_sample(document, knot.frame);
+    int next = sample + 1 < document_samples(document) ? sample + 1 : sample - 1;
+    wiggly_value here = curves_solved(world, editor->active, sample);
+    wiggly_value there = curves_solved(world, editor->active, next);
+    knot.value = here.y + here.re;
+    if (slope && next >= 0) {
+        knot.slope = (there.y + there.re - knot.value) / ((next - sample) * document_step(document));
+    }
+    insert_at(editor, world, &knot);
 }
 
 void remove_knots(struct editor *editor, const struct editor_world *world, const char *label)

@@ -1,14 +1,12 @@
-/// Changes by key: knots, slopes and parameters in small steps. Equal nudges of the same knots are one undo step.
+/// Changes by key: knots and parameters in small steps. Equal nudges of the same knots are one undo step.
 #include "editor/actions.h"
 #include "editor/curves.h"
 #include <math.h>
 #include <stdio.h>
 
 /// Kinds of nudges for merge_key().
-enum nudge_kind { NUDGE_FRAMES = 1, NUDGE_VALUE, NUDGE_SLOPE, NUDGE_STIFFNESS, NUDGE_PARAMETER = 100 };
+enum nudge_kind { NUDGE_FRAMES = 1, NUDGE_VALUE, NUDGE_PARAMETER = 100 };
 
-static const double FIRM = 1000;             ///< stiffness where a knot has none yet, 1/s (spec: default)
-static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
 static const double TAU = 6.283185307179586;
 
 /// Where the selected knots would collide with others, or leave the range, when shifted.
@@ -58,71 +56,6 @@ void nudge_knots(struct editor *editor, const struct editor_world *world, double
         editor_edit(editor, world, &edit);
     }
     history_end(world->history);
-}
-
-/// The curve's slope around a knot, in values a second, for a slope that changes as little as possible.
-static double slope_at(const struct editor *editor, const struct editor_world *world, const struct knot *knot)
-{
-    double sample = document_sample(world->document, knot->frame);
-    wiggly_value before = curves_solved(world, editor->active, sample - 0.5);
-    wiggly_value after = curves_solved(world, editor->active, sample + 0.5);
-    double slope = (after.y + after.re - before.y - before.re) / document_step(world->document);
-    return isfinite(slope) ? slope : 0;
-}
-
-/// Calls for a change of every selected knot as one step.
-struct knot_change {
-    const char *label;
-    uint64_t kind;    ///< for merging, 0: never
-    bool on;          ///< slopes are switched on where they are not, or off
-    double slope;     ///< added
-    double stiffness; ///< multiplied
-};
-
-static void change_knots(struct editor *editor, const struct editor_world *world, const struct knot_change *change)
-{
-    struct spline *spline = editor_active_spline(editor, world);
-    if (selection_count(&editor->selection, spline) == 0 || history_is_open(world->history)) return;
-    double visible = editor->view.value1 - editor->view.value0;
-    history_begin(world->history, change->label, change->kind ? merge_key(editor, world, change->kind) : 0);
-    for (int k = 0; k < spline->knot_count; k++) {
-        const struct knot *knot = &spline->knots[k];
-        if (!selection_has(&editor->selection, knot->id)) continue;
-        struct edit edit = editor_edit_of(EDIT_KNOT_SET, editor->active);
-        edit.knot = *knot;
-        if (change->on && !knot->has_slope) edit.knot.slope = slope_at(editor, world, knot);
-        if (!(knot->stiffness > 0)) edit.knot.stiffness = FIRM;
-        edit.knot.has_slope = change->on;
-        bool changes = change->slope != 0 || (change->on && !knot->has_slope);
-        if (changes) edit.knot.slope = round_value(edit.knot.slope + change->slope, SLOPE_RESOLUTION * visible);
-        edit.knot.stiffness = fmin(fmax(edit.knot.stiffness * change->stiffness, 1e-3), 1e9);
-        editor_edit(editor, world, &edit);
-    }
-    history_end(world->history);
-}
-
-void nudge_slope(struct editor *editor, const struct editor_world *world, double share)
-{
-    double visible = editor->view.value1 - editor->view.value0;
-    struct knot_change change = {"Change slope", NUDGE_SLOPE, true, share * visible, 1};
-    change_knots(editor, world, &change);
-}
-
-void nudge_stiffness(struct editor *editor, const struct editor_world *world, double factor)
-{
-    struct knot_change change = {"Change stiffness", NUDGE_STIFFNESS, true, 0, factor};
-    change_knots(editor, world, &change);
-}
-
-void toggle_slope(struct editor *editor, const struct editor_world *world)
-{
-    const struct spline *spline = editor_active_spline(editor, world);
-    bool all = true;
-    for (int k = 0; spline && k < spline->knot_count; k++) {
-        if (selection_has(&editor->selection, spline->knots[k].id)) all &= spline->knots[k].has_slope;
-    }
-    struct knot_change change = {all ? "Slope off" : "Slope on", 0, !all, 0, 1};
-    change_knots(editor, world, &change);
 }
 
 const struct channel *active_channel(const struct editor *editor, const struct document *document, int *tail,

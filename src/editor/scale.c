@@ -4,6 +4,7 @@
 /// between the knots scales with them.
 #include "editor/actions.h"
 #include "editor/curves.h"
+#include "ui/theme.h"
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -46,14 +47,11 @@ static void say(struct editor *editor, struct factors by)
     char factor[48];
     snprintf(factor, sizeof factor, "%.3g", drag->lock_y ? by.value : by.time);
     if (scaling->typed[0]) snprintf(factor, sizeof factor, "%s_", scaling->typed);
-    snprintf(
-        editor->scaling.sentence, sizeof scaling->sentence,
-        "Scale%s by %s about the %s (P: the %s); X, Y one axis; type a factor; click or Enter keeps, Esc cancels",
-        drag->lock_x   ? " time"
-        : drag->lock_y ? " value"
-                       : "",
-        factor, scaling->about_playhead ? "playhead and equilibrium" : "selection's middle",
-        scaling->about_playhead ? "selection's middle" : "playhead");
+    const char *axis = drag->lock_x ? " time" : drag->lock_y ? " value" : "";
+    const char *pivots[] = {"middle", "playhead"};
+    snprintf(editor->scaling.sentence, sizeof scaling->sentence,
+             "Scale%s by %s about the %s (P: the %s). X, Y: one axis. Enter keeps, Esc cancels", axis, factor,
+             pivots[scaling->about_playhead], pivots[!scaling->about_playhead]);
 }
 
 void scale_begin(struct editor *editor, const struct editor_world *world)
@@ -165,6 +163,18 @@ void scale_apply(struct editor *editor, const struct editor_world *world)
     editor->scaling.free_time = by.time;
     move_all(editor, world, by);
     say(editor, by);
+}
+
+void scale_show(struct editor *editor)
+{
+    const struct scaling *scaling = &editor->scaling;
+    if (editor->drag.kind != DRAG_SCALE) return;
+    const float x = curves_x(editor, scaling->frame), y = curves_y(editor, scaling->value), arm = 7;
+    const float across[] = {x - arm, y, x + arm, y}, down[] = {x, y - arm, x, y + arm};
+    const float line[] = {x, y, editor->drag.x, editor->drag.y};
+    if (!scaling->typed[0]) drawlist_dashed(&editor->list, line, 2, 1, 3, 4, theme_fade(THEME_PLAYHEAD, 0.5f));
+    if (!editor->drag.lock_y) drawlist_line(&editor->list, across, 2, 1.5f, THEME_PLAYHEAD);
+    if (!editor->drag.lock_x) drawlist_line(&editor->list, down, 2, 1.5f, THEME_PLAYHEAD);
 }
 
 /// Digits, sign and point of a typed factor; Backspace takes the last one back.
