@@ -97,7 +97,7 @@ static void check_status(struct session *f)
         editor_message(f->editor, true, messages[m]);
         show(f);
         status_show(f->editor, &f->world);
-        assert_int_equal(assert_texts_apart(&f->editor->list, 0, f->editor->layout.status), 4);
+        assert_int_equal(assert_texts_apart(&f->editor->list, 0, f->editor->layout.status), 6);
     }
 }
 
@@ -107,10 +107,12 @@ static void check_dialogs(struct session *f)
     struct edit edit = editor_edit_of(EDIT_START, 0);
     edit.start = WIGGLY_REST;
     assert_true(editor_step(f->editor, &f->world, "Change start", 0, &edit));
-    for (int kind = 0; kind < 3; kind++) {
+    for (int kind = 0; kind < 4; kind++) {
         if (kind == 0) dialog_ask_open(f->editor);
         if (kind == 1) dialog_ask_save_as(f->editor);
         if (kind == 2) dialog_leave(f->editor, &f->world, &quit);
+        if (kind == 3)
+            editor_offer_recovery(f->editor, &(struct recovery_offer){"walk.json", "1 May 2026, 10:00", 2});
         for (int failed = 0; failed < 2; failed++) {
             show(f);
             dialog_show(f->editor);

@@ -9,7 +9,7 @@ static const double replay_dt = 1.0 / 60;
 static const double frame_time = 1.0 / 60; ///< the limiter's: a swap interval of 1 does not hold everywhere
 static const double idle_wait = 0.5;
 static const float smallest_width = 320, smallest_height = 240; ///< of the layout; less shows a part of it
-static const double longest_step = 0.1;                         ///< after a stall playback goes on, it does not jump
+static const double longest_step = 1; ///< after a longer stall playback goes on from where it was
 
 static double microseconds(double from, double to) { return 1e6 * (to - from); }
 
@@ -69,6 +69,7 @@ static bool take_input(struct app *app)
 {
     double wait_start = clock_now();
     bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->editor) || app->paste;
+    app->was_idle = !wanted;
     int count = 0;
     const struct event *events = platform_events(app->platform, waiting_time(app, wanted), &count);
     if (!wanted && count == 0) return false;
@@ -91,7 +92,7 @@ static void edit(struct app *app)
 {
     double start = clock_now();
     double dt = app->fixed_clock ? replay_dt : fmin(fmax(app->frame_start - app->last_time, 0), longest_step);
-    if (app->frame == 0) dt = 0;
+    if (app->frame == 0 || (app->was_idle && !app->fixed_clock)) dt = 0; // what starts now has not waited since then
     app->last_time = app->frame_start;
     app->next_time = fmax(app->next_time + frame_time, app->frame_start);
     struct editor_world world = app_world(app);

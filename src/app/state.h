@@ -36,6 +36,7 @@ struct app {
     struct frame_row row; ///< of the frame in progress
     double frame_start, oldest_event;
     bool fixed_clock;     ///< every frame is 1/60 s (headless, replays, recordings)
+    bool was_idle;        ///< nothing moved by itself before this frame
     bool lost;            ///< the framebuffer does not hold the last frame
     double process_start; ///< on the clock
     double last_time, next_time, stats_time;

@@ -2,6 +2,7 @@
 #ifndef EDITOR_ACTIONS_H
 #define EDITOR_ACTIONS_H
 
+#include "editor/playback.h"
 #include "editor/state.h"
 
 /// Whether knots go to whole frames: Ctrl turns around what the panel is set to.
@@ -94,14 +95,6 @@ void select_neighbour(struct editor *editor, const struct editor_world *world, i
 void activate_neighbour(struct editor *editor, const struct editor_world *world, int direction);
 /// A number for history_begin(): the same for the same kind of nudge of the same knots.
 uint64_t merge_key(const struct editor *editor, const struct editor_world *world, uint64_t kind);
-
-void playback_toggle(struct editor *editor, const struct editor_world *world);
-void playback_advance(struct editor *editor, const struct editor_world *world, double dt);
-/// Stops and goes to the next whole frame in a direction, or to an end of the range.
-void playback_step(struct editor *editor, const struct editor_world *world, int direction);
-void playback_end(struct editor *editor, const struct editor_world *world, int direction);
-/// Stops and shows a frame.
-void playback_seek(struct editor *editor, const struct document *document, double frame);
 
 /// A press or wheel on the stage.
 void stage_press(struct editor *editor, const struct editor_world *world, const struct event *event);

@@ -1,5 +1,6 @@
 /// The curves panel's background: grids with round steps, numbers at the left, frames on top.
 #include "editor/curves.h"
+#include "editor/playback.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -155,10 +156,12 @@ void grid_show(struct editor *editor, const struct editor_world *world)
     struct rect clip = drawlist_push_clip(&editor->list, layout->plot);
     shade_outside(editor, world->document);
     draw_lines(editor, times, unit, values);
+    range_show_plot(editor, world->document);
     drawlist_set_clip(&editor->list, clip);
     drawlist_rect(&editor->list, (struct rect){layout->ruler.x, layout->plot.y - 1, layout->ruler.w, 1},
                   THEME_BORDER);
     clip = drawlist_push_clip(&editor->list, layout->ruler);
+    range_show_ruler(editor, world->document);
     number_frames(editor, world->document, times);
     drawlist_set_clip(&editor->list, clip);
     show_units(editor);

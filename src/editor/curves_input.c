@@ -117,6 +117,17 @@ static void press_empty(struct editor *editor, const struct editor_world *world,
     box_begin(editor, event);
 }
 
+static void press_ruler(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    if (event->mods & MOD_SHIFT) {
+        range_begin(editor, event);
+        return;
+    }
+    double frame = curves_frame(editor, event->x);
+    drag_begin(editor, DRAG_SCRUB, event);
+    playback_seek(editor, world->document, drag_snaps(editor, event->mods) ? round(frame) : frame);
+}
+
 void curves_press(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     bool pan = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && editor->space_down);
@@ -129,8 +140,7 @@ void curves_press(struct editor *editor, const struct editor_world *world, const
     struct hover hover = curves_hover(editor, world, event->x, event->y);
     switch (hover.kind) {
     case HOVER_RULER:
-        drag_begin(editor, DRAG_SCRUB, event);
-        playback_seek(editor, world->document, round(curves_frame(editor, event->x)));
+        press_ruler(editor, world, event);
         break;
     case HOVER_UNITS:
         ruler_toggle(editor);

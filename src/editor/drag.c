@@ -217,6 +217,7 @@ static void move_pointer(struct editor *editor, const struct editor_world *world
         double frame = curves_frame(editor, event->x);
         playback_seek(editor, world->document, drag->snap ? round(frame) : frame);
     }
+    if (drag->kind == DRAG_RANGE) range_drag(editor, world->document, event->x);
     if (drag->kind == DRAG_BOX) box_update(editor, world);
     if (!edits_document(drag)) drag->moved_x = drag->moved_y = 0;
 }
@@ -244,6 +245,7 @@ void drag_end(struct editor *editor, const struct editor_world *world, bool keep
         selection_clear(&editor->selection);
         selection_set(&editor->selection, drag->knot, true);
     }
+    if (drag->kind == DRAG_RANGE) range_end(editor, keep);
     if (drag->kind == DRAG_BOX) box_end(editor, keep);
     drag->kind = DRAG_NONE;
     editor->ghost.visible = false;

@@ -124,7 +124,7 @@ void editor_open(struct editor *editor, const struct editor_world *world, const 
     editor->held_key = 0;
     editor->space_down = false;
     editor->message = (struct message){0};
-    editor->playback = (struct playback){.looping = true};
+    editor->playback = (struct playback){.looping = true, .speed = 1};
     for (int s = 0; s < document->spline_count; s++) {
         editor->playback.playing |= document->splines[s].start == WIGGLY_LOOP;
     }

@@ -17,6 +17,8 @@ static void press(struct editor *editor, const struct editor_world *world, const
         curves_press(editor, world, event);
     } else if (rect_contains(editor->layout.stage, event->x, event->y)) {
         stage_press(editor, world, event);
+    } else {
+        transport_event(editor, world, event);
     }
 }
 
@@ -33,6 +35,7 @@ static void dispatch(struct editor *editor, const struct editor_world *world, co
         break;
     case EVENT_WHEEL:
         if (rect_contains(editor->layout.curves, event->x, event->y)) curves_wheel(editor, event);
+        if (rect_contains(editor->layout.status, event->x, event->y)) transport_event(editor, world, event);
         if (rect_contains(editor->layout.stage, event->x, event->y)) stage_wheel(editor, event);
         break;
     case EVENT_PASTE:
@@ -119,6 +122,7 @@ static void update_hover(struct editor *editor, const struct editor_world *world
     if (editor->dialog.kind != DIALOG_NONE || editor->help.open || divider_at(editor, x, y) != DRAG_NONE) return;
     if (rect_contains(editor->layout.curves, x, y)) editor->hover = curves_hover(editor, world, x, y);
     if (rect_contains(editor->layout.stage, x, y)) editor->hover = stage_hover(editor, x, y);
+    if (rect_contains(editor->layout.status, x, y)) editor->hover = transport_hover(editor, x, y);
 }
 
 static void show_dividers(struct editor *editor)
@@ -150,6 +154,7 @@ int editor_cursor(const struct editor *editor)
         [DRAG_BOX] = SHAPE_ARROW,
         [DRAG_SCALE] = SHAPE_MOVE,
         [DRAG_SCRUB] = SHAPE_HORIZONTAL,
+        [DRAG_RANGE] = SHAPE_HORIZONTAL,
         [DRAG_STAGE_PAN] = SHAPE_MOVE,
         [DRAG_GRAB] = SHAPE_HAND,
         [DRAG_BODY] = SHAPE_MOVE,
@@ -159,7 +164,8 @@ int editor_cursor(const struct editor *editor)
     static const enum pointer_shape of_hover[] = {
         [HOVER_NONE] = SHAPE_ARROW, [HOVER_KNOT] = SHAPE_MOVE,        [HOVER_SLOPE] = SHAPE_MOVE,
         [HOVER_CURVE] = SHAPE_HAND, [HOVER_RULER] = SHAPE_HORIZONTAL, [HOVER_JOINT] = SHAPE_HAND,
-        [HOVER_UNITS] = SHAPE_HAND, [HOVER_BODY] = SHAPE_MOVE,
+        [HOVER_UNITS] = SHAPE_HAND, [HOVER_BODY] = SHAPE_MOVE,        [HOVER_PLAY] = SHAPE_HAND,
+        [HOVER_LOOP] = SHAPE_HAND,  [HOVER_SPEED] = SHAPE_HAND,
     };
     static const enum pointer_shape of_widget[] = {
         [UI_OVER_NOTHING] = SHAPE_ARROW, [UI_OVER_NUMBER] = SHAPE_HORIZONTAL, [UI_OVER_TEXT] = SHAPE_TEXT};

@@ -103,14 +103,6 @@ static void run_mode(struct editor *e, const struct editor_world *w, int argumen
     cycle_mode(e, w);
 }
 
-static void run_loop(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)w;
-    (void)argument;
-    e->playback.looping = !e->playback.looping;
-    editor_message(e, false, e->playback.looping ? "Playback loops over the range." : "Playback stops at the end.");
-}
-
 static void run_frame(struct editor *e, const struct editor_world *w, int argument)
 {
     if (!argument && rect_contains(e->layout.stage, e->pointer_x, e->pointer_y)) {
@@ -224,7 +216,12 @@ static const struct binding bindings[] = {
     {.key = KEY_RIGHT, .repeats = true, .run = playback_step, .argument = 1},
     {.key = KEY_LEFT, .mods = MOD_SHIFT, .run = playback_end, .argument = -1},
     {.key = KEY_RIGHT, .mods = MOD_SHIFT, .run = playback_end, .argument = 1},
-    {.key = 'L', .mods = MOD_CTRL, .run = run_loop},
+    {.key = 'L', .mods = MOD_CTRL, .run = playback_toggle_loop},
+    {.key = '[', .run = range_mark, .argument = 0},
+    {.key = ']', .run = range_mark, .argument = 1},
+    {.key = '-', .any_time = true, .run = playback_change_speed, .argument = -1},
+    {.key = '=', .any_time = true, .run = playback_change_speed, .argument = 1},
+    {.key = '+', .any_time = true, .run = playback_change_speed, .argument = 1},
     {.key = KEY_HOME, .run = run_frame, .argument = 0},
     {.key = KEY_END, .run = run_frame, .argument = 1},
     {.key = 'V', .any_time = true, .run = run_look},

@@ -48,6 +48,7 @@ bool inspector_target(struct editor *editor, const struct editor_world *world, c
 struct status {
     double age;           ///< seconds since the figures were taken over
     double fps, solve_us; ///< as shown
+    long dropped;
 };
 
 /// Time passes (editor_advance): the figures change at most twice a second, so that they cost no redraws.

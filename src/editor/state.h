@@ -62,6 +62,7 @@ enum drag_kind {
     DRAG_BOX,
     DRAG_SCALE, ///< without a button: begun by S, ended by a click or Enter
     DRAG_SCRUB,
+    DRAG_RANGE,
     DRAG_PAN,
     DRAG_ORBIT,
     DRAG_STAGE_PAN,
@@ -152,6 +153,9 @@ enum hover_kind {
     HOVER_UNITS,
     HOVER_JOINT,
     HOVER_BODY,
+    HOVER_PLAY,
+    HOVER_LOOP,
+    HOVER_SPEED,
 };
 
 struct hover {
@@ -166,8 +170,14 @@ struct hover {
 
 struct playback {
     bool playing;
-    bool looping;    ///< over the scene's range (Ctrl+L)
+    bool looping;    ///< over the range that is played (Ctrl+L)
     double position; ///< in samples; may lie between two
+    double speed;    ///< 1: real time
+    long dropped;    ///< frames of the scene that no picture showed, since it plays
+    bool has_range;  ///< a part is played: these frames
+    double range[2];
+    bool had_range; ///< the same before a drag
+    double old_range[2];
 };
 
 /// A curve in logical pixels, a vertex for each column of the cache.

@@ -1,4 +1,5 @@
 /// The status line: where playback is, which scene, and one sentence: a message, or what the pointer is over.
+#include "editor/playback.h"
 #include "editor/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -17,6 +18,7 @@ void status_advance(struct editor *editor, double dt)
     status->age = 0;
     status->fps = editor->fps;
     status->solve_us = editor->solve_us;
+    status->dropped = editor->playback.dropped;
 }
 
 static const char *hover_hint(const struct editor *editor, const struct document *document)
@@ -30,31 +32,25 @@ static const char *hover_hint(const struct editor *editor, const struct document
     case HOVER_CURVE:
         return editor->hover.spline == editor->active ? "Double-click to insert a knot" : "Click to edit this spline";
     case HOVER_RULER:
-        return "Drag to scrub";
+        return "Drag to scrub; Shift+drag: play only a part, Shift+click: all again";
     case HOVER_UNITS:
         return "Click to count frames or seconds (U)";
     case HOVER_JOINT:
         return "Pull the tail: it sets the knot at the playhead";
     case HOVER_BODY:
         return "Drag the body: the tail follows through (X, Y along one axis, Shift fine)";
+    case HOVER_PLAY:
+        return "Play, pause (Space)";
+    case HOVER_LOOP:
+        return "Loop, or stop at the end (Ctrl+L)";
+    case HOVER_SPEED:
+        return "Faster; Shift: slower; right button: real time (- and =, or the wheel)";
     case HOVER_NONE:
         break;
     }
     if (document->spline_count == 0) return "Ctrl+O opens a scene.  F1 shows all keys";
     if (document->tail_count == 0) return "Drag a knot.  Space plays, F1 shows all keys";
     return "Drag a knot, or pull the tail.  Space plays, F1 shows all keys";
-}
-
-/// A triangle while it plays, else two bars.
-static void paint_play_state(struct drawlist *list, float x, float y, bool playing)
-{
-    if (playing) {
-        const float triangle[6] = {x, y - 5, x + 9, y, x, y + 5};
-        drawlist_convex(list, triangle, 3, THEME_ACCENT);
-    } else {
-        drawlist_rect(list, (struct rect){x, y - 5, 3, 10}, THEME_TEXT_DIM);
-        drawlist_rect(list, (struct rect){x + 5, y - 5, 3, 10}, THEME_TEXT_DIM);
-    }
 }
 
 static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
@@ -65,15 +61,14 @@ static void paint_text(struct drawlist *list, struct rect r, enum font font, uin
 }
 
 /// Frame and time, in a column whose width does not depend on them; returns the column's right end.
-static float show_time(struct editor *editor, const struct document *document, struct rect bar)
+static float show_time(struct editor *editor, const struct document *document, struct rect bar, float x)
 {
     char text[64];
     double frame = editor_frame(editor, document);
     snprintf(text, sizeof text, "%5.0f  %6.2f s", round(frame), frame / document->fps);
-    paint_play_state(&editor->list, bar.x + 12, bar.y + bar.h / 2, editor->playback.playing);
     float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-    paint_text(&editor->list, (struct rect){bar.x + 28, bar.y, width, bar.h}, FONT_NUMBER, THEME_TEXT, text);
-    return bar.x + 28 + width;
+    paint_text(&editor->list, (struct rect){x, bar.y, width, bar.h}, FONT_NUMBER, THEME_TEXT, text);
+    return x + width;
 }
 
 /// The scene's name, with a dot while it has unsaved changes; returns its right end.
@@ -92,8 +87,10 @@ static float show_title(struct editor *editor, const struct editor_world *world,
 static void figures_text(const struct editor *editor, char *text, size_t size)
 {
     const struct status *status = &editor->status;
-    char fps[24] = "", solve[32] = "";
-    if (editor->playback.playing && status->fps > 0) snprintf(fps, sizeof fps, "%.0f fps", status->fps);
+    char fps[64] = "", solve[32] = "";
+    if (editor->playback.playing && status->fps > 0) {
+        snprintf(fps, sizeof fps, "%.0f fps  %ld dropped", status->fps, status->dropped);
+    }
     if (status->solve_us >= SOLVED) snprintf(solve, sizeof solve, "solve %.0f µs", status->solve_us);
     snprintf(text, size, "%s%s%s", fps, fps[0] && solve[0] ? "  " : "", solve);
 }
@@ -105,9 +102,9 @@ void status_show(struct editor *editor, const struct editor_world *world)
     const struct message *message = &editor->message;
     drawlist_rect(&editor->list, bar, THEME_PANEL);
     drawlist_rect(&editor->list, (struct rect){bar.x, bar.y, bar.w, 1}, THEME_BORDER);
-    float x = show_time(editor, world->document, bar) + GAP;
+    float x = show_time(editor, world->document, bar, transport_show(editor)) + GAP;
     x = show_title(editor, world, bar, x) + GAP;
-    char figures[64];
+    char figures[128];
     figures_text(editor, figures, sizeof figures);
     float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
     float right = bar.x + bar.w - 12 - width;

@@ -1,0 +1,253 @@
+/// Playback: the real clock, speed, the part that is played, and scrubbing.
+#include "panel_session.h"
+
+#include "editor/playback.h"
+
+/// 24 frames a second, two samples a frame: a position of 2 is one frame.
+static const char scene[] =
+    "{\"frames\": [0, 100], \"substeps\": 2, \"splines\": [{\"name\": \"sway\", \"frequency\": 1, "
+    "\"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 40, \"value\": 1}]}]}";
+
+static double frame_of(const struct session *session) { return editor_frame(session->editor, session->document); }
+
+/// One picture after `dt` seconds.
+static void pass(struct session *session, double dt) { editor_advance(session->editor, &session->world, dt); }
+
+static void open_at(struct session *session, double frame)
+{
+    panel_open(session, scene, 1280, 720);
+    playback_seek(session->editor, session->document, frame);
+}
+
+static void test_real_time(void **state)
+{
+    (void)state;
+    struct session s;
+    open_at(&s, 10);
+    session_key(&s, KEY_SPACE, 0); // its frame is 1/60 s
+    pass(&s, 0.5);
+    pass(&s, 0.25);
+    assert_near(frame_of(&s), 10 + 24 * (0.75 + 1.0 / 60), 1e-9);
+    session_close(&s);
+}
+
+static void test_speed(void **state)
+{
+    (void)state;
+    struct session s;
+    open_at(&s, 10);
+    static const double slower[] = {0.5, 0.25, 0.1, 0.1}, faster[] = {0.25, 0.5, 1, 2, 4, 4};
+    for (int i = 0; i < 4; i++) {
+        session_key(&s, '-', 0);
+        assert_near(s.editor->playback.speed, slower[i], 0);
+    }
+    s.editor->playback.playing = true;
+    pass(&s, 1);
+    assert_near(frame_of(&s), 12.4, 1e-9);
+    for (int i = 0; i < 6; i++) {
+        session_key(&s, '=', 0);
+        assert_near(s.editor->playback.speed, faster[i], 0);
+    }
+    playback_seek(s.editor, s.document, 0);
+    s.editor->playback.playing = true;
+    pass(&s, 0.5);
+    assert_near(frame_of(&s), 48, 1e-9);
+    assert_true(history_is_saved(s.history)); // a matter of the view
+    session_close(&s);
+}
+
+/// Whatever the time between pictures, the clock is kept; whole frames without a picture are counted.
+static void test_dropped_frames(void **state)
+{
+    (void)state;
+    struct session s;
+    open_at(&s, 0);
+    session_key(&s, KEY_SPACE, 0);
+    for (int i = 0; i < 119; i++) pass(&s, 1.0 / 60);
+    assert_int_equal(s.editor->playback.dropped, 0);
+    assert_near(frame_of(&s), 48, 1e-9);
+    pass(&s, 0.25); // from 48 to 54: 49 … 53 were not shown
+    assert_int_equal(s.editor->playback.dropped, 5);
+    pass(&s, 0.3125); // to 61.5: nor 55 … 60
+    assert_int_equal(s.editor->playback.dropped, 11);
+    session_key(&s, KEY_SPACE, 0);
+    session_key(&s, KEY_SPACE, 0); // counted from the start of playing
+    assert_int_equal(s.editor->playback.dropped, 0);
+    session_close(&s);
+}
+
+/// What a display of 60 pictures a second cannot show at four times the speed was not dropped.
+static void test_fast_is_not_dropped(void **state)
+{
+    (void)state;
+    struct session s;
+    open_at(&s, 0);
+    s.editor->playback.speed = 4;
+    session_key(&s, KEY_SPACE, 0);
+    for (int i = 0; i < 200; i++) pass(&s, 1.0 / 60);
+    assert_int_equal(s.editor->playback.dropped, 0);
+    session_close(&s);
+}
+
+static void test_part(void **state)
+{
+    (void)state;
+    struct session s;
+    open_at(&s, 20);
+    session_key(&s, '[', 0);
+    playback_seek(s.editor, s.document, 30);
+    session_key(&s, ']', 0);
+    playback_seek(s.editor, s.document, 80);
+    session_key(&s, KEY_SPACE, 0); // from outside it begins at the start
+    assert_near(frame_of(&s), 20 + 0.4, 1e-9);
+    pass(&s, 0.25);
+    assert_near(frame_of(&s), 26.4, 1e-9);
+    pass(&s, 0.25); // 32.4: around
+    assert_near(frame_of(&s), 22.4, 1e-9);
+    session_key(&s, 'L', MOD_CTRL);
+    pass(&s, 1);
+    assert_near(frame_of(&s), 30, 1e-9); // no loop: stops at its end
+    assert_false(editor_is_playing(s.editor));
+    session_key(&s, KEY_SPACE, 0);
+    assert_near(frame_of(&s), 20.4, 1e-9);
+    session_close(&s);
+}
+
+static float x_of(const struct session *s, double frame)
+{
+    const struct rect *plot = &s->editor->layout.plot;
+    const struct view *view = &s->editor->view;
+    return plot->x + plot->w * (float)((frame - view->frame0) / (view->frame1 - view->frame0));
+}
+
+static void ruler_at(struct session *session, double frame)
+{
+    session_move(session, x_of(session, frame), session->editor->layout.ruler.y + 10);
+}
+
+static void assert_range(const struct session *session, double first, double last)
+{
+    double range[2];
+    playback_range(session->editor, session->document, range);
+    assert_near(range[0], first, 0);
+    assert_near(range[1], last, 0);
+}
+
+static void test_part_on_the_ruler(void **state)
+{
+    (void)state;
+    struct session s;
+    open_at(&s, 5);
+    s.mods = MOD_SHIFT;
+    ruler_at(&s, 60.2);
+    session_press(&s, BUTTON_LEFT, 1);
+    ruler_at(&s, 40.3);
+    assert_range(&s, 40, 60);
+    session_release(&s, BUTTON_LEFT);
+    assert_near(frame_of(&s), 5, 0); // the playhead stays
+    session_press(&s, BUTTON_LEFT, 1);
+    ruler_at(&s, 90);
+    assert_range(&s, 40, 90);
+    session_key(&s, KEY_ESCAPE, 0); // takes the drag back
+    assert_range(&s, 40, 60);
+    session_release(&s, BUTTON_LEFT);
+    struct error error = {0};
+    struct edit edit = {.kind = EDIT_RANGE, .first = 0, .last = 50};
+    history_begin(s.history, "Range", 0);
+    assert_true(history_apply(s.history, s.document, &edit, &error));
+    history_end(s.history);
+    assert_range(&s, 40, 50); // what the scene still has of it
+    history_undo(s.history, s.document);
+    session_press(&s, BUTTON_LEFT, 1);
+    session_release(&s, BUTTON_LEFT);
+    assert_range(&s, 0, 100);
+    session_close(&s);
+}
+
+/// A part without an end, or with all of the scene in it, is all of it.
+static void test_no_part(void **state)
+{
+    (void)state;
+    struct session s;
+    open_at(&s, 40);
+    session_key(&s, ']', 0);
+    assert_range(&s, 0, 40);
+    playback_seek(s.editor, s.document, 60);
+    session_key(&s, '[', 0); // after its end: to the scene's end
+    assert_range(&s, 60, 100);
+    playback_seek(s.editor, s.document, 0);
+    session_key(&s, '[', 0);
+    assert_range(&s, 0, 100);
+    assert_false(s.editor->playback.has_range);
+    session_close(&s);
+}
+
+/// Scrubbing shows frames exactly, and what lies between them with Ctrl, from the press on.
+static void test_scrubbing(void **state)
+{
+    (void)state;
+    struct session s;
+    open_at(&s, 0);
+    for (double frame = 7; frame < 90; frame += 13) {
+        ruler_at(&s, frame + 0.3);
+        session_press(&s, BUTTON_LEFT, 1);
+        assert_true(s.editor->playback.position == 2 * frame); // bit for bit a sample
+        ruler_at(&s, frame + 1.4);
+        assert_true(s.editor->playback.position == 2 * (frame + 1));
+        session_release(&s, BUTTON_LEFT);
+    }
+    s.mods = MOD_CTRL;
+    ruler_at(&s, 33.4);
+    session_press(&s, BUTTON_LEFT, 1);
+    assert_near(frame_of(&s), 33.4, 0.01);
+    ruler_at(&s, 35.6);
+    assert_near(frame_of(&s), 35.6, 0.01);
+    session_release(&s, BUTTON_LEFT);
+    session_close(&s);
+}
+
+static void click_on(struct session *session, enum transport control, enum event_button button)
+{
+    struct rect r = transport_rect(session->editor, control);
+    session_move(session, r.x + r.w / 2, r.y + r.h / 2);
+    session_press(session, button, 1);
+    session_release(session, button);
+}
+
+static void test_controls(void **state)
+{
+    (void)state;
+    struct session s;
+    open_at(&s, 10);
+    click_on(&s, TRANSPORT_PLAY, BUTTON_LEFT);
+    assert_true(editor_is_playing(s.editor));
+    click_on(&s, TRANSPORT_PLAY, BUTTON_LEFT);
+    assert_false(editor_is_playing(s.editor));
+    click_on(&s, TRANSPORT_LOOP, BUTTON_LEFT);
+    assert_false(s.editor->playback.looping);
+    click_on(&s, TRANSPORT_SPEED, BUTTON_LEFT);
+    assert_near(s.editor->playback.speed, 2, 0);
+    s.mods = MOD_SHIFT;
+    click_on(&s, TRANSPORT_SPEED, BUTTON_LEFT);
+    click_on(&s, TRANSPORT_SPEED, BUTTON_LEFT);
+    assert_near(s.editor->playback.speed, 0.5, 0);
+    s.mods = 0;
+    session_wheel(&s, -1);
+    assert_near(s.editor->playback.speed, 0.25, 0);
+    click_on(&s, TRANSPORT_SPEED, BUTTON_RIGHT);
+    assert_near(s.editor->playback.speed, 1, 0);
+    assert_int_equal(s.document->splines[0].knot_count, 2);
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_real_time),      cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_dropped_frames), cmocka_unit_test(test_fast_is_not_dropped),
+        cmocka_unit_test(test_part),           cmocka_unit_test(test_part_on_the_ruler),
+        cmocka_unit_test(test_no_part),        cmocka_unit_test(test_scrubbing),
+        cmocka_unit_test(test_controls),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
