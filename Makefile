@@ -33,7 +33,8 @@ endif
 VERSION := $(shell sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h)
 SOURCES := $(sort $(shell find src -name '*.c'))
 LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/base/status.c
-EMBEDDED := $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json)
+EMBEDDED := $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json \
+    assets/scenes/figure*.json)
 TOOLS := $(basename $(notdir $(wildcard tools/*.c)))
 TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))
 TEST_SUPPORT := $(filter-out tests/test_%.c,$(wildcard tests/*.c))

@@ -145,7 +145,7 @@ static inline void session_open(struct session *session, const char *scene)
     session->editor = editor_create(&error);
     if (!session->editor) fail_msg("%s", error.text);
     session->world = (struct editor_world){session->document, session->history, &session->evaluation};
-    editor_open(session->editor, &session->world, "test");
+    editor_open(session->editor, &session->world);
     if (editor_is_playing(session->editor)) session_key(session, KEY_SPACE, 0);
     session_frame(session);
 }

@@ -114,7 +114,7 @@ static void test_mouse_in_the_list(void **state)
     session_key(&s, 'O', MOD_CTRL);
     click(&s, "two.json", 2);
     expect_request(&s, REQUEST_OPEN, "two.json");
-    editor_open(s.editor, &s.world, "two.json");
+    editor_open(s.editor, &s.world);
     session_key(&s, 'O', MOD_CTRL);
     session_frame(&s);
     click(&s, "walk.json", 1); // one click opens a recent file
@@ -145,7 +145,7 @@ static void test_recover(void **state)
     assert_int_equal(s.editor->dialog.kind, DIALOG_RECOVER);
     session_key(&s, 'R', 0);
     expect_request(&s, REQUEST_RECOVER, "");
-    editor_open(s.editor, &s.world, "walk.json");
+    editor_open(s.editor, &s.world);
     assert_int_equal(s.editor->dialog.kind, DIALOG_NONE);
     session_close(&s);
 }

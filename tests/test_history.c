@@ -368,6 +368,43 @@ static void test_jump(void **state)
     world_close(&world);
 }
 
+/// A whole document may come as one step; what was there before, and what is done to it, goes and comes back with it.
+static void test_another_document(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "{\"about\": \"Another. One.\", \"frames\": [3, 9], \"splines\": [{\"name\": \"only\", "
+        "\"knots\": [{\"frame\": 4, \"value\": 1}]}]}";
+    struct world world;
+    world_open(&world);
+    world_must(&world, edit_insert(SWAY, 4, 1));
+    assert_true(document_set_path(world.document, "own.json"));
+    char *first = world_print(&world);
+    struct edit edit = {.kind = EDIT_DOCUMENT};
+    edit.document = scene_parse("other", text, sizeof text - 1, NULL, &world.error);
+    assert_non_null(edit.document);
+    size_t bytes = history_bytes(world.history);
+    world_must(&world, edit);
+    assert_null(world.document->path);
+    assert_int_equal(world.document->spline_count, 1);
+    assert_true(history_bytes(world.history) > bytes + document_bytes(world.document));
+    bool dirty[1] = {false};
+    history_take_dirty(world.history, world.document, dirty, 1);
+    assert_true(dirty[0]);
+    world_must(&world, edit_insert(0, 6, -1));
+    char *second = world_print(&world);
+    assert_true(history_undo(world.history, world.document));
+    assert_true(history_undo(world.history, world.document));
+    assert_document(&world, first);
+    assert_string_equal(world.document->path, "own.json");
+    assert_true(history_redo(world.history, world.document));
+    assert_true(history_redo(world.history, world.document));
+    assert_document(&world, second);
+    free(first);
+    free(second);
+    world_close(&world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -382,6 +419,7 @@ int main(void)
         cmocka_unit_test(test_history_is_bounded),
         cmocka_unit_test(test_bytes),
         cmocka_unit_test(test_jump),
+        cmocka_unit_test(test_another_document),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -152,8 +152,7 @@ static void test_no_text_leaves_its_panel_or_overlaps(void **state)
         int calls = 0;
         struct session f;
         panel_open(&f, scenes[i % 2], sizes[i / 2][0], sizes[i / 2][1]);
-        editor_set_title(f.editor, i % 2 ? "a scene with a name that is rather too long to show.json" : "x",
-                         "x.json");
+        editor_set_path(f.editor, i % 2 ? "a scene with a name that is rather too long to show.json" : "x.json");
         editor_set_files(f.editor, &(struct dialog_files){.list = list_names, .user = &calls});
         for (int s = 0; s < f.document->spline_count; s++) {
             editor_activate(f.editor, &f.world, s);
@@ -218,7 +217,7 @@ static void test_save_as_stays_until_it_succeeds(void **state)
     (void)state;
     struct session f;
     panel_open(&f, small_scene, 1280, 720);
-    editor_set_title(f.editor, "untitled", "");
+    editor_set_path(f.editor, "");
     session_key(&f, 'S', MOD_CTRL); // has no file yet, so it asks
     assert_int_equal(f.editor->dialog.kind, DIALOG_SAVE_AS);
     assert_string_equal(f.editor->dialog.ui.text.bytes, "untitled.json");
@@ -232,10 +231,10 @@ static void test_save_as_stays_until_it_succeeds(void **state)
     for (int i = 0; i < 20; i++) session_key(&f, KEY_BACKSPACE, 0);
     session_key(&f, KEY_ENTER, 0); // nothing typed
     expect_request(&f, REQUEST_NONE, "");
-    panel_type(&f, "dog.json");
+    panel_type(&f, "untitled.json");
     session_key(&f, KEY_ENTER, 0);
-    expect_request(&f, REQUEST_SAVE_AS, "dog.json");
-    editor_set_title(f.editor, "dog.json", "pets/dog.json");
+    expect_request(&f, REQUEST_SAVE_AS, "untitled.json");
+    editor_set_path(f.editor, "pets/dog.json");
     assert_int_equal(f.editor->dialog.kind, DIALOG_NONE);
     session_key(&f, 'S', MOD_CTRL);
     expect_request(&f, REQUEST_SAVE, "");
@@ -248,7 +247,7 @@ static void test_save_as_stays_until_it_succeeds(void **state)
 static void open_unsaved(struct session *f, bool has_path)
 {
     panel_open(f, small_scene, 1280, 720);
-    editor_set_title(f->editor, "dog.json", has_path ? "pets/dog.json" : "");
+    editor_set_path(f->editor, has_path ? "pets/dog.json" : "");
     panel_click(f, "mode.real");
     session_key(f, 'Q', MOD_CTRL);
     assert_int_equal(f->editor->dialog.kind, DIALOG_UNSAVED);
@@ -293,17 +292,17 @@ static void test_quit_waits_for_the_save(void **state)
     panel_type(&f, "s");
     expect_request(&f, REQUEST_SAVE, "");
     history_mark_saved(f.history);
-    editor_set_title(f.editor, "dog.json", "pets/dog.json");
+    editor_set_path(f.editor, "pets/dog.json");
     expect_request(&f, REQUEST_QUIT, "");
     session_close(&f);
 
     open_unsaved(&f, false); // never saved: first asks where
     panel_type(&f, "s");
     assert_int_equal(f.editor->dialog.kind, DIALOG_SAVE_AS);
-    assert_string_equal(f.editor->dialog.ui.text.bytes, "dog.json"); // and the S is no part of the name
+    assert_string_equal(f.editor->dialog.ui.text.bytes, "untitled.json"); // and the S is no part of the name
     session_key(&f, KEY_ENTER, 0);
-    expect_request(&f, REQUEST_SAVE_AS, "dog.json");
-    editor_set_title(f.editor, "dog.json", "pets/dog.json");
+    expect_request(&f, REQUEST_SAVE_AS, "untitled.json");
+    editor_set_path(f.editor, "pets/dog.json");
     expect_request(&f, REQUEST_QUIT, "");
     session_close(&f);
 }
@@ -317,8 +316,8 @@ static void test_cancelled_save_as_forgets_what_was_to_follow(void **state)
     session_key(&f, KEY_ESCAPE, 0);
     session_key(&f, 'S', MOD_CTRL | MOD_SHIFT);
     session_key(&f, KEY_ENTER, 0);
-    expect_request(&f, REQUEST_SAVE_AS, "dog.json");
-    editor_set_title(f.editor, "dog.json", "pets/dog.json");
+    expect_request(&f, REQUEST_SAVE_AS, "untitled.json");
+    editor_set_path(f.editor, "pets/dog.json");
     expect_request(&f, REQUEST_NONE, ""); // does not quit after all
     session_close(&f);
 }
@@ -351,7 +350,7 @@ static void test_open_completes_paths(void **state)
     assert_int_equal(dialog->kind, DIALOG_OPEN);
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_OPEN, "figures/two.json");
-    editor_open(f.editor, &f.world, "two.json");
+    editor_open(f.editor, &f.world);
     assert_int_equal(dialog->kind, DIALOG_NONE);
     session_key(&f, 'O', MOD_CTRL);
     panel_type(&f, "figures/t");

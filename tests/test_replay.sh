@@ -75,6 +75,28 @@ printf 'wiggly-replay 1\0\n' >"$scratch/nul.replay"
 expect 1 "a NUL byte in a replay" play "$scratch/nul.replay" $scene nul
 says "is named" "nul.replay: expected text, got a NUL byte" "$err"
 
+# A figure of the paper comes as one step of the history, as an untitled document; undo brings back the other one with its file.
+cp $scene "$scratch/own.json"
+figure() { # <frames> <line>...
+    frames=$1
+    shift
+    printf '%s\n' "$header" "$@" >"$scratch/figure.replay"
+    "$WIGGLY" live --headless --replay "$scratch/figure.replay" --frames "$frames" --result "$scratch/figure.json" "$scratch/own.json"
+}
+for n in 1 2 3 4 5 6; do
+    expect 0 "figure $n opens by its key" figure 20 "5 key $n ctrl"
+    cmp "$scratch/figure.json" <("$WIGGLY" live --headless --frames 1 --result /dev/stdout assets/scenes/figure$n.json | sed '/^}$/q')
+    ok "it is the scene of assets" $?
+done
+expect 0 "figures one after the other, knots deleted, all undone" figure 40 \
+    "2 key 4 ctrl" "4 key A ctrl" "5 key Delete" "8 key 5 ctrl" "12 key Z ctrl" "13 key Z ctrl" "14 key Z ctrl" "15 key S ctrl"
+cmp "$scratch/figure.json" "$scratch/own.json"
+ok "the first document is back" $?
+cp $scene "$scratch/own.json"
+expect 0 "a figure is no file's" figure 40 "2 key 4 ctrl" "4 key S ctrl"
+cmp "$scratch/own.json" $scene
+ok "saving one leaves the file that was open before alone" $?
+
 # A recording whose program was killed has no length yet: it ends with its last event.
 sed 's/^frames .*/frames 0/' $replay >"$scratch/killed.replay"
 expect 0 "a recording that was cut short" play "$scratch/killed.replay" $scene killed

@@ -12,8 +12,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const char built_in_scene[] = "scenes/tail.json";
-
 /// What "new" puts on the table: a spline with nothing keyed yet, and a tail that follows it.
 static const char new_scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1,"
@@ -27,28 +25,27 @@ static const char *file_name(const char *path)
     return slash ? slash + 1 : path;
 }
 
-static const char *shown_name(const struct app *app) { return app->path[0] ? file_name(app->path) : "untitled"; }
+const char *app_path(const struct app *app) { return app->document->path ? app->document->path : ""; }
 
 static void show_title(struct app *app)
 {
-    const char *name = shown_name(app);
+    const char *name = app_path(app)[0] ? file_name(app_path(app)) : "untitled";
     char title[512];
     app->shown_saved = history_is_saved(app->history);
     snprintf(title, sizeof title, "%s%.400s — wiggly", app->shown_saved ? "" : "*", name);
     platform_title(app->platform, title);
 }
 
-void app_adopt(struct app *app, struct document *document, const char *path)
+void app_adopt(struct app *app, struct document *document)
 {
     document_destroy(app->document);
     app->document = document;
-    snprintf(app->path, sizeof app->path, "%s", path);
+    document->serial = ++app->last_serial;
     history_clear(app->history);
     history_mark_saved(app->history);
     app->solved_revision = 0;
     struct editor_world world = app_world(app);
-    editor_open(app->editor, &world, shown_name(app));
-    editor_set_title(app->editor, shown_name(app), app->path);
+    editor_open(app->editor, &world);
     show_title(app);
 }
 
@@ -60,24 +57,53 @@ static bool is_asset(const char *path)
     return strstr(place, "/assets/scenes/") || strstr(place, "/share/wiggly/scenes/");
 }
 
+static struct document *parse_built_in(const char *name, struct error *error)
+{
+    char path[64];
+    snprintf(path, sizeof path, "scenes/%s", name);
+    const struct embedded *file = embedded_find(path);
+    if (file) return scene_parse(name, (const char *)file->data, file->size, NULL, error);
+    fail(error, ERROR_ENVIRONMENT, "%s is not in this build", path);
+    return NULL;
+}
+
 bool app_open(struct app *app, const char *path, struct error *error)
 {
     struct document *document;
-    if (path && strlen(path) >= sizeof app->path) {
-        return fail(error, ERROR_INPUT, "expected a path of at most %zu bytes, got %zu: %s", sizeof app->path - 1,
+    if (path && strlen(path) >= PATH_LIMIT) {
+        return fail(error, ERROR_INPUT, "expected a path of at most %d bytes, got %zu: %s", PATH_LIMIT - 1,
                     strlen(path), path);
     }
     if (path) {
         document = scene_load(path, NULL, error);
     } else {
-        const struct embedded *file = embedded_find(built_in_scene);
-        if (!file) return fail(error, ERROR_ENVIRONMENT, "%s is not in this build", built_in_scene);
-        document = scene_parse("tail.json", (const char *)file->data, file->size, NULL, error);
+        document = parse_built_in("tail.json", error);
     }
     if (!document) return false;
-    app_adopt(app, document, path && !is_asset(path) ? path : "");
-    personal_note_file(app, app->path);
+    if (path && !is_asset(path) && !document_set_path(document, path)) {
+        document_destroy(document);
+        return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
+    }
+    app_adopt(app, document);
+    personal_note_file(app, app_path(app));
     return true;
+}
+
+/// A figure of the paper in place of the document: undo brings that one back, with the file that it belongs to.
+static bool open_figure(struct app *app, int number, struct error *error)
+{
+    char name[32];
+    snprintf(name, sizeof name, "figure%d.json", number);
+    struct edit edit = {.kind = EDIT_DOCUMENT, .document = parse_built_in(name, error)};
+    if (!edit.document) return false;
+    edit.document->serial = ++app->last_serial;
+    history_begin(app->history, "Open a figure", 0);
+    bool done = history_apply(app->history, app->document, &edit, error);
+    history_end(app->history);
+    struct editor_world world = app_world(app);
+    editor_follow(app->editor, &world);
+    show_title(app);
+    return done;
 }
 
 static bool save(struct app *app, const char *path, struct error *error)
@@ -87,11 +113,13 @@ static bool save(struct app *app, const char *path, struct error *error)
     if (!path_folder(path, folder) || !document_set_folder(app->document, folder)) {
         return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to go on with it", path);
     }
-    if (path != app->path) snprintf(app->path, sizeof app->path, "%s", path);
+    if (path != app->document->path && !document_set_path(app->document, path)) {
+        return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to go on with it", path);
+    }
     history_mark_saved(app->history);
-    editor_set_title(app->editor, shown_name(app), app->path);
+    editor_set_path(app->editor, app_path(app));
     show_title(app);
-    personal_note_file(app, app->path);
+    personal_note_file(app, app_path(app));
     editor_message(app->editor, false, "Saved.");
     return true;
 }
@@ -113,7 +141,7 @@ bool app_screenshot(struct app *app, const char *path, struct error *error)
 static bool take_picture(struct app *app, struct error *error)
 {
     char path[1100], folder[1024];
-    snprintf(folder, sizeof folder, "%s", app->path);
+    snprintf(folder, sizeof folder, "%s", app_path(app));
     char *slash = strrchr(folder, '/');
     if (slash) {
         slash[1] = '\0';
@@ -135,7 +163,8 @@ static bool take_picture(struct app *app, struct error *error)
 /// "Save as" over a file that is not the document's own: refused once, done when it is asked for again.
 static bool may_replace(struct app *app, const char *path, struct error *error)
 {
-    if (access(path, F_OK) != 0 || strcmp(path, app->path) == 0 || strcmp(path, app->replaceable) == 0) return true;
+    if (access(path, F_OK) != 0 || strcmp(path, app_path(app)) == 0 || strcmp(path, app->replaceable) == 0)
+        return true;
     snprintf(app->replaceable, sizeof app->replaceable, "%s", path);
     return fail(error, ERROR_INPUT, "%s is there already: press Enter again to replace it", path);
 }
@@ -148,13 +177,15 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_NEW: {
         struct document *document = scene_parse("new", new_scene, sizeof new_scene - 1, NULL, error);
         if (!document) return false;
-        app_adopt(app, document, "");
+        app_adopt(app, document);
         return true;
     }
+    case REQUEST_FIGURE:
+        return open_figure(app, request->number, error);
     case REQUEST_OPEN:
         return app_open(app, request->path, error);
     case REQUEST_SAVE:
-        return save(app, app->path, error);
+        return save(app, app_path(app), error);
     case REQUEST_SAVE_AS:
         return may_replace(app, request->path, error) && save(app, request->path, error);
     case REQUEST_QUIT:

@@ -136,14 +136,14 @@ void personal_start(struct app *app)
     start_autosave(app);
     if (o->record || o->frames) return; // a script's run, that must not depend on who runs it
     start_settings(app);
-    personal_note_file(app, app->path);
+    personal_note_file(app, app_path(app));
     if (app->personal->autosave) offer(app);
 }
 
 static struct autosave_work work_of(const struct app *app)
 {
     return (struct autosave_work){.document = app->document,
-                                  .path = app->path,
+                                  .path = app_path(app),
                                   .revision = history_revision(app->history),
                                   .saved = history_is_saved(app->history)};
 }
@@ -162,7 +162,11 @@ bool personal_recover(struct app *app, struct error *error)
     if (!personal || !personal->is_offered) return true;
     struct document *document = recovery_read(&personal->offered.slot, error);
     if (!document) return false;
-    app_adopt(app, document, personal->offered.original);
+    if (!document_set_path(document, personal->offered.original)) {
+        document_destroy(document);
+        return fail(error, ERROR_ENVIRONMENT, "not enough memory to recover");
+    }
+    app_adopt(app, document);
     history_mark_unsaved(app->history);
     autosave_move(personal->autosave, &personal->offered.slot);
     personal->is_offered = false;

@@ -32,7 +32,7 @@ static bool write_to(const struct app *app, const struct place *place, char *pat
 /// Beside the scene's own file, else in the home folder, else where everybody may write.
 static bool write_somewhere(const struct app *app, char *path, size_t size, struct error *error)
 {
-    const char *home = getenv("HOME"), *own = app->path[0] ? app->path : "untitled.json";
+    const char *home = getenv("HOME"), *own = app_path(app)[0] ? app_path(app) : "untitled.json";
     const char *slash = strrchr(own, '/'), *name = slash ? slash + 1 : own, *dot = strrchr(name, '.');
     int stem = (int)(dot && dot > name ? dot - name : (long)strlen(name));
     const struct place places[] = {

@@ -24,7 +24,7 @@ struct app {
     struct evaluation evaluation;
     bool *dirty;            ///< one a spline
     char replaceable[1024]; ///< "save as" was asked for this existing file once
-    char path[1024];        ///< the document's own file; "" for an untitled one
+    unsigned last_serial;   ///< of the documents that were on the table
     uint64_t solved_revision;
     bool solved_cubic;
 
@@ -59,8 +59,11 @@ void app_frame(struct app *app);
 /// Opens a scene file, or the built-in one for NULL; the document on the table stays where that fails.
 bool app_open(struct app *app, const char *path, struct error *error);
 
-/// Puts a document on the table in place of the one there; `path` is its own file, "" for an untitled one.
-void app_adopt(struct app *app, struct document *document, const char *path);
+/// Puts a document on the table in place of the one there.
+void app_adopt(struct app *app, struct document *document);
+
+/// The document's own file; "" for an untitled one.
+const char *app_path(const struct app *app);
 
 /// Carries out what the editor asked for: files, window, end.
 void app_requests(struct app *app);

@@ -108,7 +108,7 @@ static int first_spline(const struct document *document)
     return document->spline_count > 0 ? 0 : -1;
 }
 
-void editor_open(struct editor *editor, const struct editor_world *world, const char *title)
+void editor_open(struct editor *editor, const struct editor_world *world)
 {
     const struct document *document = world->document;
     selection_clear(&editor->selection);
@@ -128,16 +128,22 @@ void editor_open(struct editor *editor, const struct editor_world *world, const 
     for (int s = 0; s < document->spline_count; s++) {
         editor->playback.playing |= document->splines[s].start == WIGGLY_LOOP;
     }
-    snprintf(editor->title, sizeof editor->title, "%s", title);
+    editor->serial = document->serial;
     editor_reserve(editor, document);
     inspector_reset(editor);
-    dialog_done(editor);
+    editor_set_path(editor, document->path ? document->path : "");
 }
 
-void editor_set_title(struct editor *editor, const char *title, const char *path)
+void editor_follow(struct editor *editor, const struct editor_world *world)
 {
-    snprintf(editor->title, sizeof editor->title, "%s", title);
+    if (editor->serial != world->document->serial) editor_open(editor, world);
+}
+
+void editor_set_path(struct editor *editor, const char *path)
+{
+    const char *slash = strrchr(path, '/');
     snprintf(editor->path, sizeof editor->path, "%s", path);
+    snprintf(editor->title, sizeof editor->title, "%s", path[0] ? (slash ? slash + 1 : path) : "untitled");
     dialog_done(editor);
 }
 
@@ -178,6 +184,7 @@ void editor_undo(struct editor *editor, const struct editor_world *world)
     char text[128];
     snprintf(text, sizeof text, label ? "Undone: %s" : "Nothing to undo", label);
     history_undo(world->history, world->document);
+    editor_follow(editor, world);
     editor_message(editor, false, text);
 }
 
@@ -188,6 +195,7 @@ void editor_redo(struct editor *editor, const struct editor_world *world)
     char text[128];
     snprintf(text, sizeof text, label ? "Redone: %s" : "Nothing to redo", label);
     history_redo(world->history, world->document);
+    editor_follow(editor, world);
     editor_message(editor, false, text);
 }
 
@@ -207,6 +215,13 @@ void editor_request(struct editor *editor, enum request_kind kind, const char *p
     struct request *request = &editor->requests[editor->request_count++];
     request->kind = kind;
     snprintf(request->path, sizeof request->path, "%s", path ? path : "");
+}
+
+void editor_request_figure(struct editor *editor, int number)
+{
+    int at = editor->request_count;
+    editor_request(editor, REQUEST_FIGURE, NULL);
+    if (editor->request_count > at) editor->requests[at].number = number;
 }
 
 struct request editor_take_request(struct editor *editor)

@@ -25,6 +25,7 @@ enum request_kind {
     REQUEST_OPEN,    ///< path
     REQUEST_SAVE,    ///< to the document's own path, or ask
     REQUEST_SAVE_AS, ///< path
+    REQUEST_FIGURE,  ///< number: a figure of the paper in place of the document, as a step of the history
     REQUEST_QUIT,
     REQUEST_RECOVER, ///< the work that was offered
     REQUEST_FORGET,  ///< the same, for good
@@ -36,6 +37,7 @@ enum request_kind {
 
 struct request {
     enum request_kind kind;
+    int number;
     char path[1024];
 };
 
@@ -43,12 +45,15 @@ struct editor *editor_create(struct error *error);
 void editor_destroy(struct editor *editor);
 
 /// A new document is on the table: selection, view and playhead start anew; the camera is fitted to `document`'s
-/// motion at the first editor_pose(). The first spline that moves a tail is active. `title` is what the status line
-/// calls it ("tail.json", "untitled").
-void editor_open(struct editor *editor, const struct editor_world *world, const char *title);
+/// motion at the first editor_pose(). The first spline that moves a tail is active.
+void editor_open(struct editor *editor, const struct editor_world *world);
 
-/// What the document is called, and the path of its own file ("" where it has none: Ctrl+S then asks for one).
-void editor_set_title(struct editor *editor, const char *title, const char *path);
+/// Looks whether another document has come in its place (a figure, or its undo: document.serial), and starts anew with it as
+/// editor_open() does. Called where that may happen, before anything else is done with the document.
+void editor_follow(struct editor *editor, const struct editor_world *world);
+
+/// The path of the document's own file, "" where it has none (Ctrl+S then asks for one): after saving.
+void editor_set_path(struct editor *editor, const char *path);
 
 /// Unsaved work that an earlier run left behind.
 struct recovery_offer {
@@ -58,7 +63,7 @@ struct recovery_offer {
 };
 
 /// Asks what to do with it: REQUEST_RECOVER, REQUEST_FORGET, or nothing yet. Answer the request with editor_open() and
-/// editor_set_title(), editor_offer_recovery() of the next one, editor_recovery_done(), or an error message.
+/// editor_set_path(), editor_offer_recovery() of the next one, editor_recovery_done(), or an error message.
 void editor_offer_recovery(struct editor *editor, const struct recovery_offer *offer);
 void editor_recovery_done(struct editor *editor);
 

@@ -42,6 +42,13 @@ static void build_sections(struct inspection *in)
     }
 }
 
+void inspector_unfold(struct editor *editor, const char *name)
+{
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+        if (strcmp(sections[i].name, name) == 0) editor->inspector.flipped[i] = sections[i].closed;
+    }
+}
+
 static void build_look(struct inspection *in, struct rect footer)
 {
     static const struct ui_choice looks[] = {

@@ -45,6 +45,13 @@ static void run_request(struct editor *e, const struct editor_world *w, int argu
     editor_request(e, (enum request_kind)argument, NULL);
 }
 
+static void run_figure(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    if (argument == 2) inspector_unfold(e, "section.poles");
+    editor_request_figure(e, argument);
+}
+
 static void run_insert(struct editor *e, const struct editor_world *w, int argument)
 {
     insert_on_curve(e, w, editor_frame(e, w->document), true, argument);
@@ -182,6 +189,13 @@ static const struct binding bindings[] = {
     {.key = 'Q', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_QUIT},
     {.key = 'S', .mods = MOD_CTRL, .run = run_save, .argument = REQUEST_SAVE},
     {.key = 'S', .mods = MOD_CTRL | MOD_SHIFT, .run = run_save, .argument = REQUEST_SAVE_AS},
+    {.key = '1', .mods = MOD_CTRL, .run = run_figure, .argument = 1},
+    {.key = '2', .mods = MOD_CTRL, .run = run_figure, .argument = 2},
+    {.key = '3', .mods = MOD_CTRL, .run = run_figure, .argument = 3},
+    {.key = '4', .mods = MOD_CTRL, .run = run_figure, .argument = 4},
+    {.key = '5', .mods = MOD_CTRL, .run = run_figure, .argument = 5},
+    {.key = '6', .mods = MOD_CTRL, .run = run_figure, .argument = 6},
+    {.key = '7', .mods = MOD_CTRL, .run = run_figure, .argument = 7},
     {.key = KEY_F11, .any_time = true, .run = run_request, .argument = REQUEST_FULLSCREEN},
     {.key = KEY_F12, .any_time = true, .run = run_request, .argument = REQUEST_SCREENSHOT},
     {.key = 'I', .run = run_insert, .argument = false},

@@ -31,6 +31,8 @@ struct inspector {
 
 /// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.
 void inspector_reset(struct editor *editor);
+/// Opens the section of that name ("section.poles").
+void inspector_unfold(struct editor *editor, const char *name);
 bool inspector_event(struct editor *editor, const struct editor_world *world, const struct event *event);
 void inspector_show(struct editor *editor, const struct editor_world *world);
 /// Ends a running drag where it is, and drops focus and typing: something opens over the panel, or the document goes.
@@ -43,6 +45,9 @@ const char *inspector_hint(const struct editor *editor);
 /// Where the widget `name` is: "frequency", "frequency,2.5" (where its bar shows 2.5), "mode.real", "spline.sway",
 /// "channel.0", "look.stiff", "section.knot". false where it is not shown or scrolled out of sight.
 bool inspector_target(struct editor *editor, const struct editor_world *world, const char *name, float *x, float *y);
+
+/// What the scene is about, in the upper left corner of the stage: up to the first full stop as a title.
+void caption_show(struct editor *editor, const struct document *document);
 
 /// The right end of the status line; zero is a valid start.
 struct status {
@@ -93,7 +98,7 @@ void dialog_ask_save_as(struct editor *editor);
 /// Does `after` (REQUEST_NEW, REQUEST_OPEN with a path, or without: asks for one, REQUEST_QUIT), but asks first where work
 /// would be lost: Save, Discard, Cancel. `after` then follows only when the save has succeeded.
 void dialog_leave(struct editor *editor, const struct editor_world *world, const struct request *after);
-/// The outcome of a request. editor_set_title() and editor_open() call dialog_done(): closes, goes on with `after`.
+/// The outcome of a request. editor_set_path() and editor_open() call dialog_done(): closes, goes on with `after`.
 /// editor_message() calls dialog_failed() for errors: the dialog stays and says why; true where it took the message.
 void dialog_done(struct editor *editor);
 bool dialog_failed(struct editor *editor, const char *sentence);

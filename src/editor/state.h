@@ -241,7 +241,8 @@ struct editor {
     struct help help;
     struct status status;
 
-    char title[256];
+    unsigned serial; ///< of the document on the table
+    char title[256]; ///< the file's name, or "untitled"
     char path[1024]; ///< of the document's own file, or ""
     struct message message;
     double fps, solve_us; ///< from editor_set_stats()
@@ -265,6 +266,9 @@ struct edit editor_edit_of(enum edit_kind kind, int spline);
 
 /// Queues a request to the app; `path` may be NULL.
 void editor_request(struct editor *editor, enum request_kind kind, const char *path);
+
+/// The same for a figure of the paper.
+void editor_request_figure(struct editor *editor, int number);
 
 /// The active spline, or NULL. editor_activate() also drops the selection and
 /// shows the tail's channel that it moves.

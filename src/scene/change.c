@@ -36,6 +36,8 @@ size_t change_bytes(const struct change *change, const struct document *document
         return own + sizeof *change->held + (size_t)change->held->knot_capacity * sizeof *change->held->knots;
     case CHANGE_NAME:
         return own + strlen(change->name) + 1;
+    case CHANGE_DOCUMENT:
+        return own + document_bytes(change->document);
     case CHANGE_TIMING:
         return own + (change->timing.frames ? knots_of(document) * sizeof *change->timing.frames : 0);
     default:
@@ -187,13 +189,14 @@ void change_release(struct change *change)
     }
     if (change->kind == CHANGE_SPLINE_OUT || change->kind == CHANGE_SPLINE_IN) free(change->held);
     if (change->kind == CHANGE_NAME) free(change->name);
+    if (change->kind == CHANGE_DOCUMENT) document_destroy(change->document);
     if (change->kind == CHANGE_TIMING) free(change->timing.frames);
 }
 
 bool change_concerns_all(const struct change *change)
 {
     return change->kind == CHANGE_TIMING || change->kind == CHANGE_SPLINE_IN || change->kind == CHANGE_SPLINE_OUT ||
-           change->kind == CHANGE_SPLINE_MOVE;
+           change->kind == CHANGE_SPLINE_MOVE || change->kind == CHANGE_DOCUMENT;
 }
 
 #define SWAP(type, a, b)                                                                                             \
@@ -250,6 +253,9 @@ void change_swap(struct change *change, struct document *document)
         break;
     case CHANGE_COLOR:
         SWAP(int, spline->color, change->color);
+        break;
+    case CHANGE_DOCUMENT:
+        SWAP(struct document, *document, *change->document);
         break;
     case CHANGE_SPLINE_IN:
     case CHANGE_SPLINE_OUT:

@@ -17,6 +17,7 @@ enum change_kind {
     CHANGE_SPLINE_IN, ///< the spline is in the document, at `spline`; tracks and channels go by where it comes and goes
     CHANGE_SPLINE_OUT,  ///< and the other way round
     CHANGE_SPLINE_MOVE, ///< the spline at `spline` goes to another place in the list
+    CHANGE_DOCUMENT,    ///< the whole document
     CHANGE_TIMING,      ///< the scene's fps, substeps and frames, with them the frames of all knots
     CHANGE_CHANNEL,     ///< a channel's spline, axis and part
     CHANGE_PLACE,       ///< a tail's length and position
@@ -52,10 +53,11 @@ struct change {
     union {
         struct knot knot;
         struct settings settings;
-        char *name;          ///< owned
-        int color;           ///< 0xRRGGBB, or -1
-        struct spline *held; ///< owned; what it holds only while the spline is out of the document
-        int to;              ///< index in the list
+        char *name;                ///< owned
+        int color;                 ///< 0xRRGGBB, or -1
+        struct spline *held;       ///< owned; what it holds only while the spline is out of the document
+        int to;                    ///< index in the list
+        struct document *document; ///< owned
         struct timing timing;
         struct {
             int tail, channel;

@@ -79,6 +79,8 @@ void document_destroy(struct document *document)
         free(document->characters[i].model);
         free(document->characters[i].paint);
     }
+    free(document->path);
+    free(document->about);
     free(document->splines);
     free(document->tails);
     free(document->characters);
@@ -118,6 +120,29 @@ const char *document_keep_text(struct document *document, const char *text)
     json_t *string = json_string(text);
     if (!document->owned) document->owned = json_array();
     return json_array_append_new(document->owned, string) == 0 ? json_string_value(string) : NULL;
+}
+
+bool document_set_path(struct document *document, const char *path)
+{
+    char *copy = path && path[0] ? strdup(path) : NULL;
+    if (path && path[0] && !copy) return false;
+    free(document->path);
+    document->path = copy;
+    return true;
+}
+
+size_t document_bytes(const struct document *document)
+{
+    size_t bytes = sizeof *document;
+    for (int i = 0; i < document->spline_count; i++) {
+        const struct spline *spline = &document->splines[i];
+        bytes += sizeof *spline + (size_t)spline->knot_capacity * sizeof *spline->knots + strlen(spline->name) + 1;
+    }
+    for (int i = 0; i < document->tail_count; i++) {
+        const struct tail *tail = &document->tails[i];
+        bytes += sizeof *tail + (size_t)tail->channel_count * sizeof *tail->channels + strlen(tail->name) + 1;
+    }
+    return bytes;
 }
 
 int document_samples(const struct document *document)

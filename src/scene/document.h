@@ -115,6 +115,9 @@ struct character_rig {
 };
 
 struct document {
+    char *path;      ///< of its own file, NULL for an untitled one; not saved
+    unsigned serial; ///< set by whoever puts documents on the table, to tell them apart; not saved
+    char *about;     ///< what the scene shows and what to try, or NULL
     double fps;
     int substeps;
     int first_frame, last_frame;
@@ -130,6 +133,12 @@ struct document {
     const void *extra;
     void *owned; ///< what `extra` pointers point into; freed with the document
 };
+
+/// Sets the path of the document's own file; "" or NULL: untitled. false where memory is short.
+bool document_set_path(struct document *document, const char *path);
+
+/// Memory that it takes, unknown keys left out.
+size_t document_bytes(const struct document *document);
 
 /// An empty document: 24 fps, frames 0 … 120, no splines. NULL where memory is short.
 struct document *document_create(void);

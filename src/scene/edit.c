@@ -31,6 +31,7 @@ static const struct {
     [EDIT_SPLINE_MOVE] = {plan_spline_move, TARGET_SPLINE},
     [EDIT_SPLINE_NAME] = {plan_spline_name, TARGET_SPLINE},
     [EDIT_SPLINE_COLOR] = {plan_spline_color, TARGET_SPLINE},
+    [EDIT_DOCUMENT] = {plan_document, TARGET_SCENE},
     [EDIT_FPS] = {plan_fps, TARGET_SCENE},
     [EDIT_SUBSTEPS] = {plan_substeps, TARGET_SCENE},
     [EDIT_RANGE] = {plan_range, TARGET_SCENE},

@@ -24,6 +24,7 @@ enum edit_kind {
     EDIT_SPLINE_MOVE,   ///< spline, to: its new place in the list
     EDIT_SPLINE_NAME,   ///< spline, text: not empty, and no other's name
     EDIT_SPLINE_COLOR,  ///< spline, color: 0xRRGGBB, or -1
+    EDIT_DOCUMENT, ///< document: another whole one in place of this, the history's from here on (also on failure)
     EDIT_FPS, ///< number; flag: knots and range keep their seconds, not their frames. Slopes are per second anyway
     EDIT_SUBSTEPS,     ///< substeps
     EDIT_RANGE,        ///< first, last: the scene's frames; fit: what becomes of knots that would lie outside
@@ -57,6 +58,7 @@ struct edit {
     bool flag;
     const char *text; ///< read during the call only
     int to, color;
+    struct document *document;
     int substeps, first, last;
     enum range_fit fit;
     int tail, channel;

@@ -1,4 +1,4 @@
-/// Edits of what all splines share: frames per second, substeps and the range of frames.
+/// Edits of what all splines share: the document as a whole, frames per second, substeps and the range of frames.
 #include "scene/edit_plan.h"
 #include <math.h>
 #include <stdlib.h>
@@ -191,4 +191,11 @@ bool plan_range(struct document *document, const struct edit *edit, struct chang
     }
     if (edit->fit == RANGE_REFUSE && !check_knots_fit(&moved, NULL, error)) return false;
     return add_timing(document, &timing, list, error);
+}
+
+bool plan_document(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+{
+    (void)document;
+    struct change change = {.kind = CHANGE_DOCUMENT, .spline = -1, .document = edit->document};
+    return plan_add(list, &change, error);
 }

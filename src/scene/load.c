@@ -7,7 +7,7 @@
 
 enum { FORMAT_VERSION = 1 };
 
-static const char *const scene_keys[] = {"wiggly", "fps", "substeps", "frames", "splines", "rigs", NULL};
+static const char *const scene_keys[] = {"wiggly", "about", "fps", "substeps", "frames", "splines", "rigs", NULL};
 
 /// A sentence of jansson's, "X expected near Y" or "Z near Y", in our words.
 static void compose_syntax(const char *text, char *sentence, size_t size)
@@ -64,6 +64,20 @@ static bool load_version(struct reader *reader, const struct where *scene_at, co
                        FORMAT_VERSION, version);
 }
 
+/// A missing one is none; an empty one too.
+static void load_about(struct reader *reader, const struct where *scene_at, const json_t *scene)
+{
+    struct where at;
+    const json_t *value = reader_member(scene_at, scene, "about", &at);
+    if (!value) return;
+    if (!json_is_string(value)) {
+        reader_unexpected(reader, &at, "a string", value);
+    } else if (json_string_length(value) > 0) {
+        reader->document->about = strdup(json_string_value(value));
+        if (!reader->document->about) reader_no_memory(reader);
+    }
+}
+
 static bool load_frames(struct reader *reader, const struct where *at, const json_t *value, int frames[2])
 {
     if (!json_is_array(value) || json_array_size(value) != 2) {
@@ -117,6 +131,7 @@ static void load_scene(struct reader *reader, json_t *scene)
         return;
     }
     if (!load_version(reader, &scene_at, scene)) return;
+    load_about(reader, &scene_at, scene);
     load_domain(reader, &scene_at, scene);
     load_splines(reader, &scene_at, scene);
     load_rigs(reader, &scene_at, scene);

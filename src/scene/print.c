@@ -153,6 +153,7 @@ static void print_document(struct text *text, const struct document *document, c
     struct members members = {text, "{\n  ", ",\n  ", false};
     double frames[] = {document->first_frame, document->last_frame};
     member_number(&members, "wiggly", 1);
+    if (document->about) member_string(&members, "about", document->about);
     member_number(&members, "fps", document->fps);
     member_number(&members, "substeps", document->substeps);
     member(&members, "frames");

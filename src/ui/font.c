@@ -2,6 +2,7 @@
 #include "base/embedded.h"
 #include "ui/face.h"
 #include <stb/stb_truetype.h>
+#include <string.h>
 
 struct face {
     stbtt_fontinfo info;
@@ -121,3 +122,21 @@ float font_width(enum font font, float size, const char *utf8)
 }
 
 float font_cap_height(enum font font, float size) { return faces[font].cap_height * size; }
+
+size_t font_line(enum font font, float size, const char *utf8, float width)
+{
+    char part[256];
+    size_t fits = 0;
+    const char *at = utf8;
+    while (*at) {
+        utf8_next(&at);
+        size_t length = (size_t)(at - utf8);
+        if (length >= sizeof part) break;
+        memcpy(part, utf8, length);
+        part[length] = '\0';
+        bool whole = *at == ' ' || *at == '\0';
+        if (font_width(font, size, part) > width) return fits ? fits : length;
+        if (whole) fits = length;
+    }
+    return fits ? fits : (size_t)(at - utf8);
+}

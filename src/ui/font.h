@@ -11,6 +11,8 @@ bool font_init(struct error *error);
 /// Width of a text in logical pixels, and the height of its capitals (for centring).
 float font_width(enum font font, float size, const char *utf8);
 float font_cap_height(enum font font, float size);
+/// Bytes of the next line of a text that fit into `width`, ending at a space where there is one; at least one character.
+size_t font_line(enum font font, float size, const char *utf8, float width);
 
 /// Decodes one UTF-8 character and moves on; 0xFFFD for a broken byte, 0 at the end.
 uint32_t utf8_next(const char **text);

@@ -42,31 +42,12 @@ void ui_number_text(struct ui *ui, struct rect r, const char *text, uint32_t col
     paint_right(ui, r, FONT_NUMBER, THEME_TEXT_SMALL, text, color);
 }
 
-/// Bytes of the next line that fit into `width`, ending at a space where there is one; at least one character.
-static size_t line_length(const char *text, float width)
-{
-    char part[256];
-    size_t fits = 0;
-    const char *at = text;
-    while (*at) {
-        utf8_next(&at);
-        size_t length = (size_t)(at - text);
-        if (length >= sizeof part) break;
-        memcpy(part, text, length);
-        part[length] = '\0';
-        bool whole = *at == ' ' || *at == '\0';
-        if (font_width(FONT_LABEL, THEME_TEXT_SMALL, part) > width) return fits ? fits : length;
-        if (whole) fits = length;
-    }
-    return fits ? fits : (size_t)(at - text);
-}
-
 void ui_paragraph(struct ui *ui, const char *text, uint32_t color)
 {
     enum { LINE = 16, MAX_LINES = 4 };
     for (int line = 0; line < MAX_LINES && *text; line++) {
         struct rect r = ui_row(ui, LINE);
-        size_t length = line_length(text, r.w);
+        size_t length = font_line(FONT_LABEL, THEME_TEXT_SMALL, text, r.w);
         if (ui->pass == UI_PASS_DRAW) {
             char part[257];
             snprintf(part, sizeof part, "%.*s", (int)length, text);
