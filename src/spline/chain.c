@@ -96,6 +96,14 @@ double chain_add_to_node(const chain *c, chain_node *node, const double *solved)
 static double take_solution(chain *c)
 {
     double largest = 0;
+    if (!c->is_complex) {
+        for (int j = 0; j < c->node_count; j++) {
+            double d = c->rows[j].right[0];
+            c->nodes[j].d_re += d;
+            if (!(fabs(d) <= largest)) largest = fabs(d);
+        }
+        return largest;
+    }
     for (int j = 0; j < c->node_count; j++) {
         double size = chain_add_to_node(c, &c->nodes[j], c->rows[j].right);
         if (!(size <= largest)) largest = size;
@@ -134,11 +142,12 @@ bool chain_fill(const chain *c, double *x_re, double *x_im)
 {
     const chain_node *last = &c->nodes[c->node_count - 1];
     double *im = c->is_complex ? x_im : NULL;
-    bool tame = chain_run_free(c, last, c->count - last->sample, x_re + last->sample, im ? im + last->sample : NULL);
+    bool tame = true;
     for (const chain_node *p = c->nodes; p < last; p++) {
         tame = chain_fill_stretch(c, p, p + 1, x_re + p->sample, im ? im + p->sample : NULL) && tame;
     }
-    return tame;
+    im = im ? im + last->sample : NULL;
+    return chain_run_free(c, last, c->count - last->sample, x_re + last->sample, im) && tame;
 }
 
 bool chain_solve(chain *c, double *x_re, double *x_im)

@@ -209,13 +209,11 @@ static inline lane kernel_hold_one(lane d, const kernel_node *node)
     return d * node->keep_d + (1.0 - node->keep_d);
 }
 
-/// d ← 1 / (d − l n).
-static inline kernel_rank kernel_pivot_one(lane *d, lane l, lane n)
+/// s ← d − n² / s, the pivot: only a division and a difference wait for the pivot before.
+static inline kernel_rank kernel_pivot_one(lane *s, lane d, lane n)
 {
-    lane s = *d - l * n;
-    kernel_rank rank = {.sound = (s > 0.0) & (s < INFINITY), .firm = s >= WEAKEST * *d};
-    *d = 1.0 / s;
-    return rank;
+    *s = d - n * n / *s;
+    return (kernel_rank){.sound = (*s > 0.0) & (*s < INFINITY), .firm = *s >= WEAKEST * d};
 }
 
 #endif

@@ -102,7 +102,7 @@ static kernel_rank forward_scalars(const chain_group *g, lane_row *rows, int cou
     const lane zero = {0};
     kernel_rank all = {(flag){0} - 1, (flag){0} - 1};
     kernel_node node = gather_node(g, 0);
-    lane n_before = zero, l_before = zero, z_before = zero;
+    lane n_before = zero, l_before = zero, z_before = zero, s = zero + 1.0;
     lane entering = zero + h.h11, pull = -(h.h01.re * node.x + h.h11 * node.d);
     for (int j = 0; j < count; j++) {
         lane form[FORM_SIZE];
@@ -115,10 +115,10 @@ static kernel_rank forward_scalars(const chain_group *g, lane_row *rows, int cou
         entering = form[FORM_V11];
         pull = kernel_enter_pull_one(form, &node, &next);
 
-        kernel_rank rank = kernel_pivot_one(&d, l_before, n_before);
+        kernel_rank rank = kernel_pivot_one(&s, d, n_before);
         all.sound &= rank.sound, all.firm &= rank.firm;
-        row->pivot[0] = d;
-        row->lower[0] = n * d;
+        row->pivot[0] = 1.0 / s;
+        row->lower[0] = n * row->pivot[0];
         row->right[0] = r * node.keep_d - l_before * z_before;
         l_before = row->lower[0], z_before = row->right[0], n_before = n;
         node = next;

@@ -30,25 +30,30 @@ static kernel_node kernel_node_of(const chain *c, const chain_node *node)
 
 static const double *form_after(const chain *c, int j) { return c->stretches[c->nodes[j].stretch].form; }
 
+/// Row by row in local arrays, which the compiler keeps in registers.
 static void assemble_blocks(chain *c)
 {
     const start_form h = chain_start_form(c);
     const double turn = c->lambda.im;
-    chain_row *row = c->rows;
-    *row = (chain_row){0};
-    kernel_form(row->diagonal, h.h00, h.h01.re, h.h01.im, h.h11);
-    for (int j = 0; j < c->node_count; j++, row++) {
-        const kernel_node node = kernel_node_of(c, &c->nodes[j]);
-        kernel_slope(row->diagonal, &node, turn);
-        if (j + 1 < c->node_count) {
+    const int last = c->node_count - 1;
+    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
+    double d[6] = {0};
+    kernel_form(d, h.h00, h.h01.re, h.h01.im, h.h11);
+    for (int j = 0; j <= last; j++, node = next) {
+        double n[9] = {0}, entering[6] = {0};
+        kernel_slope(d, &node, turn);
+        next = node;
+        if (j < last) {
             const double *form = form_after(c, j);
-            kernel_leave(row->diagonal, row->below, form);
-            kernel_hold_columns(row->below, &node);
-            row[1] = (chain_row){0};
-            kernel_enter(row[1].diagonal, form);
+            next = kernel_node_of(c, &c->nodes[j + 1]);
+            kernel_leave(d, n, form);
+            kernel_enter(entering, form);
+            kernel_hold_columns(n, &node);
+            kernel_hold_rows(n, &next);
         }
-        kernel_hold(row->diagonal, &node);
-        if (j > 0) kernel_hold_rows(row[-1].below, &node);
+        kernel_hold(d, &node);
+        for (int i = 0; i < 6; i++) c->rows[j].diagonal[i] = d[i], d[i] = entering[i];
+        for (int i = 0; i < 9; i++) c->rows[j].below[i] = n[i];
     }
 }
 
@@ -102,12 +107,13 @@ static kernel_rank factor_blocks(chain *c)
 static kernel_rank factor_scalars(chain *c)
 {
     kernel_rank all = {1, 1};
-    double n = 0, l = 0;
+    double n = 0, s = 1;
     for (chain_row *row = c->rows; row < c->rows + c->node_count; row++) {
-        kernel_rank rank = kernel_pivot_one(&row->diagonal[0], l, n);
+        kernel_rank rank = kernel_pivot_one(&s, row->diagonal[0], n);
         all.sound &= rank.sound, all.firm &= rank.firm;
         n = row->below[0];
-        l = row->below[0] = n * row->diagonal[0];
+        row->diagonal[0] = 1.0 / s;
+        row->below[0] = n * row->diagonal[0];
     }
     return all;
 }

@@ -24,8 +24,9 @@ static double problem_scale(const problem *p)
     double t = (p->start == WIGGLY_LOOP ? p->count : p->count - 1) * p->desc->step;
     for (int k = 0; k < p->desc->knot_count; k++) {
         const wiggly_knot *knot = &p->desc->knots[k];
-        scale = fmax(scale, fabs(knot->value - problem_y(p, knot->sample)));
-        if (knot->has_slope) scale = fmax(scale, t * fabs(knot->slope));
+        double size = fabs(knot->value - problem_y(p, knot->sample));
+        if (size > scale) scale = size;
+        if (knot->has_slope && t * fabs(knot->slope) > scale) scale = t * fabs(knot->slope);
     }
     return scale;
 }

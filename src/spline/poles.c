@@ -63,29 +63,40 @@ bool poles_are_constant(const wiggly_desc *desc)
 /// exp(z) − 1 without cancellation.
 static cplx expm1_complex(cplx z)
 {
-    double half = sin(0.5 * z.im);
-    return (cplx){expm1(z.re) * cos(z.im) - 2 * half * half, exp(z.re) * sin(z.im)};
+    if (z.re == 0 && z.im == 0) return z;
+    double s = sin(z.im), c = cos(z.im);
+    double versine = c > 0 ? s * s / (1 + c) : 1 - c;
+    return (cplx){expm1(z.re) * c - versine, exp(z.re) * s};
+}
+
+/// μ = exp(s h) − 1 of both poles, which often are conjugates.
+static void distances(const poles *at, double step, cplx mu[2])
+{
+    const cplx *s = at->s;
+    mu[0] = expm1_complex((cplx){s[0].re * step, s[0].im * step});
+    bool conjugate = s[1].re == s[0].re && s[1].im == -s[0].im;
+    mu[1] = conjugate ? cplx_conj(mu[0]) : expm1_complex((cplx){s[1].re * step, s[1].im * step});
 }
 
 coefficients poles_coefficients(const poles *at, double step)
 {
-    cplx mu0 = expm1_complex((cplx){at->s[0].re * step, at->s[0].im * step});
-    cplx mu1 = expm1_complex((cplx){at->s[1].re * step, at->s[1].im * step});
+    cplx mu[2];
+    distances(at, step, mu);
     double size = exp(0.5 * step * (at->s[0].re + at->s[1].re));
     double angle = 0.5 * step * (at->s[0].im + at->s[1].im);
     return (coefficients){
-        .m = cplx_add(mu0, mu1),
-        .p = cplx_mul(mu0, mu1),
+        .m = cplx_add(mu[0], mu[1]),
+        .p = cplx_mul(mu[0], mu[1]),
         .g = {size * cos(angle), size * sin(angle)},
     };
 }
 
 void poles_mean(const poles *at, double step, cplx *lambda, cplx *delta2)
 {
-    cplx mu0 = expm1_complex((cplx){at->s[0].re * step, at->s[0].im * step});
-    cplx mu1 = expm1_complex((cplx){at->s[1].re * step, at->s[1].im * step});
-    cplx delta = {0.5 * (mu0.re - mu1.re), 0.5 * (mu0.im - mu1.im)};
-    *lambda = (cplx){1 + 0.5 * (mu0.re + mu1.re), 0.5 * (mu0.im + mu1.im)};
+    cplx mu[2];
+    distances(at, step, mu);
+    cplx delta = {0.5 * (mu[0].re - mu[1].re), 0.5 * (mu[0].im - mu[1].im)};
+    *lambda = (cplx){1 + 0.5 * (mu[0].re + mu[1].re), 0.5 * (mu[0].im + mu[1].im)};
     *delta2 = cplx_mul(delta, delta);
 }
 
@@ -98,11 +109,12 @@ start_cost poles_start_cost(const poles *at, double step)
     double h00 = -expm1(2 * step * (s[0].re + s[1].re)); // 1 − |b|²
     if (!(h00 > negligible)) return (start_cost){0};
     // H₁₀ = −(a + a* b) = m + m* + 2p + |m|² + m* p, so H₀₀ + H₁₀ = 2j Im p − m p* − |p|²: no term of order 1 is left.
-    coefficients c = poles_coefficients(at, step);
-    cplx mp = cplx_mul(c.m, cplx_conj(c.p));
-    cplx sum = {-mp.re - cplx_norm(c.p), 2 * c.p.im - mp.im};
-    double det = -expm1(2 * step * s[0].re) * -expm1(2 * step * s[1].re) *
-                 distance_from_one((cplx){step * (s[0].re + s[1].re), step * (s[0].im - s[1].im)});
+    cplx mu[2];
+    distances(at, step, mu);
+    cplx m = cplx_add(mu[0], mu[1]), p = cplx_mul(mu[0], mu[1]), mp = cplx_mul(m, cplx_conj(p));
+    cplx sum = {-mp.re - cplx_norm(p), 2 * p.im - mp.im};
+    double decay = -expm1(2 * step * s[0].re), other = s[1].re == s[0].re ? decay : -expm1(2 * step * s[1].re);
+    double det = decay * other * distance_from_one((cplx){step * (s[0].re + s[1].re), step * (s[0].im - s[1].im)});
     return (start_cost){.h00 = h00, .d = det / h00, .e = {sum.re / h00, -sum.im / h00}};
 }
 
