@@ -31,13 +31,14 @@ static void print_line(void *user, const struct bench_result *r)
     struct report *report = user;
     char a[32], b[32], c[32];
     if (report->lines++ == 0) {
-        printf("%-24s %10s %10s %10s %10s %10s %8s %10s\n", "case", "ns/sample", "p50 us", "p99 us", "dpbsv ns",
-               "zpbsv ns", "dpbsv x", "error");
+        printf("%-24s %7s %5s %10s %10s %10s %10s %10s %8s %10s\n", "case", "threads", "lanes", "ns/sample", "p50 us",
+               "p99 us", "dpbsv ns", "zpbsv ns", "dpbsv x", "error");
     } else {
         fprintf(report->json, ",\n");
     }
-    printf("%-24s %10.2f %10.2f %10.2f %10s %10s %8s %10.1e\n", r->name, r->ns_per_sample, r->p50_us, r->p99_us,
-           number(a, sizeof a, r->dpbsv_ns_per_sample, "-"), number(b, sizeof b, r->zpbsv_ns_per_sample, "-"),
+    printf("%-24s %7d %5d %10.2f %10.2f %10.2f %10s %10s %8s %10.1e\n", r->name, r->threads, r->lanes,
+           r->ns_per_sample, r->p50_us, r->p99_us, number(a, sizeof a, r->dpbsv_ns_per_sample, "-"),
+           number(b, sizeof b, r->zpbsv_ns_per_sample, "-"),
            number(c, sizeof c, r->dpbsv_ns_per_sample / r->ns_per_sample, "-"), r->error);
     fflush(stdout);
     fprintf(

@@ -1,4 +1,6 @@
 #include "timing/bench.h"
+#include "spline/batch.h"
+#include "spline/chain_lanes.h"
 #include "spline/solver.h"
 #include "base/lapack.h"
 #include "timing/statistics.h"
@@ -272,11 +274,11 @@ static void crowd_destroy(struct crowd *crowd)
 }
 
 /// Times the crowd on some threads; `single` is the line to whose LAPACK figures it is compared.
-static bool run_crowd(struct crowd *crowd, int threads, const struct bench_result *single, double *times,
+static bool run_crowd(struct crowd *crowd, int threads, int lanes, const struct bench_result *single, double *times,
                       struct bench_result *result)
 {
     wiggly_batch *batch = NULL;
-    if (wiggly_batch_create(CROWD_SAMPLES, CROWD_SAMPLES / KNOT_EVERY, threads, &batch) != WIGGLY_OK) return false;
+    if (batch_of_lanes(CROWD_SAMPLES, CROWD_SAMPLES / KNOT_EVERY, threads, lanes, &batch) != WIGGLY_OK) return false;
     int runs = 0;
     wiggly_status worst = WIGGLY_OK;
     for (double end = now() + seconds_a_case; runs < MAX_RUNS && (runs < MIN_RUNS || now() < end); runs++) {
@@ -292,6 +294,7 @@ static bool run_crowd(struct crowd *crowd, int threads, const struct bench_resul
     result->name = "batch/complex/10000x240";
     result->splines = CROWD;
     result->threads = threads;
+    result->lanes = lanes > 0 ? lanes : 1;
     result->ns_per_sample = 1e9 * times[0] / CROWD_SAMPLES / CROWD;
     result->p50_us = 1e6 * statistics_quantile(times, runs, 0.5);
     result->p99_us = 1e6 * statistics_quantile(times, runs, 0.99);
@@ -303,10 +306,12 @@ static bool run_crowds(const struct bench_result *single, double *times,
 {
     struct crowd crowd;
     bool good = crowd_create(&crowd);
-    for (int threads = 1; good && threads <= 2; threads++) {
-        struct bench_result result;
-        good = run_crowd(&crowd, threads, single, times, &result);
-        if (good) done(user, &result);
+    for (int lanes = chain_lanes(); good && lanes >= 0; lanes -= 4) {
+        for (int threads = 1; good && threads <= 2; threads++) {
+            struct bench_result result;
+            good = run_crowd(&crowd, threads, lanes, single, times, &result);
+            if (good) done(user, &result);
+        }
     }
     crowd_destroy(&crowd);
     return good || fail(error, ERROR_ENVIRONMENT, "batch/complex/10000x240 could not be solved");
