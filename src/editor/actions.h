@@ -103,7 +103,7 @@ void stage_wheel(struct editor *editor, const struct event *event);
 struct hover stage_hover(const struct editor *editor, float x, float y);
 void stage_fit(struct editor *editor, const struct editor_world *world);
 void stage_pose(struct editor *editor, const struct editor_world *world);
-void stage_show(struct editor *editor);
+void stage_show(struct editor *editor, const struct editor_world *world);
 /// Where a point of the last pose is on the screen: `fraction` 0 … 1 of the way from joint to joint + 1.
 bool stage_project(const struct editor *editor, int tail, int joint, double fraction, float xy[2]);
 /// A change of one spline's x at the time shown, to see what would happen.
@@ -114,6 +114,9 @@ struct what_if {
 /// Poses one tail at the time shown; `change` may be NULL.
 void stage_pose_tail(const struct editor *editor, const struct editor_world *world, int tail,
                      const struct what_if *change, struct pose *pose);
+/// Poses one tail as the document has it at a position in samples, without what is moved by hand.
+void stage_pose_at(const struct editor *editor, const struct editor_world *world, int tail, double position,
+                   struct pose *pose);
 /// The same as stage_project() of any pose.
 bool stage_project_pose(const struct editor *editor, const struct pose *pose, int joint, double fraction,
                         float xy[2]);

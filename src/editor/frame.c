@@ -136,7 +136,7 @@ void editor_show(struct editor *editor, const struct editor_world *world)
 {
     drawlist_clear(&editor->list, editor->layout.window);
     update_hover(editor, world);
-    stage_show(editor);
+    stage_show(editor, world);
     caption_show(editor, world->document);
     curves_show(editor, world);
     inspector_show(editor, world);

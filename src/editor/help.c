@@ -76,6 +76,7 @@ static const struct help_group groups[] = {
       {"End", "show the selection"},
       {"Drag the tail", "pull it"},
       {"Drag the body", "the tail follows (X, Y)"},
+      {"O, P", "onion skin, motion arc"},
       {"Right drag", "turn the camera"}}},
     {2,
      "Inspector",

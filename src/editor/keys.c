@@ -1,6 +1,7 @@
 /// The keyboard: one table of what a key does (design: "The live app").
 #include "editor/actions.h"
 #include "editor/curves.h"
+#include "editor/overlays.h"
 #include <math.h>
 
 typedef void key_action(struct editor *editor, const struct editor_world *world, int argument);
@@ -174,6 +175,16 @@ static void run_scale(struct editor *e, const struct editor_world *w, int argume
     scale_begin(e, w);
 }
 
+static void run_overlay(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    if (argument == 'O') {
+        onion_toggle(e);
+    } else {
+        trail_toggle(e);
+    }
+}
+
 /// ↑ and ↓ while a letter is held: that parameter.
 static void run_held(struct editor *e, const struct editor_world *w, int argument)
 {
@@ -239,6 +250,8 @@ static const struct binding bindings[] = {
     {.key = KEY_HOME, .run = run_frame, .argument = 0},
     {.key = KEY_END, .run = run_frame, .argument = 1},
     {.key = 'V', .any_time = true, .run = run_look},
+    {.key = 'O', .any_time = true, .run = run_overlay, .argument = 'O'},
+    {.key = 'P', .any_time = true, .run = run_overlay, .argument = 'P'},
 };
 
 static const struct nudge_key {

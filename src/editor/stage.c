@@ -4,6 +4,7 @@
 #include "editor/body.h"
 #include "editor/curves.h"
 #include "editor/follow.h"
+#include "editor/overlays.h"
 #include "rig/shadow.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -25,11 +26,24 @@ static void tail_base(const struct editor_world *world, const struct tail *tail,
     }
 }
 
+void stage_pose_at(const struct editor *editor, const struct editor_world *world, int tail, double position,
+                   struct pose *pose)
+{
+    const struct tail *shown = &world->document->tails[tail];
+    wiggly_value values[SCENE_MAX_CHANNELS];
+    for (int c = 0; c < shown->channel_count; c++)
+        values[c] = curves_solved(world, shown->channels[c].spline, position);
+    pose_tail(shown, values, editor->look, pose);
+    double moved[3];
+    tail_base(world, shown, position, moved);
+    pose_move(pose, moved);
+}
+
 void stage_pose_tail(const struct editor *editor, const struct editor_world *world, int tail,
                      const struct what_if *change, struct pose *pose)
 {
     const struct tail *shown = &world->document->tails[tail];
-    wiggly_value values[SCENE_MAX_CHANNELS] = {{0}};
+    wiggly_value values[SCENE_MAX_CHANNELS];
     for (int c = 0; c < shown->channel_count; c++) {
         int spline = shown->channels[c].spline;
         wiggly_value swing = follow_value(editor, tail, c);
@@ -132,7 +146,7 @@ static void show_hold(struct editor *editor)
     drawlist_rounded_line(&editor->list, ring, RING_SIZE / 2.0f, 1.5f, THEME_PLAYHEAD);
 }
 
-void stage_show(struct editor *editor)
+void stage_show(struct editor *editor, const struct editor_world *world)
 {
     const struct stage_view *view = &editor->stage;
     struct rect clip = drawlist_push_clip(&editor->list, view->viewport);
@@ -144,6 +158,8 @@ void stage_show(struct editor *editor)
         drawlist_text_fit(&editor->list, x, view->viewport.y + view->viewport.h / 2, room, FONT_LABEL,
                           THEME_TEXT_NORMAL, THEME_TEXT_DIM, text);
     }
+    onion_show(editor, world);
+    trail_show(editor, world);
     body_show(editor);
     show_hold(editor);
     drawlist_set_clip(&editor->list, clip);

@@ -143,6 +143,22 @@ struct follow {
     double scale[SCENE_MAX_CHANNELS];            ///< follow_scale() of each
 };
 
+enum { TRAIL_FRAMES = 256 };
+
+/// The tip of a tail at a frame, as it was when the document was at `key`.
+struct trail_point {
+    bool known;
+    uint64_t key;
+    int frame;
+    float tip[3];
+};
+
+/// What is shown over the stage; stays as it is when another document is opened.
+struct overlays {
+    bool onion, trail;
+    struct trail_point trail_point[TRAIL_FRAMES];
+};
+
 /// What the pointer is over in the curves and on the stage.
 enum hover_kind {
     HOVER_NONE,
@@ -221,6 +237,7 @@ struct editor {
     struct scaling scaling;
     struct grab grab;
     struct body body;
+    struct overlays overlays;
     struct follow follow[STAGE_MAX_TAILS];
     struct hover hover;
     struct ghost ghost;

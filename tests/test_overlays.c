@@ -1,0 +1,142 @@
+/// Onion skin and motion arc: what they show, and that they follow an edit in its own frame.
+#include "panel_session.h"
+
+#include "ui/theme.h"
+#include <math.h>
+
+static const char scene[] =
+    "{\"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1, \"knots\": ["
+    "{\"frame\": 4, \"value\": 0}, {\"frame\": 14, \"value\": 1}, {\"frame\": 24, \"value\": -1}, {\"frame\": 34, "
+    "\"value\": 1}, {\"frame\": 44, \"value\": -1}, {\"frame\": 54, \"value\": 1}, {\"frame\": 64, \"value\": 0}, "
+    "{\"frame\": 74, \"value\": 1}, {\"frame\": 84, \"value\": 0}]}],"
+    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], \"channels\": [{\"spline\": "
+    "\"sway\"}]}]}";
+
+enum { MAX_FOUND = 400 };
+
+struct found {
+    const struct draw_command *command[MAX_FOUND];
+    int count;
+};
+
+/// The commands of a kind and colour (whatever its opacity) on the stage.
+static struct found find(const struct session *s, enum draw_kind kind, uint32_t color)
+{
+    struct found found = {.count = 0};
+    const struct drawlist *list = editor_drawlist(s->editor);
+    const struct rect *stage = &s->editor->layout.stage;
+    for (int i = 0; i < list->count && found.count < MAX_FOUND; i++) {
+        const struct draw_command *command = &list->commands[i];
+        bool inside =
+            command->clip.y + command->clip.h <= stage->y + stage->h && command->clip.x < stage->x + stage->w;
+        if (command->kind == kind && command->color >> 8 == color >> 8 && inside) {
+            found.command[found.count++] = command;
+        }
+    }
+    return found;
+}
+
+static void middle_of(const struct session *s, const struct draw_command *command, float xy[2])
+{
+    const float *points = editor_drawlist(s->editor)->points + 2 * command->first;
+    xy[0] = xy[1] = 0;
+    for (int i = 0; i < command->count; i++) {
+        xy[0] += points[2 * i] / (float)command->count;
+        xy[1] += points[2 * i + 1] / (float)command->count;
+    }
+}
+
+static void test_onion_shows_the_nearest_knots(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    uint32_t color = theme_spline_color[0];
+    assert_int_equal(find(&s, DRAW_LINE, color).count, 0);
+    session_key(&s, 'O', 0);
+    struct found skins = find(&s, DRAW_LINE, color);
+    assert_int_equal(skins.count, 8); // of nine knots, the ninth is the farthest
+    const struct draw_command *nearest = skins.command[7], *farthest = skins.command[0];
+    assert_true((nearest->color & 0xFF) > (farthest->color & 0xFF));
+    uint64_t before = nearest->hash;
+    session_click(&s, "knot(sway,0)");
+    session_key(&s, KEY_UP, MOD_ALT);
+    skins = find(&s, DRAW_LINE, color);
+    assert_int_equal(skins.count, 8);
+    assert_true(skins.command[7]->hash != before); // in the frame of the nudge
+    session_key(&s, KEY_DELETE, 0);
+    session_key(&s, 'A', MOD_CTRL);
+    session_key(&s, KEY_DELETE, 0);
+    assert_int_equal(find(&s, DRAW_LINE, color).count, 0);
+    session_key(&s, 'O', 0);
+    assert_false(s.editor->overlays.onion);
+    session_close(&s);
+}
+
+/// A mark a frame, where the tip will be; the range's ends are the arc's.
+static void test_arc_is_where_the_tip_goes(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    session_key(&s, 'P', 0);
+    struct found marks = find(&s, DRAW_RECT, THEME_PLAYHEAD);
+    assert_in_range(marks.count, 44, 49); // two seconds ahead of the first frame, less what has faded
+    for (int step = 1; step <= 3; step++) {
+        float expected[2], tip[2];
+        middle_of(&s, find(&s, DRAW_RECT, THEME_PLAYHEAD).command[step], expected);
+        assert_true(isfinite(expected[0]));
+        for (int i = 0; i < step; i++) session_key(&s, KEY_RIGHT, 0);
+        struct error error = {0};
+        assert_true(editor_target(s.editor, &s.world, "tail(tail,1)", &tip[0], &tip[1], &error));
+        assert_near(tip[0], expected[0], 0.1);
+        assert_near(tip[1], expected[1], 0.1);
+        session_key(&s, KEY_LEFT, MOD_SHIFT);
+    }
+    session_close(&s);
+}
+
+static void test_arc_follows_an_edit_at_once(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    session_key(&s, 'P', 0);
+    float before[2], after[2], again[2];
+    middle_of(&s, find(&s, DRAW_RECT, THEME_PLAYHEAD).command[14], before);
+    session_click(&s, "knot(sway,1)");
+    session_key(&s, KEY_UP, MOD_ALT | MOD_SHIFT);
+    middle_of(&s, find(&s, DRAW_RECT, THEME_PLAYHEAD).command[14], after);
+    assert_true(hypotf(after[0] - before[0], after[1] - before[1]) > 2);
+    session_key(&s, 'Z', MOD_CTRL);
+    middle_of(&s, find(&s, DRAW_RECT, THEME_PLAYHEAD).command[14], again);
+    assert_near(again[0], before[0], 1e-4);
+    assert_near(again[1], before[1], 1e-4);
+    session_close(&s);
+}
+
+/// Both stay as they are when another document comes, and neither minds one without tails.
+static void test_overlays_outlive_documents(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, "{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\"}]}");
+    session_key(&s, 'O', 0);
+    session_key(&s, 'P', 0);
+    editor_open(s.editor, &s.world);
+    session_frame(&s);
+    assert_true(s.editor->overlays.onion);
+    assert_true(s.editor->overlays.trail);
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_onion_shows_the_nearest_knots),
+        cmocka_unit_test(test_arc_is_where_the_tip_goes),
+        cmocka_unit_test(test_arc_follows_an_edit_at_once),
+        cmocka_unit_test(test_overlays_outlive_documents),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
