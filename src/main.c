@@ -18,7 +18,7 @@ static const struct command {
     {"check", command_check, "scene.json", "prints every problem of a scene file"},
     {"simulate", command_simulate, "mesh.obj -o sim.npy",
      "shakes a closed mesh as a soft body; its vertices in every frame"},
-    {"analyze", command_analyze, "up.npy --rest m.obj -o c.glb",
+    {"analyze", command_analyze, "up.npy -o creature.glb",
      "finds how a motion oscillates; a character for a spline to drive"},
     {"bench", command_bench, "[--json FILE]", "the solver against LAPACKE"},
 };

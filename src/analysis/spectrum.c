@@ -8,8 +8,9 @@ static bool covariance(const struct lapack *lapack, const double *h, const doubl
                        double complex *result)
 {
     size_t n = (size_t)frames;
-    double *hg = malloc(2 * n * n * sizeof *hg), *hgh = hg + n * n;
+    double *hg = malloc(2 * n * n * sizeof *hg);
     if (!hg) return false;
+    double *hgh = hg + n * n;
     memcpy(hgh, gram, n * n * sizeof *hgh);
     lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, frames, frames, frames, 1, h, frames, gram, frames, 0,
                   hg, frames);

@@ -174,7 +174,7 @@ int command_analyze(int argc, char **argv)
         {"--fps", NULL, "N", "frames a second; .npy and .pc2 do not say", OPTION_REAL, &job.fps, 1e-3, 100000},
         {"--modes", NULL, "K", "coordinates of each file, the largest first (1)", OPTION_INT, &job.modes, 1,
          MODES_MAX},
-        {"--shake", NULL, "DIR", "up, side, front or x,y,z: the sign and phase of a coordinate (most motion)",
+        {"--shake", NULL, "DIR", "up, side, front or x,y,z, one or one a file (up:side): the sign of coordinates",
          OPTION_TEXT, &job.shake, 0, 0},
         {"--scene", NULL, "FILE", "write a scene that drives the character", OPTION_TEXT, &job.scene, 0, 0},
     };

@@ -1,8 +1,8 @@
 #include "timing/bench.h"
+#include "base/lapack.h"
 #include "spline/batch.h"
 #include "spline/chain_lanes.h"
 #include "spline/solver.h"
-#include "base/lapack.h"
 #include "timing/statistics.h"
 #include <math.h>
 #include <stdio.h>
