@@ -6,7 +6,7 @@
 ///        before: n/2     |     frames: n     |  after: n − n/2
 ///
 /// The continuation is linear prediction. The columns of a motion that swings freely are sums of the same few damped
-/// oscillations, and such a sum obeys one recurrence x_t = −Σ a_i x_{t−i} whatever its amplitudes and phases: so it is fitted to
+/// oscillations, and such a sum obeys one recurrence x_t = −Σ a_i x_{t−iq} whatever its amplitudes and phases: so it is fitted to
 /// all columns together, and all it needs of them is G = S Sᵀ. Burg's reflection coefficients lie within the unit circle, so
 /// the continuation never grows. Mirroring instead is right for a shake that starts at a displacement at rest
 /// only, and off by a quarter period for one that starts with a blow.
@@ -20,21 +20,40 @@ static const double least_power = 1e-9;
 
 enum { TERMS = HILBERT_ORDER_MAX + 1 };
 
-/// C_ij = Σ_{t=m}^{n−1} ⟨x_{t−i}, x_{t−j}⟩ for i, j ≤ m, from that of m − 1.
-static void advance_lags(const double *gram, int n, int m, double lags[TERMS][TERMS])
+/// An eighth of the mean period, by the pooled correlation of neighbouring frames: cos ω = Σ ⟨x_t, x_{t−1}⟩ / Σ |x_t|².
+/// Steps much shorter make every oscillation look like a straight line, and Burg's damping then is not that of the data.
+static int find_stride(const double *gram, int frames)
+{
+    size_t n = (size_t)frames;
+    double product = 0, power = 0;
+    int longest = frames / 8 > 1 ? frames / 8 : 1;
+    for (size_t t = 1; t < n; t++) {
+        product += gram[t * n + t - 1];
+        power += (gram[t * n + t] + gram[(t - 1) * n + t - 1]) / 2;
+    }
+    double omega = acos(fmax(fmin(product / power, 1), -1)); // radians a frame
+    double stride = M_PI / (4 * omega);
+    return stride < 1 ? 1 : stride < longest ? (int)stride : longest;
+}
+
+/// C_ij = Σ_{t=mq}^{n−1} ⟨x_{t−iq}, x_{t−jq}⟩ for i, j ≤ m, from that of m − 1; q is the stride.
+static void advance_lags(const double *gram, int n, int m, int q, double lags[TERMS][TERMS])
 {
     for (int i = 0; i < m; i++) {
-        for (int j = 0; j < m; j++) lags[i][j] -= gram[(size_t)(m - 1 - i) * (size_t)n + (size_t)(m - 1 - j)];
+        for (int j = 0; j < m; j++) {
+            for (int t = (m - 1) * q; t < m * q; t++)
+                lags[i][j] -= gram[(size_t)(t - i * q) * (size_t)n + (size_t)(t - j * q)];
+        }
     }
     for (int j = 0; j <= m; j++) {
         double sum = 0;
-        for (int t = m; t < n; t++) sum += gram[(size_t)(t - m) * (size_t)n + (size_t)(t - j)];
+        for (int t = m * q; t < n; t++) sum += gram[(size_t)(t - m * q) * (size_t)n + (size_t)(t - j * q)];
         lags[m][j] = lags[j][m] = sum;
     }
 }
 
-/// Burg's step from order m − 1 to m, with f_t = Σ a_i x_{t−i} and b_{t−1} = Σ a_i x_{t−m+i}:
-/// k = −2 Σ ⟨f_t, b_{t−1}⟩ / Σ (|f_t|² + |b_{t−1}|²). NaN where less power than `least` is left.
+/// Burg's step from order m − 1 to m, with f_t = Σ a_i x_{t−iq} and b_{t−q} = Σ a_i x_{t−(m−i)q}:
+/// k = −2 Σ ⟨f_t, b_{t−q}⟩ / Σ (|f_t|² + |b_{t−q}|²). NaN where no more power than `least` is left.
 static double reflection(const double *a, int m, double lags[TERMS][TERMS], double least)
 {
     double product = 0, power = 0;
@@ -47,39 +66,39 @@ static double reflection(const double *a, int m, double lags[TERMS][TERMS], doub
     return power > least ? -2 * product / power : (double)NAN;
 }
 
-int hilbert_predictor(const double *gram, int frames, double a[TERMS])
+struct predictor hilbert_predictor(const double *gram, int frames)
 {
+    struct predictor p = {.a = {1}, .stride = find_stride(gram, frames)};
     double lags[TERMS][TERMS] = {{0}}, trace = 0;
-    int limit = frames / 3 < HILBERT_ORDER_MAX ? frames / 3 : HILBERT_ORDER_MAX;
     for (int t = 0; t < frames; t++) trace += gram[(size_t)t * (size_t)frames + (size_t)t];
     lags[0][0] = trace;
-    memset(a, 0, TERMS * sizeof *a);
-    a[0] = 1;
-    for (int m = 1; m <= limit; m++) {
+    for (int m = 1; m <= HILBERT_ORDER_MAX && m * p.stride <= 2 * frames / 3; m++) {
         double before[TERMS];
-        advance_lags(gram, frames, m, lags);
-        double k = reflection(a, m, lags, 2 * least_power * trace);
-        if (isnan(k)) return m - 1;
-        memcpy(before, a, sizeof before);
-        for (int i = 1; i <= m; i++) a[i] = before[i] + k * before[m - i]; // Levinson
+        advance_lags(gram, frames, m, p.stride, lags);
+        double k = reflection(p.a, m, lags, 2 * least_power * trace);
+        if (isnan(k)) break;
+        memcpy(before, p.a, sizeof before);
+        for (int i = 1; i <= m; i++) p.a[i] = before[i] + k * before[m - i]; // Levinson
+        p.order = m;
     }
-    return limit;
+    return p;
 }
 
-/// Adds −Σ a_i x_{t ∓ i} to the row of a sample outside. `known` says how a sample lies in terms of the given ones: row
-/// `number` of `rows` or, inside, the unit row of its own.
-static void predict(const double *a, int order, int frames, int at, int step, double *rows, int before)
+/// Adds −Σ a_i x_{at − i·step} to the row of a sample outside. A sample is its row of `rows` or, inside, the unit row of
+/// its own.
+static void predict(const struct predictor *p, int frames, int at, int step, double *rows)
 {
     size_t n = (size_t)frames;
+    int before = frames / 2;
     double *row = rows + (size_t)(at < 0 ? at + before : at - frames + before) * n;
-    for (int i = 1; i <= order; i++) {
+    for (int i = 1; i <= p->order; i++) {
         int from = at - i * step;
         if (from >= 0 && from < frames) {
-            row[from] -= a[i];
+            row[from] -= p->a[i];
             continue;
         }
         const double *other = rows + (size_t)(from < 0 ? from + before : from - frames + before) * n;
-        for (size_t t = 0; t < n; t++) row[t] -= a[i] * other[t];
+        for (size_t t = 0; t < n; t++) row[t] -= p->a[i] * other[t];
     }
 }
 
@@ -87,13 +106,13 @@ static void predict(const double *a, int order, int frames, int at, int step, do
 static double fade(int i, int count) { return 0.5 + 0.5 * cos(M_PI * (i + 0.5) / count); }
 
 /// The continuation as rows in terms of the given samples: those before in their order, then those after.
-static void continue_samples(const double *a, int order, int frames, double *rows)
+static void continue_samples(const struct predictor *p, int frames, double *rows)
 {
     size_t n = (size_t)frames;
     int before = frames / 2, after = frames - before;
     memset(rows, 0, n * n * sizeof *rows);
-    for (int i = 0; i < before; i++) predict(a, order, frames, -1 - i, -1, rows, before);
-    for (int i = 0; i < after; i++) predict(a, order, frames, frames + i, 1, rows, before);
+    for (int i = 0; i < before; i++) predict(p, frames, -1 - i, -p->stride, rows);
+    for (int i = 0; i < after; i++) predict(p, frames, frames + i, p->stride, rows);
     for (int r = 0; r < frames; r++) {
         double weight = r < before ? fade(before - 1 - r, before) : fade(r - before, after);
         for (size_t t = 0; t < n; t++) rows[(size_t)r * n + t] *= weight;
@@ -105,14 +124,14 @@ static double kernel(int difference, int length)
     return difference % 2 == 0 ? 0 : 2.0 / length / tan(M_PI * difference / length);
 }
 
-bool hilbert_transform(const struct lapack *lapack, const double *a, int order, int frames, double *transform)
+bool hilbert_transform(const struct lapack *lapack, const struct predictor *predictor, int frames, double *transform)
 {
     size_t n = (size_t)frames;
     int before = frames / 2, length = 2 * frames;
     double *rows = malloc(2 * n * n * sizeof *rows);
     if (!rows) return false;
     double *outside = rows + n * n; // K's columns of the continuation
-    continue_samples(a, order, frames, rows);
+    continue_samples(predictor, frames, rows);
     for (int t = 0; t < frames; t++) {
         for (int s = 0; s < frames; s++) {
             transform[(size_t)t * n + (size_t)s] = kernel(t - s, length);

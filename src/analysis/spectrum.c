@@ -60,11 +60,10 @@ static void turn_round(struct spectrum *s)
 static bool decompose(struct spectrum *s, const struct lapack *lapack, const double *gram, double *copy)
 {
     int n = s->frames;
-    double coefficients[HILBERT_ORDER_MAX + 1];
     memcpy(copy, gram, (size_t)n * (size_t)n * sizeof *copy);
     if (!real_shares(lapack, copy, n, s->values, s)) return false;
-    int order = hilbert_predictor(gram, n, coefficients);
-    if (!hilbert_transform(lapack, coefficients, order, n, s->transform)) return false;
+    struct predictor predictor = hilbert_predictor(gram, n);
+    if (!hilbert_transform(lapack, &predictor, n, s->transform)) return false;
     if (!covariance(lapack, s->transform, gram, n, s->vectors)) return false;
     if (lapack->zheevd(LAPACK_COLUMNS_FIRST, 'V', 'L', n, s->vectors, n, s->values) != 0) return false;
     turn_round(s);
