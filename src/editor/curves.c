@@ -1,6 +1,7 @@
 /// Draws the curves panel: lines, knots, slope handles, names, playhead.
 #include "editor/curves.h"
 #include "editor/actions.h"
+#include "editor/warnings.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -334,6 +335,7 @@ void curves_show(struct editor *editor, const struct editor_world *world)
 {
     struct rect clip = drawlist_push_clip(&editor->list, editor->layout.curves);
     curves_update(editor, world);
+    warnings_update(editor, world);
     grid_show(editor, world);
     struct rect panel = drawlist_push_clip(&editor->list, editor->layout.plot);
     show_lines(editor, world);
@@ -341,6 +343,7 @@ void curves_show(struct editor *editor, const struct editor_world *world)
         show_other_knots(editor, world->document, editor->cache.other_spline[i]);
     }
     show_knots(editor, world);
+    warnings_show(editor);
     box_show(editor);
     scale_show(editor);
     show_empty(editor, world);
@@ -348,5 +351,6 @@ void curves_show(struct editor *editor, const struct editor_world *world)
     show_look(editor);
     show_labels(editor, world);
     show_playhead(editor, world->document);
+    warnings_show_words(editor);
     drawlist_set_clip(&editor->list, clip);
 }

@@ -1,9 +1,10 @@
 /// The mouse in the curves panel: what is under it, presses and the wheel.
 #include "editor/actions.h"
 #include "editor/curves.h"
+#include "editor/warnings.h"
 #include <math.h>
 
-static const float CURVE_REACH = 7, OTHER_REACH = 7;
+static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9;
 static const double ZOOM_STEP = 0.15; ///< of a wheel's notch, as a power of e
 
 /// The nearest knot of one spline, where it is nearer than `reach`; returns its distance, else `reach`.
@@ -52,6 +53,17 @@ static void nearest_handle(const struct editor *editor, const struct document *d
     }
 }
 
+static void nearest_warning(const struct editor *editor, float x, float y, struct hover *hover)
+{
+    for (int i = 0; i < editor->warnings.count; i++) {
+        float xy[2];
+        if (!warning_place(editor, &editor->warnings.list[i], xy) || hypotf(x - xy[0], y - xy[1]) > WARNING_REACH) {
+            continue;
+        }
+        *hover = (struct hover){.kind = HOVER_WARNING, .handle = i};
+    }
+}
+
 /// The nearest curve straight above or below, the active one first.
 static void nearest_curve(const struct editor *editor, const struct editor_world *world, float x, float y,
                           struct hover *hover)
@@ -77,6 +89,7 @@ struct hover curves_hover(const struct editor *editor, const struct editor_world
     if (!rect_contains(editor->layout.plot, x, y) || !spline) return hover;
     nearest_knot(editor, world->document, editor->active, x, y, CURVES_HIT_RADIUS, &hover);
     if (hover.kind == HOVER_NONE) nearest_handle(editor, world->document, spline, x, y, &hover);
+    if (hover.kind == HOVER_NONE) nearest_warning(editor, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_other_knot(editor, world->document, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_curve(editor, world, x, y, &hover);
     return hover;
@@ -141,6 +154,9 @@ void curves_press(struct editor *editor, const struct editor_world *world, const
     switch (hover.kind) {
     case HOVER_RULER:
         press_ruler(editor, world, event);
+        break;
+    case HOVER_WARNING:
+        warning_remedy(editor, world, &editor->warnings.list[hover.handle]);
         break;
     case HOVER_UNITS:
         ruler_toggle(editor);

@@ -118,6 +118,7 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     memset(editor->follow, 0, sizeof editor->follow);
     editor->cache.key = 0;
     editor->cache.range_count = 0;
+    editor->warnings = (struct warnings){0};
     editor->fitted = false;
     editor->look = LOOK_WIGGLY;
     editor->active = first_spline(document);

@@ -166,7 +166,7 @@ int editor_cursor(const struct editor *editor)
         [HOVER_NONE] = SHAPE_ARROW, [HOVER_KNOT] = SHAPE_MOVE,        [HOVER_SLOPE] = SHAPE_MOVE,
         [HOVER_CURVE] = SHAPE_HAND, [HOVER_RULER] = SHAPE_HORIZONTAL, [HOVER_JOINT] = SHAPE_HAND,
         [HOVER_UNITS] = SHAPE_HAND, [HOVER_BODY] = SHAPE_MOVE,        [HOVER_PLAY] = SHAPE_HAND,
-        [HOVER_LOOP] = SHAPE_HAND,  [HOVER_SPEED] = SHAPE_HAND,
+        [HOVER_LOOP] = SHAPE_HAND,  [HOVER_SPEED] = SHAPE_HAND,       [HOVER_WARNING] = SHAPE_HAND,
     };
     static const enum pointer_shape of_widget[] = {
         [UI_OVER_NOTHING] = SHAPE_ARROW, [UI_OVER_NUMBER] = SHAPE_HORIZONTAL, [UI_OVER_TEXT] = SHAPE_TEXT};

@@ -167,6 +167,7 @@ enum hover_kind {
     HOVER_CURVE,
     HOVER_RULER,
     HOVER_UNITS,
+    HOVER_WARNING,
     HOVER_JOINT,
     HOVER_BODY,
     HOVER_PLAY,
@@ -178,10 +179,34 @@ struct hover {
     enum hover_kind kind;
     int spline;
     unsigned knot;
-    int handle; ///< HOVER_SLOPE: which end, as in curves_handle()
+    int handle; ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING: which one
     int tail, joint;
     double fraction; ///< of the segment after the joint
     float x, y;      ///< of the point on the tail
+};
+
+enum warning_kind {
+    WARNING_SWING, ///< the curve goes further than twice its knots
+    WARNING_RATE,  ///< a frequency near half the sample rate
+    WARNING_DRIFT, ///< bandwidth times the periods between two knots
+};
+
+/// Something about the active spline that nobody wants.
+struct warning {
+    enum warning_kind kind;
+    double frame, value; ///< the place (not of a rate)
+    double from, to;     ///< frames of the knots around it
+    double amount;       ///< swing in heights of the knots; Hz; periods
+    double limit;        ///< Hz that would be fine; bandwidth as it is
+    double remedy;       ///< value of a knot at the place; substeps; bandwidth
+};
+
+enum { WARNINGS_MAX = 16 };
+
+struct warnings {
+    uint64_t key; ///< of what they were found in
+    int count;
+    struct warning list[WARNINGS_MAX];
 };
 
 struct playback {
@@ -242,6 +267,7 @@ struct editor {
     struct hover hover;
     struct ghost ghost;
     struct curve_cache cache;
+    struct warnings warnings;
     float scratch[2 * EDITOR_MAX_COLUMNS]; ///< points of a line that is made while it is drawn
     enum look look;
     float pointer_x, pointer_y;

@@ -33,6 +33,8 @@ static const char *hover_hint(const struct editor *editor, const struct document
         return editor->hover.spline == editor->active ? "Double-click to insert a knot" : "Click to edit this spline";
     case HOVER_RULER:
         return "Drag to scrub; Shift+drag: play only a part, Shift+click: all again";
+    case HOVER_WARNING:
+        return "Click the warning to do away with it; Ctrl+Z brings it back";
     case HOVER_UNITS:
         return "Click to count frames or seconds (U)";
     case HOVER_JOINT:

@@ -2,6 +2,7 @@
 #include "editor/actions.h"
 #include "editor/body.h"
 #include "editor/curves.h"
+#include "editor/warnings.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,6 +84,20 @@ static bool find_curve(struct place *place, struct error *error)
     return in_plot(place, place->target->number[0], place->target->number[1], error);
 }
 
+static bool find_warning(struct place *place, struct error *error)
+{
+    const struct warnings *warnings = &place->editor->warnings;
+    double number = place->target->number[0];
+    float xy[2];
+    bool there = number >= 0 && number < warnings->count;
+    if (!there || !warning_place(place->editor, &warnings->list[(int)number], xy)) {
+        return fail(error, ERROR_INPUT, "no warning %g is to be seen", number);
+    }
+    place->x = xy[0];
+    place->y = xy[1];
+    return true;
+}
+
 static bool find_ruler(struct place *place, struct error *error)
 {
     const struct rect *ruler = &place->editor->layout.ruler;
@@ -162,6 +177,7 @@ static const struct target_kind {
     {.kind = "knot", .named = true, .numbers = 1, .find = find_knot},
     {.kind = "handle", .named = true, .numbers = 2, .find = find_handle},
     {.kind = "curve", .named = true, .numbers = 2, .find = find_curve},
+    {.kind = "warning", .named = false, .numbers = 1, .find = find_warning},
     {.kind = "ruler", .named = false, .numbers = 1, .find = find_ruler},
     {.kind = "stage", .named = false, .numbers = 2, .find = find_stage},
     {.kind = "tail", .named = true, .numbers = 1, .find = find_tail},

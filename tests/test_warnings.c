@@ -1,0 +1,136 @@
+// Warnings in the curves panel: said where something is wrong, silent where nothing is, and gone after one click.
+#include "base/file.h"
+#include "editor/warnings.h"
+#include "panel_session.h"
+
+/// A jump within two frames, and a knot half a period later that asks for the same value again.
+static const char JUMP[] = "{\"wiggly\": 1, \"frames\": [0, 72], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
+                           "\"damping\": 0.05, \"bandwidth\": 0.05, \"knots\": [{\"frame\": 10, \"value\": 0},"
+                           "{\"frame\": 12, \"value\": 1}, {\"frame\": 24, \"value\": 1}]}]}";
+
+/// Knots half a period apart, and a start that costs nothing however hard it swings.
+static const char UNCALM[] =
+    "{\"wiggly\": 1, \"frames\": [0, 72], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
+    "\"mode\": \"real\", \"calm\": 0, \"damping\": 0.05, \"knots\": ["
+    "{\"frame\": 10, \"value\": 1}, {\"frame\": 22, \"value\": 1}]}]}";
+
+static const char FAST[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 9,"
+                           "\"damping\": 0.1, \"bandwidth\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 0},"
+                           "{\"frame\": 12, \"value\": 1}, {\"frame\": 14, \"value\": 0}]}]}";
+
+static const char WIDE[] =
+    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
+    "\"damping\": 0.1, \"bandwidth\": 0.2, \"knots\": [{\"frame\": 0, \"value\": 1},"
+    "{\"frame\": 24, \"value\": 1}, {\"frame\": 84, \"value\": 1}]}]}";
+
+static char *saved(const struct session *s)
+{
+    size_t size;
+    char *text = scene_print(s->document, &size);
+    assert_non_null(text);
+    return text;
+}
+
+/// Opens a scene that has a warning, clicks it, and finds it gone by one step that undo takes back byte by byte.
+static void assert_remedied(struct session *s, const char *scene, enum warning_kind kind)
+{
+    session_open(s, scene);
+    assert_int_equal(s->editor->warnings.count, 1);
+    assert_int_equal(s->editor->warnings.list[0].kind, kind);
+    char *original = saved(s);
+    session_point(s, "warning(0)");
+    session_frame(s);
+    assert_int_equal(s->editor->hover.kind, HOVER_WARNING);
+    session_click(s, "warning(0)");
+    session_frame(s);
+    assert_int_equal(s->editor->warnings.count, 0);
+    session_key(s, 'Z', MOD_CTRL);
+    char *undone = saved(s);
+    assert_string_equal(undone, original);
+    assert_int_equal(s->editor->warnings.count, 1);
+    assert_null(history_undo_label(s->history));
+    session_key(s, 'Y', MOD_CTRL);
+    assert_int_equal(s->editor->warnings.count, 0);
+    free(original);
+    free(undone);
+}
+
+static void test_a_swing_is_tamed_by_what_helps(void **state)
+{
+    (void)state;
+    struct session s;
+    assert_remedied(&s, JUMP, WARNING_SWING);
+    const struct spline *sway = &s.document->splines[0];
+    assert_int_equal(sway->knot_count, 4); // there is calm enough: a knot holds it
+    assert_near(sway->knots[2].value, 1, 1e-9);
+    session_close(&s);
+    assert_remedied(&s, UNCALM, WARNING_SWING);
+    assert_int_equal(s.document->splines[0].knot_count, 2); // no knot where calm does it
+    assert_near(s.document->splines[0].parameter[PARAMETER_CALM].value, 1, 0);
+    session_close(&s);
+}
+
+static void test_a_fast_spline_gets_substeps(void **state)
+{
+    (void)state;
+    struct session s;
+    assert_remedied(&s, FAST, WARNING_RATE);
+    assert_int_equal(s.document->substeps, 2);
+    assert_near(s.document->splines[0].parameter[PARAMETER_FREQUENCY].value, 9, 0);
+    session_close(&s);
+}
+
+static void test_a_wide_band_is_narrowed_to_what_the_knots_hold(void **state)
+{
+    (void)state;
+    struct session s;
+    assert_remedied(&s, WIDE, WARNING_DRIFT);
+    assert_near(s.document->splines[0].parameter[PARAMETER_BANDWIDTH].value, 0.12, 1e-9); // 0.3 over 2.5 periods
+    session_close(&s);
+}
+
+static void test_the_scenes_of_the_program_are_quiet(void **state)
+{
+    (void)state;
+    static const char *const paths[] = {"assets/scenes/tail.json", "assets/scenes/figure1.json",
+                                        "assets/scenes/figure3.json", "assets/scenes/figure5.json"};
+    for (size_t i = 0; i < sizeof paths / sizeof paths[0]; i++) {
+        struct session s;
+        struct warnings found;
+        struct error error;
+        char *text;
+        size_t size;
+        if (!file_read(paths[i], 1 << 20, &text, &size, &error)) fail_msg("%s", error.text);
+        session_open(&s, text);
+        for (int spline = 0; spline < s.document->spline_count; spline++) {
+            warnings_find(s.document, &s.evaluation, spline, &found);
+            assert_int_equal(found.count, 0);
+        }
+        session_close(&s);
+        free(text);
+    }
+}
+
+static void test_a_cubic_has_nothing_to_warn_of(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, WIDE);
+    session_key(&s, 'V', 0);
+    assert_int_equal(s.editor->warnings.count, 1); // stiff: the same curve
+    session_key(&s, 'V', 0);
+    assert_int_equal(s.editor->warnings.count, 0);
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_swing_is_tamed_by_what_helps),
+        cmocka_unit_test(test_a_fast_spline_gets_substeps),
+        cmocka_unit_test(test_a_wide_band_is_narrowed_to_what_the_knots_hold),
+        cmocka_unit_test(test_the_scenes_of_the_program_are_quiet),
+        cmocka_unit_test(test_a_cubic_has_nothing_to_warn_of),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
