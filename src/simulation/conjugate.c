@@ -60,10 +60,11 @@ int conjugate_solve(struct conjugate *c, const struct blocks *a, const double (*
 {
     const int rows = a->rows, n = 3 * rows;
     double *r = *c->r, *z = *c->z, *p = *c->p, *q = *c->q, *unknown = *x;
+    const double *right = *b;
     for (int i = 0; i < rows; i++) invert(a->block[a->diagonal[i]], c->inverse[i]);
     double goal = tolerance * tolerance * precondition(c, rows, b, c->z);
     blocks_multiply(a, (const double(*)[3])x, c->q);
-    for (int i = 0; i < n; i++) r[i] = (*b)[i] - q[i];
+    for (int i = 0; i < n; i++) r[i] = right[i] - q[i];
     double rz = precondition(c, rows, (const double(*)[3])c->r, c->z);
     memcpy(p, z, (size_t)n * sizeof *p);
     int iteration = 0;
