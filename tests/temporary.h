@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /// The path of a file called `name`; the same storage at each fourth call.
 static inline const char *temporary_path(const char *name)
@@ -23,6 +24,7 @@ static inline const char *temporary_path(const char *name)
 static inline const char *temporary_file(const char *name, const void *bytes, size_t size)
 {
     const char *path = temporary_path(name);
+    unlink(path); // a file that is cut to nothing and written again would wait for the disk
     FILE *file = fopen(path, "wb");
     if (!file || fwrite(bytes, 1, size, file) != size || fclose(file) != 0) abort();
     return path;

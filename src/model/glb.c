@@ -159,15 +159,13 @@ static int components_of(const json_t *accessor)
     return 0;
 }
 
+/// Reads all numbers; false where some lie outside of the file. Without a buffer view (and bytes) all are zero.
 static bool fill(const struct glb *glb, const json_t *accessor, struct elements *e, struct glb_numbers *numbers)
 {
     const json_t *sparse = json_object_get(accessor, "sparse");
-    if (json_object_get(accessor, "bufferView")) { // without one all are zero
-        if (!find_elements(glb, accessor, numbers->count, e)) return false;
-        for (int i = 0; i < numbers->count; i++) {
-            for (int k = 0; k < e->components; k++)
-                numbers->values[(size_t)i * (size_t)e->components + (size_t)k] = number_at(e, i, k);
-        }
+    for (int i = 0; e->bytes && i < numbers->count; i++) {
+        for (int k = 0; k < e->components; k++)
+            numbers->values[(size_t)i * (size_t)e->components + (size_t)k] = number_at(e, i, k);
     }
     return !sparse || apply_sparse(glb, sparse, e, numbers);
 }
@@ -179,6 +177,12 @@ static bool all_finite(const struct glb_numbers *numbers)
         if (!isfinite(numbers->values[i])) return false;
     }
     return true;
+}
+
+static bool outside(const struct glb *glb, int64_t index, struct error *error)
+{
+    return fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected data within the file, got a place outside of it",
+                glb->path, (long long)index);
 }
 
 bool glb_numbers(const struct glb *glb, int64_t index, struct glb_numbers *numbers, struct error *error)
@@ -193,17 +197,16 @@ bool glb_numbers(const struct glb *glb, int64_t index, struct glb_numbers *numbe
     if (count < 1 || count > COUNT_LIMIT || size_of_type(type) == 0 || e.components == 0)
         return fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected numbers or vectors, got something else",
                     glb->path, (long long)index);
+    bool within = !json_object_get(accessor, "bufferView") || find_elements(glb, accessor, count, &e);
+    if (!within) return outside(glb, index, error);
     numbers->count = (int)count;
     numbers->values = calloc((size_t)count * (size_t)e.components, sizeof *numbers->values);
     if (!numbers->values) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", glb->path);
-    const char *wrong = NULL;
-    if (!fill(glb, accessor, &e, numbers)) {
-        wrong = "data within the file, got a place outside of it";
-    } else if (!all_finite(numbers)) {
-        wrong = "finite numbers, got NaN or infinity";
-    }
-    if (!wrong) return true;
+    bool read = fill(glb, accessor, &e, numbers), finite = read && all_finite(numbers);
+    if (finite) return true;
     free(numbers->values);
     numbers->values = NULL;
-    return fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected %s", glb->path, (long long)index, wrong);
+    if (!read) return outside(glb, index, error);
+    return fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected finite numbers, got NaN or infinity", glb->path,
+                (long long)index);
 }
