@@ -357,7 +357,8 @@ static void monkey(struct session *s)
                                KEY_UP,    KEY_DOWN,   KEY_PAGE_DOWN, KEY_HOME,      KEY_END,    KEY_F1,   KEY_COMMA,
                                'A',       'B',        'C',           'D',           'E',        'F',      'I',
                                'L',       'M',        'T',           'V',           'X',        'Y',      'Z',
-                               '1',       '.',        '-',           KEY_BACKSPACE, 'I',        'T'};
+                               '1',       '.',        '-',           KEY_BACKSPACE, 'I',        'T',      'S',
+                               'N',       'U',        'G',           'R',           'P',        'S',      'R'};
     static const unsigned mods[] = {0, 0, 0, MOD_SHIFT, MOD_CTRL, MOD_ALT, MOD_ALT | MOD_SHIFT, MOD_ALT | MOD_CTRL};
     char target[32];
     struct event event = {.x = s->x, .y = s->y, .mods = mods[below(8)], .scale = 1};
@@ -383,7 +384,8 @@ static void monkey(struct session *s)
         event.clicks = 1 + below(2);
         break;
     case 5:
-        event.kind = below(4) ? EVENT_WHEEL : EVENT_TEXT;
+        event.kind = below(4) ? EVENT_WHEEL : below(2) ? EVENT_TEXT : EVENT_PASTE;
+        event.text = below(2) ? editor_clipboard(s->editor) : "0,0.5\n2,-1,3\n7,1e9\n";
         event.dy = (float)below(9) - 4;
         event.codepoint = (uint32_t)('0' + below(10));
         break;
