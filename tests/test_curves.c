@@ -369,6 +369,66 @@ static void test_double_click_on_the_curve_keeps_it(void **state)
     session_close(&s);
 }
 
+/// 2,400 knots on 900 pixels: those in one pixel column are drawn as one, and each can still be clicked.
+static void test_crowded_knots_are_drawn_as_one_and_hit_each(void **state)
+{
+    (void)state;
+    static char scene[200000];
+    size_t at = 0;
+    at += (size_t)snprintf(scene, sizeof scene,
+                           "{\"wiggly\":1,\"frames\":[0,2400],\"splines\":[{\"name\":\"sway\",\"knots\":[");
+    for (int i = 0; i < 2400; i++) {
+        at +=
+            (size_t)snprintf(scene + at, sizeof scene - at, "%s{\"frame\":%d,\"value\":%d}", i ? "," : "", i, i % 3);
+    }
+    snprintf(scene + at, sizeof scene - at, "]}]}");
+    struct session s;
+    session_open(&s, scene);
+    int diamonds = 0;
+    const struct drawlist *list = editor_drawlist(s.editor);
+    for (int i = 0; i < list->count; i++) diamonds += list->commands[i].kind == DRAW_CONVEX;
+    assert_true(diamonds < 1000);
+    assert_true(diamonds > 500);
+    for (int k = 1000; k < 1003; k++) {
+        char target[32];
+        snprintf(target, sizeof target, "knot(sway,%d)", k);
+        session_click(&s, target);
+        assert_int_equal(selection_single(&s.editor->selection, spline(&s, 0)), k);
+    }
+    session_close(&s);
+}
+
+/// Twelve curves that end at the same height in the lowest panel there is.
+static void test_labels_never_overlap(void **state)
+{
+    (void)state;
+    char scene[4096];
+    size_t at = (size_t)snprintf(scene, sizeof scene, "{\"wiggly\":1,\"frames\":[0,48],\"splines\":[");
+    for (int i = 0; i < 12; i++) {
+        at += (size_t)snprintf(scene + at, sizeof scene - at,
+                               "%s{\"name\":\"s%d\",\"mode\":\"cubic\",\"knots\":[{\"frame\":%d,\"value\":1}]}",
+                               i ? "," : "", i, i);
+    }
+    snprintf(scene + at, sizeof scene - at, "]}");
+    struct session s;
+    panel_open(&s, scene, 640, 300);
+    const struct drawlist *list = editor_drawlist(s.editor);
+    const struct rect plot = s.editor->layout.plot;
+    float last = plot.y - 20;
+    int labels = 0;
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *c = &list->commands[i];
+        bool beside = c->kind == DRAW_TEXT && c->x > plot.x + plot.w && c->x < s.editor->layout.inspector.x;
+        if (!beside || c->y < plot.y || c->y > plot.y + plot.h + 8) continue;
+        assert_true(c->y - last > 13);
+        last = c->y;
+        labels++;
+    }
+    assert_true(labels >= 3);
+    assert_true(last <= plot.y + plot.h);
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -385,6 +445,8 @@ int main(void)
         cmocka_unit_test(test_slopes_flat_and_smooth),
         cmocka_unit_test(test_a_longer_handle_is_stiffer),
         cmocka_unit_test(test_double_click_on_the_curve_keeps_it),
+        cmocka_unit_test(test_crowded_knots_are_drawn_as_one_and_hit_each),
+        cmocka_unit_test(test_labels_never_overlap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,6 @@
 #include "editor/actions.h"
 #include "editor/curves.h"
 #include "ui/theme.h"
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,7 +49,7 @@ static void say(struct editor *editor, struct factors by)
     const char *axis = drag->lock_x ? " time" : drag->lock_y ? " value" : "";
     const char *pivots[] = {"middle", "playhead"};
     snprintf(editor->scaling.sentence, sizeof scaling->sentence,
-             "Scale%s by %s about the %s (P: the %s). X, Y: one axis. Enter keeps, Esc cancels", axis, factor,
+             "Scale%s by %s about the %s (P: the %s).  X, Y;  Enter, Esc", axis, factor,
              pivots[scaling->about_playhead], pivots[!scaling->about_playhead]);
 }
 
@@ -67,6 +66,7 @@ void scale_begin(struct editor *editor, const struct editor_world *world)
     drag_collect(editor, spline);
     editor->scaling = (struct scaling){.about_playhead = count == 1, .free_time = 1};
     editor->message.text[0] = 0;
+    editor->hover = (struct hover){.kind = HOVER_NONE};
     place_pivot(editor, world);
     say(editor, (struct factors){1, 1});
 }
@@ -181,10 +181,13 @@ void scale_show(struct editor *editor)
 static bool type(struct scaling *scaling, int key)
 {
     size_t length = strlen(scaling->typed);
-    bool good =
-        isdigit(key) || ((key == '.' || key == ',') && !strchr(scaling->typed, '.')) || (key == '-' && length == 0);
-    if (key == KEY_BACKSPACE && length > 0) scaling->typed[length - 1] = 0;
-    if (!good || length + 1 >= sizeof scaling->typed) return key == KEY_BACKSPACE;
+    if (key == KEY_BACKSPACE) {
+        if (length > 0) scaling->typed[length - 1] = 0;
+        return true;
+    }
+    bool digit = key >= '0' && key <= '9', sign = key == '-' && length == 0;
+    bool point = (key == '.' || key == ',') && !strchr(scaling->typed, '.');
+    if (!(digit || sign || point) || length + 1 >= sizeof scaling->typed) return false;
     scaling->typed[length] = (char)(key == ',' ? '.' : key);
     scaling->typed[length + 1] = 0;
     return true;
