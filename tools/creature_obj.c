@@ -2,13 +2,16 @@
 ///
 /// One solid, so that the mesh is one closed manifold: a smooth union of round cones, cut off flat at the ground. It is
 /// 1.5 m high, looks towards +z and stands on y = 0; its arms hang well clear of the body, so that a lattice around the
-/// mesh does not glue them together. Colours are kept as `v x y z r g b`, linear.
-#include "base/file.h"
+/// mesh does not glue them together.
 #include "model/coat.h"
 #include "model/isosurface.h"
+#include "model/obj.h"
 #include "model/parts.h"
 #include "model/refine.h"
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #define SKIN 0x62A9B5u
 #define DARKER 0x3D8496u
@@ -66,22 +69,23 @@ static void paint(struct vertex *vertex)
     if (face < 0.002f) coat_mix(vertex->color, COAT_TIP, shine);
 }
 
-static void print(const struct mesh *mesh, FILE *out)
+static bool write(const struct mesh *mesh, const char *path, struct error *error)
 {
-    fputs("# wiggly's creature: metres, y up, looks towards +z, stands on y = 0; colours are linear\n", out);
-    for (int i = 0; i < mesh->vertex_count; i++) {
-        const struct vertex *v = &mesh->vertices[i];
-        fprintf(out, "v %.6f %.6f %.6f %.4f %.4f %.4f\n", (double)v->position[0], (double)v->position[1],
-                (double)v->position[2], (double)v->color[0], (double)v->color[1], (double)v->color[2]);
+    struct surface surface = {
+        .vertex_count = mesh->vertex_count, .indices = mesh->indices, .index_count = mesh->index_count};
+    const size_t bytes = (size_t)mesh->vertex_count * sizeof *surface.position;
+    surface.position = malloc(bytes);
+    surface.color = malloc(bytes);
+    bool written = surface.position && surface.color;
+    for (int i = 0; written && i < mesh->vertex_count; i++) {
+        memcpy(surface.position[i], mesh->vertices[i].position, sizeof *surface.position);
+        memcpy(surface.color[i], mesh->vertices[i].color, sizeof *surface.color);
     }
-    for (int i = 0; i < mesh->vertex_count; i++) {
-        const float *n = mesh->vertices[i].normal;
-        fprintf(out, "vn %.4f %.4f %.4f\n", (double)n[0], (double)n[1], (double)n[2]);
-    }
-    for (int i = 0; i < mesh->index_count; i += 3) {
-        const unsigned a = mesh->indices[i] + 1, b = mesh->indices[i + 1] + 1, c = mesh->indices[i + 2] + 1;
-        fprintf(out, "f %u//%u %u//%u %u//%u\n", a, a, b, b, c, c);
-    }
+    written = written ? obj_write(path, &surface, error)
+                      : fail(error, ERROR_ENVIRONMENT, "not enough memory for the creature");
+    free(surface.position);
+    free(surface.color);
+    return written;
 }
 
 int main(int argc, char **argv)
@@ -92,16 +96,13 @@ int main(int argc, char **argv)
     }
     const struct solid solid = {distance, paint};
     struct mesh mesh = {0};
-    struct file_output output;
     struct error error = {0};
     isosurface(&solid, lo, hi, CELL, &mesh);
     refine(&solid, TOLERANCE, REFINE_ROUNDS, 0, &mesh);
     if (mesh.failed) {
         fail(&error, ERROR_ENVIRONMENT, "not enough memory for the creature");
-    } else if (file_output_open(&output, argv[1], &error)) {
-        print(&mesh, output.stream);
-        if (file_output_commit(&output, &error))
-            printf("%s: %d vertices, %d triangles\n", argv[1], mesh.vertex_count, mesh.index_count / 3);
+    } else if (write(&mesh, argv[1], &error)) {
+        printf("%s: %d vertices, %d triangles\n", argv[1], mesh.vertex_count, mesh.index_count / 3);
     }
     mesh_free(&mesh);
     if (error.kind != ERROR_NONE) fprintf(stderr, "creature_obj: %s\n", error.text);
