@@ -1,0 +1,209 @@
+/// Half-edge collapses in rounds. In each round every vertex that may go has a neighbour onto which it goes at the least
+/// cost; the cheapest ones go, as long as none of them touches what another one has changed.
+#include "model/decimate.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_RING = 24, MAX_ROUNDS = 24 };
+
+#define COLOR_WEIGHT 0.02f /* metres that a full change of colour counts as */
+#define FLATTEST 0.35f     /* cosine of the largest turn of a triangle */
+
+/// A vertex and the neighbour onto which it would go.
+struct collapse {
+    uint32_t from, to;
+    float cost;
+};
+
+struct work {
+    const struct character *character;
+    size_t vertex_count;
+    uint32_t *indices;
+    int index_count;
+    int *first;   ///< of the vertex's triangles in `around`, per vertex and one more
+    int *around;  ///< triangles by vertex
+    bool *locked; ///< touched in this round
+    struct collapse *collapses;
+};
+
+static void index_triangles(struct work *work)
+{
+    const int vertices = work->character->vertex_count;
+    memset(work->first, 0, ((size_t)vertices + 2) * sizeof *work->first);
+    for (int i = 0; i < work->index_count; i++) work->first[work->indices[i] + 2]++;
+    for (int v = 0; v < vertices; v++) work->first[v + 2] += work->first[v + 1];
+    for (int i = 0; i < work->index_count; i++) work->around[work->first[work->indices[i] + 1]++] = i / 3;
+}
+
+/// The vertices around v, each once; 0 where there are too many or v is not inside the surface (each neighbour must be in two of its
+/// triangles).
+static int ring_of(const struct work *work, uint32_t v, uint32_t ring[MAX_RING])
+{
+    int count = 0, seen[MAX_RING] = {0};
+    for (int a = work->first[v]; a < work->first[v + 1]; a++) {
+        const uint32_t *corner = work->indices + 3 * work->around[a];
+        for (int k = 0; k < 3; k++) {
+            if (corner[k] == v) continue;
+            int at = 0;
+            while (at < count && ring[at] != corner[k]) at++;
+            if (at == MAX_RING) return 0;
+            if (at == count) ring[count++] = corner[k];
+            seen[at]++;
+        }
+    }
+    for (int i = 0; i < count; i++) {
+        if (seen[i] != 2) return 0;
+    }
+    return count;
+}
+
+static void normal_of(const float a[3], const float b[3], const float c[3], float n[3])
+{
+    const float u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    n[0] = u[1] * v[2] - u[2] * v[1];
+    n[1] = u[2] * v[0] - u[0] * v[2];
+    n[2] = u[0] * v[1] - u[1] * v[0];
+}
+
+/// What becomes of a triangle when its corner v goes to `to`: false where it folds over; else by how much the surface
+/// departs from v, metres.
+static bool moved_triangle(const struct work *work, const uint32_t corner[3], uint32_t v, uint32_t to,
+                           float *distance)
+{
+    float(*const p)[3] = work->character->position;
+    const float *moved[3];
+    float before[3], after[3];
+    for (int k = 0; k < 3; k++) moved[k] = p[corner[k] == v ? to : corner[k]];
+    normal_of(p[corner[0]], p[corner[1]], p[corner[2]], before);
+    normal_of(moved[0], moved[1], moved[2], after);
+    const float product = before[0] * after[0] + before[1] * after[1] + before[2] * after[2];
+    const float area = sqrtf(after[0] * after[0] + after[1] * after[1] + after[2] * after[2]);
+    const float old = sqrtf(before[0] * before[0] + before[1] * before[1] + before[2] * before[2]);
+    if (!(product > FLATTEST * area * old)) return false;
+    const float *q = moved[0];
+    *distance = fabsf((p[v][0] - q[0]) * after[0] + (p[v][1] - q[1]) * after[1] + (p[v][2] - q[2]) * after[2]) / area;
+    return true;
+}
+
+/// Number of vertices that two rings share.
+static int shared(const uint32_t *a, int a_count, const uint32_t *b, int b_count)
+{
+    int count = 0;
+    for (int i = 0; i < a_count; i++) {
+        for (int k = 0; k < b_count; k++) count += a[i] == b[k];
+    }
+    return count;
+}
+
+/// INFINITY where v cannot go to `to`: the surface would fold, or two of its sheets would meet (the vertices around both
+/// must be just the two of the triangles on the edge).
+static float cost_of(const struct work *work, uint32_t v, uint32_t to, const uint32_t *ring, int count)
+{
+    uint32_t other[MAX_RING];
+    const int other_count = ring_of(work, to, other);
+    if (other_count == 0 || shared(ring, count, other, other_count) != 2) return INFINITY;
+    float largest = 0.0f, color = 0.0f, square = 0.0f;
+    for (int a = work->first[v]; a < work->first[v + 1]; a++) {
+        const uint32_t *corner = work->indices + 3 * work->around[a];
+        float distance;
+        if (corner[0] == to || corner[1] == to || corner[2] == to) continue;
+        if (!moved_triangle(work, corner, v, to, &distance)) return INFINITY;
+        largest = fmaxf(largest, distance);
+    }
+    for (int k = 0; k < 3; k++) {
+        const float step = work->character->position[v][k] - work->character->position[to][k];
+        square += step * step;
+        color = fmaxf(color, fabsf(work->character->color[v][k] - work->character->color[to][k]));
+    }
+    return largest + COLOR_WEIGHT * color + 0.02f * sqrtf(square);
+}
+
+static int compare_collapses(const void *a, const void *b)
+{
+    const struct collapse *x = a, *y = b;
+    if (x->cost != y->cost) return x->cost < y->cost ? -1 : 1;
+    return x->from < y->from ? -1 : x->from > y->from;
+}
+
+static int find_collapses(const struct work *work)
+{
+    int found = 0;
+    for (int v = 0; v < work->character->vertex_count; v++) {
+        uint32_t ring[MAX_RING];
+        const int count = ring_of(work, (uint32_t)v, ring);
+        struct collapse best = {(uint32_t)v, 0, INFINITY};
+        for (int i = 0; i < count; i++) {
+            const float cost = cost_of(work, (uint32_t)v, ring[i], ring, count);
+            if (cost < best.cost) best.to = ring[i], best.cost = cost;
+        }
+        if (best.cost < INFINITY) work->collapses[found++] = best;
+    }
+    qsort(work->collapses, (size_t)found, sizeof *work->collapses, compare_collapses);
+    return found;
+}
+
+/// Moves v's triangles over and locks everything around, so that the round's costs stay true for what follows.
+static bool carry_out(struct work *work, const struct collapse *collapse)
+{
+    uint32_t ring[MAX_RING], other[MAX_RING];
+    const int count = ring_of(work, collapse->from, ring), other_count = ring_of(work, collapse->to, other);
+    bool free = !work->locked[collapse->from] && !work->locked[collapse->to];
+    for (int i = 0; i < count; i++) free = free && !work->locked[ring[i]];
+    for (int i = 0; i < other_count; i++) free = free && !work->locked[other[i]];
+    if (!free) return false;
+    for (int i = 0; i < count; i++) work->locked[ring[i]] = true;
+    for (int i = 0; i < other_count; i++) work->locked[other[i]] = true;
+    for (int a = work->first[collapse->from]; a < work->first[collapse->from + 1]; a++) {
+        uint32_t *corner = work->indices + 3 * work->around[a];
+        for (int k = 0; k < 3; k++) {
+            if (corner[k] == collapse->from) corner[k] = collapse->to;
+        }
+    }
+    return true;
+}
+
+static void drop_flat(struct work *work)
+{
+    int kept = 0;
+    for (int t = 0; t < work->index_count; t += 3) {
+        const uint32_t a = work->indices[t], b = work->indices[t + 1], c = work->indices[t + 2];
+        if (a == b || b == c || c == a) continue;
+        work->indices[kept++] = a, work->indices[kept++] = b, work->indices[kept++] = c;
+    }
+    work->index_count = kept;
+}
+
+/// One round of at most `most` collapses, each of which takes two triangles away; returns how many there were.
+static int collapse_round(struct work *work, int most)
+{
+    index_triangles(work);
+    memset(work->locked, 0, work->vertex_count * sizeof *work->locked);
+    const int found = find_collapses(work);
+    int done = 0;
+    for (int i = 0; i < found && done < most; i++) done += carry_out(work, &work->collapses[i]);
+    drop_flat(work);
+    return done;
+}
+
+bool decimate(const struct character *character, int triangles, uint32_t *indices, int *index_count)
+{
+    const size_t vertices = (size_t)character->vertex_count, count = (size_t)character->index_count;
+    struct work work = {
+        .character = character, .vertex_count = vertices, .indices = indices, .index_count = character->index_count};
+    work.first = malloc((vertices + 2) * sizeof *work.first);
+    work.around = malloc((count + 1) * sizeof *work.around);
+    work.locked = malloc((vertices + 1) * sizeof *work.locked);
+    work.collapses = malloc((vertices + 1) * sizeof *work.collapses);
+    bool good = work.first && work.around && work.locked && work.collapses;
+    if (good) memcpy(indices, character->indices, count * sizeof *indices);
+    for (int round = 0; good && round < MAX_ROUNDS && work.index_count > 3 * triangles; round++) {
+        if (collapse_round(&work, (work.index_count / 3 - triangles + 1) / 2) == 0) break;
+    }
+    *index_count = work.index_count;
+    free(work.first);
+    free(work.around);
+    free(work.locked);
+    free(work.collapses);
+    return good;
+}

@@ -1,0 +1,204 @@
+#include "model/figure.h"
+#include "model/decimate.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// Sums over the edges around a vertex, for the least-squares fit of derivatives along t₁ and t₂: the normal matrix.
+struct fit {
+    float uu, uv, vv;
+};
+
+static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static void cross(const float a[3], const float b[3], float out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/// A unit vector across n: the axis that n has least of, made orthogonal.
+static void tangent_of(const float n[3], float t[3])
+{
+    int least = 0;
+    for (int k = 1; k < 3; k++) {
+        if (fabsf(n[k]) < fabsf(n[least])) least = k;
+    }
+    float axis[3] = {0};
+    axis[least] = 1.0f;
+    for (int k = 0; k < 3; k++) t[k] = axis[k] - n[least] * n[k];
+    const float length = sqrtf(dot(t, t));
+    for (int k = 0; k < 3; k++) t[k] /= length;
+}
+
+/// An edge from vertex i, seen in its tangent plane and weighted so that short ones count no less than long ones.
+static bool edge_in_plane(const struct figure *figure, uint32_t i, uint32_t j, float uv[2], float *weight)
+{
+    const struct character *c = &figure->character;
+    const float *p = c->position[i], *q = c->position[j], *t = figure->tangent[i];
+    const float edge[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+    float across[3];
+    const float square = dot(edge, edge);
+    if (!(square > 0.0f)) return false;
+    cross(c->normal[i], t, across);
+    uv[0] = dot(edge, t);
+    uv[1] = dot(edge, across);
+    *weight = 1.0f / square;
+    return true;
+}
+
+static void add_edge(struct fit *fit, const float uv[2], float weight)
+{
+    fit->uu += weight * uv[0] * uv[0];
+    fit->uv += weight * uv[0] * uv[1];
+    fit->vv += weight * uv[1] * uv[1];
+}
+
+/// Adds weight · difference · (u, v) to both derivatives.
+static void add_difference(const float a[3], const float b[3], const float uv[2], float weight, float by_u[3],
+                           float by_v[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const float difference = weight * (b[k] - a[k]);
+        by_u[k] += difference * uv[0];
+        by_v[k] += difference * uv[1];
+    }
+}
+
+/// (by_u, by_v) = (normal matrix)⁻¹ (by_u, by_v)
+static void solve_fit(const struct fit *fit, float by_u[3], float by_v[3])
+{
+    const float determinant = fit->uu * fit->vv - fit->uv * fit->uv, trace = fit->uu + fit->vv;
+    const float inverse = determinant > 1e-6f * trace * trace ? 1.0f / determinant : 0.0f; // 0: no plane to speak of
+    for (int k = 0; k < 3; k++) {
+        const float u = by_u[k], v = by_v[k];
+        by_u[k] = inverse * (fit->vv * u - fit->uv * v);
+        by_v[k] = inverse * (fit->uu * v - fit->uv * u);
+    }
+}
+
+static void add_slopes(const struct figure *figure, uint32_t i, uint32_t j, struct fit *fit)
+{
+    const struct character *c = &figure->character;
+    float uv[2], weight;
+    if (!edge_in_plane(figure, i, j, uv, &weight)) return;
+    add_edge(fit, uv, weight);
+    for (int k = 0; k < c->coordinate_count; k++) {
+        const struct coordinate *n = &c->coordinates[k];
+        struct slope *s = &figure->slopes[k * c->vertex_count + (int)i];
+        add_difference(n->re[i], n->re[j], uv, weight, s->re_u, s->re_v);
+        add_difference(n->im[i], n->im[j], uv, weight, s->im_u, s->im_v);
+    }
+}
+
+/// `fits` has room for every vertex, and is zero.
+static void make_slopes(const struct figure *figure, struct fit *fits)
+{
+    const struct character *c = &figure->character;
+    for (int t = 0; t < c->index_count; t++) {
+        const uint32_t i = c->indices[t], j = c->indices[t % 3 == 2 ? t - 2 : t + 1];
+        add_slopes(figure, i, j, &fits[i]);
+        add_slopes(figure, j, i, &fits[j]);
+    }
+    for (int k = 0; k < c->coordinate_count; k++) {
+        for (int i = 0; i < c->vertex_count; i++) {
+            struct slope *s = &figure->slopes[k * c->vertex_count + i];
+            solve_fit(&fits[i], s->re_u, s->re_v);
+            solve_fit(&fits[i], s->im_u, s->im_v);
+        }
+    }
+}
+
+static void measure(struct figure *figure)
+{
+    const struct character *c = &figure->character;
+    for (int k = 0; k < 3; k++) {
+        figure->lo[k] = INFINITY;
+        figure->hi[k] = -INFINITY;
+    }
+    for (int i = 0; i < c->vertex_count; i++) {
+        tangent_of(c->normal[i], figure->tangent[i]);
+        for (int k = 0; k < 3; k++) {
+            figure->lo[k] = fminf(figure->lo[k], c->position[i][k]);
+            figure->hi[k] = fmaxf(figure->hi[k], c->position[i][k]);
+        }
+    }
+    for (int n = 0; n < c->coordinate_count; n++) {
+        for (int i = 0; i < 3 * c->vertex_count; i++) {
+            const float re = c->coordinates[n].re[i / 3][i % 3], im = c->coordinates[n].im[i / 3][i % 3];
+            figure->largest[n][i % 3] = fmaxf(figure->largest[n][i % 3], hypotf(re, im));
+        }
+    }
+}
+
+/// A disc around what is lowest on each side of the middle.
+static void find_soles(struct figure *figure)
+{
+    const struct character *c = &figure->character;
+    const float low = figure->lo[1] + 0.02f * (figure->hi[1] - figure->lo[1]);
+    const float middle = 0.5f * (figure->lo[0] + figure->hi[0]);
+    float sum[FIGURE_SOLES][5] = {{0}}; // count, x, z, x², z²
+    for (int i = 0; i < c->vertex_count; i++) {
+        const float *p = c->position[i];
+        if (p[1] > low) continue;
+        float *s = sum[p[0] > middle];
+        const float add[5] = {1.0f, p[0], p[2], p[0] * p[0], p[2] * p[2]};
+        for (int k = 0; k < 5; k++) s[k] += add[k];
+    }
+    for (int side = 0; side < FIGURE_SOLES; side++) {
+        const float *s = sum[side], count = s[0];
+        if (count == 0.0f) continue;
+        const float x = s[1] / count, z = s[2] / count;
+        const float variance = s[3] / count - x * x + s[4] / count - z * z;
+        figure->soles[side] = (struct sole){x, z, 2.0f * sqrtf(fmaxf(variance, 0.0f))};
+    }
+}
+
+static bool reserve(struct figure *figure)
+{
+    const size_t vertices = (size_t)figure->character.vertex_count;
+    const size_t coordinates = (size_t)figure->character.coordinate_count;
+    const size_t indices = (size_t)figure->character.index_count;
+    figure->tangent = malloc((vertices + 1) * sizeof *figure->tangent);
+    figure->slopes = calloc(vertices * coordinates + 1, sizeof *figure->slopes);
+    figure->largest = calloc(coordinates + 1, sizeof *figure->largest);
+    figure->coarse = malloc((indices + 1) * sizeof *figure->coarse);
+    return figure->tangent && figure->slopes && figure->largest && figure->coarse;
+}
+
+bool figure_create(struct figure *figure, struct character *character)
+{
+    static uint64_t made;
+    *figure = (struct figure){.character = *character, .id = ++made};
+    *character = (struct character){0};
+    struct fit *fits = calloc((size_t)figure->character.vertex_count + 1, sizeof *fits);
+    bool good = fits && reserve(figure);
+    if (good) {
+        measure(figure);
+        make_slopes(figure, fits);
+        find_soles(figure);
+        good = decimate(&figure->character, FIGURE_COARSE, figure->coarse, &figure->coarse_count);
+    }
+    free(fits);
+    if (!good) figure_free(figure);
+    return good;
+}
+
+void figure_free(struct figure *figure)
+{
+    character_free(&figure->character);
+    free(figure->tangent);
+    free(figure->slopes);
+    free(figure->largest);
+    free(figure->coarse);
+    *figure = (struct figure){0};
+}
+
+int figure_find(const struct figure *figure, const char *name)
+{
+    for (int k = 0; k < figure->character.coordinate_count; k++) {
+        if (strcmp(figure->character.coordinates[k].name, name) == 0) return k;
+    }
+    return -1;
+}

@@ -1,0 +1,45 @@
+/// A character made ready for the stage: what its normals follow, a coarser mesh for two side by side, where it stands.
+///
+/// The deformation D(j) = Re(z Ñ_j) moves the surface's tangents t₁, t₂ = n × t₁ to tᵢ + ∂D/∂tᵢ, and the normal to the
+/// cross product of both (the cofactors of the surface's deformation gradient applied to n). So each coordinate comes with its
+/// derivatives along t₁ and t₂, fitted by least squares to the differences along the edges around a vertex.
+#ifndef MODEL_FIGURE_H
+#define MODEL_FIGURE_H
+
+#include "model/character.h"
+
+enum { FIGURE_SOLES = 2, FIGURE_COARSE = 10000 }; ///< of the coarse mesh: triangles
+
+/// Derivatives of one coordinate at one vertex, along t₁ (u) and t₂ (v), per metre.
+struct slope {
+    float re_u[3], im_u[3], re_v[3], im_v[3];
+};
+
+/// Where the character touches the ground: a disc. Radius 0: nowhere.
+struct sole {
+    float x, z, radius;
+};
+
+struct figure {
+    struct character character;
+    float (*tangent)[3];  ///< t₁ per vertex: unit, across the normal
+    struct slope *slopes; ///< [coordinate · vertex_count + vertex]
+    float (*largest)[3];  ///< per coordinate: the largest |Ñ| over all vertices in x, y and z
+    uint32_t *coarse; ///< triangles over the same vertices, at most FIGURE_COARSE; the fine ones where these are few
+    int coarse_count; ///< indices
+    float lo[3], hi[3]; ///< box at rest
+    struct sole soles[FIGURE_SOLES];
+    uint64_t id; ///< no other figure of this run has it
+};
+
+/// Takes a character over and makes the rest; the character is left empty. false where memory is short: the figure is then
+/// empty and the character freed.
+bool figure_create(struct figure *figure, struct character *character);
+
+/// Leaves an empty figure.
+void figure_free(struct figure *figure);
+
+/// Index of the coordinate of that name, or −1.
+int figure_find(const struct figure *figure, const char *name);
+
+#endif
