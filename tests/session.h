@@ -144,7 +144,7 @@ static inline void session_open(struct session *session, const char *scene)
     evaluation_update(&session->evaluation, session->document, NULL, false);
     session->editor = editor_create(&error);
     if (!session->editor) fail_msg("%s", error.text);
-    session->world = (struct editor_world){session->document, session->history, &session->evaluation};
+    session->world = (struct editor_world){session->document, session->history, &session->evaluation, NULL};
     editor_open(session->editor, &session->world);
     if (editor_is_playing(session->editor)) session_key(session, KEY_SPACE, 0);
     session_frame(session);

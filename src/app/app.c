@@ -121,7 +121,8 @@ static bool start(struct app *app, bool offscreen, struct error *error)
     float scale;
     platform_size(app->platform, &width, &height, &scale);
     if (!(app->draw = draw_create(scale, error)) || !(app->editor = editor_create(error))) return false;
-    if (!(app->history = history_create())) return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    if (!(app->history = history_create()) || !(app->cast = cast_create()))
+        return fail(error, ERROR_ENVIRONMENT, "out of memory");
     app_connect_files(app);
     app_resize(app, (float)width / scale, (float)height / scale, scale);
     if (!app_open(app, o->scene, error)) return false;
@@ -156,6 +157,7 @@ static void destroy(struct app *app, bool good)
     free(app->dirty);
     history_destroy(app->history);
     document_destroy(app->document);
+    cast_destroy(app->cast);
     editor_destroy(app->editor);
     draw_destroy(app->draw);
     platform_destroy(app->platform);

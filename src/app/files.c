@@ -44,9 +44,12 @@ void app_adopt(struct app *app, struct document *document)
     history_clear(app->history);
     history_mark_saved(app->history);
     app->solved_revision = 0;
+    struct error error;
+    bool is_cast = cast_update(app->cast, document, &error);
     struct editor_world world = app_world(app);
     editor_open(app->editor, &world);
     show_title(app);
+    if (!is_cast) editor_message(app->editor, true, error.text);
 }
 
 /// The scenes that come with the program open as untitled: saving must not write over them.

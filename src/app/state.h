@@ -8,6 +8,7 @@
 #include "draw/draw.h"
 #include "editor/editor.h"
 #include "platform/platform.h"
+#include "rig/cast.h"
 #include "scene/edit.h"
 #include "scene/evaluate.h"
 #include "timing/framelog.h"
@@ -22,6 +23,7 @@ struct app {
     struct document *document;
     struct history *history;
     struct evaluation evaluation;
+    struct cast *cast;
     bool *dirty;            ///< one a spline
     char replaceable[1024]; ///< "save as" was asked for this existing file once
     unsigned last_serial;   ///< of the documents that were on the table
@@ -42,7 +44,7 @@ struct app {
     double last_time, next_time, stats_time;
     long frame, stats_frame;
     bool shown_saved; ///< what the window's title says
-    bool paste; ///< the editor asked for the clipboard's text: it comes with the next frame's events
+    bool paste;       ///< the editor asked for the clipboard's text: it comes with the next frame's events
     bool quit;
     bool failed; ///< with `error`: the run ends
     struct error error;
@@ -50,7 +52,8 @@ struct app {
 
 static inline struct editor_world app_world(struct app *app)
 {
-    return (struct editor_world){.document = app->document, .history = app->history, .evaluation = &app->evaluation};
+    return (struct editor_world){
+        .document = app->document, .history = app->history, .cast = app->cast, .evaluation = &app->evaluation};
 }
 
 /// One frame: input, edit, solve, pose, draw, log.

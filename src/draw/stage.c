@@ -1,6 +1,7 @@
 #include "draw/stage.h"
 #include "draw/gl.h"
 #include "draw/stage_flat.h"
+#include "draw/stage_morph.h"
 #include "model/creature.h"
 #include <stddef.h>
 #include <stdlib.h>
@@ -24,6 +25,7 @@ struct stage_renderer {
     GLint clip_from_world, shape, eye, key_from, seam;
     struct model models[CREATURE_LEVELS];
     struct stage_flat *flat;
+    struct stage_morph *morph;
     float rows[MAX_SLOTS][3][4];
 };
 
@@ -91,7 +93,8 @@ struct stage_renderer *stage_renderer_create(struct error *error)
         fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
         return NULL;
     }
-    bool made = program_create(renderer, error) && (renderer->flat = stage_flat_create(error)) != NULL;
+    bool made = program_create(renderer, error) && (renderer->flat = stage_flat_create(error)) != NULL &&
+                (renderer->morph = stage_morph_create(error)) != NULL;
     for (int level = 0; made && level < CREATURE_LEVELS; level++) {
         made = model_create(&renderer->models[level], level, error);
     }
@@ -105,6 +108,7 @@ void stage_renderer_destroy(struct stage_renderer *renderer)
     if (!renderer) return;
     for (int level = 0; level < CREATURE_LEVELS; level++) model_destroy(&renderer->models[level]);
     stage_flat_destroy(renderer->flat);
+    stage_morph_destroy(renderer->morph);
     glDeleteBuffers(1, &renderer->joints);
     if (renderer->program) glDeleteProgram(renderer->program);
     free(renderer);
@@ -137,6 +141,7 @@ void stage_upload(struct stage_renderer *renderer, const struct stage_view *view
 {
     glBindBuffer(GL_UNIFORM_BUFFER, renderer->joints);
     for (int t = 0; t < view->tail_count; t++) *bytes += upload_joints(renderer, &view->tails[t], t);
+    stage_morph_upload(renderer->morph, view, bytes);
     *bytes += stage_flat_upload(renderer->flat, view);
 }
 
@@ -151,38 +156,28 @@ static void draw_animal(const struct stage_renderer *renderer, const struct mode
     glDrawElements(GL_TRIANGLES, model->index_count, GL_UNSIGNED_INT, NULL);
 }
 
-/// The key light stands fixed to the camera, up on the left, so that the side in view is always the lit one.
-static void place_key(const struct stage_renderer *renderer, const struct stage_view *view)
-{
-    static const float from[3] = {-0.39955f, 0.79910f, 0.44949f};
-    float world[3];
-    for (int k = 0; k < 3; k++) {
-        world[k] = view->view[4 * k] * from[0] + view->view[4 * k + 1] * from[1] + view->view[4 * k + 2] * from[2];
-    }
-    glUniform3fv(renderer->key_from, 1, world);
-}
-
-static void draw_animals(const struct stage_renderer *renderer, const struct stage_view *view, int height)
+/// One pass over all tails; `seam` as in stage_mesh.vert.
+static void draw_animals(const struct stage_renderer *renderer, const struct stage_view *view, float seam)
 {
     const struct model *model = &renderer->models[creature_level(view->tail_count)];
-    float clip_from_world[16];
+    float clip_from_world[16], key_from[3];
+    if (view->tail_count == 0) return;
     stage_clip_from_world(view, clip_from_world);
+    stage_key_from(view, key_from);
     glUseProgram(renderer->program);
     glUniformMatrix4fv(renderer->clip_from_world, 1, GL_FALSE, clip_from_world);
     glUniform3fv(renderer->eye, 1, view->eye);
-    place_key(renderer, view);
+    glUniform3fv(renderer->key_from, 1, key_from);
+    glUniform1f(renderer->seam, seam);
     glBindVertexArray(model->vertex_array);
-    glUniform1f(renderer->seam, 0.0f);
     for (int t = 0; t < view->tail_count; t++) draw_animal(renderer, model, view, t);
-    // Edges without multisampling: a second skin, a pixel larger, fades out from the first one's silhouettes over
-    // whatever is behind them, be it the background or the animal itself.
-    glUniform1f(renderer->seam, 2.0f / (view->projection[5] * (float)height));
-    glEnable(GL_BLEND);
-    glDepthMask(GL_FALSE);
-    for (int t = 0; t < view->tail_count; t++) draw_animal(renderer, model, view, t);
-    glDepthMask(GL_TRUE);
-    glDisable(GL_BLEND);
     glBindVertexArray(0);
+}
+
+static void draw_rigs(const struct stage_renderer *renderer, const struct stage_view *view, float seam)
+{
+    draw_animals(renderer, view, seam);
+    stage_morph_draw(renderer->morph, view, seam);
 }
 
 void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, int x, int y, int width, int height)
@@ -195,7 +190,14 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_animals(renderer, view, height);
+    draw_rigs(renderer, view, 0.0f);
+    // Edges without multisampling: a second skin, a pixel larger, fades out from the first one's silhouettes over
+    // whatever is behind them, be it the background or the animal itself.
+    glEnable(GL_BLEND);
+    glDepthMask(GL_FALSE);
+    draw_rigs(renderer, view, 2.0f / (view->projection[5] * (float)height));
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
 }

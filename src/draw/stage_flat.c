@@ -67,6 +67,14 @@ void stage_flat_destroy(struct stage_flat *flat)
     free(flat);
 }
 
+void stage_key_from(const struct stage_view *view, float key_from[3])
+{
+    static const float from[3] = {-0.39955f, 0.79910f, 0.44949f};
+    for (int k = 0; k < 3; k++) {
+        key_from[k] = view->view[4 * k] * from[0] + view->view[4 * k + 1] * from[1] + view->view[4 * k + 2] * from[2];
+    }
+}
+
 void stage_clip_from_world(const struct stage_view *view, float clip_from_world[16])
 {
     for (int c = 0; c < 4; c++) {
@@ -110,12 +118,13 @@ static void add_disc(struct stage_flat *flat, const float clip_from_world[16], f
     flat->quads++;
 }
 
-/// Height of the ground that the lowest animal stands on.
+/// Height of the ground that the lowest rig stands on.
 static float lowest_ground(const struct stage_view *view)
 {
-    float lowest = view->tail_count > 0 ? view->tails[0].pose.ground : 0.0f;
-    for (int t = 1; t < view->tail_count; t++) lowest = fminf(lowest, view->tails[t].pose.ground);
-    return lowest;
+    float lowest = INFINITY;
+    for (int t = 0; t < view->tail_count; t++) lowest = fminf(lowest, view->tails[t].pose.ground);
+    for (int c = 0; c < view->character_count; c++) lowest = fminf(lowest, view->characters[c].position[1]);
+    return lowest < INFINITY ? lowest : 0.0f;
 }
 
 long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view)

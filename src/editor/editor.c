@@ -105,6 +105,9 @@ static int first_spline(const struct document *document)
     for (int t = 0; t < document->tail_count; t++) {
         if (document->tails[t].channel_count > 0) return document->tails[t].channels[0].spline;
     }
+    for (int c = 0; c < document->character_count; c++) {
+        if (document->characters[c].drive_count > 0) return document->characters[c].drives[0].spline;
+    }
     return document->spline_count > 0 ? 0 : -1;
 }
 
@@ -121,6 +124,7 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     editor->warnings = (struct warnings){0};
     editor->fitted = false;
     editor->look = LOOK_WIGGLY;
+    editor->characters = (struct character_view){.axis = 1};
     editor->active = first_spline(document);
     editor->held_key = 0;
     editor->space_down = false;

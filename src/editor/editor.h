@@ -2,6 +2,7 @@
 #ifndef EDITOR_EDITOR_H
 #define EDITOR_EDITOR_H
 
+#include "rig/cast.h"
 #include "rig/pose.h"
 #include "scene/edit.h"
 #include "scene/evaluate.h"
@@ -16,6 +17,7 @@ struct editor_world {
     struct document *document;
     struct history *history;
     const struct evaluation *evaluation; ///< as of the last solve: the frame before, until editor_show()
+    const struct cast *cast;             ///< the characters' models; NULL: none
 };
 
 /// What the editor asks of the app after a frame's events (files and windows are not its business).

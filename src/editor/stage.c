@@ -13,8 +13,9 @@
 
 enum { FIT_STEPS = 120, BLOBS_OF_ONE_TAIL = 16, RING_SIZE = 13 };
 
-static const float GRAB_REACH = 16;   ///< pixels from the tail's centre line
-static const double ZOOM_STEP = 0.12; ///< of a wheel's notch, as a power of e
+static const float GRAB_REACH = 16;            ///< pixels from the tail's centre line
+static const float CHARACTER_AZIMUTH = -1.13f; ///< radians: characters look towards +z, and are met from a bit aside
+static const double ZOOM_STEP = 0.12;          ///< of a wheel's notch, as a power of e
 
 /// Where the coordinates of a tail's position that follow splines are; 0 for the others.
 static void tail_base(const struct editor_world *world, const struct tail *tail, double position, double moved[3])
@@ -93,9 +94,26 @@ void stage_fit(struct editor *editor, const struct editor_world *world)
     }
     editor->playback.position = shown;
     editor->camera = camera_default();
-    if (world->document->tail_count == 0) return;
+    bool any = characters_bounds(editor, world, lo, hi);
+    if (any && world->document->tail_count == 0) editor->camera.azimuth = CHARACTER_AZIMUTH;
+    if (!any && world->document->tail_count == 0) return;
     for (int k = 0; k < 2; k++) editor->stage.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
     camera_fit(&editor->camera, lo, hi, editor->layout.stage.w / editor->layout.stage.h);
+}
+
+static uint64_t characters_hash(uint64_t hash, const struct stage_view *view)
+{
+    for (int c = 0; c < view->character_count; c++) {
+        const struct stage_character *shown = &view->characters[c];
+        const struct morph *morph = &shown->morph;
+        const int looks[] = {shown->coarse, shown->map_coordinate, shown->map_axis};
+        hash = hash_bytes(hash, &shown->figure->id, sizeof shown->figure->id);
+        hash = hash_bytes(hash, shown->position, sizeof shown->position);
+        hash = hash_bytes(hash, looks, sizeof looks);
+        hash = hash_bytes(hash, morph->coordinate, (size_t)morph->count * sizeof *morph->coordinate);
+        hash = hash_bytes(hash, morph->weight, (size_t)morph->count * sizeof *morph->weight);
+    }
+    return hash;
 }
 
 static uint64_t view_hash(const struct stage_view *view)
@@ -111,6 +129,7 @@ static uint64_t view_hash(const struct stage_view *view)
         hash = hash_bytes(hash, &tail->pose.ground, sizeof tail->pose.ground);
         hash = hash_bytes(hash, tail->pose.matrix, (size_t)tail->pose.count * sizeof tail->pose.matrix[0]);
     }
+    hash = characters_hash(hash, view);
     return hash_bytes(hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
 }
 
@@ -128,6 +147,7 @@ void stage_pose(struct editor *editor, const struct editor_world *world)
         stage_pose_tail(editor, world, t, NULL, &shown->pose);
         add_blobs(view, &shown->pose);
     }
+    characters_pose(editor, world);
     view->viewport = editor->layout.stage;
     camera_matrices(&editor->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
     view->hash = view_hash(view);
@@ -146,13 +166,22 @@ static void show_hold(struct editor *editor)
     drawlist_rounded_line(&editor->list, ring, RING_SIZE / 2.0f, 1.5f, THEME_PLAYHEAD);
 }
 
+/// What an empty stage says, or NULL.
+static const char *empty_text(const struct editor *editor, const struct editor_world *world)
+{
+    const struct stage_view *view = &editor->stage;
+    if (view->tail_count > 0 || view->character_count > 0) return NULL;
+    if (world->document->character_count > 0)
+        return "This scene's character could not be read: its curves are below.";
+    return editor->active < 0 ? "This scene is empty." : "This scene moves no tail: its curves are below.";
+}
+
 void stage_show(struct editor *editor, const struct editor_world *world)
 {
     const struct stage_view *view = &editor->stage;
     struct rect clip = drawlist_push_clip(&editor->list, view->viewport);
-    if (view->tail_count == 0) {
-        const char *text =
-            editor->active < 0 ? "This scene is empty." : "This scene moves no tail: its curves are below.";
+    const char *text = empty_text(editor, world);
+    if (text) {
         float room = view->viewport.w - 16, width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, text);
         float x = view->viewport.x + 8 + fmaxf(room - width, 0) / 2;
         drawlist_text_fit(&editor->list, x, view->viewport.y + view->viewport.h / 2, room, FONT_LABEL,
@@ -160,6 +189,7 @@ void stage_show(struct editor *editor, const struct editor_world *world)
     }
     onion_show(editor, world);
     trail_show(editor, world);
+    characters_show(editor, world);
     body_show(editor);
     show_hold(editor);
     drawlist_set_clip(&editor->list, clip);

@@ -6,6 +6,7 @@
 #ifndef EDITOR_STATE_H
 #define EDITOR_STATE_H
 
+#include "editor/characters.h"
 #include "editor/editor.h"
 #include "editor/panels.h"
 #include "rig/camera.h"
@@ -278,6 +279,7 @@ struct editor {
     struct camera camera;
     bool fitted; ///< camera and curves view, at the first editor_pose() of a document
     struct stage_view stage;
+    struct character_view characters;
 
     struct inspector inspector;
     struct dialog dialog;

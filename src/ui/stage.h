@@ -1,17 +1,32 @@
-/// What is to be seen on the stage: a camera, posed tails and their shadows. Made by the editor, drawn by draw/.
+/// What is to be seen on the stage: a camera, posed tails and characters, and their shadows. Made by the editor, drawn by draw/.
 #ifndef UI_STAGE_H
 #define UI_STAGE_H
 
+#include "rig/morph.h"
 #include "rig/pose.h"
 #include "ui/drawlist.h"
 
-enum { STAGE_MAX_TAILS = 8, STAGE_MAX_BLOBS = 16 * STAGE_MAX_TAILS };
+enum {
+    STAGE_MAX_TAILS = 8,
+    STAGE_MAX_CHARACTERS = 4,
+    STAGE_MAX_BLOBS = 16 * STAGE_MAX_TAILS + 4 * STAGE_MAX_CHARACTERS,
+};
 
 /// One tail to draw; its mesh is rebuilt only when joints or length change.
 struct stage_tail {
     int joints;
     float length;
     struct pose pose;
+};
+
+/// One soft character to draw, standing on the ground at `position`.
+struct stage_character {
+    const struct figure *figure; ///< lives until the next frame at least
+    struct morph morph;
+    float position[3];
+    bool coarse;        ///< half the triangles
+    int map_coordinate; ///< whose phases its colours show, −1 for its own colours
+    int map_axis;       ///< of movement, 0 … 2: x, y, z
 };
 
 /// A soft contact shadow on the ground: a disc that darkens; `strength` 0 … 1, more where nearer.
@@ -27,6 +42,8 @@ struct stage_view {
     float middle[2];      ///< x and z of the middle of the lit ground
     struct stage_tail tails[STAGE_MAX_TAILS];
     int tail_count;
+    struct stage_character characters[STAGE_MAX_CHARACTERS];
+    int character_count;
     struct stage_blob blobs[STAGE_MAX_BLOBS];
     int blob_count;
     uint64_t hash; ///< of everything above: equal hash, equal pixels

@@ -1,0 +1,76 @@
+#version 330 core
+// The character: complex normal coordinates, D = Re(sum of z N) (eq. 29, 30). Shaded as the animal is.
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 tangent;
+layout(location = 3) in vec3 color;
+uniform mat4 clip_from_world;
+uniform vec3 eye;
+uniform vec3 place; // from the model's space to the world's
+uniform vec2 shade; // height of the ground, and how far above it its shade reaches
+uniform float seam; // metres a pixel at a distance of 1 m in the pass that softens silhouettes, else 0
+// For each coordinate and vertex: Re N, Im N and their derivatives along the tangents u and v, packed into 5 texels of a
+// row that holds 128 vertices (see figure_pack() in stage_morph.c). Coordinate k begins at row first_row[k].
+uniform highp sampler2D coordinates;
+uniform int count;
+uniform int first_row[4];
+uniform vec2 weight[4]; // z
+uniform int map_row;    // of the coordinate whose phases are shown; -1: none
+uniform vec3 map_axis;  // the direction of movement that is shown, divided by its largest amplitude
+out vec3 world;
+out vec3 world_normal;
+out vec3 fur;
+out float open_sky;
+
+// Lightness and largest chroma of the phase map: a circle of even steps that fits into sRGB (see ui/phase_color.h).
+const float LIGHTNESS = 0.76;
+const float CHROMA = 0.12;
+
+void add_coordinate(int row, vec2 z, inout vec3 moved, inout vec3 u, inout vec3 v)
+{
+    ivec2 at = ivec2(5 * (gl_VertexID & 127), row + (gl_VertexID >> 7));
+    vec4 a = texelFetch(coordinates, at, 0);
+    vec4 b = texelFetch(coordinates, at + ivec2(1, 0), 0);
+    vec4 c = texelFetch(coordinates, at + ivec2(2, 0), 0);
+    vec4 d = texelFetch(coordinates, at + ivec2(3, 0), 0);
+    vec4 e = texelFetch(coordinates, at + ivec2(4, 0), 0);
+    moved += z.x * a.xyz - z.y * vec3(a.w, b.xy);
+    u += z.x * vec3(b.zw, c.x) - z.y * c.yzw;
+    v += z.x * d.xyz - z.y * vec3(d.w, e.xy);
+}
+
+// Linear RGB of a point in Oklab's plane of the map's lightness.
+vec3 oklab(vec2 ab)
+{
+    vec3 lms = vec3(LIGHTNESS) + vec3(0.3963377774 * ab.x + 0.2158037573 * ab.y,
+                                      -0.1055613458 * ab.x - 0.0638541728 * ab.y, -0.0894841775 * ab.x - 1.2914855480 * ab.y);
+    lms = lms * lms * lms;
+    return vec3(dot(lms, vec3(4.0767416621, -3.3077115913, 0.2309699292)),
+                dot(lms, vec3(-1.2684380046, 2.6097574011, -0.3413193965)),
+                dot(lms, vec3(-0.0041960863, -0.7034186147, 1.7076147010)));
+}
+
+// Phase as hue, amplitude as chroma: the movement along map_axis is itself a point in the plane of both.
+vec3 phase_color()
+{
+    ivec2 at = ivec2(5 * (gl_VertexID & 127), map_row + (gl_VertexID >> 7));
+    vec4 a = texelFetch(coordinates, at, 0);
+    vec4 b = texelFetch(coordinates, at + ivec2(1, 0), 0);
+    return oklab(CHROMA * vec2(dot(a.xyz, map_axis), dot(vec3(a.w, b.xy), map_axis)));
+}
+
+void main()
+{
+    vec3 moved = position;
+    vec3 u = tangent;
+    vec3 v = cross(normal, tangent);
+    for (int k = 0; k < count; k++) add_coordinate(first_row[k], weight[k], moved, u, v);
+    world = moved + place;
+    // What the deformation makes of both tangents spans the surface; squeezed flat, there is no direction and no NaN.
+    vec3 across = cross(u, v);
+    world_normal = across / max(length(across), 1e-9);
+    fur = map_row >= 0 ? phase_color() : color;
+    open_sky = 0.45 + 0.55 * smoothstep(0.0, shade.y, world.y - shade.x);
+    vec3 ray = world - eye;
+    gl_Position = clip_from_world * vec4(world + seam * (1.3 * length(ray) * world_normal + 2.5 * ray), 1.0);
+}

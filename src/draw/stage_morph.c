@@ -1,0 +1,230 @@
+#include "draw/stage_morph.h"
+#include "draw/gl.h"
+#include "draw/stage_flat.h"
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    TEXELS = 5,         ///< of one vertex and coordinate, four floats each
+    ROW_VERTICES = 128, ///< in one row of the texture
+    MAX_KEPT = 4,       ///< figures on the GPU; more take turns
+    SLOPE_FLOATS = sizeof(struct slope) / sizeof(float),
+};
+
+/// A figure's buffers.
+struct model {
+    uint64_t id; ///< 0: free
+    long used;   ///< when it was drawn last
+    GLuint vertex_array, vertices, fine, coarse, coordinates;
+    GLsizei fine_count, coarse_count;
+    int rows; ///< of the texture, for one coordinate
+};
+
+struct stage_morph {
+    GLuint program;
+    struct {
+        GLint clip_from_world, eye, key_from, place, shade, seam, count, first_row, weight, map_row, map_axis;
+    } at;
+    struct model models[MAX_KEPT];
+    long clock;
+};
+
+struct stage_morph *stage_morph_create(struct error *error)
+{
+    struct stage_morph *morph = calloc(1, sizeof *morph);
+    if (!morph) {
+        fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
+        return NULL;
+    }
+    morph->program = gl_program("stage_character.vert", "stage_mesh.frag", error);
+    if (!morph->program) {
+        free(morph);
+        return NULL;
+    }
+    const struct {
+        GLint *location;
+        const char *name;
+    } uniforms[] = {
+        {&morph->at.clip_from_world, "clip_from_world"},
+        {&morph->at.eye, "eye"},
+        {&morph->at.key_from, "key_from"},
+        {&morph->at.place, "place"},
+        {&morph->at.shade, "shade"},
+        {&morph->at.seam, "seam"},
+        {&morph->at.count, "count"},
+        {&morph->at.first_row, "first_row"},
+        {&morph->at.weight, "weight"},
+        {&morph->at.map_row, "map_row"},
+        {&morph->at.map_axis, "map_axis"},
+    };
+    for (size_t i = 0; i < sizeof uniforms / sizeof *uniforms; i++) {
+        *uniforms[i].location = glGetUniformLocation(morph->program, uniforms[i].name);
+    }
+    return morph;
+}
+
+static void model_free(struct model *model)
+{
+    glDeleteVertexArrays(1, &model->vertex_array);
+    glDeleteBuffers(1, &model->vertices);
+    glDeleteBuffers(1, &model->fine);
+    glDeleteBuffers(1, &model->coarse);
+    glDeleteTextures(1, &model->coordinates);
+    *model = (struct model){0};
+}
+
+void stage_morph_destroy(struct stage_morph *morph)
+{
+    if (!morph) return;
+    for (int i = 0; i < MAX_KEPT; i++) model_free(&morph->models[i]);
+    glDeleteProgram(morph->program);
+    free(morph);
+}
+
+/// The figure's place in the texture: what stage_character.vert reads. Zero where a row is not full.
+static void figure_pack(const struct figure *figure, int rows, float *texels)
+{
+    const struct character *c = &figure->character;
+    for (int k = 0; k < c->coordinate_count; k++) {
+        for (int i = 0; i < c->vertex_count; i++) {
+            const size_t row = (size_t)(k * rows + i / ROW_VERTICES), column = (size_t)(i % ROW_VERTICES);
+            float *out = texels + 4 * TEXELS * (row * ROW_VERTICES + column);
+            memcpy(out, c->coordinates[k].re[i], 3 * sizeof *out);
+            memcpy(out + 3, c->coordinates[k].im[i], 3 * sizeof *out);
+            memcpy(out + 6, &figure->slopes[k * c->vertex_count + i], SLOPE_FLOATS * sizeof *out);
+        }
+    }
+}
+
+static long upload_coordinates(struct model *model, const struct figure *figure)
+{
+    const struct character *c = &figure->character;
+    const int width = TEXELS * ROW_VERTICES;
+    GLint largest = 0;
+    model->rows = (c->vertex_count + ROW_VERTICES - 1) / ROW_VERTICES;
+    const int height = model->rows * c->coordinate_count;
+    const size_t bytes = (size_t)width * (size_t)(height + 1) * 4 * sizeof(float);
+    float *texels = calloc(1, bytes);
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (!texels || height > largest) { // it stands still
+        free(texels);
+        return 0;
+    }
+    figure_pack(figure, model->rows, texels);
+    glGenTextures(1, &model->coordinates);
+    glBindTexture(GL_TEXTURE_2D, model->coordinates);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height + 1, 0, GL_RGBA, GL_FLOAT, texels);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    free(texels);
+    return (long)bytes;
+}
+
+static GLuint upload_buffer(GLenum target, size_t bytes, const void *data)
+{
+    GLuint buffer;
+    glGenBuffers(1, &buffer);
+    glBindBuffer(target, buffer);
+    glBufferData(target, (GLsizeiptr)bytes, data, GL_STATIC_DRAW);
+    return buffer;
+}
+
+/// The four arrays of vectors one behind the other.
+static long upload_vertices(struct model *model, const struct figure *figure)
+{
+    const struct character *c = &figure->character;
+    const size_t bytes = 3 * sizeof(float) * (size_t)c->vertex_count;
+    const void *const arrays[] = {c->position, c->normal, figure->tangent, c->color};
+    model->vertices = upload_buffer(GL_ARRAY_BUFFER, 4 * bytes, NULL);
+    for (GLuint a = 0; a < 4; a++) {
+        glBufferSubData(GL_ARRAY_BUFFER, (GLintptr)(a * bytes), (GLsizeiptr)bytes, arrays[a]);
+        glEnableVertexAttribArray(a);
+        glVertexAttribPointer(a, 3, GL_FLOAT, GL_FALSE, 0, (const void *)(a * bytes));
+    }
+    return (long)(4 * bytes);
+}
+
+static long model_upload(struct model *model, const struct figure *figure)
+{
+    const struct character *c = &figure->character;
+    const size_t fine = sizeof(uint32_t) * (size_t)c->index_count;
+    const size_t coarse = sizeof(uint32_t) * (size_t)figure->coarse_count;
+    *model = (struct model){.id = figure->id, .fine_count = c->index_count, .coarse_count = figure->coarse_count};
+    glGenVertexArrays(1, &model->vertex_array);
+    glBindVertexArray(model->vertex_array);
+    long bytes = upload_vertices(model, figure) + upload_coordinates(model, figure);
+    model->coarse = upload_buffer(GL_ELEMENT_ARRAY_BUFFER, coarse, figure->coarse);
+    model->fine = upload_buffer(GL_ELEMENT_ARRAY_BUFFER, fine, c->indices);
+    glBindVertexArray(0);
+    return bytes + (long)(fine + coarse);
+}
+
+/// The figure's model, or where it is not there the one that was drawn longest ago.
+static struct model *find_model(struct stage_morph *morph, const struct figure *figure)
+{
+    struct model *oldest = &morph->models[0];
+    for (int i = 0; i < MAX_KEPT; i++) {
+        struct model *model = &morph->models[i];
+        if (model->id == figure->id) return model;
+        if (model->used < oldest->used) oldest = model;
+    }
+    return oldest;
+}
+
+void stage_morph_upload(struct stage_morph *morph, const struct stage_view *view, long *bytes)
+{
+    morph->clock++;
+    for (int i = 0; i < view->character_count; i++) {
+        const struct figure *figure = view->characters[i].figure;
+        struct model *model = find_model(morph, figure);
+        if (model->id != figure->id && model->used < morph->clock) {
+            model_free(model);
+            *bytes += model_upload(model, figure);
+        }
+        model->used = morph->clock;
+    }
+}
+
+static void draw_character(const struct stage_morph *morph, const struct model *model,
+                           const struct stage_character *shown)
+{
+    const struct figure *figure = shown->figure;
+    const float *p = shown->position;
+    GLint first_row[CHARACTER_MAX_DRIVES] = {0};
+    float axis[3] = {0};
+    for (int k = 0; k < shown->morph.count; k++) first_row[k] = model->rows * shown->morph.coordinate[k];
+    glUniform3f(morph->at.place, p[0], p[1] - figure->lo[1], p[2]);
+    glUniform2f(morph->at.shade, p[1], 0.3f * (figure->hi[1] - figure->lo[1]));
+    glUniform1i(morph->at.count, model->coordinates ? shown->morph.count : 0);
+    glUniform1iv(morph->at.first_row, CHARACTER_MAX_DRIVES, first_row);
+    glUniform2fv(morph->at.weight, CHARACTER_MAX_DRIVES, shown->morph.weight[0]);
+    const bool mapped = shown->map_coordinate >= 0 && model->coordinates;
+    const float largest = mapped ? figure->largest[shown->map_coordinate][shown->map_axis] : 0.0f;
+    axis[shown->map_axis] = largest > 0.0f ? 1.0f / largest : 0.0f;
+    glUniform1i(morph->at.map_row, mapped ? model->rows * shown->map_coordinate : -1);
+    glUniform3fv(morph->at.map_axis, 1, axis);
+    glBindVertexArray(model->vertex_array);
+    glBindTexture(GL_TEXTURE_2D, model->coordinates);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, shown->coarse ? model->coarse : model->fine);
+    glDrawElements(GL_TRIANGLES, shown->coarse ? model->coarse_count : model->fine_count, GL_UNSIGNED_INT, NULL);
+}
+
+void stage_morph_draw(const struct stage_morph *morph, const struct stage_view *view, float seam)
+{
+    float clip_from_world[16], key_from[3];
+    if (view->character_count == 0) return;
+    stage_clip_from_world(view, clip_from_world);
+    stage_key_from(view, key_from);
+    glUseProgram(morph->program);
+    glUniformMatrix4fv(morph->at.clip_from_world, 1, GL_FALSE, clip_from_world);
+    glUniform3fv(morph->at.eye, 1, view->eye);
+    glUniform3fv(morph->at.key_from, 1, key_from);
+    glUniform1f(morph->at.seam, seam);
+    for (int i = 0; i < view->character_count; i++) {
+        const struct stage_character *shown = &view->characters[i];
+        for (int m = 0; m < MAX_KEPT; m++) {
+            if (morph->models[m].id == shown->figure->id) draw_character(morph, &morph->models[m], shown);
+        }
+    }
+    glBindVertexArray(0);
+}

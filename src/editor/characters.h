@@ -1,0 +1,28 @@
+/// Soft characters on the stage: how they are looked at. Private to the folder.
+#ifndef EDITOR_CHARACTERS_H
+#define EDITOR_CHARACTERS_H
+
+#include "editor/editor.h"
+
+/// View state; zero is a valid start.
+struct character_view {
+    int character, drive; ///< selected in the inspector
+    bool mapped;          ///< the selected coordinate's phases as colours
+    int axis;             ///< of movement whose phases are shown: x, y, z
+    bool compare;         ///< beside each character its stiff twin, moved by real parts alone
+};
+
+/// What is selected, or NULL: the rig, and the coordinate of its figure.
+const struct character_rig *characters_selected(const struct editor *editor, const struct editor_world *world);
+const struct coordinate *characters_coordinate(const struct editor *editor, const struct editor_world *world);
+
+/// Poses them into the editor's stage view, with their shadows.
+void characters_pose(struct editor *editor, const struct editor_world *world);
+
+/// Adds their motion over the whole scene to the box lo … hi; true where there is any.
+bool characters_bounds(const struct editor *editor, const struct editor_world *world, float lo[3], float hi[3]);
+
+/// Legend of the phase map, and what the two of a pair are.
+void characters_show(struct editor *editor, const struct editor_world *world);
+
+#endif

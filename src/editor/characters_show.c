@@ -1,0 +1,79 @@
+/// What is written over the stage where characters are: the legend of the phase map, and what the two of a pair are.
+#include "editor/characters.h"
+#include "editor/state.h"
+#include "rig/camera.h"
+#include "ui/font.h"
+#include "ui/phase_color.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+
+enum { SECTORS = 36, RINGS = 5, LEGEND_WIDTH = 196, LEGEND_HEIGHT = 132 };
+
+static const float WHEEL = 30; ///< radius
+static const float TEXT_SIZE = 11;
+
+/// Chroma grows outwards. Rings lie one on the other, and sectors overlap by a bit, so that no edge shows.
+static void show_wheel(struct drawlist *list, float x, float y)
+{
+    const float step = 6.28318531f / SECTORS;
+    for (int ring = RINGS; ring >= 1; ring--) {
+        const float radius = WHEEL * (float)ring / RINGS, amplitude = ((float)ring - 0.5f) / (RINGS - 0.5f);
+        for (int s = 0; s < SECTORS; s++) {
+            const float middle = step * (float)s, from = middle - 0.62f * step, to = middle + 0.62f * step;
+            const float xy[] = {
+                x, y, x + radius * cosf(from), y - radius * sinf(from), x + radius * cosf(to), y - radius * sinf(to)};
+            drawlist_convex(list, xy, 3, phase_color(amplitude * cosf(middle), amplitude * sinf(middle)));
+        }
+    }
+}
+
+static void show_centred(struct drawlist *list, float x, float y, const char *text, uint32_t color)
+{
+    const float width = font_width(FONT_LABEL, TEXT_SIZE, text);
+    drawlist_text(list, x - width / 2, y, FONT_LABEL, TEXT_SIZE, color, text);
+}
+
+/// Angles are as in the plane: in step to the right, a quarter ahead on top.
+static void show_legend(struct editor *editor, const struct coordinate *coordinate)
+{
+    static const char *const directions[] = {"left and right (x)", "up and down (y)", "back and forth (z)"};
+    struct drawlist *list = &editor->list;
+    const struct rect stage = editor->layout.stage;
+    const struct rect box = {stage.x + 12, stage.y + stage.h - LEGEND_HEIGHT - 12, LEGEND_WIDTH, LEGEND_HEIGHT};
+    const float x = box.x + box.w / 2, y = box.y + 80;
+    char title[96];
+    snprintf(title, sizeof title, "%.40s: %s", coordinate->name, directions[editor->characters.axis]);
+    drawlist_rounded(list, box, 6, (THEME_PANEL & 0xFFFFFF00u) | 0xD8u);
+    drawlist_text_fit(list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL, TEXT_SIZE, THEME_TEXT, title);
+    show_wheel(list, x, y);
+    show_centred(list, x, y - WHEEL - 6, "ahead", THEME_TEXT_DIM);
+    show_centred(list, x, y + WHEEL + 14, "behind", THEME_TEXT_DIM);
+    drawlist_text(list, x + WHEEL + 8, y + 4, FONT_LABEL, TEXT_SIZE, THEME_TEXT_DIM, "in step");
+    const char *left = "opposite";
+    drawlist_text(list, x - WHEEL - 8 - font_width(FONT_LABEL, TEXT_SIZE, left), y + 4, FONT_LABEL, TEXT_SIZE,
+                  THEME_TEXT_DIM, left);
+}
+
+/// A line under the feet of each of the pair.
+static void show_pair(struct editor *editor)
+{
+    static const char *const names[] = {"with their phases", "real parts alone"};
+    const struct stage_view *view = &editor->stage;
+    const struct rect r = editor->layout.stage;
+    const float viewport[4] = {r.x, r.y, r.w, r.h};
+    for (int i = 0; i < view->character_count; i++) {
+        const struct stage_character *shown = &view->characters[i];
+        const float feet[3] = {shown->position[0], shown->position[1], shown->position[2] + shown->figure->hi[2]};
+        float xy[2];
+        if (!camera_project(view->view, view->projection, viewport, feet, xy)) continue;
+        show_centred(&editor->list, xy[0], fminf(xy[1] + 22, r.y + r.h - 8), names[i % 2], THEME_TEXT_DIM);
+    }
+}
+
+void characters_show(struct editor *editor, const struct editor_world *world)
+{
+    const struct coordinate *coordinate = characters_coordinate(editor, world);
+    if (editor->characters.mapped && coordinate) show_legend(editor, coordinate);
+    if (editor->characters.compare) show_pair(editor);
+}

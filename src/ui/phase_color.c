@@ -1,0 +1,31 @@
+#include "ui/phase_color.h"
+#include <math.h>
+
+/// The largest circle around grey that still lies in sRGB; stage_character.vert has the same.
+static const float LIGHTNESS = 0.76f, CHROMA = 0.12f;
+
+/// Oklab → cube roots of cone responses → linear RGB.
+void phase_color_linear(float re, float im, float rgb[3])
+{
+    const float a = CHROMA * re, b = CHROMA * im;
+    float l = LIGHTNESS + 0.3963377774f * a + 0.2158037573f * b;
+    float m = LIGHTNESS - 0.1055613458f * a - 0.0638541728f * b;
+    float s = LIGHTNESS - 0.0894841775f * a - 1.2914855480f * b;
+    l = l * l * l, m = m * m * m, s = s * s * s;
+    rgb[0] = 4.0767416621f * l - 3.3077115913f * m + 0.2309699292f * s;
+    rgb[1] = -1.2684380046f * l + 2.6097574011f * m - 0.3413193965f * s;
+    rgb[2] = -0.0041960863f * l - 0.7034186147f * m + 1.7076147010f * s;
+}
+
+uint32_t phase_color(float re, float im)
+{
+    float rgb[3];
+    uint32_t color = 0;
+    phase_color_linear(re, im, rgb);
+    for (int k = 0; k < 3; k++) {
+        const float c = fminf(fmaxf(rgb[k], 0.0f), 1.0f);
+        const float encoded = c <= 0.0031308f ? 12.92f * c : 1.055f * powf(c, 1.0f / 2.4f) - 0.055f;
+        color = color << 8 | (uint32_t)lroundf(255.0f * encoded);
+    }
+    return color << 8 | 0xFFu;
+}

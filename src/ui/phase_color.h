@@ -1,0 +1,16 @@
+/// Colours of phases: hue says how far ahead something moves, chroma how much it moves.
+///
+/// Hue runs evenly around a circle in Oklab, at one lightness, so equal steps of phase look equally large and no phase
+/// stands out; the movement z = re + j·im is itself the point in the plane of the circle. Nothing that stands still has a hue.
+#ifndef UI_PHASE_COLOR_H
+#define UI_PHASE_COLOR_H
+
+#include <stdint.h>
+
+/// Linear RGB, within 0 … 1, of a movement of amplitude |z| ≤ 1 that leads by arg z.
+void phase_color_linear(float re, float im, float rgb[3]);
+
+/// The same as 0xRRGGBBFF in sRGB.
+uint32_t phase_color(float re, float im);
+
+#endif
