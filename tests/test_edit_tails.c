@@ -73,11 +73,88 @@ static void test_channels(void **state)
     world_close(&world);
 }
 
+static void test_which_tails_there_are(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    char *before = world_print(&world);
+    assert_there_and_back(&world, (struct edit){.kind = EDIT_TAIL_ADD});
+    assert_int_equal(world.document->tail_count, 2);
+    const struct tail *copy = &world.document->tails[1];
+    assert_string_equal(copy->name, "tail");
+    assert_int_equal(copy->channel_count, 2);
+    assert_near(copy->channels[1].gain.value[2], 3, 0);
+    assert_true(copy->position[0].value > world.document->tails[0].position[0].value);
+    assert_there_and_back(&world, (struct edit){.kind = EDIT_TAIL_NAME, .tail = 1, .text = "other"});
+    assert_refused(&world, (struct edit){.kind = EDIT_TAIL_NAME, .tail = 1, .text = "t"},
+                   "there is a rig called t already");
+    assert_refused(&world, (struct edit){.kind = EDIT_TAIL_NAME, .tail = 1, .text = ""}, "a tail needs a name");
+    struct edit lag = {.kind = EDIT_ANGLES, .tail = 1, .channel = 1, .angle = ANGLE_LAG};
+    const struct angles angles = {.value = {9}};
+    lag.angles = &angles;
+    assert_there_and_back(&world, lag); // angles go by index: they find their place in a list that came back
+    assert_there_and_back(&world, (struct edit){.kind = EDIT_TAIL_REMOVE, .tail = 0});
+    assert_string_equal(world.document->tails[0].name, "other");
+    assert_there_and_back(&world, (struct edit){.kind = EDIT_TAIL_REMOVE, .tail = 0});
+    assert_there_and_back(&world, (struct edit){.kind = EDIT_TAIL_ADD, .tail = -1, .spline = PLUCK});
+    assert_int_equal(world.document->tails[0].channels[0].spline, PLUCK);
+    world_undo_all(&world);
+    assert_document(&world, before);
+    free(before);
+    world_close(&world);
+}
+
+static void test_which_channels_there_are(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    const struct edit add = {.kind = EDIT_CHANNEL_ADD, .spline = PLUCK, .axis = AXIS_UP, .of = PART_DISPLACEMENT};
+    assert_there_and_back(&world, add);
+    const struct tail *tail = &world.document->tails[0];
+    assert_int_equal(tail->channel_count, 3);
+    assert_int_equal(tail->channels[2].spline, PLUCK);
+    assert_int_equal(tail->channels[2].of, PART_DISPLACEMENT);
+    assert_near(tail->channels[2].lag.value[0], CHANNEL_DEFAULT_LAG, 0);
+    assert_there_and_back(&world, (struct edit){.kind = EDIT_CHANNEL_REMOVE, .channel = 0});
+    assert_int_equal(world.document->tails[0].channel_count, 2);
+    assert_int_equal(world.document->tails[0].channels[1].spline, PLUCK);
+    assert_refused(&world, (struct edit){.kind = EDIT_CHANNEL_REMOVE, .channel = 2}, "there is no such channel");
+    assert_refused(&world, (struct edit){.kind = EDIT_CHANNEL_ADD, .spline = -1}, "there is no such spline");
+    for (int c = 2; c < SCENE_MAX_CHANNELS; c++) assert_true(world_step(&world, add));
+    assert_refused(&world, add, "t: there are 64 channels, and no more fit");
+    world_close(&world);
+}
+
+/// The gains of all joints together, and the lag from base to tip, stay; arrays are read at the same shares of the length.
+static void test_joints_keep_the_shape(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    assert_there_and_back(&world, (struct edit){.kind = EDIT_JOINTS, .to = 5});
+    const struct tail *tail = &world.document->tails[0];
+    assert_int_equal(tail->joints, 5);
+    assert_near(tail->channels[0].gain.value[0], 5 * 3.0 / 5, 1e-6);
+    assert_near(tail->channels[0].lag.value[0], 6.5 * 3.0 / 5, 1e-6);
+    const double gains[] = {0.6, 0.9, 1.2, 1.5, 1.8}; // 1, 1.5, 2, 2.5, 3, each three fifths
+    for (int n = 0; n < 5; n++) assert_near(tail->channels[1].gain.value[n], gains[n], 1e-6);
+    assert_there_and_back(&world, (struct edit){.kind = EDIT_JOINTS, .to = 1});
+    assert_there_and_back(&world, (struct edit){.kind = EDIT_JOINTS, .to = TAIL_MAX_JOINTS});
+    assert_refused(&world, (struct edit){.kind = EDIT_JOINTS, .to = 0}, "t: joints must be from 1 to 256");
+    assert_refused(&world, (struct edit){.kind = EDIT_JOINTS, .to = 257}, "t: joints must be from 1 to 256");
+    world_close(&world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_channels),
+        cmocka_unit_test(test_which_tails_there_are),
+        cmocka_unit_test(test_which_channels_there_are),
+        cmocka_unit_test(test_joints_keep_the_shape),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 #include "scene/change.h"
 #include "scene/reference.h"
+#include "scene/tail_list.h"
 #include <assert.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -38,6 +39,8 @@ size_t change_bytes(const struct change *change, const struct document *document
         return own + strlen(change->name) + 1;
     case CHANGE_DOCUMENT:
         return own + document_bytes(change->document);
+    case CHANGE_TAILS:
+        return own + tail_list_bytes(change->tails);
     case CHANGE_TIMING:
         return own + (change->timing.frames ? knots_of(document) * sizeof *change->timing.frames : 0);
     default:
@@ -190,6 +193,7 @@ void change_release(struct change *change)
     if (change->kind == CHANGE_SPLINE_OUT || change->kind == CHANGE_SPLINE_IN) free(change->held);
     if (change->kind == CHANGE_NAME) free(change->name);
     if (change->kind == CHANGE_DOCUMENT) document_destroy(change->document);
+    if (change->kind == CHANGE_TAILS) tail_list_free(change->tails);
     if (change->kind == CHANGE_TIMING) free(change->timing.frames);
 }
 
@@ -272,6 +276,9 @@ void change_swap(struct change *change, struct document *document)
         break;
     case CHANGE_PLACE:
         swap_tail_place(change, document);
+        break;
+    case CHANGE_TAILS:
+        tail_list_swap(change->tails, document);
         break;
     case CHANGE_EACH:
         SWAP(bool, angles_at(document, change->each.at)->each, change->each.each);

@@ -21,6 +21,7 @@ enum change_kind {
     CHANGE_TIMING,      ///< the scene's fps, substeps and frames, with them the frames of all knots
     CHANGE_CHANNEL,     ///< a channel's spline, axis and part
     CHANGE_PLACE,       ///< a tail's length and position
+    CHANGE_TAILS,       ///< which tails and channels there are, and with how many joints
     CHANGE_EACH,        ///< whether angles are one for all joints or one for each
     CHANGE_ANGLE,       ///< one of them
     CHANGE_DRIVES,      ///< what moves a character's coordinates
@@ -59,6 +60,7 @@ struct change {
         int to;                    ///< index in the list
         struct document *document; ///< owned
         struct timing timing;
+        struct tail_list *tails; ///< owned
         struct {
             int tail, channel;
             int spline;

@@ -26,17 +26,23 @@ enum edit_kind {
     EDIT_SPLINE_COLOR,  ///< spline, color: 0xRRGGBB, or -1
     EDIT_DOCUMENT, ///< document: another whole one in place of this, the history's from here on (also on failure)
     EDIT_FPS, ///< number; flag: knots and range keep their seconds, not their frames. Slopes are per second anyway
-    EDIT_SUBSTEPS,     ///< substeps
-    EDIT_RANGE,        ///< first, last: the scene's frames; fit: what becomes of knots that would lie outside
-    EDIT_ANGLES,       ///< tail, channel (-1: rest), angle: which, angles
-    EDIT_AXIS,         ///< tail, channel, axis
-    EDIT_PART,         ///< tail, channel, of
-    EDIT_FEED,         ///< tail, channel, spline: the spline that the channel bends by
-    EDIT_POSITION,     ///< tail, coordinate, param: metres, or a spline to follow
-    EDIT_LENGTH,       ///< tail, number: metres, above 0
-    EDIT_DRIVE,        ///< character, channel: which drive, drive: replaces spline, amplitude and lag
-    EDIT_DRIVE_ADD,    ///< character, drive (its name is copied)
-    EDIT_DRIVE_REMOVE, ///< character, channel: which drive
+    EDIT_SUBSTEPS, ///< substeps
+    EDIT_RANGE,    ///< first, last: the scene's frames; fit: what becomes of knots that would lie outside
+    EDIT_ANGLES,   ///< tail, channel (-1: rest), angle: which, angles
+    EDIT_AXIS,     ///< tail, channel, axis
+    EDIT_PART,     ///< tail, channel, of
+    EDIT_FEED,     ///< tail, channel, spline: the spline that the channel bends by
+    EDIT_POSITION, ///< tail, coordinate, param: metres, or a spline to follow
+    EDIT_LENGTH,   ///< tail, number: metres, above 0
+    EDIT_JOINTS,   ///< tail, to: how many; the tail keeps its shape
+    EDIT_TAIL_ADD, ///< tail: a copy of it beside it; where there is none, a plain one bent by `spline` (-1: by nothing)
+    EDIT_TAIL_REMOVE,    ///< tail
+    EDIT_TAIL_NAME,      ///< tail, text: not empty, and no other rig's
+    EDIT_CHANNEL_ADD,    ///< tail, spline, axis, of: one more, the last
+    EDIT_CHANNEL_REMOVE, ///< tail, channel
+    EDIT_DRIVE,          ///< character, channel: which drive, drive: replaces spline, amplitude and lag
+    EDIT_DRIVE_ADD,      ///< character, drive (its name is copied)
+    EDIT_DRIVE_REMOVE,   ///< character, channel: which drive
 };
 
 enum range_fit {

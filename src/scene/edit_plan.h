@@ -12,6 +12,7 @@ planner plan_knot_insert, plan_knot_remove, plan_knot_set;
 planner plan_parameter, plan_mode, plan_start, plan_spring;
 planner plan_spline_add, plan_spline_copy, plan_spline_remove, plan_spline_move, plan_spline_name, plan_spline_color;
 planner plan_document, plan_fps, plan_substeps, plan_range;
+planner plan_joints, plan_tail_add, plan_tail_remove, plan_tail_name, plan_channel_add, plan_channel_remove;
 planner plan_angles, plan_axis, plan_part, plan_feed, plan_position, plan_length;
 planner plan_drive, plan_drive_add, plan_drive_remove;
 
