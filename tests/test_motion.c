@@ -224,6 +224,36 @@ static void a_number_that_is_none_is_named(void **state)
     motion_close(&motion);
 }
 
+/// Headers changed at random: read or refused, never more (the sanitizers watch).
+static void changed_headers_do_no_harm(void **state)
+{
+    (void)state;
+    static struct bytes good, b;
+    uint32_t seed = 4711;
+    int refused = 0;
+    add_npy(&good, 1, "{'descr': '<f4', 'fortran_order': True, 'shape': (5, 4, 3), }");
+    size_t header = good.size;
+    for (int n = 0; n < FRAMES * COLUMNS; n++) add_number(&good, 1, 4, false);
+    for (int round = 0; round < 1000; round++) {
+        struct motion motion;
+        struct error error;
+        b = good;
+        for (int k = 0; k < 2; k++) {
+            seed = 1664525u * seed + 1013904223u;
+            b.data[(seed >> 8) % header] = (unsigned char)(k == 0 ? '0' + round % 10 : (int)(seed >> 24));
+        }
+        if (motion_open(&motion, temporary_file("changed.npy", b.data, b.size), &error)) {
+            double *slab = malloc((size_t)motion.frames * 3 * (size_t)motion.vertices * sizeof *slab);
+            motion_columns(&motion, 0, 3 * motion.vertices, slab, &error);
+            free(slab);
+            motion_close(&motion);
+        } else {
+            refused++;
+        }
+    }
+    assert_in_range(refused, 50, 999);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -234,6 +264,7 @@ int main(void)
         cmocka_unit_test(an_abandoned_motion_leaves_nothing),
         cmocka_unit_test(bad_files_get_one_sentence),
         cmocka_unit_test(a_number_that_is_none_is_named),
+        cmocka_unit_test(changed_headers_do_no_harm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
