@@ -111,10 +111,8 @@ void range_show_ruler(struct editor *editor, const struct document *document)
 void range_show_plot(struct editor *editor, const struct document *document)
 {
     const struct rect *plot = &editor->layout.plot;
-    const uint32_t shade = theme_fade(THEME_PANEL, 0.55f);
     float x[2];
     if (!is_part(editor, document)) return;
     edges(editor, document, x);
-    drawlist_rect(&editor->list, (struct rect){plot->x, plot->y, x[0] - plot->x, plot->h}, shade);
-    drawlist_rect(&editor->list, (struct rect){x[1], plot->y, plot->x + plot->w - x[1], plot->h}, shade);
+    drawlist_rect(&editor->list, (struct rect){x[0], plot->y, x[1] - x[0], plot->h}, theme_fade(THEME_ACCENT, 0.05f));
 }

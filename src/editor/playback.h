@@ -27,7 +27,7 @@ void range_mark(struct editor *editor, const struct editor_world *world, int end
 void range_begin(struct editor *editor, const struct event *event);
 void range_drag(struct editor *editor, const struct document *document, float x);
 void range_end(struct editor *editor, bool keep);
-/// Marks the part on the ruler and dims the rest of the plot; nothing where all is played.
+/// Mark the part on the ruler and tint it in the plot; nothing where all is played.
 void range_show_ruler(struct editor *editor, const struct document *document);
 void range_show_plot(struct editor *editor, const struct document *document);
 
