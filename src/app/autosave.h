@@ -18,8 +18,8 @@ struct autosave_work {
 /// Takes over the slot, and starts the thread. NULL with a sentence (the slot is then released).
 struct autosave *autosave_open(const struct recovery_slot *slot, struct error *error);
 
-/// Looks at the work at time `now` (seconds), often: writes it where it has changed and the last write is a second ago,
-/// removes the file where it is saved. false with a sentence, once, where the file cannot be written.
+/// Looks at the work at time `now` (seconds), often: writes it where it has changed and the last write is a second ago (a
+/// large document only in a pause of a second, if one comes within half a minute), removes the file where it is saved. false with a sentence, once, where the file cannot be written.
 bool autosave_update(struct autosave *autosave, const struct autosave_work *work, double now, struct error *error);
 
 /// Writes the work now and returns when it is on the disk.
