@@ -320,6 +320,10 @@ static void test_slopes_flat_and_smooth(void **state)
         assert_near(spline(&s, 0)->knots[k].slope, 0, 0);
     }
     assert_one_step(&s, original);
+    panel_click(&s, "slope.smooth"); // the same by the inspector's buttons
+    assert_near(spline(&s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2);
+    panel_click(&s, "slope.switch");
+    for (int k = 0; k < 5; k++) assert_false(spline(&s, 0)->knots[k].has_slope);
     session_close(&s);
 }
 

@@ -96,6 +96,27 @@ static void build_stiffness(struct inspection *in, const struct knot *knot)
     change_knot(in, change, "Set stiffness", number.name, &next);
 }
 
+/// What can be done with the slopes of all selected knots.
+static void build_slopes(struct inspection *in)
+{
+    enum { GAP = 4 };
+    static const struct {
+        const char *name, *label, *hint;
+        void (*run)(struct editor *editor, const struct editor_world *world);
+    } buttons[] = {
+        {"slope.flat", "Flat", "Level slopes (Shift+T)", flatten_slopes},
+        {"slope.smooth", "Smooth", "Slopes towards the neighbours, after Catmull and Rom (Ctrl+T)", smooth_slopes},
+        {"slope.switch", "On, off", "Slopes on, as the curve runs there, or off (T)", toggle_slope},
+    };
+    struct ui *ui = in->ui;
+    struct rect r = ui_row(ui, UI_ROW);
+    r.w = (r.w - 2 * GAP) / 3;
+    for (size_t i = 0; i < sizeof buttons / sizeof buttons[0]; i++, r.x += r.w + GAP) {
+        if (ui_hovered(ui, r)) ui->hint = buttons[i].hint;
+        if (ui_button(ui, r, buttons[i].name, buttons[i].label, false)) buttons[i].run(in->editor, in->world);
+    }
+}
+
 void inspector_knot(struct inspection *in)
 {
     struct ui *ui = in->ui;
@@ -106,6 +127,7 @@ void inspector_knot(struct inspection *in)
         char text[64];
         snprintf(text, sizeof text, "%d knots selected.", count);
         ui_paragraph(ui, text, THEME_TEXT_DIM);
+        build_slopes(in);
     } else if (single < 0) {
         ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", THEME_TEXT_DIM);
     } else {
@@ -116,5 +138,6 @@ void inspector_knot(struct inspection *in)
         build_slope(in, &spline->knots[spline_find_id(spline, id)]);
         const struct knot *knot = &spline->knots[spline_find_id(spline, id)];
         if (knot->has_slope) build_stiffness(in, knot);
+        build_slopes(in);
     }
 }
