@@ -167,12 +167,37 @@ static void test_discard_and_later(void **state)
     session_close(&s);
 }
 
+/// The card for new users goes with a click on it (and only there), the help, or an edit; not by itself.
+static void test_welcome(void **state)
+{
+    (void)state;
+    struct session s;
+    open_session(&s);
+    assert_null(shown(&s, "Got it"));
+    editor_welcome(s.editor);
+    session_frame(&s);
+    session_key(&s, KEY_RIGHT, 0);
+    assert_non_null(shown(&s, "Got it"));
+    click(&s, "Got it", 1);
+    assert_false(editor_is_welcoming(s.editor));
+    editor_welcome(s.editor);
+    session_key(&s, KEY_F1, 0);
+    assert_false(editor_is_welcoming(s.editor));
+    session_key(&s, KEY_F1, 0);
+    editor_welcome(s.editor);
+    session_key(&s, 'I', 0);
+    assert_int_equal(s.document->splines[0].knot_count, 3);
+    assert_false(editor_is_welcoming(s.editor));
+    assert_null(shown(&s, "Got it"));
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_recent_files),      cmocka_unit_test(test_recent_files_give_way),
         cmocka_unit_test(test_mouse_in_the_list), cmocka_unit_test(test_recover),
-        cmocka_unit_test(test_discard_and_later),
+        cmocka_unit_test(test_welcome),           cmocka_unit_test(test_discard_and_later),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,6 +56,9 @@ edit_and_kill() { # <keys that go to a frame without one>...
 cp assets/scenes/tail.json "$scratch/mine.json"
 before=$(grep -o '"frame":' "$scratch/mine.json" | wc -l)
 start_app mine.json "$scratch/mine.json"
+xdotool key F1 Escape
+said() { grep -qx "welcomed = yes" "$XDG_CONFIG_HOME/wiggly/settings"; }
+within_two_seconds "what to try first is said once" said
 edit_and_kill shift+Left Right Right Right
 cmp "$scratch/mine.json" assets/scenes/tail.json
 ok "the scene's own file is as it was" $?

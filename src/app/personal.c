@@ -17,6 +17,7 @@ struct personal {
     struct autosave *autosave;        ///< NULL: unsaved work is not kept
     struct recovery_entry offered;    ///< what the dialog asks about
     bool is_offered;                  ///< `offered` is claimed
+    bool is_new;                      ///< somebody who has not been told yet what to try first
     double stage_share, panels_width; ///< as they were at the start
 };
 
@@ -52,9 +53,24 @@ static void start_settings(struct app *app)
         personal->stage_share = settings_number(settings, "stage_share", personal->stage_share);
         personal->panels_width = settings_number(settings, "inspector_width", personal->panels_width);
         editor_set_panels(app->editor, personal->stage_share, personal->panels_width);
+        personal->is_new = !settings_get(settings, "welcomed", 0);
+        if (personal->is_new) editor_welcome(app->editor);
     }
     settings_free(settings);
     complain(app, &error);
+}
+
+/// The card for new users has gone: it does not come back.
+static void note_welcomed(struct app *app)
+{
+    struct personal *personal = app->personal;
+    struct error error = {0};
+    if (!personal->is_new || editor_is_welcoming(app->editor)) return;
+    personal->is_new = false;
+    struct settings *settings = load_settings(personal, &error);
+    if (!settings) return;
+    settings_set(settings, "welcomed", "yes");
+    store_settings(app, settings);
 }
 
 static void end_settings(struct app *app)
@@ -151,7 +167,9 @@ static struct autosave_work work_of(const struct app *app)
 void personal_update(struct app *app)
 {
     struct error error = {0};
-    if (!app->personal || !app->personal->autosave) return;
+    if (!app->personal) return;
+    note_welcomed(app);
+    if (!app->personal->autosave) return;
     struct autosave_work work = work_of(app);
     if (!autosave_update(app->personal->autosave, &work, clock_now(), &error)) complain(app, &error);
 }

@@ -69,6 +69,10 @@ struct recovery_offer {
 void editor_offer_recovery(struct editor *editor, const struct recovery_offer *offer);
 void editor_recovery_done(struct editor *editor);
 
+/// Shows what to try first, to somebody who is new; and whether that is still to be seen.
+void editor_welcome(struct editor *editor);
+bool editor_is_welcoming(const struct editor *editor);
+
 /// The panels' sizes, which the user drags: the stage's share of the height, the inspector's width.
 void editor_panels(const struct editor *editor, double *stage_share, double *inspector_width);
 void editor_set_panels(struct editor *editor, double stage_share, double inspector_width);

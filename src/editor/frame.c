@@ -83,7 +83,8 @@ void editor_event(struct editor *editor, const struct editor_world *world, const
     note(editor, event);
     if (event->kind == EVENT_SIZE) editor_resize(editor, event->x, event->y, event->scale);
     editor_reserve(editor, world->document);
-    bool used = dialog_event(editor, world, event) || help_event(editor, event) || drag_event(editor, world, event) ||
+    bool used = dialog_event(editor, world, event) || help_event(editor, event) || welcome_event(editor, event) ||
+                drag_event(editor, world, event) ||
                 (editor->drag.kind == DRAG_NONE && inspector_event(editor, world, event));
     if (!used) dispatch(editor, world, event);
     let_go(editor, world);
@@ -138,6 +139,7 @@ void editor_show(struct editor *editor, const struct editor_world *world)
     update_hover(editor, world);
     stage_show(editor, world);
     caption_show(editor, world->document);
+    welcome_show(editor, world);
     curves_show(editor, world);
     inspector_show(editor, world);
     show_dividers(editor);

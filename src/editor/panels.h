@@ -47,6 +47,10 @@ const char *inspector_hint(const struct editor *editor);
 bool inspector_target(struct editor *editor, const struct editor_world *world, const char *name, float *x, float *y);
 
 /// What the scene is about, in the upper left corner of the stage: up to the first full stop as a title.
+/// A card on the stage with what to try first. A press on it takes it away and is used up; so do an edit and the help.
+bool welcome_event(struct editor *editor, const struct event *event);
+void welcome_show(struct editor *editor, const struct editor_world *world);
+
 void caption_show(struct editor *editor, const struct document *document);
 
 /// The right end of the status line; zero is a valid start.

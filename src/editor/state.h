@@ -284,6 +284,7 @@ struct editor {
     struct inspector inspector;
     struct dialog dialog;
     struct help help;
+    bool welcome; ///< the card for somebody who is new is shown
     struct status status;
 
     unsigned serial; ///< of the document on the table
