@@ -53,29 +53,27 @@ static void report_progress(const struct job *job, int done, int frames, double 
 }
 
 /// One frame: so many steps of the integrator, then the surface.
-static bool simulate_frame(const struct job *job, const struct soft *soft, struct midpoint *midpoint, int frame,
+static bool simulate_frame(const struct job *job, const struct soft *soft, struct integrator *integrator, int frame,
                            float (*position)[3], struct error *error)
 {
     for (int s = 0; frame > 0 && s < job->substeps; s++) {
         if (interrupted) return fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
-        if (midpoint_step(midpoint)) continue;
-        return fail(error, ERROR_INPUT,
-                    "frame %d: no equilibrium of forces was found: try more --substeps or a smaller "
-                    "--amplitude",
+        if (integrator_step(integrator)) continue;
+        return fail(error, ERROR_INPUT, "frame %d: the motion ran away: try more --substeps or a smaller --amplitude",
                     frame);
     }
-    lattice_embed(&soft->lattice, (const double(*)[3])midpoint->x, position);
+    lattice_embed(&soft->lattice, (const double(*)[3])integrator->x, position);
     return true;
 }
 
-static bool write_frames(const struct job *job, const struct soft *soft, struct midpoint *midpoint, int frames,
+static bool write_frames(const struct job *job, const struct soft *soft, struct integrator *integrator, int frames,
                          float (*position)[3], struct error *error)
 {
     struct motion_writer writer;
     double started = now();
     if (!motion_write_open(&writer, job->output, frames, soft->lattice.vertex_count, error)) return false;
     for (int frame = 0; frame < frames; frame++) {
-        if (!simulate_frame(job, soft, midpoint, frame, position, error) ||
+        if (!simulate_frame(job, soft, integrator, frame, position, error) ||
             !motion_write_frame(&writer, (const float(*)[3])position, error)) {
             motion_write_discard(&writer);
             return false;
@@ -90,20 +88,20 @@ static bool write_frames(const struct job *job, const struct soft *soft, struct 
 
 static bool shake(const struct job *job, const struct soft *soft, struct body *body, struct error *error)
 {
-    struct midpoint midpoint;
+    struct integrator integrator;
     int frames = (int)fmax(1, round(job->seconds * job->fps));
     float(*position)[3] = calloc((size_t)soft->lattice.vertex_count + 1, sizeof *position);
-    bool good = position && midpoint_create(&midpoint, body, 1 / (job->fps * job->substeps));
+    bool good = position && integrator_create(&integrator, body, 1 / (job->fps * job->substeps));
     if (!good) {
         free(position);
         return fail(error, ERROR_ENVIRONMENT, "out of memory");
     }
-    midpoint.alpha = soft->alpha;
-    midpoint.beta = soft->beta;
-    midpoint.tolerance = 1e-4 * soft->lattice.cell; // the next step of Newton's would be a thousandth of that
-    soft_shake(soft, &job->shake, &midpoint);
-    good = write_frames(job, soft, &midpoint, frames, position, error);
-    midpoint_free(&midpoint);
+    integrator.mass_damping = soft->alpha;
+    integrator.stiffness_damping = soft->beta;
+    integrator.tolerance = 1e-4 * soft->lattice.cell; // the next step of Newton's would be a thousandth of that
+    soft_shake(soft, &job->shake, &integrator);
+    good = write_frames(job, soft, &integrator, frames, position, error);
+    integrator_free(&integrator);
     free(position);
     return good;
 }

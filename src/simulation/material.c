@@ -9,10 +9,10 @@ struct material material_from(double young, double poisson)
                              .lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson))};
 }
 
-/// L(σ)
+/// L(σ); near rest with all digits of σ − 1.
 static double logarithm(double sigma)
 {
-    return sigma >= MATERIAL_CLAMP ? log(sigma) : log(MATERIAL_CLAMP) + sigma / MATERIAL_CLAMP - 1;
+    return sigma >= MATERIAL_CLAMP ? log1p(sigma - 1) : log(MATERIAL_CLAMP) + sigma / MATERIAL_CLAMP - 1;
 }
 
 /// L'(σ)
@@ -28,8 +28,12 @@ static double log_volume(const double sigma[3])
 
 double material_energy(const struct material *material, const double sigma[3])
 {
-    double squares = sigma[0] * sigma[0] + sigma[1] * sigma[1] + sigma[2] * sigma[2], volume = log_volume(sigma);
-    return material->mu * (0.5 * (squares - 3) - volume) + 0.5 * material->lambda * volume * volume;
+    double shear = 0, volume = log_volume(sigma);
+    for (int i = 0; i < 3; i++) { // ½(σ² − 1) − L(σ) with σ = 1 + e, which cancels less near rest
+        double e = sigma[i] - 1;
+        shear += e + 0.5 * e * e - logarithm(sigma[i]);
+    }
+    return material->mu * shear + 0.5 * material->lambda * volume * volume;
 }
 
 void material_stress(const struct material *material, const double sigma[3], double stress[3])

@@ -10,7 +10,7 @@
 #ifndef SIMULATION_MATERIAL_H
 #define SIMULATION_MATERIAL_H
 
-#define MATERIAL_CLAMP 0.25
+#define MATERIAL_CLAMP 0.6
 
 /// Lamé's constants, Pa.
 struct material {

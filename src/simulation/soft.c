@@ -91,7 +91,7 @@ void soft_free(struct soft *soft)
     *soft = (struct soft){0};
 }
 
-void soft_shake(const struct soft *soft, const struct shake *shake, struct midpoint *midpoint)
+void soft_shake(const struct soft *soft, const struct shake *shake, struct integrator *integrator)
 {
     double held = soft->bottom, top = soft->bottom + soft->height;
     for (int i = 0; i < soft->body.node_count; i++) {
@@ -104,7 +104,7 @@ void soft_shake(const struct soft *soft, const struct shake *shake, struct midpo
         double above = fmax(0, (soft->body.rest[i][1] - held) / fmax(top - held, 1e-30));
         for (int c = 0; c < 3; c++) {
             double change = size * above * above * shake->direction[c];
-            (shake->impulse ? midpoint->v : midpoint->x)[i][c] += change;
+            (shake->impulse ? integrator->v : integrator->x)[i][c] += change;
         }
     }
 }

@@ -5,8 +5,8 @@
 #include "base/error.h"
 #include "model/obj.h"
 #include "simulation/body.h"
+#include "simulation/integrator.h"
 #include "simulation/lattice.h"
-#include "simulation/midpoint.h"
 #include "simulation/modes.h"
 
 /// Start from soft_default_options().
@@ -48,6 +48,6 @@ struct shake {
 
 /// Puts a simulation of the body into its first state: the displacement, or the velocity, grows with the square of the
 /// height above the pinned nodes.
-void soft_shake(const struct soft *soft, const struct shake *shake, struct midpoint *midpoint);
+void soft_shake(const struct soft *soft, const struct shake *shake, struct integrator *integrator);
 
 #endif

@@ -1,0 +1,235 @@
+#include "simulation/integrator.h"
+#include "simulation/vec3.h"
+#include <stdlib.h>
+#include <string.h>
+
+enum { NEWTON_MAX = 60, GRADIENTS_MAX = 2000 };
+
+// A looser one makes more Newton iterations, each of which assembles anew; a tighter one saves none.
+static const double linear_tolerance = 1e-3;
+
+struct integrator_work {
+    double (*a)[3];         ///< accelerations
+    double (*y)[3];         ///< the unknown: positions at the step's end
+    double (*target)[3];    ///< t
+    double (*origin)[3];    ///< q
+    double (*start)[3];     ///< f at the step's start
+    double (*force)[3];     ///< f(y)
+    double (*downhill)[3];  ///< minus the gradient of the potential
+    double (*direction)[3]; ///< the Newton step
+    double (*moved)[3];     ///< y − q
+    double (*drag)[3];      ///< K (y − q)
+    struct blocks lagged;   ///< K at the step's start: the pattern is the body's, the blocks are its own
+    bool started;           ///< there are accelerations
+};
+
+/// Chung and Hulbert's parameters for ρ∞ = 0.8, and what a step of length h makes of them.
+struct scheme {
+    double am, af, beta, gamma;
+    double inertia, rate; ///< κ and r
+};
+
+static struct scheme scheme_of(double h)
+{
+    const double rho = 0.8;
+    struct scheme s = {.am = (2 * rho - 1) / (rho + 1), .af = rho / (rho + 1)};
+    s.gamma = 0.5 - s.am + s.af;
+    s.beta = 0.25 * (1 - s.am + s.af) * (1 - s.am + s.af);
+    s.inertia = (1 - s.am) / ((1 - s.af) * s.beta * h * h);
+    s.rate = s.gamma / (s.beta * h);
+    return s;
+}
+
+bool integrator_create(struct integrator *integrator, struct body *body, double step)
+{
+    size_t n = (size_t)body->node_count;
+    *integrator = (struct integrator){.body = body, .step = step, .tolerance = 1e-9};
+    integrator->x = calloc(n, sizeof *integrator->x);
+    integrator->v = calloc(n, sizeof *integrator->v);
+    struct integrator_work *w = integrator->work = calloc(1, sizeof *w);
+    bool good = integrator->x && integrator->v && w;
+    if (good) {
+        double(**vectors[])[3] = {&w->a,     &w->y,        &w->target,    &w->origin, &w->start,
+                                  &w->force, &w->downhill, &w->direction, &w->moved,  &w->drag};
+        for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
+            *vectors[i] = calloc(n, sizeof **vectors[i]);
+            good = good && *vectors[i];
+        }
+        w->lagged = body->stiffness;
+        w->lagged.block = calloc((size_t)body->stiffness.start[n] + 1, sizeof *w->lagged.block);
+        good = good && w->lagged.block;
+    }
+    if (good) memcpy(integrator->x, body->rest, n * sizeof *integrator->x);
+    if (!good) integrator_free(integrator);
+    return good;
+}
+
+void integrator_free(struct integrator *integrator)
+{
+    struct integrator_work *w = integrator->work;
+    if (w) {
+        double(*vectors[])[3] = {w->a,     w->y,        w->target,    w->origin, w->start,
+                                 w->force, w->downhill, w->direction, w->moved,  w->drag};
+        for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) free(vectors[i]);
+        free(w->lagged.block);
+    }
+    free(w);
+    free(integrator->x);
+    free(integrator->v);
+    *integrator = (struct integrator){0};
+}
+
+/// The potential at y, whose gradient's negative goes to work->downhill:
+/// κ/2 |y − t|²_M + r/2 (y − q)ᵀ C (y − q) + Ψ(y)
+static double evaluate(struct integrator *m, const struct scheme *scheme, const double (*y)[3])
+{
+    struct integrator_work *w = m->work;
+    double energy = body_forces(m->body, y, w->force);
+    for (int i = 0; i < m->body->node_count; i++) {
+        for (int c = 0; c < 3; c++) w->moved[i][c] = y[i][c] - w->origin[i][c];
+    }
+    if (m->stiffness_damping > 0) blocks_multiply(&w->lagged, (const double(*)[3])w->moved, w->drag);
+    for (int i = 0; i < m->body->node_count; i++) {
+        double mass = m->body->mass[i];
+        for (int c = 0; c < 3; c++) {
+            w->downhill[i][c] = 0;
+            if (m->body->pinned[i]) continue;
+            double ahead = y[i][c] - w->target[i][c], push = scheme->inertia * mass * ahead;
+            double drag = m->mass_damping * mass * w->moved[i][c];
+            if (m->stiffness_damping > 0) drag += m->stiffness_damping * w->drag[i][c];
+            drag *= scheme->rate;
+            energy += 0.5 * (push * ahead + drag * w->moved[i][c]);
+            w->downhill[i][c] = w->force[i][c] - push - drag;
+        }
+    }
+    return energy;
+}
+
+/// κ M + r C + K(y), where the potential was last evaluated, into the body's matrix.
+static void assemble(struct integrator *m, const struct scheme *scheme)
+{
+    struct blocks *a = &m->body->stiffness;
+    const double factor = scheme->rate * m->stiffness_damping;
+    body_stiffness(m->body);
+    int count = a->start[a->rows];
+    for (int k = 0; factor > 0 && k < count; k++) {
+        for (int i = 0; i < 9; i++) a->block[k][i] += factor * m->work->lagged.block[k][i];
+    }
+    for (int i = 0; i < a->rows; i++) {
+        double inertia = m->body->mass[i] * (scheme->inertia + scheme->rate * m->mass_damping);
+        for (int d = 0; d < 9; d += 4) a->block[a->diagonal[i]][d] += inertia;
+    }
+}
+
+/// dᵀ∇ of the potential, d being the Newton step: below zero where it leads down.
+static double slope_along(const struct integrator *m)
+{
+    double slope = 0;
+    for (int i = 0; i < 3 * m->body->node_count; i++) slope -= (*m->work->direction)[i] * (*m->work->downhill)[i];
+    return slope;
+}
+
+/// Goes from y along the Newton step as far as the potential falls enough: by Armijo's condition, or, where its fall
+/// drowns in rounding, by the slope (Hager and Zhang 2005, the approximate Wolfe condition). Returns the largest move of a
+/// node, 0 where there is no way down. A step below the tolerance is taken as it is.
+static double search(struct integrator *m, const struct scheme *scheme, double *energy)
+{
+    enum { HALVINGS_MAX = 30 };
+    const double enough = 1e-4, rounding = 1e-6;
+    struct integrator_work *w = m->work;
+    double largest = 0, before = *energy, slope = slope_along(m), part = 1, taken = 0;
+    for (int i = 0; i < m->body->node_count; i++) largest = fmax(largest, vec3_length(w->direction[i]));
+    for (int halving = 0; halving < HALVINGS_MAX; halving++, part /= 2) {
+        for (int i = 0; i < 3 * m->body->node_count; i++) (*w->y)[i] += (part - taken) * (*w->direction)[i];
+        if (largest <= m->tolerance) return largest;
+        taken = part;
+        *energy = evaluate(m, scheme, (const double(*)[3])w->y);
+        if (*energy <= before + enough * part * slope) return part * largest;
+        if (*energy <= before + rounding * fabs(before) && fabs(slope_along(m)) <= 0.8 * fabs(slope)) {
+            return part * largest;
+        }
+    }
+    return 0;
+}
+
+/// Descends the potential from y. It has creases where two principal stretches of an inverted element are opposite, and on one of
+/// those Newton's method may not settle: then the lowest point found will do, since every iteration went down.
+static void minimise(struct integrator *m, const struct scheme *scheme)
+{
+    struct integrator_work *w = m->work;
+    const size_t bytes = (size_t)m->body->node_count * sizeof *w->direction;
+    double energy = evaluate(m, scheme, (const double(*)[3])w->y);
+    for (int iteration = 0; iteration < NEWTON_MAX && isfinite(energy); iteration++) {
+        assemble(m, scheme);
+        memset(w->direction, 0, bytes);
+        m->gradients += conjugate_solve(&m->body->scratch, &m->body->stiffness, (const double(*)[3])w->downhill,
+                                        w->direction, linear_tolerance, GRADIENTS_MAX);
+        m->newton++;
+        if (!(search(m, scheme, &energy) > m->tolerance)) return;
+    }
+}
+
+/// Forces, the stiffness for damping and, the first time, M⁻¹(f − C v) as the accelerations.
+static void begin(struct integrator *m)
+{
+    struct integrator_work *w = m->work;
+    body_forces(m->body, (const double(*)[3])m->x, w->start);
+    if (m->stiffness_damping > 0) {
+        body_stiffness(m->body);
+        memcpy(w->lagged.block, m->body->stiffness.block,
+               (size_t)w->lagged.start[w->lagged.rows] * sizeof *w->lagged.block);
+        blocks_multiply(&w->lagged, (const double(*)[3])m->v, w->drag);
+    }
+    for (int i = 0; !w->started && i < m->body->node_count; i++) {
+        for (int c = 0; c < 3 && !m->body->pinned[i]; c++) {
+            double drag = m->stiffness_damping > 0 ? m->stiffness_damping * w->drag[i][c] : 0;
+            w->a[i][c] = (w->start[i][c] - drag) / m->body->mass[i] - m->mass_damping * m->v[i][c];
+        }
+    }
+    w->started = true;
+}
+
+/// t, q and a first guess at y.
+static void aim(struct integrator *m, const struct scheme *s)
+{
+    struct integrator_work *w = m->work;
+    const double h = m->step, kept = 1 / (1 - s->af);
+    for (int i = 0; i < m->body->node_count; i++) {
+        for (int c = 0; c < 3; c++) {
+            double x = m->x[i][c], v = m->v[i][c], a = w->a[i][c];
+            w->y[i][c] = w->target[i][c] = w->origin[i][c] = x;
+            if (m->body->pinned[i]) continue;
+            double rest = kept * (s->af * w->start[i][c] / m->body->mass[i] - s->am * a) / s->inertia;
+            w->target[i][c] += h * v + h * h * (0.5 - s->beta) * a + rest;
+            w->origin[i][c] -= ((kept - s->gamma / s->beta) * v + h * (1 - s->gamma / (2 * s->beta)) * a) / s->rate;
+            w->y[i][c] += h * v;
+        }
+    }
+}
+
+/// Newmark's velocities and accelerations at the step's end. False where they are not finite.
+static bool finish(struct integrator *m, const struct scheme *s)
+{
+    struct integrator_work *w = m->work;
+    const double h = m->step;
+    double sum = 0;
+    for (int i = 0; i < m->body->node_count; i++) {
+        for (int c = 0; c < 3 && !m->body->pinned[i]; c++) {
+            double ahead = w->y[i][c] - m->x[i][c] - h * m->v[i][c], before = w->a[i][c];
+            w->a[i][c] = ahead / (s->beta * h * h) - (0.5 / s->beta - 1) * before;
+            m->v[i][c] += h * ((1 - s->gamma) * before + s->gamma * w->a[i][c]);
+            m->x[i][c] = w->y[i][c];
+            sum += m->x[i][c] + m->v[i][c];
+        }
+    }
+    return isfinite(sum);
+}
+
+bool integrator_step(struct integrator *m)
+{
+    const struct scheme scheme = scheme_of(m->step);
+    begin(m);
+    aim(m, &scheme);
+    minimise(m, &scheme);
+    return finish(m, &scheme);
+}
