@@ -38,6 +38,8 @@ analyze() { # <exit status> <what> <arguments>...
 }
 analyze 0 "two motions, two modes each" "$scratch/up.npy" "$scratch/side.pc2" --rest "$scratch/up.rest.obj" --fps 30 --modes 2 \
     --shake up:side -o "$scratch/out/box.glb" --scene "$scratch/box.json"
+[ -z "$err" ]
+ok "without a warning" $?
 says "says what was read" "up.npy: 60 frames of 8 vertices, 30 a second" "$out"
 says "names coordinates after files" "  side: explains " "$out"
 says "and further modes" "  up-2: explains " "$out"
@@ -57,6 +59,9 @@ analyze 0 "the first again" "$scratch/up.npy" "$scratch/side.pc2" --rest "$scrat
     --shake up:side -o "$scratch/out/box.glb" --scene "$scratch/box.json"
 [ "$first" = "$(cksum <"$scratch/out/box.glb")" ]
 ok "gives the same bytes" $?
+awk '/^v/ { print $1, $2, -$4, $3; next } { print }' "$scratch/box.obj" >"$scratch/z-up.obj"
+analyze 0 "a mesh with z up" "$scratch/up.npy" --rest "$scratch/z-up.obj" --fps 30 -o "$scratch/out/z-up.glb"
+says "is warned of" "up.npy: warning: swings about another place than the mesh at rest" "$err"
 if command -v ldd >/dev/null; then
     ! ldd "$WIGGLY" | grep -qE 'lapack|blas'
     ok "the program does without LAPACKE until it analyses" $?

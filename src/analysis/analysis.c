@@ -59,13 +59,13 @@ static bool finish(struct analysis *a, const struct motion *motion, const struct
     return true;
 }
 
-static bool make_spectrum(const struct lapack *lapack, const struct motion *motion, struct spectrum *spectrum,
-                          struct error *error)
+static bool make_spectrum(const struct lapack *lapack, const struct motion *motion, double *means,
+                          struct spectrum *spectrum, struct error *error)
 {
     size_t n = (size_t)motion->frames;
     double *gram = malloc(n * n * sizeof *gram);
     if (!gram) return no_memory(motion, error);
-    bool done = slabs_gram(lapack, motion, gram, error) &&
+    bool done = slabs_gram(lapack, motion, gram, means, error) &&
                 spectrum_create(spectrum, lapack, gram, motion->frames, motion->path, error);
     free(gram);
     return done;
@@ -79,7 +79,12 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
     if (motion->frames < ANALYSIS_FRAMES_MIN || motion->frames > ANALYSIS_FRAMES_MAX)
         return fail(error, ERROR_INPUT, "%s: expected %d to %d frames, got %d", motion->path, ANALYSIS_FRAMES_MIN,
                     ANALYSIS_FRAMES_MAX, motion->frames);
-    if (!make_spectrum(lapack, motion, &spectrum, error)) return false;
+    a->mean = malloc((size_t)motion->vertices * sizeof *a->mean);
+    if (!a->mean) return no_memory(motion, error);
+    if (!make_spectrum(lapack, motion, a->mean[0], &spectrum, error)) {
+        analysis_free(a);
+        return false;
+    }
     a->pca1 = spectrum.pca1;
     a->pca2 = spectrum.pca2;
     bool done =
@@ -98,5 +103,6 @@ void analysis_free(struct analysis *a)
         free(a->components[k].shape);
     }
     free(a->components);
+    free(a->mean);
     *a = (struct analysis){0};
 }

@@ -13,6 +13,7 @@ enum {
 
 struct analysis {
     double pca1, pca2; ///< shares of the real variance that real PCA's first and first two explain, 0 … 1
+    double (*mean)[3]; ///< what the motion swings about: each vertex's mean position, metres
     struct component *components;
     int count;
 };

@@ -6,17 +6,19 @@ enum { SLAB_NUMBERS = 1 << 20 }; ///< 8 MiB: a slab and its copies stay near the
 /// What is done with columns [first, first + count) of S.
 typedef void visit(void *user, const double *slab, int first, int count);
 
-static void remove_means(double *slab, int frames, int count)
+/// Takes each column's mean away, and keeps it in `means` unless that is NULL.
+static void remove_means(double *slab, int frames, int count, double *means)
 {
     for (int j = 0; j < count; j++) {
         double sum = 0;
         for (int i = 0; i < frames; i++) sum += slab[(size_t)i * (size_t)count + (size_t)j];
         double mean = sum / frames;
+        if (means) means[j] = mean;
         for (int i = 0; i < frames; i++) slab[(size_t)i * (size_t)count + (size_t)j] -= mean;
     }
 }
 
-static bool visit_slabs(const struct motion *motion, visit *each, void *user, struct error *error)
+static bool visit_slabs(const struct motion *motion, visit *each, void *user, double *means, struct error *error)
 {
     int columns = 3 * motion->vertices, width = SLAB_NUMBERS / motion->frames + 1;
     if (width > columns) width = columns;
@@ -27,7 +29,7 @@ static bool visit_slabs(const struct motion *motion, visit *each, void *user, st
         int count = columns - first < width ? columns - first : width;
         done = motion_columns(motion, first, count, slab, error);
         if (!done) break;
-        remove_means(slab, motion->frames, count);
+        remove_means(slab, motion->frames, count, means ? means + first : NULL);
         each(user, slab, first, count);
     }
     free(slab);
@@ -48,12 +50,13 @@ static void add_products(void *user, const double *slab, int first, int count)
                      g->frames);
 }
 
-bool slabs_gram(const struct lapack *lapack, const struct motion *motion, double *gram, struct error *error)
+bool slabs_gram(const struct lapack *lapack, const struct motion *motion, double *gram, double *means,
+                struct error *error)
 {
     size_t n = (size_t)motion->frames;
     struct gram g = {lapack, gram, motion->frames};
     for (size_t i = 0; i < n * n; i++) gram[i] = 0;
-    if (!visit_slabs(motion, add_products, &g, error)) return false;
+    if (!visit_slabs(motion, add_products, &g, means, error)) return false;
     for (size_t i = 0; i < n; i++) {
         for (size_t j = i + 1; j < n; j++) gram[i * n + j] = gram[j * n + i];
     }
@@ -78,5 +81,5 @@ bool slabs_combine(const struct lapack *lapack, const struct motion *motion, con
                    double *combined, struct error *error)
 {
     struct combination c = {lapack, weights, combined, rows, motion->frames, 3 * motion->vertices};
-    return visit_slabs(motion, combine, &c, error);
+    return visit_slabs(motion, combine, &c, NULL, error);
 }

@@ -5,8 +5,9 @@
 #include "base/lapack.h"
 #include "model/motion.h"
 
-/// G = S Sᵀ, frames × frames, row after row, both halves filled.
-bool slabs_gram(const struct lapack *lapack, const struct motion *motion, double *gram, struct error *error);
+/// G = S Sᵀ, frames × frames, row after row, both halves filled; and the mean over time of every column.
+bool slabs_gram(const struct lapack *lapack, const struct motion *motion, double *gram, double *means,
+                struct error *error);
 
 /// W S: `rows` weightings of the frames (rows × frames) give rows × columns.
 bool slabs_combine(const struct lapack *lapack, const struct motion *motion, const double *weights, int rows,

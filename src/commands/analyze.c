@@ -102,6 +102,24 @@ static bool check_motion(const struct job *job, const struct motion *motion, con
                 "%s: expected --fps N, because the file does not say how many frames a second has", motion->path);
 }
 
+/// A coordinate is added to the mesh at rest; a motion about another place has other axes, units or an offset.
+static void warn_of_distance(const struct motion *motion, const struct analysis *analysis, const struct surface *rest)
+{
+    double centre[3] = {0}, distance = 0, size = 0;
+    for (int n = 0; n < 3 * rest->vertex_count; n++)
+        centre[n % 3] += (double)rest->position[n / 3][n % 3] / rest->vertex_count;
+    for (int n = 0; n < 3 * rest->vertex_count; n++) {
+        double at = (double)rest->position[n / 3][n % 3];
+        distance += (analysis->mean[n / 3][n % 3] - at) * (analysis->mean[n / 3][n % 3] - at);
+        size += (at - centre[n % 3]) * (at - centre[n % 3]);
+    }
+    if (distance > 0.25 * size) {
+        fprintf(stderr,
+                "%s: warning: swings about another place than the mesh at rest: other axes, units or position?\n",
+                motion->path);
+    }
+}
+
 /// Analyses one file and appends its coordinates to the character.
 static bool analyse(const struct job *job, int file, const struct lapack *lapack, const struct surface *rest,
                     struct character *character, int *filled, struct error *error)
@@ -113,6 +131,7 @@ static bool analyse(const struct job *job, int file, const struct lapack *lapack
     const double *direction = job->direction_count ? job->directions[job->direction_count > 1 ? file : 0] : NULL;
     bool done = check_motion(job, &motion, rest, &fps, error) &&
                 analysis_create(&analysis, lapack, &motion, fps, job->modes, direction, error);
+    if (done) warn_of_distance(&motion, &analysis, rest);
     if (done) printf("%s: %d frames of %d vertices, %g a second\n", motion.path, motion.frames, motion.vertices, fps);
     for (int k = 0; done && k < analysis.count; k++) {
         struct coordinate *to = &character->coordinates[(*filled)++];

@@ -50,7 +50,7 @@ static double fps_of_times(const unsigned char *times, int frames)
         if (!(fabs(time_at(times, i) - first - i * step) <= 0.01 * step)) return 0;
     }
     double fps = 1 / step, whole = round(fps);
-    return fabs(fps - whole) < 1e-3 * fps ? whole : fps;
+    return fabs(fps - whole) < 1e-4 * fps ? whole : fps;
 }
 
 bool mdd_read_header(struct motion *m, int64_t size, struct error *error)
