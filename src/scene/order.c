@@ -74,3 +74,24 @@ bool scene_has_order(const struct document *document, struct order_cycle *cycle)
     free(space.stack);
     return found;
 }
+
+static bool follows_any(const struct spline *spline, const bool *marked, int count)
+{
+    for (int i = 0; i < PARAMETER_COUNT; i++) {
+        int track = spline->parameter[i].track;
+        if (track >= 0 && track < count && marked[track]) return true;
+    }
+    return false;
+}
+
+void scene_followers(const struct document *document, int spline, bool *followers, int count)
+{
+    for (int s = 0; s < count; s++) followers[s] = s == spline;
+    for (bool more = true; more;) {
+        more = false;
+        for (int s = 0; s < count; s++) {
+            if (followers[s] || !follows_any(&document->splines[s], followers, count)) continue;
+            followers[s] = more = true;
+        }
+    }
+}

@@ -27,4 +27,8 @@ bool scene_has_order(const struct document *document, struct order_cycle *cycle)
 /// Whether the solution of a spline depends on that parameter, as its mode is (or as a cubic).
 bool spline_uses(const struct spline *spline, enum parameter parameter, bool cubic);
 
+/// Marks the spline and all of the first `count` splines that follow it, directly or not: those that it cannot follow
+/// without a cycle. Allocates nothing; of the order of count² steps.
+void scene_followers(const struct document *document, int spline, bool *followers, int count);
+
 #endif
