@@ -115,7 +115,7 @@ static void check_dialogs(struct session *f)
             editor_offer_recovery(f->editor, &(struct recovery_offer){"walk.json", "1 May 2026, 10:00", 2});
         for (int failed = 0; failed < 2; failed++) {
             show(f);
-            dialog_show(f->editor);
+            dialog_show(f->editor, &f->world);
             assert_true(assert_texts_apart(&f->editor->list, 0, f->editor->layout.window) >= 4);
             f->editor->dialog.waiting = true;
             editor_message(

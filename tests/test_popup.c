@@ -25,7 +25,8 @@ static void build_rows(struct panel *p)
     for (int i = 0; i < 3; i++) {
         char name[16];
         snprintf(name, sizeof name, "row.%d", i);
-        enum ui_row_event event = ui_sort_row(&p->ui, ui_row(&p->ui, UI_ROW), name, name, false);
+        struct rect r = ui_row(&p->ui, UI_ROW);
+        enum ui_row_event event = ui_sort_row(&p->ui, r, r, name, name, false);
         if (event == UI_ROW_DROPPED) p->dropped = i;
         if (event == UI_ROW_TWICE) ui_line_begin(&p->ui, "line", "old");
     }

@@ -1,6 +1,7 @@
 /// Draws the curves panel: lines, knots, slope handles, names, playhead.
 #include "editor/curves.h"
 #include "editor/actions.h"
+#include "editor/arrange.h"
 #include "editor/warnings.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -22,8 +23,6 @@ struct label {
     uint32_t color;
     const char *text;
 };
-
-static uint32_t spline_color(int spline) { return theme_spline_color[spline < 0 ? 0 : spline % THEME_SPLINE_COLORS]; }
 
 static void show_line(struct editor *editor, const polyline line, float width, uint32_t color)
 {
@@ -51,13 +50,14 @@ static bool shows_imaginary(const struct editor *editor, const struct spline *sp
 static void show_lines(struct editor *editor, const struct editor_world *world)
 {
     const struct curve_cache *cache = &editor->cache;
-    const struct spline *spline = editor_active_spline(editor, world);
-    uint32_t color = spline_color(editor->active);
+    const struct spline *spline = arrange_seen(editor, world);
+    uint32_t color = arrange_color(world->document, editor->active);
     if (cache->count < 2) return;
     for (int i = 0; i < cache->other_count; i++) {
         float alpha =
             editor->hover.kind == HOVER_CURVE && editor->hover.spline == cache->other_spline[i] ? 0.7f : 0.35f;
-        show_line(editor, cache->others[i], 1.25f, theme_fade(spline_color(cache->other_spline[i]), alpha));
+        show_line(editor, cache->others[i], 1.25f,
+                  theme_fade(arrange_color(world->document, cache->other_spline[i]), alpha));
     }
     if (!spline) return;
     show_ghost(editor);
@@ -187,9 +187,9 @@ static void show_knot(struct editor *editor, const struct document *document, co
 static void show_knots(struct editor *editor, const struct editor_world *world)
 {
     const struct document *document = world->document;
-    const struct spline *spline = editor_active_spline(editor, world);
+    const struct spline *spline = arrange_seen(editor, world);
     const struct rect *plot = &editor->layout.plot;
-    uint32_t color = spline_color(editor->active);
+    uint32_t color = arrange_color(document, editor->active);
     for (int k = 0, end = 0; spline && k < spline->knot_count; k = end) {
         float x = knot_x(editor, document, &spline->knots[k]);
         for (end = k + 1; end < spline->knot_count; end++) {
@@ -206,7 +206,7 @@ static void show_other_knots(struct editor *editor, const struct document *docum
 {
     const struct spline *spline = &document->splines[s];
     const struct rect *plot = &editor->layout.plot;
-    uint32_t color = theme_fade(spline_color(s), 0.55f);
+    uint32_t color = theme_fade(arrange_color(document, s), 0.55f);
     float last_x = -INFINITY;
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
@@ -240,8 +240,8 @@ static void spread_labels(struct label *labels, int count, float top, float bott
 static int place_labels(const struct editor *editor, const struct editor_world *world, struct label *labels, int most)
 {
     const struct curve_cache *cache = &editor->cache;
-    const struct spline *active = editor_active_spline(editor, world);
-    uint32_t color = spline_color(editor->active);
+    const struct spline *active = arrange_seen(editor, world);
+    uint32_t color = arrange_color(world->document, editor->active);
     int count = 0, end = cache->count - 1;
     if (active) {
         insert_label(labels, &count, (struct label){cache->re[end][1], FONT_LABEL_BOLD, color, active->name});
@@ -252,7 +252,8 @@ static int place_labels(const struct editor *editor, const struct editor_world *
     for (int i = 0; i < cache->other_count && count < most; i++) {
         int spline = cache->other_spline[i];
         insert_label(labels, &count,
-                     (struct label){cache->others[i][end][1], FONT_LABEL, theme_fade(spline_color(spline), 0.8f),
+                     (struct label){cache->others[i][end][1], FONT_LABEL,
+                                    theme_fade(arrange_color(world->document, spline), 0.8f),
                                     world->document->splines[spline].name});
     }
     return count;
@@ -313,9 +314,11 @@ static void show_empty(struct editor *editor, const struct editor_world *world)
 {
     const struct spline *spline = editor_active_spline(editor, world);
     bool flat = spline && spline->knot_count == 0 && spline->parameter[PARAMETER_EQUILIBRIUM].track < 0;
-    if (spline && !flat) return;
-    const char *text =
-        flat ? "Double-click to set the first knot." : "This scene has no splines. Ctrl+O opens another one.";
+    bool hidden = spline && !arrange_seen(editor, world);
+    if (spline && !flat && !hidden) return;
+    const char *text = hidden ? "This spline is hidden. Its eye in the list shows it again."
+                       : flat ? "Double-click to set the first knot."
+                              : "This scene has no splines. The + in the list at the right adds one.";
     const struct rect *plot = &editor->layout.plot;
     float x = plot->x + (plot->w - font_width(FONT_LABEL, THEME_TEXT_NORMAL, text)) / 2;
     drawlist_text(&editor->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, THEME_TEXT_DIM, text);

@@ -1,5 +1,6 @@
 /// Solved splines → polylines: one vertex a pixel column, and one of them on each knot.
 #include "base/hash.h"
+#include "editor/arrange.h"
 #include "editor/curves.h"
 #include <math.h>
 #include <string.h>
@@ -13,6 +14,7 @@ static uint64_t cache_key(const struct editor *editor, const struct editor_world
     uint64_t key = hash_bytes(HASH_START, &revision, sizeof revision);
     key = hash_bytes(key, choice, sizeof choice);
     key = hash_bytes(key, &held, sizeof held);
+    key = hash_bytes(key, &editor->visibility, sizeof editor->visibility);
     key = hash_bytes(key, &editor->view, sizeof editor->view);
     key = hash_bytes(key, &editor->layout.plot, sizeof editor->layout.plot);
     return key ? key : 1;
@@ -115,7 +117,7 @@ static void draw_others(struct editor *editor, const struct editor_world *world)
     struct curve_cache *cache = &editor->cache;
     cache->other_count = 0;
     for (int s = 0; s < world->document->spline_count && cache->other_count < CURVES_MAX_OTHERS; s++) {
-        if (s == editor->active) continue;
+        if (s == editor->active || !arrange_shows(editor, world->document, s)) continue;
         polyline *line = &cache->others[cache->other_count];
         const struct value_map map = normal_map(editor, s);
         cache->other_spline[cache->other_count++] = s;

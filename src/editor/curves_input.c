@@ -1,5 +1,6 @@
 /// The mouse in the curves panel: what is under it, presses and the wheel.
 #include "editor/actions.h"
+#include "editor/arrange.h"
 #include "editor/curves.h"
 #include "editor/warnings.h"
 #include <math.h>
@@ -72,6 +73,7 @@ static void nearest_curve(const struct editor *editor, const struct editor_world
     float best = CURVE_REACH;
     for (int i = 0; i < world->document->spline_count; i++) {
         int s = i == 0 ? editor->active : i <= editor->active ? i - 1 : i;
+        if (!arrange_shows(editor, world->document, s)) continue;
         wiggly_value v = curves_solved(world, s, position);
         float distance = fabsf(y - curves_y_of(editor, s, v.y + v.re));
         if (distance >= best) continue;
@@ -87,8 +89,9 @@ struct hover curves_hover(const struct editor *editor, const struct editor_world
     if (rect_contains(editor->layout.ruler, x, y)) hover.kind = HOVER_RULER;
     if (rect_contains(ruler_corner(editor), x, y)) hover.kind = HOVER_UNITS;
     if (!rect_contains(editor->layout.plot, x, y) || !spline) return hover;
-    nearest_knot(editor, world->document, editor->active, x, y, CURVES_HIT_RADIUS, &hover);
-    if (hover.kind == HOVER_NONE) nearest_handle(editor, world->document, spline, x, y, &hover);
+    bool seen = arrange_seen(editor, world) != NULL;
+    if (seen) nearest_knot(editor, world->document, editor->active, x, y, CURVES_HIT_RADIUS, &hover);
+    if (seen && hover.kind == HOVER_NONE) nearest_handle(editor, world->document, spline, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_warning(editor, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_other_knot(editor, world->document, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_curve(editor, world, x, y, &hover);

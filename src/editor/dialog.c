@@ -14,7 +14,7 @@ void editor_set_files(struct editor *editor, const struct dialog_files *files) {
 
 static bool is_question(const struct dialog *dialog)
 {
-    return dialog->kind == DIALOG_UNSAVED || dialog->kind == DIALOG_RECOVER;
+    return dialog->kind == DIALOG_UNSAVED || dialog->kind == DIALOG_RECOVER || dialog->kind == DIALOG_ASK;
 }
 
 static void open_dialog(struct editor *editor, enum dialog_kind kind, const char *path)
@@ -152,7 +152,9 @@ static void unsaved_question(const struct editor *editor, struct question *quest
 static struct question question_of(const struct editor *editor)
 {
     struct question question = {0};
-    if (editor->dialog.kind == DIALOG_UNSAVED) {
+    if (editor->dialog.kind == DIALOG_ASK) {
+        question = editor->dialog.question;
+    } else if (editor->dialog.kind == DIALOG_UNSAVED) {
         unsaved_question(editor, &question);
     } else {
         dialog_recover_question(editor, &question);
@@ -160,10 +162,12 @@ static struct question question_of(const struct editor *editor)
     return question;
 }
 
-static void answer(struct editor *editor, int given)
+static void answer(struct editor *editor, const struct editor_world *world, int given)
 {
     if (given < 0) return;
-    if (editor->dialog.kind == DIALOG_UNSAVED) {
+    if (editor->dialog.kind == DIALOG_ASK) {
+        dialog_ask_answer(editor, world, given);
+    } else if (editor->dialog.kind == DIALOG_UNSAVED) {
         decide(editor, given);
     } else {
         dialog_recover_answer(editor, given);
@@ -171,13 +175,13 @@ static void answer(struct editor *editor, int given)
 }
 
 /// A letter that answers brings its character along, which is no part of a path that is typed next.
-static bool question_event(struct editor *editor, int key)
+static bool question_event(struct editor *editor, const struct editor_world *world, int key)
 {
     struct question question = question_of(editor);
     int given = question_key(&editor->dialog, &question, key);
     if (given == QUESTION_UNUSED) return false;
     editor->dialog.skip_text = true;
-    answer(editor, given);
+    answer(editor, world, given);
     return true;
 }
 
@@ -269,14 +273,14 @@ static void build_path(struct editor *editor)
     if (cancelled) dialog_close(editor);
 }
 
-static void build(struct editor *editor)
+static void build(struct editor *editor, const struct editor_world *world)
 {
     struct dialog *dialog = &editor->dialog;
     struct ui *ui = &dialog->ui;
     ui_space(ui, 8);
     if (is_question(dialog)) {
         struct question question = question_of(editor);
-        answer(editor, question_build(dialog, &question));
+        answer(editor, world, question_build(dialog, &question));
     } else {
         ui->focus = ui_id("dialog.path"); // the path is all there is to type in
         build_path(editor);
@@ -285,13 +289,13 @@ static void build(struct editor *editor)
 }
 
 /// The dialog's rectangle: as high as its content, in the middle of the window.
-static struct rect dialog_box(struct editor *editor)
+static struct rect dialog_box(struct editor *editor, const struct editor_world *world)
 {
     struct rect window = editor->layout.window;
     struct ui *ui = &editor->dialog.ui;
     float w = fminf(is_question(&editor->dialog) ? 440 : 560, window.w - 48);
     ui_begin_find(ui, (struct rect){0, 0, w, window.h}, "", NULL);
-    build(editor);
+    build(editor, world);
     float h = fminf(ui->y, window.h - 16);
     ui_end(ui);
     return (struct rect){roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 3), w, h};
@@ -299,7 +303,6 @@ static struct rect dialog_box(struct editor *editor)
 
 bool dialog_event(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
-    (void)world;
     struct dialog *dialog = &editor->dialog;
     if (dialog->kind == DIALOG_NONE || event->kind == EVENT_SIZE || event->kind == EVENT_EXPOSE) return false;
     if (dialog->kind == DIALOG_RECOVER && event->kind == EVENT_CLOSE && !dialog->waiting) {
@@ -313,26 +316,26 @@ bool dialog_event(struct editor *editor, const struct editor_world *world, const
     if (dialog->waiting || typed_by_answer) return true;
     bool chord = event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER);
     if (key && !chord) {
-        bool done = is_question(dialog) ? question_event(editor, event->key) : path_key(editor, event->key);
+        bool done = is_question(dialog) ? question_event(editor, world, event->key) : path_key(editor, event->key);
         if (done) return true;
     }
-    struct rect box = dialog_box(editor);
+    struct rect box = dialog_box(editor, world);
     ui_begin_event(&dialog->ui, box, event);
-    build(editor);
+    build(editor, world);
     ui_end(&dialog->ui);
     return true;
 }
 
-void dialog_show(struct editor *editor)
+void dialog_show(struct editor *editor, const struct editor_world *world)
 {
     struct dialog *dialog = &editor->dialog;
     if (dialog->kind == DIALOG_NONE) return;
     struct drawlist *list = &editor->list;
-    struct rect box = dialog_box(editor);
+    struct rect box = dialog_box(editor, world);
     drawlist_rect(list, editor->layout.window, theme_fade(0x000000FFu, 0.55f));
     drawlist_rounded(list, box, 8, THEME_PANEL);
     drawlist_rounded_line(list, box, 8, 1, THEME_ZERO);
     ui_begin_draw(&dialog->ui, box, list);
-    build(editor);
+    build(editor, world);
     ui_end(&dialog->ui);
 }

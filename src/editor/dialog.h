@@ -26,4 +26,7 @@ enum recover_answer { RECOVER_RECOVER, RECOVER_DISCARD, RECOVER_LATER };
 void dialog_recover_question(const struct editor *editor, struct question *question);
 void dialog_recover_answer(struct editor *editor, int answer);
 
+/// DIALOG_ASK: does what was asked about as the answer says.
+void dialog_ask_answer(struct editor *editor, const struct editor_world *world, int answer);
+
 #endif

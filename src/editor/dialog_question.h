@@ -4,20 +4,6 @@
 
 #include "editor/panels.h"
 
-struct answer {
-    const char *name;  ///< of its button
-    const char *label; ///< on it
-    int key;           ///< letter that answers as well
-};
-
-/// The last answer is the one that changes nothing; Esc gives it. The dialog's `choice` is the one Enter gives.
-struct question {
-    char title[320];
-    char note[256]; ///< below it, unless the dialog has an error to show
-    const struct answer *answers;
-    int count;
-};
-
 enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
 
 /// Lays the question out; returns the answer that was pressed, or QUESTION_OPEN.

@@ -1,5 +1,6 @@
 /// The editor's public functions: who gets an event, and what happens once a frame.
 #include "editor/actions.h"
+#include "editor/arrange.h"
 #include "editor/curves.h"
 #include "editor/follow.h"
 #include "ui/theme.h"
@@ -34,6 +35,8 @@ void editor_destroy(struct editor *editor)
     if (!editor) return;
     drawlist_destroy(&editor->list);
     free(editor->selection.bits);
+    free(editor->hidden.bits);
+    free(editor->solo.bits);
     free(editor->selection.before);
     free(editor->clipboard);
     free(editor->drag.originals);
@@ -94,6 +97,8 @@ void editor_reserve(struct editor *editor, const struct document *document)
         if (document->splines[s].knot_count > most) most = document->splines[s].knot_count;
     }
     bool enough = reserve_selection(&editor->selection, document->next_id);
+    enough &= reserve_selection(&editor->hidden, document->next_spline_id);
+    enough &= reserve_selection(&editor->solo, document->next_spline_id);
     if (!reserve_drag(&editor->drag, most) || !enough) {
         editor_message(editor, true, "Out of memory: not all knots can be selected.");
     }
@@ -126,6 +131,11 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     editor->look = LOOK_WIGGLY;
     editor->characters = (struct character_view){.axis = 1};
     editor->active = first_spline(document);
+    editor->active_id = editor->active >= 0 ? document->splines[editor->active].id : 0;
+    selection_clear(&editor->hidden);
+    selection_clear(&editor->solo);
+    editor->seen_first = document->first_frame;
+    editor->seen_substeps = document->substeps;
     editor->held_key = 0;
     editor->space_down = false;
     editor->message = (struct message){0};
@@ -141,7 +151,11 @@ void editor_open(struct editor *editor, const struct editor_world *world)
 
 void editor_follow(struct editor *editor, const struct editor_world *world)
 {
-    if (editor->serial != world->document->serial) editor_open(editor, world);
+    if (editor->serial != world->document->serial) {
+        editor_open(editor, world);
+    } else {
+        arrange_follow(editor, world);
+    }
 }
 
 void editor_set_path(struct editor *editor, const char *path)
@@ -166,7 +180,10 @@ struct edit editor_edit_of(enum edit_kind kind, int spline)
 bool editor_edit(struct editor *editor, const struct editor_world *world, const struct edit *edit)
 {
     struct error error = {0};
-    if (history_apply(world->history, world->document, edit, &error)) return true;
+    if (history_apply(world->history, world->document, edit, &error)) {
+        editor_follow(editor, world);
+        return true;
+    }
     editor_message(editor, true, error.text);
     return false;
 }
@@ -209,6 +226,7 @@ void editor_jump(struct editor *editor, const struct editor_world *world, size_t
     if (history_is_open(world->history)) return;
     size_t before = history_done(world->history), steps = before > done ? before - done : done - before;
     if (!history_jump(world->history, world->document, done)) return;
+    editor_follow(editor, world);
     char text[64];
     snprintf(text, sizeof text, "%s %zu step%s", before > done ? "Undone:" : "Redone:", steps, steps == 1 ? "" : "s");
     editor_message(editor, false, text);
@@ -258,6 +276,7 @@ void editor_activate(struct editor *editor, const struct editor_world *world, in
     if (spline == editor->active || spline < 0 || spline >= world->document->spline_count) return;
     normal_activate(editor, spline);
     editor->active = spline;
+    editor->active_id = world->document->splines[spline].id;
     selection_clear(&editor->selection);
     int tail, channel;
     const struct channel *moved = active_channel(editor, world->document, &tail, &channel);

@@ -51,7 +51,8 @@ void editor_destroy(struct editor *editor);
 void editor_open(struct editor *editor, const struct editor_world *world);
 
 /// Looks whether another document has come in its place (a figure, or its undo: document.serial), and starts anew with it as
-/// editor_open() does. Called where that may happen, before anything else is done with the document.
+/// editor_open() does; else the active spline and the shown frame stay what they were, wherever they are now. Called after each
+/// edit, undo and redo, before anything else is done with the document.
 void editor_follow(struct editor *editor, const struct editor_world *world);
 
 /// The path of the document's own file, "" where it has none (Ctrl+S then asks for one): after saving.

@@ -145,7 +145,7 @@ void editor_show(struct editor *editor, const struct editor_world *world)
     show_dividers(editor);
     status_show(editor, world);
     help_show(editor);
-    dialog_show(editor);
+    dialog_show(editor, world);
 }
 
 int editor_cursor(const struct editor *editor)

@@ -17,6 +17,7 @@ static const struct section {
     bool (*shown)(const struct inspection *in); ///< NULL: always
     bool closed;                                ///< at first
 } sections[] = {
+    {"section.scene", "Scene", inspector_scene, NULL, true},
     {"section.splines", "Splines", inspector_splines, NULL, false},
     {"section.spline", "Spline", inspector_spline, has_spline, false},
     {"section.poles", "Poles and response", inspector_poles, has_spline, true},
@@ -73,6 +74,8 @@ static void build(struct inspection *in, struct rect area)
     ui_space(ui, 4);
     ui_scroll_end(ui);
     build_look(in, (struct rect){area.x, area.y + view.h, area.w, FOOTER});
+    inspector_palette(in);
+    inspector_follow_list(in);
 }
 
 static struct inspection inspection_of(struct editor *editor, const struct editor_world *world)
@@ -94,9 +97,11 @@ static bool concerns(const struct editor *editor, const struct event *event)
 {
     const struct ui *ui = &editor->inspector.ui;
     struct rect area = editor->layout.inspector;
+    bool input = event->kind <= EVENT_WHEEL;
+    if (event->kind == EVENT_KEY && event->action == ACTION_RELEASE) return false;
+    if (ui->popup.id) return input;
     switch (event->kind) {
     case EVENT_KEY:
-        if (event->action == ACTION_RELEASE) return false;
         if (editor->held_key && !ui->typing) return false; // F and an arrow is the editor's, whatever has the focus
         return ui->held || ui->typing || ui->focus || event->key == KEY_TAB;
     case EVENT_TEXT:
@@ -115,6 +120,7 @@ static bool concerns(const struct editor *editor, const struct event *event)
 /// What passes the inspector by still ends hovering and, for a press, the keyboard focus.
 static void event_elsewhere(struct ui *ui, const struct event *event)
 {
+    if (event->kind == EVENT_SIZE) ui->popup.id = 0; // what it hangs on is elsewhere now
     if (event->kind != EVENT_POINTER && event->kind != EVENT_BUTTON) return;
     ui->pointer_x = event->x;
     ui->pointer_y = event->y;
@@ -201,7 +207,9 @@ bool inspector_target(struct editor *editor, const struct editor_world *world, c
 void inspector_take_back(struct inspection *in, enum ui_change change)
 {
     struct history *history = in->world->history;
-    if (change == UI_DRAG && history_is_open(history)) history_restart(history, in->document);
+    if (change != UI_DRAG || !history_is_open(history)) return;
+    history_restart(history, in->document);
+    editor_follow(in->editor, in->world);
 }
 
 void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
@@ -228,6 +236,7 @@ void inspector_change_all(struct inspection *in, enum ui_change change, const ch
         if (!history_is_open(history)) return; // nothing was moved by this drag
         if (change == UI_CANCEL) history_restart(history, in->document);
         history_end(history);
+        editor_follow(in->editor, in->world);
         return;
     case UI_NUDGE:
         merge = (uint64_t)ui_id(what) << 32 | (uint32_t)(in->editor->active + 1);

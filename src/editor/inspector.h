@@ -17,12 +17,22 @@ struct inspection {
 #define INSPECTOR_NO_LIMIT 1e300
 
 /// The sections; inspector.c has the table. Each builds what is below its header.
+void inspector_scene(struct inspection *in);
 void inspector_splines(struct inspection *in);
 void inspector_spline(struct inspection *in);
 void inspector_poles(struct inspection *in);
 void inspector_knot(struct inspection *in);
 void inspector_tail(struct inspection *in);
 void inspector_history(struct inspection *in);
+
+/// What opens over the panel, built after all else: the palette of the list of splines, the list of splines to follow.
+void inspector_palette(struct inspection *in);
+void inspector_follow_list(struct inspection *in);
+
+/// A row in which a parameter follows a spline, in place of its slider; and the button at its right that lets it follow one
+/// or lets go.
+void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r);
+void inspector_follow_button(struct inspection *in, enum parameter parameter, struct rect r);
 
 /// While a drag runs: the document as it was at the press, until inspector_change() makes the edit anew.
 void inspector_take_back(struct inspection *in, enum ui_change change);

@@ -1,36 +1,8 @@
-/// The inspector's list of splines, and the active spline's mode, parameters and start.
+/// The active spline's mode, parameters and start.
 #include "editor/inspector.h"
+#include "editor/settle.h"
 #include <math.h>
 #include <stdio.h>
-
-enum { MAX_ROWS = 8 }; ///< splines listed at once
-
-void inspector_splines(struct inspection *in)
-{
-    struct ui *ui = in->ui;
-    const struct document *document = in->document;
-    int count = document->spline_count, first = 0;
-    if (count == 0) ui_paragraph(ui, "This scene has no splines.", THEME_TEXT_DIM);
-    if (count > MAX_ROWS) {
-        first = in->editor->active - MAX_ROWS / 2;
-        first = first < 0 ? 0 : first > count - MAX_ROWS ? count - MAX_ROWS : first;
-    }
-    for (int i = first; i < count && i < first + MAX_ROWS; i++) {
-        char name[128];
-        snprintf(name, sizeof name, "spline.%s", document->splines[i].name);
-        struct rect r = ui_row(ui, UI_ROW);
-        uint32_t color = theme_spline_color[i % THEME_SPLINE_COLORS];
-        if (ui_hovered(ui, r)) ui->hint = "Click to edit this spline (PgUp, PgDn)";
-        if (ui_list_row(ui, r, name, document->splines[i].name, color, i == in->editor->active)) {
-            editor_activate(in->editor, in->world, i);
-        }
-    }
-    if (count > MAX_ROWS) {
-        char text[64];
-        snprintf(text, sizeof text, "%d of %d splines; PgUp and PgDn go on", MAX_ROWS, count);
-        ui_paragraph(ui, text, THEME_TEXT_DIM);
-    }
-}
 
 /// How each parameter is shown. `maximum` of the bar for all modes; frequency and damping have their own rule.
 struct parameter_row {
@@ -64,27 +36,9 @@ static double bar_maximum(const struct document *document, const struct spline *
     return parameter_rows[parameter].maximum;
 }
 
-/// In place of a slider where a track drives the parameter.
-static void build_track(struct inspection *in, const struct parameter_row *row, int track)
-{
-    char text[160];
-    struct rect r = inspector_labelled(in, row->label);
-    snprintf(text, sizeof text, "follows %s", in->document->splines[track].name);
-    if (in->ui->pass == UI_PASS_DRAW) {
-        uint32_t color = theme_spline_color[track % THEME_SPLINE_COLORS];
-        drawlist_rounded(in->ui->list, (struct rect){r.x, r.y + (r.h - 8) / 2, 8, 8}, 3, color);
-    }
-    ui_label(in->ui, (struct rect){r.x + 16, r.y, r.w - 16, r.h}, text, THEME_TEXT);
-}
-
-static void build_parameter(struct inspection *in, struct spline *spline, enum parameter parameter)
+static void build_slider(struct inspection *in, const struct spline *spline, enum parameter parameter, struct rect r)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
-    const struct param *param = &spline->parameter[parameter];
-    if (param->track >= 0) {
-        build_track(in, row, param->track);
-        return;
-    }
     struct ui_number number = {
         .name = parameter_name(parameter),
         .label = row->label,
@@ -98,11 +52,25 @@ static void build_parameter(struct inspection *in, struct spline *spline, enum p
         .decimals = row->decimals,
     };
     struct edit edit = editor_edit_of(EDIT_PARAMETER, in->editor->active);
-    double value = param->value;
-    enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &number, &value);
+    double value = spline->parameter[parameter].value;
+    enum ui_change change = ui_value(in->ui, r, &number, &value);
     edit.parameter = parameter;
     edit.param = (struct param){value, -1};
     inspector_change(in, change, row->undo, number.name, &edit);
+}
+
+static void build_parameter(struct inspection *in, const struct spline *spline, enum parameter parameter)
+{
+    struct rect r = ui_row(in->ui, UI_ROW);
+    bool may_follow = parameter != PARAMETER_CALM;
+    if (may_follow) r.w -= UI_ROW + 2;
+    if (spline->parameter[parameter].track < 0) {
+        build_slider(in, spline, parameter, r);
+    } else {
+        inspector_track(in, parameter, parameter_rows[parameter].label, r);
+    }
+    struct rect button = {r.x + r.w + 2, r.y, UI_ROW, UI_ROW};
+    if (may_follow) inspector_follow_button(in, parameter, button);
 }
 
 static void build_mode(struct inspection *in, const struct spline *spline)
@@ -147,37 +115,27 @@ static void build_spring_toggle(struct inspection *in, const struct spline *spli
     editor_step(in->editor, in->world, on ? "Use spring and friction" : "Use frequency and damping", 0, &edit);
 }
 
-/// How fast a swing dies out, 1/s: the slower pole's real part. Negative where a track drives it, so that no number is true.
-static double decay_rate(const struct spline *spline)
-{
-    const struct param *p = spline->parameter;
-    double omega, zeta;
-    if (spline->mode == WIGGLY_REAL && spline->spring_friction) {
-        if (p[PARAMETER_SPRING].track >= 0 || p[PARAMETER_FRICTION].track >= 0) return -1;
-        omega = sqrt(p[PARAMETER_SPRING].value);
-        zeta = omega > 0 ? p[PARAMETER_FRICTION].value / (2 * omega) : 0;
-    } else {
-        if (p[PARAMETER_FREQUENCY].track >= 0 || p[PARAMETER_DAMPING].track >= 0) return -1;
-        omega = 2 * M_PI * p[PARAMETER_FREQUENCY].value;
-        zeta = p[PARAMETER_DAMPING].value;
-    }
-    return zeta > 1 ? omega / (zeta + sqrt(zeta * zeta - 1)) : zeta * omega;
-}
-
 /// What the parameters mean, in one plain sentence.
 static void build_settling(struct inspection *in, const struct spline *spline)
 {
     char text[128];
-    double rate = decay_rate(spline);
-    if (rate < 0) return;
-    double settle = log(20) / rate; // until 5 % are left
-    if (rate == 0) {
-        bool swings = spline->spring_friction || spline->parameter[PARAMETER_FREQUENCY].value > 0;
-        snprintf(text, sizeof text, "%s", swings ? "Rings for ever." : "Frequency 0: a plain cubic.");
-    } else if (settle >= 1000) {
-        snprintf(text, sizeof text, "Settles to 5 %% in more than 1000 s.");
-    } else {
-        snprintf(text, sizeof text, "Settles to 5 %% in %.2f s (%.0f frames).", settle, settle * in->document->fps);
+    struct settling settling = settle_measure(spline, document_step(in->document));
+    double frames = settling.seconds * in->document->fps;
+    switch (settling.kind) {
+    case SETTLE_UNKNOWN:
+        return;
+    case SETTLE_NEVER:
+        snprintf(text, sizeof text, "Rings for ever.");
+        break;
+    case SETTLE_CUBIC:
+        snprintf(text, sizeof text, "Frequency 0: a plain cubic.");
+        break;
+    case SETTLE_LATE:
+        snprintf(text, sizeof text, "Settles to 5 %% in more than %d s.", SETTLE_LIMIT);
+        break;
+    case SETTLE_MEASURED:
+        snprintf(text, sizeof text, "Settles to 5 %% in %.2f s (%.0f frames).", settling.seconds, frames);
+        break;
     }
     ui_paragraph(in->ui, text, THEME_TEXT_DIM);
 }

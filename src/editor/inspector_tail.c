@@ -1,4 +1,5 @@
 /// The inspector's section on a tail: its channels, their lag and gain, and the pose at rest.
+#include "editor/arrange.h"
 #include "editor/inspector.h"
 #include <math.h>
 #include <stdio.h>
@@ -84,7 +85,7 @@ static void build_channels(struct inspection *in, const struct tail *tail)
         snprintf(name, sizeof name, "channel.%d", c);
         const char *axis = channel->axis == AXIS_SIDE ? "sideways" : "up and down";
         snprintf(text, sizeof text, "%s, %s", in->document->splines[channel->spline].name, axis);
-        uint32_t color = theme_spline_color[channel->spline % THEME_SPLINE_COLORS];
+        uint32_t color = arrange_color(in->document, channel->spline);
         struct rect r = ui_row(ui, UI_ROW);
         if (ui_hovered(ui, r)) ui->hint = "A spline that bends this tail";
         if (ui_list_row(ui, r, name, text, color, c == in->editor->inspector.channel))

@@ -185,6 +185,12 @@ static void run_overlay(struct editor *e, const struct editor_world *w, int argu
     }
 }
 
+static void run_rename(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    inspector_rename(e, w);
+}
+
 /// ↑ and ↓ while a letter is held: that parameter.
 static void run_held(struct editor *e, const struct editor_world *w, int argument)
 {
@@ -231,6 +237,7 @@ static const struct binding bindings[] = {
     {.key = 'D', .mods = MOD_SHIFT, .repeats = true, .run = run_stiffness, .argument = -1},
     {.key = 'E', .mods = MOD_SHIFT, .repeats = true, .run = run_stiffness, .argument = 1},
     {.key = 'M', .run = run_mode},
+    {.key = KEY_F2, .run = run_rename},
     {.key = 'S', .run = run_scale},
     {.key = 'N', .run = run_normalise},
     {.key = 'U', .any_time = true, .run = run_units},

@@ -1,5 +1,6 @@
 /// Onion skin: light proxies of the tail, an outline each, at the knots around the playhead.
 #include "editor/actions.h"
+#include "editor/arrange.h"
 #include "editor/overlays.h"
 #include "model/creature.h"
 #include "ui/theme.h"
@@ -99,7 +100,7 @@ void onion_show(struct editor *editor, const struct editor_world *world)
     int tail = overlay_tail(editor, document), samples[MAX_SKINS];
     if (!editor->overlays.onion || !spline || tail < 0) return;
     int count = nearest_knots(document, spline, editor->playback.position, samples);
-    uint32_t color = theme_spline_color[editor->active % THEME_SPLINE_COLORS];
+    uint32_t color = arrange_color(document, editor->active);
     for (int i = count - 1; i >= 0; i--) {
         struct pose pose;
         float points[OUTLINE][2];

@@ -25,6 +25,8 @@ struct inspector {
     struct ui_scroll scroll;
     bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections that are not as they are at first, open or closed
     int tail, channel;                    ///< shown under "Tail"
+    const char *dragged_name;             ///< number of the scene that is being dragged, and what it would be
+    double dragged;
     struct poles_view poles;
     struct history_view history;
 };
@@ -40,6 +42,8 @@ void inspector_let_go(struct editor *editor, const struct editor_world *world);
 /// Whether a slider is being dragged (a history step is open) or a value is being typed.
 bool inspector_is_dragging(const struct editor *editor);
 bool inspector_is_typing(const struct editor *editor);
+/// F2: the active spline's name can be typed.
+void inspector_rename(struct editor *editor, const struct editor_world *world);
 /// A sentence on what the pointer is over in the inspector, or NULL.
 const char *inspector_hint(const struct editor *editor);
 /// Where the widget `name` is: "frequency", "frequency,2.5" (where its bar shows 2.5), "mode.real", "spline.sway",
@@ -72,9 +76,30 @@ struct help {
 bool help_event(struct editor *editor, const struct event *event);
 void help_show(struct editor *editor);
 
-enum dialog_kind { DIALOG_NONE, DIALOG_OPEN, DIALOG_SAVE_AS, DIALOG_UNSAVED, DIALOG_RECOVER };
+enum dialog_kind { DIALOG_NONE, DIALOG_OPEN, DIALOG_SAVE_AS, DIALOG_UNSAVED, DIALOG_RECOVER, DIALOG_ASK };
 
 enum { DIALOG_MAX_NAMES = 256, DIALOG_NAME_SIZE = 256, DIALOG_ERROR_SIZE = 400 };
+
+struct answer {
+    const char *name;  ///< of its button
+    const char *label; ///< on it
+    int key;           ///< letter that answers as well
+};
+
+/// The last answer is the one that changes nothing; Esc gives it. The dialog's `choice` is the one Enter gives.
+struct question {
+    char title[320];
+    char note[256]; ///< below it, unless the dialog has an error to show
+    const struct answer *answers;
+    int count;
+};
+
+/// An edit that is asked about (DIALOG_ASK); ASK_REMOVE is about the active spline.
+struct ask {
+    enum { ASK_FPS, ASK_RANGE, ASK_REMOVE } kind;
+    double number;
+    int first, last;
+};
 
 /// The dialog on the screen; zero is a valid start (none, no access to folders).
 struct dialog {
@@ -82,9 +107,11 @@ struct dialog {
     struct ui ui; ///< its text is the path
     struct dialog_files files;
     struct recovery_offer offer; ///< of DIALOG_RECOVER
-    struct request after;        ///< what to do once the work is saved or discarded; REQUEST_NONE: nothing
-    bool waiting;                ///< a save or open was requested; its outcome is not known yet
-    bool skip_text;              ///< a letter has answered: the character that comes with it is no part of a path
+    struct ask ask;              ///< of DIALOG_ASK, and its question
+    struct question question;
+    struct request after; ///< what to do once the work is saved or discarded; REQUEST_NONE: nothing
+    bool waiting;         ///< a save or open was requested; its outcome is not known yet
+    bool skip_text;       ///< a letter has answered: the character that comes with it is no part of a path
     char error[DIALOG_ERROR_SIZE];
     char listed[UI_TEXT_SIZE]; ///< folder whose names are in `names`
     char names[DIALOG_MAX_NAMES][DIALOG_NAME_SIZE];
@@ -99,6 +126,8 @@ struct dialog {
 
 void dialog_ask_open(struct editor *editor);
 void dialog_ask_save_as(struct editor *editor);
+/// Asks before an edit.
+void dialog_ask(struct editor *editor, const struct editor_world *world, const struct ask *ask);
 /// Does `after` (REQUEST_NEW, REQUEST_OPEN with a path, or without: asks for one, REQUEST_QUIT), but asks first where work
 /// would be lost: Save, Discard, Cancel. `after` then follows only when the save has succeeded.
 void dialog_leave(struct editor *editor, const struct editor_world *world, const struct request *after);
@@ -109,6 +138,6 @@ bool dialog_failed(struct editor *editor, const char *sentence);
 
 /// true for every event while a dialog is open, but for EVENT_SIZE and EVENT_EXPOSE.
 bool dialog_event(struct editor *editor, const struct editor_world *world, const struct event *event);
-void dialog_show(struct editor *editor);
+void dialog_show(struct editor *editor, const struct editor_world *world);
 
 #endif

@@ -256,8 +256,12 @@ struct editor {
     float scale;
     struct view view;
     struct curve_options options;
-    int active; ///< spline, -1 where there is none
+    int active;         ///< spline, -1 where there is none
+    unsigned active_id; ///< its id, by which it is found again when the list has changed
     struct selection selection;
+    struct selection hidden, solo; ///< splines, by their ids
+    unsigned visibility;           ///< grows whenever these change
+    int seen_first, seen_substeps; ///< of the scene, which the playhead's position counts in
     struct playback playback;
     struct drag drag;
     struct scaling scaling;

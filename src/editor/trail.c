@@ -90,7 +90,8 @@ static void show_line(struct editor *editor, float points[][2], int first, int c
     for (int i = 0; i + 1 < count; i += RUN * PIECES) {
         int length = count - i < RUN * PIECES + 1 ? count - i : RUN * PIECES + 1;
         float alpha = fade_at(first + (i + length / 2.0) / PIECES - now, reach);
-        if (alpha > 0.02f) drawlist_line(&editor->list, points[i], length, 1.5f, theme_fade(THEME_PLAYHEAD, 0.7f * alpha));
+        if (alpha > 0.02f)
+            drawlist_line(&editor->list, points[i], length, 1.5f, theme_fade(THEME_PLAYHEAD, 0.7f * alpha));
     }
 }
 

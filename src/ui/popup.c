@@ -17,7 +17,7 @@ void ui_popup_open(struct ui *ui, const char *name, int which, struct rect ancho
 void ui_popup_close(struct ui *ui)
 {
     ui->focus = ui->popup.opener;
-    if (ui->focus && ui->stop_count < UI_MAX_FOCUS) ui->stop[ui->stop_count++].id = ui->focus; // it is shown
+    if (ui->focus) ui_keep(ui, ui->focus);
     ui->popup.id = 0;
 }
 
@@ -117,16 +117,31 @@ void ui_dropdown(struct ui *ui, struct rect r, const char *name, int which, cons
     ui_focus_ring(ui, id, field);
 }
 
-void ui_swatch(struct ui *ui, struct rect r, const char *name, int which, uint32_t color)
+void ui_swatch(struct ui *ui, struct rect r, const char *name, const char *popup, int which, uint32_t color)
 {
-    uint32_t id = opener_id(name, which);
+    uint32_t id = ui_id(name);
     ui_register(ui, id, r);
-    open_where_pressed(ui, r, id, name, which);
+    open_where_pressed(ui, r, id, popup, which);
     if (ui->pass != UI_PASS_DRAW) return;
     struct rect chip = {r.x + (r.w - 10) / 2, r.y + (r.h - 10) / 2, 10, 10};
     drawlist_rounded(ui->list, chip, 3, color);
     if (ui_hovered(ui, r)) drawlist_rounded_line(ui->list, rect_inset(chip, -2), 4, 1, THEME_TEXT_DIM);
     ui_focus_ring(ui, id, rect_inset(chip, -1));
+}
+
+bool ui_color(struct ui *ui, struct rect r, const char *name, uint32_t color, bool chosen)
+{
+    uint32_t id = ui_id(name);
+    struct rect field = rect_inset(r, 4);
+    ui_register(ui, id, r);
+    bool pressed = ui_pressed(ui, r, BUTTON_LEFT) || ui_activated(ui, id);
+    if (ui->pass != UI_PASS_DRAW) return pressed;
+    drawlist_rounded(ui->list, field, UI_RADIUS, color);
+    if (chosen || ui_hovered(ui, r)) {
+        drawlist_rounded_line(ui->list, rect_inset(field, -2), UI_RADIUS + 1, 1.5f, chosen ? THEME_TEXT : UI_HOVER);
+    }
+    ui_focus_ring(ui, id, rect_inset(field, -1));
+    return pressed;
 }
 
 int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, int count, int chosen)

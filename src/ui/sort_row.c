@@ -32,15 +32,18 @@ static enum ui_row_event row_event(struct ui *ui, struct rect r, uint32_t id)
     return UI_ROW_PRESSED;
 }
 
-enum ui_row_event ui_sort_row(struct ui *ui, struct rect r, const char *name, const char *text, bool selected)
+enum ui_row_event ui_sort_row(struct ui *ui, struct rect row, struct rect label, const char *name, const char *text,
+                              bool selected)
 {
     uint32_t id = ui_id(name);
-    ui_register(ui, id, r);
-    enum ui_row_event event = row_event(ui, r, id);
-    if (ui->pass == UI_PASS_DRAW) {
-        bool bright = selected || ui_hovered(ui, r);
-        ui_label(ui, (struct rect){r.x + 4, r.y, r.w - 4, r.h}, text, bright ? THEME_TEXT : THEME_TEXT_DIM);
-        ui_focus_ring(ui, id, rect_inset(r, 2));
-    }
+    ui_register(ui, id, label);
+    enum ui_row_event event = row_event(ui, label, id);
+    if (ui->pass != UI_PASS_DRAW) return event;
+    bool hot = ui_hovered(ui, row), dragged = ui_is_dragged(ui, name);
+    struct rect back = {row.x - 4, row.y + 1, row.w + 8, row.h - 2};
+    if (selected || hot || dragged) drawlist_rounded(ui->list, back, UI_RADIUS, selected ? UI_FILL : THEME_RAISED);
+    if (selected) drawlist_rect(ui->list, (struct rect){back.x, back.y + 4, 2, back.h - 8}, THEME_ACCENT);
+    ui_label(ui, label, text, selected || hot ? THEME_TEXT : THEME_TEXT_DIM);
+    ui_focus_ring(ui, id, rect_inset(back, 1));
     return event;
 }

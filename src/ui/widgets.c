@@ -79,6 +79,11 @@ void ui_move_focus(struct ui *ui, int direction)
     reveal(ui, ui->stop[at].rect);
 }
 
+void ui_keep(struct ui *ui, uint32_t id)
+{
+    if (ui->stop_count < UI_MAX_FOCUS) ui->stop[ui->stop_count++] = (struct ui_stop){.id = id};
+}
+
 static bool is_shown(const struct ui *ui, uint32_t id)
 {
     for (int i = 0; i < ui->stop_count; i++) {

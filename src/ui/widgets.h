@@ -194,8 +194,10 @@ bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon
 
 /// A field that shows a text (behind a swatch where `color` is not 0) and opens the popup `name`, about `which`.
 void ui_dropdown(struct ui *ui, struct rect r, const char *name, int which, const char *text, uint32_t color);
-/// A swatch that opens the popup `name`.
-void ui_swatch(struct ui *ui, struct rect r, const char *name, int which, uint32_t color);
+/// A swatch called `name` that opens a popup.
+void ui_swatch(struct ui *ui, struct rect r, const char *name, const char *popup, int which, uint32_t color);
+/// A larger one to choose; true where it was pressed.
+bool ui_color(struct ui *ui, struct rect r, const char *name, uint32_t color, bool chosen);
 
 struct ui_item {
     const char *name, *label; ///< its row is found as "item.<name>"
@@ -214,9 +216,11 @@ bool ui_popup_is_open(const struct ui *ui, const char *name);
 void ui_popup_begin(struct ui *ui, float width, float height);
 void ui_popup_end(struct ui *ui);
 
-/// A row of a list that a drag moves to another place: `ui->pointer_y` says where when it is dropped.
+/// A row of a list that a drag moves to another place: `ui->pointer_y` says where when it is dropped. It is held by
+/// `label`; what lies elsewhere in the row is the caller's.
 enum ui_row_event { UI_ROW_NONE, UI_ROW_PRESSED, UI_ROW_TWICE, UI_ROW_DROPPED };
-enum ui_row_event ui_sort_row(struct ui *ui, struct rect r, const char *name, const char *text, bool selected);
+enum ui_row_event ui_sort_row(struct ui *ui, struct rect row, struct rect label, const char *name, const char *text,
+                              bool selected);
 /// Whether that row is being dragged.
 bool ui_is_dragged(const struct ui *ui, const char *name);
 

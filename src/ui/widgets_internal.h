@@ -17,6 +17,8 @@ struct rect ui_field_of(struct rect row);
 bool ui_pressed(struct ui *ui, struct rect r, enum event_button button);
 /// Whether the running event presses or repeats a key and widget `id` has the focus; the caller marks it as used.
 bool ui_focused_key(const struct ui *ui, uint32_t id);
+/// In this pass a widget counts as shown although it was not built: it will be in the next one.
+void ui_keep(struct ui *ui, uint32_t id);
 /// The focus goes to the next (1) or previous (-1) widget, round the ends, and is scrolled into sight.
 void ui_move_focus(struct ui *ui, int direction);
 /// Enter or Space on the focused widget; used up.

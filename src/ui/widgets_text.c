@@ -156,6 +156,7 @@ void ui_line_begin(struct ui *ui, const char *name, const char *text)
     ui_text_set(&ui->text, text);
     ui->text.all = true;
     ui->focus = ui->typing = ui_id(name);
+    ui_keep(ui, ui->typing);
     ui->began = true; // the press that began it does not end it
 }
 

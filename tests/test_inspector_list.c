@@ -1,0 +1,329 @@
+/// The inspector's scene, list of splines, tracks and palette, by the events of mouse and keyboard.
+#include "panel_session.h"
+
+#include "editor/arrange.h"
+
+static const char scene[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": ["
+    "{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0},"
+    "  {\"frame\": 36, \"value\": 1}, {\"frame\": 60, \"value\": -0.5}]},"
+    "{\"name\": \"pace\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 90, \"value\": "
+    "2}]},"
+    "{\"name\": \"lift\", \"frequency\": {\"spline\": \"pace\"}, \"damping\": 0.2, \"knots\": [{\"frame\": 10, "
+    "\"value\": 1}]}],"
+    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"joints\": 3, \"channels\": ["
+    "{\"spline\": \"sway\", \"axis\": \"side\"}, {\"spline\": \"lift\", \"axis\": \"up\"}]}]}";
+
+static char *print(const struct session *f)
+{
+    size_t size;
+    char *text = scene_print(f->document, &size);
+    assert_non_null(text);
+    return text;
+}
+
+/// Undoes the last step, which must give back the text, and does it again.
+static void assert_one_step(struct session *f, const char *before)
+{
+    char *after = print(f);
+    session_key(f, 'Z', MOD_CTRL);
+    char *undone = print(f);
+    assert_string_equal(undone, before);
+    free(undone);
+    session_key(f, 'Y', MOD_CTRL);
+    char *redone = print(f);
+    assert_string_equal(redone, after);
+    free(redone);
+    free(after);
+}
+
+static const char *active_name(const struct session *f) { return f->document->splines[f->editor->active].name; }
+
+static void test_a_spline_is_added_at_the_playhead(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    session_click(&f, "ruler(24)");
+    char *before = print(&f);
+    panel_click(&f, "spline.add");
+    assert_string_equal(active_name(&f), "spline");
+    assert_near(f.document->splines[3].knots[0].frame, 24, 0);
+    assert_near(f.document->splines[3].parameter[PARAMETER_FREQUENCY].value, 1, 0);
+    assert_one_step(&f, before);
+    session_key(&f, 'Z', MOD_CTRL);
+    assert_true(f.editor->active >= 0 && f.editor->active < 3);
+    free(before);
+    session_close(&f);
+}
+
+/// What is being edited stays what it is when the list around it changes, and when that is undone.
+static void test_the_active_spline_is_followed(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    panel_click(&f, "spline.pace");
+    char *before = print(&f);
+    panel_click(&f, "spline.down");
+    assert_string_equal(active_name(&f), "pace");
+    assert_int_equal(f.editor->active, 2);
+    assert_one_step(&f, before);
+    assert_string_equal(active_name(&f), "pace");
+    session_key(&f, 'Z', MOD_CTRL);
+    assert_string_equal(active_name(&f), "pace");
+    panel_click(&f, "spline.copy");
+    assert_string_equal(active_name(&f), "pace 2");
+    panel_click(&f, "spline.delete"); // nothing follows it: no question
+    assert_int_equal(f.document->spline_count, 3);
+    assert_int_equal(f.editor->dialog.kind, DIALOG_NONE);
+    free(before);
+    session_close(&f);
+}
+
+/// Deleting what others follow asks; then they keep the value of that frame, and the tail lets go of it.
+static void test_deleting_a_followed_spline_asks(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    session_click(&f, "ruler(90)");
+    panel_click(&f, "spline.pace");
+    char *before = print(&f);
+    panel_click(&f, "spline.delete");
+    assert_int_equal(f.editor->dialog.kind, DIALOG_ASK);
+    session_key(&f, KEY_ESCAPE, 0);
+    assert_int_equal(f.document->spline_count, 3);
+    panel_click(&f, "spline.delete");
+    session_key(&f, 'D', 0);
+    assert_int_equal(f.document->spline_count, 2);
+    assert_int_equal(f.document->splines[1].parameter[PARAMETER_FREQUENCY].track, -1);
+    assert_near(f.document->splines[1].parameter[PARAMETER_FREQUENCY].value, 2, 1e-9);
+    assert_int_equal(f.document->tails[0].channels[1].spline, 1);
+    assert_one_step(&f, before);
+    free(before);
+    panel_click(&f, "spline.lift");
+    before = print(&f);
+    panel_click(&f, "spline.delete");
+    session_key(&f, KEY_ENTER, 0);
+    assert_int_equal(f.document->tails[0].channel_count, 1);
+    assert_one_step(&f, before);
+    free(before);
+    session_close(&f);
+}
+
+/// The only spline may go as well; what is left still draws, and can be added to.
+static void test_an_empty_list(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 960, 600);
+    for (int i = 0; i < 3; i++) {
+        panel_click(&f, "spline.delete");
+        if (f.editor->dialog.kind == DIALOG_ASK) session_key(&f, 'D', 0);
+    }
+    assert_int_equal(f.document->spline_count, 0);
+    assert_int_equal(f.editor->active, -1);
+    panel_click(&f, "spline.delete");
+    panel_click(&f, "spline.copy");
+    panel_click(&f, "spline.add");
+    assert_string_equal(active_name(&f), "spline");
+    session_close(&f);
+}
+
+static void test_renaming(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    char *before = print(&f);
+    panel_press(&f, "spline.sway", 2);
+    panel_release(&f);
+    panel_type(&f, "swing");
+    session_key(&f, KEY_ENTER, 0);
+    assert_string_equal(f.document->splines[0].name, "swing");
+    assert_one_step(&f, before);
+    session_key(&f, KEY_F2, 0);
+    panel_type(&f, "pace");
+    session_key(&f, KEY_ENTER, 0);
+    assert_string_equal(f.document->splines[0].name, "swing");
+    assert_non_null(strstr(f.editor->message.text, "there is a spline called pace already"));
+    session_key(&f, KEY_F2, 0);
+    session_key(&f, KEY_DELETE, 0); // all is selected
+    session_key(&f, KEY_ENTER, 0);
+    assert_string_equal(f.document->splines[0].name, "swing");
+    assert_non_null(strstr(f.editor->message.text, "a spline needs a name"));
+    assert_int_equal(f.document->splines[0].knot_count, 3);
+    free(before);
+    session_close(&f);
+}
+
+static void test_rows_are_dragged_to_their_place(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    char *before = print(&f);
+    panel_press(&f, "spline.sway", 1);
+    session_drag(&f, 0, 2 * UI_ROW, 4);
+    assert_string_equal(f.document->splines[0].name, "sway"); // not before it is dropped
+    panel_release(&f);
+    assert_string_equal(f.document->splines[2].name, "sway");
+    assert_string_equal(active_name(&f), "sway");
+    assert_one_step(&f, before);
+    free(before);
+    session_close(&f);
+}
+
+static void test_colours(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    char *before = print(&f);
+    panel_click(&f, "color.pace");
+    panel_click(&f, "color.3");
+    assert_int_equal(f.document->splines[1].color, 0x1F9E7A);
+    assert_false(f.editor->inspector.ui.popup.id);
+    assert_one_step(&f, before);
+    panel_click(&f, "color.pace");
+    panel_click(&f, "color.type");
+    panel_type(&f, "#12345");
+    session_key(&f, KEY_ENTER, 0);
+    assert_int_equal(f.document->splines[1].color, 0x1F9E7A);
+    assert_non_null(strstr(f.editor->message.text, "colour: expected one such as #FFB000, got “#12345”"));
+    panel_click(&f, "color.type");
+    panel_type(&f, "#123456");
+    session_key(&f, KEY_ENTER, 0);
+    assert_true(arrange_color(f.document, 1) == 0x123456FFu);
+    panel_click(&f, "color.none");
+    char *after = print(&f);
+    assert_string_equal(after, before);
+    free(before);
+    free(after);
+    session_close(&f);
+}
+
+static void test_hidden_and_solo_curves(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    assert_int_equal(f.editor->cache.other_count, 2);
+    panel_click(&f, "eye.pace");
+    assert_int_equal(f.editor->cache.other_count, 1);
+    panel_click(&f, "spline.pace"); // the order of the list does not matter to what is hidden
+    panel_click(&f, "spline.up");
+    assert_false(arrange_shows(f.editor, f.document, 0));
+    panel_click(&f, "solo.lift");
+    assert_true(arrange_shows(f.editor, f.document, 2));
+    assert_false(arrange_shows(f.editor, f.document, 1));
+    panel_click(&f, "solo.lift");
+    panel_click(&f, "eye.pace");
+    assert_int_equal(f.editor->cache.other_count, 2);
+    assert_true(history_is_saved(f.history) == false); // by the reordering alone
+    session_close(&f);
+}
+
+/// Attached from the list, which has no spline that would make a cycle; detached, it keeps the value at the playhead.
+static void test_a_track_is_attached_and_detached(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    session_click(&f, "ruler(90)");
+    char *before = print(&f);
+    panel_click(&f, "follow.damping");
+    assert_true(panel_shows(&f, "item.pace"));
+    assert_false(panel_shows(&f, "item.sway"));
+    panel_click(&f, "item.pace");
+    assert_int_equal(f.document->splines[0].parameter[PARAMETER_DAMPING].track, 1);
+    assert_one_step(&f, before);
+    assert_false(panel_shows(&f, "damping"));
+    panel_click(&f, "spline.pace");
+    panel_click(&f, "follow.equilibrium");
+    assert_false(ui_popup_is_open(&f.editor->inspector.ui, "follow")); // both others follow it
+    assert_non_null(strstr(f.editor->message.text, "no other spline that pace could follow"));
+    panel_click(&f, "spline.sway");
+    session_frame(&f);
+    panel_click(&f, "follow.damping");
+    assert_int_equal(f.document->splines[0].parameter[PARAMETER_DAMPING].track, -1);
+    assert_near(f.document->splines[0].parameter[PARAMETER_DAMPING].value, 1, 0); // 2, as far as damping goes
+    free(before);
+    session_close(&f);
+}
+
+static void test_frames_per_second_ask(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    panel_click(&f, "section.scene");
+    char *before = print(&f);
+    panel_enter(&f, "scene.fps", "48");
+    assert_int_equal(f.editor->dialog.kind, DIALOG_ASK);
+    assert_near(f.document->fps, 24, 0);
+    session_key(&f, 'S', 0);
+    assert_near(f.document->fps, 48, 0);
+    assert_near(f.document->splines[0].knots[1].frame, 72, 0);
+    assert_int_equal(f.document->last_frame, 192);
+    assert_one_step(&f, before);
+    session_key(&f, 'Z', MOD_CTRL);
+    panel_enter(&f, "scene.fps", "48");
+    session_key(&f, 'F', 0);
+    assert_near(f.document->splines[0].knots[1].frame, 36, 0);
+    panel_enter(&f, "scene.fps", "0");
+    assert_non_null(strstr(f.editor->message.text, "rate: expected"));
+    session_key(&f, KEY_ESCAPE, 0);
+    free(before);
+    session_close(&f);
+}
+
+static void test_a_range_asks_for_its_knots(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    panel_click(&f, "section.scene");
+    session_click(&f, "ruler(80)");
+    char *before = print(&f);
+    panel_enter(&f, "scene.last", "50");
+    assert_int_equal(f.editor->dialog.kind, DIALOG_ASK);
+    session_key(&f, 'T', 0);
+    assert_int_equal(f.document->splines[0].knot_count, 2);
+    assert_near(f.editor->playback.position, 50, 0); // inside again
+    assert_one_step(&f, before);
+    session_key(&f, 'Z', MOD_CTRL);
+    panel_enter(&f, "scene.last", "50");
+    session_key(&f, 'M', 0);
+    assert_near(f.document->splines[0].knots[2].frame, 50, 0);
+    panel_enter(&f, "scene.last", "50.5");
+    assert_non_null(strstr(f.editor->message.text, "last: expected a whole number, got 50.5"));
+    panel_enter(&f, "scene.first", "60");
+    assert_non_null(strstr(f.editor->message.text, "the last frame must not be before the first"));
+    panel_enter(&f, "scene.first", "-10"); // the playhead stays on its frame
+    assert_near(f.editor->playback.position, 60, 0);
+    panel_enter(&f, "scene.substeps", "4");
+    assert_near(editor_frame(f.editor, f.document), 50, 0);
+    assert_int_equal(f.document->substeps, 4);
+    free(before);
+    session_close(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_spline_is_added_at_the_playhead),
+        cmocka_unit_test(test_the_active_spline_is_followed),
+        cmocka_unit_test(test_deleting_a_followed_spline_asks),
+        cmocka_unit_test(test_an_empty_list),
+        cmocka_unit_test(test_renaming),
+        cmocka_unit_test(test_rows_are_dragged_to_their_place),
+        cmocka_unit_test(test_colours),
+        cmocka_unit_test(test_hidden_and_solo_curves),
+        cmocka_unit_test(test_a_track_is_attached_and_detached),
+        cmocka_unit_test(test_frames_per_second_ask),
+        cmocka_unit_test(test_a_range_asks_for_its_knots),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,96 @@
+/// The settle time beside damping, against the differential equation solved on a fine grid by other means.
+#include "near.h"
+
+#include "editor/settle.h"
+#include <math.h>
+
+static struct spline spline_of(enum wiggly_mode mode, double frequency, double damping, double bandwidth)
+{
+    struct spline spline = {0};
+    spline_reset(&spline);
+    spline.mode = mode;
+    spline.parameter[PARAMETER_FREQUENCY].value = frequency;
+    spline.parameter[PARAMETER_DAMPING].value = damping;
+    spline.parameter[PARAMETER_BANDWIDTH].value = bandwidth;
+    return spline;
+}
+
+/// x″ + 2ζω x′ + ω² x = 0 from 1 at standstill, by a fourth-order Runge-Kutta method: last time at which |x| > 0.05.
+static double textbook_real(double omega, double zeta)
+{
+    double x = 1, v = 0, last = 0, h = 1e-4;
+    for (int i = 0; i < 200000; i++) {
+        double k[4][2];
+        for (int stage = 0; stage < 4; stage++) {
+            double weight = stage == 0 ? 0 : stage == 3 ? h : h / 2;
+            double at_x = x + (stage ? weight * k[stage - 1][0] : 0),
+                   at_v = v + (stage ? weight * k[stage - 1][1] : 0);
+            k[stage][0] = at_v;
+            k[stage][1] = -2 * zeta * omega * at_v - omega * omega * at_x;
+        }
+        x += h / 6 * (k[0][0] + 2 * k[1][0] + 2 * k[2][0] + k[3][0]);
+        v += h / 6 * (k[0][1] + 2 * k[1][1] + 2 * k[2][1] + k[3][1]);
+        if (fabs(x) > 0.05) last = (i + 1) * h;
+    }
+    return last;
+}
+
+static void test_real_mode(void **state)
+{
+    (void)state;
+    static const double zeta[] = {0.08, 0.2, 0.5, 0.8, 1, 1.5, 3};
+    for (int z = 0; z < 7; z++) {
+        struct spline spline = spline_of(WIGGLY_REAL, 1, zeta[z], 0);
+        struct settling settling = settle_measure(&spline, 1.0 / 24);
+        double expected = textbook_real(2 * acos(-1.0), zeta[z]);
+        assert_int_equal(settling.kind, SETTLE_MEASURED);
+        assert_near(settling.seconds, expected, 0.05 * expected);
+    }
+}
+
+/// Poles alike: |x| = e^{−ζωt} |cos(βω t)|.
+static void test_complex_mode(void **state)
+{
+    (void)state;
+    static const double cases[][3] = {{1, 0.1, 0}, {1, 0.1, 0.1}, {0.5, 0.05, 0.2}, {3, 0.3, 0.1}, {2, 0.9, 0.1}};
+    for (int c = 0; c < 5; c++) {
+        double omega = 2 * acos(-1.0) * cases[c][0], zeta = cases[c][1], beta = cases[c][2], expected = 0;
+        for (double t = 0; t < 40; t += 1e-4) {
+            if (exp(-zeta * omega * t) * fabs(cos(beta * omega * t)) > 0.05) expected = t;
+        }
+        struct spline spline = spline_of(WIGGLY_COMPLEX, cases[c][0], zeta, beta);
+        struct settling settling = settle_measure(&spline, 1.0 / 24);
+        assert_int_equal(settling.kind, SETTLE_MEASURED);
+        assert_near(settling.seconds, expected, 0.05 * expected);
+    }
+}
+
+static void test_what_has_no_number(void **state)
+{
+    (void)state;
+    struct spline spline = spline_of(WIGGLY_CUBIC, 1, 0.1, 0.1);
+    assert_int_equal(settle_measure(&spline, 1.0 / 24).kind, SETTLE_CUBIC);
+    spline = spline_of(WIGGLY_COMPLEX, 0, 0.1, 0.1);
+    assert_int_equal(settle_measure(&spline, 1.0 / 24).kind, SETTLE_CUBIC);
+    spline = spline_of(WIGGLY_COMPLEX, 1, 0, 0.1);
+    assert_int_equal(settle_measure(&spline, 1.0 / 24).kind, SETTLE_NEVER);
+    spline = spline_of(WIGGLY_COMPLEX, 0.01, 0.001, 0.1);
+    assert_int_equal(settle_measure(&spline, 1.0 / 24).kind, SETTLE_LATE);
+    spline = spline_of(WIGGLY_COMPLEX, 1, 0.1, 0.1);
+    spline.parameter[PARAMETER_DAMPING].track = 0;
+    assert_int_equal(settle_measure(&spline, 1.0 / 24).kind, SETTLE_UNKNOWN);
+    spline = spline_of(WIGGLY_REAL, 1, 0.01, 0); // so finely sampled that nobody would wait for the sum
+    struct settling fine = settle_measure(&spline, 1e-6);
+    assert_int_equal(fine.kind, SETTLE_MEASURED);
+    assert_near(fine.seconds, log(20) / (0.01 * 2 * acos(-1.0)), 1e-9);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_real_mode),
+        cmocka_unit_test(test_complex_mode),
+        cmocka_unit_test(test_what_has_no_number),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
