@@ -3,6 +3,7 @@
 #include "editor/actions.h"
 #include "editor/curves.h"
 #include "editor/follow.h"
+#include "editor/record.h"
 #include "model/creature.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -169,12 +170,16 @@ void body_release(struct editor *editor, const struct editor_world *world, bool 
     int tail = editor->body.tail;
     double offset[3];
     body_offset(editor, tail, offset);
-    if (keep) {
+    if (keep && record_has_motion(editor)) {
+        record_keep(editor, world);
+        follow_stop(editor, tail);
+    } else if (keep) {
         key_offset(editor, world, tail, offset);
         follow_land(editor, tail);
     } else {
         follow_stop(editor, tail);
     }
+    record_forget(editor);
 }
 
 /// A stretch of the ring that is as far from the eye all along, near or far half.

@@ -2,6 +2,7 @@
 #include "editor/actions.h"
 #include "editor/body.h"
 #include "editor/curves.h"
+#include "editor/record.h"
 #include <assert.h>
 #include <math.h>
 
@@ -185,6 +186,7 @@ void drag_start_moving(struct editor *editor, const struct editor_world *world)
                         : drag->count == 1         ? "Move knot"
                                                    : "Move knots";
     history_begin(world->history, label, 0);
+    if (drag->kind == DRAG_BODY && editor->record.armed) record_begin(editor);
     ghost_capture(editor, world);
 }
 
@@ -275,6 +277,11 @@ bool drag_event(struct editor *editor, const struct editor_world *world, const s
         drag_end(editor, world, false);
         return true;
     }
-    if (locks && event->key == 'R') ripple_toggle(editor, world);
+    if (locks && event->key == 'R' && drag->kind == DRAG_BODY) {
+        drag_start_moving(editor, world);
+        record_begin(editor);
+    } else if (locks && event->key == 'R') {
+        ripple_toggle(editor, world);
+    }
     return locks && (event->key == 'R' || drag_lock(drag, event->key));
 }

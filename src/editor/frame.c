@@ -2,6 +2,7 @@
 #include "editor/actions.h"
 #include "editor/curves.h"
 #include "editor/follow.h"
+#include "editor/record.h"
 #include "ui/theme.h"
 #include <stdio.h>
 
@@ -102,6 +103,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
     drag_apply(editor, world);
     grab_apply(editor, world);
     follow_advance(editor, world, dt);
+    record_advance(editor, world);
 }
 
 void editor_pose(struct editor *editor, const struct editor_world *world)

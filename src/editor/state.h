@@ -136,6 +136,21 @@ struct body {
     double right[2];         ///< x and z of what is to the right on the screen
 };
 
+enum { RECORD_SAMPLES = 8192 };
+
+/// Firm enough that the body stands still at both ends of its way, 1/s.
+#define RECORD_STIFFNESS 1e5
+
+/// The way of the held body while it is recorded.
+struct record {
+    bool armed;                     ///< the next drag of a body is recorded from its start
+    bool running;                   ///< it goes on; ends with what is played
+    int first, count;               ///< samples
+    double way[3][RECORD_SAMPLES];  ///< metres from where the document has it
+    double seen_position, seen[3];  ///< at the last frame
+    bool hangs[SCENE_MAX_CHANNELS]; ///< channels that swung
+};
+
 /// A tail whose body is or was moved by hand.
 struct follow {
     bool swings;
@@ -267,6 +282,7 @@ struct editor {
     struct scaling scaling;
     struct grab grab;
     struct body body;
+    struct record record;
     struct overlays overlays;
     struct follow follow[STAGE_MAX_TAILS];
     struct hover hover;

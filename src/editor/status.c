@@ -40,7 +40,7 @@ static const char *hover_hint(const struct editor *editor, const struct document
     case HOVER_JOINT:
         return "Pull the tail: it sets the knot at the playhead";
     case HOVER_BODY:
-        return "Drag the body: the tail follows through (X, Y along one axis, Shift fine)";
+        return "Drag the body: the tail follows through (X, Y along one axis, R records)";
     case HOVER_PLAY:
         return "Play, pause (Space)";
     case HOVER_LOOP:

@@ -1,0 +1,153 @@
+/// Recording the body's way: few knots that keep to the hand's motion, a tail that swings as it did, one step to undo.
+#include "panel_session.h"
+
+#include "editor/record.h"
+#include <math.h>
+
+static const char scene[] =
+    "{\"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1.2, \"damping\": 0.25, \"bandwidth\": "
+    "0.1, "
+    "\"knots\": [{\"frame\": 0, \"value\": 0.2, \"slope\": 0}, {\"frame\": 90, \"value\": 0.2}]}],"
+    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], \"channels\": [{\"spline\": "
+    "\"sway\"}]}]}";
+
+enum { JOINTS = 24, X = 12, DRAGGED = 60, WATCHED = 150 };
+
+static float joint_x(const struct session *s, int n) { return editor_stage(s->editor)->tails[0].pose.matrix[n][X]; }
+
+static char *text_of(const struct session *s)
+{
+    size_t size;
+    return scene_print(s->document, &size);
+}
+
+static void test_few_knots_keep_to_the_way(void **state)
+{
+    (void)state;
+    enum { COUNT = 200, CAPACITY = 64 };
+    double way[COUNT];
+    int knots[CAPACITY];
+    for (int i = 0; i < COUNT; i++) way[i] = 0.3 * (1 - cos(0.05 * i)) * exp(-0.01 * i);
+    int made = record_simplify(way, COUNT, 0.004, knots, CAPACITY);
+    assert_in_range(made, 3, 16);
+    assert_int_equal(knots[0], 0);
+    assert_int_equal(knots[made - 1], COUNT - 1);
+    for (int i = 1; i < made; i++) assert_true(knots[i] > knots[i - 1]);
+    for (int i = 0; i < COUNT; i++) way[i] = 0.5;
+    assert_int_equal(record_simplify(way, COUNT, 0.004, knots, CAPACITY), 2);
+    for (int i = 0; i < COUNT; i++) way[i] = i % 2; // a hand that trembles: no more than there is room for
+    assert_int_equal(record_simplify(way, COUNT, 0.004, knots, CAPACITY), CAPACITY);
+}
+
+/// Drags the body along x for a second while the scene plays; R recorded it or not. Notes base and tip of each frame.
+static void perform(struct session *s, bool records, float base[WATCHED], float tip[WATCHED])
+{
+    session_point(s, "body(tail)");
+    session_frame(s);
+    session_press(s, BUTTON_LEFT, 1);
+    session_hold(s, KEY_SPACE, ACTION_PRESS); // playing, as a recording is
+    session_hold(s, KEY_SPACE, ACTION_RELEASE);
+    session_move(s, s->x - 4, s->y);
+    session_send(s, (struct event){.kind = EVENT_KEY, .key = 'X', .action = ACTION_PRESS});
+    if (records) session_send(s, (struct event){.kind = EVENT_KEY, .key = 'R', .action = ACTION_PRESS});
+    float x = s->x;
+    for (int i = 0; i < WATCHED; i++) {
+        float u = fminf(1, (float)i / DRAGGED);
+        if (i == DRAGGED + 12) session_button(s, BUTTON_LEFT, ACTION_RELEASE, 1);
+        if (i < DRAGGED + 12) session_move(s, x - 180 * u * u * (3 - 2 * u), s->y);
+        session_frame(s);
+        base[i] = joint_x(s, 0);
+        tip[i] = joint_x(s, JOINTS) - base[i];
+    }
+}
+
+static void test_recorded_is_what_was_seen(void **state)
+{
+    (void)state;
+    static float live_base[WATCHED], live_tip[WATCHED], base[WATCHED], tip[WATCHED];
+    struct session s;
+    session_open(&s, scene);
+    perform(&s, false, live_base, live_tip);
+    session_close(&s);
+    session_open(&s, scene);
+    char *before = text_of(&s);
+    perform(&s, true, base, tip);
+    assert_int_equal(s.document->spline_count, 3);
+    assert_string_equal(s.document->splines[1].name, "tail x");
+    assert_int_equal(s.document->splines[1].mode, WIGGLY_CUBIC);
+    assert_in_range(s.document->splines[1].knot_count, 3, 12);
+    const struct tail *tail = &s.document->tails[0];
+    assert_int_equal(tail->position[0].track, 1);
+    assert_int_equal(tail->position[2].track, -1);
+    assert_int_equal(tail->channel_count, 2);
+    assert_int_equal(tail->channels[0].of, PART_TOTAL);
+    assert_int_equal(tail->channels[1].of, PART_DISPLACEMENT);
+    assert_int_equal(s.document->splines[2].parameter[PARAMETER_EQUILIBRIUM].track, 1);
+    assert_int_equal(s.document->splines[0].knot_count, 2); // the keyed swing is as it was
+    float most = 0;
+    for (int i = 0; i < WATCHED; i++) {
+        assert_near(base[i], live_base[i], 0.01);
+        most = fmaxf(most, fabsf(live_tip[i] - live_tip[0]));
+    }
+    assert_true(most > 0.1f);
+    for (int i = DRAGGED + 14; i < WATCHED; i++) assert_near(tip[i], live_tip[i], 0.15 * most);
+    session_key(&s, KEY_SPACE, 0);
+    session_key(&s, 'Z', MOD_CTRL);
+    char *after = text_of(&s);
+    assert_string_equal(after, before);
+    assert_null(history_undo_label(s.history));
+    session_key(&s, 'Y', MOD_CTRL);
+    assert_int_equal(s.document->spline_count, 3);
+    free(after);
+    free(before);
+    session_close(&s);
+}
+
+/// A second take keys the same spline anew where it passes, and adds no channels.
+static void test_a_second_take_replaces_the_first(void **state)
+{
+    (void)state;
+    static float base[WATCHED], tip[WATCHED];
+    struct session s;
+    session_open(&s, scene);
+    perform(&s, true, base, tip);
+    session_key(&s, KEY_SPACE, 0);
+    session_key(&s, KEY_LEFT, MOD_SHIFT);
+    perform(&s, true, base, tip);
+    assert_int_equal(s.document->spline_count, 3);
+    assert_int_equal(s.document->tails[0].channel_count, 2);
+    assert_in_range(s.document->splines[1].knot_count, 3, 20);
+    session_close(&s);
+}
+
+static void test_escape_forgets_the_recording(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    char *before = text_of(&s);
+    session_point(&s, "body(tail)");
+    session_frame(&s);
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, -40, 0, 4);
+    session_send(&s, (struct event){.kind = EVENT_KEY, .key = 'R', .action = ACTION_PRESS});
+    session_drag(&s, -40, 0, 20);
+    session_key(&s, KEY_ESCAPE, 0);
+    char *after = text_of(&s);
+    assert_string_equal(after, before);
+    assert_false(record_has_motion(s.editor));
+    free(after);
+    free(before);
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_few_knots_keep_to_the_way),
+        cmocka_unit_test(test_recorded_is_what_was_seen),
+        cmocka_unit_test(test_a_second_take_replaces_the_first),
+        cmocka_unit_test(test_escape_forgets_the_recording),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
