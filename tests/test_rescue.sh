@@ -53,6 +53,14 @@ check_rescue "a signal" "$recovery-1" "$recovery-1: the next start offers it"
 start_edited
 kill -9 $xvfb
 check_rescue "a lost display" "$recovery-2" "$recovery-2: the next start offers it"
+start_server
+for slot in 3 4; do # destroyed while nothing moves, and while it draws
+    start_edited
+    [ $slot -eq 3 ] || xdotool key space
+    sleep 0.3
+    xdotool search --onlyvisible --name wiggly windowclose
+    check_rescue "a destroyed window" "$recovery-$slot" "$recovery-$slot: the next start offers it"
+done
 grep -q '^frames [1-9]' "$scratch/mine.replay"
 ok "the recording has its length" $?
 

@@ -105,7 +105,7 @@ static void on_lost(void *user)
 {
     struct app *app = user;
     struct error error, other = {0};
-    fail(&error, ERROR_ENVIRONMENT, "the display is gone");
+    fail(&error, ERROR_ENVIRONMENT, "the window or its display is gone");
     app_rescue(app, &error);
     close_files(app, &other);
     fflush(stdout);

@@ -1,4 +1,5 @@
 #include "platform/platform.h"
+#include "platform/surface.h"
 #include <dlfcn.h>
 #include <string.h>
 #include <unistd.h>
@@ -7,25 +8,66 @@ enum { EXIT_LOST = 3 };
 
 static platform_rescue *rescue;
 static void *rescue_user;
+static bool error_seen;
+
+typedef int x_handler(void *display);
+typedef int x_error_handler(void *display, void *event);
+
+/// Handlers of exit() would talk to the display.
+static _Noreturn void end(void)
+{
+    platform_rescue *once = rescue;
+    rescue = NULL;
+    if (once) once(rescue_user);
+    _exit(EXIT_LOST);
+}
 
 /// Xlib calls this when the connection breaks, wherever in the program that shows, and ends the process on return.
 static int on_io_error(void *display)
 {
     (void)display;
-    platform_rescue *once = rescue;
-    rescue = NULL;
-    if (once) once(rescue_user);
-    _exit(EXIT_LOST); // handlers of exit() would talk to the display
+    end();
+}
+
+/// Xlib's own handler would end the process, for errors that do not matter too (a clipboard's owner that is gone).
+static int on_error(void *display, void *event)
+{
+    (void)display;
+    (void)event;
+    error_seen = true;
+    return 0;
+}
+
+/// GLFW has loaded Xlib where it uses it, which saves the program a dependency of its own.
+static bool find(const char *name, void *function)
+{
+    void *symbol = dlsym(RTLD_DEFAULT, name);
+    if (symbol) memcpy(function, &symbol, sizeof symbol);
+    return symbol != NULL;
+}
+
+/// GLFW takes the handler of errors away whenever it expects one itself.
+static bool handle_errors(void)
+{
+    static x_error_handler *(*set)(x_error_handler *);
+    if (!set && !find("XSetErrorHandler", &set)) return false;
+    set(on_error);
+    return true;
 }
 
 void platform_on_lost(platform_rescue *function, void *user)
 {
-    int (*(*set_handler)(int (*)(void *)))(void *);
+    x_handler *(*set)(x_handler *);
     rescue = function;
     rescue_user = user;
-    // GLFW has loaded Xlib where it uses it, which saves the program a dependency of its own.
-    void *symbol = dlsym(RTLD_DEFAULT, "XSetIOErrorHandler");
-    if (!symbol) return;
-    memcpy(&set_handler, &symbol, sizeof symbol);
-    set_handler(on_io_error);
+    if (find("XSetIOErrorHandler", &set)) set(on_io_error);
+    handle_errors();
+}
+
+void window_check(const struct window *window, bool idle)
+{
+    if (!rescue || !handle_errors() || !(error_seen || idle)) return;
+    error_seen = false;
+    window_ask_place(window);
+    if (error_seen) end();
 }

@@ -50,12 +50,15 @@ void platform_destroy(struct platform *platform)
 
 const struct event *platform_events(struct platform *platform, double seconds, int *count)
 {
+    static const double idle = 0.1; ///< seconds; no animation waits as long
     if (platform->window) {
         window_wait(platform->window, seconds);
     } else {
         process_sleep(seconds);
     }
-    return event_queue_take(&platform->queue, count);
+    const struct event *events = event_queue_take(&platform->queue, count);
+    if (platform->window) window_check(platform->window, *count == 0 && seconds > idle);
+    return events;
 }
 
 void platform_size(const struct platform *platform, int *width, int *height, float *scale)

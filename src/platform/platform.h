@@ -42,7 +42,7 @@ void platform_set_clipboard(struct platform *platform, const char *text);
 enum cursor { CURSOR_ARROW, CURSOR_HAND, CURSOR_HORIZONTAL, CURSOR_VERTICAL, CURSOR_MOVE, CURSOR_TEXT };
 void platform_cursor(struct platform *platform, enum cursor cursor);
 
-/// Called when the connection to the display is lost; after that the process ends with exit status 3, because nothing of
+/// Called when the connection to the display is lost, or the window was destroyed by somebody else; after that the process ends with exit status 3, because nothing of
 /// the window can be used any more. Register it once the window is open.
 typedef void platform_rescue(void *user);
 void platform_on_lost(platform_rescue *function, void *user);

@@ -30,6 +30,11 @@ void window_destroy(struct window *window);
 struct surface_size window_size(const struct window *window);
 void window_wait(struct window *window, double seconds);
 void window_swap(struct window *window);
+/// Asks the display where the window is: an error where it does not exist any more.
+void window_ask_place(const struct window *window);
+/// Ends the process as platform_on_lost() says where somebody else has destroyed the window, which an error of the display
+/// shows, or, while nothing is drawn, asking for it (`idle`).
+void window_check(const struct window *window, bool idle);
 void window_title(struct window *window, const char *title);
 void window_fullscreen(struct window *window, bool on);
 bool window_is_fullscreen(const struct window *window);

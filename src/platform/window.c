@@ -276,6 +276,12 @@ void window_wait(struct window *window, double seconds)
     }
 }
 
+void window_ask_place(const struct window *window)
+{
+    int x, y;
+    glfwGetWindowPos(window->handle, &x, &y);
+}
+
 void window_swap(struct window *window) { glfwSwapBuffers(window->handle); }
 
 const char *window_clipboard(struct window *window) { return glfwGetClipboardString(window->handle); }
