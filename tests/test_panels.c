@@ -181,6 +181,7 @@ static void test_help_fits_whole(void **state)
             if (command->kind != DRAW_TEXT) continue;
             const char *text = list->text + command->first;
             if (command->count > 3 && strcmp(text + command->count - 3, "…") == 0) fail_msg("“%s” is cut", text);
+            if (command->y > f.editor->layout.window.h - 16) fail_msg("“%s” is below the box", text);
         }
         session_close(&f);
     }

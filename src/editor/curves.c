@@ -7,6 +7,7 @@
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { MAX_LABELS = CURVES_MAX_OTHERS + 2, RING_POINTS = 25 };
 
@@ -324,14 +325,20 @@ static void show_empty(struct editor *editor, const struct editor_world *world)
     drawlist_text(&editor->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, THEME_TEXT_DIM, text);
 }
 
-/// Says above the curves' names that they are not shown as the document has them (V).
-static void show_look(struct editor *editor)
+/// Says above the curves' names where they are not shown as the document has them (V, N) and where knots do not snap (G).
+static void show_state(struct editor *editor)
 {
-    static const char *const texts[] = {[LOOK_STIFF] = "Stiff", [LOOK_CUBIC] = "Cubic"};
+    static const char *const looks[] = {[LOOK_WIGGLY] = "", [LOOK_STIFF] = "Stiff", [LOOK_CUBIC] = "Cubic"};
     const struct rect *ruler = &editor->layout.ruler;
-    if (editor->look == LOOK_WIGGLY) return;
+    const char *normal = editor->options.normalise ? "fit" : "", *snap = editor->options.no_snap ? "free" : "";
+    const char *const words[] = {looks[editor->look], normal, snap};
+    char text[32] = "";
+    for (int i = 0; i < 3; i++) {
+        if (*text && *words[i]) strcat(text, ", ");
+        strcat(text, words[i]);
+    }
     drawlist_text(&editor->list, ruler->x + ruler->w + 6, ruler->y + 15, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
-                  THEME_TEXT, texts[editor->look]);
+                  THEME_TEXT, text);
 }
 
 void curves_show(struct editor *editor, const struct editor_world *world)
@@ -351,7 +358,7 @@ void curves_show(struct editor *editor, const struct editor_world *world)
     scale_show(editor);
     show_empty(editor, world);
     drawlist_set_clip(&editor->list, panel);
-    show_look(editor);
+    show_state(editor);
     show_labels(editor, world);
     show_playhead(editor, world->document);
     warnings_show_words(editor);

@@ -8,6 +8,7 @@ enum {
     COLUMNS = 3,
     MAX_ROWS = 10,
     HELP_ROW = 20,
+    HELP_LEAST_ROW = 15,
     HELP_TITLE = 84,
     HELP_MARGIN = 24,
     HELP_HEADER = 26,
@@ -119,14 +120,22 @@ static int row_count(const struct help_group *group)
     return count;
 }
 
-static float column_height(int column)
+static float column_height(int column, float row)
 {
     float height = 0;
     for (size_t g = 0; g < sizeof groups / sizeof groups[0]; g++) {
         if (groups[g].column != column) continue;
-        height += (float)(HELP_HEADER + HELP_ROW * row_count(&groups[g]) + GROUP_GAP);
+        height += HELP_HEADER + row * (float)row_count(&groups[g]) + GROUP_GAP;
     }
     return height;
+}
+
+/// Height of the box with rows of that height.
+static float box_height(float row)
+{
+    float tallest = 0;
+    for (int c = 0; c < COLUMNS; c++) tallest = fmaxf(tallest, column_height(c, row));
+    return HELP_TITLE + tallest + HELP_MARGIN - GROUP_GAP;
 }
 
 static void paint_line(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
@@ -135,15 +144,15 @@ static void paint_line(struct drawlist *list, struct rect r, enum font font, uin
     drawlist_text_fit(list, r.x, y, r.w, font, THEME_TEXT_NORMAL, color, text);
 }
 
-/// One group at `r` (its height is ignored); returns its height.
+/// One group at `r`, whose height is that of a row; returns the group's height.
 static float show_group(struct drawlist *list, struct rect r, const struct help_group *group)
 {
     float keys = floorf(r.w * 0.46f);
     paint_line(list, (struct rect){r.x, r.y, r.w, HELP_HEADER}, FONT_LABEL_BOLD, THEME_ACCENT, group->title);
     float y = r.y + HELP_HEADER;
-    for (int i = 0; i < row_count(group); i++, y += HELP_ROW) {
-        paint_line(list, (struct rect){r.x, y, keys - 8, HELP_ROW}, FONT_LABEL, THEME_TEXT, group->rows[i].keys);
-        struct rect what = {r.x + keys, y, r.w - keys, HELP_ROW};
+    for (int i = 0; i < row_count(group); i++, y += r.h) {
+        paint_line(list, (struct rect){r.x, y, keys - 8, r.h}, FONT_LABEL, THEME_TEXT, group->rows[i].keys);
+        struct rect what = {r.x + keys, y, r.w - keys, r.h};
         paint_line(list, what, FONT_LABEL, THEME_TEXT_DIM, group->rows[i].what);
     }
     return y + GROUP_GAP - r.y;
@@ -166,9 +175,9 @@ void help_show(struct editor *editor)
     if (!editor->help.open) return;
     struct drawlist *list = &editor->list;
     struct rect window = editor->layout.window;
-    float tallest = 0;
-    for (int c = 0; c < COLUMNS; c++) tallest = fmaxf(tallest, column_height(c));
-    float w = fminf(1008, window.w - 32), h = fminf(HELP_TITLE + tallest + HELP_MARGIN - GROUP_GAP, window.h - 16);
+    float row = HELP_ROW; /* closer together where the window is low */
+    while (row > HELP_LEAST_ROW && box_height(row) > window.h - 16) row--;
+    float w = fminf(1008, window.w - 32), h = fminf(box_height(row), window.h - 16);
     struct rect box = {roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 2), w, h};
     drawlist_rect(list, window, theme_fade(0x000000FFu, 0.55f));
     drawlist_rounded(list, box, 8, THEME_PANEL);
@@ -176,7 +185,7 @@ void help_show(struct editor *editor)
     show_title(list, box);
     float column = (box.w - HELP_MARGIN * (COLUMNS + 1)) / COLUMNS;
     for (int c = 0; c < COLUMNS; c++) {
-        struct rect r = {box.x + HELP_MARGIN + (column + HELP_MARGIN) * (float)c, box.y + HELP_TITLE, column, 0};
+        struct rect r = {box.x + HELP_MARGIN + (column + HELP_MARGIN) * (float)c, box.y + HELP_TITLE, column, row};
         for (size_t g = 0; g < sizeof groups / sizeof groups[0]; g++) {
             if (groups[g].column == c) r.y += show_group(list, r, &groups[g]);
         }
