@@ -79,7 +79,7 @@ static const struct help_group groups[] = {
       {"Home", "show everything"},
       {"End", "show the selection"},
       {"Drag the tail", "pull it"},
-      {"Drag the body", "the tail follows (R records)"},
+      {"Drag the body", "tail follows (R records)"},
       {"O, P", "onion skin, motion arc"},
       {"Right drag", "turn the camera"}}},
     {2,
