@@ -156,6 +156,30 @@ static void a_file_of_another_program(void **state)
     character_free(&c);
 }
 
+/// A mesh whose node is scaled and mirrored, under a parent that turns it by a quarter about y and lifts it.
+static void a_mesh_stands_where_its_node_puts_it(void **state)
+{
+    (void)state;
+    const float bin[9] = {0, 0, 0, 1, 0, 0, 0, 0, 1};
+    struct character c;
+    read_good(
+        glb("{\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"accessors\":[{\"bufferView\":0,"
+            "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"nodes\":[{\"mesh\":0,\"scale\":[-2,2,2]},"
+            "{\"children\":[0],\"translation\":[0,5,0],\"rotation\":[0,0.7071067811865476,0,0.7071067811865476]}],"
+            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":0},{}]}],"
+            "\"extras\":{\"targetNames\":[\"a.re\",\"a.im\"]}}]}",
+            bin, sizeof bin),
+        &c);
+    assert_near(c.position[1][1], 5, 1e-6);
+    assert_near(c.position[1][2], 2, 1e-6); // x is mirrored to -2, which the quarter turn makes +2 in z
+    assert_near(c.position[2][0], 2, 1e-6);
+    assert_near(c.coordinates[0].re[2][0], 2, 1e-6);
+    assert_near(c.coordinates[0].re[2][1], 0, 1e-6); // not lifted
+    assert_int_equal(c.indices[1], 2);               // the mirror turns the triangle round
+    assert_near(c.normal[0][1], -1, 1e-6);           // (c - a) x (b - a) of the placed triangle
+    character_free(&c);
+}
+
 static void assert_refused(const char *path, const char *says)
 {
     struct character c;
@@ -243,9 +267,13 @@ static void changed_bytes_do_no_harm(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_written_reads_back_equal), cmocka_unit_test(the_imaginary_target_is_negated),
-        cmocka_unit_test(normals_point_outwards),           cmocka_unit_test(a_file_of_another_program),
-        cmocka_unit_test(bad_files_get_one_sentence),       cmocka_unit_test(changed_bytes_do_no_harm),
+        cmocka_unit_test(what_is_written_reads_back_equal),
+        cmocka_unit_test(the_imaginary_target_is_negated),
+        cmocka_unit_test(normals_point_outwards),
+        cmocka_unit_test(a_file_of_another_program),
+        cmocka_unit_test(a_mesh_stands_where_its_node_puts_it),
+        cmocka_unit_test(bad_files_get_one_sentence),
+        cmocka_unit_test(changed_bytes_do_no_harm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

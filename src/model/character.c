@@ -14,7 +14,8 @@ static void face_normal(const float a[3], const float b[3], const float c[3], fl
     }
 }
 
-void character_normals(struct character *c)
+/// Normals from the triangles, weighted by their area; (0, 1, 0) where there are none.
+static void compute_normals(struct character *c)
 {
     memset(c->normal, 0, (size_t)c->vertex_count * sizeof *c->normal);
     for (int i = 0; i + 2 < c->index_count; i += 3) {
@@ -74,7 +75,7 @@ bool character_create(struct character *c, const struct surface *surface, int co
         .indices = copy_of(surface->indices, (size_t)surface->index_count * sizeof *c->indices),
     };
     if (c->position && c->normal && c->color && c->indices && create_coordinates(c, coordinates)) {
-        character_normals(c);
+        compute_normals(c);
         return true;
     }
     character_free(c);

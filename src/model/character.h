@@ -40,14 +40,11 @@ bool character_create(struct character *character, const struct surface *surface
 
 /// Reads a .glb: the first mesh with morph targets (else the first mesh), all its triangles as one. Coordinates are the
 /// pairs of morph targets called NAME.re and NAME.im; without our extras their numbers are 0. Normals are computed where
-/// there are none. Nodes are not applied. Errors name the file, the place in it, what was expected and what was there.
+/// there are none. The mesh stands where the first node that shows it puts it. Errors name the file, the place in it, what was expected and what was there.
 bool character_read(const char *path, struct character *character, struct error *error);
 
 /// Writes a .glb, whole or not at all.
 bool character_write(const char *path, const struct character *character, struct error *error);
-
-/// Normals from the triangles, weighted by their area; (0, 1, 0) where there are none.
-void character_normals(struct character *character);
 
 /// Leaves an empty character.
 void character_free(struct character *character);

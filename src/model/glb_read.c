@@ -1,5 +1,6 @@
 #include "model/character.h"
 #include "model/glb.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -212,24 +213,68 @@ static bool read_coordinates(const struct glb *glb, const json_t *mesh, struct c
     return true;
 }
 
-/// The first mesh with morph targets, else the first with triangles.
-static const json_t *choose_mesh(const struct glb *glb)
+/// The number of the first mesh with morph targets, else of the first with triangles, else −1.
+static int64_t choose_mesh(const json_t *meshes)
 {
-    const json_t *mesh, *first = NULL;
+    const json_t *mesh;
+    int64_t first = -1;
     size_t i;
-    json_array_foreach(json_object_get(glb->json, "meshes"), i, mesh)
+    json_array_foreach(meshes, i, mesh)
     {
         const json_t *primitives = json_object_get(mesh, "primitives");
         if (json_array_size(primitives) == 0) continue;
-        if (json_array_size(json_object_get(json_array_get(primitives, 0), "targets")) > 0) return mesh;
-        if (!first) first = mesh;
+        if (json_array_size(json_object_get(json_array_get(primitives, 0), "targets")) > 0) return (int64_t)i;
+        if (first < 0) first = (int64_t)i;
     }
     return first;
 }
 
+static void transform(const double m[16], double weight, float v[3])
+{
+    const double x = (double)v[0], y = (double)v[1], z = (double)v[2];
+    for (int i = 0; i < 3; i++) v[i] = (float)(m[i] * x + m[4 + i] * y + m[8 + i] * z + m[12 + i] * weight);
+}
+
+/// The cofactors of the linear part, which turn normals whatever the scale; returns the determinant.
+static double cofactors(const double m[16], double c[16])
+{
+    for (int n = 0; n < 16; n++) c[n] = 0;
+    for (int n = 0; n < 9; n++) {
+        int column = n / 3, row = n % 3, c1 = (column + 1) % 3, c2 = (column + 2) % 3, r1 = (row + 1) % 3;
+        int r2 = (row + 2) % 3;
+        c[4 * column + row] = m[4 * c1 + r1] * m[4 * c2 + r2] - m[4 * c2 + r1] * m[4 * c1 + r2];
+    }
+    return m[0] * c[0] + m[1] * c[1] + m[2] * c[2];
+}
+
+/// Puts a character where its node stands. A mirror turns the triangles round, and the normals with them.
+static void place(struct character *c, const double matrix[16])
+{
+    double normal[16];
+    bool mirrored = cofactors(matrix, normal) < 0;
+    for (int i = 0; i < c->vertex_count; i++) {
+        transform(matrix, 1, c->position[i]);
+        transform(normal, 0, c->normal[i]);
+        float *n = c->normal[i], length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (int k = 0; k < 3 && length > 0; k++) n[k] /= mirrored ? -length : length;
+        for (int k = 0; k < c->coordinate_count; k++) {
+            transform(matrix, 0, c->coordinates[k].re[i]);
+            transform(matrix, 0, c->coordinates[k].im[i]);
+        }
+    }
+    for (int i = 0; mirrored && i + 2 < c->index_count; i += 3) {
+        uint32_t corner = c->indices[i + 1];
+        c->indices[i + 1] = c->indices[i + 2];
+        c->indices[i + 2] = corner;
+    }
+}
+
 static bool read_character(const struct glb *glb, struct surface *surface, struct character *c, struct error *error)
 {
-    const json_t *mesh = choose_mesh(glb);
+    const json_t *meshes = json_object_get(glb->json, "meshes");
+    int64_t number = choose_mesh(meshes);
+    const json_t *mesh = number >= 0 ? json_array_get(meshes, (size_t)number) : NULL;
+    double matrix[16];
     if (!mesh) return fail(error, ERROR_INPUT, "%s: expected a mesh, got none", glb->path);
     const json_t *primitives = json_object_get(mesh, "primitives");
     const json_t *names = json_object_get(json_object_get(mesh, "extras"), "targetNames");
@@ -239,7 +284,9 @@ static bool read_character(const struct glb *glb, struct surface *surface, struc
     if (!read_surface(glb, primitives, surface, error)) return false;
     if (!character_create(c, surface, coordinates))
         return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", glb->path);
-    return read_normals(glb, primitives, c, error) && read_coordinates(glb, mesh, c, error);
+    if (!read_normals(glb, primitives, c, error) || !read_coordinates(glb, mesh, c, error)) return false;
+    if (glb_mesh_matrix(glb, number, matrix)) place(c, matrix);
+    return true;
 }
 
 bool character_read(const char *path, struct character *character, struct error *error)

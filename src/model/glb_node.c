@@ -1,0 +1,71 @@
+/// Where a mesh stands in the scene: the product of the matrices from the root to its node, columns first as in the file.
+#include "model/glb.h"
+#include <string.h>
+
+static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+/// Up to `count` numbers of an array; those that are missing keep their value.
+static void read_array(const json_t *object, const char *key, double *numbers, size_t count)
+{
+    const json_t *array = json_object_get(object, key);
+    for (size_t i = 0; i < count && i < json_array_size(array); i++)
+        numbers[i] = json_number_value(json_array_get(array, i));
+}
+
+/// T R S of a node: the unit quaternion (x, y, z, w) as a matrix, its columns scaled.
+static void local_matrix(const json_t *node, double m[16])
+{
+    double t[3] = {0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
+    memcpy(m, identity, sizeof identity);
+    read_array(node, "matrix", m, 16);
+    if (json_object_get(node, "matrix")) return;
+    read_array(node, "translation", t, 3);
+    read_array(node, "rotation", q, 4);
+    read_array(node, "scale", s, 3);
+    for (int column = 0; column < 3; column++) {
+        int next = (column + 1) % 3, last = (column + 2) % 3;
+        m[4 * column + column] = s[column] * (1 - 2 * (q[next] * q[next] + q[last] * q[last]));
+        m[4 * column + next] = s[column] * 2 * (q[column] * q[next] + q[last] * q[3]);
+        m[4 * column + last] = s[column] * 2 * (q[column] * q[last] - q[next] * q[3]);
+        m[12 + column] = t[column];
+    }
+}
+
+/// m ← a m
+static void multiply_left(const double a[16], double m[16])
+{
+    double product[16] = {0};
+    for (int n = 0; n < 64; n++) product[n / 4 % 4 * 4 + n % 4] += a[n / 16 * 4 + n % 4] * m[n / 4 % 4 * 4 + n / 16];
+    memcpy(m, product, sizeof product);
+}
+
+/// The first node whose `key` is, or whose list `key` holds, this number; −1 where none does.
+static int64_t node_with(const json_t *nodes, const char *key, int64_t number)
+{
+    size_t i, k;
+    const json_t *node, *child;
+    json_array_foreach(nodes, i, node)
+    {
+        const json_t *member = json_object_get(node, key);
+        if (json_is_integer(member) && json_integer_value(member) == number) return (int64_t)i;
+        json_array_foreach(member, k, child)
+        {
+            if (json_is_integer(child) && json_integer_value(child) == number) return (int64_t)i;
+        }
+    }
+    return -1;
+}
+
+bool glb_mesh_matrix(const struct glb *glb, int64_t mesh, double matrix[16])
+{
+    const json_t *nodes = json_object_get(glb->json, "nodes");
+    int64_t node = node_with(nodes, "mesh", mesh);
+    memcpy(matrix, identity, sizeof identity);
+    for (size_t steps = json_array_size(nodes); node >= 0 && steps > 0; steps--) { // a cycle ends too
+        double local[16];
+        local_matrix(json_array_get(nodes, (size_t)node), local);
+        multiply_left(local, matrix);
+        node = node_with(nodes, "children", node);
+    }
+    return memcmp(matrix, identity, sizeof identity) != 0;
+}
