@@ -48,8 +48,8 @@ void ripple_stopped(struct editor *editor);
 /// Starts to scale the selected knots with the pointer, about the middle of the selection (P: about the
 /// equilibrium at the playhead).
 void scale_begin(struct editor *editor, const struct editor_world *world);
-/// Keys while it runs: axes, pivot, a typed factor, end; uses all of them up.
-void scale_key(struct editor *editor, const struct editor_world *world, const struct event *event);
+/// Events while it runs, but the pointer's: axes, pivot, a typed factor, the end; true where the event is used up.
+bool scale_event(struct editor *editor, const struct editor_world *world, const struct event *event);
 /// Makes the edits for where the pointer is now.
 void scale_apply(struct editor *editor, const struct editor_world *world);
 /// The pivot, and the line from it to the pointer.

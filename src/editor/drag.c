@@ -261,15 +261,10 @@ bool drag_event(struct editor *editor, const struct editor_world *world, const s
         move_pointer(editor, world, event);
         return true;
     }
+    if (drag->kind == DRAG_SCALE) return scale_event(editor, world, event);
     if (event->kind == EVENT_BUTTON) {
-        bool ends = drag->kind == DRAG_SCALE ? event->action == ACTION_PRESS
-                                             : event->action == ACTION_RELEASE && event->button == drag->button;
-        if (ends) drag_end(editor, world, drag->kind != DRAG_SCALE || event->button == BUTTON_LEFT);
+        if (event->action == ACTION_RELEASE && event->button == drag->button) drag_end(editor, world, true);
         return true;
-    }
-    if (event->kind == EVENT_KEY && drag->kind == DRAG_SCALE) {
-        if (event->action != ACTION_RELEASE) scale_key(editor, world, event);
-        return event->action != ACTION_RELEASE;
     }
     if (event->kind != EVENT_KEY || event->action != ACTION_PRESS) return false;
     bool locks = (drag->kind == DRAG_KNOTS || drag->kind == DRAG_BODY) && !(event->mods & (MOD_CTRL | MOD_ALT));

@@ -193,7 +193,7 @@ static bool type(struct scaling *scaling, int key)
     return true;
 }
 
-void scale_key(struct editor *editor, const struct editor_world *world, const struct event *event)
+static void press_key(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     struct scaling *scaling = &editor->scaling;
     if (event->key == KEY_ESCAPE || event->key == KEY_ENTER) {
@@ -209,4 +209,19 @@ void scale_key(struct editor *editor, const struct editor_world *world, const st
     }
     drag_start_moving(editor, world);
     editor->drag.stale = true;
+}
+
+bool scale_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    bool press = event->action != ACTION_RELEASE;
+    switch (event->kind) {
+    case EVENT_BUTTON:
+        if (press) drag_end(editor, world, event->button == BUTTON_LEFT);
+        return true;
+    case EVENT_KEY:
+        if (press) press_key(editor, world, event);
+        return press; /* of a key that was held before, the release is somebody else's */
+    default:
+        return event->kind == EVENT_WHEEL; /* the factor is measured in pixels: no zooming meanwhile */
+    }
 }
