@@ -194,6 +194,7 @@ static void energy_stays_over_a_hundred_periods(void **state)
     print_message("energy of a swing: %.5f … %.5f of the first\n", range[0], range[1]);
     assert_near(range[0], 1, 0.02);
     assert_near(range[1], 1, 0.02);
+    assert_int_equal(integrator.calmed, 0);
     integrator_free(&integrator);
 
     assert_true(integrator_create(&integrator, &body, step));
@@ -201,7 +202,7 @@ static void energy_stays_over_a_hundred_periods(void **state)
     for (int i = 0; i < beam.nodes; i++) integrator.x[i][1] += 0.2 * beam.rest[i][0] * beam.rest[i][0];
     follow_energy(&integrator, range);
     print_message("energy after a jerk: %.5f … %.5f of the first\n", range[0], range[1]);
-    assert_true(range[1] < 1.01);
+    assert_true(range[1] <= 1.01);
     integrator_free(&integrator);
     modes_free(&modes);
     body_free(&body);

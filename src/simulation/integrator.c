@@ -8,6 +8,9 @@ enum { NEWTON_MAX = 60, GRADIENTS_MAX = 2000 };
 // A looser one makes more Newton iterations, each of which assembles anew; a tighter one saves none.
 static const double linear_tolerance = 1e-3;
 
+// Nothing does work on the body, so its energy cannot rise; of a step's rounding and the scheme's own ripple this much is let pass.
+static const double growth_allowed = 1.01;
+
 struct integrator_work {
     double (*a)[3];         ///< accelerations
     double (*y)[3];         ///< the unknown: positions at the step's end
@@ -21,24 +24,35 @@ struct integrator_work {
     double (*drag)[3];      ///< K (y − q)
     struct blocks lagged;   ///< K at the step's start: the pattern is the body's, the blocks are its own
     bool started;           ///< there are accelerations
+    double least;           ///< energy so far, J
 };
 
-/// Chung and Hulbert's parameters for ρ∞ = 0.8, and what a step of length h makes of them.
+/// A step in the form of Newmark's: x + h v + h² (k a + β a'), v + h ((1 − γ) a + γ a'), with a' from the balance of forces at
+/// fractions of the step.
 struct scheme {
-    double am, af, beta, gamma;
+    double am, af, k, beta, gamma;
     double inertia, rate; ///< κ and r
 };
 
-static struct scheme scheme_of(double h)
+static struct scheme complete(struct scheme s, double h)
+{
+    s.inertia = (1 - s.am) / ((1 - s.af) * s.beta * h * h);
+    s.rate = s.gamma / (s.beta * h);
+    return s;
+}
+
+/// Chung and Hulbert's parameters for ρ∞ = 0.8.
+static struct scheme generalised_alpha(double h)
 {
     const double rho = 0.8;
     struct scheme s = {.am = (2 * rho - 1) / (rho + 1), .af = rho / (rho + 1)};
     s.gamma = 0.5 - s.am + s.af;
     s.beta = 0.25 * (1 - s.am + s.af) * (1 - s.am + s.af);
-    s.inertia = (1 - s.am) / ((1 - s.af) * s.beta * h * h);
-    s.rate = s.gamma / (s.beta * h);
-    return s;
+    s.k = 0.5 - s.beta;
+    return complete(s, h);
 }
+
+static struct scheme backward_euler(double h) { return complete((struct scheme){.beta = 1, .gamma = 1}, h); }
 
 bool integrator_create(struct integrator *integrator, struct body *body, double step)
 {
@@ -169,11 +183,13 @@ static void minimise(struct integrator *m, const struct scheme *scheme)
     }
 }
 
-/// Forces, the stiffness for damping and, the first time, M⁻¹(f − C v) as the accelerations.
+/// Forces, energy, the stiffness for damping and, the first time, M⁻¹(f − C v) as the accelerations.
 static void begin(struct integrator *m)
 {
     struct integrator_work *w = m->work;
-    body_forces(m->body, (const double(*)[3])m->x, w->start);
+    double energy =
+        body_forces(m->body, (const double(*)[3])m->x, w->start) + body_kinetic(m->body, (const double(*)[3])m->v);
+    w->least = w->started ? fmin(w->least, energy) : energy;
     if (m->stiffness_damping > 0) {
         body_stiffness(m->body);
         memcpy(w->lagged.block, m->body->stiffness.block,
@@ -200,26 +216,47 @@ static void aim(struct integrator *m, const struct scheme *s)
             w->y[i][c] = w->target[i][c] = w->origin[i][c] = x;
             if (m->body->pinned[i]) continue;
             double rest = kept * (s->af * w->start[i][c] / m->body->mass[i] - s->am * a) / s->inertia;
-            w->target[i][c] += h * v + h * h * (0.5 - s->beta) * a + rest;
-            w->origin[i][c] -= ((kept - s->gamma / s->beta) * v + h * (1 - s->gamma / (2 * s->beta)) * a) / s->rate;
+            w->target[i][c] += h * v + h * h * s->k * a + rest;
+            w->origin[i][c] -=
+                ((kept - s->gamma / s->beta) * v + h * (1 - s->gamma - s->gamma * s->k / s->beta) * a) / s->rate;
             w->y[i][c] += h * v;
         }
     }
 }
 
-/// Newmark's velocities and accelerations at the step's end. False where they are not finite.
-static bool finish(struct integrator *m, const struct scheme *s)
+/// Newmark's acceleration and velocity at the step's end.
+static void after(const struct integrator *m, const struct scheme *s, int i, int c, double *a, double *v)
 {
-    struct integrator_work *w = m->work;
-    const double h = m->step;
-    double sum = 0;
+    const double h = m->step, before = m->work->a[i][c];
+    double ahead = m->work->y[i][c] - m->x[i][c] - h * m->v[i][c];
+    *a = (ahead / (h * h) - s->k * before) / s->beta;
+    *v = m->v[i][c] + h * ((1 - s->gamma) * before + s->gamma * *a);
+}
+
+/// Energy at the step's end, J.
+static double energy_after(struct integrator *m, const struct scheme *s)
+{
+    double energy = body_forces(m->body, (const double(*)[3])m->work->y, m->work->force), a, v;
     for (int i = 0; i < m->body->node_count; i++) {
         for (int c = 0; c < 3 && !m->body->pinned[i]; c++) {
-            double ahead = w->y[i][c] - m->x[i][c] - h * m->v[i][c], before = w->a[i][c];
-            w->a[i][c] = ahead / (s->beta * h * h) - (0.5 / s->beta - 1) * before;
-            m->v[i][c] += h * ((1 - s->gamma) * before + s->gamma * w->a[i][c]);
-            m->x[i][c] = w->y[i][c];
-            sum += m->x[i][c] + m->v[i][c];
+            after(m, s, i, c, &a, &v);
+            energy += 0.5 * m->body->mass[i] * v * v;
+        }
+    }
+    return energy;
+}
+
+/// Makes the step's end the new state. False where it is not finite.
+static bool finish(struct integrator *m, const struct scheme *s)
+{
+    double sum = 0, a, v;
+    for (int i = 0; i < m->body->node_count; i++) {
+        for (int c = 0; c < 3 && !m->body->pinned[i]; c++) {
+            after(m, s, i, c, &a, &v);
+            m->work->a[i][c] = a;
+            m->v[i][c] = v;
+            m->x[i][c] = m->work->y[i][c];
+            sum += m->x[i][c] + v;
         }
     }
     return isfinite(sum);
@@ -227,9 +264,15 @@ static bool finish(struct integrator *m, const struct scheme *s)
 
 bool integrator_step(struct integrator *m)
 {
-    const struct scheme scheme = scheme_of(m->step);
+    struct scheme scheme = generalised_alpha(m->step);
     begin(m);
     aim(m, &scheme);
     minimise(m, &scheme);
+    if (!(energy_after(m, &scheme) <= growth_allowed * m->work->least)) { // also where it is not finite
+        scheme = backward_euler(m->step);
+        aim(m, &scheme);
+        minimise(m, &scheme);
+        m->calmed++;
+    }
     return finish(m, &scheme);
 }
