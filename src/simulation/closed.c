@@ -61,7 +61,7 @@ static int count_open(const struct surface *surface, const uint32_t *name, struc
     for (size_t i = 0; i < count; i++) {
         sum += edges[i].direction;
         if (i + 1 < count && edges[i + 1].key == edges[i].key) continue;
-        open += abs(sum);
+        open += sum != 0;
         sum = 0;
     }
     return open;
