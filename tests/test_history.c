@@ -336,7 +336,8 @@ static void test_bytes(void **state)
     assert_true(history_bytes(world.history) < 4 * one);
     world_must(&world, edit_insert(PLUCK, 5, 1));
     size_t before = history_bytes(world.history);
-    world_must(&world, (struct edit){.kind = EDIT_SPLINE_REMOVE, .spline = PLUCK}); // is kept, with its knots, for undo
+    world_must(&world,
+               (struct edit){.kind = EDIT_SPLINE_REMOVE, .spline = PLUCK}); // is kept, with its knots, for undo
     assert_true(history_bytes(world.history) > before + one + sizeof(struct spline));
     history_clear(world.history);
     assert_int_equal(history_bytes(world.history), 0);
