@@ -45,22 +45,28 @@ static void add_member(struct text *text, const char *before, double value)
 
 static double rounded(double value) { return round(value * 1000) / 1000; }
 
-/// A loop of about six periods in which the spline is plucked twice.
+/// A loop of ten periods with a knot every two and a half: with this bandwidth the swing would beat over longer gaps.
 static void add_spline(struct text *text, const struct coordinate *first, int frames)
 {
+    static const double values[] = {1, -0.6, 0.8, -0.4};
+    enum { KNOTS = sizeof values / sizeof values[0] };
     text_string(text, "    { \"name\": \"swing\", \"mode\": \"complex\"");
     add_member(text, ", \"frequency\": ", rounded(first->frequency));
     add_member(text, ", \"damping\": ", rounded(first->damping));
-    text_string(text, ", \"bandwidth\": 0.1, \"start\": \"loop\",\n      \"knots\": [{ \"frame\": 0, \"value\": 1 }");
-    add_member(text, ", { \"frame\": ", frames / 2);
-    text_string(text, ", \"value\": -0.5 }] }\n");
+    text_string(text, ", \"bandwidth\": 0.1, \"start\": \"loop\",\n      \"knots\": [");
+    for (int i = 0; i < KNOTS; i++) {
+        add_member(text, i > 0 ? ",\n                { \"frame\": " : "{ \"frame\": ", frames * i / KNOTS);
+        add_member(text, ", \"value\": ", values[i]);
+        text_string(text, " }");
+    }
+    text_string(text, "] }\n");
 }
 
 static void add_scene(struct text *text, const struct character *character, int modes, const char *from,
                       const char *model)
 {
     const struct coordinate *first = &character->coordinates[0];
-    double fps = 24, seconds = first->frequency > 0 ? fmin(fmax(6 / first->frequency, 4), 60) : 4;
+    double fps = 24, seconds = first->frequency > 0 ? fmin(10 / first->frequency, 60) : 4;
     while (fps < 8 * first->frequency && fps < 50000) fps *= 2;
     int frames = (int)(fps * seconds);
     add_member(text, "{\n  \"wiggly\": 1, \"fps\": ", fps);
