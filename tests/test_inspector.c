@@ -175,6 +175,45 @@ static void test_knot_is_edited_in_place(void **state)
     session_close(&f);
 }
 
+/// Several knots at once: typed numbers are set, drags and frames move, and what is not possible changes nothing.
+static void test_several_knots(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    const struct spline *sway = &f.document->splines[0];
+    session_key(&f, 'A', MOD_CTRL);
+    assert_false(panel_shows(&f, "stiffness")); // no slopes yet
+    panel_enter(&f, "value", "0.25");
+    for (int k = 0; k < 3; k++) assert_near(sway->knots[k].value, 0.25, 0);
+    session_key(&f, 'Z', MOD_CTRL); // one step
+    assert_near(sway->knots[1].value, 1, 0);
+    panel_press(&f, "value", 1);
+    session_drag(&f, 50, 0, 5);
+    panel_release(&f);
+    assert_near(sway->knots[0].value, 0.5, 1e-12);
+    assert_near(sway->knots[2].value, 0, 1e-12);
+    session_key(&f, 'Z', MOD_CTRL);
+    assert_null(history_undo_label(f.history));
+    panel_enter(&f, "frame", "10");
+    assert_near(sway->knots[0].frame, 10, 0);
+    assert_near(sway->knots[2].frame, 70, 0);
+    panel_enter(&f, "frame", "40"); // the last one would leave the scene
+    assert_near(sway->knots[0].frame, 10, 0);
+    assert_non_null(strstr(f.editor->message.text, "frame 100 is outside 0 to 96"));
+    panel_press(&f, "frame", 1);
+    session_drag(&f, 60, 0, 60); // as far as it goes
+    panel_release(&f);
+    assert_near(sway->knots[2].frame, 96, 0);
+    assert_near(sway->knots[1].frame, 72, 0);
+    session_key(&f, 'T', 0);
+    panel_enter(&f, "stiffness", "50");
+    for (int k = 0; k < 3; k++) assert_near(sway->knots[k].stiffness, 50, 0);
+    panel_enter(&f, "slope", "steep");
+    assert_non_null(strstr(f.editor->message.text, "slope: expected a number"));
+    session_close(&f);
+}
+
 static void test_frame_drag_passes_through_a_neighbour(void **state)
 {
     (void)state;
@@ -376,6 +415,7 @@ int main(void)
         cmocka_unit_test(test_arrows_belong_to_the_focus),
         cmocka_unit_test(test_only_what_counts_is_shown),
         cmocka_unit_test(test_knot_is_edited_in_place),
+        cmocka_unit_test(test_several_knots),
         cmocka_unit_test(test_frame_drag_passes_through_a_neighbour),
         cmocka_unit_test(test_the_pointer_says_what_it_does),
         cmocka_unit_test(test_tail_array_scales_as_a_whole),

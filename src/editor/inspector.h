@@ -25,6 +25,9 @@ void inspector_knot(struct inspection *in);
 void inspector_tail(struct inspection *in);
 void inspector_history(struct inspection *in);
 
+/// The fields of several selected knots, below "Knot".
+void inspector_knots(struct inspection *in);
+
 /// What opens over the panel, built after all else: the palette of the list of splines, the list of splines to follow.
 void inspector_palette(struct inspection *in);
 void inspector_follow_list(struct inspection *in);

@@ -127,6 +127,7 @@ void inspector_knot(struct inspection *in)
         char text[64];
         snprintf(text, sizeof text, "%d knots selected.", count);
         ui_paragraph(ui, text, THEME_TEXT_DIM);
+        inspector_knots(in);
         build_slopes(in);
     } else if (single < 0) {
         ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", THEME_TEXT_DIM);

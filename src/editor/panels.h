@@ -25,8 +25,8 @@ struct inspector {
     struct ui_scroll scroll;
     bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections that are not as they are at first, open or closed
     int tail, channel;                    ///< shown under "Tail"
-    const char *dragged_name;             ///< number of the scene that is being dragged, and what it would be
-    double dragged;
+    const char *dragged_name;             ///< number of the scene that is being dragged
+    double dragged;                       ///< what it would be; of several knots, what was last possible
     struct poles_view poles;
     struct history_view history;
 };
