@@ -102,10 +102,11 @@ static void edit(struct app *app)
     app->row.edit_us = microseconds(start, clock_now());
 }
 
-/// Room for the document's splines, where their number or length has changed (opened, range).
-static bool fit_evaluation(struct app *app)
+/// Room for the document's splines and knots after an edit; `resized`: the number or length of splines has changed.
+static bool fit_evaluation(struct app *app, bool resized)
 {
     if (!evaluation_resize(&app->evaluation, app->document, &app->error)) return false;
+    if (!resized) return true;
     size_t count = app->document->spline_count > 0 ? (size_t)app->document->spline_count : 1;
     bool *dirty = realloc(app->dirty, count * sizeof *dirty);
     if (!dirty) return fail(&app->error, ERROR_ENVIRONMENT, "out of memory for %zu splines", count);
@@ -121,7 +122,7 @@ static void solve(struct app *app)
     bool resized = app->evaluation.count != document->spline_count ||
                    app->evaluation.samples != document_samples(document) || app->solved_revision == 0;
     uint64_t revision = history_revision(app->history);
-    if (resized && !fit_evaluation(app)) {
+    if ((resized || revision != app->solved_revision) && !fit_evaluation(app, resized)) {
         app->failed = true;
         return;
     }
