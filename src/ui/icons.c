@@ -101,9 +101,8 @@ static void draw_follow(const struct pen *pen)
 
 static void draw_unfollow(const struct pen *pen)
 {
-    arc(pen, (struct rect){-3.4f, 0, 3, 3}, 0.16f, 0.84f, RING_POINTS);
-    arc(pen, (struct rect){3.4f, 0, 3, 3}, -0.34f, 0.34f, RING_POINTS);
-    line(pen, 1.6f, -5.5f, -1.6f, 5.5f);
+    draw_follow(pen);
+    line(pen, 4.5f, -5.5f, -4.5f, 5.5f);
 }
 
 bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon icon, bool lit, const char *hint)

@@ -194,7 +194,8 @@ bool ui_hovered(const struct ui *ui, struct rect r)
 
 void ui_register(struct ui *ui, uint32_t id, struct rect r)
 {
-    if (!ui->blocked && ui->stop_count < UI_MAX_FOCUS) ui->stop[ui->stop_count++] = (struct ui_stop){id, r};
+    if ((!ui->blocked || ui->pass == UI_PASS_DRAW) && ui->stop_count < UI_MAX_FOCUS)
+        ui->stop[ui->stop_count++] = (struct ui_stop){id, r};
     if (ui->pass == UI_PASS_FIND && ui->find == id && !ui->found) {
         ui->found_x = r.x + r.w / 2;
         ui->found_y = r.y + r.h / 2;
