@@ -1,17 +1,24 @@
 /// Selecting knots by a box that is dragged on empty, shown while it grows.
 #include "editor/actions.h"
+#include "editor/arrange.h"
 #include "editor/curves.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <string.h>
 
+/// Both have room for the same ids (editor_reserve()), unless memory was short.
+static void copy_selection(struct selection *to, const struct selection *from)
+{
+    unsigned ids = to->capacity < from->capacity ? to->capacity : from->capacity;
+    if (ids > 0) memcpy(to->bits, from->bits, ids / 8);
+}
+
 void box_begin(struct editor *editor, const struct event *event)
 {
-    struct selection *selection = &editor->selection;
     drag_begin(editor, DRAG_BOX, event);
     bool removes = event->mods & (MOD_CTRL | MOD_ALT);
     editor->drag.box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
-    if (selection->bits) memcpy(selection->before, selection->bits, selection->capacity / 8);
+    copy_selection(&editor->before_box, &editor->selection);
 }
 
 static struct rect box_rect(const struct drag *drag)
@@ -20,21 +27,15 @@ static struct rect box_rect(const struct drag *drag)
                          fabsf(drag->y - drag->start_y)};
 }
 
-/// Ids may have been given since the box was begun, never before it.
-static bool was_selected(const struct selection *selection, unsigned id)
-{
-    return id < selection->capacity && (selection->before[id / 64] >> (id % 64) & 1u);
-}
-
 void box_update(struct editor *editor, const struct editor_world *world)
 {
-    const struct spline *spline = editor_active_spline(editor, world);
+    const struct spline *spline = arrange_seen(editor, world);
     const struct rect box = box_rect(&editor->drag);
     for (int k = 0; spline && k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         double frame = document_frame(world->document, document_sample(world->document, knot->frame));
         bool inside = rect_contains(box, curves_x(editor, frame), curves_y(editor, knot->value));
-        bool before = was_selected(&editor->selection, knot->id);
+        bool before = selection_has(&editor->before_box, knot->id);
         bool selected = editor->drag.box == BOX_REPLACE ? inside
                         : editor->drag.box == BOX_ADD   ? before || inside
                                                         : before && !inside;
@@ -44,9 +45,8 @@ void box_update(struct editor *editor, const struct editor_world *world)
 
 void box_end(struct editor *editor, bool keep)
 {
-    struct selection *selection = &editor->selection;
-    if (!keep && selection->bits) memcpy(selection->bits, selection->before, selection->capacity / 8);
-    if (keep && !editor->drag.moved && editor->drag.box == BOX_REPLACE) selection_clear(selection);
+    if (!keep) copy_selection(&editor->selection, &editor->before_box);
+    if (keep && !editor->drag.moved && editor->drag.box == BOX_REPLACE) selection_clear(&editor->selection);
 }
 
 void box_show(struct editor *editor)

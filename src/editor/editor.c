@@ -37,7 +37,7 @@ void editor_destroy(struct editor *editor)
     free(editor->selection.bits);
     free(editor->hidden.bits);
     free(editor->solo.bits);
-    free(editor->selection.before);
+    free(editor->before_box.bits);
     free(editor->clipboard);
     free(editor->drag.originals);
     free(editor);
@@ -68,12 +68,9 @@ static bool reserve_selection(struct selection *selection, unsigned next_id)
 {
     if (next_id < selection->capacity) return true;
     unsigned capacity = (next_id / 512 + 2) * 512;
-    uint64_t *before = realloc(selection->before, capacity / 8);
-    if (before) selection->before = before;
-    uint64_t *bits = before ? realloc(selection->bits, capacity / 8) : NULL;
+    uint64_t *bits = realloc(selection->bits, capacity / 8);
     if (!bits) return false;
     memset((char *)bits + selection->capacity / 8, 0, (capacity - selection->capacity) / 8);
-    memset((char *)before + selection->capacity / 8, 0, (capacity - selection->capacity) / 8);
     selection->bits = bits;
     selection->capacity = capacity;
     return true;
@@ -97,6 +94,7 @@ void editor_reserve(struct editor *editor, const struct document *document)
         if (document->splines[s].knot_count > most) most = document->splines[s].knot_count;
     }
     bool enough = reserve_selection(&editor->selection, document->next_id);
+    enough &= reserve_selection(&editor->before_box, document->next_id);
     enough &= reserve_selection(&editor->hidden, document->next_spline_id);
     enough &= reserve_selection(&editor->solo, document->next_spline_id);
     if (!reserve_drag(&editor->drag, most) || !enough) {

@@ -52,7 +52,6 @@ struct view {
 /// Selected knots: one bit an id. Only knots of the active spline are ever selected.
 struct selection {
     uint64_t *bits;
-    uint64_t *before;  ///< as they were when a box was begun
     unsigned capacity; ///< ids
 };
 
@@ -274,6 +273,7 @@ struct editor {
     int active;         ///< spline, -1 where there is none
     unsigned active_id; ///< its id, by which it is found again when the list has changed
     struct selection selection;
+    struct selection before_box;   ///< the selection when a box was begun
     struct selection hidden, solo; ///< splines, by their ids
     unsigned visibility;           ///< grows whenever these change
     int seen_first, seen_substeps; ///< of the scene, which the playhead's position counts in

@@ -30,7 +30,8 @@ static const char *hover_hint(const struct editor *editor, const struct document
     case HOVER_SLOPE:
         return "Drag to turn the slope, longer to hold it more firmly; T takes it away";
     case HOVER_CURVE:
-        return editor->hover.spline == editor->active ? "Double-click to insert a knot" : "Click to edit this spline";
+        return editor->hover.spline == editor->active ? "Double-click: a knot that keeps the curve; drag: a box"
+                                                      : "Click to edit this spline";
     case HOVER_RULER:
         return "Drag to scrub; Shift+drag: play only a part, Shift+click: all again";
     case HOVER_WARNING:

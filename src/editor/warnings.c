@@ -2,6 +2,7 @@
 /// bandwidths that let the phase drift.
 #include "editor/warnings.h"
 #include "base/hash.h"
+#include "editor/arrange.h"
 #include <math.h>
 
 static const double TWO_PI = 6.283185307179586;
@@ -146,9 +147,10 @@ void warnings_find(const struct document *document, const struct evaluation *eva
 void warnings_update(struct editor *editor, const struct editor_world *world)
 {
     struct warnings *warnings = &editor->warnings;
-    uint64_t state[] = {history_revision(world->history), (uint64_t)(editor->active + 1), (uint64_t)editor->look};
+    const struct spline *spline = arrange_seen(editor, world);
+    const uint64_t state[] = {history_revision(world->history), (uint64_t)(editor->active + 1),
+                              (uint64_t)editor->look, spline != NULL};
     uint64_t key = hash_bytes(HASH_START, state, sizeof state);
-    const struct spline *spline = editor_active_spline(editor, world);
     if (key == warnings->key) return;
     warnings->count = 0;
     warnings->key = key;
