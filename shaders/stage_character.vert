@@ -22,9 +22,10 @@ out vec3 world_normal;
 out vec3 fur;
 out float open_sky;
 
-// Lightness and largest chroma of the phase map: a circle of even steps that fits into sRGB (see ui/phase_color.h).
+// Lightness and largest chroma of the phase map, and the power of the amplitude in it (see ui/phase_color.h).
 const float LIGHTNESS = 0.76;
 const float CHROMA = 0.12;
+const float SPREAD = 0.6;
 
 void add_coordinate(int row, vec2 z, inout vec3 moved, inout vec3 u, inout vec3 v)
 {
@@ -50,13 +51,14 @@ vec3 oklab(vec2 ab)
                 dot(lms, vec3(-0.0041960863, -0.7034186147, 1.7076147010)));
 }
 
-// Phase as hue, amplitude as chroma: the movement along map_axis is itself a point in the plane of both.
+// Phase as hue, amplitude as chroma: the movement along map_axis is a point in the plane of both.
 vec3 phase_color()
 {
     ivec2 at = ivec2(5 * (gl_VertexID & 127), map_row + (gl_VertexID >> 7));
     vec4 a = texelFetch(coordinates, at, 0);
     vec4 b = texelFetch(coordinates, at + ivec2(1, 0), 0);
-    return oklab(CHROMA * vec2(dot(a.xyz, map_axis), dot(vec3(a.w, b.xy), map_axis)));
+    vec2 z = vec2(dot(a.xyz, map_axis), dot(vec3(a.w, b.xy), map_axis));
+    return oklab(CHROMA * pow(max(length(z), 1e-6), SPREAD - 1.0) * z);
 }
 
 void main()

@@ -10,6 +10,8 @@ static bool has_spline(const struct inspection *in) { return editor_active_splin
 
 static bool has_tail(const struct inspection *in) { return in->document->tail_count > 0; }
 
+static bool has_character(const struct inspection *in) { return in->document->character_count > 0; }
+
 /// From the top down; `name` is what replays call the header.
 static const struct section {
     const char *name, *title;
@@ -23,6 +25,7 @@ static const struct section {
     {"section.poles", "Poles and response", inspector_poles, has_spline, true},
     {"section.knot", "Knot", inspector_knot, has_spline, false},
     {"section.tail", "Tail", inspector_tail, has_tail, false},
+    {"section.character", "Character", inspector_character, has_character, false},
     {"section.history", "History", inspector_history, NULL, true}, // the last one: see there
 };
 
@@ -76,6 +79,7 @@ static void build(struct inspection *in, struct rect area)
     build_look(in, (struct rect){area.x, area.y + view.h, area.w, FOOTER});
     inspector_palette(in);
     inspector_follow_list(in);
+    inspector_character_lists(in);
 }
 
 static struct inspection inspection_of(struct editor *editor, const struct editor_world *world)

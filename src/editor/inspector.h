@@ -23,6 +23,7 @@ void inspector_spline(struct inspection *in);
 void inspector_poles(struct inspection *in);
 void inspector_knot(struct inspection *in);
 void inspector_tail(struct inspection *in);
+void inspector_character(struct inspection *in);
 void inspector_history(struct inspection *in);
 
 /// The fields of several selected knots, below "Knot".
@@ -36,6 +37,8 @@ void inspector_follow_list(struct inspection *in);
 /// or lets go.
 void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r);
 void inspector_follow_button(struct inspection *in, enum parameter parameter, struct rect r);
+/// The lists that open over the section on a character; built after all else in the panel.
+void inspector_character_lists(struct inspection *in);
 
 /// While a drag runs: the document as it was at the press, until inspector_change() makes the edit anew.
 void inspector_take_back(struct inspection *in, enum ui_change change);

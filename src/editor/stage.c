@@ -13,9 +13,10 @@
 
 enum { FIT_STEPS = 120, BLOBS_OF_ONE_TAIL = 16, RING_SIZE = 13 };
 
-static const float GRAB_REACH = 16;            ///< pixels from the tail's centre line
-static const float CHARACTER_AZIMUTH = -1.13f; ///< radians: characters look towards +z, and are met from a bit aside
-static const double ZOOM_STEP = 0.12;          ///< of a wheel's notch, as a power of e
+static const float GRAB_REACH = 16; ///< pixels from the tail's centre line
+/// Radians. Characters look towards +z; one is met from a bit aside, a pair from the front.
+static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f;
+static const double ZOOM_STEP = 0.12; ///< of a wheel's notch, as a power of e
 
 /// Where the coordinates of a tail's position that follow splines are; 0 for the others.
 static void tail_base(const struct editor_world *world, const struct tail *tail, double position, double moved[3])
@@ -95,7 +96,8 @@ void stage_fit(struct editor *editor, const struct editor_world *world)
     editor->playback.position = shown;
     editor->camera = camera_default();
     bool any = characters_bounds(editor, world, lo, hi);
-    if (any && world->document->tail_count == 0) editor->camera.azimuth = CHARACTER_AZIMUTH;
+    if (any && world->document->tail_count == 0)
+        editor->camera.azimuth = editor->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
     if (!any && world->document->tail_count == 0) return;
     for (int k = 0; k < 2; k++) editor->stage.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
     camera_fit(&editor->camera, lo, hi, editor->layout.stage.w / editor->layout.stage.h);

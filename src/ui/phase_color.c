@@ -1,13 +1,14 @@
 #include "ui/phase_color.h"
 #include <math.h>
 
-/// The largest circle around grey that still lies in sRGB; stage_character.vert has the same.
-static const float LIGHTNESS = 0.76f, CHROMA = 0.12f;
+/// The largest circle around grey that still lies in sRGB, and the power of the amplitude that makes small movements seen;
+/// stage_character.vert has the same.
+static const float LIGHTNESS = 0.76f, CHROMA = 0.12f, SPREAD = 0.6f;
 
 /// Oklab → cube roots of cone responses → linear RGB.
 void phase_color_linear(float re, float im, float rgb[3])
 {
-    const float a = CHROMA * re, b = CHROMA * im;
+    const float chroma = CHROMA * powf(fmaxf(hypotf(re, im), 1e-6f), SPREAD - 1.0f), a = chroma * re, b = chroma * im;
     float l = LIGHTNESS + 0.3963377774f * a + 0.2158037573f * b;
     float m = LIGHTNESS - 0.1055613458f * a - 0.0638541728f * b;
     float s = LIGHTNESS - 0.0894841775f * a - 1.2914855480f * b;

@@ -1,7 +1,8 @@
 /// Colours of phases: hue says how far ahead something moves, chroma how much it moves.
 ///
 /// Hue runs evenly around a circle in Oklab, at one lightness, so equal steps of phase look equally large and no phase
-/// stands out; the movement z = re + j·im is itself the point in the plane of the circle. Nothing that stands still has a hue.
+/// stands out. The movement z = re + j·im is the point of that circle's plane at the same angle, 0.6th power of its amplitude
+/// from the middle: nothing that stands still has a hue.
 #ifndef UI_PHASE_COLOR_H
 #define UI_PHASE_COLOR_H
 
