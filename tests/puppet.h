@@ -1,0 +1,60 @@
+/// A round figure with coordinates that a test makes up.
+#ifndef TESTS_PUPPET_H
+#define TESTS_PUPPET_H
+
+#include "model/figure.h"
+#include "model/isosurface.h"
+#include "near.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static inline float puppet_distance(const float p[3])
+{
+    const float y = p[1] - 0.5f;
+    return sqrtf(p[0] * p[0] + y * y + p[2] * p[2]) - 0.5f;
+}
+
+static inline void puppet_paint(struct vertex *vertex)
+{
+    for (int k = 0; k < 3; k++) vertex->color[k] = 0.5f;
+}
+
+/// A ball of 1 m that stands on the ground, with `coordinates` coordinates called "a", "b" … whose Ñ are zero.
+static inline struct character puppet_character(float cell, int coordinates)
+{
+    const struct solid solid = {puppet_distance, puppet_paint};
+    const float lo[3] = {-0.55f, -0.05f, -0.55f}, hi[3] = {0.55f, 1.05f, 0.55f};
+    struct mesh mesh = {0};
+    struct character character;
+    isosurface(&solid, lo, hi, cell, &mesh);
+    assert_false(mesh.failed);
+    struct surface surface = {
+        .vertex_count = mesh.vertex_count, .indices = mesh.indices, .index_count = mesh.index_count};
+    surface.position = malloc((size_t)mesh.vertex_count * sizeof *surface.position);
+    assert_non_null(surface.position);
+    for (int i = 0; i < mesh.vertex_count; i++)
+        memcpy(surface.position[i], mesh.vertices[i].position, 3 * sizeof(float));
+    assert_true(character_create(&character, &surface, coordinates));
+    for (int i = 0; i < mesh.vertex_count; i++) {
+        memcpy(character.normal[i], mesh.vertices[i].normal, 3 * sizeof(float));
+        for (int k = 0; k < 3; k++) character.color[i][k] = 0.5f;
+    }
+    for (int k = 0; k < coordinates; k++) {
+        character.coordinates[k].name = strdup((const char[]){(char)('a' + k), '\0'});
+        assert_non_null(character.coordinates[k].name);
+    }
+    free(surface.position);
+    mesh_free(&mesh);
+    return character;
+}
+
+/// The figure of a character, which it takes over.
+static inline struct figure puppet_figure(struct character *character)
+{
+    struct figure figure;
+    assert_true(figure_create(&figure, character));
+    return figure;
+}
+
+#endif

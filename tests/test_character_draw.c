@@ -1,0 +1,166 @@
+/// The character's vertex shader, by what a person sees: the same picture as of a figure that already has the shape, the place
+/// or the colours that the shader should give it.
+#include "draw/gl.h"
+#include "draw/stage.h"
+#include "platform/platform.h"
+#include "puppet.h"
+#include "rig/camera.h"
+#include "ui/phase_color.h"
+
+enum { WIDTH = 500, HEIGHT = 300 };
+
+typedef unsigned char picture[HEIGHT][WIDTH][4];
+
+static struct platform *platform;
+static struct stage_renderer *renderer;
+
+static int set_up(void **state)
+{
+    (void)state;
+    struct error error = {0};
+    platform = platform_offscreen(WIDTH, HEIGHT, 1.0f, &error);
+    if (!platform) {
+        print_message("skipped: no offscreen drawing here: %s\n", error.text);
+        return 0;
+    }
+    renderer = stage_renderer_create(&error);
+    return renderer ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    if (!platform) return 0;
+    stage_renderer_destroy(renderer);
+    platform_destroy(platform);
+    return 0;
+}
+
+static struct stage_character shown(const struct figure *figure)
+{
+    return (struct stage_character){.figure = figure, .map_coordinate = -1};
+}
+
+static void draw(const struct stage_character *character, picture pixels)
+{
+    static struct stage_view view;
+    const float lo[3] = {-1, 0, -1}, hi[3] = {1, 1.5f, 1};
+    struct camera camera = camera_default();
+    long bytes = 0;
+    memset(&view, 0, sizeof view);
+    camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT);
+    camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
+    view.characters[0] = *character;
+    view.character_count = 1;
+    stage_upload(renderer, &view, &bytes);
+    stage_draw(renderer, &view, 0, 0, WIDTH, HEIGHT);
+    glReadPixels(0, 0, WIDTH, HEIGHT, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    assert_int_equal(glGetError(), GL_NO_ERROR);
+}
+
+/// Pixels that differ by more than `tolerance` in any channel.
+static int differing(const picture a, const picture b, int tolerance)
+{
+    int count = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        bool differs = false;
+        for (int k = 0; k < 3; k++)
+            differs |= abs(a[i / WIDTH][i % WIDTH][k] - b[i / WIDTH][i % WIDTH][k]) > tolerance;
+        count += differs;
+    }
+    return count;
+}
+
+static picture one, other;
+
+/// Weights work on re and im with their signs: z Ñ = (3 + 4j)(0.12 − 0.16j) = 1 moves as far as another place does; the
+/// second coordinate, at other rows of the texture, adds to it.
+static void coordinates_move_it(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    struct character character = puppet_character(0.03f, 3);
+    for (int i = 0; i < character.vertex_count; i++) {
+        character.coordinates[0].re[i][0] = 9; // not driven
+        character.coordinates[1].re[i][0] = 0.12f;
+        character.coordinates[1].im[i][0] = -0.16f;
+        character.coordinates[2].re[i][1] = 0.5f;
+    }
+    struct figure figure = puppet_figure(&character);
+    struct stage_character moved = shown(&figure), placed = shown(&figure), still = shown(&figure);
+    moved.morph = (struct morph){2, {1, 2}, {{1.5f, 2.0f}, {0.5f, 9.0f}}};
+    moved.position[0] = -0.5f;
+    placed.morph = (struct morph){1, {2}, {{0.5f, 0}}};
+    draw(&moved, one);
+    draw(&placed, other);
+    assert_true(differing(one, other, 2) < 20);
+    draw(&still, other);
+    assert_true(differing(one, other, 20) > 1000);
+    figure_free(&figure);
+}
+
+/// A ball that is stretched by its coordinate looks like one that was made so, light and all.
+static void normals_follow_on_the_stage(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    struct character soft = puppet_character(0.03f, 1), firm = puppet_character(0.03f, 0);
+    for (int i = 0; i < soft.vertex_count; i++) {
+        const float *p = soft.position[i], *n = soft.normal[i];
+        soft.coordinates[0].im[i][0] = -0.8f * p[0] - 0.5f * p[1];
+        firm.position[i][0] += 0.8f * p[0] + 0.5f * p[1];
+        // Cofactors of ((1.8, 0.5, 0), (0, 1, 0), (0, 0, 1)).
+        const float turned[3] = {n[0], 1.8f * n[1] - 0.5f * n[0], 1.8f * n[2]};
+        const float length = sqrtf(turned[0] * turned[0] + turned[1] * turned[1] + turned[2] * turned[2]);
+        for (int k = 0; k < 3; k++) firm.normal[i][k] = turned[k] / length;
+    }
+    struct figure soft_figure = puppet_figure(&soft), firm_figure = puppet_figure(&firm);
+    struct stage_character moved = shown(&soft_figure), made = shown(&firm_figure);
+    moved.morph = (struct morph){1, {0}, {{0, 1}}};
+    draw(&moved, one);
+    draw(&made, other);
+    assert_true(differing(one, other, 6) < 60);
+    figure_free(&soft_figure);
+    figure_free(&firm_figure);
+}
+
+/// The shader's phase map is the legend's.
+static void phases_are_the_legends_colours(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    struct character mapped = puppet_character(0.03f, 2), painted = puppet_character(0.03f, 0);
+    for (int i = 0; i < mapped.vertex_count; i++) {
+        const float angle = 6.0f * mapped.position[i][1], amplitude = mapped.position[i][1];
+        mapped.coordinates[1].re[i][2] = amplitude * cosf(angle);
+        mapped.coordinates[1].im[i][2] = amplitude * sinf(angle);
+    }
+    struct figure figure = puppet_figure(&mapped);
+    for (int i = 0; i < painted.vertex_count; i++) {
+        const struct coordinate *c = &figure.character.coordinates[1];
+        const float largest = figure.largest[1][2];
+        phase_color_linear(c->re[i][2] / largest, c->im[i][2] / largest, painted.color[i]);
+    }
+    struct figure painted_figure = puppet_figure(&painted);
+    struct stage_character by_shader = shown(&figure), by_hand = shown(&painted_figure);
+    by_shader.map_coordinate = 1;
+    by_shader.map_axis = 2;
+    draw(&by_shader, one);
+    draw(&by_hand, other);
+    assert_int_equal(differing(one, other, 2), 0);
+    by_shader.map_axis = 0; // nothing moves along x: grey
+    draw(&by_shader, one);
+    assert_true(differing(one, other, 20) > 1000);
+    figure_free(&figure);
+    figure_free(&painted_figure);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coordinates_move_it),
+        cmocka_unit_test(normals_follow_on_the_stage),
+        cmocka_unit_test(phases_are_the_legends_colours),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

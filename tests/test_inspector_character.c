@@ -1,0 +1,155 @@
+/// The inspector's section on a character, by mouse and keys; and the stage that shows what it says.
+#include "panel_session.h"
+#include "puppet.h"
+#include <stdio.h>
+#include <unistd.h>
+
+static char model[] = "/tmp/wiggly-test-XXXXXX";
+
+struct puppetry {
+    struct session session;
+    struct cast *cast;
+};
+
+static int make_model(void **state)
+{
+    (void)state;
+    struct error error = {0};
+    struct character character = puppet_character(0.1f, 3);
+    for (int i = 0; i < character.vertex_count; i++) {
+        character.coordinates[0].re[i][1] = 0.2f;
+        character.coordinates[1].im[i][0] = 0.3f;
+    }
+    character.coordinates[0].frequency = 1.25;
+    close(mkstemp(model));
+    bool written = character_write(model, &character, &error);
+    character_free(&character);
+    return written ? 0 : -1;
+}
+
+static int remove_model(void **state)
+{
+    (void)state;
+    unlink(model);
+    return 0;
+}
+
+static void open_puppet(struct puppetry *p)
+{
+    char scene[600];
+    struct error error = {0};
+    snprintf(scene, sizeof scene,
+             "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": "
+             "[{\"frame\": 0, \"value\": 1}, {\"frame\": 20, \"value\": -1}]}, {\"name\": \"t\", \"knots\": "
+             "[{\"frame\": 9, \"value\": 2}]}], \"rigs\": [{\"type\": \"character\", \"model\": \"%s\", "
+             "\"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}]}",
+             model);
+    panel_open(&p->session, scene, 1280, 1400);
+    p->cast = cast_create();
+    if (!cast_update(p->cast, p->session.document, &error)) fail_msg("%s", error.text);
+    p->session.world.cast = p->cast;
+    editor_open(p->session.editor, &p->session.world);
+    session_frame(&p->session);
+}
+
+static void close_puppet(struct puppetry *p)
+{
+    session_close(&p->session);
+    cast_destroy(p->cast);
+}
+
+static const struct stage_character *on_stage(const struct puppetry *p, int index)
+{
+    const struct stage_view *view = editor_stage(p->session.editor);
+    assert_true(index < view->character_count);
+    return &view->characters[index];
+}
+
+static void amplitude_and_lag_are_live_and_one_step_each(void **state)
+{
+    (void)state;
+    struct puppetry p;
+    open_puppet(&p);
+    const struct drive *drive = &p.session.document->characters[0].drives[0];
+    const float before = on_stage(&p, 0)->morph.weight[0][0];
+    panel_drag(&p.session, "amplitude", 1.5);
+    assert_true(fabs(drive->amplitude - 1.5) < 0.05);
+    assert_near((double)on_stage(&p, 0)->morph.weight[0][0], (double)before * drive->amplitude, 1e-4);
+    panel_release(&p.session);
+    panel_enter(&p.session, "drive.lag", "90");
+    assert_near(drive->lag, 90, 0);
+    assert_true(history_undo(p.session.history, p.session.document));
+    assert_near(drive->lag, 0, 0);
+    assert_true(history_undo(p.session.history, p.session.document));
+    assert_near(drive->amplitude, 1, 0);
+    assert_false(history_undo(p.session.history, p.session.document));
+    close_puppet(&p);
+}
+
+static void coordinates_come_and_go_and_change_their_spline(void **state)
+{
+    (void)state;
+    struct puppetry p;
+    open_puppet(&p);
+    const struct character_rig *rig = &p.session.document->characters[0];
+    panel_click(&p.session, "drive.add");
+    panel_click(&p.session, "item.b");
+    assert_int_equal(rig->drive_count, 2);
+    assert_string_equal(rig->drives[1].name, "b");
+    panel_click(&p.session, "drive.1");
+    panel_click(&p.session, "drive.splines");
+    panel_click(&p.session, "item.t");
+    assert_int_equal(rig->drives[1].spline, 1);
+    assert_int_equal(rig->drives[0].spline, 0);
+    assert_int_equal(on_stage(&p, 0)->morph.count, 2);
+    panel_click(&p.session, "drive.0.remove");
+    assert_int_equal(rig->drive_count, 1);
+    assert_string_equal(rig->drives[0].name, "b");
+    while (history_undo(p.session.history, p.session.document)) continue;
+    assert_int_equal(rig->drive_count, 1);
+    assert_string_equal(rig->drives[0].name, "a");
+    close_puppet(&p);
+}
+
+static void phases_and_twin_are_views(void **state)
+{
+    (void)state;
+    struct puppetry p;
+    open_puppet(&p);
+    assert_int_equal(on_stage(&p, 0)->map_coordinate, -1);
+    panel_click(&p.session, "phases.z");
+    session_frame(&p.session);
+    assert_int_equal(on_stage(&p, 0)->map_coordinate, 0);
+    assert_int_equal(on_stage(&p, 0)->map_axis, 2);
+    panel_click(&p.session, "twin.on");
+    session_frame(&p.session);
+    assert_int_equal(editor_stage(p.session.editor)->character_count, 2);
+    assert_true(on_stage(&p, 0)->coarse && on_stage(&p, 1)->coarse);
+    assert_true(on_stage(&p, 1)->position[0] - on_stage(&p, 0)->position[0] > 1.0f);
+    assert_near((double)on_stage(&p, 1)->morph.weight[0][1], 0, 0);
+    assert_true(history_is_saved(p.session.history) || history_undo_label(p.session.history) == NULL);
+    close_puppet(&p);
+}
+
+static void the_look_is_stiff_for_characters_too(void **state)
+{
+    (void)state;
+    struct puppetry p;
+    open_puppet(&p);
+    session_key(&p.session, KEY_RIGHT, 0);
+    assert_true(fabsf(on_stage(&p, 0)->morph.weight[0][1]) > 1e-3f);
+    session_key(&p.session, 'V', 0);
+    assert_near((double)on_stage(&p, 0)->morph.weight[0][1], 0, 0);
+    close_puppet(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(amplitude_and_lag_are_live_and_one_step_each),
+        cmocka_unit_test(coordinates_come_and_go_and_change_their_spline),
+        cmocka_unit_test(phases_and_twin_are_views),
+        cmocka_unit_test(the_look_is_stiff_for_characters_too),
+    };
+    return cmocka_run_group_tests(tests, make_model, remove_model);
+}

@@ -1,0 +1,287 @@
+/// Soft characters: equations 29 and 30, normals, the coarse mesh, phases as colours, and models that are not there.
+#include "puppet.h"
+#include "rig/cast.h"
+#include "rig/morph.h"
+#include "scene/load.h"
+#include "ui/phase_color.h"
+#include <complex.h>
+#include <stdio.h>
+#include <unistd.h>
+
+/// Every vertex moves in its own way.
+static void stir(struct character *character)
+{
+    for (int k = 0; k < character->coordinate_count; k++) {
+        for (int i = 0; i < 3 * character->vertex_count; i++) {
+            character->coordinates[k].re[i / 3][i % 3] = sinf((float)(7 * i + 3 * k));
+            character->coordinates[k].im[i / 3][i % 3] = cosf((float)(5 * i - 2 * k));
+        }
+    }
+}
+
+/// D(j) = Re(Σ A_k e^{−j·lag_k} x_k Ñ_{k,j}), computed as it is written.
+static void positions_are_those_of_equation_30(void **state)
+{
+    (void)state;
+    struct character character = puppet_character(0.2f, 3);
+    stir(&character);
+    struct figure figure = puppet_figure(&character);
+    const struct character_rig rig = {
+        .drives = {{.name = "c", .amplitude = 0.7, .lag = 40}, {.name = "a", .amplitude = -1.5, .lag = -100}},
+        .drive_count = 2};
+    const wiggly_value x[] = {{0.25, 0.6, -0.9}, {0, -0.3, 0.4}};
+    const double complex value[] = {0.25 + cexp(-I * 40 * M_PI / 180) * (0.6 - 0.9 * I),
+                                    cexp(I * 100 * M_PI / 180) * (-0.3 + 0.4 * I)};
+    struct morph morph;
+    pose_character(&rig, &figure, x, LOOK_WIGGLY, &morph);
+    assert_int_equal(morph.count, 2);
+    for (int i = 0; i < figure.character.vertex_count; i++) {
+        float p[3];
+        morph_vertex(&figure, &morph, i, p, NULL);
+        for (int k = 0; k < 3; k++) {
+            const struct coordinate *c = &figure.character.coordinates[2], *a = &figure.character.coordinates[0];
+            const double complex sum = 0.7 * value[0] * ((double)c->re[i][k] + I * (double)c->im[i][k]) -
+                                       1.5 * value[1] * ((double)a->re[i][k] + I * (double)a->im[i][k]);
+            assert_near((double)p[k], (double)figure.character.position[i][k] + creal(sum), 1e-5);
+        }
+    }
+    figure_free(&figure);
+}
+
+/// What moves a quarter of a swing behind the spline has no real part at all: without its phase it stands still.
+static void real_parts_alone_lose_what_lags(void **state)
+{
+    (void)state;
+    struct character character = puppet_character(0.2f, 1);
+    for (int i = 0; i < character.vertex_count; i++) character.coordinates[0].im[i][1] = -1.0f;
+    struct figure figure = puppet_figure(&character);
+    const struct character_rig rig = {.drives = {{.name = "a", .amplitude = 1}}, .drive_count = 1};
+    for (int frame = 0; frame < 24; frame++) {
+        const double t = 2 * M_PI * frame / 24;
+        const wiggly_value x = {0, cos(t), sin(t)};
+        struct morph wiggly, stiff;
+        float with[3], without[3];
+        pose_character(&rig, &figure, &x, LOOK_WIGGLY, &wiggly);
+        pose_character(&rig, &figure, &x, LOOK_STIFF, &stiff);
+        morph_vertex(&figure, &wiggly, 0, with, NULL);
+        morph_vertex(&figure, &stiff, 0, without, NULL);
+        assert_near((double)(with[1] - figure.character.position[0][1]), sin(t), 1e-6);
+        assert_near((double)without[1], (double)figure.character.position[0][1], 0);
+    }
+    figure_free(&figure);
+}
+
+static void cofactors_times(double m[3][3], const float n[3], double out[3])
+{
+    double length = 0;
+    for (int r = 0; r < 3; r++) {
+        out[r] = 0;
+        for (int c = 0; c < 3; c++) {
+            const int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+            out[r] += (m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1]) * (double)n[c];
+        }
+        length += out[r] * out[r];
+    }
+    for (int r = 0; r < 3; r++) out[r] /= sqrt(length);
+}
+
+/// A deformation that is linear in space has the cofactors of 1 + Re(z M) everywhere: stretched, sheared and squeezed.
+static void normals_follow_the_deformation(void **state)
+{
+    (void)state;
+    static const float re[3][3] = {{0.5f, 0.3f, 0}, {0, 0.8f, -0.2f}, {0.1f, 0, -0.4f}};
+    static const float im[3][3] = {{0, -0.4f, 0.2f}, {0.3f, 0, 0}, {0, 0.5f, 0.1f}};
+    struct character character = puppet_character(0.04f, 1);
+    for (int i = 0; i < 9 * character.vertex_count; i++) {
+        const int v = i / 9, r = i % 9 / 3, c = i % 3;
+        character.coordinates[0].re[v][r] += re[r][c] * character.position[v][c];
+        character.coordinates[0].im[v][r] += im[r][c] * character.position[v][c];
+    }
+    struct figure figure = puppet_figure(&character);
+    const struct morph morph = {.count = 1, .weight = {{0.8f, -0.6f}}};
+    double m[3][3];
+    for (int i = 0; i < 9; i++)
+        m[i / 3][i % 3] = (i % 4 == 0) + 0.8 * (double)re[i / 3][i % 3] + 0.6 * (double)im[i / 3][i % 3];
+    for (int i = 0; i < figure.character.vertex_count; i++) {
+        float p[3], n[3];
+        double expected[3];
+        morph_vertex(&figure, &morph, i, p, n);
+        cofactors_times(m, figure.character.normal[i], expected);
+        double cosine = 0;
+        for (int k = 0; k < 3; k++) cosine += expected[k] * (double)n[k];
+        assert_near(cosine, 1.0, 0.002); // 3.6°
+    }
+    figure_free(&figure);
+}
+
+/// Twice the fine mesh' size is too much for two: the coarse one is as round, as closed, and uses the same vertices.
+static void the_coarse_mesh_is_the_same_surface(void **state)
+{
+    (void)state;
+    struct character character = puppet_character(0.017f, 1);
+    struct figure figure = puppet_figure(&character);
+    const struct character *c = &figure.character;
+    assert_true(c->index_count > 3 * 20000);
+    assert_in_range(figure.coarse_count, 3 * 9000, 3 * FIGURE_COARSE);
+    char *used = calloc((size_t)c->vertex_count, 1);
+    double volume = 0;
+    for (int t = 0; t < figure.coarse_count; t += 3) {
+        const uint32_t *v = figure.coarse + t;
+        const float *p = c->position[v[0]], *q = c->position[v[1]], *r = c->position[v[2]];
+        volume += (double)(p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
+                           p[2] * (q[0] * r[1] - q[1] * r[0])) /
+                  6;
+        for (int k = 0; k < 3; k++) used[v[k]] = 1;
+    }
+    int vertices = 0;
+    for (int i = 0; i < c->vertex_count; i++) vertices += used[i];
+    assert_int_equal(vertices - figure.coarse_count / 6, 2); // V − E + F of a ball, E = 3F/2
+    assert_near(volume, M_PI / 6, 0.005 * M_PI / 6);
+    free(used);
+    figure_free(&figure);
+}
+
+static void a_figure_knows_where_it_stands(void **state)
+{
+    (void)state;
+    struct character character = puppet_character(0.05f, 2);
+    for (int i = 0; i < character.vertex_count; i++) {
+        character.coordinates[1].re[i][2] = 3 * character.position[i][1];
+        character.coordinates[1].im[i][2] = 4 * character.position[i][1];
+    }
+    struct figure figure = puppet_figure(&character);
+    assert_near((double)figure.lo[1], 0, 0.01);
+    assert_near((double)figure.hi[1], 1, 0.01);
+    assert_true(figure.soles[0].radius > 0 && figure.soles[0].radius < 0.5f);
+    assert_near((double)figure.largest[1][2], 5, 0.05);
+    assert_near((double)figure.largest[0][2], 0, 0);
+    assert_int_equal(figure_find(&figure, "b"), 1);
+    assert_int_equal(figure_find(&figure, "c"), -1);
+    figure_free(&figure);
+}
+
+/// Oklab of a linear colour, from the definition.
+static void oklab_of(const float rgb[3], double lab[3])
+{
+    static const double to_lms[3][3] = {{0.4122214708, 0.5363325363, 0.0514459929},
+                                        {0.2119034982, 0.6806995451, 0.1073969566},
+                                        {0.0883024619, 0.2817188376, 0.6299787005}};
+    static const double to_lab[3][3] = {{0.2104542553, 0.7936177850, -0.0040720468},
+                                        {1.9779984951, -2.4285922050, 0.4505937099},
+                                        {0.0259040371, 0.7827717662, -0.8086757660}};
+    double lms[3];
+    for (int r = 0; r < 3; r++) {
+        lms[r] = 0;
+        for (int c = 0; c < 3; c++) lms[r] += to_lms[r][c] * (double)rgb[c];
+        lms[r] = cbrt(lms[r]);
+    }
+    for (int r = 0; r < 3; r++) lab[r] = to_lab[r][0] * lms[0] + to_lab[r][1] * lms[1] + to_lab[r][2] * lms[2];
+}
+
+static void the_phase_map_is_even_and_cyclic(void **state)
+{
+    (void)state;
+    double before[3] = {0};
+    for (int i = 0; i <= 360; i++) {
+        const float angle = (float)(i * M_PI / 180);
+        float rgb[3];
+        double lab[3];
+        phase_color_linear(cosf(angle), sinf(angle), rgb);
+        for (int k = 0; k < 3; k++) assert_true(rgb[k] >= 0.0f && rgb[k] <= 1.0f);
+        oklab_of(rgb, lab);
+        assert_near(lab[0], 0.76, 1e-4);
+        assert_near(remainder(atan2(lab[2], lab[1]) - (double)angle, 2 * M_PI), 0, 1e-3);
+        const double step = hypot(lab[1] - before[1], lab[2] - before[2]);
+        if (i > 0) assert_near(step, 0.12 * 2 * sin(M_PI / 360), 1e-4);
+        memcpy(before, lab, sizeof before);
+    }
+    const uint32_t still = phase_color(0, 0);
+    assert_int_equal(still >> 24, still >> 16 & 0xFF);
+    assert_int_equal(still >> 24, still >> 8 & 0xFF);
+}
+
+static struct document *scene_with(const char *model)
+{
+    char text[512];
+    struct error error = {0};
+    snprintf(
+        text, sizeof text,
+        "{\"wiggly\": 1, \"frames\": [0, 9], \"splines\": [{\"name\": \"s\", \"knots\": []}], \"rigs\": [{\"type\": "
+        "\"character\", \"model\": \"%s\", \"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}, {\"name\": "
+        "\"z\", \"spline\": \"s\"}]}]}",
+        model);
+    struct document *document = scene_parse("scene.json", text, strlen(text), NULL, &error);
+    if (!document) fail_msg("%s", error.text);
+    return document;
+}
+
+/// The scene stays as it is; one sentence says what is the matter.
+static void a_model_that_is_missing_or_broken_is_said(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/wiggly-test-XXXXXX";
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    assert_int_equal(write(file, "glTF, but not really", 20), 20);
+    close(file);
+    static const char *const sentences[] = {"/nowhere/at-all.glb: ", "/tmp/wiggly-test-"};
+    const char *const models[] = {"/nowhere/at-all.glb", path};
+    for (int i = 0; i < 2; i++) {
+        struct document *document = scene_with(models[i]);
+        struct cast *cast = cast_create();
+        struct error error = {0};
+        assert_false(cast_update(cast, document, &error));
+        assert_int_equal(strncmp(error.text, sentences[i], strlen(sentences[i])), 0);
+        assert_null(cast_figure(cast, 0));
+        assert_string_equal(document->characters[0].model, models[i]);
+        cast_destroy(cast);
+        document_destroy(document);
+    }
+    unlink(path);
+}
+
+/// A coordinate that the model lacks is said, and what it has moves; a file that was written anew is read anew.
+static void a_model_is_read_once_and_again_when_it_changes(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/wiggly-test-XXXXXX";
+    close(mkstemp(path));
+    struct character character = puppet_character(0.2f, 1), finer = puppet_character(0.1f, 1);
+    struct document *document = scene_with(path);
+    struct cast *cast = cast_create();
+    struct error error = {0};
+    char sentence[256];
+    assert_true(character_write(path, &character, &error));
+    assert_false(cast_update(cast, document, &error));
+    snprintf(sentence, sizeof sentence, "%s: expected a coordinate called \"z\", got others, such as a", path);
+    assert_string_equal(error.text, sentence);
+    const struct figure *figure = cast_figure(cast, 0);
+    assert_non_null(figure);
+    const uint64_t id = figure->id;
+    cast_update(cast, document, &error);
+    assert_true(cast_figure(cast, 0)->id == id);
+    assert_true(character_write(path, &finer, &error));
+    cast_update(cast, document, &error);
+    assert_true(cast_figure(cast, 0)->id != id);
+    assert_int_equal(cast_figure(cast, 0)->character.vertex_count, finer.vertex_count);
+    unlink(path);
+    cast_destroy(cast);
+    document_destroy(document);
+    character_free(&character);
+    character_free(&finer);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(positions_are_those_of_equation_30),
+        cmocka_unit_test(real_parts_alone_lose_what_lags),
+        cmocka_unit_test(normals_follow_the_deformation),
+        cmocka_unit_test(the_coarse_mesh_is_the_same_surface),
+        cmocka_unit_test(a_figure_knows_where_it_stands),
+        cmocka_unit_test(the_phase_map_is_even_and_cyclic),
+        cmocka_unit_test(a_model_that_is_missing_or_broken_is_said),
+        cmocka_unit_test(a_model_is_read_once_and_again_when_it_changes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
