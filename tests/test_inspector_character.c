@@ -92,12 +92,12 @@ static void coordinates_come_and_go_and_change_their_spline(void **state)
     struct puppetry p;
     open_puppet(&p);
     const struct character_rig *rig = &p.session.document->characters[0];
-    panel_click(&p.session, "drive.add");
+    panel_click(&p.session, "drive.add.0");
     panel_click(&p.session, "item.b");
     assert_int_equal(rig->drive_count, 2);
     assert_string_equal(rig->drives[1].name, "b");
     panel_click(&p.session, "drive.1");
-    panel_click(&p.session, "drive.splines");
+    panel_click(&p.session, "drive.splines.0");
     panel_click(&p.session, "item.t");
     assert_int_equal(rig->drives[1].spline, 1);
     assert_int_equal(rig->drives[0].spline, 0);

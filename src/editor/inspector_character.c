@@ -1,5 +1,6 @@
 /// The inspector's section on a soft character: what moves each of its coordinates, and how it is looked at.
 #include "editor/actions.h"
+#include "editor/arrange.h"
 #include "editor/inspector.h"
 #include "rig/cast.h"
 #include <stdio.h>
@@ -46,7 +47,7 @@ static void build_drives(struct inspection *in, const struct character_rig *rig)
         snprintf(text, sizeof text, "%.60s, by %.60s", drive->name, in->document->splines[drive->spline].name);
         r.w -= r.h + 4;
         if (ui_hovered(ui, r)) ui->hint = "A way in which this character swings";
-        const uint32_t color = theme_spline_color[drive->spline % THEME_SPLINE_COLORS];
+        const uint32_t color = arrange_color(in->document, drive->spline);
         if (ui_list_row(ui, r, name, text, color, k == in->editor->characters.drive))
             in->editor->characters.drive = k;
         if (ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Stop moving the character in this way")) {
@@ -94,7 +95,7 @@ static void build_numbers(struct inspection *in, const struct drive *drive)
 static void build_spline(struct inspection *in, const struct drive *drive)
 {
     struct rect r = inspector_labelled(in, "spline");
-    const uint32_t color = theme_spline_color[drive->spline % THEME_SPLINE_COLORS];
+    const uint32_t color = arrange_color(in->document, drive->spline);
     if (ui_hovered(in->ui, r)) in->ui->hint = "The spline that this coordinate swings by";
     ui_dropdown(in->ui, r, spline_list, 0, in->document->splines[drive->spline].name, color);
 }
@@ -185,7 +186,7 @@ static void spline_popup(struct inspection *in, const struct drive *drive)
     int count = 0;
     for (; count < in->document->spline_count && count < MAX_ITEMS; count++) {
         const char *name = in->document->splines[count].name;
-        items[count] = (struct ui_item){name, name, theme_spline_color[count % THEME_SPLINE_COLORS]};
+        items[count] = (struct ui_item){name, name, arrange_color(in->document, count)};
     }
     struct drive next = *drive;
     next.spline = ui_popup_list(in->ui, spline_list, items, count, drive->spline);
