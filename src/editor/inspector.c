@@ -8,7 +8,10 @@ enum { FOOTER = 40 }; ///< height of the look switch, which never scrolls away
 
 static bool has_spline(const struct inspection *in) { return editor_active_spline(in->editor, in->world) != NULL; }
 
-static bool has_tail(const struct inspection *in) { return in->document->tail_count > 0; }
+static bool has_tail(const struct inspection *in)
+{
+    return in->document->tail_count > 0 || in->document->character_count == 0;
+}
 
 static bool has_character(const struct inspection *in) { return in->document->character_count > 0; }
 
@@ -80,6 +83,8 @@ static void build(struct inspection *in, struct rect area)
     inspector_palette(in);
     inspector_follow_list(in);
     inspector_character_lists(in);
+    inspector_feed_list(in);
+    inspector_place_list(in);
 }
 
 static struct inspection inspection_of(struct editor *editor, const struct editor_world *world)

@@ -32,6 +32,9 @@ void inspector_knots(struct inspection *in);
 /// What opens over the panel, built after all else: the palette of the list of splines, the list of splines to follow.
 void inspector_palette(struct inspection *in);
 void inspector_follow_list(struct inspection *in);
+/// The list of splines that may bend a tail, and the one that its body may follow.
+void inspector_feed_list(struct inspection *in);
+void inspector_place_list(struct inspection *in);
 
 /// A row in which a parameter follows a spline, in place of its slider; and the button at its right that lets it follow one
 /// or lets go.

@@ -1,0 +1,170 @@
+/// The inspector's section on tails: every part of a tail set by hand, each a step that undo takes back byte by byte.
+#include "panel_session.h"
+
+#include <math.h>
+
+static const char scene[] =
+    "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"knots\": [{\"frame\": 0, \"value\": 0.5}]}, "
+    "{\"name\": "
+    "\"walk\", \"knots\": [{\"frame\": 0, \"value\": 0.25}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", "
+    "\"joints\": 4, "
+    "\"position\": [0, 0.26, 0], \"channels\": [{\"spline\": \"sway\", \"lag\": 6, \"gain\": 5}]}]}";
+
+static char *text_of(const struct session *s)
+{
+    size_t size;
+    return scene_print(s->document, &size);
+}
+
+static const struct tail *tail(const struct session *s) { return &s->document->tails[0]; }
+
+/// Everything is in reach on a tall screen.
+static char *open_tall(struct session *s)
+{
+    panel_open(s, scene, 1280, 1600);
+    return text_of(s);
+}
+
+static void close_undone(struct session *s, char *before)
+{
+    while (history_undo_label(s->history)) session_key(s, 'Z', MOD_CTRL);
+    char *after = text_of(s);
+    assert_string_equal(after, before);
+    free(after);
+    free(before);
+    session_close(s);
+}
+
+static void test_place_and_size(void **state)
+{
+    (void)state;
+    struct session s;
+    char *before = open_tall(&s);
+    panel_enter(&s, "position.x", "0.5");
+    assert_near(tail(&s)->position[0].value, 0.5, 0);
+    panel_enter(&s, "length", "2");
+    assert_near(tail(&s)->length, 2, 0);
+    panel_enter(&s, "joints", "8");
+    assert_int_equal(tail(&s)->joints, 8);
+    assert_near(tail(&s)->channels[0].gain.value[0], 2.5, 0);
+    panel_drag(&s, "joints", 20);
+    panel_drag(&s, "joints", 16);
+    panel_release(&s);
+    assert_near(tail(&s)->channels[0].gain.value[0], 1.25, 0); // from 8, whatever lay between
+    panel_click(&s, "position.z.follow");
+    panel_click(&s, "item.walk");
+    assert_int_equal(tail(&s)->position[2].track, 1);
+    assert_near(editor_stage(s.editor)->tails[0].pose.matrix[0][14], 0.25, 1e-6);
+    panel_click(&s, "position.z.follow");
+    assert_int_equal(tail(&s)->position[2].track, -1);
+    assert_near(tail(&s)->position[2].value, 0.25, 1e-3); // stays where it was
+    close_undone(&s, before);
+}
+
+static void test_channels(void **state)
+{
+    (void)state;
+    struct session s;
+    char *before = open_tall(&s);
+    panel_click(&s, "axis.up");
+    panel_click(&s, "part.displacement");
+    assert_int_equal(tail(&s)->channels[0].axis, AXIS_UP);
+    assert_int_equal(tail(&s)->channels[0].of, PART_DISPLACEMENT);
+    panel_click(&s, "feed.0");
+    panel_click(&s, "item.walk");
+    assert_int_equal(tail(&s)->channels[0].spline, 1);
+    panel_click(&s, "channel.add");
+    assert_int_equal(tail(&s)->channel_count, 2);
+    assert_int_equal(tail(&s)->channels[1].spline, s.editor->active);
+    assert_int_equal(s.editor->inspector.channel, 1);
+    panel_click(&s, "channel.0");
+    panel_click(&s, "channel.delete");
+    assert_int_equal(tail(&s)->channel_count, 1);
+    panel_click(&s, "channel.delete");
+    assert_int_equal(tail(&s)->channel_count, 0);
+    assert_false(panel_shows(&s, "gain"));
+    close_undone(&s, before);
+}
+
+static void test_angles_one_for_each_joint(void **state)
+{
+    (void)state;
+    struct session s;
+    char *before = open_tall(&s);
+    panel_click(&s, "lag.each");
+    for (int n = 0; n < 4; n++) assert_near(tail(&s)->channels[0].lag.value[n], 6 * n, 1e-9);
+    panel_enter(&s, "lag.last", "24");
+    for (int n = 0; n < 4; n++) assert_near(tail(&s)->channels[0].lag.value[n], 8 * n, 1e-9);
+    panel_click(&s, "lag.each");
+    assert_false(tail(&s)->channels[0].lag.each);
+    assert_near(tail(&s)->channels[0].lag.value[0], 8, 1e-9);
+    panel_click(&s, "gain.each");
+    panel_click(&s, "gain.list");
+    session_key(&s, 'A', MOD_CTRL);
+    panel_type(&s, "1, 2 3.5,-4");
+    session_key(&s, KEY_ENTER, 0);
+    const double typed[] = {1, 2, 3.5, -4};
+    for (int n = 0; n < 4; n++) assert_near(tail(&s)->channels[0].gain.value[n], typed[n], 0);
+    char *good = text_of(&s);
+    panel_click(&s, "gain.list");
+    session_key(&s, 'A', MOD_CTRL);
+    panel_type(&s, "1, 2, x");
+    session_key(&s, KEY_ENTER, 0);
+    assert_string_equal(s.editor->message.text, "gain: expected one number for each of the 4 joints.");
+    char *kept = text_of(&s);
+    assert_string_equal(kept, good);
+    free(kept);
+    free(good);
+    panel_click(&s, "rest.each");
+    assert_true(tail(&s)->rest.each);
+    close_undone(&s, before);
+}
+
+static void test_tails(void **state)
+{
+    (void)state;
+    struct session s;
+    char *before = open_tall(&s);
+    panel_click(&s, "tail.name");
+    session_key(&s, 'A', MOD_CTRL);
+    panel_type(&s, "brush");
+    session_key(&s, KEY_ENTER, 0);
+    assert_string_equal(tail(&s)->name, "brush");
+    panel_click(&s, "tail.add");
+    assert_int_equal(s.document->tail_count, 2);
+    assert_int_equal(editor_stage(s.editor)->tail_count, 2);
+    assert_int_equal(s.editor->inspector.tail, 1);
+    panel_click(&s, "tail.delete");
+    panel_click(&s, "tail.delete");
+    assert_int_equal(s.document->tail_count, 0);
+    assert_int_equal(editor_stage(s.editor)->tail_count, 0);
+    panel_click(&s, "tail.add");
+    assert_int_equal(s.document->tail_count, 1);
+    close_undone(&s, before);
+}
+
+/// View state is no edit.
+static void test_toggles(void **state)
+{
+    (void)state;
+    struct session s;
+    char *before = open_tall(&s);
+    panel_click(&s, "onion");
+    panel_click(&s, "trail");
+    panel_click(&s, "record");
+    assert_true(s.editor->overlays.onion && s.editor->overlays.trail && s.editor->record.armed);
+    assert_null(history_undo_label(s.history));
+    close_undone(&s, before);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_place_and_size),
+        cmocka_unit_test(test_channels),
+        cmocka_unit_test(test_angles_one_for_each_joint),
+        cmocka_unit_test(test_tails),
+        cmocka_unit_test(test_toggles),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
