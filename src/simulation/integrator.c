@@ -138,8 +138,9 @@ static void assemble(struct integrator *m, const struct scheme *scheme)
 /// dᵀ∇ of the potential, d being the Newton step: below zero where it leads down.
 static double slope_along(const struct integrator *m)
 {
+    const double *direction = *m->work->direction, *downhill = *m->work->downhill;
     double slope = 0;
-    for (int i = 0; i < 3 * m->body->node_count; i++) slope -= (*m->work->direction)[i] * (*m->work->downhill)[i];
+    for (int i = 0; i < 3 * m->body->node_count; i++) slope -= direction[i] * downhill[i];
     return slope;
 }
 
@@ -154,7 +155,8 @@ static double search(struct integrator *m, const struct scheme *scheme, double *
     double largest = 0, before = *energy, slope = slope_along(m), part = 1, taken = 0;
     for (int i = 0; i < m->body->node_count; i++) largest = fmax(largest, vec3_length(w->direction[i]));
     for (int halving = 0; halving < HALVINGS_MAX; halving++, part /= 2) {
-        for (int i = 0; i < 3 * m->body->node_count; i++) (*w->y)[i] += (part - taken) * (*w->direction)[i];
+        for (int i = 0; i < 3 * m->body->node_count; i++)
+            w->y[i / 3][i % 3] += (part - taken) * w->direction[i / 3][i % 3];
         if (largest <= m->tolerance) return largest;
         taken = part;
         *energy = evaluate(m, scheme, (const double(*)[3])w->y);
