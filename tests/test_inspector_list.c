@@ -143,6 +143,7 @@ static void test_renaming(void **state)
     session_key(&f, KEY_ENTER, 0);
     assert_string_equal(f.document->splines[0].name, "swing");
     assert_one_step(&f, before);
+    panel_click(&f, "section.splines"); // F2 opens the list again
     session_key(&f, KEY_F2, 0);
     panel_type(&f, "pace");
     session_key(&f, KEY_ENTER, 0);

@@ -40,7 +40,7 @@ static void build(struct panel *p)
 {
     struct ui *ui = &p->ui;
     struct ui_item items[ITEMS];
-    char labels[ITEMS][8];
+    char labels[ITEMS][12];
     ui_value(ui, ui_row(ui, UI_ROW), &speed_number, &p->speed);
     if (ui_icon_button(ui, (struct rect){1200, 30, 24, 24}, "eye", UI_ICON_EYE, false, "See")) p->pressed++;
     build_rows(p);

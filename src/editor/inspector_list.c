@@ -11,7 +11,10 @@ static const char rename_line[] = "rename";
 void inspector_rename(struct editor *editor, const struct editor_world *world)
 {
     const struct spline *spline = editor_active_spline(editor, world);
-    if (spline) ui_line_begin(&editor->inspector.ui, rename_line, spline->name);
+    if (!spline) return;
+    inspector_unfold(editor, "section.splines");
+    editor->inspector.scroll.offset = 0; // the list is near the top
+    ui_line_begin(&editor->inspector.ui, rename_line, spline->name);
 }
 
 static void flip(struct editor *editor, struct selection *set, unsigned id)
