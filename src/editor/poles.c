@@ -36,7 +36,7 @@ void poles_fit(struct poles_view *view, const struct pole_setting *setting)
     static const double nice[] = {1, 1.5, 2, 3, 4, 6, 8, 10};
     double wanted = fmax(0.05, 1.3 * setting->hz * (1 + setting->bandwidth)), decade = pow(10, floor(log10(wanted)));
     int i = 0;
-    while (nice[i] * decade < wanted && i < 7) i++;
+    while (i < 7 && nice[i] * decade < wanted) i++;
     view->reach = nice[i] * decade;
     view->top = setting->damping > 1 ? 3 : 1;
 }
