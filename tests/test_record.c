@@ -33,6 +33,7 @@ static void test_few_knots_keep_to_the_way(void **state)
     assert_int_equal(knots[0], 0);
     assert_int_equal(knots[made - 1], COUNT - 1);
     for (int i = 1; i < made; i++) assert_true(knots[i] > knots[i - 1]);
+    assert_true(knots[1] > 1 && knots[made - 2] < COUNT - 2); // beside the ends a knot would take their slope away
     for (int i = 0; i < COUNT; i++) way[i] = 0.5;
     assert_int_equal(record_simplify(way, COUNT, 0.004, knots, CAPACITY), 2);
     for (int i = 0; i < COUNT; i++) way[i] = i % 2; // a hand that trembles: no more than there is room for

@@ -61,12 +61,13 @@ static bool solve_through(wiggly_solver *solver, const double *values, int count
     return wiggly_solve(solver, &desc, &curve) < WIGGLY_ERROR_ARGUMENT;
 }
 
-/// The sample at which two curves are farthest apart, and how far.
+/// The sample at which two curves are farthest apart, and how far. Neighbours of the ends are left out: a knot there would take
+/// the end's slope away.
 static int farthest(const double *a, const double *b, int count, double *distance)
 {
     int at = 0;
     *distance = 0;
-    for (int i = 0; i < count; i++) {
+    for (int i = 2; i < count - 2; i++) {
         double d = fabs(a[i] - b[i]);
         if (d > *distance) *distance = d, at = i;
     }

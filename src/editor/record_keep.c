@@ -118,8 +118,8 @@ static int key_coordinate(struct editor *editor, const struct editor_world *worl
         put_knot(editor, world, spline, record->first + knots[i], from[knots[i]], i == 0 || i == made - 1);
     }
     if (before.track >= 0 || made == 0) return spline;
-    if (!loop && record->first > 0) put_knot(editor, world, spline, 0, from[0], true);
-    if (!loop && record->first + count - 1 < last) put_knot(editor, world, spline, last, from[count - 1], true);
+    if (!loop && record->first > 1) put_knot(editor, world, spline, 0, from[0], true);
+    if (!loop && record->first + count < last) put_knot(editor, world, spline, last, from[count - 1], true);
     struct edit edit = editor_edit_of(EDIT_POSITION, 0);
     edit.tail = editor->body.tail;
     edit.coordinate = coordinate;
