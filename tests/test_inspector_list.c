@@ -311,6 +311,67 @@ static void test_a_range_asks_for_its_knots(void **state)
     session_close(&f);
 }
 
+static unsigned next_random(unsigned *seed) { return (*seed = *seed * 1664525u + 1013904223u) >> 8; }
+
+static void random_input(struct session *f, unsigned *seed)
+{
+    static const int keys[] = {KEY_ENTER, KEY_ESCAPE, KEY_TAB, KEY_UP, KEY_DOWN,  KEY_LEFT,
+                               KEY_RIGHT, KEY_DELETE, KEY_F2,  '3',    KEY_SPACE, KEY_BACKSPACE};
+    struct rect area = f->editor->layout.inspector;
+    switch (next_random(seed) % 6) {
+    case 0:
+    case 1:
+        session_press(f, next_random(seed) % 8 ? BUTTON_LEFT : BUTTON_RIGHT, 1 + (int)(next_random(seed) % 4 == 0));
+        break;
+    case 2:
+        session_release(f, BUTTON_LEFT);
+        break;
+    case 3:
+        session_key(f, keys[next_random(seed) % 12], 0);
+        session_send(f, (struct event){.kind = EVENT_TEXT, .codepoint = '0' + next_random(seed) % 75});
+        break;
+    case 4:
+        session_wheel(f, (float)(next_random(seed) % 7) - 3);
+        break;
+    default:
+        session_move(f, area.x + (float)(next_random(seed) % 280), (float)(next_random(seed) % 700));
+        break;
+    }
+    if (next_random(seed) % 200 == 0) session_key(f, 'Z', MOD_CTRL);
+}
+
+/// Whatever is pressed, dragged and typed: the document stays one that loads, and all of it can be undone.
+static void test_random_input_comes_back(void **state)
+{
+    (void)state;
+    int steps = 0;
+    for (unsigned seed = 1; seed <= 6; seed++) {
+        struct session f;
+        unsigned random = seed;
+        panel_open(&f, scene, 1280, 720);
+        panel_click(&f, "section.scene");
+        char *first = print(&f);
+        for (int i = 0; i < 3000 && f.document->spline_count < 50; i++) random_input(&f, &random);
+        for (int i = 0; i < 3; i++) session_key(&f, KEY_ESCAPE, 0);
+        session_release(&f, BUTTON_LEFT);
+        session_key(&f, KEY_ESCAPE, 0);
+        struct error error = {0};
+        char *last = print(&f);
+        struct document *again = scene_parse("again", last, strlen(last), NULL, &error);
+        if (!again) fail_msg("seed %u: what was saved does not load: %s", seed, error.text);
+        document_destroy(again);
+        assert_false(history_is_open(f.history));
+        while (history_undo(f.history, f.document)) steps++;
+        char *undone = print(&f);
+        assert_string_equal(undone, first);
+        free(undone);
+        free(last);
+        free(first);
+        session_close(&f);
+    }
+    assert_true(steps >= 60);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -325,6 +386,7 @@ int main(void)
         cmocka_unit_test(test_a_track_is_attached_and_detached),
         cmocka_unit_test(test_frames_per_second_ask),
         cmocka_unit_test(test_a_range_asks_for_its_knots),
+        cmocka_unit_test(test_random_input_comes_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

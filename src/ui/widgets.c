@@ -205,7 +205,7 @@ void ui_register(struct ui *ui, uint32_t id, struct rect r)
 
 bool ui_pressed(struct ui *ui, struct rect r, enum event_button button)
 {
-    if (ui->pass != UI_PASS_EVENT || ui->used) return false;
+    if (ui->pass != UI_PASS_EVENT || ui->used || ui->held) return false; // what is held keeps the pointer
     const struct event *event = ui->event;
     if (event->kind != EVENT_BUTTON || event->action != ACTION_PRESS || event->button != button) return false;
     if (!ui_hovered(ui, r)) return false;
