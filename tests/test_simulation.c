@@ -4,6 +4,7 @@
 #include "simulation/blocks.h"
 #include "simulation/eigen.h"
 #include "simulation/svd.h"
+#include "simulation/vec3.h"
 #include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>
@@ -129,18 +130,19 @@ static void stiffness_is_the_slope_of_forces(void **state)
     double(*kd)[3] = calloc((size_t)n, sizeof *kd), (*up)[3] = calloc((size_t)n, sizeof *up);
     double(*down)[3] = calloc((size_t)n, sizeof *down);
     for (int i = 0; i < 3 * n; i++) { // stretched a little, so that no eigenvalue is below zero
-        (*d)[i] = body.pinned[i / 3] ? 0 : beam_random(&seed);
-        (*x)[i] = 1.1 * (*beam.rest)[i] + (body.pinned[i / 3] ? 0 : 0.01 * beam_random(&seed));
+        vec3_flat(d)[i] = body.pinned[i / 3] ? 0 : beam_random(&seed);
+        vec3_flat(x)[i] = 1.1 * vec3_flat(beam.rest)[i] + (body.pinned[i / 3] ? 0 : 0.01 * beam_random(&seed));
     }
     body_forces(&body, (const double(*)[3])x, up);
     body_stiffness(&body);
     blocks_multiply(&body.stiffness, (const double(*)[3])d, kd);
     const double step = 1e-6;
-    for (int i = 0; i < 3 * n; i++) (*x)[i] += step * (*d)[i];
+    for (int i = 0; i < 3 * n; i++) vec3_flat(x)[i] += step * vec3_flat(d)[i];
     body_forces(&body, (const double(*)[3])x, up);
-    for (int i = 0; i < 3 * n; i++) (*x)[i] -= 2 * step * (*d)[i];
+    for (int i = 0; i < 3 * n; i++) vec3_flat(x)[i] -= 2 * step * vec3_flat(d)[i];
     body_forces(&body, (const double(*)[3])x, down);
-    for (int i = 0; i < 3 * n; i++) assert_near((*kd)[i], -((*up)[i] - (*down)[i]) / (2 * step), 1e-6);
+    for (int i = 0; i < 3 * n; i++)
+        assert_near(vec3_flat(kd)[i], -(vec3_flat(up)[i] - vec3_flat(down)[i]) / (2 * step), 1e-6);
     free(x);
     free(d);
     free(kd);
@@ -163,7 +165,7 @@ static void conjugate_gradients_against_a_dense_solver(void **state)
     double(*x)[3] = calloc((size_t)beam.nodes, sizeof *x), (*b)[3] = calloc((size_t)beam.nodes, sizeof *b);
     double *dense = calloc((size_t)(n * n), sizeof *dense), *right = calloc((size_t)n, sizeof *right);
     for (int round = 0; round < 20; round++) {
-        for (int i = 0; i < n; i++) (*x)[i] = 3 * beam_random(&seed); // half of the elements are inverted
+        for (int i = 0; i < n; i++) vec3_flat(x)[i] = 3 * beam_random(&seed); // half of the elements are inverted
         body_forces(&body, (const double(*)[3])x, b);
         body_stiffness(&body);
         const struct blocks *k = &body.stiffness;
@@ -176,12 +178,12 @@ static void conjugate_gradients_against_a_dense_solver(void **state)
                 for (int c = 0; c < 9; c++) dense[(3 * row + c / 3) * n + 3 * k->column[p] + c % 3] = k->block[p][c];
             }
         }
-        for (int i = 0; i < n; i++) right[i] = (*b)[i] = beam_random(&seed);
+        for (int i = 0; i < n; i++) right[i] = vec3_flat(b)[i] = beam_random(&seed);
         memset(x, 0, (size_t)beam.nodes * sizeof *x);
         assert_int_equal(LAPACKE_dposv(LAPACK_ROW_MAJOR, 'L', n, 1, dense, n, right, 1), 0); // 0: definite
         int steps = conjugate_solve(&body.scratch, k, (const double(*)[3])b, x, 1e-13, 10000);
         assert_in_range(steps, 1, 9999);
-        for (int i = 0; i < n; i++) assert_near((*x)[i], right[i], 1e-9);
+        for (int i = 0; i < n; i++) assert_near(vec3_flat(x)[i], right[i], 1e-9);
     }
     free(x);
     free(b);

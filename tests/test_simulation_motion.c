@@ -69,18 +69,18 @@ static int dense_eigenvalues(const struct beam *beam, const struct body *body, d
 }
 
 /// The coordinate φᵀM(x − X) of a mode: what of it there is in the motion.
-static double coordinate(const struct integrator *integrator, const double (*shape)[3])
+static double coordinate(const struct integrator *integrator, double (*shape)[3])
 {
     const struct body *body = integrator->body;
     double sum = 0;
     for (int i = 0; i < 3 * body->node_count; i++) {
-        sum += (*shape)[i] * body->mass[i / 3] * ((*integrator->x)[i] - (*body->rest)[i]);
+        sum += vec3_flat(shape)[i] * body->mass[i / 3] * (vec3_flat(integrator->x)[i] - vec3_flat(body->rest)[i]);
     }
     return sum;
 }
 
 /// Simulates until the first mode's coordinate has crossed zero so often; returns its frequency, Hz, from the times.
-static double measure_frequency(struct integrator *integrator, const double (*shape)[3], int crossings)
+static double measure_frequency(struct integrator *integrator, double (*shape)[3], int crossings)
 {
     double first = 0, last = 0;
     int seen = 0;
@@ -119,7 +119,7 @@ static void cantilever_swings_at_its_first_frequency(void **state)
         double along = beam.rest[i][0];
         integrator.x[i][1] += 1e-3 * along * along;
     }
-    double measured = measure_frequency(&integrator, (const double(*)[3])modes.shape, 21);
+    double measured = measure_frequency(&integrator, modes.shape, 21);
     print_message("cantilever: %.6g Hz simulated, %.6g Hz by dsygvd\n", measured, expected);
     assert_near(measured / expected, 1, 0.01);
     integrator_free(&integrator);
@@ -189,7 +189,8 @@ static void energy_stays_over_a_hundred_periods(void **state)
     assert_true(integrator_create(&integrator, &body, step));
     integrator.tolerance = 1e-7;
     double tip = vec3_length(modes.shape[beam.nodes - 1]);
-    for (int i = 0; i < 3 * beam.nodes; i++) (*integrator.v)[i] = 0.2 * omega / tip * (*modes.shape)[i];
+    for (int i = 0; i < 3 * beam.nodes; i++)
+        vec3_flat(integrator.v)[i] = 0.2 * omega / tip * vec3_flat(modes.shape)[i];
     follow_energy(&integrator, range);
     print_message("energy of a swing: %.5f … %.5f of the first\n", range[0], range[1]);
     assert_near(range[0], 1, 0.02);
@@ -284,7 +285,8 @@ static void a_scrambled_body_comes_back_to_rest(void **state)
         for (int step = 0; step < 500; step++) assert_true(integrator_step(&integrator));
         body_forces(&body, (const double(*)[3])integrator.x, force);
         assert_int_equal(count_inverted(&body), 0);
-        for (int i = 0; i < 3 * beam.nodes; i++) assert_near((*integrator.x)[i], (*beam.rest)[i], 1e-3);
+        for (int i = 0; i < 3 * beam.nodes; i++)
+            assert_near(vec3_flat(integrator.x)[i], vec3_flat(beam.rest)[i], 1e-3);
         free(force);
         integrator_free(&integrator);
         body_free(&body);
@@ -315,7 +317,7 @@ static void damping_is_the_ratio_asked_for(void **state)
     }
     for (int step = 0; step < period * periods; step++) {
         assert_true(integrator_step(&integrator));
-        double swing = coordinate(&integrator, (const double(*)[3])modes.shape);
+        double swing = coordinate(&integrator, modes.shape);
         if (step < period) start = fmax(start, swing);
         if (step >= period * (periods - 1)) end = fmax(end, swing);
     }

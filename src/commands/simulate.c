@@ -122,7 +122,9 @@ static bool write_modes(const struct job *job, const struct soft *soft, struct e
             largest = fmaxf(largest, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         }
         float scale = largest > 0 ? 1 / sqrtf(largest) : 1;
-        for (int i = 0; i < 3 * vertices; i++) shape[i / 3][i % 3] *= scale;
+        for (int i = 0; i < vertices; i++) {
+            for (int c = 0; c < 3; c++) shape[i][c] *= scale;
+        }
         good = motion_write_frame(&writer, (const float(*)[3])shape, error);
         if (!good) motion_write_discard(&writer);
     }

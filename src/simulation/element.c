@@ -94,7 +94,7 @@ static void turn_back(const double u[3][3], const double m[3][3], double factor,
 void element_stiffness(const struct element *element, const struct material *material, const struct svd *svd,
                        double block[4][4][9])
 {
-    struct principal_stiffness stiffness;
+    struct principal_stiffness stiffness = {0};
     double g[4][3], principal[3][3];
     material_stiffness(material, svd->sigma, &stiffness);
     principal_gradients(element, svd, g);

@@ -12,7 +12,7 @@ static const double linear_tolerance = 1e-3;
 static const double growth_allowed = 1.01;
 
 struct integrator_work {
-    double (*a)[3];         ///< accelerations
+    double (*a)[3];         ///< accelerations; the start of the memory of all vectors
     double (*y)[3];         ///< the unknown: positions at the step's end
     double (*target)[3];    ///< t
     double (*origin)[3];    ///< q
@@ -56,35 +56,41 @@ static struct scheme backward_euler(double h) { return complete((struct scheme){
 
 bool integrator_create(struct integrator *integrator, struct body *body, double step)
 {
+    enum { VECTORS = 10 };
     size_t n = (size_t)body->node_count;
     *integrator = (struct integrator){.body = body, .step = step, .tolerance = 1e-9};
     integrator->x = calloc(n, sizeof *integrator->x);
     integrator->v = calloc(n, sizeof *integrator->v);
     struct integrator_work *w = integrator->work = calloc(1, sizeof *w);
-    bool good = integrator->x && integrator->v && w;
-    if (good) {
-        double(**vectors[])[3] = {&w->a,     &w->y,        &w->target,    &w->origin, &w->start,
-                                  &w->force, &w->downhill, &w->direction, &w->moved,  &w->drag};
-        for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
-            *vectors[i] = calloc(n, sizeof **vectors[i]);
-            good = good && *vectors[i];
-        }
+    double(*pool)[3] = calloc(VECTORS * n, sizeof *pool);
+    if (w) {
+        w->a = pool;
         w->lagged = body->stiffness;
         w->lagged.block = calloc((size_t)body->stiffness.start[n] + 1, sizeof *w->lagged.block);
-        good = good && w->lagged.block;
     }
-    if (good) memcpy(integrator->x, body->rest, n * sizeof *integrator->x);
-    if (!good) integrator_free(integrator);
-    return good;
+    if (!integrator->x || !integrator->v || !w || !pool || !w->lagged.block) {
+        if (!w) free(pool);
+        integrator_free(integrator);
+        return false;
+    }
+    w->y = pool + n;
+    w->target = pool + 2 * n;
+    w->origin = pool + 3 * n;
+    w->start = pool + 4 * n;
+    w->force = pool + 5 * n;
+    w->downhill = pool + 6 * n;
+    w->direction = pool + 7 * n;
+    w->moved = pool + 8 * n;
+    w->drag = pool + 9 * n;
+    memcpy(integrator->x, body->rest, n * sizeof *integrator->x);
+    return true;
 }
 
 void integrator_free(struct integrator *integrator)
 {
     struct integrator_work *w = integrator->work;
     if (w) {
-        double(*vectors[])[3] = {w->a,     w->y,        w->target,    w->origin, w->start,
-                                 w->force, w->downhill, w->direction, w->moved,  w->drag};
-        for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) free(vectors[i]);
+        free(w->a);
         free(w->lagged.block);
     }
     free(w);
@@ -138,9 +144,8 @@ static void assemble(struct integrator *m, const struct scheme *scheme)
 /// dᵀ∇ of the potential, d being the Newton step: below zero where it leads down.
 static double slope_along(const struct integrator *m)
 {
-    const double *direction = *m->work->direction, *downhill = *m->work->downhill;
     double slope = 0;
-    for (int i = 0; i < 3 * m->body->node_count; i++) slope -= direction[i] * downhill[i];
+    for (int i = 0; i < m->body->node_count; i++) slope -= vec3_dot(m->work->direction[i], m->work->downhill[i]);
     return slope;
 }
 
@@ -152,11 +157,11 @@ static double search(struct integrator *m, const struct scheme *scheme, double *
     enum { HALVINGS_MAX = 30 };
     const double enough = 1e-4, rounding = 1e-6;
     struct integrator_work *w = m->work;
+    double *y = vec3_flat(w->y), *direction = vec3_flat(w->direction);
     double largest = 0, before = *energy, slope = slope_along(m), part = 1, taken = 0;
     for (int i = 0; i < m->body->node_count; i++) largest = fmax(largest, vec3_length(w->direction[i]));
     for (int halving = 0; halving < HALVINGS_MAX; halving++, part /= 2) {
-        for (int i = 0; i < 3 * m->body->node_count; i++)
-            w->y[i / 3][i % 3] += (part - taken) * w->direction[i / 3][i % 3];
+        for (int i = 0; i < 3 * m->body->node_count; i++) y[i] += (part - taken) * direction[i];
         if (largest <= m->tolerance) return largest;
         taken = part;
         *energy = evaluate(m, scheme, (const double(*)[3])w->y);

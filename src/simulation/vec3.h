@@ -17,6 +17,9 @@ static inline void vec3_cross(const double a[3], const double b[3], double out[3
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+/// The 3n numbers of n vectors.
+static inline double *vec3_flat(double (*vectors)[3]) { return *vectors; }
+
 static inline double vec3_length(const double a[3]) { return sqrt(vec3_dot(a, a)); }
 
 #endif
