@@ -270,23 +270,24 @@ static void a_scrambled_body_comes_back_to_rest(void **state)
         struct body body;
         struct integrator integrator;
         uint64_t numbers = seed;
-        beam_create(&beam, (const int[3]){4, 4, 4}, 0.25);
-        beam_body(&beam, material_from(1e5, 0.4), 1000, true, &body);
+        beam_create(&beam, (const int[3]){3, 3, 3}, 1 / 3.0);
+        beam_body(&beam, material_from(1e5, 0.35), 1000, true, &body);
         assert_true(integrator_create(&integrator, &body, 0.02));
         integrator.mass_damping = 2;
-        integrator.stiffness_damping = 0.005;
+        integrator.stiffness_damping = 0.02;
         integrator.tolerance = 1e-6;
         for (int i = 0; i < beam.nodes; i++) {
             for (int c = 0; c < 3 && !body.pinned[i]; c++) integrator.x[i][c] = 0.5 + beam_random(&numbers);
         }
         double(*force)[3] = calloc((size_t)beam.nodes, sizeof *force);
         body_forces(&body, (const double(*)[3])integrator.x, force);
-        assert_true(count_inverted(&body) > 150); // of 384
+        assert_true(count_inverted(&body) > 50); // of 162
         for (int step = 0; step < 500; step++) assert_true(integrator_step(&integrator));
         body_forces(&body, (const double(*)[3])integrator.x, force);
         assert_int_equal(count_inverted(&body), 0);
-        for (int i = 0; i < 3 * beam.nodes; i++)
+        for (int i = 0; i < 3 * beam.nodes; i++) {
             assert_near(vec3_flat(integrator.x)[i], vec3_flat(beam.rest)[i], 1e-3);
+        }
         free(force);
         integrator_free(&integrator);
         body_free(&body);

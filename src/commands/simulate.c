@@ -81,8 +81,8 @@ static bool write_frames(const struct job *job, const struct soft *soft, struct 
         report_progress(job, frame + 1, frames, started);
     }
     if (!motion_write_commit(&writer, error)) return false;
-    printf("%s: %d frames of %d vertices, %g a second, in %.1f s; rest mesh: %s\n", job->output, frames,
-           soft->lattice.vertex_count, job->fps, now() - started, job->rest);
+    printf("%s: %d frames of %d vertices, %g a second, in %.1f s\n", job->output, frames, soft->lattice.vertex_count,
+           job->fps, now() - started);
     return true;
 }
 
@@ -133,7 +133,7 @@ static bool write_modes(const struct job *job, const struct soft *soft, struct e
     if (!good) return false;
     printf("%4s %12s\n", "mode", "Hz");
     for (int k = 0; k < soft->modes.count; k++) printf("%4d %12.6g\n", k + 1, soft->modes.frequency[k]);
-    printf("%s: %d modes of %d vertices; rest mesh: %s\n", job->output, soft->modes.count, vertices, job->rest);
+    printf("%s: %d modes of %d vertices\n", job->output, soft->modes.count, vertices);
     return true;
 }
 
@@ -152,8 +152,9 @@ static bool run(const struct job *job, struct error *error)
             fprintf(stderr, "%s: warning: %d of %d separate parts are not pinned and will drift\n", job->mesh,
                     soft.loose_parts, soft.lattice.part_count);
         }
-        good = obj_write(job->rest, &surface, error);
-        good = good && (job->modal ? write_modes(job, &soft, error) : shake(job, &soft, &soft.body, error));
+        good = job->modal ? write_modes(job, &soft, error) : shake(job, &soft, &soft.body, error);
+        good = good && obj_write(job->rest, &surface, error);
+        if (good) printf("%s: the mesh at rest\n", job->rest);
         soft_free(&soft);
     }
     surface_free(&surface);
