@@ -108,11 +108,12 @@ regress: $(B)/wiggly $(B)/timing_diff
 
 install: $(B)/wiggly $(B)/libwiggly.a
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include/wiggly \
-	    $(DESTDIR)$(PREFIX)/share/wiggly/scenes
+	    $(DESTDIR)$(PREFIX)/share/wiggly/scenes $(DESTDIR)$(PREFIX)/share/wiggly/models
 	install -m 755 $(B)/wiggly $(DESTDIR)$(PREFIX)/bin/wiggly
 	install -m 644 $(B)/libwiggly.a $(DESTDIR)$(PREFIX)/lib/libwiggly.a
 	install -m 644 include/wiggly/wiggly.h $(DESTDIR)$(PREFIX)/include/wiggly/wiggly.h
 	install -m 644 $(wildcard assets/scenes/*.json) $(DESTDIR)$(PREFIX)/share/wiggly/scenes
+	install -m 644 $(wildcard assets/models/*.glb) $(DESTDIR)$(PREFIX)/share/wiggly/models
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' wiggly.pc.in \
 	    > $(DESTDIR)$(PREFIX)/lib/pkgconfig/wiggly.pc
 

@@ -1,7 +1,7 @@
 /// creature_obj OUT.obj: the soft character of the paper's Figure 7 as a closed mesh, for `wiggly simulate`.
 ///
 /// One solid, so that the mesh is one closed manifold: a smooth union of round cones, cut off flat at the ground. It is
-/// 1.5 m high, looks towards +z and stands on y = 0; its arms hang well clear of the body, so that a lattice around the
+/// 1.5 m high, looks towards +z and stands on y = 0; its arms stand well clear of the body, so that a lattice around the
 /// mesh does not glue them together.
 #include "model/coat.h"
 #include "model/isosurface.h"
@@ -24,10 +24,10 @@ static const struct part body[] = {
     {{0, 0.42f, 0.10f}, {0, 0.76f, 0.08f}, 0.270f, 0.185f, 0.09f, BELLY, false},                     // belly
     {{0.165f, 0.22f, 0.02f}, {0.180f, 0.10f, 0.05f}, 0.155f, 0.125f, 0.10f, SKIN, true},             // legs
     {{0.185f, 0.075f, 0.06f}, {0.215f, 0.070f, 0.235f}, 0.115f, 0.100f, 0.06f, DARKER, true},        // feet
-    {{0.200f, 0.94f, 0}, {0.440f, 0.88f, 0.03f}, 0.105f, 0.082f, 0.12f, SKIN, true},                 // upper arms
-    {{0.440f, 0.88f, 0.03f}, {0.650f, 0.72f, 0.09f}, 0.082f, 0.078f, 0.06f, SKIN, true},             // lower arms
-    {{0.690f, 0.680f, 0.10f}, {0.725f, 0.635f, 0.11f}, 0.105f, 0.095f, 0.06f, DARKER, true},         // hands
-    {{0.640f, 0.640f, 0.135f}, {0.625f, 0.610f, 0.165f}, 0.046f, 0.038f, 0.035f, DARKER, true},      // thumbs
+    {{0.190f, 0.925f, 0}, {0.440f, 0.90f, 0.02f}, 0.122f, 0.098f, 0.12f, SKIN, true},                // upper arms
+    {{0.440f, 0.90f, 0.02f}, {0.610f, 0.845f, 0.06f}, 0.098f, 0.095f, 0.06f, SKIN, true},            // lower arms
+    {{0.655f, 0.825f, 0.07f}, {0.692f, 0.800f, 0.08f}, 0.118f, 0.110f, 0.06f, DARKER, true},         // hands
+    {{0.612f, 0.770f, 0.135f}, {0.597f, 0.742f, 0.160f}, 0.050f, 0.042f, 0.035f, DARKER, true},      // thumbs
     {{-0.045f, 1.215f, 0.015f}, {0.045f, 1.215f, 0.015f}, 0.280f, 0.280f, 0.10f, SKIN, false},       // head
     {{0.13f, 1.125f, 0.105f}, {0.09f, 1.13f, 0.17f}, 0.155f, 0.125f, 0.09f, SKIN, true},             // cheeks
     {{0, 1.125f, 0.210f}, {0, 1.125f, 0.280f}, 0.115f, 0.088f, 0.08f, BELLY, false},                 // muzzle

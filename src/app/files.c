@@ -44,12 +44,9 @@ void app_adopt(struct app *app, struct document *document)
     history_clear(app->history);
     history_mark_saved(app->history);
     app->solved_revision = 0;
-    struct error error;
-    bool is_cast = cast_update(app->cast, document, &error);
     struct editor_world world = app_world(app);
     editor_open(app->editor, &world);
     show_title(app);
-    if (!is_cast) editor_message(app->editor, true, error.text);
 }
 
 /// The scenes that come with the program open as untitled: saving must not write over them.
@@ -60,12 +57,29 @@ static bool is_asset(const char *path)
     return strstr(place, "/assets/scenes/") || strstr(place, "/share/wiggly/scenes/");
 }
 
+/// Where the models of the scenes that are in the binary are: beside it, as it was built or installed.
+static struct document *built_in_place(struct document *document)
+{
+    static const char *const places[] = {"../assets/scenes", "../../assets/scenes", "../share/wiggly/scenes"};
+    char program[PATH_LIMIT], folder[PATH_LIMIT], place[PATH_LIMIT];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (!document || length < 0) return document;
+    program[length] = '\0';
+    if (!path_folder(program, folder)) return document;
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        if (!path_resolve(folder, places[i], place) || access(place, F_OK) != 0) continue;
+        document->folder = strdup(place);
+        return document;
+    }
+    return document;
+}
+
 static struct document *parse_built_in(const char *name, struct error *error)
 {
     char path[64];
     snprintf(path, sizeof path, "scenes/%s", name);
     const struct embedded *file = embedded_find(path);
-    if (file) return scene_parse(name, (const char *)file->data, file->size, NULL, error);
+    if (file) return built_in_place(scene_parse(name, (const char *)file->data, file->size, NULL, error));
     fail(error, ERROR_ENVIRONMENT, "%s is not in this build", path);
     return NULL;
 }

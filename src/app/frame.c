@@ -114,6 +114,15 @@ static bool fit_evaluation(struct app *app, bool resized)
     return true;
 }
 
+/// The models of a document that has come to the table, or come back by undo.
+static void recast(struct app *app)
+{
+    struct error error;
+    if (app->cast_serial == app->document->serial) return;
+    app->cast_serial = app->document->serial;
+    if (!cast_update(app->cast, app->document, &error)) editor_message(app->editor, true, error.text);
+}
+
 static void solve(struct app *app)
 {
     double start = clock_now();
@@ -141,6 +150,7 @@ static void solve(struct app *app)
 
 static void pose(struct app *app)
 {
+    recast(app);
     double start = clock_now();
     struct editor_world world = app_world(app);
     editor_pose(app->editor, &world);

@@ -24,6 +24,7 @@ struct app {
     struct history *history;
     struct evaluation evaluation;
     struct cast *cast;
+    unsigned cast_serial;   ///< of the document that it was made for
     bool *dirty;            ///< one a spline
     char replaceable[1024]; ///< "save as" was asked for this existing file once
     unsigned last_serial;   ///< of the documents that were on the table

@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 #include "commands/options.h"
+#include "rig/cast.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
 #include <stdio.h>
@@ -51,6 +52,21 @@ static bool check_solution(const char *path, const struct document *document, st
     return true;
 }
 
+/// What the scene's characters need: their models, and the coordinates in them.
+static bool check_models(const char *path, const struct document *document, struct problems *problems)
+{
+    struct error error = {0};
+    struct cast *cast = cast_create();
+    bool good = cast ? cast_update(cast, document, &error) : fail(&error, ERROR_ENVIRONMENT, "not enough memory");
+    cast_destroy(cast);
+    if (good) return true;
+    struct error problem;
+    fail(&problem, error.kind, "%s: %s", path, error.text);
+    problems->errors++;
+    problems->report(problems->user, true, problem.text);
+    return false;
+}
+
 static int check(const char *path)
 {
     struct problems problems = {.report = print_problem};
@@ -59,8 +75,9 @@ static int check(const char *path)
     if (!document) return error.kind;
     bool done = check_solution(path, document, &problems, &error);
     if (!done) fprintf(stderr, "%s\n", error.text);
+    if (done && !check_models(path, document, &problems)) error.kind = ERROR_INPUT;
     document_destroy(document);
-    return done ? 0 : (int)error.kind;
+    return (int)error.kind;
 }
 
 int command_check(int argc, char **argv)

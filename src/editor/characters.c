@@ -29,6 +29,12 @@ const struct coordinate *characters_coordinate(const struct editor *editor, cons
     return at >= 0 ? &figure->character.coordinates[at] : NULL;
 }
 
+void characters_open(struct editor *editor, const struct document *document)
+{
+    const int phases = document->character_count > 0 ? document->characters[0].phases : -1;
+    editor->characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
+}
+
 static void pose_at(const struct editor_world *world, const struct character_rig *rig, const struct figure *figure,
                     double position, enum look look, struct morph *morph)
 {

@@ -16,6 +16,9 @@ struct character_view {
 const struct character_rig *characters_selected(const struct editor *editor, const struct editor_world *world);
 const struct coordinate *characters_coordinate(const struct editor *editor, const struct editor_world *world);
 
+/// A new document is on the table: what its first character shows at first.
+void characters_open(struct editor *editor, const struct document *document);
+
 /// Poses them into the editor's stage view, with their shadows.
 void characters_pose(struct editor *editor, const struct editor_world *world);
 

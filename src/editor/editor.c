@@ -127,7 +127,7 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     editor->warnings = (struct warnings){0};
     editor->fitted = false;
     editor->look = LOOK_WIGGLY;
-    editor->characters = (struct character_view){.axis = 1};
+    characters_open(editor, document);
     editor->active = first_spline(document);
     editor->active_id = editor->active >= 0 ? document->splines[editor->active].id : 0;
     selection_clear(&editor->hidden);

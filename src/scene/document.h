@@ -110,6 +110,7 @@ struct character_rig {
     double position[3];  ///< metres
     struct drive drives[CHARACTER_MAX_DRIVES];
     int drive_count;
+    int phases; ///< shown at first: of movement along 0 … 2, x, y, z, of its first coordinate; −1: its own colours
     int tails_before; ///< its place among the rigs of the file
     const void *extra;
 };

@@ -2,7 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const character_keys[] = {"type", "name", "model", "position", "coordinates", "paint", NULL};
+static const char *const character_keys[] = {"type",        "name",   "model", "position",
+                                             "coordinates", "phases", "paint", NULL};
+static const char *const axes[] = {"x", "y", "z", NULL};
 static const char *const drive_keys[] = {"name", "spline", "amplitude", "lag", NULL};
 
 static void load_position(struct reader *reader, const struct where *at, const json_t *value, double position[3])
@@ -42,16 +44,18 @@ static void load_drive(struct reader *reader, const struct where *at, json_t *ob
 
 void load_character(struct reader *reader, const struct where *at, json_t *object, struct character_rig *rig)
 {
-    struct where name_at, model_at, position_at, coordinates_at, paint_at;
+    struct where name_at, model_at, position_at, coordinates_at, phases_at, paint_at;
     const json_t *name = reader_member(at, object, "name", &name_at);
     const json_t *model = reader_member(at, object, "model", &model_at);
     const json_t *position = reader_member(at, object, "position", &position_at);
     const json_t *coordinates = reader_member(at, object, "coordinates", &coordinates_at);
+    const json_t *phases = reader_member(at, object, "phases", &phases_at);
     const json_t *paint = reader_member(at, object, "paint", &paint_at);
     if (name) rig->name = reader_name(reader, &name_at, name);
     rig->model = reader_name(reader, &model_at, model);
     if (paint) rig->paint = reader_name(reader, &paint_at, paint);
     load_position(reader, &position_at, position, rig->position);
+    rig->phases = phases ? reader_word(reader, &phases_at, phases, axes, "\"x\", \"y\" or \"z\"", -1) : -1;
     int count = reader_objects(reader, &coordinates_at, coordinates, CHARACTER_MAX_DRIVES);
     for (int i = 0; i < count; i++) {
         struct where drive_at = {.parent = &coordinates_at, .index = (size_t)i};

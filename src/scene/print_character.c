@@ -2,6 +2,8 @@
 #include "base/path.h"
 #include "scene/members.h"
 
+static const char *const axis_names[] = {"x", "y", "z"};
+
 static void member_path(struct members *members, const char *key, const struct document *document, const char *path,
                         const char *folder)
 {
@@ -35,6 +37,7 @@ void print_character(struct text *text, const struct document *document, const s
         print_drive(text, document, &rig->drives[i]);
     }
     text_string(text, rig->drive_count > 0 ? "\n      ]" : "[]");
+    if (rig->phases >= 0) member_string(&members, "phases", axis_names[rig->phases]);
     if (rig->paint) member_path(&members, "paint", document, rig->paint, folder);
     members_extra(&members, rig->extra, NULL);
     text_string(text, "\n    }");

@@ -1,0 +1,141 @@
+/// The paper's Figure 7 and the scenes with the character: what the committed model shows, and that every scene finds it.
+#include "near.h"
+
+#include "rig/cast.h"
+#include "rig/morph.h"
+#include "scene/evaluate.h"
+#include "scene/load.h"
+#include <complex.h>
+#include <math.h>
+
+struct scene {
+    struct document *document;
+    struct cast *cast;
+    const struct figure *figure;
+};
+
+static struct scene open_scene(const char *path)
+{
+    struct scene scene;
+    struct error error = {0};
+    scene.document = scene_load(path, NULL, &error);
+    if (!scene.document) fail_msg("%s", error.text);
+    scene.cast = cast_create();
+    if (!cast_update(scene.cast, scene.document, &error)) fail_msg("%s", error.text);
+    scene.figure = cast_figure(scene.cast, 0);
+    return scene;
+}
+
+static void close_scene(struct scene *scene)
+{
+    cast_destroy(scene->cast);
+    document_destroy(scene->document);
+}
+
+/// Degrees by which a part leads x in its movement along an axis: the argument of the sum over its vertices.
+static double lead(const struct figure *figure, const char *name, int axis, const float lo[3], const float hi[3])
+{
+    const struct coordinate *c = &figure->character.coordinates[figure_find(figure, name)];
+    double complex sum = 0;
+    for (int i = 0; i < figure->character.vertex_count; i++) {
+        const float *p = figure->character.position[i];
+        bool inside = true;
+        for (int k = 0; k < 3; k++) inside = inside && lo[k] <= p[k] && p[k] <= hi[k];
+        if (inside) sum += (double)c->re[i][axis] + I * (double)c->im[i][axis];
+    }
+    assert_true(cabs(sum) > 0);
+    return carg(sum) * 180 / M_PI;
+}
+
+static const float head[2][3] = {{-0.3f, 1.2f, -1}, {0.3f, 2, 1}};
+static const float left_hand[2][3] = {{0.6f, 0, -1}, {1, 2, 1}}, right_hand[2][3] = {{-1, 0, -1}, {-0.6f, 2, 1}};
+
+/// "The phase varies smoothly over the character, with the motion of the arms and hands being delayed significantly
+/// compared to the body."
+static void hands_follow_the_body(void **state)
+{
+    (void)state;
+    struct scene scene = open_scene("assets/scenes/figure7.json");
+    const double body = lead(scene.figure, "up", 1, head[0], head[1]);
+    const double left = lead(scene.figure, "up", 1, left_hand[0], left_hand[1]);
+    const double right = lead(scene.figure, "up", 1, right_hand[0], right_hand[1]);
+    assert_true(fabs(body) < 20);
+    assert_true(body - left > 35 && body - left < 120);
+    assert_true(fabs(left - right) < 15);
+    assert_int_equal(scene.document->characters[0].phases, 1);
+    close_scene(&scene);
+}
+
+/// Over no edge of the mesh does the movement turn by more than a few degrees where there is any to speak of.
+static void phases_are_smooth(void **state)
+{
+    (void)state;
+    struct scene scene = open_scene("assets/scenes/figure7.json");
+    const struct character *character = &scene.figure->character;
+    const struct coordinate *up = &character->coordinates[figure_find(scene.figure, "up")];
+    const double least = 0.1 * (double)scene.figure->largest[figure_find(scene.figure, "up")][1];
+    for (int i = 0; i < character->index_count; i++) {
+        const uint32_t a = character->indices[i], b = character->indices[i % 3 == 2 ? i - 2 : i + 1];
+        const double complex from = (double)up->re[a][1] + I * (double)up->im[a][1];
+        const double complex to = (double)up->re[b][1] + I * (double)up->im[b][1];
+        if (cabs(from) < least || cabs(to) < least) continue;
+        assert_true(fabs(carg(to / from)) * 180 / M_PI < 20);
+    }
+    close_scene(&scene);
+}
+
+/// Eq. 30: one spline of nine knots moves both coordinates, one a quarter of a swing behind the other.
+static void two_coordinates_follow_one_spline_of_nine_knots(void **state)
+{
+    (void)state;
+    struct scene scene = open_scene("assets/scenes/character.json");
+    const struct character_rig *rig = &scene.document->characters[0];
+    assert_int_equal(scene.document->spline_count, 1);
+    assert_int_equal(scene.document->splines[0].knot_count, 9);
+    assert_int_equal(rig->drive_count, 2);
+    assert_int_equal(rig->drives[0].spline, rig->drives[1].spline);
+    assert_near(rig->drives[1].lag - rig->drives[0].lag, 90, 0);
+    close_scene(&scene);
+}
+
+/// Feet stay where they are, whatever the spline does, and the character stays in one piece: within reach of where it rests.
+static void it_stands_on_its_feet(void **state)
+{
+    (void)state;
+    static const char *const paths[] = {"assets/scenes/figure7.json", "assets/scenes/up-down.json",
+                                        "assets/scenes/side-to-side.json", "assets/scenes/character.json",
+                                        "assets/scenes/compositing.json"};
+    for (size_t s = 0; s < sizeof paths / sizeof *paths; s++) {
+        struct scene scene = open_scene(paths[s]);
+        struct evaluation evaluation = {0};
+        struct error error = {0};
+        const struct character_rig *rig = &scene.document->characters[0];
+        assert_true(evaluation_resize(&evaluation, scene.document, &error));
+        evaluation_update(&evaluation, scene.document, NULL, false);
+        for (int i = 0; i < evaluation.samples; i++) {
+            wiggly_value values[CHARACTER_MAX_DRIVES] = {{0}};
+            struct morph morph;
+            float lo[3], hi[3];
+            for (int k = 0; k < rig->drive_count; k++) {
+                values[k] = wiggly_evaluate(&evaluation.curves[rig->drives[k].spline], i);
+            }
+            pose_character(rig, scene.figure, values, LOOK_WIGGLY, &morph);
+            morph_bounds(scene.figure, &morph, lo, hi);
+            assert_near((double)lo[1], (double)scene.figure->lo[1], 0.02);
+            assert_true(hi[1] < 2.0f && hi[1] > 1.1f && hi[0] < 1.4f && lo[0] > -1.4f);
+        }
+        evaluation_free(&evaluation);
+        close_scene(&scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hands_follow_the_body),
+        cmocka_unit_test(phases_are_smooth),
+        cmocka_unit_test(two_coordinates_follow_one_spline_of_nine_knots),
+        cmocka_unit_test(it_stands_on_its_feet),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
