@@ -5,7 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MARGIN = 16, WIDEST = 440, LINE = 18, MAX_LINES = 4 };
+enum { MARGIN = 16, WIDEST = 440, LINE = 18, MAX_LINES = 6 };
+
+static const float SHARE = 0.4f; ///< of the stage's width; the middle is the rig's
 
 /// One line's worth of a text, at `*y`; returns what follows it.
 static const char *show_line(struct editor *editor, const char *text, enum font font, float size, uint32_t color,
@@ -25,7 +27,7 @@ void caption_show(struct editor *editor, const struct document *document)
 {
     if (!document->about) return;
     const struct rect stage = editor->layout.stage;
-    float width = fminf(WIDEST, stage.w - 2 * MARGIN), y = stage.y + MARGIN + 10;
+    float width = fminf(WIDEST, SHARE * stage.w - MARGIN), y = stage.y + MARGIN + 10;
     char title[257];
     const char *rest = strstr(document->about, ". ");
     size_t length = rest ? (size_t)(rest - document->about) : strlen(document->about);

@@ -95,7 +95,7 @@ static const struct help_group groups[] = {
       {"Ctrl+S", "save"},
       {"Ctrl+Shift+S", "save as"},
       {"F11, F12", "full screen, screenshot"},
-      {"Ctrl+1 … 6", "figures of the paper"},
+      {"Ctrl+1 … 7", "figures of the paper"},
       {"Ctrl+Q", "quit"}}},
 };
 
