@@ -207,8 +207,8 @@ int command_simulate(int argc, char **argv)
                       .substeps = 8};
     int modes = 0;
     const struct option_spec options[] = {
-        {"--output", "-o", "FILE", "write there, .npy or .pc2 (--modal: .npy); FILE.rest.obj beside it", OPTION_TEXT,
-         &job.output, 0, 0},
+        {"--output", "-o", "FILE", "NAME.npy or NAME.pc2 (--modal: .npy); the mesh at rest goes to NAME.rest.obj",
+         OPTION_TEXT, &job.output, 0, 0},
         {"--shake", NULL, "DIR", "up, side, front or a vector x,y,z (default: up)", OPTION_TEXT, &job.shake_text, 0,
          0},
         {"--amplitude", NULL, "A", "how far the top goes, as a part of the height (0.2)", OPTION_REAL,
