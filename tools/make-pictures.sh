@@ -46,3 +46,4 @@ picture drag.png 95 --replay tests/replays/session.replay tests/replays/session.
 picture help.png 20 --replay "$scratch/help.replay"
 picture small.png 20 --size 960x600
 picture scale2.png 20 --scale 2
+picture figure7.png 60 assets/scenes/figure7.json

@@ -142,6 +142,10 @@ size_t document_bytes(const struct document *document)
         const struct tail *tail = &document->tails[i];
         bytes += sizeof *tail + (size_t)tail->channel_count * sizeof *tail->channels + strlen(tail->name) + 1;
     }
+    for (int i = 0; i < document->character_count; i++) {
+        const struct character_rig *rig = &document->characters[i];
+        bytes += sizeof *rig + strlen(rig->model) + 1;
+    }
     return bytes;
 }
 
