@@ -2,9 +2,11 @@
 /// Usage: paper_figures <folder>. Exit status 1 where a scene cannot be read or solved, 3 where a file cannot be written.
 #include "base/error.h"
 #include "editor/response.h"
+#include "model/character.h"
 #include "rig/pose.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
+#include "ui/phase_color.h"
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -318,6 +320,79 @@ static void write_tail(const char *folder)
     release(&s);
 }
 
+/// A triangle of figure 7 as seen from the front.
+struct facet {
+    float depth;
+    int at; ///< of its first index
+};
+
+static int compare_depth(const void *a, const void *b)
+{
+    float x = ((const struct facet *)a)->depth, y = ((const struct facet *)b)->depth;
+    return (x > y) - (x < y);
+}
+
+/// The triangles that face the viewer at +z, the farthest first. Returns their number.
+static int facets_of(const struct character *c, struct facet *facets)
+{
+    int count = 0;
+    for (int i = 0; i < c->index_count; i += 3) {
+        const float *p = c->position[c->indices[i]], *q = c->position[c->indices[i + 1]];
+        const float *r = c->position[c->indices[i + 2]];
+        float area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+        if (area > 0) facets[count++] = (struct facet){p[2] + q[2] + r[2], i};
+    }
+    qsort(facets, (size_t)count, sizeof *facets, compare_depth);
+    return count;
+}
+
+static void svg_facet(FILE *svg, const struct character *c, const struct coordinate *up, int at, float largest)
+{
+    enum { UP = 1, SCALE = 280, FLOOR = 570 };
+    float re = 0, im = 0;
+    fputs("<path d=\"", svg);
+    for (int k = 0; k < 3; k++) {
+        uint32_t v = c->indices[at + k];
+        re += up->re[v][UP] / (3 * largest);
+        im += up->im[v][UP] / (3 * largest);
+        fprintf(svg, "%c%.1f %.1f", k == 0 ? 'M' : 'L', WIDTH / 2.0 + SCALE * (double)c->position[v][0],
+                FLOOR - SCALE * (double)c->position[v][1]);
+    }
+    unsigned color = (unsigned)(phase_color(re, im) >> 8);
+    fprintf(svg, "z\" fill=\"#%06X\" stroke=\"#%06X\" stroke-width=\".6\"/>\n", color, color);
+}
+
+/// Figure 7: the phase of the up-and-down motion as hue, its size as chroma; in the table all vertices.
+static void write_phases(const char *folder)
+{
+    enum { UP = 1 };
+    struct character c = {0};
+    struct error error = {0};
+    if (!character_read("assets/models/creature.glb", &c, &error)) stop(1, error.text);
+    if (c.coordinate_count < 1) stop(1, "assets/models/creature.glb has no coordinates");
+    const struct coordinate *up = &c.coordinates[0];
+    struct facet *facets = malloc(sizeof *facets * (size_t)(c.index_count / 3));
+    if (!facets) stop(3, "not enough memory");
+    float largest = 0;
+    FILE *csv = create(folder, "figure7", "csv");
+    fputs("x,y,z,amplitude,phase_degrees\n", csv);
+    for (int v = 0; v < c.vertex_count; v++) {
+        float re = up->re[v][UP], im = up->im[v][UP], size = hypotf(re, im);
+        const float *p = c.position[v];
+        largest = fmaxf(largest, size);
+        fprintf(csv, "%.9g,%.9g,%.9g,%.9g,%.9g\n", (double)p[0], (double)p[1], (double)p[2], (double)size,
+                (double)atan2f(im, re) * 180 / M_PI);
+    }
+    finish(csv, "figure7");
+    FILE *svg = svg_begin(folder, "figure7", TOP + 3 * (ROW + GAP));
+    int count = facets_of(&c, facets);
+    for (int i = 0; i < count; i++) svg_facet(svg, &c, up, facets[i].at, largest);
+    svg_text(svg, 16, TOP + 4, "start", "up and down: hue is how far ahead a point moves, chroma how much");
+    svg_end(svg, "figure7");
+    free(facets);
+    character_free(&c);
+}
+
 int main(int argc, char **argv)
 {
     if (argc != 2) {
@@ -327,5 +402,6 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < sizeof curves / sizeof curves[0]; i++) write_curves(argv[1], &curves[i]);
     write_responses(argv[1]);
     write_tail(argv[1]);
+    write_phases(argv[1]);
     return 0;
 }
