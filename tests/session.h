@@ -19,6 +19,7 @@ struct session {
     bool cubic;
     float x, y;    ///< pointer
     unsigned mods; ///< of pointer and buttons
+    bool threaded; ///< long documents are solved in the background, as at a window
 };
 
 static inline void session_send(struct session *session, struct event event)
@@ -44,7 +45,12 @@ static inline void session_frame(struct session *session)
     bool cubic = editor_look(session->editor) == LOOK_CUBIC;
     history_take_dirty(session->history, session->document, dirty, session->document->spline_count);
     assert_true(evaluation_resize(&session->evaluation, session->document, NULL));
-    evaluation_update(&session->evaluation, session->document, cubic == session->cubic ? dirty : NULL, cubic);
+    if (session->threaded && background_serves(session->document)) {
+        struct focus focus = editor_focus(session->editor, session->document);
+        background_update(&session->evaluation, session->document, dirty, cubic, &focus);
+    } else {
+        evaluation_update(&session->evaluation, session->document, cubic == session->cubic ? dirty : NULL, cubic);
+    }
     session->cubic = cubic;
     editor_pose(session->editor, &session->world);
     editor_show(session->editor, &session->world);

@@ -1,5 +1,6 @@
 #include "app/state.h"
 #include "platform/process.h"
+#include "scene/background.h"
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -68,7 +69,8 @@ static double waiting_time(const struct app *app, bool wanted)
 static bool take_input(struct app *app)
 {
     double wait_start = clock_now();
-    bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->editor) || app->paste;
+    bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->editor) || app->paste ||
+                  app->evaluation.stale;
     app->was_idle = !wanted;
     int count = 0;
     const struct event *events = platform_events(app->platform, waiting_time(app, wanted), &count);
@@ -136,9 +138,17 @@ static void solve(struct app *app)
         return;
     }
     app->row.edited = revision != app->solved_revision;
-    if (resized || revision != app->solved_revision || cubic != app->solved_cubic) {
+    bool threaded = !app->fixed_clock && background_serves(document);
+    if (resized || revision != app->solved_revision || cubic != app->solved_cubic || threaded ||
+        app->evaluation.stale) {
         history_take_dirty(app->history, document, app->dirty, document->spline_count);
-        evaluation_update(&app->evaluation, document, resized ? NULL : app->dirty, cubic);
+        bool *dirty = resized ? NULL : app->dirty;
+        if (threaded) {
+            struct focus focus = editor_focus(app->editor, document);
+            background_update(&app->evaluation, document, dirty, cubic, &focus);
+        } else {
+            evaluation_update(&app->evaluation, document, dirty, cubic);
+        }
         app->row.splines_solved = app->evaluation.solved_splines;
         app->row.samples = app->evaluation.solved_samples;
         app->row.knots = app->evaluation.solved_knots;

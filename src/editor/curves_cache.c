@@ -8,10 +8,10 @@
 /// What the polylines depend on.
 static uint64_t cache_key(const struct editor *editor, const struct editor_world *world)
 {
-    uint64_t revision = history_revision(world->history);
+    uint64_t revision[2] = {history_revision(world->history), world->evaluation ? world->evaluation->revision : 0};
     int choice[3] = {editor->active, (int)editor->look, editor->options.normalise};
     bool held = editor->options.normalise && editor->drag.kind != DRAG_NONE;
-    uint64_t key = hash_bytes(HASH_START, &revision, sizeof revision);
+    uint64_t key = hash_bytes(HASH_START, revision, sizeof revision);
     key = hash_bytes(key, choice, sizeof choice);
     key = hash_bytes(key, &held, sizeof held);
     key = hash_bytes(key, &editor->visibility, sizeof editor->visibility);
@@ -37,13 +37,9 @@ static void hit_knots(struct editor *editor, const struct editor_world *world, d
 static double outermost(const struct evaluation *evaluation, int spline, double position, double by, bool highest)
 {
     if (by <= 1 || spline < 0 || spline >= evaluation->count) return position;
-    const double *total = evaluation->curves[spline].total;
-    int best = (int)fmax(ceil(position - by / 2), 0);
+    int first = (int)fmax(ceil(position - by / 2), 0);
     int end = (int)fmin(floor(position + by / 2), evaluation->samples - 1);
-    for (int i = best + 1; i <= end; i++) {
-        if (highest ? total[i] > total[best] : total[i] < total[best]) best = i;
-    }
-    return best <= end ? best : position;
+    return first <= end ? evaluation_extreme(evaluation, spline, first, end, highest) : position;
 }
 
 /// Columns of the part of the scene's range that can be seen.

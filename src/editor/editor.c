@@ -301,7 +301,7 @@ bool editor_is_playing(const struct editor *editor) { return editor->playback.pl
 bool editor_wants_frames(const struct editor *editor)
 {
     return editor->playback.playing || editor->drag.kind == DRAG_GRAB || follow_is_moving(editor) ||
-           editor->message.seconds_left > 0;
+           editor->message.seconds_left > 0 || editor->warnings.search.running;
 }
 
 double editor_frame(const struct editor *editor, const struct document *document)

@@ -4,6 +4,7 @@
 
 #include "rig/cast.h"
 #include "rig/pose.h"
+#include "scene/background.h"
 #include "scene/edit.h"
 #include "scene/evaluate.h"
 #include "ui/drawlist.h"
@@ -87,6 +88,9 @@ void editor_event(struct editor *editor, const struct editor_world *world, const
 /// After the frame's events: playback advances by `dt` seconds, running drags (and the grab on the stage) are
 /// applied.
 void editor_advance(struct editor *editor, const struct editor_world *world, double dt);
+
+/// What is looked at of the splines: what a long one shows first.
+struct focus editor_focus(const struct editor *editor, const struct document *document);
 
 /// After the solve: poses rigs, builds this frame's draw list and stage, both valid until the next call. Allocates
 /// nothing.

@@ -34,11 +34,9 @@ void normal_update(struct editor *editor, const struct editor_world *world)
     if (!editor->options.normalise || editor->drag.kind != DRAG_NONE || !evaluation) return;
     cache->range_count = evaluation->count < CURVES_MAX_RANGES ? evaluation->count : CURVES_MAX_RANGES;
     for (int s = 0; s < cache->range_count; s++) {
-        double *range = cache->range[s];
-        range[0] = INFINITY, range[1] = -INFINITY;
-        for (int i = 0; i < evaluation->samples; i++) {
-            range[0] = fmin(range[0], evaluation->curves[s].total[i]);
-            range[1] = fmax(range[1], evaluation->curves[s].total[i]);
+        for (int highest = 0; highest < 2; highest++) {
+            int sample = evaluation_extreme(evaluation, s, 0, evaluation->samples - 1, highest);
+            cache->range[s][highest] = evaluation->curves[s].total[sample];
         }
     }
 }

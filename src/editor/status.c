@@ -87,14 +87,18 @@ static float show_title(struct editor *editor, const struct editor_world *world,
 }
 
 /// Frames a second only while it plays: at rest frames come as events do, and their number would say nothing.
-static void figures_text(const struct editor *editor, char *text, size_t size)
+static void figures_text(const struct editor *editor, const struct editor_world *world, char *text, size_t size)
 {
     const struct status *status = &editor->status;
     char fps[64] = "", solve[32] = "";
     if (editor->playback.playing && status->fps > 0) {
         snprintf(fps, sizeof fps, "%.0f fps  %ld dropped", status->fps, status->dropped);
     }
-    if (status->solve_us >= SOLVED) snprintf(solve, sizeof solve, "solve %.0f µs", status->solve_us);
+    if (world->evaluation && world->evaluation->stale) {
+        snprintf(solve, sizeof solve, "solving…");
+    } else if (status->solve_us >= SOLVED) {
+        snprintf(solve, sizeof solve, "solve %.0f µs", status->solve_us);
+    }
     snprintf(text, size, "%s%s%s", fps, fps[0] && solve[0] ? "  " : "", solve);
 }
 
@@ -108,7 +112,7 @@ void status_show(struct editor *editor, const struct editor_world *world)
     float x = show_time(editor, world->document, bar, transport_show(editor)) + GAP;
     x = show_title(editor, world, bar, x) + GAP;
     char figures[128];
-    figures_text(editor, figures, sizeof figures);
+    figures_text(editor, world, figures, sizeof figures);
     float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
     float right = bar.x + bar.w - 12 - width;
     paint_text(&editor->list, (struct rect){right, bar.y, width, bar.h}, FONT_NUMBER, THEME_TEXT_DIM, figures);

@@ -31,8 +31,9 @@ static bool tail_loops(const struct document *document, const struct tail *tail)
 /// The tip at a frame counted from the first, world; from memory while nothing was edited.
 static const float *tip_at(struct editor *editor, const struct editor_world *world, int tail, int frame)
 {
-    uint64_t key = hash_word(hash_word(HASH_START, history_revision(world->history)),
-                             (uint64_t)tail << 8 | (uint64_t)editor->look);
+    uint64_t solved = world->evaluation ? world->evaluation->revision : 0;
+    uint64_t key = hash_word(hash_word(HASH_START, history_revision(world->history)), solved);
+    key = hash_word(key, (uint64_t)tail << 8 | (uint64_t)editor->look);
     struct trail_point *point = &editor->overlays.trail_point[(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
     if (point->known && point->key == key && point->frame == frame) return point->tip;
     struct pose pose;

@@ -66,6 +66,17 @@ wiggly_value curves_solved(const struct editor_world *world, int spline, double 
     return wiggly_evaluate(&evaluation->curves[spline], position);
 }
 
+struct focus editor_focus(const struct editor *editor, const struct document *document)
+{
+    double last = document_samples(document) - 1;
+    double first = fmin(fmax(floor(curves_position(document, editor->view.frame0)), 0), last);
+    double end = fmin(fmax(ceil(curves_position(document, editor->view.frame1)), 0), last);
+    return (struct focus){.spline = editor->active < document->spline_count ? editor->active : -1,
+                          .first = (int)first,
+                          .count = (int)(end - first) + 1,
+                          .at = (int)fmin(fmax(editor->playback.position, 0), last)};
+}
+
 /// Keeps the visible part wider than rounding and narrower than anyone needs.
 static void keep_sane(struct view *view)
 {
@@ -108,7 +119,10 @@ void view_frame_all(struct editor *editor, const struct editor_world *world)
         if (editor->options.normalise && s != editor->active) continue;
         for (int k = 0; k < spline->knot_count; k++) include_value(range, spline->knots[k].value);
         if (!evaluation || s >= evaluation->count) continue;
-        for (int i = 0; i < evaluation->samples; i++) include_value(range, evaluation->curves[s].total[i]);
+        for (int highest = 0; highest < 2 && evaluation->samples > 0; highest++) {
+            int sample = evaluation_extreme(evaluation, s, 0, evaluation->samples - 1, highest);
+            include_value(range, evaluation->curves[s].total[sample]);
+        }
     }
     show_values(&editor->view, range);
     double frames = document->last_frame - document->first_frame;

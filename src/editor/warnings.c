@@ -3,6 +3,7 @@
 #include "editor/warnings.h"
 #include "base/hash.h"
 #include "editor/arrange.h"
+#include <limits.h>
 #include <math.h>
 
 static const double TWO_PI = 6.283185307179586;
@@ -10,6 +11,8 @@ static const double MOST_SWING = 2;      ///< of a span, in heights of its knots
 static const double LEAST_HEIGHT = 0.75; ///< of a span's knots, as a share of the highest: small ones may ring
 static const double MOST_RATE = 0.4;     ///< f·(1 + β) in sample rates; at 0.5 swings alias
 static const double MOST_TURN = 0.3;     ///< β · periods between two knots (Figure 4)
+
+enum { SAMPLES_A_FRAME = 500000 }; ///< that are looked at in one frame: 1 ms
 
 static void add(struct warnings *found, const struct warning *warning)
 {
@@ -22,10 +25,8 @@ static double frequency_of(const struct evaluation *evaluation, const struct spl
     const struct param *param = &spline->parameter[PARAMETER_FREQUENCY];
     if (spline->spring_friction) return sqrt(fmax(spline->parameter[PARAMETER_SPRING].value, 0)) / TWO_PI;
     if (param->track < 0) return param->value;
-    double most = 0;
-    const double *total = evaluation->curves[param->track].total;
-    for (int i = 0; i < evaluation->samples; i++) most = fmax(most, total[i]);
-    return most;
+    int highest = evaluation_extreme(evaluation, param->track, 0, evaluation->samples - 1, true);
+    return fmax(evaluation->curves[param->track].total[highest], 0);
 }
 
 static double bandwidth_of(const struct spline *spline)
@@ -95,65 +96,85 @@ static void find_swing(const struct document *document, const wiggly_curve *curv
                                  .remedy = curve->y[peak] + copysign(limit, curve->total[peak] - curve->y[peak])});
 }
 
+/// The worst drift alone is kept: its remedy is the others' too.
 static void find_drift(const struct document *document, const wiggly_curve *curve, const struct span *span,
-                       double frequency, double bandwidth, struct warnings *found)
+                       struct warning_search *search)
 {
-    double periods = frequency * span->length * document_step(document);
-    if (bandwidth * periods <= MOST_TURN * (1 + 1e-9)) return; /* at the limit is within it, rounding or not */
+    double periods = search->frequency * span->length * document_step(document);
+    if (search->bandwidth * periods <= MOST_TURN * (1 + 1e-9))
+        return; /* at the limit is within it, rounding or not */
+    if (periods <= search->drift.amount) return;
     int period = curve->samples - 1, middle = span->first + span->length / 2;
     if (middle > period) middle -= period;
-    add(found, &(struct warning){.kind = WARNING_DRIFT,
-                                 .frame = document_frame(document, middle),
-                                 .value = curve->total[middle],
-                                 .from = span->from->frame,
-                                 .to = span->to->frame,
-                                 .amount = periods,
-                                 .limit = bandwidth,
-                                 .remedy = floor(1000 * MOST_TURN / periods) / 1000});
+    search->drift = (struct warning){.kind = WARNING_DRIFT,
+                                     .frame = document_frame(document, middle),
+                                     .value = curve->total[middle],
+                                     .from = span->from->frame,
+                                     .to = span->to->frame,
+                                     .amount = periods,
+                                     .limit = search->bandwidth,
+                                     .remedy = floor(1000 * MOST_TURN / periods) / 1000};
 }
 
-/// The worst drift alone: its remedy is the others' too.
-static void keep_worst(struct warnings *found, const struct warnings *drifts)
+/// What concerns the spline as a whole.
+static void begin(const struct document *document, const struct evaluation *evaluation, int of,
+                  struct warnings *found)
 {
-    int worst = 0;
-    for (int i = 1; i < drifts->count; i++) {
-        if (drifts->list[i].amount > drifts->list[worst].amount) worst = i;
+    const struct spline *spline = &document->splines[of];
+    struct warning_search *search = &found->search;
+    found->count = 0;
+    *search = (struct warning_search){0};
+    if (of >= evaluation->count || spline->mode == WIGGLY_CUBIC || evaluation->cubic) return;
+    const wiggly_curve *curve = &evaluation->curves[of];
+    search->running = true;
+    search->frequency = frequency_of(evaluation, spline);
+    search->bandwidth = bandwidth_of(spline);
+    for (int k = 0; k < spline->knot_count; k++) {
+        double knot = height(curve, document_sample(document, spline->knots[k].frame));
+        search->highest = fmax(search->highest, knot);
     }
-    if (drifts->count > 0) add(found, &drifts->list[worst]);
+    find_rate(document, evaluation, spline, found);
+}
+
+/// Goes on with spans until about that many samples were looked at.
+static void go_on(const struct document *document, const struct evaluation *evaluation, int of, long samples,
+                  struct warnings *found)
+{
+    const struct spline *spline = &document->splines[of];
+    struct warning_search *search = &found->search;
+    for (; search->next < spline->knot_count && samples > 0; search->next++) {
+        struct span span;
+        if (!take_span(document, spline, search->next, &span)) continue;
+        find_swing(document, &evaluation->curves[of], &span, search->highest, found);
+        find_drift(document, &evaluation->curves[of], &span, search);
+        samples -= span.length;
+    }
+    if (search->next < spline->knot_count) return;
+    if (search->drift.amount > 0) add(found, &search->drift);
+    search->running = false;
 }
 
 void warnings_find(const struct document *document, const struct evaluation *evaluation, int of,
                    struct warnings *found)
 {
-    const struct spline *spline = &document->splines[of];
-    found->count = 0;
-    if (of >= evaluation->count || spline->mode == WIGGLY_CUBIC || evaluation->cubic) return;
-    const wiggly_curve *curve = &evaluation->curves[of];
-    struct warnings drifts = {0};
-    double frequency = frequency_of(evaluation, spline), bandwidth = bandwidth_of(spline), highest = 0;
-    for (int k = 0; k < spline->knot_count; k++) {
-        highest = fmax(highest, height(curve, document_sample(document, spline->knots[k].frame)));
-    }
-    find_rate(document, evaluation, spline, found);
-    for (int k = 0; k < spline->knot_count; k++) {
-        struct span span;
-        if (!take_span(document, spline, k, &span)) continue;
-        find_swing(document, curve, &span, highest, found);
-        find_drift(document, curve, &span, frequency, bandwidth, &drifts);
-    }
-    keep_worst(found, &drifts);
+    begin(document, evaluation, of, found);
+    if (found->search.running) go_on(document, evaluation, of, LONG_MAX, found);
 }
 
 void warnings_update(struct editor *editor, const struct editor_world *world)
 {
     struct warnings *warnings = &editor->warnings;
     const struct spline *spline = arrange_seen(editor, world);
+    const struct evaluation *evaluation = world->evaluation;
+    bool solved = spline && evaluation && evaluation->samples == document_samples(world->document);
     const uint64_t state[] = {history_revision(world->history), (uint64_t)(editor->active + 1),
-                              (uint64_t)editor->look, spline != NULL};
+                              (uint64_t)editor->look, solved, evaluation ? evaluation->revision : 0};
     uint64_t key = hash_bytes(HASH_START, state, sizeof state);
-    if (key == warnings->key) return;
-    warnings->count = 0;
-    warnings->key = key;
-    bool solved = world->evaluation && world->evaluation->samples == document_samples(world->document);
-    if (spline && solved) warnings_find(world->document, world->evaluation, editor->active, warnings);
+    if (key != warnings->key) {
+        warnings->count = 0;
+        warnings->search.running = false;
+        warnings->key = key;
+        if (solved) begin(world->document, evaluation, editor->active, warnings);
+    }
+    if (warnings->search.running) go_on(world->document, evaluation, editor->active, SAMPLES_A_FRAME, warnings);
 }

@@ -1,23 +1,14 @@
 #include "scene/evaluate.h"
 #include "base/checked.h"
-#include "scene/order.h"
+#include "scene/background.h"
+#include "scene/storage.h"
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROWS = 5, FIRST_KNOTS = 256 }; ///< rows of numbers a curve: total, y, re, im, omega
+enum { FIRST_KNOTS = 256 };
 
-struct storage {
-    double *numbers; ///< ROWS · N for each spline
-    size_t number_capacity;
-    wiggly_solver *solver;
-    int solver_samples, solver_knots;
-    wiggly_knot *knots; ///< of the spline being solved; solver_knots
-    int *order;         ///< one a spline each, as the next three
-    bool *solved;
-    struct order_space space;
-    int spline_capacity;
-    bool is_new; ///< curves were laid out anew, and none is solved
-};
+/// Samples from which on the highest of a stretch is looked up: a view of all of them takes 1 ms in a frame.
+enum { MANY_SAMPLES = 250000 };
 
 static bool fail_memory(const struct document *document, struct error *error)
 {
@@ -33,6 +24,8 @@ static void free_splines(struct evaluation *evaluation, struct storage *storage)
     free(storage->solved);
     free(storage->space.stack);
     free(storage->space.next);
+    free(storage->extremes);
+    storage->extremes = NULL;
     evaluation->curves = NULL;
     evaluation->status = NULL;
     storage->order = NULL;
@@ -52,9 +45,10 @@ static bool resize_splines(struct evaluation *evaluation, struct storage *storag
     storage->solved = calloc(count, sizeof *storage->solved);
     storage->space.stack = calloc(count, sizeof *storage->space.stack);
     storage->space.next = calloc(count, sizeof *storage->space.next);
+    storage->extremes = calloc(count, sizeof *storage->extremes);
     storage->is_new = true;
-    if (!evaluation->curves || !evaluation->status || !storage->order || !storage->solved || !storage->space.stack ||
-        !storage->space.next) {
+    if (!storage->extremes || !evaluation->curves || !evaluation->status || !storage->order || !storage->solved ||
+        !storage->space.stack || !storage->space.next) {
         return false;
     }
     storage->spline_capacity = splines;
@@ -71,6 +65,24 @@ static bool resize_numbers(struct storage *storage, int splines, int samples)
     storage->number_capacity = storage->numbers ? needed : 0;
     storage->is_new = true;
     return storage->numbers != NULL;
+}
+
+bool storage_wants_extremes(int samples) { return samples >= MANY_SAMPLES; }
+
+struct extremes storage_extremes(int *marks, int samples)
+{
+    return marks ? (struct extremes){marks, marks + extremes_blocks(samples)} : (struct extremes){0};
+}
+
+static bool resize_marks(struct storage *storage, int splines, int samples)
+{
+    size_t needed = storage_wants_extremes(samples) ? 2 * (size_t)splines * extremes_blocks(samples) : 0;
+    if (needed <= storage->mark_capacity) return true;
+    free(storage->marks);
+    storage->marks = calloc(needed, sizeof *storage->marks);
+    storage->mark_capacity = storage->marks ? needed : 0;
+    storage->is_new = true;
+    return storage->marks != NULL;
 }
 
 static bool resize_solver(struct storage *storage, int samples, int knots)
@@ -90,6 +102,18 @@ static bool resize_solver(struct storage *storage, int samples, int knots)
     return true;
 }
 
+void storage_place(wiggly_curve *curve, double *numbers, int samples)
+{
+    size_t n = (size_t)samples;
+    *curve = (wiggly_curve){.total = numbers,
+                            .y = numbers + n,
+                            .re = numbers + 2 * n,
+                            .im = numbers + 3 * n,
+                            .omega = numbers + 4 * n,
+                            .samples = samples,
+                            .mode = WIGGLY_CUBIC};
+}
+
 /// Where each curve's numbers are. Until they are solved they are zeros or what another layout left: finite in any
 /// case.
 static void lay_out(struct evaluation *evaluation, struct storage *storage, int splines, int samples)
@@ -97,18 +121,22 @@ static void lay_out(struct evaluation *evaluation, struct storage *storage, int 
     evaluation->count = splines;
     evaluation->samples = samples;
     storage->is_new = true;
+    storage->layout++;
     for (int i = 0; i < splines; i++) {
-        double *row = storage->numbers + (size_t)i * ROWS * (size_t)samples;
-        size_t n = (size_t)samples;
-        evaluation->curves[i] = (wiggly_curve){.total = row,
-                                               .y = row + n,
-                                               .re = row + 2 * n,
-                                               .im = row + 3 * n,
-                                               .omega = row + 4 * n,
-                                               .samples = samples,
-                                               .mode = WIGGLY_CUBIC};
+        size_t row = (size_t)i * ROWS * (size_t)samples, mark = 2 * (size_t)i * extremes_blocks(samples);
+        storage_place(&evaluation->curves[i], storage->numbers + row, samples);
+        int *marks = storage_wants_extremes(samples) ? storage->marks + mark : NULL;
+        storage->extremes[i] = storage_extremes(marks, samples);
         evaluation->status[i] = WIGGLY_OK;
     }
+}
+
+/// Whether the memory is right as it is.
+static bool fits(const struct evaluation *evaluation, const struct document *document, int knots)
+{
+    const struct storage *storage = evaluation->storage;
+    return evaluation->count == document->spline_count && evaluation->samples == document_samples(document) &&
+           !storage->is_new && knots <= storage->solver_knots;
 }
 
 bool evaluation_resize(struct evaluation *evaluation, const struct document *document, struct error *error)
@@ -120,8 +148,9 @@ bool evaluation_resize(struct evaluation *evaluation, const struct document *doc
     if (!evaluation->storage) evaluation->storage = calloc(1, sizeof(struct storage));
     struct storage *storage = evaluation->storage;
     if (!storage) return fail_memory(document, error);
+    if (!fits(evaluation, document, knots)) background_halt(evaluation);
     if (!resize_splines(evaluation, storage, splines) || !resize_numbers(storage, splines, samples) ||
-        !resize_solver(storage, samples, knots)) {
+        !resize_marks(storage, splines, samples) || !resize_solver(storage, samples, knots)) {
         evaluation->count = 0;
         return fail_memory(document, error);
     }
@@ -134,8 +163,10 @@ void evaluation_free(struct evaluation *evaluation)
 {
     struct storage *storage = evaluation->storage;
     if (storage) {
+        background_destroy(storage->background);
         free_splines(evaluation, storage);
         free(storage->numbers);
+        free(storage->marks);
         free(storage->knots);
         wiggly_destroy(storage->solver);
         free(storage);
@@ -150,9 +181,8 @@ static wiggly_param solver_param(const struct evaluation *evaluation, const stru
     return (wiggly_param){param->value, param->track >= 0 ? evaluation->curves[param->track].total : NULL};
 }
 
-/// What is to be solved for one spline; tracks point into the evaluation, `knots` has room for the spline's.
-static wiggly_desc describe(const struct evaluation *evaluation, const struct document *document, int spline_index,
-                            bool cubic, wiggly_knot *knots)
+wiggly_desc storage_describe(const struct evaluation *evaluation, const struct document *document, int spline_index,
+                             bool cubic)
 {
     const struct spline *spline = &document->splines[spline_index];
     wiggly_desc desc = wiggly_default_desc();
@@ -168,17 +198,24 @@ static wiggly_desc describe(const struct evaluation *evaluation, const struct do
     desc.friction = solver_param(evaluation, spline, PARAMETER_FRICTION);
     desc.equilibrium = solver_param(evaluation, spline, PARAMETER_EQUILIBRIUM);
     desc.calm = spline->parameter[PARAMETER_CALM].value;
-    desc.knots = knots;
-    desc.knot_count = spline->knot_count;
-    for (int i = 0; i < spline->knot_count; i++) {
-        const struct knot *knot = &spline->knots[i];
-        knots[i] = (wiggly_knot){.sample = document_sample(document, knot->frame),
-                                 .has_slope = knot->has_slope,
-                                 .value = knot->value,
-                                 .slope = knot->slope,
-                                 .stiffness = knot->stiffness};
-    }
     return desc;
+}
+
+wiggly_knot storage_knot(const struct document *document, const struct knot *knot)
+{
+    return (wiggly_knot){.sample = document_sample(document, knot->frame),
+                         .has_slope = knot->has_slope,
+                         .value = knot->value,
+                         .slope = knot->slope,
+                         .stiffness = knot->stiffness};
+}
+
+void storage_add_knots(wiggly_desc *desc, const struct document *document, int spline, wiggly_knot *knots)
+{
+    const struct spline *of = &document->splines[spline];
+    for (int i = 0; i < of->knot_count; i++) knots[i] = storage_knot(document, &of->knots[i]);
+    desc->knots = knots;
+    desc->knot_count = of->knot_count;
 }
 
 /// Whether a spline that was solved now is one that this one depends on.
@@ -191,8 +228,7 @@ static bool follows_solved(const struct storage *storage, const struct spline *s
     return false;
 }
 
-/// What is shown where there is no solution: nothing moves.
-static void flatten(wiggly_curve *curve, const wiggly_desc *desc)
+void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc)
 {
     double *const rows[] = {curve->total, curve->y, curve->re, curve->im, curve->omega};
     for (int r = 0; r < ROWS; r++) memset(rows[r], 0, sizeof(double) * (size_t)desc->samples);
@@ -211,11 +247,14 @@ static void solve(struct evaluation *evaluation, const struct document *document
     wiggly_desc desc = {.samples = evaluation->samples, .step = document_step(document)};
     wiggly_status status = WIGGLY_ERROR_CAPACITY;
     if (knots <= storage->solver_knots) {
-        desc = describe(evaluation, document, spline, cubic, storage->knots);
+        desc = storage_describe(evaluation, document, spline, cubic);
+        storage_add_knots(&desc, document, spline, storage->knots);
         status = wiggly_solve(storage->solver, &desc, curve);
     }
-    if (status >= WIGGLY_ERROR_ARGUMENT) flatten(curve, &desc);
+    if (status >= WIGGLY_ERROR_ARGUMENT) storage_flatten(curve, &desc);
+    extremes_update(&storage->extremes[spline], curve->total, desc.samples, 0, desc.samples);
     evaluation->status[spline] = status;
+    evaluation->revision++;
     evaluation->solved_splines++;
     evaluation->solved_samples += desc.samples;
     evaluation->solved_knots += knots;
@@ -226,9 +265,10 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     struct storage *storage = evaluation->storage;
     struct order_cycle cycle;
     evaluation->solved_splines = evaluation->solved_samples = evaluation->solved_knots = 0;
-    bool fits = evaluation->count == document->spline_count && evaluation->samples == document_samples(document);
-    if (!fits) return; // evaluation_resize() failed, and said so
-    bool all = !dirty || storage->is_new || cubic != evaluation->cubic;
+    if (evaluation->count != document->spline_count || evaluation->samples != document_samples(document))
+        return; // evaluation_resize() failed, and said so
+    background_forget(evaluation);
+    bool all = !dirty || storage->is_new || cubic != evaluation->cubic || evaluation->stale;
     evaluation->cubic = cubic;
     if (!scene_order(document, storage->space, storage->order, &cycle)) return; // no document has one
     for (int i = 0; i < evaluation->count; i++) storage->solved[i] = false;
@@ -238,5 +278,11 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
         storage->solved[spline] = true;
         solve(evaluation, document, spline, cubic);
     }
-    storage->is_new = false;
+    storage->is_new = evaluation->stale = false;
+}
+
+int evaluation_extreme(const struct evaluation *evaluation, int spline, int first, int last, bool highest)
+{
+    const struct storage *storage = evaluation->storage;
+    return extremes_find(&storage->extremes[spline], evaluation->curves[spline].total, first, last, highest);
 }

@@ -11,6 +11,8 @@ struct evaluation {
     int count;             ///< splines
     int samples;           ///< N
     bool cubic;            ///< all solved in cubic mode (the "cubic" of the A/B comparison)
+    uint64_t revision;     ///< another number with every change of the curves
+    bool stale;            ///< some curves are not the document's yet: background.h is at work on them
     long solved_splines;   ///< in the last evaluate(): splines and samples solved
     long solved_samples;
     long solved_knots;
@@ -27,5 +29,9 @@ void evaluation_free(struct evaluation *evaluation);
 /// Allocates nothing. `cubic` solves every spline as a cubic on the same knots (its equilibrium kept): changing it
 /// solves all.
 void evaluation_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic);
+
+/// The sample of the lowest (or highest) total of a solved spline from `first` to `last`, the earliest of equal ones; fast at any
+/// length.
+int evaluation_extreme(const struct evaluation *evaluation, int spline, int first, int last, bool highest);
 
 #endif

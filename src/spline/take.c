@@ -1,5 +1,6 @@
 // A long spline under the hands of an animator: its chain of nodes with a tree over them (tree.c). Moving a knot changes two
 // stretches and three rows; the tree condenses the elements above these anew, and is descended where one looks.
+#include "spline/take.h"
 #include "spline/problem.h"
 #include "spline/tree.h"
 #include <math.h>
@@ -140,41 +141,62 @@ static bool renew_rows(wiggly_take *take, int j)
     return true;
 }
 
-wiggly_status wiggly_take_set_knot(wiggly_take *take, int index, wiggly_knot knot)
+/// Where a knot may go and what it may say.
+static wiggly_status check_knot(const wiggly_take *take, int index, const wiggly_knot *knot)
 {
     if (!take || index < 0 || index >= take->desc.knot_count) return WIGGLY_ERROR_ARGUMENT;
-    wiggly_knot *knots = take->knots, before = knots[index];
+    const wiggly_knot *knots = take->knots;
     int low = index > 0 ? knots[index - 1].sample + 1 : take->desc.start == WIGGLY_REST ? 2 : 0;
     int high = index + 1 < take->desc.knot_count ? knots[index + 1].sample - 1 : take->desc.samples - 1;
-    if (knot.sample < low || knot.sample > high) return WIGGLY_ERROR_KNOT;
-    if (!isfinite(knot.value) ||
-        (knot.has_slope && !(isfinite(knot.slope) && knot.stiffness > 0 && isfinite(knot.stiffness)))) {
-        return WIGGLY_ERROR_NUMBER;
-    }
+    if (knot->sample < low || knot->sample > high) return WIGGLY_ERROR_KNOT;
+    bool good = isfinite(knot->value) && fabs(knot->value) <= LARGEST_VALUE;
+    if (knot->has_slope) good = good && isfinite(knot->slope) && knot->stiffness > 0 && isfinite(knot->stiffness);
+    return good ? WIGGLY_OK : WIGGLY_ERROR_NUMBER;
+}
+
+/// Replaces a checked knot; false where more than the rows around it has to be made anew.
+static bool patch(wiggly_take *take, int index, wiggly_knot knot, wiggly_status *status)
+{
+    wiggly_knot before = take->knots[index];
     bool shared = has_company(take, index);
-    knots[index] = knot;
+    take->knots[index] = knot;
     shared = shared || has_company(take, index);
     bool moves_start = index == 0 && knot.sample != before.sample;
     bool on_last = knot.has_slope && knot.sample == take->desc.samples - 1;
-    int j = take->node_of[index];
-    if (!shared && !moves_start && !on_last) {
-        chain_node *node = &take->solver->chain.nodes[j];
-        double h = take->desc.step;
-        node->sample = knot.sample - take->first;
-        node->value = knot.value - take->desc.equilibrium.value;
-        node->slope = knot.has_slope ? h * knot.slope : 0;
-        node->slope_weight = knot.has_slope ? fmin(knot.stiffness * h, STIFFEST) : 0;
-        if (renew_rows(take, j)) {
-            int last = take->solver->chain.node_count - 1;
-            return tree_update(&take->tree, j > 0 ? j - 1 : 0, j < last ? j + 1 : last) ? WIGGLY_OK : WIGGLY_SINGULAR;
-        }
-    }
-    wiggly_status status = build(take);
+    int j = take->node_of[index], last = take->solver->chain.node_count - 1;
+    if (shared || moves_start || on_last) return false;
+    chain_node *node = &take->solver->chain.nodes[j];
+    double h = take->desc.step;
+    node->sample = knot.sample - take->first;
+    node->value = knot.value - take->desc.equilibrium.value;
+    node->slope = knot.has_slope ? h * knot.slope : 0;
+    node->slope_weight = knot.has_slope ? fmin(knot.stiffness * h, STIFFEST) : 0;
+    if (!renew_rows(take, j)) return false;
+    bool good = tree_update(&take->tree, j > 0 ? j - 1 : 0, j < last ? j + 1 : last);
+    *status = good ? WIGGLY_OK : WIGGLY_SINGULAR;
+    return true;
+}
+
+wiggly_status wiggly_take_set_knot(wiggly_take *take, int index, wiggly_knot knot)
+{
+    wiggly_status status = check_knot(take, index, &knot);
+    if (status != WIGGLY_OK) return status;
+    wiggly_knot before = take->knots[index];
+    if (patch(take, index, knot, &status)) return status;
+    status = build(take);
     if (status == WIGGLY_OK) return status;
-    knots[index] = before; // what cannot be a take is refused, and the take is as it was
+    take->knots[index] = before; // what cannot be a take is refused, and the take is as it was
     build(take);
     return status;
 }
+
+bool take_patch_knot(wiggly_take *take, int index, wiggly_knot knot)
+{
+    wiggly_status status;
+    return check_knot(take, index, &knot) == WIGGLY_OK && patch(take, index, knot, &status) && status == WIGGLY_OK;
+}
+
+const wiggly_desc *take_desc(const wiggly_take *take) { return &take->desc; }
 
 /// Where samples of a window go.
 typedef struct sink {

@@ -1,0 +1,346 @@
+#include "scene/background.h"
+#include "scene/window.h"
+#include "scene/worker.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// Nanoseconds a sample, measured on the slowest machine at hand under load: constant parameters beyond the caches; tracks and loops.
+enum { CHAIN_COST = 4, BAND_COST = 1000 };
+
+static const double LONG = 2e6; ///< nanoseconds of one spline above which a frame does not solve it by itself
+
+/// Seconds that the frame of an edit waits for the thread: up to there, an edit is seen in its own frame at any length.
+static const double PATIENCE = 0.004;
+
+enum {
+    WIDEST = 1 << 18, ///< samples of a window that are read in a frame: 0.5 ms
+    AROUND = 1 << 13, ///< on each side of the playhead and of a knot that moved
+};
+
+struct background {
+    struct worker *worker;
+    double *numbers; ///< ROWS · N that no curve has at first; curves and `spare` change places from then on
+    int *marks;
+    int samples; ///< N that there is room for
+    wiggly_curve spare;
+    struct extremes spare_extremes;
+    bool *pending; ///< one a spline: edited since its last job was begun
+    int splines;
+    wiggly_desc desc; ///< of the job under way, or of the last one
+    int solving;      ///< spline of the job under way, -1: none
+    int condensing;   ///< the same for a take
+    int turn;         ///< place in the order from which the next spline is looked for
+    struct window window;
+    int unfit;        ///< spline that could not be a take as it was last, -1
+    bool knots_alone; ///< the last solve differed from the one before in knots: a take will help
+};
+
+static bool uses_band(const struct spline *spline)
+{
+    for (int p = 0; p < PARAMETER_COUNT; p++) {
+        if (spline->parameter[p].track >= 0 && spline_uses(spline, (enum parameter)p, false)) return true;
+    }
+    return spline->start == WIGGLY_LOOP;
+}
+
+bool background_serves(const struct document *document)
+{
+    double samples = document_samples(document);
+    if (samples * BAND_COST <= LONG) return false;
+    if (samples * CHAIN_COST > LONG) return document->spline_count > 0;
+    for (int s = 0; s < document->spline_count; s++) {
+        if (uses_band(&document->splines[s])) return true;
+    }
+    return false;
+}
+
+void background_destroy(struct background *background)
+{
+    if (!background) return;
+    struct job job = {0};
+    if (background->worker && worker_collect(background->worker, INFINITY, &job) && job.kind == WORK_TAKE)
+        wiggly_take_destroy(job.take);
+    worker_destroy(background->worker);
+    wiggly_take_destroy(background->window.take);
+    free(background->numbers);
+    free(background->marks);
+    free(background->pending);
+    free(background);
+}
+
+static struct background *background_create(void)
+{
+    struct background *background = calloc(1, sizeof *background);
+    if (background && (background->worker = worker_create())) return background;
+    background_destroy(background);
+    return NULL;
+}
+
+static bool reserve(struct background *b, int splines, int samples)
+{
+    if (samples > b->samples) {
+        free(b->numbers);
+        free(b->marks);
+        b->numbers = calloc(ROWS * (size_t)samples, sizeof *b->numbers);
+        b->marks = calloc(2 * extremes_blocks(samples), sizeof *b->marks);
+        b->samples = b->numbers && b->marks ? samples : 0;
+    }
+    if (splines > b->splines) {
+        free(b->pending);
+        b->pending = calloc((size_t)splines, sizeof *b->pending);
+        b->splines = b->pending ? splines : 0;
+    }
+    return b->samples >= samples && b->splines >= splines;
+}
+
+/// For curves that were laid out anew: nothing of what was known is true. Where memory is short, the layout has no thread.
+static void begin(struct evaluation *evaluation)
+{
+    struct storage *storage = evaluation->storage;
+    if (!storage->background) storage->background = background_create();
+    struct background *b = storage->background;
+    if (b && !reserve(b, evaluation->count, evaluation->samples)) {
+        background_destroy(b);
+        b = storage->background = NULL;
+    }
+    storage->threaded_layout = storage->layout;
+    if (!b) return;
+    storage_place(&b->spare, b->numbers, evaluation->samples);
+    int *marks = storage_wants_extremes(evaluation->samples) ? b->marks : NULL;
+    b->spare_extremes = storage_extremes(marks, evaluation->samples);
+    memset(b->pending, 0, (size_t)b->splines);
+    wiggly_take_destroy(b->window.take);
+    b->window = (struct window){.spline = -1, .moved = -1};
+    b->desc = (wiggly_desc){0};
+    b->solving = b->condensing = b->unfit = -1;
+    b->turn = 0;
+    b->knots_alone = false;
+}
+
+static bool follows(const struct spline *spline, int leader, bool cubic)
+{
+    for (int p = 0; p < PARAMETER_COUNT; p++) {
+        if (spline->parameter[p].track == leader && spline_uses(spline, (enum parameter)p, cubic)) return true;
+    }
+    return false;
+}
+
+/// The thread's rows become the spline's; who follows it is solved next.
+static void show_solved(struct evaluation *evaluation, const struct document *document, const struct job *job)
+{
+    struct storage *storage = evaluation->storage;
+    struct background *b = storage->background;
+    int spline = b->solving;
+    b->spare = evaluation->curves[spline];
+    b->spare_extremes = storage->extremes[spline];
+    evaluation->curves[spline] = job->curve;
+    storage->extremes[spline] = job->extremes;
+    evaluation->status[spline] = job->status;
+    evaluation->revision++;
+    evaluation->solved_splines++;
+    evaluation->solved_samples += job->desc.samples;
+    evaluation->solved_knots += job->desc.knot_count;
+    for (int s = 0; s < evaluation->count; s++) {
+        if (follows(&document->splines[s], spline, evaluation->cubic)) b->pending[s] = true;
+    }
+    b->solving = -1;
+}
+
+static void adopt_take(struct evaluation *evaluation, const struct document *document, const struct job *job)
+{
+    struct background *b = ((struct storage *)evaluation->storage)->background;
+    b->window = (struct window){.take = job->take, .spline = b->condensing, .moved = -1};
+    if (!job->take) b->unfit = b->condensing;
+    b->condensing = -1;
+    if (!job->take) return;
+    wiggly_desc desc = storage_describe(evaluation, document, b->window.spline, evaluation->cubic);
+    window_follow(&b->window, document, &desc);
+}
+
+/// Takes over what the thread has finished within `seconds`.
+static bool collect(struct evaluation *evaluation, const struct document *document, double seconds)
+{
+    struct background *b = ((struct storage *)evaluation->storage)->background;
+    struct job job;
+    if (!worker_collect(b->worker, seconds, &job)) return false;
+    if (job.kind == WORK_SOLVE) {
+        show_solved(evaluation, document, &job);
+    } else {
+        adopt_take(evaluation, document, &job);
+    }
+    return true;
+}
+
+static void give(struct evaluation *evaluation, const struct document *document, int spline, enum work kind)
+{
+    struct storage *storage = evaluation->storage;
+    struct background *b = storage->background;
+    wiggly_desc desc = storage_describe(evaluation, document, spline, evaluation->cubic);
+    storage_add_knots(&desc, document, spline, storage->knots);
+    struct job job = {.kind = kind, .desc = desc, .solver = storage->solver};
+    if (kind == WORK_SOLVE) {
+        job.curve = b->spare;
+        job.extremes = b->spare_extremes;
+        b->knots_alone = window_same_settings(&b->desc, &desc);
+        b->pending[spline] = false;
+        b->solving = spline;
+    } else {
+        job.take = b->window.take;
+        b->window = (struct window){.spline = -1, .moved = -1};
+        b->knots_alone = false;
+        b->condensing = spline;
+    }
+    b->desc = desc;
+    worker_give(b->worker, &job);
+}
+
+/// The next pending spline, in the order of dependencies from the last one on, so that none is passed over for ever; -1: none.
+static int next_pending(const struct storage *storage, int count)
+{
+    struct background *b = storage->background;
+    for (int n = 0; n < count; n++) {
+        int place = (b->turn + n) % count;
+        if (!b->pending[storage->order[place]]) continue;
+        b->turn = place + 1;
+        return storage->order[place];
+    }
+    b->turn = 0;
+    return -1;
+}
+
+static bool wants_take(const struct evaluation *evaluation, const struct document *document,
+                       const struct focus *focus)
+{
+    const struct background *b = ((struct storage *)evaluation->storage)->background;
+    bool has = b->window.take && b->window.spline == focus->spline && b->window.is_current;
+    if (focus->spline < 0 || has || focus->spline == b->unfit) return false;
+    wiggly_desc desc = storage_describe(evaluation, document, focus->spline, evaluation->cubic);
+    return window_serves(&desc);
+}
+
+/// Begins the next job where the thread has none: rows before a take, but a take where knots are being moved without one.
+static void give_next(struct evaluation *evaluation, const struct document *document, const struct focus *focus)
+{
+    struct storage *storage = evaluation->storage;
+    struct background *b = storage->background;
+    if (worker_has_job(b->worker)) return;
+    bool take = wants_take(evaluation, document, focus);
+    int spline = take && b->knots_alone ? -1 : next_pending(storage, evaluation->count);
+    if (spline >= 0) {
+        give(evaluation, document, spline, WORK_SOLVE);
+    } else if (take) {
+        give(evaluation, document, focus->spline, WORK_TAKE);
+    }
+}
+
+static bool is_stale(const struct background *b, int count)
+{
+    for (int s = 0; s < count; s++) {
+        if (b->pending[s]) return true;
+    }
+    return b->solving >= 0;
+}
+
+/// Whether the thread reads the rows of that spline, as a track.
+static bool is_read(const struct evaluation *evaluation, const struct background *b, int spline)
+{
+    const wiggly_param params[] = {b->desc.frequency, b->desc.damping,  b->desc.bandwidth,
+                                   b->desc.spring,    b->desc.friction, b->desc.equilibrium};
+    if (b->solving < 0) return false;
+    for (size_t p = 0; p < sizeof params / sizeof *params; p++) {
+        if (params[p].track && params[p].track == evaluation->curves[spline].total) return true;
+    }
+    return false;
+}
+
+/// Reads from the take what is looked at, where the rows are older. false where there is no take for it.
+static bool show_windows(struct evaluation *evaluation, const struct focus *focus)
+{
+    struct storage *storage = evaluation->storage;
+    struct background *b = storage->background;
+    struct window *window = &b->window;
+    int spline = window->spline;
+    if (!window->take || !window->is_current || !(b->pending[spline] || b->solving == spline)) return false;
+    if (is_read(evaluation, b, spline)) return false;
+    const wiggly_curve *curve = &evaluation->curves[spline];
+    const struct extremes *extremes = &storage->extremes[spline];
+    bool good = window_show(window, curve, extremes, focus->at - AROUND, 2 * AROUND);
+    if (good && window->moved >= 0) good = window_show(window, curve, extremes, window->moved - AROUND, 2 * AROUND);
+    if (good && focus->count <= WIDEST) good = window_show(window, curve, extremes, focus->first, focus->count);
+    if (!good) b->unfit = spline;
+    evaluation->revision++;
+    return good;
+}
+
+/// Notes what an edit made out of date; false where nothing was edited.
+static bool mark(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic)
+{
+    struct background *b = ((struct storage *)evaluation->storage)->background;
+    bool all = cubic != evaluation->cubic, any = false;
+    evaluation->cubic = cubic;
+    for (int s = 0; s < evaluation->count; s++) {
+        if (!all && !dirty[s]) continue;
+        b->pending[s] = any = true;
+        if (s == b->unfit) b->unfit = -1;
+        if (s != b->window.spline || !b->window.take) continue;
+        wiggly_desc desc = storage_describe(evaluation, document, s, cubic);
+        window_follow(&b->window, document, &desc);
+    }
+    return any;
+}
+
+void background_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic,
+                       const struct focus *focus)
+{
+    struct storage *storage = evaluation->storage;
+    struct order_cycle cycle;
+    bool fits = evaluation->count == document->spline_count && evaluation->samples == document_samples(document);
+    if (!fits || !scene_order(document, storage->space, storage->order, &cycle)) return;
+    bool begun = storage->threaded_layout == storage->layout;
+    if (!dirty || storage->is_new || !begun || !storage->background) {
+        evaluation_update(evaluation, document, dirty, cubic);
+        if (!begun) begin(evaluation);
+        return;
+    }
+    evaluation->solved_splines = evaluation->solved_samples = evaluation->solved_knots = 0;
+    struct background *b = storage->background;
+    collect(evaluation, document, 0);
+    bool edited = mark(evaluation, document, dirty, cubic), shown = show_windows(evaluation, focus);
+    give_next(evaluation, document, focus);
+    while (edited && !shown && b->solving >= 0 && collect(evaluation, document, PATIENCE)) {
+        give_next(evaluation, document, focus);
+    }
+    if (!shown) show_windows(evaluation, focus);
+    evaluation->stale = is_stale(b, evaluation->count);
+}
+
+void background_settle(struct evaluation *evaluation, const struct document *document, const struct focus *focus)
+{
+    struct storage *storage = evaluation->storage;
+    if (!storage || !storage->background) return;
+    do {
+        give_next(evaluation, document, focus);
+    } while (collect(evaluation, document, INFINITY));
+    evaluation->stale = is_stale(storage->background, evaluation->count);
+}
+
+void background_halt(struct evaluation *evaluation)
+{
+    struct storage *storage = evaluation->storage;
+    struct background *b = storage->background;
+    struct job job;
+    if (!b) return;
+    b->window.is_current = false;
+    if (!worker_collect(b->worker, INFINITY, &job)) return;
+    if (job.kind == WORK_TAKE) wiggly_take_destroy(job.take);
+    if (b->solving >= 0) b->pending[b->solving] = true;
+    b->solving = b->condensing = -1;
+}
+
+void background_forget(struct evaluation *evaluation)
+{
+    struct storage *storage = evaluation->storage;
+    background_halt(evaluation);
+    if (storage->background) memset(storage->background->pending, 0, (size_t)storage->background->splines);
+}

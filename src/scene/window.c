@@ -1,0 +1,88 @@
+#include "scene/window.h"
+#include "spline/take.h"
+
+enum { MOST_MOVED = 64 }; ///< knots in one frame: 2 µs each
+
+bool window_serves(const wiggly_desc *desc)
+{
+    const wiggly_param *params[] = {&desc->frequency, &desc->damping,  &desc->bandwidth,
+                                    &desc->spring,    &desc->friction, &desc->equilibrium};
+    for (size_t p = 0; p < sizeof params / sizeof *params; p++) {
+        if (params[p]->track) return false;
+    }
+    return desc->start != WIGGLY_LOOP;
+}
+
+static bool same_param(wiggly_param a, wiggly_param b) { return a.value == b.value && a.track == b.track; }
+
+bool window_same_settings(const wiggly_desc *a, const wiggly_desc *b)
+{
+    return a->samples == b->samples && a->step == b->step && a->mode == b->mode && a->start == b->start &&
+           a->spring_friction == b->spring_friction && a->calm == b->calm && same_param(a->frequency, b->frequency) &&
+           same_param(a->damping, b->damping) && same_param(a->bandwidth, b->bandwidth) &&
+           same_param(a->spring, b->spring) && same_param(a->friction, b->friction) &&
+           same_param(a->equilibrium, b->equilibrium);
+}
+
+static bool same_knot(const wiggly_knot *a, const wiggly_knot *b)
+{
+    return a->sample == b->sample && a->value == b->value && a->has_slope == b->has_slope &&
+           (!a->has_slope || (a->slope == b->slope && a->stiffness == b->stiffness));
+}
+
+/// Indices of the knots that are not as the take has them. How many; more than MOST_MOVED: too many.
+static int find_moved(const wiggly_desc *old, const struct document *document, const struct spline *spline,
+                      int moved[MOST_MOVED])
+{
+    int count = 0;
+    for (int k = 0; k < spline->knot_count; k++) {
+        wiggly_knot knot = storage_knot(document, &spline->knots[k]);
+        if (same_knot(&old->knots[k], &knot)) continue;
+        if (count == MOST_MOVED) return MOST_MOVED + 1;
+        moved[count++] = k;
+    }
+    return count;
+}
+
+/// Later ones first where they move to the right, earlier ones first where they move to the left: each finds its place free.
+static bool move(struct window *window, const struct document *document, const struct spline *spline,
+                 const int *moved, int count)
+{
+    const wiggly_desc *old = take_desc(window->take);
+    for (int turn = 0; turn < 2; turn++) {
+        for (int n = 0; n < count; n++) {
+            int k = moved[turn == 0 ? count - 1 - n : n];
+            wiggly_knot knot = storage_knot(document, &spline->knots[k]);
+            bool to_the_right = knot.sample > old->knots[k].sample;
+            if (to_the_right != (turn == 0) || same_knot(&old->knots[k], &knot)) continue;
+            if (!take_patch_knot(window->take, k, knot)) return false;
+            window->moved = knot.sample;
+        }
+    }
+    return true;
+}
+
+void window_follow(struct window *window, const struct document *document, const wiggly_desc *desc)
+{
+    const struct spline *spline = &document->splines[window->spline];
+    const wiggly_desc *old = take_desc(window->take);
+    int moved[MOST_MOVED];
+    window->is_current = false;
+    if (spline->knot_count != old->knot_count || !window_same_settings(old, desc)) return;
+    int count = find_moved(old, document, spline, moved);
+    if (count <= MOST_MOVED) window->is_current = move(window, document, spline, moved, count);
+}
+
+bool window_show(struct window *window, const wiggly_curve *curve, const struct extremes *extremes, int first,
+                 int count)
+{
+    int end = first + count < curve->samples ? first + count : curve->samples;
+    if (first < 0) first = 0;
+    if (first >= end) return true;
+    double *total = curve->total + first, *re = curve->re + first, y = take_desc(window->take)->equilibrium.value;
+    wiggly_status status = wiggly_take_read(window->take, first, end - first, total, curve->im + first);
+    for (int i = 0; i < end - first; i++) re[i] = total[i] - y;
+    extremes_update(extremes, curve->total, curve->samples, first, end - first);
+    window->is_current = status == WIGGLY_OK;
+    return window->is_current;
+}
