@@ -6,6 +6,7 @@
 #include "puppet.h"
 #include "rig/camera.h"
 #include "ui/phase_color.h"
+#include "ui/theme.h"
 
 enum { WIDTH = 500, HEIGHT = 300 };
 
@@ -48,6 +49,7 @@ static void draw(const struct stage_character *character, picture pixels)
     struct camera camera = camera_default();
     long bytes = 0;
     memset(&view, 0, sizeof view);
+    view.colors = theme()->stage;
     camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT);
     camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
     view.characters[0] = *character;

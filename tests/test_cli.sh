@@ -36,6 +36,7 @@ expect 2 "a number that is none" "$WIGGLY" live --headless --frames ten
 says "says what was expected and got" "expected a whole number" "$err"
 says "and what it got" "'ten'" "$err"
 expect 2 "a size that is none" "$WIGGLY" live --headless --size 1280
+expect 2 "a theme that there is none of" "$WIGGLY" live --headless --theme pink
 expect 2 "one argument too many" "$WIGGLY" check a.json b.json
 says "says which one" "'b.json'" "$err"
 

@@ -76,11 +76,11 @@ static void test_rect_has_its_color_and_exact_edges(void **state)
     (void)state;
     begin();
     drawlist_rect(&list, (struct rect){0.0f, 0.0f, WIDTH, HEIGHT}, BLACK);
-    drawlist_rect(&list, (struct rect){10.0f, 20.0f, 30.0f, 40.0f}, THEME_ACCENT);
+    drawlist_rect(&list, (struct rect){10.0f, 20.0f, 30.0f, 40.0f}, theme()->accent);
     drawlist_rect(&list, (struct rect){100.25f, 50.5f, 20.5f, 10.0f}, WHITE);
     show();
-    assert_int_equal(at(10, 20), THEME_ACCENT >> 8);
-    assert_int_equal(at(39, 59), THEME_ACCENT >> 8);
+    assert_int_equal(at(10, 20), theme()->accent >> 8);
+    assert_int_equal(at(39, 59), theme()->accent >> 8);
     assert_int_equal(at(9, 20) | at(40, 20) | at(10, 19) | at(10, 60), 0);
     double sum = 0.0;
     for (int y = 45; y < 65; y++) {
@@ -95,15 +95,15 @@ static void test_later_commands_cover_earlier_ones(void **state)
 {
     (void)state;
     begin();
-    drawlist_rect(&list, (struct rect){0.0f, 0.0f, 200.0f, 200.0f}, THEME_ACCENT); // large enough to be a fill
+    drawlist_rect(&list, (struct rect){0.0f, 0.0f, 200.0f, 200.0f}, theme()->accent); // large enough to be a fill
     drawlist_rect(&list, (struct rect){20.0f, 20.0f, 10.0f, 10.0f}, WHITE);
     drawlist_rect(&list, (struct rect){10.0f, 10.0f, 100.0f, 100.0f}, BLACK); // and a fill over triangles
     drawlist_rect(&list, (struct rect){30.0f, 30.0f, 10.0f, 10.0f}, 0xFFFFFF80u);
     show();
-    assert_int_equal(at(5, 5), THEME_ACCENT >> 8);
+    assert_int_equal(at(5, 5), theme()->accent >> 8);
     assert_int_equal(at(25, 25), 0);
     assert_near(coverage(35, 35), 128.0 / 255.0, 0.005);
-    assert_int_equal(at(250, 5), THEME_PANEL >> 8);
+    assert_int_equal(at(250, 5), theme()->panel >> 8);
 }
 
 /// Sum of coverage over a rectangle of pixels.
@@ -241,7 +241,7 @@ static struct thing random_thing(void)
     struct thing thing = {(int)random_below(6.0f),     random_below(WIDTH),         random_below(HEIGHT),
                           4.0f + random_below(150.0f), 4.0f + random_below(100.0f), 0,
                           random_below(1.0f) < 0.3f};
-    thing.color = theme_fade(theme_spline_color[(int)random_below(6.0f)], 0.3f + random_below(0.9f));
+    thing.color = theme_fade(theme()->spline[(int)random_below(6.0f)], 0.3f + random_below(0.9f));
     return thing;
 }
 
@@ -290,6 +290,7 @@ static struct stage_view some_stage(float turn)
     stage.projection[10] = -1.01f;
     stage.projection[11] = -1.0f;
     stage.projection[14] = -0.2f;
+    stage.colors = theme()->stage;
     stage.hash = (uint64_t)(1000.0f * turn) + 1;
     return stage;
 }
@@ -322,14 +323,14 @@ static void test_partial_redraw_equals_full_redraw(void **state)
 static void record_panel(float playhead)
 {
     begin();
-    drawlist_rect(&list, (struct rect){0.0f, 120.0f, WIDTH, 120.0f}, THEME_PANEL);
+    drawlist_rect(&list, (struct rect){0.0f, 120.0f, WIDTH, 120.0f}, theme()->panel);
     float xy[2 * WIDTH];
     for (int i = 0; i < WIDTH; i++) {
         xy[2 * i] = (float)i;
         xy[2 * i + 1] = 180.0f + 40.0f * sinf(0.05f * (float)i);
     }
-    drawlist_line(&list, xy, WIDTH, 2.5f, THEME_ACCENT);
-    drawlist_rect(&list, (struct rect){playhead, 120.0f, 1.0f, 120.0f}, THEME_PLAYHEAD);
+    drawlist_line(&list, xy, WIDTH, 2.5f, theme()->accent);
+    drawlist_rect(&list, (struct rect){playhead, 120.0f, 1.0f, 120.0f}, theme()->playhead);
 }
 
 static void test_moving_playhead_redraws_narrow_strips(void **state)
@@ -346,8 +347,8 @@ static void test_moving_playhead_redraws_narrow_strips(void **state)
     cost = show_on(&stage, true, pixels);
     assert_int_equal(cost.rectangles, 2);
     assert_true(cost.pixels <= 2 * 16 * 128);
-    assert_int_equal(at(200, 130), THEME_PLAYHEAD >> 8);
-    assert_int_equal(at(50, 130), THEME_PANEL >> 8);
+    assert_int_equal(at(200, 130), theme()->playhead >> 8);
+    assert_int_equal(at(50, 130), theme()->panel >> 8);
 }
 
 // More than a buffer holds at once, in one line: drawn in several goes, its last point as well as its first.

@@ -48,19 +48,19 @@ static uint64_t line_hash(struct drawlist *list, float x, float width, float on,
 static void test_hash_sees_every_change(void **state)
 {
     struct drawlist *list = fresh(state);
-    uint64_t hash = line_hash(list, 60.0f, 2.0f, 6.0f, THEME_TEXT, WHOLE);
-    assert_true(hash == line_hash(list, 60.0f, 2.0f, 6.0f, THEME_TEXT, WHOLE));
-    assert_true(hash != line_hash(list, 60.25f, 2.0f, 6.0f, THEME_TEXT, WHOLE));
-    assert_true(hash != line_hash(list, 60.0f, 2.5f, 6.0f, THEME_TEXT, WHOLE));
-    assert_true(hash != line_hash(list, 60.0f, 2.0f, 5.0f, THEME_TEXT, WHOLE));
-    assert_true(hash != line_hash(list, 60.0f, 2.0f, 6.0f, theme_fade(THEME_TEXT, 0.5f), WHOLE));
-    assert_true(hash != line_hash(list, 60.0f, 2.0f, 6.0f, THEME_TEXT, (struct rect){0.0f, 0.0f, 199.0f, 100.0f}));
+    uint64_t hash = line_hash(list, 60.0f, 2.0f, 6.0f, theme()->text, WHOLE);
+    assert_true(hash == line_hash(list, 60.0f, 2.0f, 6.0f, theme()->text, WHOLE));
+    assert_true(hash != line_hash(list, 60.25f, 2.0f, 6.0f, theme()->text, WHOLE));
+    assert_true(hash != line_hash(list, 60.0f, 2.5f, 6.0f, theme()->text, WHOLE));
+    assert_true(hash != line_hash(list, 60.0f, 2.0f, 5.0f, theme()->text, WHOLE));
+    assert_true(hash != line_hash(list, 60.0f, 2.0f, 6.0f, theme_fade(theme()->text, 0.5f), WHOLE));
+    assert_true(hash != line_hash(list, 60.0f, 2.0f, 6.0f, theme()->text, (struct rect){0.0f, 0.0f, 199.0f, 100.0f}));
 }
 
 static uint64_t text_hash(struct drawlist *list, float x, float size, enum font font, const char *text)
 {
     drawlist_clear(list, WHOLE);
-    drawlist_text(list, x, 40.0f, font, size, THEME_TEXT, text);
+    drawlist_text(list, x, 40.0f, font, size, theme()->text, text);
     assert_int_equal(list->count, 1);
     return list->commands[0].hash;
 }
@@ -80,17 +80,17 @@ static void test_bounds_are_clipped_and_the_unseen_left_out(void **state)
 {
     struct drawlist *list = fresh(state);
     struct rect before = drawlist_push_clip(list, (struct rect){20.0f, 20.0f, 30.0f, 30.0f});
-    drawlist_rect(list, (struct rect){0.0f, 0.0f, 25.0f, 90.0f}, THEME_TEXT);
+    drawlist_rect(list, (struct rect){0.0f, 0.0f, 25.0f, 90.0f}, theme()->text);
     assert_int_equal(list->count, 1);
     assert_near(list->commands[0].bounds.x, 20.0, 0.0);
     assert_near(list->commands[0].bounds.w, 5.0, 0.0);
     assert_near(list->commands[0].bounds.h, 30.0, 0.0);
-    drawlist_rect(list, (struct rect){60.0f, 20.0f, 10.0f, 10.0f}, THEME_TEXT);
+    drawlist_rect(list, (struct rect){60.0f, 20.0f, 10.0f, 10.0f}, theme()->text);
     drawlist_rect(list, (struct rect){25.0f, 25.0f, 10.0f, 10.0f}, 0xFFFFFF00u);
-    drawlist_text(list, 25.0f, 30.0f, FONT_LABEL, 13.0f, THEME_TEXT, "");
+    drawlist_text(list, 25.0f, 30.0f, FONT_LABEL, 13.0f, theme()->text, "");
     assert_int_equal(list->count, 1);
     drawlist_set_clip(list, before);
-    drawlist_rect(list, (struct rect){60.0f, 20.0f, 10.0f, 10.0f}, THEME_TEXT);
+    drawlist_rect(list, (struct rect){60.0f, 20.0f, 10.0f, 10.0f}, theme()->text);
     assert_int_equal(list->count, 2);
 }
 
@@ -99,10 +99,10 @@ static void test_coordinates_that_are_not_finite_are_left_out(void **state)
     struct drawlist *list = fresh(state);
     const float bad[6] = {10.0f, 10.0f, NAN, 20.0f, 40.0f, 50.0f},
                 far[6] = {10.0f, 10.0f, 20.0f, INFINITY, 40.0f, 50.0f};
-    drawlist_line(list, bad, 3, 1.0f, THEME_TEXT);
-    drawlist_convex(list, far, 3, THEME_TEXT);
-    drawlist_rect(list, (struct rect){NAN, 1.0f, 5.0f, 5.0f}, THEME_TEXT);
-    drawlist_line(list, (const float[]){0.0f, 0.0f, 5.0f, 5.0f}, 2, NAN, THEME_TEXT);
+    drawlist_line(list, bad, 3, 1.0f, theme()->text);
+    drawlist_convex(list, far, 3, theme()->text);
+    drawlist_rect(list, (struct rect){NAN, 1.0f, 5.0f, 5.0f}, theme()->text);
+    drawlist_line(list, (const float[]){0.0f, 0.0f, 5.0f, 5.0f}, 2, NAN, theme()->text);
     assert_int_equal(list->count, 0);
     assert_false(list->overflow);
 }
@@ -113,19 +113,19 @@ static void test_overflow_is_told_and_harmless(void **state)
     struct drawlist *list = fresh(state);
     float xy[2 * 17] = {0};
     for (int i = 0; i < 17; i++) xy[2 * i] = (float)i;
-    drawlist_line(list, xy, 17, 1.0f, THEME_TEXT);
+    drawlist_line(list, xy, 17, 1.0f, theme()->text);
     assert_true(list->overflow);
     assert_int_equal(list->count, 0);
-    drawlist_line(list, xy, 16, 1.0f, THEME_TEXT);
+    drawlist_line(list, xy, 16, 1.0f, theme()->text);
     assert_int_equal(list->count, 1);
     drawlist_clear(list, WHOLE);
     char text[65] = "";
     memset(text, 'x', 64);
-    drawlist_text(list, 10.0f, 40.0f, FONT_LABEL, 13.0f, THEME_TEXT, text);
+    drawlist_text(list, 10.0f, 40.0f, FONT_LABEL, 13.0f, theme()->text, text);
     assert_true(list->overflow);
     assert_int_equal(list->count, 0);
     drawlist_clear(list, WHOLE);
-    for (int i = 0; i < 9; i++) drawlist_rect(list, (struct rect){(float)i, 1.0f, 5.0f, 5.0f}, THEME_TEXT);
+    for (int i = 0; i < 9; i++) drawlist_rect(list, (struct rect){(float)i, 1.0f, 5.0f, 5.0f}, theme()->text);
     assert_true(list->overflow);
     assert_int_equal(list->count, 8);
 }
@@ -134,7 +134,7 @@ static void test_long_text_is_cut_at_a_character_with_an_ellipsis(void **state)
 {
     struct drawlist *list = fresh(state);
     const float width = 60.0f;
-    drawlist_text_fit(list, 5.0f, 40.0f, width, FONT_LABEL, 13.0f, THEME_TEXT, "Größenänderung zu groß");
+    drawlist_text_fit(list, 5.0f, 40.0f, width, FONT_LABEL, 13.0f, theme()->text, "Größenänderung zu groß");
     const char *cut = list->text + list->commands[0].first;
     size_t length = strlen(cut);
     assert_true(length > 6 && length < 20);
@@ -142,7 +142,7 @@ static void test_long_text_is_cut_at_a_character_with_an_ellipsis(void **state)
     assert_true(font_width(FONT_LABEL, 13.0f, cut) <= width);
     for (const char *at = cut; *at;) assert_true(utf8_next(&at) != 0xFFFD);
     drawlist_clear(list, WHOLE);
-    drawlist_text_fit(list, 5.0f, 40.0f, width, FONT_LABEL, 13.0f, THEME_TEXT, "short");
+    drawlist_text_fit(list, 5.0f, 40.0f, width, FONT_LABEL, 13.0f, theme()->text, "short");
     assert_string_equal(list->text, "short");
 }
 

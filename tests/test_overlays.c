@@ -51,7 +51,7 @@ static void test_onion_shows_the_nearest_knots(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    uint32_t color = theme_spline_color[0];
+    uint32_t color = theme()->spline[0];
     assert_int_equal(find(&s, DRAW_LINE, color).count, 0);
     session_key(&s, 'O', 0);
     struct found skins = find(&s, DRAW_LINE, color);
@@ -80,11 +80,11 @@ static void test_arc_is_where_the_tip_goes(void **state)
     struct session s;
     session_open(&s, scene);
     session_key(&s, 'P', 0);
-    struct found marks = find(&s, DRAW_RECT, THEME_PLAYHEAD);
+    struct found marks = find(&s, DRAW_RECT, theme()->playhead);
     assert_in_range(marks.count, 44, 49); // two seconds ahead of the first frame, less what has faded
     for (int step = 1; step <= 3; step++) {
         float expected[2], tip[2];
-        middle_of(&s, find(&s, DRAW_RECT, THEME_PLAYHEAD).command[step], expected);
+        middle_of(&s, find(&s, DRAW_RECT, theme()->playhead).command[step], expected);
         assert_true(isfinite(expected[0]));
         for (int i = 0; i < step; i++) session_key(&s, KEY_RIGHT, 0);
         struct error error = {0};
@@ -103,13 +103,13 @@ static void test_arc_follows_an_edit_at_once(void **state)
     session_open(&s, scene);
     session_key(&s, 'P', 0);
     float before[2], after[2], again[2];
-    middle_of(&s, find(&s, DRAW_RECT, THEME_PLAYHEAD).command[14], before);
+    middle_of(&s, find(&s, DRAW_RECT, theme()->playhead).command[14], before);
     session_click(&s, "knot(sway,1)");
     session_key(&s, KEY_UP, MOD_ALT | MOD_SHIFT);
-    middle_of(&s, find(&s, DRAW_RECT, THEME_PLAYHEAD).command[14], after);
+    middle_of(&s, find(&s, DRAW_RECT, theme()->playhead).command[14], after);
     assert_true(hypotf(after[0] - before[0], after[1] - before[1]) > 2);
     session_key(&s, 'Z', MOD_CTRL);
-    middle_of(&s, find(&s, DRAW_RECT, THEME_PLAYHEAD).command[14], again);
+    middle_of(&s, find(&s, DRAW_RECT, theme()->playhead).command[14], again);
     assert_near(again[0], before[0], 1e-4);
     assert_near(again[1], before[1], 1e-4);
     session_close(&s);

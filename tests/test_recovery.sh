@@ -59,6 +59,9 @@ start_app mine.json "$scratch/mine.json"
 xdotool key F1 Escape
 said() { grep -qx "welcomed = yes" "$XDG_CONFIG_HOME/wiggly/settings"; }
 within_two_seconds "what to try first is said once" said
+xdotool key F10
+light() { grep -qx "theme = light" "$XDG_CONFIG_HOME/wiggly/settings"; }
+within_two_seconds "the theme is remembered" light
 edit_and_kill shift+Left Right Right Right
 cmp "$scratch/mine.json" assets/scenes/tail.json
 ok "the scene's own file is as it was" $?

@@ -7,6 +7,7 @@
 #include "platform/platform.h"
 #include "rig/camera.h"
 #include "rig/shadow.h"
+#include "ui/theme.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,6 +32,7 @@ static void arrange(double side)
     channel = (struct channel){.axis = AXIS_SIDE};
     channel.gain.value[0] = side;
     memset(&view, 0, sizeof view);
+    view.colors = theme()->stage;
     view.tail_count = 1;
     pose_tail(&tail, &(wiggly_value){.y = 1.0}, LOOK_WIGGLY, &view.tails[0].pose);
     struct shadow_blob blobs[STAGE_MAX_BLOBS];

@@ -3,6 +3,7 @@
 #include "platform/process.h"
 #include "scene/load.h"
 #include "ui/font.h"
+#include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -116,6 +117,7 @@ static bool start(struct app *app, bool offscreen, struct error *error)
 {
     const struct app_options *o = app->options;
     if (o->replay && !(app->replay = replay_load(o->replay, error))) return false;
+    if (o->theme) theme_use((enum theme_kind)theme_find(o->theme));
     if (!font_init(error) || !open_platform(app, offscreen, error)) return false;
     int width, height;
     float scale;

@@ -4,6 +4,7 @@
 #include "app/recent.h"
 #include "app/settings.h"
 #include "app/state.h"
+#include "ui/theme.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +19,7 @@ struct personal {
     struct recovery_entry offered;    ///< what the dialog asks about
     bool is_offered;                  ///< `offered` is claimed
     bool is_new;                      ///< somebody who has not been told yet what to try first
+    enum theme_kind theme;            ///< as in the settings
     double stage_share, panels_width; ///< as they were at the start
 };
 
@@ -39,6 +41,14 @@ static void store_settings(struct app *app, struct settings *settings)
     settings_free(settings);
 }
 
+static void start_theme(struct app *app, const struct settings *settings)
+{
+    const char *name = settings_get(settings, "theme", 0);
+    int kind = name ? theme_find(name) : -1;
+    if (kind >= 0 && !app->options->theme) theme_use((enum theme_kind)kind);
+    app->personal->theme = theme_in_use();
+}
+
 static void start_settings(struct app *app)
 {
     struct personal *personal = app->personal;
@@ -53,11 +63,25 @@ static void start_settings(struct app *app)
         personal->stage_share = settings_number(settings, "stage_share", personal->stage_share);
         personal->panels_width = settings_number(settings, "inspector_width", personal->panels_width);
         editor_set_panels(app->editor, personal->stage_share, personal->panels_width);
+        start_theme(app, settings);
         personal->is_new = !settings_get(settings, "welcomed", 0);
         if (personal->is_new) editor_welcome(app->editor);
     }
     settings_free(settings);
     complain(app, &error);
+}
+
+/// The theme was changed by its key.
+static void note_theme(struct app *app)
+{
+    struct personal *personal = app->personal;
+    struct error error = {0};
+    if (personal->theme == theme_in_use()) return;
+    personal->theme = theme_in_use();
+    struct settings *settings = load_settings(personal, &error);
+    if (!settings) return;
+    settings_set(settings, "theme", theme()->name);
+    store_settings(app, settings);
 }
 
 /// The card for new users has gone: it does not come back.
@@ -168,6 +192,7 @@ void personal_update(struct app *app)
 {
     struct error error = {0};
     if (!app->personal) return;
+    note_theme(app);
     note_welcomed(app);
     if (!app->personal->autosave) return;
     struct autosave_work work = work_of(app);

@@ -2,6 +2,7 @@
 #include "app/app.h"
 #include "commands/commands.h"
 #include "commands/options.h"
+#include "ui/theme.h"
 #include <stdio.h>
 
 int command_live(int argc, char **argv)
@@ -14,6 +15,8 @@ int command_live(int argc, char **argv)
          &options.frames, 1, 10000000},
         {"--size", NULL, "WxH", "logical pixels (1280x720)", OPTION_SIZE, size, 320, 8192},
         {"--scale", NULL, "S", "device pixels a logical pixel, headless", OPTION_REAL, &options.scale, 0.5, 4},
+        {"--theme", NULL, "NAME", "dark or light (a window's own choice, F10; else dark)", OPTION_TEXT,
+         &options.theme, 0, 0},
         {"--log", NULL, "FILE.csv", "timing log, one row a frame", OPTION_TEXT, &options.log, 0, 0},
         {"--screenshot", NULL, "FILE.png", "picture of the last frame", OPTION_TEXT, &options.screenshot, 0, 0},
         {"--frames-dir", NULL, "DIR", "a PNG for each frame", OPTION_TEXT, &options.frames_dir, 0, 0},
@@ -31,6 +34,10 @@ int command_live(int argc, char **argv)
     };
     enum options_result result = options_parse(&usage, argc, argv, &options.scene);
     if (result != OPTIONS_RUN) return (int)result;
+    if (options.theme && theme_find(options.theme) < 0) {
+        fprintf(stderr, "wiggly live: --theme: expected dark or light, got '%s'\n", options.theme);
+        return OPTIONS_WRONG;
+    }
     options.width = size[0];
     options.height = size[1];
     struct error error = {0};

@@ -83,8 +83,9 @@ static void draw_below(struct draw *draw, const struct draw_input *input, struct
     glEnable(GL_SCISSOR_TEST);
     if (!area_contains(viewport, area)) {
         batch_apply_scissor(area, input->height);
-        glClearColor((THEME_PANEL >> 24 & 0xFFu) / 255.0f, (THEME_PANEL >> 16 & 0xFFu) / 255.0f,
-                     (THEME_PANEL >> 8 & 0xFFu) / 255.0f, 1.0f);
+        const uint32_t panel = theme()->panel;
+        glClearColor((float)(panel >> 24) / 255, (float)(panel >> 16 & 0xFF) / 255, (float)(panel >> 8 & 0xFF) / 255,
+                     1);
         glClear(GL_COLOR_BUFFER_BIT);
     }
     if (area_empty(on_stage)) return;

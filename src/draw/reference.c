@@ -24,7 +24,7 @@ static void arrange_lines(struct drawlist *list, struct rect panel)
             xy[2 * j] = panel.x + panel.w * t;
             xy[2 * j + 1] = middle + 0.2f * panel.h * sinf((8.0f + (float)i) * t) * expf(-t);
         }
-        drawlist_line(list, xy, POINTS, 1.25f, theme_fade(theme_spline_color[i % THEME_SPLINE_COLORS], 0.5f));
+        drawlist_line(list, xy, POINTS, 1.25f, theme_fade(theme()->spline[i % THEME_SPLINE_COLORS], 0.5f));
     }
 }
 
@@ -35,14 +35,15 @@ static void arrange_text(struct drawlist *list, struct rect panel)
         for (int i = 0; i < GLYPHS_A_ROW; i++) text[i] = (char)('!' + (row * 7 + i) % 90);
         text[GLYPHS_A_ROW] = '\0';
         drawlist_text(list, panel.x + 8.0f, panel.y + 20.0f * (float)(row + 1), FONT_LABEL, THEME_TEXT_NORMAL,
-                      THEME_TEXT, text);
+                      theme()->text, text);
     }
 }
 
 /// A tail that stands up and bends over by 4° a joint, seen from the side.
 static void arrange_stage(struct stage_view *stage, struct rect panel)
 {
-    *stage = (struct stage_view){.viewport = panel, .eye = {3.0f, 1.2f, 3.0f}, .tail_count = 1, .hash = 1};
+    *stage = (struct stage_view){
+        .viewport = panel, .eye = {3.0f, 1.2f, 3.0f}, .colors = theme()->stage, .tail_count = 1, .hash = 1};
     mat4 view, projection, frame;
     glm_lookat(stage->eye, (vec3){0.0f, 0.7f, 0.0f}, (vec3){0.0f, 1.0f, 0.0f}, view);
     glm_perspective(glm_rad(30.0f), panel.w / fmaxf(panel.h, 1.0f), 0.1f, 20.0f, projection);

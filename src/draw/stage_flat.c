@@ -4,10 +4,6 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-#define BACKGROUND_TOP 0x1B2028u
-#define BACKGROUND_BOTTOM 0x111419u
-#define GROUND_COLOR 0x39414Cu
-#define SHADOW_COLOR 0x07080Au
 #define GROUND_RADIUS 3.5f
 
 enum { CORNERS = 6, MAX_QUADS = 2 + STAGE_MAX_BLOBS };
@@ -88,16 +84,16 @@ void stage_clip_from_world(const struct stage_view *view, float clip_from_world[
 
 static void set_color(struct corner *corner, uint32_t color, float opacity)
 {
-    for (int k = 0; k < 3; k++) corner->color[k] = (float)(color >> (16 - 8 * k) & 0xFF) / 255.0f;
+    for (int k = 0; k < 3; k++) corner->color[k] = (float)(color >> (24 - 8 * k) & 0xFF) / 255.0f;
     corner->color[3] = opacity;
 }
 
-static void add_background(struct stage_flat *flat)
+static void add_background(struct stage_flat *flat, const struct stage_colors *colors)
 {
     for (int c = 0; c < CORNERS; c++) {
         struct corner *corner = &flat->corners[flat->quads * CORNERS + c];
         *corner = (struct corner){.clip = {square[c][0], square[c][1], 0.0f, 1.0f}};
-        set_color(corner, square[c][1] > 0.0f ? BACKGROUND_TOP : BACKGROUND_BOTTOM, 1.0f);
+        set_color(corner, square[c][1] > 0.0f ? colors->top : colors->bottom, 1.0f);
     }
     flat->quads++;
 }
@@ -133,11 +129,12 @@ long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view)
     float clip_from_world[16];
     stage_clip_from_world(view, clip_from_world);
     flat->quads = 0;
-    add_background(flat);
-    add_disc(flat, clip_from_world, view->middle[0], ground, view->middle[1], GROUND_RADIUS, GROUND_COLOR, 1.0f);
+    add_background(flat, &view->colors);
+    add_disc(flat, clip_from_world, view->middle[0], ground, view->middle[1], GROUND_RADIUS, view->colors.ground,
+             1.0f);
     for (int b = 0; b < view->blob_count; b++) {
         const struct stage_blob *blob = &view->blobs[b];
-        add_disc(flat, clip_from_world, blob->x, ground, blob->z, blob->radius, SHADOW_COLOR, blob->strength);
+        add_disc(flat, clip_from_world, blob->x, ground, blob->z, blob->radius, view->colors.shadow, blob->strength);
     }
     const long bytes = flat->quads * CORNERS * (long)sizeof *flat->corners;
     glBindBuffer(GL_ARRAY_BUFFER, flat->vertices);

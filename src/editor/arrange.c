@@ -7,9 +7,9 @@
 
 uint32_t arrange_color(const struct document *document, int spline)
 {
-    if (spline < 0 || spline >= document->spline_count) return theme_spline_color[0];
+    if (spline < 0 || spline >= document->spline_count) return theme()->spline[0];
     int color = document->splines[spline].color;
-    return color < 0 ? theme_spline_color[spline % THEME_SPLINE_COLORS] : (uint32_t)color << 8 | 0xFFu;
+    return color < 0 ? theme()->spline[spline % THEME_SPLINE_COLORS] : theme_spline((uint32_t)color);
 }
 
 static bool any_solo(const struct editor *editor, const struct document *document)

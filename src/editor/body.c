@@ -195,7 +195,7 @@ void body_show(struct editor *editor)
     int tail = held ? editor->body.tail : editor->hover.tail;
     if (tail >= editor->stage.tail_count) return;
     const float scale = scale_of(editor, tail), *base = base_of(editor, tail);
-    const uint32_t color = held ? THEME_ACCENT : THEME_PLAYHEAD;
+    const uint32_t color = held ? theme()->accent : theme()->playhead;
     float point[RING_POINTS + 1][2];
     for (int i = 0; i <= RING_POINTS; i++) { // from the right side of the picture over the near half
         float angle = 6.2831853f * (float)i / RING_POINTS - editor->camera.azimuth;

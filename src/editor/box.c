@@ -55,7 +55,7 @@ void box_show(struct editor *editor)
     if (drag->kind != DRAG_BOX || !drag->moved) return;
     const struct rect r = box_rect(drag);
     const float outline[] = {r.x, r.y, r.x + r.w, r.y, r.x + r.w, r.y + r.h, r.x, r.y + r.h, r.x, r.y};
-    uint32_t color = drag->box == BOX_REMOVE ? THEME_ERROR : THEME_PLAYHEAD;
+    uint32_t color = drag->box == BOX_REMOVE ? theme()->error : theme()->playhead;
     drawlist_rect(&editor->list, r, theme_fade(color, 0.08f));
     drawlist_dashed(&editor->list, outline, 5, 1, 4, 3, theme_fade(color, 0.7f));
 }

@@ -36,10 +36,10 @@ void caption_show(struct editor *editor, const struct document *document)
     struct rect clip = drawlist_push_clip(&editor->list, stage);
     const char *more = title;
     for (int line = 0; line < 2 && *more; line++) {
-        more = show_line(editor, more, FONT_LABEL_BOLD, THEME_TEXT_NORMAL, THEME_TEXT, width, &y);
+        more = show_line(editor, more, FONT_LABEL_BOLD, THEME_TEXT_NORMAL, theme()->text, width, &y);
     }
     for (int line = 0; line < MAX_LINES && *rest; line++) {
-        rest = show_line(editor, rest, FONT_LABEL, THEME_TEXT_NORMAL, THEME_TEXT_DIM, width, &y);
+        rest = show_line(editor, rest, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, width, &y);
     }
     drawlist_set_clip(&editor->list, clip);
 }

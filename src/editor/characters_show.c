@@ -44,15 +44,15 @@ static void show_legend(struct editor *editor, const struct coordinate *coordina
     const float x = box.x + box.w / 2, y = box.y + 80;
     char title[96];
     snprintf(title, sizeof title, "%.40s: %s", coordinate->name, directions[editor->characters.axis]);
-    drawlist_rounded(list, box, 6, (THEME_PANEL & 0xFFFFFF00u) | 0xD8u);
-    drawlist_text_fit(list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL, TEXT_SIZE, THEME_TEXT, title);
+    drawlist_rounded(list, box, 6, (theme()->panel & 0xFFFFFF00u) | 0xD8u);
+    drawlist_text_fit(list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL, TEXT_SIZE, theme()->text, title);
     show_wheel(list, x, y);
-    show_centred(list, x, y - WHEEL - 6, "ahead", THEME_TEXT_DIM);
-    show_centred(list, x, y + WHEEL + 14, "behind", THEME_TEXT_DIM);
-    drawlist_text(list, x + WHEEL + 8, y + 4, FONT_LABEL, TEXT_SIZE, THEME_TEXT_DIM, "in step");
+    show_centred(list, x, y - WHEEL - 6, "ahead", theme()->text_dim);
+    show_centred(list, x, y + WHEEL + 14, "behind", theme()->text_dim);
+    drawlist_text(list, x + WHEEL + 8, y + 4, FONT_LABEL, TEXT_SIZE, theme()->text_dim, "in step");
     const char *left = "opposite";
     drawlist_text(list, x - WHEEL - 8 - font_width(FONT_LABEL, TEXT_SIZE, left), y + 4, FONT_LABEL, TEXT_SIZE,
-                  THEME_TEXT_DIM, left);
+                  theme()->text_dim, left);
 }
 
 /// A line under the feet of each of the pair.
@@ -67,7 +67,7 @@ static void show_pair(struct editor *editor)
         const float feet[3] = {shown->position[0], shown->position[1], shown->position[2] + shown->figure->hi[2]};
         float xy[2];
         if (!camera_project(view->view, view->projection, viewport, feet, xy)) continue;
-        show_centred(&editor->list, xy[0], fminf(xy[1] + 22, r.y + r.h - 8), names[i % 2], THEME_TEXT_DIM);
+        show_centred(&editor->list, xy[0], fminf(xy[1] + 22, r.y + r.h - 8), names[i % 2], theme()->text_dim);
     }
 }
 

@@ -39,7 +39,7 @@ static void show_ghost(struct editor *editor)
         xy[2 * c] = curves_x(editor, ghost->frame[c]);
         xy[2 * c + 1] = curves_y(editor, ghost->value[c]);
     }
-    drawlist_line(&editor->list, xy, ghost->count, 1, theme_fade(THEME_PLAYHEAD, 0.25f));
+    drawlist_line(&editor->list, xy, ghost->count, 1, theme_fade(theme()->playhead, 0.25f));
 }
 
 static bool shows_imaginary(const struct editor *editor, const struct spline *spline)
@@ -65,7 +65,7 @@ static void show_lines(struct editor *editor, const struct editor_world *world)
     for (int i = cache->fan_count - 1; i >= 0; i--) {
         show_line(editor, cache->fan[i], 1, theme_fade(color, FAN_NEAR - FAN_STEP * (float)i));
     }
-    drawlist_dashed(&editor->list, &cache->equilibrium[0][0], cache->count, 1.25f, 6, 4, THEME_EQUILIBRIUM);
+    drawlist_dashed(&editor->list, &cache->equilibrium[0][0], cache->count, 1.25f, 6, 4, theme()->equilibrium);
     if (shows_imaginary(editor, spline)) show_line(editor, cache->im, 1.25f, theme_fade(color, 0.45f));
     show_line(editor, cache->re, 2.5f, color);
 }
@@ -116,7 +116,7 @@ static void show_handle(struct editor *editor, const struct document *document, 
                            2 * HANDLE_RADIUS};
         drawlist_rounded(&editor->list, dot, HANDLE_RADIUS, color);
         if (editor->hover.kind == HOVER_SLOPE && editor->hover.knot == knot->id && editor->hover.handle == end) {
-            show_ring(&editor->list, ends[end][0], ends[end][1], HOVER_RADIUS, 1.25f, THEME_PLAYHEAD);
+            show_ring(&editor->list, ends[end][0], ends[end][1], HOVER_RADIUS, 1.25f, theme()->playhead);
         }
     }
 }
@@ -125,8 +125,8 @@ static void show_diamond(struct drawlist *list, float x, float y, bool filled, u
 {
     float r = KNOT_RADIUS;
     float xy[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
-    drawlist_convex(list, xy, 4, filled ? color : THEME_PANEL);
-    drawlist_line(list, xy, 5, 1.5f, filled ? THEME_PLAYHEAD : color);
+    drawlist_convex(list, xy, 4, filled ? color : theme()->panel);
+    drawlist_line(list, xy, 5, 1.5f, filled ? theme()->playhead : color);
 }
 
 /// A short stroke that says "this knot has a slope" without the handle's length.
@@ -181,7 +181,7 @@ static void show_knot(struct editor *editor, const struct document *document, co
     if (knot->has_slope && !selected) show_tick(editor, document, knot, color);
     show_diamond(&editor->list, x, y, selected, color);
     if (editor->hover.kind == HOVER_KNOT && editor->hover.knot == knot->id) {
-        show_ring(&editor->list, x, y, HOVER_RADIUS, 1.25f, THEME_PLAYHEAD);
+        show_ring(&editor->list, x, y, HOVER_RADIUS, 1.25f, theme()->playhead);
     }
 }
 
@@ -218,7 +218,7 @@ static void show_other_knots(struct editor *editor, const struct document *docum
         last_x = x;
         const float r = OTHER_RADIUS, xy[] = {x, y - r, x + r, y, x, y + r, x - r, y};
         drawlist_convex(&editor->list, xy, 4, color);
-        if (hovered) show_ring(&editor->list, x, y, HOVER_RADIUS, 1.25f, THEME_PLAYHEAD);
+        if (hovered) show_ring(&editor->list, x, y, HOVER_RADIUS, 1.25f, theme()->playhead);
     }
 }
 
@@ -305,9 +305,9 @@ static void show_playhead(struct editor *editor, const struct document *document
     if (tag.w <= 0) return;
     char text[32];
     tag_text(editor, document, text);
-    drawlist_rect(&editor->list, (struct rect){x - 0.5f, plot->y, 1, plot->h}, THEME_PLAYHEAD);
-    drawlist_rounded(&editor->list, tag, 3, THEME_PLAYHEAD);
-    drawlist_text(&editor->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, THEME_PANEL, text);
+    drawlist_rect(&editor->list, (struct rect){x - 0.5f, plot->y, 1, plot->h}, theme()->playhead);
+    drawlist_rounded(&editor->list, tag, 3, theme()->playhead);
+    drawlist_text(&editor->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, text);
 }
 
 /// What to do where there is nothing to edit yet, and no swing of the equilibrium's that the text would cover.
@@ -322,7 +322,7 @@ static void show_empty(struct editor *editor, const struct editor_world *world)
                               : "This scene has no splines. The + in the list at the right adds one.";
     const struct rect *plot = &editor->layout.plot;
     float x = plot->x + (plot->w - font_width(FONT_LABEL, THEME_TEXT_NORMAL, text)) / 2;
-    drawlist_text(&editor->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, THEME_TEXT_DIM, text);
+    drawlist_text(&editor->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, text);
 }
 
 /// Says above the curves' names where they are not shown as the document has them (V, N) and where knots do not snap (G).
@@ -338,7 +338,7 @@ static void show_state(struct editor *editor)
         strcat(text, words[i]);
     }
     drawlist_text(&editor->list, ruler->x + ruler->w + 6, ruler->y + 15, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
-                  THEME_TEXT, text);
+                  theme()->text, text);
 }
 
 void curves_show(struct editor *editor, const struct editor_world *world)

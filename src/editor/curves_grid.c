@@ -7,7 +7,6 @@
 #include <stdio.h>
 
 static const float MIN_FRAME_STEP = 64, MIN_VALUE_STEP = 34, TAG_GAP = 3; ///< pixels between numbers
-static const uint32_t OUTSIDE = 0x0F1216FFu;                              ///< plot before and after the scene's range
 
 /// A round distance between numbers, and how many parts it has.
 struct grid_step {
@@ -57,9 +56,10 @@ static void shade_outside(struct editor *editor, const struct document *document
     float first = fmaxf(curves_x(editor, document->first_frame), plot->x);
     float last = fminf(curves_x(editor, document->last_frame), plot->x + plot->w);
     if (first > plot->x)
-        drawlist_rect(&editor->list, (struct rect){plot->x, plot->y, first - plot->x, plot->h}, OUTSIDE);
+        drawlist_rect(&editor->list, (struct rect){plot->x, plot->y, first - plot->x, plot->h}, theme()->outside);
     if (last < plot->x + plot->w) {
-        drawlist_rect(&editor->list, (struct rect){last, plot->y, plot->x + plot->w - last, plot->h}, OUTSIDE);
+        drawlist_rect(&editor->list, (struct rect){last, plot->y, plot->x + plot->w - last, plot->h},
+                      theme()->outside);
     }
 }
 
@@ -69,18 +69,18 @@ static void draw_lines(struct editor *editor, struct grid_step times, double uni
     const struct view *view = &editor->view;
     double minor = times.size / times.parts * unit;
     for (double i = ceil(view->frame0 / minor); i * minor <= view->frame1; i++) {
-        if (fmod(i, times.parts) != 0) vertical(editor, i * minor, THEME_GRID_MINOR);
+        if (fmod(i, times.parts) != 0) vertical(editor, i * minor, theme()->grid_minor);
     }
     minor = values.size / values.parts;
     for (double i = ceil(view->value0 / minor); i * minor <= view->value1; i++) {
-        if (fmod(i, values.parts) != 0) horizontal(editor, i * minor, THEME_GRID_MINOR);
+        if (fmod(i, values.parts) != 0) horizontal(editor, i * minor, theme()->grid_minor);
     }
     double major = times.size * unit;
     for (double i = ceil(view->frame0 / major); i * major <= view->frame1; i++) {
-        vertical(editor, i * major, THEME_GRID_MAJOR);
+        vertical(editor, i * major, theme()->grid_major);
     }
     for (double i = ceil(view->value0 / values.size); i * values.size <= view->value1; i++) {
-        horizontal(editor, i * values.size, i == 0 ? THEME_ZERO : THEME_GRID_MAJOR);
+        horizontal(editor, i * values.size, i == 0 ? theme()->zero : theme()->grid_major);
     }
 }
 
@@ -98,7 +98,7 @@ static void number_values(struct editor *editor, struct grid_step step)
         snprintf(text, sizeof text, wide ? "%.*g" : "%.*f", wide ? 3 : step.decimals, value + 0.0);
         float x = axis->x + axis->w - 8 - font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
         drawlist_text(&editor->list, fmaxf(x, axis->x + 2), roundf(y + half), FONT_NUMBER, THEME_TEXT_SMALL,
-                      THEME_TEXT_DIM, text);
+                      theme()->text_dim, text);
     }
 }
 
@@ -120,7 +120,7 @@ static void show_units(struct editor *editor)
     const char *text = editor->options.seconds ? "s" : "frame";
     float x = corner.x + corner.w - 8 - font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
     drawlist_text(&editor->list, x, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
-                  editor->hover.kind == HOVER_UNITS ? THEME_TEXT : THEME_TEXT_DIM, text);
+                  editor->hover.kind == HOVER_UNITS ? theme()->text : theme()->text_dim, text);
 }
 
 /// Frames a unit of the ruler.
@@ -142,7 +142,7 @@ static void number_frames(struct editor *editor, const struct document *document
         float x = curves_x(editor, i * step.size * unit) - width / 2;
         if (x < ruler->x || x + width > ruler->x + ruler->w) continue;
         if (x < tag.x + tag.w + TAG_GAP && x + width > tag.x - TAG_GAP) continue;
-        drawlist_text(&editor->list, x, ruler->y + 15, FONT_NUMBER, THEME_TEXT_SMALL, THEME_TEXT_DIM, text);
+        drawlist_text(&editor->list, x, ruler->y + 15, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
     }
 }
 
@@ -152,14 +152,14 @@ void grid_show(struct editor *editor, const struct editor_world *world)
     double unit = ruler_unit(editor, world->document);
     struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(editor) * unit));
     struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(editor));
-    drawlist_rect(&editor->list, layout->curves, THEME_PANEL);
+    drawlist_rect(&editor->list, layout->curves, theme()->panel);
     struct rect clip = drawlist_push_clip(&editor->list, layout->plot);
     shade_outside(editor, world->document);
     draw_lines(editor, times, unit, values);
     range_show_plot(editor, world->document);
     drawlist_set_clip(&editor->list, clip);
     drawlist_rect(&editor->list, (struct rect){layout->ruler.x, layout->plot.y - 1, layout->ruler.w, 1},
-                  THEME_BORDER);
+                  theme()->border);
     clip = drawlist_push_clip(&editor->list, layout->ruler);
     range_show_ruler(editor, world->document);
     number_frames(editor, world->document, times);

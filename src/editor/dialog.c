@@ -249,7 +249,7 @@ static void build_path(struct editor *editor)
     struct dialog *dialog = &editor->dialog;
     struct ui *ui = &dialog->ui;
     bool saving = dialog->kind == DIALOG_SAVE_AS;
-    ui_label(ui, ui_row(ui, UI_ROW), saving ? "Save the scene as" : "Open a scene", THEME_TEXT);
+    ui_label(ui, ui_row(ui, UI_ROW), saving ? "Save the scene as" : "Open a scene", theme()->text);
     ui_space(ui, 4);
     if (ui_text_field(ui, ui_row(ui, 28), "dialog.path")) {
         dialog->error[0] = '\0';
@@ -263,7 +263,7 @@ static void build_path(struct editor *editor)
     if (!note[0] && dialog->files.list) note = "Tab completes, arrows choose.";
     ui_space(ui, 4);
     float top = ui->y;
-    ui_paragraph(ui, dialog->error[0] ? dialog->error : note, dialog->error[0] ? THEME_ERROR : THEME_TEXT_DIM);
+    ui_paragraph(ui, dialog->error[0] ? dialog->error : note, dialog->error[0] ? theme()->error : theme()->text_dim);
     ui_space(ui, fmaxf(8, 40 - (ui->y - top)));
     struct rect row = ui_row(ui, 28);
     struct rect right = {row.x + row.w - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
@@ -332,9 +332,9 @@ void dialog_show(struct editor *editor, const struct editor_world *world)
     if (dialog->kind == DIALOG_NONE) return;
     struct drawlist *list = &editor->list;
     struct rect box = dialog_box(editor, world);
-    drawlist_rect(list, editor->layout.window, theme_fade(0x000000FFu, 0.55f));
-    drawlist_rounded(list, box, 8, THEME_PANEL);
-    drawlist_rounded_line(list, box, 8, 1, THEME_ZERO);
+    drawlist_rect(list, editor->layout.window, theme()->veil);
+    drawlist_rounded(list, box, 8, theme()->panel);
+    drawlist_rounded_line(list, box, 8, 1, theme()->zero);
     ui_begin_draw(&dialog->ui, box, list);
     build(editor, world);
     ui_end(&dialog->ui);

@@ -7,10 +7,10 @@ enum { BUTTON_WIDTH = 104 };
 int question_build(struct dialog *dialog, const struct question *question)
 {
     struct ui *ui = &dialog->ui;
-    ui_label(ui, ui_row(ui, UI_ROW), question->title, THEME_TEXT);
+    ui_label(ui, ui_row(ui, UI_ROW), question->title, theme()->text);
     float top = ui->y;
     bool failed = dialog->error[0] != '\0';
-    ui_paragraph(ui, failed ? dialog->error : question->note, failed ? THEME_ERROR : THEME_TEXT_DIM);
+    ui_paragraph(ui, failed ? dialog->error : question->note, failed ? theme()->error : theme()->text_dim);
     ui_space(ui, fmaxf(8, 40 - (ui->y - top)));
     struct rect row = ui_row(ui, 28);
     int pressed = QUESTION_OPEN;

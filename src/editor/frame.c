@@ -131,8 +131,8 @@ static void update_hover(struct editor *editor, const struct editor_world *world
 static void show_dividers(struct editor *editor)
 {
     const struct layout *l = &editor->layout;
-    drawlist_rect(&editor->list, (struct rect){0, l->curves.y, l->curves.w, 1}, THEME_BORDER);
-    drawlist_rect(&editor->list, (struct rect){l->inspector.x, 0, 1, l->inspector.h}, THEME_BORDER);
+    drawlist_rect(&editor->list, (struct rect){0, l->curves.y, l->curves.w, 1}, theme()->border);
+    drawlist_rect(&editor->list, (struct rect){l->inspector.x, 0, 1, l->inspector.h}, theme()->border);
 }
 
 void editor_show(struct editor *editor, const struct editor_world *world)

@@ -94,7 +94,7 @@ static const struct help_group groups[] = {
       {"Ctrl+O, Ctrl+N", "open, new"},
       {"Ctrl+S", "save"},
       {"Ctrl+Shift+S", "save as"},
-      {"F11, F12", "full screen, screenshot"},
+      {"F10, F11, F12", "light, full screen, picture"},
       {"Ctrl+1 … 7", "figures of the paper"},
       {"Ctrl+Q", "quit"}}},
 };
@@ -148,12 +148,12 @@ static void paint_line(struct drawlist *list, struct rect r, enum font font, uin
 static float show_group(struct drawlist *list, struct rect r, const struct help_group *group)
 {
     float keys = floorf(r.w * 0.46f);
-    paint_line(list, (struct rect){r.x, r.y, r.w, HELP_HEADER}, FONT_LABEL_BOLD, THEME_ACCENT, group->title);
+    paint_line(list, (struct rect){r.x, r.y, r.w, HELP_HEADER}, FONT_LABEL_BOLD, theme()->accent, group->title);
     float y = r.y + HELP_HEADER;
     for (int i = 0; i < row_count(group); i++, y += r.h) {
-        paint_line(list, (struct rect){r.x, y, keys - 8, r.h}, FONT_LABEL, THEME_TEXT, group->rows[i].keys);
+        paint_line(list, (struct rect){r.x, y, keys - 8, r.h}, FONT_LABEL, theme()->text, group->rows[i].keys);
         struct rect what = {r.x + keys, y, r.w - keys, r.h};
-        paint_line(list, what, FONT_LABEL, THEME_TEXT_DIM, group->rows[i].what);
+        paint_line(list, what, FONT_LABEL, theme()->text_dim, group->rows[i].what);
     }
     return y + GROUP_GAP - r.y;
 }
@@ -163,10 +163,10 @@ static void show_title(struct drawlist *list, struct rect box)
     static const char closing[] = "Any key closes this";
     float left = box.x + HELP_MARGIN, width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, closing);
     float right = box.x + box.w - HELP_MARGIN - width;
-    drawlist_text(list, left, box.y + 36, FONT_LABEL_BOLD, THEME_TEXT_TITLE, THEME_TEXT, "wiggly");
-    drawlist_text(list, right, box.y + 36, FONT_LABEL, THEME_TEXT_NORMAL, THEME_TEXT_DIM, closing);
+    drawlist_text(list, left, box.y + 36, FONT_LABEL_BOLD, THEME_TEXT_TITLE, theme()->text, "wiggly");
+    drawlist_text(list, right, box.y + 36, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, closing);
     paint_line(
-        list, (struct rect){left, box.y + 44, box.w - 2 * HELP_MARGIN, HELP_ROW}, FONT_LABEL, THEME_TEXT_DIM,
+        list, (struct rect){left, box.y + 44, box.w - 2 * HELP_MARGIN, HELP_ROW}, FONT_LABEL, theme()->text_dim,
         "Curves that hit every knot exactly and still swing, overshoot and follow through like something with mass.");
 }
 
@@ -179,9 +179,9 @@ void help_show(struct editor *editor)
     while (row > HELP_LEAST_ROW && box_height(row) > window.h - 16) row--;
     float w = fminf(1008, window.w - 32), h = fminf(box_height(row), window.h - 16);
     struct rect box = {roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 2), w, h};
-    drawlist_rect(list, window, theme_fade(0x000000FFu, 0.55f));
-    drawlist_rounded(list, box, 8, THEME_PANEL);
-    drawlist_rounded_line(list, box, 8, 1, THEME_ZERO);
+    drawlist_rect(list, window, theme()->veil);
+    drawlist_rounded(list, box, 8, theme()->panel);
+    drawlist_rounded_line(list, box, 8, 1, theme()->zero);
     show_title(list, box);
     float column = (box.w - HELP_MARGIN * (COLUMNS + 1)) / COLUMNS;
     for (int c = 0; c < COLUMNS; c++) {

@@ -63,8 +63,8 @@ static void build_look(struct inspection *in, struct rect footer)
     struct ui *ui = in->ui;
     struct rect r = {footer.x + UI_PAD, footer.y + 8, footer.w - 2 * UI_PAD, UI_ROW};
     if (ui->pass == UI_PASS_DRAW) {
-        drawlist_rect(ui->list, footer, THEME_PANEL);
-        drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, THEME_BORDER);
+        drawlist_rect(ui->list, footer, theme()->panel);
+        drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
     }
     if (ui_hovered(ui, footer)) ui->hint = "The same knots: wiggly, without lag, or as a classical cubic (V)";
     int look = (int)in->editor->look;
@@ -170,11 +170,11 @@ void inspector_show(struct editor *editor, const struct editor_world *world)
     ui_begin_find(in.ui, area, "", NULL); // measures, so that a shorter panel is not drawn scrolled past its end
     build(&in, area);
     ui_end(in.ui);
-    drawlist_rect(&editor->list, area, THEME_PANEL);
+    drawlist_rect(&editor->list, area, theme()->panel);
     ui_begin_draw(in.ui, area, &editor->list);
     build(&in, area);
     ui_end(in.ui);
-    drawlist_rect(&editor->list, (struct rect){area.x, area.y, 1, area.h}, THEME_BORDER);
+    drawlist_rect(&editor->list, (struct rect){area.x, area.y, 1, area.h}, theme()->border);
 }
 
 void inspector_let_go(struct editor *editor, const struct editor_world *world)
@@ -262,6 +262,6 @@ void inspector_change_all(struct inspection *in, enum ui_change change, const ch
 struct rect inspector_labelled(struct inspection *in, const char *label)
 {
     struct rect r = ui_row(in->ui, UI_ROW);
-    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, THEME_TEXT_DIM);
+    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
     return (struct rect){r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
 }

@@ -150,12 +150,12 @@ static void build_facts(struct inspection *in)
     const struct coordinate *c = characters_coordinate(in->editor, in->world);
     char text[160];
     if (!c) {
-        ui_paragraph(in->ui, "The model has no such coordinate.", THEME_TEXT_DIM);
+        ui_paragraph(in->ui, "The model has no such coordinate.", theme()->text_dim);
     } else if (c->frequency > 0) {
         snprintf(text, sizeof text,
                  "Found at %.2f Hz, damping %.3f. Explains %.0f %%; real PCA %.0f, its first two %.0f %%.",
                  c->frequency, c->damping, 100 * c->explained, 100 * c->pca1, 100 * c->pca2);
-        ui_paragraph(in->ui, text, THEME_TEXT_DIM);
+        ui_paragraph(in->ui, text, theme()->text_dim);
     }
 }
 

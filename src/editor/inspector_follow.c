@@ -47,7 +47,7 @@ void inspector_track(struct inspection *in, enum parameter parameter, const char
     const struct spline *spline = &in->document->splines[in->editor->active];
     int track = spline->parameter[parameter].track;
     char text[160];
-    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, THEME_TEXT_DIM);
+    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
     snprintf(text, sizeof text, "%s", in->document->splines[track].name);
     struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
     if (ui_hovered(in->ui, field)) in->ui->hint = "Follows this spline at every sample";

@@ -85,8 +85,8 @@ static bool build_row(struct inspection *in, size_t row)
     name_of(row, name);
     text_of(history, row, text, sizeof text);
     bool pressed = ui_list_row(ui, r, name, "", 0, row == view->done);
-    uint32_t color = row > view->done ? theme_fade(THEME_TEXT_DIM, 0.55f) : THEME_TEXT_DIM;
-    if (row == view->done) color = THEME_TEXT;
+    uint32_t color = row > view->done ? theme_fade(theme()->text_dim, 0.55f) : theme()->text_dim;
+    if (row == view->done) color = theme()->text;
     ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 60, r.h}, text, color);
     if (history_step_is_saved(history, row)) ui_label_right(ui, r, "saved", color);
     if (ui_hovered(ui, r)) ui->hint = row > view->done ? "Redo up to here" : "Undo back to here";
@@ -107,7 +107,7 @@ void inspector_history(struct inspection *in)
     if (count + 1 > ROWS) {
         char text[96];
         snprintf(text, sizeof text, "Steps %zu to %zu of %zu", first > 0 ? first : 1, end - 1, count);
-        ui_paragraph(in->ui, text, THEME_TEXT_DIM);
+        ui_paragraph(in->ui, text, theme()->text_dim);
     }
     scroll(in, list);
     step_by_key(in, first, end);

@@ -65,7 +65,7 @@ static void build_slope(struct inspection *in, const struct knot *knot)
     }
     r = (struct rect){r.x + 36, r.y, r.w - 36, r.h};
     if (!knot->has_slope) {
-        ui_label(ui, r, "free", THEME_TEXT_DIM);
+        ui_label(ui, r, "free", theme()->text_dim);
         return;
     }
     struct ui_number number = {.name = "slope",
@@ -126,11 +126,11 @@ void inspector_knot(struct inspection *in)
     if (count > 1) {
         char text[64];
         snprintf(text, sizeof text, "%d knots selected.", count);
-        ui_paragraph(ui, text, THEME_TEXT_DIM);
+        ui_paragraph(ui, text, theme()->text_dim);
         inspector_knots(in);
         build_slopes(in);
     } else if (single < 0) {
-        ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", THEME_TEXT_DIM);
+        ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
     } else {
         // Each is built from the document as the one before left it; ids survive what happens to the order of knots.
         unsigned id = spline->knots[single].id;

@@ -118,14 +118,14 @@ static void show_drop(struct inspection *in, int from, int to, float y)
 {
     struct ui *ui = in->ui;
     if (ui->pass != UI_PASS_DRAW || to == from) return;
-    drawlist_rect(ui->list, (struct rect){ui->area.x + UI_PAD, y - 1, ui->area.w - 2 * UI_PAD, 2}, THEME_ACCENT);
+    drawlist_rect(ui->list, (struct rect){ui->area.x + UI_PAD, y - 1, ui->area.w - 2 * UI_PAD, 2}, theme()->accent);
 }
 
 void inspector_splines(struct inspection *in)
 {
     struct ui *ui = in->ui;
     int count = in->document->spline_count, first = 0, from = -1, dropped = -1;
-    if (count == 0) ui_paragraph(ui, "This scene has no splines yet.", THEME_TEXT_DIM);
+    if (count == 0) ui_paragraph(ui, "This scene has no splines yet.", theme()->text_dim);
     if (count > MAX_ROWS) {
         first = in->editor->active - MAX_ROWS / 2;
         first = first < 0 ? 0 : first > count - MAX_ROWS ? count - MAX_ROWS : first;
@@ -144,7 +144,7 @@ void inspector_splines(struct inspection *in)
     if (count > MAX_ROWS) {
         char text[64];
         snprintf(text, sizeof text, "%d of %d splines; PgUp and PgDn go on", MAX_ROWS, count);
-        ui_paragraph(ui, text, THEME_TEXT_DIM);
+        ui_paragraph(ui, text, theme()->text_dim);
     }
     build_buttons(in);
 }

@@ -24,8 +24,8 @@ static bool build_theme(struct inspection *in, int spline, struct rect r)
         char name[24];
         snprintf(name, sizeof name, "color.%d", i);
         struct rect field = {r.x + (float)(i * SWATCH), r.y, SWATCH, SWATCH};
-        if (!ui_color(in->ui, field, name, theme_spline_color[i], theme_spline_color[i] == present)) continue;
-        set_color(in, spline, (int)(theme_spline_color[i] >> 8));
+        if (!ui_color(in->ui, field, name, theme()->spline[i], theme()->spline[i] == present)) continue;
+        set_color(in, spline, (int)theme_spline_rgb(i));
         picked = true;
     }
     return picked;
@@ -37,7 +37,8 @@ static void build_typed(struct inspection *in, int spline, struct rect r)
     struct ui *ui = in->ui;
     char text[COLOR_TEXT_SIZE];
     int color;
-    color_print((int)(arrange_color(in->document, spline) >> 8), text);
+    int stored = in->document->splines[spline].color;
+    color_print(stored < 0 ? (int)theme_spline_rgb(spline % THEME_SPLINE_COLORS) : stored, text);
     if (!ui_line_is_open(ui, hex_line)) {
         if (ui_button(ui, r, "color.type", text, false)) ui_line_begin(ui, hex_line, text);
         return;

@@ -139,7 +139,7 @@ void inspector_poles(struct inspection *in)
     struct spline *spline = editor_active_spline(in->editor, in->world);
     struct pole_setting setting = setting_of(in, spline);
     if (spline->mode == WIGGLY_CUBIC || !(setting.hz > 0)) {
-        ui_paragraph(ui, "Both poles at 1, at frequency 0: a cubic has no swing of its own.", THEME_TEXT_DIM);
+        ui_paragraph(ui, "Both poles at 1, at frequency 0: a cubic has no swing of its own.", theme()->text_dim);
         return;
     }
     if (!is_held(ui)) poles_fit(view, &setting);

@@ -106,7 +106,7 @@ static void build_spring_toggle(struct inspection *in, const struct spline *spli
 {
     bool on = spline->spring_friction;
     struct rect r = ui_row(in->ui, UI_ROW);
-    ui_label(in->ui, (struct rect){r.x, r.y, r.w - 40, r.h}, "spring and friction", THEME_TEXT_DIM);
+    ui_label(in->ui, (struct rect){r.x, r.y, r.w - 40, r.h}, "spring and friction", theme()->text_dim);
     if (ui_hovered(in->ui, r)) in->ui->hint = "Spring constant and friction in place of frequency and damping";
     r = (struct rect){r.x + r.w - 28, r.y, 28, r.h};
     if (!ui_toggle(in->ui, r, "spring_friction", &on)) return;
@@ -137,7 +137,7 @@ static void build_settling(struct inspection *in, const struct spline *spline)
         snprintf(text, sizeof text, "Settles to 5 %% in %.2f s (%.0f frames).", settling.seconds, frames);
         break;
     }
-    ui_paragraph(in->ui, text, THEME_TEXT_DIM);
+    ui_paragraph(in->ui, text, theme()->text_dim);
 }
 
 static void build_warnings(struct inspection *in, const struct spline *spline)
@@ -145,7 +145,7 @@ static void build_warnings(struct inspection *in, const struct spline *spline)
     const struct evaluation *evaluation = in->world->evaluation;
     int active = in->editor->active;
     if (evaluation && active < evaluation->count && evaluation->status[active] != WIGGLY_OK) {
-        ui_paragraph(in->ui, wiggly_status_text(evaluation->status[active]), THEME_WARNING);
+        ui_paragraph(in->ui, wiggly_status_text(evaluation->status[active]), theme()->warning);
     }
     const struct param *p = spline->parameter;
     double beta = spline->mode == WIGGLY_COMPLEX ? p[PARAMETER_BANDWIDTH].value : 0;
@@ -156,7 +156,7 @@ static void build_warnings(struct inspection *in, const struct spline *spline)
         char text[128];
         snprintf(text, sizeof text, "Faster than half the sample rate (%g Hz): the swing is not seen as it is.",
                  limit);
-        ui_paragraph(in->ui, text, THEME_WARNING);
+        ui_paragraph(in->ui, text, theme()->warning);
     }
 }
 
@@ -168,7 +168,7 @@ void inspector_spline(struct inspection *in)
     ui_space(ui, 4);
     bool pair = spline->mode == WIGGLY_REAL && spline->spring_friction;
     if (spline->mode == WIGGLY_CUBIC) {
-        ui_paragraph(ui, "The classical spline: smooth through the knots, without swing.", THEME_TEXT_DIM);
+        ui_paragraph(ui, "The classical spline: smooth through the knots, without swing.", theme()->text_dim);
     } else {
         build_parameter(in, spline, pair ? PARAMETER_SPRING : PARAMETER_FREQUENCY);
         build_parameter(in, spline, pair ? PARAMETER_FRICTION : PARAMETER_DAMPING);

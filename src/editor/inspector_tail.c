@@ -77,7 +77,7 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
     snprintf(hint, sizeof hint, "Where the body stands along %s", coordinate_name(k));
     struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
     if (param->track >= 0) {
-        ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, coordinate_name(k), THEME_TEXT_DIM);
+        ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, coordinate_name(k), theme()->text_dim);
         ui_dropdown(in->ui, field, place_list, k, in->document->splines[param->track].name,
                     arrange_color(in->document, param->track));
         wiggly_value now = curves_solved(in->world, param->track, in->editor->playback.position);

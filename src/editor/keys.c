@@ -2,6 +2,7 @@
 #include "editor/actions.h"
 #include "editor/curves.h"
 #include "editor/overlays.h"
+#include "ui/theme.h"
 #include <math.h>
 
 typedef void key_action(struct editor *editor, const struct editor_world *world, int argument);
@@ -191,6 +192,14 @@ static void run_rename(struct editor *e, const struct editor_world *w, int argum
     inspector_rename(e, w);
 }
 
+static void run_theme(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)e;
+    (void)w;
+    (void)argument;
+    theme_use((theme_in_use() + 1) % THEME_COUNT);
+}
+
 /// ↑ and ↓ while a letter is held: that parameter.
 static void run_held(struct editor *e, const struct editor_world *w, int argument)
 {
@@ -213,6 +222,7 @@ static const struct binding bindings[] = {
     {.key = '5', .mods = MOD_CTRL, .run = run_figure, .argument = 5},
     {.key = '6', .mods = MOD_CTRL, .run = run_figure, .argument = 6},
     {.key = '7', .mods = MOD_CTRL, .run = run_figure, .argument = 7},
+    {.key = KEY_F10, .any_time = true, .run = run_theme},
     {.key = KEY_F11, .any_time = true, .run = run_request, .argument = REQUEST_FULLSCREEN},
     {.key = KEY_F12, .any_time = true, .run = run_request, .argument = REQUEST_SCREENSHOT},
     {.key = 'I', .run = run_insert, .argument = false},

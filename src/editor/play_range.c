@@ -103,9 +103,9 @@ void range_show_ruler(struct editor *editor, const struct document *document)
     if (!is_part(editor, document)) return;
     edges(editor, document, x);
     struct rect band = {x[0], ruler->y, x[1] - x[0], ruler->h};
-    drawlist_rect(&editor->list, band, theme_fade(THEME_ACCENT, 0.14f));
-    drawlist_rect(&editor->list, (struct rect){band.x, ruler->y, 2, ruler->h}, THEME_ACCENT);
-    drawlist_rect(&editor->list, (struct rect){band.x + band.w - 2, ruler->y, 2, ruler->h}, THEME_ACCENT);
+    drawlist_rect(&editor->list, band, theme_fade(theme()->accent, 0.14f));
+    drawlist_rect(&editor->list, (struct rect){band.x, ruler->y, 2, ruler->h}, theme()->accent);
+    drawlist_rect(&editor->list, (struct rect){band.x + band.w - 2, ruler->y, 2, ruler->h}, theme()->accent);
 }
 
 void range_show_plot(struct editor *editor, const struct document *document)
@@ -114,5 +114,6 @@ void range_show_plot(struct editor *editor, const struct document *document)
     float x[2];
     if (!is_part(editor, document)) return;
     edges(editor, document, x);
-    drawlist_rect(&editor->list, (struct rect){x[0], plot->y, x[1] - x[0], plot->h}, theme_fade(THEME_ACCENT, 0.05f));
+    drawlist_rect(&editor->list, (struct rect){x[0], plot->y, x[1] - x[0], plot->h},
+                  theme_fade(theme()->accent, 0.05f));
 }

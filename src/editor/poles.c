@@ -84,13 +84,13 @@ void poles_draw_circle(const struct pole_setting *setting, struct rect r, struct
         circle[i][0] = cx + radius * (float)cos(angle);
         circle[i][1] = cy - radius * (float)sin(angle);
     }
-    draw_straight(list, cx - radius - 5, cy, cx + radius + 5, cy, THEME_GRID_MAJOR);
-    draw_straight(list, cx, cy - radius - 5, cx, cy + radius + 5, THEME_GRID_MAJOR);
-    drawlist_line(list, circle[0], POINTS, 1.25f, THEME_EQUILIBRIUM);
+    draw_straight(list, cx - radius - 5, cy, cx + radius + 5, cy, theme()->grid_major);
+    draw_straight(list, cx, cy - radius - 5, cx, cy + radius + 5, theme()->grid_major);
+    drawlist_line(list, circle[0], POINTS, 1.25f, theme()->equilibrium);
     struct filter filter = filter_of(setting->kind, setting->hz, setting->damping, setting->bandwidth, setting->step);
     for (int i = 0; i < filter.count; i++) {
         double size = radius * exp(filter.s[i][0] * setting->step), angle = filter.s[i][1] * setting->step;
-        draw_cross(list, cx + (float)(size * cos(angle)), cy - (float)(size * sin(angle)), 3, THEME_ACCENT);
+        draw_cross(list, cx + (float)(size * cos(angle)), cy - (float)(size * sin(angle)), 3, theme()->accent);
     }
 }
 
@@ -98,18 +98,18 @@ void poles_draw_circle(const struct pole_setting *setting, struct rect r, struct
 static uint32_t filter_color(const struct poles_view *view, int kind)
 {
     static const int spare[FILTER_KINDS] = {1, 2, 1};
-    return view->setting.kind == (enum filter_kind)kind ? THEME_ACCENT : theme_spline_color[spare[kind]];
+    return view->setting.kind == (enum filter_kind)kind ? theme()->accent : theme()->spline[spare[kind]];
 }
 
 void poles_draw_legend(const struct poles_view *view, struct rect r, struct drawlist *list)
 {
     static const int order[FILTER_KINDS] = {FILTER_TWO_COMPLEX, FILTER_TWO_REAL, FILTER_FOUR_REAL};
     const float row = 33;
-    drawlist_text(list, r.x, r.y + 8, FONT_LABEL, THEME_TEXT_SMALL, THEME_TEXT_DIM, "at 0 Hz · width");
+    drawlist_text(list, r.x, r.y + 8, FONT_LABEL, THEME_TEXT_SMALL, theme()->text_dim, "at 0 Hz · width");
     for (int i = 0; i < FILTER_KINDS; i++) {
         const struct passband *band = &view->band[order[i]];
         bool own = view->setting.kind == (enum filter_kind)order[i];
-        uint32_t color = filter_color(view, order[i]), text_color = own ? THEME_TEXT : THEME_TEXT_DIM;
+        uint32_t color = filter_color(view, order[i]), text_color = own ? theme()->text : theme()->text_dim;
         char text[64];
         float y = r.y + 26 + row * (float)i;
         drawlist_rounded(list, (struct rect){r.x, y - 8, 3, 24}, 1.5f, color);
@@ -122,7 +122,7 @@ void poles_draw_legend(const struct poles_view *view, struct rect r, struct draw
 
 static void draw_number(struct drawlist *list, float x, float y, const char *text)
 {
-    drawlist_text(list, x, y, FONT_NUMBER, THEME_TEXT_SMALL, THEME_TEXT_DIM, text);
+    drawlist_text(list, x, y, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
 }
 
 /// A number below a plot, centred at x but never outside `r`.
@@ -137,17 +137,17 @@ void poles_draw_inset(const struct poles_view *view, const struct pole_setting *
 {
     static const double dampings[] = {0, 0.05, 0.2, 0.5, 1, 2};
     char text[32];
-    drawlist_rounded(list, r, 3, THEME_RAISED);
+    drawlist_rounded(list, r, 3, theme()->raised);
     for (int i = 0; i < 6 && dampings[i] < view->top; i++) {
         float y = poles_y(view, r, dampings[i]);
-        draw_straight(list, r.x, y, r.x + r.w, y, THEME_GRID_MAJOR);
+        draw_straight(list, r.x, y, r.x + r.w, y, theme()->grid_major);
         snprintf(text, sizeof text, "ζ %g", dampings[i]);
         if (i > 0) draw_number(list, r.x + 4, y - 3, text);
     }
     for (int i = 1; i <= 3; i++) {
         double hz = view->reach * i / 4;
         float x = poles_x(view, r, hz);
-        draw_straight(list, x, r.y, x, r.y + r.h, THEME_GRID_MAJOR);
+        draw_straight(list, x, r.y, x, r.y + r.h, theme()->grid_major);
         snprintf(text, sizeof text, "%.4g Hz", hz);
         draw_below(list, r, x, r.y + r.h + 12, text);
     }
@@ -156,12 +156,12 @@ void poles_draw_inset(const struct poles_view *view, const struct pole_setting *
     struct rect whole = drawlist_push_clip(list, rect_inset(r, -6));
     if (spread > 0) {
         float low = poles_x(view, r, setting->hz - spread), high = poles_x(view, r, setting->hz + spread);
-        draw_straight(list, low, y, high, y, theme_fade(THEME_ACCENT, 0.5f));
-        draw_cross(list, low, y, 3.5f, THEME_ACCENT);
-        draw_cross(list, high, y, 3.5f, THEME_ACCENT);
+        draw_straight(list, low, y, high, y, theme_fade(theme()->accent, 0.5f));
+        draw_cross(list, low, y, 3.5f, theme()->accent);
+        draw_cross(list, high, y, 3.5f, theme()->accent);
     }
     float x = poles_x(view, r, setting->hz);
-    drawlist_rounded(list, (struct rect){x - 3.5f, y - 3.5f, 7, 7}, 3.5f, THEME_TEXT);
+    drawlist_rounded(list, (struct rect){x - 3.5f, y - 3.5f, 7, 7}, 3.5f, theme()->text);
     drawlist_set_clip(list, whole);
 }
 
@@ -182,16 +182,16 @@ void poles_draw_response(const struct poles_view *view, struct rect r, struct dr
     char text[32];
     for (int db = 0; db >= (int)floor_decibels; db -= 20) {
         float y = plot.y + plot.h * (float)db / floor_decibels;
-        draw_straight(list, plot.x, y, plot.x + plot.w, y, THEME_GRID_MAJOR);
+        draw_straight(list, plot.x, y, plot.x + plot.w, y, theme()->grid_major);
         snprintf(text, sizeof text, "%d", db);
         draw_number(list, plot.x - 6 - font_width(FONT_NUMBER, THEME_TEXT_SMALL, text), y + 4, text);
     }
     float middle = plot.x + plot.w / 2, peak = plot.w / 2 * (float)(view->setting.hz / view->span);
-    draw_straight(list, middle, plot.y, middle, plot.y + plot.h, THEME_ZERO);
+    draw_straight(list, middle, plot.y, middle, plot.y + plot.h, theme()->zero);
     draw_below(list, r, middle, r.y + r.h - 2, "0");
     for (int side = -1; side <= 1 && peak <= plot.w / 2; side += 2) {
         float x = middle + (float)side * peak;
-        draw_straight(list, x, plot.y, x, plot.y + plot.h, THEME_GRID_MAJOR);
+        draw_straight(list, x, plot.y, x, plot.y + plot.h, theme()->grid_major);
         snprintf(text, sizeof text, "%.3g Hz", side * view->setting.hz);
         draw_below(list, r, x, r.y + r.h - 2, text);
     }

@@ -172,9 +172,9 @@ void scale_show(struct editor *editor)
     const float x = curves_x(editor, scaling->frame), y = curves_y(editor, scaling->value), arm = 7;
     const float across[] = {x - arm, y, x + arm, y}, down[] = {x, y - arm, x, y + arm};
     const float line[] = {x, y, editor->drag.x, editor->drag.y};
-    if (!scaling->typed[0]) drawlist_dashed(&editor->list, line, 2, 1, 3, 4, theme_fade(THEME_PLAYHEAD, 0.5f));
-    if (!editor->drag.lock_y) drawlist_line(&editor->list, across, 2, 1.5f, THEME_PLAYHEAD);
-    if (!editor->drag.lock_x) drawlist_line(&editor->list, down, 2, 1.5f, THEME_PLAYHEAD);
+    if (!scaling->typed[0]) drawlist_dashed(&editor->list, line, 2, 1, 3, 4, theme_fade(theme()->playhead, 0.5f));
+    if (!editor->drag.lock_y) drawlist_line(&editor->list, across, 2, 1.5f, theme()->playhead);
+    if (!editor->drag.lock_x) drawlist_line(&editor->list, down, 2, 1.5f, theme()->playhead);
 }
 
 /// Digits, sign and point of a typed factor; Backspace takes the last one back.

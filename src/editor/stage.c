@@ -124,6 +124,7 @@ static uint64_t view_hash(const struct stage_view *view)
     hash = hash_bytes(hash, view->view, sizeof view->view);
     hash = hash_bytes(hash, view->projection, sizeof view->projection);
     hash = hash_bytes(hash, view->middle, sizeof view->middle);
+    hash = hash_bytes(hash, &view->colors, sizeof view->colors);
     for (int t = 0; t < view->tail_count; t++) {
         const struct stage_tail *tail = &view->tails[t];
         hash = hash_bytes(hash, &tail->joints, sizeof tail->joints);
@@ -151,6 +152,7 @@ void stage_pose(struct editor *editor, const struct editor_world *world)
     }
     characters_pose(editor, world);
     view->viewport = editor->layout.stage;
+    view->colors = theme()->stage;
     camera_matrices(&editor->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
     view->hash = view_hash(view);
 }
@@ -165,7 +167,7 @@ static void show_hold(struct editor *editor)
         return;
     }
     struct rect ring = {xy[0] - RING_SIZE / 2.0f, xy[1] - RING_SIZE / 2.0f, RING_SIZE, RING_SIZE};
-    drawlist_rounded_line(&editor->list, ring, RING_SIZE / 2.0f, 1.5f, THEME_PLAYHEAD);
+    drawlist_rounded_line(&editor->list, ring, RING_SIZE / 2.0f, 1.5f, theme()->playhead);
 }
 
 /// What an empty stage says, or NULL.
@@ -187,7 +189,7 @@ void stage_show(struct editor *editor, const struct editor_world *world)
         float room = view->viewport.w - 16, width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, text);
         float x = view->viewport.x + 8 + fmaxf(room - width, 0) / 2;
         drawlist_text_fit(&editor->list, x, view->viewport.y + view->viewport.h / 2, room, FONT_LABEL,
-                          THEME_TEXT_NORMAL, THEME_TEXT_DIM, text);
+                          THEME_TEXT_NORMAL, theme()->text_dim, text);
     }
     onion_show(editor, world);
     trail_show(editor, world);

@@ -70,7 +70,7 @@ static float show_time(struct editor *editor, const struct document *document, s
     double frame = editor_frame(editor, document);
     snprintf(text, sizeof text, "%5.0f  %6.2f s", round(frame), frame / document->fps);
     float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-    paint_text(&editor->list, (struct rect){x, bar.y, width, bar.h}, FONT_NUMBER, THEME_TEXT, text);
+    paint_text(&editor->list, (struct rect){x, bar.y, width, bar.h}, FONT_NUMBER, theme()->text, text);
     return x + width;
 }
 
@@ -82,7 +82,7 @@ static float show_title(struct editor *editor, const struct editor_world *world,
     snprintf(text, sizeof text, "%s%s", editor->title, saved ? "" : " •");
     float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, text), bar.w / 5);
     struct rect r = {x, bar.y, width, bar.h};
-    paint_text(&editor->list, r, FONT_LABEL, saved ? THEME_TEXT_DIM : THEME_TEXT, text);
+    paint_text(&editor->list, r, FONT_LABEL, saved ? theme()->text_dim : theme()->text, text);
     return x + width;
 }
 
@@ -107,18 +107,18 @@ void status_show(struct editor *editor, const struct editor_world *world)
     enum { GAP = 24 };
     struct rect bar = editor->layout.status;
     const struct message *message = &editor->message;
-    drawlist_rect(&editor->list, bar, THEME_PANEL);
-    drawlist_rect(&editor->list, (struct rect){bar.x, bar.y, bar.w, 1}, THEME_BORDER);
+    drawlist_rect(&editor->list, bar, theme()->panel);
+    drawlist_rect(&editor->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
     float x = show_time(editor, world->document, bar, transport_show(editor)) + GAP;
     x = show_title(editor, world, bar, x) + GAP;
     char figures[128];
     figures_text(editor, world, figures, sizeof figures);
     float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
     float right = bar.x + bar.w - 12 - width;
-    paint_text(&editor->list, (struct rect){right, bar.y, width, bar.h}, FONT_NUMBER, THEME_TEXT_DIM, figures);
+    paint_text(&editor->list, (struct rect){right, bar.y, width, bar.h}, FONT_NUMBER, theme()->text_dim, figures);
     const char *hint = inspector_hint(editor);
     const char *text = message->text[0] ? message->text : hint ? hint : hover_hint(editor, world->document);
-    uint32_t color = !message->text[0] ? THEME_TEXT_DIM : message->is_error ? THEME_ERROR : THEME_TEXT;
+    uint32_t color = !message->text[0] ? theme()->text_dim : message->is_error ? theme()->error : theme()->text;
     struct rect middle = {x, bar.y, right - GAP - x, bar.h};
     if (middle.w > 40) paint_text(&editor->list, middle, FONT_LABEL, color, text);
 }

@@ -82,7 +82,7 @@ static void show_marks(struct editor *editor, float screen[TRAIL_FRAMES][2], int
     for (int i = 0; i < count; i++) {
         float alpha = fade_at(first + i - now, reach);
         struct rect mark = {screen[i][0] - MARK / 2, screen[i][1] - MARK / 2, MARK, MARK};
-        if (alpha > 0.02f) drawlist_rect(&editor->list, mark, theme_fade(THEME_PLAYHEAD, alpha));
+        if (alpha > 0.02f) drawlist_rect(&editor->list, mark, theme_fade(theme()->playhead, alpha));
     }
 }
 
@@ -92,7 +92,7 @@ static void show_line(struct editor *editor, float points[][2], int first, int c
         int length = count - i < RUN * PIECES + 1 ? count - i : RUN * PIECES + 1;
         float alpha = fade_at(first + (i + length / 2.0) / PIECES - now, reach);
         if (alpha > 0.02f)
-            drawlist_line(&editor->list, points[i], length, 1.5f, theme_fade(THEME_PLAYHEAD, 0.7f * alpha));
+            drawlist_line(&editor->list, points[i], length, 1.5f, theme_fade(theme()->playhead, 0.7f * alpha));
     }
 }
 
@@ -103,7 +103,7 @@ static void show_now(struct editor *editor, int tail)
     const struct pose *pose = &editor->stage.tails[tail].pose;
     if (!stage_project(editor, tail, pose->count - 1, 0, xy)) return;
     struct rect ring = {xy[0] - NOW, xy[1] - NOW, 2 * NOW, 2 * NOW};
-    drawlist_rounded_line(&editor->list, ring, NOW, 1.5f, THEME_PLAYHEAD);
+    drawlist_rounded_line(&editor->list, ring, NOW, 1.5f, theme()->playhead);
 }
 
 void trail_show(struct editor *editor, const struct editor_world *world)

@@ -52,7 +52,7 @@ bool transport_event(struct editor *editor, const struct editor_world *world, co
 /// A triangle while it plays, else two bars.
 static void paint_play_state(struct drawlist *list, float x, float y, bool playing, bool hot)
 {
-    uint32_t color = playing ? THEME_ACCENT : hot ? THEME_TEXT : THEME_TEXT_DIM;
+    uint32_t color = playing ? theme()->accent : hot ? theme()->text : theme()->text_dim;
     if (playing) {
         const float triangle[6] = {x, y - 5, x + 9, y, x, y + 5};
         drawlist_convex(list, triangle, 3, color);
@@ -65,7 +65,7 @@ static void paint_play_state(struct drawlist *list, float x, float y, bool playi
 static void paint_word(struct editor *editor, struct rect r, enum font font, const char *text, bool on, bool hot)
 {
     float size = font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
-    uint32_t color = on ? THEME_ACCENT : hot ? THEME_TEXT : THEME_TEXT_DIM;
+    uint32_t color = on ? theme()->accent : hot ? theme()->text : theme()->text_dim;
     float x = roundf(r.x + (r.w - font_width(font, size, text)) / 2);
     float y = roundf(r.y + (r.h + font_cap_height(font, size)) / 2);
     drawlist_text(&editor->list, x, y, font, size, color, text);

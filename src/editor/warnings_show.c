@@ -53,9 +53,9 @@ static void show_marker(struct drawlist *list, const float xy[2], bool hovered)
 {
     const float x = xy[0], y = xy[1], r = hovered ? SIZE + 1.5f : SIZE;
     const float corners[] = {x, y - r, x + r, y + 0.8f * r, x - r, y + 0.8f * r};
-    drawlist_convex(list, corners, 3, THEME_WARNING);
-    drawlist_rect(list, (struct rect){x - 0.75f, y - 0.4f * r, 1.5f, 0.6f * r}, THEME_PANEL);
-    drawlist_rect(list, (struct rect){x - 0.75f, y + 0.38f * r, 1.5f, 1.5f}, THEME_PANEL);
+    drawlist_convex(list, corners, 3, theme()->warning);
+    drawlist_rect(list, (struct rect){x - 0.75f, y - 0.4f * r, 1.5f, 0.6f * r}, theme()->panel);
+    drawlist_rect(list, (struct rect){x - 0.75f, y + 0.38f * r, 1.5f, 1.5f}, theme()->panel);
 }
 
 void warnings_show(struct editor *editor)
@@ -83,10 +83,10 @@ void warnings_show_words(struct editor *editor)
     float x = fminf(fmaxf(xy[0] - w / 2, panel.x + 8), panel.x + panel.w - 8 - w);
     float y = xy[1] + 14 + h < panel.y + panel.h ? xy[1] + 14 : xy[1] - 14 - h;
     struct rect box = {roundf(x), roundf(y), w, h};
-    drawlist_rounded(&editor->list, box, 5, THEME_RAISED);
-    drawlist_rounded_line(&editor->list, box, 5, 1, theme_fade(THEME_WARNING, 0.6f));
+    drawlist_rounded(&editor->list, box, 5, theme()->raised);
+    drawlist_rounded_line(&editor->list, box, 5, 1, theme_fade(theme()->warning, 0.6f));
     drawlist_text_fit(&editor->list, box.x + PAD, box.y + LINE, w - 2 * PAD, FONT_LABEL, THEME_TEXT_NORMAL,
-                      THEME_TEXT, what);
+                      theme()->text, what);
     drawlist_text_fit(&editor->list, box.x + PAD, box.y + 2 * LINE, w - 2 * PAD, FONT_LABEL, THEME_TEXT_NORMAL,
-                      THEME_WARNING, remedy);
+                      theme()->warning, remedy);
 }

@@ -43,15 +43,15 @@ void welcome_show(struct editor *editor, const struct editor_world *world)
     if (!editor->welcome) return;
     struct drawlist *list = &editor->list;
     struct rect card = card_of(editor), clip = drawlist_push_clip(list, editor->layout.stage);
-    drawlist_rounded(list, card, 8, theme_fade(THEME_PANEL, 0.92f));
-    drawlist_rounded_line(list, card, 8, 1, THEME_ZERO);
+    drawlist_rounded(list, card, 8, theme_fade(theme()->panel, 0.92f));
+    drawlist_rounded_line(list, card, 8, 1, theme()->zero);
     float y = card.y + PAD + 12;
     for (int i = 0; i < LINES; i++, y += LINE) {
-        drawlist_text(list, card.x + PAD, y, FONT_LABEL, THEME_TEXT_NORMAL, THEME_TEXT, lines[i]);
+        drawlist_text(list, card.x + PAD, y, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text, lines[i]);
     }
     float width = font_width(FONT_LABEL_BOLD, THEME_TEXT_NORMAL, closing);
     float middle = roundf(card.y + (card.h + font_cap_height(FONT_LABEL_BOLD, THEME_TEXT_NORMAL)) / 2);
-    drawlist_text(list, card.x + card.w - PAD - width, middle, FONT_LABEL_BOLD, THEME_TEXT_NORMAL, THEME_ACCENT,
+    drawlist_text(list, card.x + card.w - PAD - width, middle, FONT_LABEL_BOLD, THEME_TEXT_NORMAL, theme()->accent,
                   closing);
     drawlist_set_clip(list, clip);
 }

@@ -125,8 +125,8 @@ bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon
     bool hot = ui_hovered(ui, r);
     if (hot) ui->hint = hint;
     if (ui->pass == UI_PASS_DRAW) {
-        if (hot) drawlist_rounded(ui->list, r, UI_RADIUS, UI_FILL);
-        uint32_t color = lit ? THEME_ACCENT : hot || ui->focus == id ? THEME_TEXT : THEME_TEXT_DIM;
+        if (hot) drawlist_rounded(ui->list, r, UI_RADIUS, theme()->fill);
+        uint32_t color = lit ? theme()->accent : hot || ui->focus == id ? theme()->text : theme()->text_dim;
         struct pen pen = {ui->list, roundf(r.x + r.w / 2), roundf(r.y + r.h / 2), color};
         shapes[icon](&pen);
         ui_focus_ring(ui, id, rect_inset(r, 1));

@@ -41,9 +41,9 @@ void ui_popup_begin(struct ui *ui, float width, float height)
     ui->popup.built = true;
     ui->stop_count = 0; // Tab stays inside
     if (ui->pass == UI_PASS_DRAW) {
-        drawlist_rounded(ui->list, rect_inset(box, -1), UI_RADIUS + 2, theme_fade(0x000000FFu, 0.5f));
-        drawlist_rounded(ui->list, box, UI_RADIUS + 1, THEME_RAISED);
-        drawlist_rounded_line(ui->list, box, UI_RADIUS + 1, 1, THEME_ZERO);
+        drawlist_rounded(ui->list, rect_inset(box, -1), UI_RADIUS + 2, theme()->veil);
+        drawlist_rounded(ui->list, box, UI_RADIUS + 1, theme()->raised);
+        drawlist_rounded_line(ui->list, box, UI_RADIUS + 1, 1, theme()->zero);
     }
     ui_scroll_begin(ui, &ui->popup.scroll, rect_inset(box, POPUP_PAD));
 }
@@ -104,16 +104,16 @@ void ui_dropdown(struct ui *ui, struct rect r, const char *name, int which, cons
     open_where_pressed(ui, field, id, name, which);
     if (ui->pass != UI_PASS_DRAW) return;
     bool hot = ui_hovered(ui, field) || (ui_popup_is_open(ui, name) && ui->popup.which == which);
-    drawlist_rounded(ui->list, field, UI_RADIUS, THEME_RAISED);
-    if (hot) drawlist_rounded_line(ui->list, field, UI_RADIUS, 1, UI_HOVER);
+    drawlist_rounded(ui->list, field, UI_RADIUS, theme()->raised);
+    if (hot) drawlist_rounded_line(ui->list, field, UI_RADIUS, 1, theme()->hover);
     float left = field.x + UI_GAP, x = field.x + field.w - 14, y = field.y + field.h / 2;
     if (color) {
         drawlist_rounded(ui->list, (struct rect){left, y - 4, 8, 8}, 3, color);
         left += 14;
     }
-    ui_label(ui, (struct rect){left, field.y, x - 4 - left, field.h}, text, THEME_TEXT);
+    ui_label(ui, (struct rect){left, field.y, x - 4 - left, field.h}, text, theme()->text);
     const float arrow[6] = {x - 1, y - 2, x + 7, y - 2, x + 3, y + 2};
-    drawlist_convex(ui->list, arrow, 3, hot ? THEME_TEXT : THEME_TEXT_DIM);
+    drawlist_convex(ui->list, arrow, 3, hot ? theme()->text : theme()->text_dim);
     ui_focus_ring(ui, id, field);
 }
 
@@ -125,7 +125,7 @@ void ui_swatch(struct ui *ui, struct rect r, const char *name, const char *popup
     if (ui->pass != UI_PASS_DRAW) return;
     struct rect chip = {r.x + (r.w - 10) / 2, r.y + (r.h - 10) / 2, 10, 10};
     drawlist_rounded(ui->list, chip, 3, color);
-    if (ui_hovered(ui, r)) drawlist_rounded_line(ui->list, rect_inset(chip, -2), 4, 1, THEME_TEXT_DIM);
+    if (ui_hovered(ui, r)) drawlist_rounded_line(ui->list, rect_inset(chip, -2), 4, 1, theme()->text_dim);
     ui_focus_ring(ui, id, rect_inset(chip, -1));
 }
 
@@ -138,7 +138,8 @@ bool ui_color(struct ui *ui, struct rect r, const char *name, uint32_t color, bo
     if (ui->pass != UI_PASS_DRAW) return pressed;
     drawlist_rounded(ui->list, field, UI_RADIUS, color);
     if (chosen || ui_hovered(ui, r)) {
-        drawlist_rounded_line(ui->list, rect_inset(field, -2), UI_RADIUS + 1, 1.5f, chosen ? THEME_TEXT : UI_HOVER);
+        drawlist_rounded_line(ui->list, rect_inset(field, -2), UI_RADIUS + 1, 1.5f,
+                              chosen ? theme()->text : theme()->hover);
     }
     ui_focus_ring(ui, id, rect_inset(field, -1));
     return pressed;

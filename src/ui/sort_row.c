@@ -41,9 +41,10 @@ enum ui_row_event ui_sort_row(struct ui *ui, struct rect row, struct rect label,
     if (ui->pass != UI_PASS_DRAW) return event;
     bool hot = ui_hovered(ui, row), dragged = ui_is_dragged(ui, name);
     struct rect back = {row.x - 4, row.y + 1, row.w + 8, row.h - 2};
-    if (selected || hot || dragged) drawlist_rounded(ui->list, back, UI_RADIUS, selected ? UI_FILL : THEME_RAISED);
-    if (selected) drawlist_rect(ui->list, (struct rect){back.x, back.y + 4, 2, back.h - 8}, THEME_ACCENT);
-    ui_label(ui, label, text, selected || hot ? THEME_TEXT : THEME_TEXT_DIM);
+    if (selected || hot || dragged)
+        drawlist_rounded(ui->list, back, UI_RADIUS, selected ? theme()->fill : theme()->raised);
+    if (selected) drawlist_rect(ui->list, (struct rect){back.x, back.y + 4, 2, back.h - 8}, theme()->accent);
+    ui_label(ui, label, text, selected || hot ? theme()->text : theme()->text_dim);
     ui_focus_ring(ui, id, rect_inset(back, 1));
     return event;
 }

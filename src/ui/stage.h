@@ -5,6 +5,7 @@
 #include "rig/morph.h"
 #include "rig/pose.h"
 #include "ui/drawlist.h"
+#include "ui/stage_colors.h"
 
 enum {
     STAGE_MAX_TAILS = 8,
@@ -40,6 +41,7 @@ struct stage_view {
     float projection[16]; ///< eye → clip
     float eye[3];         ///< camera position, world
     float middle[2];      ///< x and z of the middle of the lit ground
+    struct stage_colors colors;
     struct stage_tail tails[STAGE_MAX_TAILS];
     int tail_count;
     struct stage_character characters[STAGE_MAX_CHARACTERS];

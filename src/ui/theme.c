@@ -1,11 +1,122 @@
 #include "ui/theme.h"
+#include <math.h>
+#include <string.h>
 
-const uint32_t theme_spline_color[THEME_SPLINE_COLORS] = {
-    0xFFB000FFu, 0x4FA3E3FFu, 0xE39AC8FFu, 0x1F9E7AFFu, 0xF4F1E8FFu, 0xC8502AFFu,
+static const struct theme themes[THEME_COUNT] = {
+    [THEME_DARK] =
+        {
+            .name = "dark",
+            .panel = 0x14171CFFu,
+            .border = 0x262B33FFu,
+            .raised = 0x1B1F26FFu,
+            .fill = 0x2B313BFFu,
+            .hover = 0x363D49FFu,
+            .text = 0xD7DCE3FFu,
+            .text_dim = 0x8A93A0FFu,
+            .accent = 0xFFB000FFu,
+            .warning = 0xE3B34FFFu,
+            .error = 0xE0705AFFu,
+            .veil = 0x0000008Cu,
+            .outside = 0x0F1216FFu,
+            .grid_minor = 0x1B1F26FFu,
+            .grid_major = 0x262B33FFu,
+            .zero = 0x3A414CFFu,
+            .equilibrium = 0x9AA3AFFFu,
+            .playhead = 0xF4F1E8FFu,
+            .stage = {.top = 0x1B2028FFu, .bottom = 0x111419FFu, .ground = 0x39414CFFu, .shadow = 0x07080AFFu},
+            .spline = {0xFFB000FFu, 0x4FA3E3FFu, 0xE39AC8FFu, 0x1F9E7AFFu, 0xF4F1E8FFu, 0xC8502AFFu},
+        },
+    [THEME_LIGHT] =
+        {
+            .name = "light",
+            .panel = 0xF8F9FBFFu,
+            .border = 0xD3D9E1FFu,
+            .raised = 0xEAEEF3FFu,
+            .fill = 0xD5DCE5FFu,
+            .hover = 0xC8D1DCFFu,
+            .text = 0x1C222BFFu,
+            .text_dim = 0x515B68FFu,
+            .accent = 0x935600FFu,
+            .warning = 0x8A5300FFu,
+            .error = 0xB3301BFFu,
+            .veil = 0x1C222B66u,
+            .outside = 0xEBEEF2FFu,
+            .grid_minor = 0xEFF1F5FFu,
+            .grid_major = 0xE0E5EBFFu,
+            .zero = 0xB9C2CDFFu,
+            .equilibrium = 0x6B7684FFu,
+            .playhead = 0x2A313BFFu,
+            .stage = {.top = 0xE6EBF1FFu, .bottom = 0xCFD6DFFFu, .ground = 0xF4F3EFFFu, .shadow = 0x4A4640FFu},
+            .spline = {0xC27800FFu, 0x1F74BFFFu, 0xC25A9EFFu, 0x0C7F60FFu, 0x343B46FFu, 0xA8370FFFu},
+        },
 };
+
+static enum theme_kind in_use = THEME_DARK;
+
+const struct theme *theme(void) { return &themes[in_use]; }
+
+enum theme_kind theme_in_use(void) { return in_use; }
+
+void theme_use(enum theme_kind kind) { in_use = kind; }
+
+int theme_find(const char *name)
+{
+    for (int i = 0; i < THEME_COUNT; i++) {
+        if (strcmp(themes[i].name, name) == 0) return i;
+    }
+    return -1;
+}
 
 uint32_t theme_fade(uint32_t color, float alpha)
 {
     float clamped = alpha < 0.0f ? 0.0f : alpha > 1.0f ? 1.0f : alpha;
     return (color & 0xFFFFFF00u) | (uint32_t)((float)(color & 0xFFu) * clamped + 0.5f);
+}
+
+static float linear(uint32_t channel)
+{
+    float value = (float)(channel & 0xFFu) / 255;
+    return value <= 0.04045f ? value / 12.92f : powf((value + 0.055f) / 1.055f, 2.4f);
+}
+
+static float luminance(uint32_t color)
+{
+    return 0.2126f * linear(color >> 24) + 0.7152f * linear(color >> 16) + 0.0722f * linear(color >> 8);
+}
+
+float theme_contrast(uint32_t a, uint32_t b)
+{
+    float la = luminance(a), lb = luminance(b);
+    return (fmaxf(la, lb) + 0.05f) / (fminf(la, lb) + 0.05f);
+}
+
+static uint32_t mix(uint32_t from, uint32_t to, float share)
+{
+    uint32_t color = 0xFFu;
+    for (int shift = 8; shift < 32; shift += 8) {
+        float a = (float)(from >> shift & 0xFFu), b = (float)(to >> shift & 0xFFu);
+        color |= (uint32_t)lroundf(a + (b - a) * share) << shift;
+    }
+    return color;
+}
+
+uint32_t theme_readable(uint32_t color, uint32_t background, float contrast)
+{
+    enum { STEPS = 16 };
+    uint32_t blended = color;
+    for (int i = 1; i <= STEPS && theme_contrast(blended, background) < contrast; i++) {
+        blended = mix(color, theme()->text, (float)i / STEPS);
+    }
+    return blended;
+}
+
+uint32_t theme_spline_rgb(int index) { return themes[THEME_DARK].spline[index] >> 8; }
+
+uint32_t theme_spline(uint32_t rgb)
+{
+    const uint32_t color = rgb << 8 | 0xFFu;
+    for (int i = 0; i < THEME_SPLINE_COLORS; i++) {
+        if (themes[THEME_DARK].spline[i] == color) return theme()->spline[i];
+    }
+    return theme_readable(color, theme()->panel, 3);
 }

@@ -1,29 +1,55 @@
-/// Colours and sizes of the whole screen (look.md's palette), in one place. Sizes in logical pixels.
+/// Colours and sizes of the whole screen (look.md's palette), in one place. Sizes in logical pixels, colours 0xRRGGBBAA.
+///
+/// There are two themes; one of them is in use, for the whole process. What is drawn asks for it each time:
+///
+///     drawlist_rect(list, area, theme()->panel);
 #ifndef UI_THEME_H
 #define UI_THEME_H
 
+#include "ui/stage_colors.h"
 #include <stdint.h>
 
-#define THEME_PANEL 0x14171CFFu
-#define THEME_RAISED 0x1B1F26FFu /* fields, buttons */
-#define THEME_GRID_MINOR 0x1B1F26FFu
-#define THEME_GRID_MAJOR 0x262B33FFu
-#define THEME_ZERO 0x3A414CFFu
-#define THEME_BORDER 0x262B33FFu
-#define THEME_ACCENT 0xFFB000FFu
-#define THEME_EQUILIBRIUM 0x9AA3AFFFu
-#define THEME_TEXT 0xD7DCE3FFu
-#define THEME_TEXT_DIM 0x8A93A0FFu
-#define THEME_PLAYHEAD 0xF4F1E8FFu
-#define THEME_WARNING 0xE3B34FFFu
-#define THEME_ERROR 0xE0705AFFu
-
-/// Spline colours, apart under red-green blindness; taken in turn.
+/// Spline colours are apart under red-green blindness and taken in turn.
 enum { THEME_SPLINE_COLORS = 6 };
-extern const uint32_t theme_spline_color[THEME_SPLINE_COLORS];
+
+/// Every text colour (text, text_dim, accent, warning, error) has a contrast of 4.5:1 or more on panel and raised, and `text`
+/// on fill and hover too; spline colours have 3:1, which is enough for lines.
+struct theme {
+    const char *name; ///< in the settings and on the command line
+    uint32_t panel, border;
+    uint32_t raised;      ///< fields, buttons at rest
+    uint32_t fill, hover; ///< the filled part of a bar, chosen segments; the same under the pointer
+    uint32_t text, text_dim, accent, warning, error;
+    uint32_t veil;    ///< over what a dialog keeps out of reach, and the shade of a popup
+    uint32_t outside; ///< the plot before and after the scene's range
+    uint32_t grid_minor, grid_major, zero;
+    uint32_t equilibrium, playhead;
+    struct stage_colors stage;
+    uint32_t spline[THEME_SPLINE_COLORS];
+};
+
+enum theme_kind { THEME_DARK, THEME_LIGHT, THEME_COUNT };
+
+/// The theme in use: the dark one at first.
+const struct theme *theme(void);
+enum theme_kind theme_in_use(void);
+void theme_use(enum theme_kind kind);
+/// The theme of that name, or -1.
+int theme_find(const char *name);
 
 /// The same colour at `alpha` 0 … 1 of its own opacity.
 uint32_t theme_fade(uint32_t color, float alpha);
+
+/// Contrast of two opaque colours, 1 … 21 (WCAG 2: (L₁ + 0.05)/(L₂ + 0.05) with relative luminances L₁ ≥ L₂).
+float theme_contrast(uint32_t a, uint32_t b);
+/// An opaque colour, blended with the text's just so far that its contrast on a background is `contrast` or more.
+uint32_t theme_readable(uint32_t color, uint32_t background, float contrast);
+
+/// How the theme in use shows a colour that a document asks for (0xRRGGBB): the dark theme's spline colours stand for its
+/// own, others are made out against the panel.
+uint32_t theme_spline(uint32_t rgb);
+/// What a document stores for the `index`th spline colour.
+uint32_t theme_spline_rgb(int index);
 
 /// The pixel sizes of text that exist (atlases are built for these).
 #define THEME_TEXT_SMALL 11.0f

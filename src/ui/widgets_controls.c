@@ -12,7 +12,7 @@ float ui_baseline(struct rect r, enum font font, float size)
 
 void ui_focus_ring(struct ui *ui, uint32_t id, struct rect r)
 {
-    if (ui->focus == id) drawlist_rounded_line(ui->list, rect_inset(r, -1), UI_RADIUS + 1, 1.5f, THEME_ACCENT);
+    if (ui->focus == id) drawlist_rounded_line(ui->list, rect_inset(r, -1), UI_RADIUS + 1, 1.5f, theme()->accent);
 }
 
 static void paint_label(struct ui *ui, struct rect r, enum font font, const char *text, uint32_t color)
@@ -78,8 +78,8 @@ bool ui_section(struct ui *ui, const char *name, const char *title, bool *closed
     ui_register(ui, id, r);
     if (ui_pressed(ui, r, BUTTON_LEFT) || ui_activated(ui, id)) *closed = !*closed;
     if (ui->pass == UI_PASS_DRAW) {
-        if (!first) drawlist_rect(ui->list, line, THEME_BORDER);
-        uint32_t color = ui_hovered(ui, r) ? THEME_TEXT : THEME_TEXT_DIM;
+        if (!first) drawlist_rect(ui->list, line, theme()->border);
+        uint32_t color = ui_hovered(ui, r) ? theme()->text : theme()->text_dim;
         paint_arrow(ui, r.x, r.y + r.h / 2, *closed, color);
         paint_label(ui, (struct rect){r.x + 14, r.y, r.w - 14, r.h}, FONT_LABEL_BOLD, title, color);
         ui_focus_ring(ui, id, (struct rect){r.x - 4, r.y + 3, r.w + 8, r.h - 6});
@@ -102,9 +102,9 @@ bool ui_button(struct ui *ui, struct rect r, const char *name, const char *label
     bool pressed = ui_pressed(ui, field, BUTTON_LEFT) || ui_activated(ui, id);
     if (ui->pass == UI_PASS_DRAW) {
         bool hot = ui_hovered(ui, field);
-        uint32_t fill = primary ? THEME_ACCENT : hot ? UI_HOVER : UI_FILL;
+        uint32_t fill = primary ? theme()->accent : hot ? theme()->hover : theme()->fill;
         drawlist_rounded(ui->list, field, UI_RADIUS, fill);
-        paint_centred(ui, field, label, primary ? THEME_PANEL : THEME_TEXT);
+        paint_centred(ui, field, label, primary ? theme()->panel : theme()->text);
         ui_focus_ring(ui, id, rect_inset(field, primary ? -2 : 0));
     }
     return pressed;
@@ -118,10 +118,10 @@ bool ui_toggle(struct ui *ui, struct rect r, const char *name, bool *on)
     bool pressed = ui_pressed(ui, box, BUTTON_LEFT) || ui_activated(ui, id);
     if (pressed) *on = !*on;
     if (ui->pass == UI_PASS_DRAW) {
-        uint32_t fill = *on ? THEME_ACCENT : ui_hovered(ui, box) ? UI_HOVER : UI_FILL;
+        uint32_t fill = *on ? theme()->accent : ui_hovered(ui, box) ? theme()->hover : theme()->fill;
         drawlist_rounded(ui->list, box, 8, fill);
         struct rect knob = {box.x + (*on ? 14.0f : 2.0f), box.y + 2, 12, 12};
-        drawlist_rounded(ui->list, knob, 6, *on ? THEME_PANEL : THEME_TEXT_DIM);
+        drawlist_rounded(ui->list, knob, 6, *on ? theme()->panel : theme()->text_dim);
         ui_focus_ring(ui, id, rect_inset(box, -1));
     }
     return pressed;
@@ -135,15 +135,15 @@ bool ui_list_row(struct ui *ui, struct rect r, const char *name, const char *tex
     if (ui->pass == UI_PASS_DRAW) {
         bool hot = ui_hovered(ui, r);
         struct rect back = {r.x - 4, r.y + 1, r.w + 8, r.h - 2};
-        if (selected || hot) drawlist_rounded(ui->list, back, UI_RADIUS, selected ? UI_FILL : THEME_RAISED);
-        if (selected) drawlist_rect(ui->list, (struct rect){back.x, back.y + 4, 2, back.h - 8}, THEME_ACCENT);
+        if (selected || hot) drawlist_rounded(ui->list, back, UI_RADIUS, selected ? theme()->fill : theme()->raised);
+        if (selected) drawlist_rect(ui->list, (struct rect){back.x, back.y + 4, 2, back.h - 8}, theme()->accent);
         float left = r.x + 6;
         if (color) {
             drawlist_rounded(ui->list, (struct rect){left, r.y + (r.h - 10) / 2, 10, 10}, 3, color);
             left += 18;
         }
         struct rect label = {left, r.y, r.x + r.w - left, r.h};
-        paint_label(ui, label, FONT_LABEL, text, selected || hot ? THEME_TEXT : THEME_TEXT_DIM);
+        paint_label(ui, label, FONT_LABEL, text, selected || hot ? theme()->text : theme()->text_dim);
         ui_focus_ring(ui, id, rect_inset(back, 1));
     }
     return pressed;
@@ -152,16 +152,16 @@ bool ui_list_row(struct ui *ui, struct rect r, const char *name, const char *tex
 static void paint_segments(struct ui *ui, struct rect field, const struct ui_choice *choices, int count, int chosen)
 {
     float w = field.w / (float)count;
-    drawlist_rounded(ui->list, field, UI_RADIUS, THEME_RAISED);
+    drawlist_rounded(ui->list, field, UI_RADIUS, theme()->raised);
     for (int i = 0; i < count; i++) {
         struct rect part = {field.x + w * (float)i, field.y, w, field.h};
         bool hot = ui_hovered(ui, part);
         if (i == chosen) {
-            drawlist_rounded(ui->list, rect_inset(part, 1), UI_RADIUS - 1, UI_HOVER);
+            drawlist_rounded(ui->list, rect_inset(part, 1), UI_RADIUS - 1, theme()->hover);
             struct rect mark = {part.x + 8, part.y + part.h - 2, part.w - 16, 2};
-            drawlist_rect(ui->list, mark, THEME_ACCENT);
+            drawlist_rect(ui->list, mark, theme()->accent);
         }
-        paint_centred(ui, part, choices[i].label, i == chosen || hot ? THEME_TEXT : THEME_TEXT_DIM);
+        paint_centred(ui, part, choices[i].label, i == chosen || hot ? theme()->text : theme()->text_dim);
     }
 }
 

@@ -95,7 +95,7 @@ static void show(struct ui *ui, struct rect area, const struct ui_handle *handle
         bool held = ui->held == id_of(&handles[i]);
         if (held || i == hot) {
             ui->over = UI_OVER_NUMBER;
-            drawlist_rounded_line(ui->list, around, 8, 1.5f, held ? THEME_ACCENT : THEME_TEXT_DIM);
+            drawlist_rounded_line(ui->list, around, 8, 1.5f, held ? theme()->accent : theme()->text_dim);
         }
         if (i == hot) ui->hint = handles[i].hint;
         ui_focus_ring(ui, id_of(&handles[i]), around);

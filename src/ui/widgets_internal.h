@@ -7,8 +7,6 @@
 #include "ui/widgets.h"
 
 #define UI_RADIUS 4.0f
-#define UI_FILL 0x2B313BFFu  /* the filled part of a bar, chosen segments */
-#define UI_HOVER 0x363D49FFu /* the same under the pointer */
 
 /// The field of a row: inset so that rows one above the other do not touch.
 struct rect ui_field_of(struct rect row);

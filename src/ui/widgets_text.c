@@ -145,10 +145,10 @@ void ui_paint_text(struct ui *ui, struct rect r, const struct ui_text *text, enu
     float caret = r.x + width_between(text, from, text->caret, font, size);
     if (focused && text->all && text->length > 0) {
         float w = fminf(r.w, width_between(text, from, text->length, font, size));
-        drawlist_rect(ui->list, (struct rect){r.x, r.y + 3, w, r.h - 6}, theme_fade(THEME_ACCENT, 0.3f));
+        drawlist_rect(ui->list, (struct rect){r.x, r.y + 3, w, r.h - 6}, theme_fade(theme()->accent, 0.3f));
     }
-    drawlist_text_fit(ui->list, r.x, y, r.w, font, size, THEME_TEXT, text->bytes + from);
-    if (focused) drawlist_rect(ui->list, (struct rect){roundf(caret), r.y + 3, 1, r.h - 6}, THEME_ACCENT);
+    drawlist_text_fit(ui->list, r.x, y, r.w, font, size, theme()->text, text->bytes + from);
+    if (focused) drawlist_rect(ui->list, (struct rect){roundf(caret), r.y + 3, 1, r.h - 6}, theme()->accent);
 }
 
 void ui_line_begin(struct ui *ui, const char *name, const char *text)
@@ -191,8 +191,8 @@ enum ui_line ui_line(struct ui *ui, struct rect r, const char *name)
     if (ui->typing != id) return UI_LINE_NONE;
     if (ui->pass == UI_PASS_DRAW) {
         if (ui_hovered(ui, field)) ui->over = UI_OVER_TEXT;
-        drawlist_rounded(ui->list, field, UI_RADIUS, THEME_RAISED);
-        drawlist_rounded_line(ui->list, field, UI_RADIUS, 1.5f, THEME_ACCENT);
+        drawlist_rounded(ui->list, field, UI_RADIUS, theme()->raised);
+        drawlist_rounded_line(ui->list, field, UI_RADIUS, 1.5f, theme()->accent);
         struct rect inner = {field.x + 6, field.y, field.w - 12, field.h};
         ui_paint_text(ui, inner, &ui->text, FONT_LABEL, THEME_TEXT_NORMAL, true);
     }
@@ -217,8 +217,8 @@ bool ui_text_field(struct ui *ui, struct rect r, const char *name)
     if (ui->pass == UI_PASS_EVENT && !ui->used && active) ui->used = ui_text_event(&ui->text, ui->event, &changed);
     if (ui->pass != UI_PASS_DRAW) return changed;
     if (ui_hovered(ui, r)) ui->over = UI_OVER_TEXT;
-    drawlist_rounded(ui->list, r, UI_RADIUS, THEME_RAISED);
-    drawlist_rounded_line(ui->list, r, UI_RADIUS, active ? 1.5f : 1.0f, active ? THEME_ACCENT : THEME_ZERO);
+    drawlist_rounded(ui->list, r, UI_RADIUS, theme()->raised);
+    drawlist_rounded_line(ui->list, r, UI_RADIUS, active ? 1.5f : 1.0f, active ? theme()->accent : theme()->zero);
     ui_paint_text(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, &ui->text, FONT_LABEL, THEME_TEXT_NORMAL, active);
     return changed;
 }

@@ -258,10 +258,10 @@ static void paint_strip(struct ui *ui, struct rect field, float zero, float at, 
 {
     const float height = 2;
     struct rect strip = {field.x + fminf(at, zero), field.y + field.h - height, fabsf(at - zero), height};
-    drawlist_rect(ui->list, strip, hot ? THEME_ACCENT : theme_fade(THEME_TEXT_DIM, 0.5f));
+    drawlist_rect(ui->list, strip, hot ? theme()->accent : theme_fade(theme()->text_dim, 0.5f));
     float x = field.x + fmaxf(0, fminf(at - 1, field.w - 2));
-    drawlist_rect(ui->list, (struct rect){x, strip.y - 2, 2, height + 2}, hot ? THEME_ACCENT : THEME_TEXT);
-    drawlist_rect(ui->list, (struct rect){field.x + zero - 0.5f, strip.y - 1, 1, height + 1}, THEME_TEXT_DIM);
+    drawlist_rect(ui->list, (struct rect){x, strip.y - 2, 2, height + 2}, hot ? theme()->accent : theme()->text);
+    drawlist_rect(ui->list, (struct rect){field.x + zero - 0.5f, strip.y - 1, 1, height + 1}, theme()->text_dim);
 }
 
 /// Filled from the left end to the value. The handle is a notch where the text, `text_width` wide at the right, would be
@@ -276,14 +276,14 @@ static void paint_bar(struct ui *ui, struct rect field, const struct ui_number *
     }
     struct rect filled = {field.x, field.y, at, field.h};
     struct rect old = drawlist_push_clip(ui->list, filled);
-    uint32_t fill = held ? theme_fade(THEME_ACCENT, 0.35f) : hot ? UI_HOVER : UI_FILL;
+    uint32_t fill = held ? theme_fade(theme()->accent, 0.35f) : hot ? theme()->hover : theme()->fill;
     drawlist_rounded(ui->list, field, UI_RADIUS, fill);
     drawlist_set_clip(ui->list, old);
     float x = field.x + fmaxf(0, fminf(at - 1, field.w - 2));
     float text = field.x + field.w - UI_GAP - text_width;
     bool under = x > text - 4 && x < text + text_width + 2;
     struct rect handle = {x, field.y + (under ? field.h - 4 : 3), 2, under ? 4 : field.h - 6};
-    drawlist_rect(ui->list, handle, held || hot ? THEME_ACCENT : THEME_TEXT_DIM);
+    drawlist_rect(ui->list, handle, held || hot ? theme()->accent : theme()->text_dim);
 }
 
 static void paint(struct ui *ui, struct rect r, struct rect field, uint32_t id, const struct ui_number *number,
@@ -294,13 +294,13 @@ static void paint(struct ui *ui, struct rect r, struct rect field, uint32_t id, 
     if (hot || ui->held == id) ui->over = typing ? UI_OVER_TEXT : UI_OVER_NUMBER;
     if (number->label) {
         struct rect label = {r.x, r.y, field.x - r.x - UI_GAP, r.h};
-        ui_label(ui, label, number->label, hot || held || ui->focus == id ? THEME_TEXT : THEME_TEXT_DIM);
+        ui_label(ui, label, number->label, hot || held || ui->focus == id ? theme()->text : theme()->text_dim);
     }
-    drawlist_rounded(ui->list, field, UI_RADIUS, THEME_RAISED);
+    drawlist_rounded(ui->list, field, UI_RADIUS, theme()->raised);
     struct rect inner = {field.x + UI_GAP, field.y, field.w - 2 * UI_GAP, field.h};
     if (typing) {
         ui_paint_text(ui, inner, &ui->text, FONT_NUMBER, THEME_TEXT_SMALL, true);
-        drawlist_rounded_line(ui->list, field, UI_RADIUS, 1.5f, ui->refused ? THEME_ERROR : THEME_ACCENT);
+        drawlist_rounded_line(ui->list, field, UI_RADIUS, 1.5f, ui->refused ? theme()->error : theme()->accent);
         return;
     }
     char formatted[64];
@@ -309,9 +309,9 @@ static void paint(struct ui *ui, struct rect r, struct rect field, uint32_t id, 
     if (has_bar(number)) {
         paint_bar(ui, field, number, value, font_width(FONT_NUMBER, THEME_TEXT_SMALL, text), hot, held);
     } else if (hot || held) {
-        drawlist_rounded_line(ui->list, field, UI_RADIUS, 1, held ? THEME_ACCENT : UI_HOVER);
+        drawlist_rounded_line(ui->list, field, UI_RADIUS, 1, held ? theme()->accent : theme()->hover);
     }
-    ui_number_text(ui, inner, text, THEME_TEXT);
+    ui_number_text(ui, inner, text, theme()->text);
     ui_focus_ring(ui, id, field);
 }
 
