@@ -1,6 +1,7 @@
 // What the editor shows, frame by frame: playback, views, the tail that is pulled, and what it costs. Without GL.
 #include "session.h"
 
+#include "editor/state.h"
 #include "timing/framelog.h"
 #include "ui/theme.h"
 #include <stdio.h>
@@ -39,6 +40,32 @@ static void pull(struct session *s, float share, float dx, float dy)
     assert_near(at[0], s->x, 2);
     assert_near(at[1], s->y, 2);
     session_release(s, BUTTON_LEFT);
+}
+
+static int selected_from(const struct session *s, unsigned id)
+{
+    int count = 0;
+    for (; id < s->editor->selection.capacity; id++) count += selection_has(&s->editor->selection, id);
+    return count;
+}
+
+static void test_a_pull_taken_back_leaves_nothing_selected(void **state)
+{
+    (void)state;
+    struct session s;
+    float at[2];
+    session_open(&s, TAIL);
+    session_key(&s, KEY_RIGHT, 0); // where there is no knot
+    const unsigned next = s.document->next_id;
+    point_at_tail(&s, 0.9f, at);
+    session_move(&s, at[0], at[1]);
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, 30, 10, 5);
+    assert_int_equal(selected_from(&s, next), 1);
+    session_key(&s, KEY_ESCAPE, 0);
+    assert_int_equal(s.document->next_id, next); // its ids are given again
+    assert_int_equal(selected_from(&s, next), 0);
+    session_close(&s);
 }
 
 static void test_the_tail_follows_the_hand(void **state)
@@ -487,6 +514,7 @@ static void test_targets_that_are_not_there(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_pull_taken_back_leaves_nothing_selected),
         cmocka_unit_test(test_the_tail_follows_the_hand),
         cmocka_unit_test(test_a_pull_out_of_reach_stays_calm),
         cmocka_unit_test(test_playing_redraws_the_playhead_only),

@@ -242,6 +242,7 @@ void drag_end(struct editor *editor, const struct editor_world *world, bool keep
     if (open && keep) drag_apply(editor, world);
     if (open && drag->kind == DRAG_BODY) body_release(editor, world, keep);
     if (open && !keep) history_restart(world->history, world->document);
+    if (open && !keep) selection_drop_from(&editor->selection, world->document->next_id);
     if (open) history_end(world->history);
     if (!drag->moved && keep && drag->kind == DRAG_KNOTS && drag->collapse) {
         selection_clear(&editor->selection);

@@ -23,6 +23,11 @@ void selection_clear(struct selection *selection)
     if (selection->bits) memset(selection->bits, 0, selection->capacity / 8);
 }
 
+void selection_drop_from(struct selection *selection, unsigned id)
+{
+    for (; id < selection->capacity; id++) selection_set(selection, id, false);
+}
+
 int selection_count(const struct selection *selection, const struct spline *spline)
 {
     int count = 0;

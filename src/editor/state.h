@@ -367,6 +367,8 @@ void editor_reserve(struct editor *editor, const struct document *document);
 bool selection_has(const struct selection *selection, unsigned id);
 void selection_set(struct selection *selection, unsigned id, bool selected);
 void selection_clear(struct selection *selection);
+/// Forgets the ids from `id` on, which are to be given again.
+void selection_drop_from(struct selection *selection, unsigned id);
 int selection_count(const struct selection *selection, const struct spline *spline);
 /// Index of the only selected knot of the spline, or -1.
 int selection_single(const struct selection *selection, const struct spline *spline);
