@@ -114,10 +114,11 @@ static bool open_figure(struct app *app, int number, struct error *error)
     struct edit edit = {.kind = EDIT_DOCUMENT, .document = parse_built_in(name, error)};
     if (!edit.document) return false;
     edit.document->serial = ++app->last_serial;
+    struct editor_world world = app_world(app);
+    editor_let_go(app->editor, &world); // a drag may have begun since the figure was asked for
     history_begin(app->history, "Open a figure", 0);
     bool done = history_apply(app->history, app->document, &edit, error);
     history_end(app->history);
-    struct editor_world world = app_world(app);
     editor_follow(app->editor, &world);
     show_title(app);
     return done;

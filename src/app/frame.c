@@ -220,7 +220,7 @@ void app_frame(struct app *app)
     solve(app);
     if (app->failed) return;
     pose(app);
-    draw(app);
+    if (app->draw) draw(app);
     log_frame(app);
     app->frame++;
 }

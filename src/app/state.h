@@ -17,7 +17,7 @@
 struct app {
     const struct app_options *options;
     struct platform *platform;
-    struct draw *draw;
+    struct draw *draw; ///< NULL: frames run to the end, but for the picture
     struct editor *editor;
 
     struct document *document;

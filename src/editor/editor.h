@@ -56,6 +56,9 @@ void editor_open(struct editor *editor, const struct editor_world *world);
 /// edit, undo and redo, before anything else is done with the document.
 void editor_follow(struct editor *editor, const struct editor_world *world);
 
+/// Ends what is being dragged where it is: before the app itself makes an edit.
+void editor_let_go(struct editor *editor, const struct editor_world *world);
+
 /// The path of the document's own file, "" where it has none (Ctrl+S then asks for one): after saving.
 void editor_set_path(struct editor *editor, const char *path);
 

@@ -70,6 +70,12 @@ static void note(struct editor *editor, const struct event *event)
     }
 }
 
+void editor_let_go(struct editor *editor, const struct editor_world *world)
+{
+    if (editor->drag.kind != DRAG_NONE) drag_end(editor, world, true);
+    inspector_let_go(editor, world);
+}
+
 /// What opened over the panels ends whatever the pointer and the keys were in the middle of.
 static void let_go(struct editor *editor, const struct editor_world *world)
 {

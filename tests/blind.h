@@ -1,0 +1,66 @@
+/// The app without a picture: its event queue, frames, requests and files, and nothing that draws.
+#ifndef TESTS_BLIND_H
+#define TESTS_BLIND_H
+
+#include "near.h"
+
+#include "app/state.h"
+#include "platform/surface.h"
+#include "ui/font.h"
+#include <stdlib.h>
+
+struct blind {
+    struct app app;
+    struct app_options options;
+};
+
+/// Starts the app on a scene file (NULL: the built-in one) as app_run() does headless, 1280 × 720.
+static inline void blind_open(struct blind *blind, const char *scene)
+{
+    struct error error = {0};
+    struct app *app = &blind->app;
+    *blind = (struct blind){.options = {.scene = scene, .headless = true}};
+    app->options = &blind->options;
+    app->fixed_clock = true;
+    app->platform = calloc(1, sizeof *app->platform);
+    app->history = history_create();
+    app->cast = cast_create();
+    app->editor = font_init(&error) ? editor_create(&error) : NULL;
+    if (!app->editor) fail_msg("%s", error.text);
+    app_connect_files(app);
+    app_resize(app, 1280, 720, 1);
+    if (!app_open(app, scene, &error)) fail_msg("%s", error.text);
+}
+
+static inline void blind_close(struct blind *blind)
+{
+    struct app *app = &blind->app;
+    evaluation_free(&app->evaluation);
+    free(app->dirty);
+    history_destroy(app->history);
+    document_destroy(app->document);
+    cast_destroy(app->cast);
+    editor_destroy(app->editor);
+    platform_destroy(app->platform);
+}
+
+/// Queues an event as the window's callbacks do.
+static inline void blind_send(struct blind *blind, struct event event)
+{
+    event_queue_push(&blind->app.platform->queue, &event);
+}
+
+static inline void blind_drop(struct blind *blind, const char *path)
+{
+    event_queue_push_drop(&blind->app.platform->queue, path, 0);
+}
+
+/// One frame with what is in the queue. Quitting is for others.
+static inline void blind_frame(struct blind *blind)
+{
+    app_frame(&blind->app);
+    if (blind->app.failed) fail_msg("%s", blind->app.error.text);
+    blind->app.quit = false;
+}
+
+#endif
