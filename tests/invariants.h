@@ -1,0 +1,148 @@
+/// What holds for every document, whatever was done to it: what the loader promises, and what the editor relies on.
+#ifndef TESTS_INVARIANTS_H
+#define TESTS_INVARIANTS_H
+
+#include "near.h"
+
+#include "scene/load.h"
+#include "scene/order.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static inline void assert_scene_timing(const struct document *d)
+{
+    assert_true(isfinite(d->fps) && d->fps > 0 && d->fps <= SCENE_MAX_FPS);
+    assert_in_range(d->substeps, 1, SCENE_MAX_SUBSTEPS);
+    assert_true(d->first_frame < d->last_frame);
+    assert_true(abs(d->first_frame) <= SCENE_MAX_FRAME && abs(d->last_frame) <= SCENE_MAX_FRAME);
+    assert_true((int64_t)document_samples(d) * d->spline_count <= SCENE_MAX_SAMPLES);
+}
+
+static inline int compare_ids(const void *a, const void *b)
+{
+    const unsigned x = *(const unsigned *)a, y = *(const unsigned *)b;
+    return (x > y) - (x < y);
+}
+
+/// Knots are numbers, by sample, at most one on each, and inside the range; their ids are unique in the document.
+static inline void assert_knots(const struct document *d)
+{
+    int count = 0;
+    for (int s = 0; s < d->spline_count; s++) count += d->splines[s].knot_count;
+    unsigned *ids = malloc(((size_t)count + 1) * sizeof *ids), *next = ids;
+    for (int s = 0; s < d->spline_count; s++) {
+        const struct spline *spline = &d->splines[s];
+        int before = -1;
+        for (int k = 0; k < spline->knot_count; k++) {
+            const struct knot *knot = &spline->knots[k];
+            assert_true(isfinite(knot->frame) && isfinite(knot->value) && isfinite(knot->slope));
+            assert_true(isfinite(knot->stiffness) && knot->stiffness > 0);
+            int sample = document_sample(d, knot->frame);
+            if (sample <= before)
+                fail_msg("knot %d of \"%s\" is on sample %d after %d", k, spline->name, sample, before);
+            before = sample;
+            assert_true(knot->id < d->next_id);
+            *next++ = knot->id;
+        }
+        assert_true(before <= document_last_knot_sample(d, spline));
+    }
+    qsort(ids, (size_t)count, sizeof *ids, compare_ids);
+    for (int i = 1; i < count; i++) assert_int_not_equal(ids[i - 1], ids[i]);
+    free(ids);
+}
+
+static inline void assert_param(const struct document *d, const struct param *param)
+{
+    assert_in_range(param->track + 1, 0, d->spline_count);
+    if (param->track < 0) assert_true(isfinite(param->value));
+}
+
+/// Parameters are in their ranges, names and ids unique, and no spline follows itself.
+static inline void assert_splines(const struct document *d)
+{
+    for (int s = 0; s < d->spline_count; s++) {
+        const struct spline *spline = &d->splines[s];
+        assert_true(spline->name && spline->name[0]);
+        assert_int_equal(document_find_spline(d, spline->name), s);
+        assert_int_equal(document_find_spline_id(d, spline->id), s);
+        assert_true(spline->id < d->next_spline_id);
+        assert_true(spline->knot_count <= spline->knot_capacity);
+        assert_in_range(spline->color + 1, 0, 0x1000000);
+        for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+            const struct param *param = &spline->parameter[p];
+            assert_param(d, param);
+            if (param->track >= 0 || !spline_uses(spline, p, false)) continue;
+            assert_true(param->value >= parameter_minimum(p, spline->mode));
+            assert_true(param->value <= parameter_maximum(p, spline->mode));
+        }
+    }
+    struct order_cycle cycle;
+    assert_true(scene_has_order(d, &cycle));
+}
+
+static inline void assert_angles(const struct angles *angles, int joints)
+{
+    for (int j = 0; j < (angles->each ? joints : 1); j++) assert_true(isfinite(angles->value[j]));
+}
+
+static inline void assert_tails(const struct document *d)
+{
+    assert_true(d->tail_count + d->character_count <= SCENE_MAX_RIGS);
+    for (int t = 0; t < d->tail_count; t++) {
+        const struct tail *tail = &d->tails[t];
+        assert_true(tail->name && tail->name[0]);
+        for (int u = 0; u < t; u++) assert_string_not_equal(tail->name, d->tails[u].name);
+        assert_in_range(tail->joints, 1, TAIL_MAX_JOINTS);
+        assert_true(isfinite(tail->length) && tail->length > 0);
+        for (int k = 0; k < 3; k++) assert_param(d, &tail->position[k]);
+        assert_angles(&tail->rest, tail->joints);
+        assert_in_range(tail->channel_count, 0, SCENE_MAX_CHANNELS);
+        for (int c = 0; c < tail->channel_count; c++) {
+            assert_true(tail->channels[c].spline >= 0 && tail->channels[c].spline < d->spline_count);
+            assert_angles(&tail->channels[c].lag, tail->joints);
+            assert_angles(&tail->channels[c].gain, tail->joints);
+        }
+    }
+}
+
+static inline void assert_characters(const struct document *d)
+{
+    for (int c = 0; c < d->character_count; c++) {
+        const struct character_rig *rig = &d->characters[c];
+        assert_true(rig->model && rig->model[0]);
+        assert_in_range(rig->drive_count, 0, CHARACTER_MAX_DRIVES);
+        for (int k = 0; k < rig->drive_count; k++) {
+            const struct drive *drive = &rig->drives[k];
+            assert_true(drive->name && drive->spline >= 0 && drive->spline < d->spline_count);
+            assert_true(isfinite(drive->amplitude) && isfinite(drive->lag));
+        }
+    }
+}
+
+static inline void assert_invariants(const struct document *document)
+{
+    assert_scene_timing(document);
+    assert_knots(document);
+    assert_splines(document);
+    assert_tails(document);
+    assert_characters(document);
+}
+
+/// What is saved loads again, and prints the same.
+static inline void assert_loads_again(const struct document *document)
+{
+    struct error error = {0};
+    size_t size, again_size;
+    char *text = scene_print(document, &size);
+    assert_non_null(text);
+    struct document *again = scene_parse("saved", text, size, NULL, &error);
+    if (!again) fail_msg("what was saved does not load: %s", error.text);
+    char *printed = scene_print(again, &again_size);
+    assert_string_equal(printed, text);
+    free(printed);
+    free(text);
+    document_destroy(again);
+}
+
+#endif

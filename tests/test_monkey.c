@@ -1,0 +1,288 @@
+/// A monkey at the whole app: random events through its own queue, figures and documents included, and after each frame
+/// everything that must hold whatever was done.
+///
+///     MONKEY_SEED=7 MONKEY_EVENTS=1000000 build/tests/test_monkey    runs one seed, as long as wanted
+///     MONKEY_BURST=1 …                                               a frame, with its checks, after each thing done
+///     MONKEY_RECORD=/tmp/m.replay …                                  writes down what it does
+#include "invariants.h"
+#include "monkey.h"
+#include "puppet.h"
+#include <dirent.h>
+#include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { SEEDS = 8, EVENTS = 25000, RELOAD_EVERY = 64, UNDO_EVERY = 3000, MOST_SAMPLES = 20000 };
+
+static char folder[] = "/tmp/wiggly-monkey-XXXXXX";
+static char home[4096];
+static struct monkey_files files;
+static char *names[256];
+static int name_count;
+
+/// The document as it was put on the table.
+struct origin {
+    unsigned serial;
+    char *text, *folder;
+};
+
+static const char *keep(const char *format, const char *name)
+{
+    char path[8192];
+    snprintf(path, sizeof path, format, home, name);
+    assert_true(name_count < 256);
+    return names[name_count++] = strdup(path);
+}
+
+static void copy_scene(const char *name)
+{
+    char command[8192];
+    snprintf(command, sizeof command, "cp '%s/assets/scenes/%s' '%s'", home, name, name);
+    assert_int_equal(system(command), 0);
+    files.good[files.good_count++] = name;
+}
+
+/// A character in two coordinates, and a scene that moves it.
+static void make_puppet(void)
+{
+    static const char scene[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": "
+                                "1, \"knots\": [{\"frame\": 0,"
+                                " \"value\": 1}, {\"frame\": 20, \"value\": -1}]}], \"rigs\": [{\"type\": "
+                                "\"character\", \"model\": \"puppet.glb\","
+                                " \"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}, {\"type\": \"tail\", "
+                                "\"name\": \"t\", \"spline\": \"s\"}]}";
+    struct error error = {0};
+    struct character character = puppet_character(0.2f, 2);
+    for (int i = 0; i < character.vertex_count; i++) character.coordinates[0].re[i][1] = 0.2f;
+    if (!character_write("puppet.glb", &character, &error)) fail_msg("%s", error.text);
+    character_free(&character);
+    FILE *file = fopen("puppet.json", "w");
+    assert_non_null(file);
+    fputs(scene, file);
+    assert_int_equal(fclose(file), 0);
+    files.good[files.good_count++] = "puppet.json";
+}
+
+static int make_files(void **state)
+{
+    (void)state;
+    if (!getcwd(home, sizeof home) || !mkdtemp(folder) || chdir(folder) != 0 || mkdir("sub", 0700) != 0) return -1;
+    copy_scene("tail.json");
+    copy_scene("follow.json");
+    copy_scene("figure3.json");
+    make_puppet();
+    DIR *bad = opendir(keep("%s/tests/bad%s", ""));
+    if (!bad) return -1;
+    for (struct dirent *entry; (entry = readdir(bad)) != NULL && files.bad_count < 100;) {
+        files.bad[files.bad_count++] = keep("%s/tests/bad/%s", entry->d_name);
+    }
+    closedir(bad);
+    files.bad[files.bad_count++] = "not there.json";
+    return 0;
+}
+
+static int remove_files(void **state)
+{
+    (void)state;
+    char command[64];
+    while (name_count > 0) free(names[--name_count]);
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return chdir("/") != 0 || system(command) != 0;
+}
+
+static char *printed(const struct document *document)
+{
+    size_t size;
+    char *text = scene_print(document, &size);
+    assert_non_null(text);
+    return text;
+}
+
+static void remember(struct origin *origin, const struct document *document)
+{
+    free(origin->text);
+    free(origin->folder);
+    origin->serial = document->serial;
+    origin->text = printed(document);
+    origin->folder = strdup(document->folder ? document->folder : "");
+}
+
+/// Notices a document that was put on the table: it has no history. (A figure is a step of the one before.) One that was saved
+/// elsewhere calls its characters' files by other names.
+static void watch_origin(struct origin *origin, const struct app *app)
+{
+    const struct document *d = app->document;
+    bool fresh = history_count(app->history) == 0 && d->serial != origin->serial;
+    bool moved = d->serial == origin->serial && strcmp(origin->folder, d->folder ? d->folder : "") != 0;
+    if (!origin->text || fresh) remember(origin, d);
+    if (moved) origin->serial = 0;
+}
+
+static void assert_curves_are_finite(const struct app *app)
+{
+    const struct evaluation *e = &app->evaluation;
+    for (int s = 0; s < e->count; s++) {
+        for (int i = 0; i < e->samples; i++) {
+            if (!isfinite(e->curves[s].total[i])) fail_msg("spline %d is not finite at sample %d", s, i);
+        }
+    }
+}
+
+/// A step is open only while something is dragged. Knots of the active spline alone are selected, and of those that were removed
+/// only such as undo can bring back: no knot to come is.
+static void assert_editor(const struct app *app)
+{
+    const struct editor *editor = app->editor;
+    const struct document *d = app->document;
+    bool dragging = editor->drag.kind != DRAG_NONE || inspector_is_dragging(editor);
+    const struct ui *ui = &editor->inspector.ui;
+    if (history_is_open(app->history) && !dragging) {
+        fail_msg("a step is open, and nothing is dragged: %d %d, %x %d, dialog %d", editor->drag.kind,
+                 editor->drag.moved, ui->held, ui->moved, editor->dialog.kind);
+    }
+    if (d->spline_count == 0) assert_int_equal(editor->active, -1);
+    if (d->spline_count > 0) assert_in_range(editor->active, 0, d->spline_count - 1);
+    if (editor->active >= 0) assert_int_equal(d->splines[editor->active].id, editor->active_id);
+    for (int s = 0; s < d->spline_count; s++) {
+        if (s != editor->active) assert_int_equal(selection_count(&editor->selection, &d->splines[s]), 0);
+    }
+    for (unsigned id = d->next_id; id < editor->selection.capacity; id++) {
+        assert_false(selection_has(&editor->selection, id));
+    }
+    assert_in_range(editor->playback.position, 0, document_samples(d) - 1);
+}
+
+/// Lets go of everything.
+static void hands_off(struct monkey *m)
+{
+    m->mods = 0;
+    for (int i = 0; i < 6; i++) {
+        blind_send(m->blind, (struct event){.kind = EVENT_KEY, .key = KEY_ESCAPE, .action = ACTION_PRESS});
+        blind_send(m->blind, (struct event){.kind = EVENT_KEY, .key = KEY_ESCAPE, .action = ACTION_RELEASE});
+        for (int b = 0; b < 3; b++) monkey_button(m, (enum event_button)b, ACTION_RELEASE, 1);
+        blind_frame(m->blind);
+    }
+    assert_false(history_is_open(m->blind->app.history));
+}
+
+/// Undoing everything gives the first document byte by byte, doing it all again the last one.
+static void assert_undone(struct monkey *m, struct origin *origin)
+{
+    struct app *app = &m->blind->app;
+    hands_off(m);
+    watch_origin(origin, app);
+    struct editor_world world = app_world(app);
+    const size_t all = history_count(app->history), done = history_done(app->history);
+    editor_jump(app->editor, &world, all);
+    char *last = printed(app->document);
+    editor_jump(app->editor, &world, 0);
+    blind_frame(m->blind);
+    if (history_dropped(app->history) > 0 || app->document->serial != origin->serial) remember(origin, app->document);
+    char *first = printed(app->document);
+    assert_string_equal(first, origin->text);
+    editor_jump(app->editor, &world, all);
+    blind_frame(m->blind);
+    char *again = printed(app->document);
+    assert_string_equal(again, last);
+    editor_jump(app->editor, &world, done);
+    free(first);
+    free(last);
+    free(again);
+}
+
+/// What takes long to solve is undone: the monkey has no patience.
+static void keep_small(struct app *app)
+{
+    while (document_samples(app->document) * (app->document->spline_count + 1) > MOST_SAMPLES) {
+        struct editor_world world = app_world(app);
+        editor_undo(app->editor, &world);
+        if (!history_redo_label(app->history)) return;
+    }
+}
+
+static int number(const char *name, int fallback)
+{
+    const char *text = getenv(name);
+    return text ? atoi(text) : fallback;
+}
+
+static void let_loose(struct monkey *m, int events)
+{
+    struct origin origin = {0};
+    struct app *app = &m->blind->app;
+    const int burst = number("MONKEY_BURST", 2);
+    uint64_t checked = 0;
+    int next_undo = UNDO_EVERY;
+    for (int frame = 0; m->sent < events; frame++) {
+        watch_origin(&origin, app);
+        for (int i = below(m, burst); i >= 0; i--) monkey_act(m);
+        blind_frame(m->blind);
+        watch_origin(&origin, app);
+        if (!history_is_open(app->history)) keep_small(app);
+        assert_editor(app);
+        if (history_revision(app->history) == checked) continue;
+        checked = history_revision(app->history);
+        assert_invariants(app->document);
+        if (app->row.splines_solved > 0) assert_curves_are_finite(app);
+        if (frame % RELOAD_EVERY == 0) assert_loads_again(app->document);
+        if (m->sent < next_undo) continue;
+        next_undo += UNDO_EVERY;
+        assert_undone(m, &origin);
+    }
+    assert_undone(m, &origin);
+    free(origin.text);
+    free(origin.folder);
+}
+
+static const struct monkey *playing; ///< for what is said of a crash
+
+static void say_where(void)
+{
+    if (playing) fprintf(stderr, "monkey: after %d events, in frame %ld\n", playing->sent, playing->blind->app.frame);
+}
+
+/// Writes all events to a file as a replay, from here on.
+static void record(struct app *app, const char *path)
+{
+    struct error error = {0};
+    struct replay_header header = {.width = 1280, .height = 720, .scale = 1, .scene_hash = scene_hash(app->document)};
+    app->recording = recording_open(path, &header, &error);
+    if (!app->recording) fail_msg("%s", error.text);
+}
+
+static void run_seed(int seed, int events)
+{
+    struct blind *blind = malloc(sizeof *blind);
+    assert_non_null(blind);
+    blind_open(blind, NULL);
+    static struct monkey monkey;
+    monkey = (struct monkey){.blind = blind, .files = &files, .random = (uint64_t)seed * 0x9E3779B97F4A7C15u};
+    fprintf(stderr, "monkey: MONKEY_SEED=%d\n", seed);
+    playing = &monkey;
+    const char *path = getenv("MONKEY_RECORD");
+    if (path) record(&blind->app, path);
+    let_loose(&monkey, events);
+    recording_close(blind->app.recording, blind->app.frame, NULL);
+    playing = NULL;
+    blind_close(blind);
+    free(blind);
+}
+
+static void nothing_a_monkey_does_breaks_anything(void **state)
+{
+    (void)state;
+    const int seed = number("MONKEY_SEED", 0), events = number("MONKEY_EVENTS", EVENTS);
+    atexit(say_where);
+    for (int s = 1; s <= SEEDS; s++) {
+        if (seed == 0 || seed == s) run_seed(s, events);
+    }
+    if (seed > SEEDS) run_seed(seed, events);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(nothing_a_monkey_does_breaks_anything, make_files, remove_files),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
