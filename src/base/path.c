@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 bool path_folder(const char *path, char folder[PATH_LIMIT])
 {
@@ -34,6 +35,19 @@ static void normalise(char *path)
     *out = '\0';
 }
 
+/// The absolute path of a folder; one that does not exist keeps its links and dots.
+static bool absolute_folder(const char *folder, char absolute[PATH_LIMIT])
+{
+    char working[PATH_LIMIT];
+    if (strlen(folder) >= PATH_LIMIT) return false;
+    if (realpath(folder, absolute)) return true;
+    if (folder[0] == '/') {
+        strcpy(absolute, folder);
+        return true;
+    }
+    return getcwd(working, sizeof working) && snprintf(absolute, PATH_LIMIT, "%s/%s", working, folder) < PATH_LIMIT;
+}
+
 bool path_resolve(const char *folder, const char *path, char absolute[PATH_LIMIT])
 {
     char base[PATH_LIMIT];
@@ -41,9 +55,7 @@ bool path_resolve(const char *folder, const char *path, char absolute[PATH_LIMIT
         if (strlen(path) >= PATH_LIMIT) return false;
         strcpy(absolute, path);
     } else {
-        const char *named = folder && folder[0] ? folder : ".";
-        if (strlen(named) >= PATH_LIMIT) return false;
-        if (!realpath(named, base)) strcpy(base, named);
+        if (!absolute_folder(folder && folder[0] ? folder : ".", base)) return false;
         if (snprintf(absolute, PATH_LIMIT, "%s/%s", base, path) >= PATH_LIMIT) return false;
     }
     normalise(absolute);
