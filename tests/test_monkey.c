@@ -2,7 +2,6 @@
 /// everything that must hold whatever was done.
 ///
 ///     MONKEY_SEED=7 MONKEY_EVENTS=1000000 build/tests/test_monkey    runs one seed, as long as wanted
-///     MONKEY_BURST=1 …                                               a frame, with its checks, after each thing done
 ///     MONKEY_RECORD=/tmp/m.replay …                                  writes down what it does
 #include "invariants.h"
 #include "monkey.h"
@@ -210,12 +209,11 @@ static void let_loose(struct monkey *m, int events)
 {
     struct origin origin = {0};
     struct app *app = &m->blind->app;
-    const int burst = number("MONKEY_BURST", 2);
     uint64_t checked = 0;
     int next_undo = UNDO_EVERY;
     for (int frame = 0; m->sent < events; frame++) {
         watch_origin(&origin, app);
-        for (int i = below(m, burst); i >= 0; i--) monkey_act(m);
+        for (int i = one_in(m, 4) ? below(m, 4) : 0; i >= 0; i--) monkey_act(m); // mostly each in its own frame
         blind_frame(m->blind);
         watch_origin(&origin, app);
         if (!history_is_open(app->history)) keep_small(app);
