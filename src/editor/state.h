@@ -221,13 +221,15 @@ enum { WARNINGS_MAX = 16 };
 /// How far the search for them is: a spline of millions of samples is searched over many frames.
 struct warning_search {
     bool running;
-    int next; ///< knot from which it goes on
+    int measured; ///< knots whose heights are in `highest`
+    int next;     ///< knot from whose span it goes on
     double frequency, bandwidth, highest;
     struct warning drift; ///< the worst; amount 0: none
 };
 
 struct warnings {
     uint64_t key; ///< of what they were found in
+    int spline;   ///< whose they are
     int count;
     struct warning_search search;
     struct warning list[WARNINGS_MAX];

@@ -12,7 +12,10 @@ static const double LEAST_HEIGHT = 0.75; ///< of a span's knots, as a share of t
 static const double MOST_RATE = 0.4;     ///< f·(1 + β) in sample rates; at 0.5 swings alias
 static const double MOST_TURN = 0.3;     ///< β · periods between two knots (Figure 4)
 
-enum { SAMPLES_A_FRAME = 500000 }; ///< that are looked at in one frame: 1 ms
+enum {
+    SAMPLES_A_FRAME = 500000, ///< that are looked at in one frame: 1 ms
+    COST_OF_A_KNOT = 50,      ///< in samples: far apart as they are, each is a wait for memory
+};
 
 static void add(struct warnings *found, const struct warning *warning)
 {
@@ -125,23 +128,22 @@ static void begin(const struct document *document, const struct evaluation *eval
     found->count = 0;
     *search = (struct warning_search){0};
     if (of >= evaluation->count || spline->mode == WIGGLY_CUBIC || evaluation->cubic) return;
-    const wiggly_curve *curve = &evaluation->curves[of];
     search->running = true;
     search->frequency = frequency_of(evaluation, spline);
     search->bandwidth = bandwidth_of(spline);
-    for (int k = 0; k < spline->knot_count; k++) {
-        double knot = height(curve, document_sample(document, spline->knots[k].frame));
-        search->highest = fmax(search->highest, knot);
-    }
     find_rate(document, evaluation, spline, found);
 }
 
-/// Goes on with spans until about that many samples were looked at.
+/// Goes on with the knots' heights, then with spans, until about that many samples were looked at.
 static void go_on(const struct document *document, const struct evaluation *evaluation, int of, long samples,
                   struct warnings *found)
 {
     const struct spline *spline = &document->splines[of];
     struct warning_search *search = &found->search;
+    for (; search->measured < spline->knot_count && samples > 0; search->measured++, samples -= COST_OF_A_KNOT) {
+        int sample = document_sample(document, spline->knots[search->measured].frame);
+        search->highest = fmax(search->highest, height(&evaluation->curves[of], sample));
+    }
     for (; search->next < spline->knot_count && samples > 0; search->next++) {
         struct span span;
         if (!take_span(document, spline, search->next, &span)) continue;
@@ -167,6 +169,8 @@ void warnings_update(struct editor *editor, const struct editor_world *world)
     const struct spline *spline = arrange_seen(editor, world);
     const struct evaluation *evaluation = world->evaluation;
     bool solved = spline && evaluation && evaluation->samples == document_samples(world->document);
+    if (solved && evaluation->stale && editor->active == warnings->spline)
+        return; // the last ones stay until it is solved
     const uint64_t state[] = {history_revision(world->history), (uint64_t)(editor->active + 1),
                               (uint64_t)editor->look, solved, evaluation ? evaluation->revision : 0};
     uint64_t key = hash_bytes(HASH_START, state, sizeof state);
@@ -174,6 +178,7 @@ void warnings_update(struct editor *editor, const struct editor_world *world)
         warnings->count = 0;
         warnings->search.running = false;
         warnings->key = key;
+        warnings->spline = editor->active;
         if (solved) begin(world->document, evaluation, editor->active, warnings);
     }
     if (warnings->search.running) go_on(world->document, evaluation, editor->active, SAMPLES_A_FRAME, warnings);
