@@ -10,7 +10,7 @@ static int knots(const struct session *session) { return session->document->spli
 /// Opens the section, with `steps` knots inserted one after the other.
 static void open_list(struct session *session, int steps)
 {
-    panel_open(session, scene, 1280, 720);
+    panel_open(session, scene, 1280, 1080);
     panel_click(session, "section.history");
     session_key(session, KEY_LEFT, MOD_SHIFT);
     for (int i = 0; i < steps; i++) {

@@ -237,24 +237,29 @@ static void spread_labels(struct label *labels, int count, float top, float bott
     for (int i = count - 1; i >= 0; i--, limit -= LABEL_STEP) labels[i].y = fminf(labels[i].y, limit);
 }
 
+/// A spline's colour, as far as it can be read as text.
+static uint32_t label_color(const struct editor_world *world, int spline)
+{
+    return theme_readable(arrange_color(world->document, spline), theme()->panel, 4.5f);
+}
+
 /// Labels of the curves that are drawn, at most `most`, the active one's first; by height. How many there are.
 static int place_labels(const struct editor *editor, const struct editor_world *world, struct label *labels, int most)
 {
     const struct curve_cache *cache = &editor->cache;
     const struct spline *active = arrange_seen(editor, world);
-    uint32_t color = arrange_color(world->document, editor->active);
+    uint32_t color = label_color(world, editor->active);
     int count = 0, end = cache->count - 1;
     if (active) {
         insert_label(labels, &count, (struct label){cache->re[end][1], FONT_LABEL_BOLD, color, active->name});
     }
     if (active && shows_imaginary(editor, active)) {
-        insert_label(labels, &count, (struct label){cache->im[end][1], FONT_LABEL, theme_fade(color, 0.6f), "Im"});
+        insert_label(labels, &count, (struct label){cache->im[end][1], FONT_LABEL, color, "Im"});
     }
     for (int i = 0; i < cache->other_count && count < most; i++) {
         int spline = cache->other_spline[i];
         insert_label(labels, &count,
-                     (struct label){cache->others[i][end][1], FONT_LABEL,
-                                    theme_fade(arrange_color(world->document, spline), 0.8f),
+                     (struct label){cache->others[i][end][1], FONT_LABEL, label_color(world, spline),
                                     world->document->splines[spline].name});
     }
     return count;

@@ -111,11 +111,10 @@ static void label_recent(struct ui *ui, struct rect r, const struct dialog_recen
     int length = slash && slash > recent->path ? (int)(slash - recent->path) : 1;
     snprintf(folder, sizeof folder, "%.*s", length, recent->path);
     float half = floorf(r.w * 0.45f);
-    uint32_t faded = theme_fade(theme()->text_dim, 0.6f);
     ui_label(ui, (struct rect){r.x + 6, r.y, half - 6, r.h}, slash ? slash + 1 : recent->path,
-             recent->missing ? faded : theme()->text);
+             recent->missing ? theme()->text_dim : theme()->text);
     ui_label_right(ui, (struct rect){r.x + half + UI_GAP, r.y, r.w - half - UI_GAP - 6, r.h},
-                   recent->missing ? "not there any more" : folder, recent->missing ? faded : theme()->text_dim);
+                   recent->missing ? "not there any more" : folder, theme()->text_dim);
 }
 
 bool dialog_row(struct dialog *dialog, struct rect r, int match)

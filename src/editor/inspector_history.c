@@ -85,8 +85,7 @@ static bool build_row(struct inspection *in, size_t row)
     name_of(row, name);
     text_of(history, row, text, sizeof text);
     bool pressed = ui_list_row(ui, r, name, "", 0, row == view->done);
-    uint32_t color = row > view->done ? theme_fade(theme()->text_dim, 0.55f) : theme()->text_dim;
-    if (row == view->done) color = theme()->text;
+    uint32_t color = row > view->done ? theme()->text_dim : theme()->text;
     ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 60, r.h}, text, color);
     if (history_step_is_saved(history, row)) ui_label_right(ui, r, "saved", color);
     if (ui_hovered(ui, r)) ui->hint = row > view->done ? "Redo up to here" : "Undo back to here";

@@ -1,0 +1,260 @@
+// Every screen in every size, at every scale, dark and light: all text is whole, apart from other text, and can be read.
+#include "base/file.h"
+#include "legible.h"
+#include "panel_session.h"
+#include "ui/theme.h"
+
+#define KNOTS                                                                                                        \
+    "\"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 30, \"value\": 1, \"slope\": 1}, {\"frame\": 70, "        \
+    "\"value\": -0.3}]"
+#define SPLINE(name) "{\"name\": \"" name "\", \"frequency\": 1.25, \"damping\": 0.1, " KNOTS "}"
+
+/// Eight splines and three tails, some with names that fit nowhere.
+static const char crowded[] =
+    "{\"wiggly\": 1, \"about\": \"A title of a scene that goes on for longer than the width of a stage allows. And a "
+    "text "
+    "below it that would fill a page, were there one, and has to be content with a few lines at the upper left of "
+    "the "
+    "stage, out of the way of what stands in its middle, however small the window is made; what is left over is not "
+    "shown, and nobody will miss it, since it says nothing that was not said before, at length.\", "
+    "\"frames\": [0, 96], \"splines\": [" SPLINE("sway") "," SPLINE("up") "," SPLINE("ears") "," SPLINE(
+        "a spline "
+        "whose name "
+        "is far "
+        "longer than "
+        "any panel "
+        "is wide") "," SPLINE("head") "," SPLINE("breath") "," SPLINE("left hand") "," SPLINE("tip") "],\"rigs\": ["
+                                                                                                     "{\"type\": "
+                                                                                                     "\"tail\", "
+                                                                                                     "\"name\": "
+                                                                                                     "\"tail\", "
+                                                                                                     "\"channels\": "
+                                                                                                     "[{\"spline\": "
+                                                                                                     "\"sway\"}, "
+                                                                                                     "{\"spline\": "
+                                                                                                     "\"up\", "
+                                                                                                     "\"axis\": "
+                                                                                                     "\"up\"}]}, "
+                                                                                                     "{\"type\": "
+                                                                                                     "\"tail\", "
+                                                                                                     "\"name\": "
+                                                                                                     "\"another "
+                                                                                                     "tail, whose "
+                                                                                                     "name is "
+                                                                                                     "rather long as "
+                                                                                                     "well\", "
+                                                                                                     "\"spline\": "
+                                                                                                     "\"head\", "
+                                                                                                     "\"position\": "
+                                                                                                     "[1.2, 0.26, "
+                                                                                                     "0]}, "
+                                                                                                     "{\"type\": "
+                                                                                                     "\"tail\", "
+                                                                                                     "\"name\": "
+                                                                                                     "\"third\", "
+                                                                                                     "\"spline\": "
+                                                                                                     "\"breath\", "
+                                                                                                     "\"position\": "
+                                                                                                     "[-1.2, 0.26, "
+                                                                                                     "0]}]}";
+
+static const char long_message[] =
+    "a sentence that goes on and on about what is wrong with this file until there is no room left for it in the "
+    "line, whatever the width of the window may be, even on the largest of screens, and then some more";
+
+static int list_names(void *user, const char *folder, char names[][256], int max)
+{
+    (void)user;
+    int count = strcmp(folder, ".") == 0 ? max < 30 ? max : 30 : 0;
+    for (int i = 0; i < count; i++) snprintf(names[i], 256, i ? "scene%d.json" : "figures/", i);
+    return count;
+}
+
+static int list_recent(void *user, struct dialog_recent *files, int most)
+{
+    (void)user;
+    for (int i = 0; i < 3 && i < most; i++) {
+        snprintf(files[i].path, sizeof files[i].path, "/home/somebody/animation/of/a/long/film/shot%d.json", i);
+        files[i].missing = i == 2;
+    }
+    return most < 3 ? most : 3;
+}
+
+// --- screens ------------------------------------------------------------------------------------------------------------
+
+static void open_start(struct session *s) { editor_welcome(s->editor); }
+
+static void open_drag(struct session *s)
+{
+    session_point(s, "knot(sway,1)");
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, 14, -30, 3);
+}
+
+static void open_pull(struct session *s)
+{
+    session_point(s, "tail(tail,0.9)");
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, 30, -20, 3);
+}
+
+static void open_help(struct session *s) { session_key(s, KEY_F1, 0); }
+
+static void open_open(struct session *s) { session_key(s, 'O', MOD_CTRL); }
+
+static void open_save(struct session *s) { session_key(s, 'S', MOD_CTRL | MOD_SHIFT); }
+
+static void open_quit(struct session *s)
+{
+    panel_click(s, "mode.real");
+    session_key(s, 'Q', MOD_CTRL);
+}
+
+static void open_recover(struct session *s)
+{
+    editor_offer_recovery(s->editor, &(struct recovery_offer){"walk.json", "21 November 2026, 10:00:00", 2});
+}
+
+static void open_failed(struct session *s)
+{
+    session_key(s, 'S', MOD_CTRL | MOD_SHIFT);
+    s->editor->dialog.waiting = true;
+    editor_message(s->editor, true, long_message);
+}
+
+static void open_palette(struct session *s) { panel_click(s, "color.sway"); }
+
+static void open_knots(struct session *s)
+{
+    session_click(s, "knot(sway,1)");
+    inspector_unfold(s->editor, "section.poles");
+}
+
+static void open_all_knots(struct session *s)
+{
+    session_click(s, "knot(sway,0)");
+    session_key(s, 'A', MOD_CTRL);
+}
+
+static void open_history(struct session *s)
+{
+    panel_click(s, "mode.real");
+    panel_click(s, "mode.complex");
+    session_key(s, 'Z', MOD_CTRL);
+    panel_click(s, "section.splines");
+    panel_click(s, "section.spline");
+    panel_click(s, "section.knot");
+    panel_click(s, "section.tail");
+    panel_click(s, "section.history");
+    panel_click(s, "section.scene");
+}
+
+static void open_message(struct session *s)
+{
+    editor_set_path(s->editor, "/home/somebody/a scene with a name that is rather too long to show.json");
+    editor_message(s->editor, true, long_message);
+    editor_set_stats(s->editor, 1234, 123456);
+}
+
+static void open_overlays(struct session *s)
+{
+    session_key(s, 'O', 0);
+    session_key(s, 'P', 0);
+    session_key(s, 'N', 0);
+    session_key(s, 'U', 0);
+}
+
+static const struct screen {
+    const char *name;
+    void (*open)(struct session *s);
+    bool cut; ///< shows something that is too long for any place
+} screens[] = {
+    {"start", open_start, false},     {"drag", open_drag, false},       {"pull", open_pull, false},
+    {"help", open_help, false},       {"open", open_open, false},       {"save as", open_save, false},
+    {"quit", open_quit, false},       {"recover", open_recover, false}, {"save failed", open_failed, false},
+    {"palette", open_palette, false}, {"one knot", open_knots, false},  {"all knots", open_all_knots, false},
+    {"history", open_history, false}, {"message", open_message, true},  {"overlays", open_overlays, false},
+};
+
+// --- the walk -----------------------------------------------------------------------------------------------------------
+
+static int problems_of(struct session *s, const char *where, bool whole)
+{
+    const struct layout *layout = &s->editor->layout;
+    struct legible_ground ground = {layout->window, layout->stage, whole};
+    return legible_problems(editor_drawlist(s->editor), &ground, where);
+}
+
+/// The panel scrolled all the way down, page by page.
+static int walk_inspector(struct session *s, const char *where, bool whole)
+{
+    struct ui_scroll *scroll = &s->editor->inspector.scroll;
+    int problems = 0;
+    for (int page = 0; page < 8; page++) {
+        scroll->offset = 0.5f * s->editor->layout.inspector.h * (float)page;
+        session_frame(s);
+        problems += problems_of(s, where, whole);
+    }
+    return problems;
+}
+
+static int walk(const char *scene, const struct screen *screen, const float size[3], bool whole)
+{
+    struct session s;
+    char where[160];
+    snprintf(where, sizeof where, "%s, %s, %gx%g at %g", screen->name, theme()->name, (double)size[0],
+             (double)size[1], (double)size[2]);
+    session_open(&s, scene);
+    editor_resize(s.editor, size[0], size[1], size[2]);
+    editor_set_files(s.editor, &(struct dialog_files){.list = list_names, .recent = list_recent});
+    session_frame(&s);
+    screen->open(&s);
+    session_frame(&s);
+    int problems = problems_of(&s, where, whole) + walk_inspector(&s, where, whole);
+    session_close(&s);
+    return problems;
+}
+
+static int walk_all(const char *scene, bool whole)
+{
+    static const float sizes[][3] = {{960, 600, 1},   {960, 600, 1.5f}, {960, 600, 2},     {1280, 720, 1},
+                                     {1280, 720, 2},  {1920, 1080, 1},  {1707, 960, 1.5f}, {2560, 1440, 1},
+                                     {3840, 2160, 1}, {1920, 1080, 2}};
+    int problems = 0;
+    for (int kind = 0; kind < THEME_COUNT; kind++) {
+        theme_use((enum theme_kind)kind);
+        for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+            for (size_t k = 0; k < sizeof screens / sizeof *screens; k++) {
+                problems += walk(scene, &screens[k], sizes[i], whole && !screens[k].cut);
+            }
+        }
+    }
+    theme_use(THEME_DARK);
+    return problems;
+}
+
+static void test_the_tail_on_every_screen(void **state)
+{
+    (void)state;
+    char *scene;
+    size_t size;
+    struct error error;
+    if (!file_read("assets/scenes/tail.json", 1 << 20, &scene, &size, &error)) fail_msg("%s", error.text);
+    assert_int_equal(walk_all(scene, true), 0);
+    free(scene);
+}
+
+static void test_crowded_on_every_screen(void **state)
+{
+    (void)state;
+    assert_int_equal(walk_all(crowded, false), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_tail_on_every_screen),
+        cmocka_unit_test(test_crowded_on_every_screen),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
