@@ -8,6 +8,7 @@
 #include "editor/editor.h"
 #include "scene/load.h"
 #include "ui/font.h"
+#include <stdlib.h>
 #include <string.h>
 
 struct session {
@@ -106,6 +107,14 @@ static inline void session_release(struct session *session, enum event_button wh
     session_frame(session);
 }
 
+/// Takes hold of a target and drags it by (dx, dy) in `steps` events; the button stays down.
+static inline void session_pull(struct session *session, const char *target, float dx, float dy, int steps)
+{
+    session_point(session, target);
+    session_press(session, BUTTON_LEFT, 1);
+    session_drag(session, dx, dy, steps);
+}
+
 /// A click on a target.
 static inline void session_click(struct session *session, const char *target)
 {
@@ -133,6 +142,35 @@ static inline void session_key(struct session *session, int key, unsigned mods)
     session_send(session, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS, .mods = mods});
     session_send(session, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE, .mods = mods});
     session_frame(session);
+}
+
+/// The document's canonical text; freed by the caller.
+static inline char *session_saved(const struct session *session)
+{
+    size_t size;
+    char *text = scene_print(session->document, &size);
+    assert_non_null(text);
+    return text;
+}
+
+/// The document's canonical text must be `expected`.
+static inline void assert_saved(const struct session *session, const char *expected)
+{
+    char *text = session_saved(session);
+    assert_string_equal(text, expected);
+    free(text);
+}
+
+/// The document is no longer `original`; one undo brings that back byte by byte, one redo what there was.
+static inline void assert_one_step(struct session *session, const char *original)
+{
+    char *changed = session_saved(session);
+    assert_string_not_equal(changed, original);
+    session_key(session, 'Z', MOD_CTRL);
+    assert_saved(session, original);
+    session_key(session, 'Y', MOD_CTRL);
+    assert_saved(session, changed);
+    free(changed);
 }
 
 /// Opens a scene given as text and shows its first frame (1280×720, paused). Fails the test where that is not

@@ -15,21 +15,6 @@ enum { JOINTS = 24, X = 12, Z = 14 };
 
 static const float *joint(const struct session *s, int n) { return editor_stage(s->editor)->tails[0].pose.matrix[n]; }
 
-static char *text_of(const struct session *s)
-{
-    size_t size;
-    char *text = scene_print(s->document, &size);
-    assert_non_null(text);
-    return text;
-}
-
-static void assert_text(const struct session *s, const char *expected)
-{
-    char *text = text_of(s);
-    assert_string_equal(text, expected);
-    free(text);
-}
-
 /// Takes hold of the body and moves the pointer along the screen; the button stays down.
 static void hold_and_drag(struct session *s, float dx, float dy, int steps)
 {
@@ -44,12 +29,12 @@ static void test_tail_follows_through_and_settles(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    char *before = text_of(&s);
+    char *before = session_saved(&s);
     hold_and_drag(&s, -150, 0, 12);
     float base = joint(&s, 0)[X], trailing = joint(&s, JOINTS)[X] - base;
     assert_true(base > 0.1f);       // the pointer went to the left, where +x is
     assert_true(trailing < -0.05f); // the tip stayed behind
-    assert_text(&s, before);        // the document waits
+    assert_saved(&s, before);       // the document waits
     session_release(&s, BUTTON_LEFT);
     assert_near(joint(&s, 0)[X], base, 1e-3);
     assert_near(s.document->tails[0].position[0].value, base, 1e-3);
@@ -66,7 +51,7 @@ static void test_tail_follows_through_and_settles(void **state)
     assert_string_equal(history_undo_label(s.history), "Move body");
     session_key(&s, 'Z', MOD_CTRL);
     assert_null(history_undo_label(s.history));
-    assert_text(&s, before);
+    assert_saved(&s, before);
     free(before);
     session_close(&s);
 }
@@ -100,7 +85,7 @@ static void test_escape_takes_it_back(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    char *before = text_of(&s);
+    char *before = session_saved(&s);
     hold_and_drag(&s, 80, 30, 6);
     session_key(&s, KEY_ESCAPE, 0);
     session_button(&s, BUTTON_LEFT, ACTION_RELEASE, 1);
@@ -108,7 +93,7 @@ static void test_escape_takes_it_back(void **state)
     assert_near(joint(&s, 0)[X], 0, 0);
     assert_near(joint(&s, JOINTS)[X], 0, 0);
     assert_false(editor_wants_frames(s.editor));
-    assert_text(&s, before);
+    assert_saved(&s, before);
     assert_null(history_undo_label(s.history));
     free(before);
     session_close(&s);
@@ -148,7 +133,7 @@ static void test_a_tracked_body_gets_a_knot(void **state)
     session_key(&s, KEY_RIGHT, 0);
     session_key(&s, KEY_RIGHT, 0);
     assert_near(joint(&s, 0)[X], 0.1, 1e-6);
-    char *before = text_of(&s);
+    char *before = session_saved(&s);
     hold_and_drag(&s, -60, 0, 4);
     session_key(&s, 'X', 0);
     float x = joint(&s, 0)[X];
@@ -160,7 +145,7 @@ static void test_a_tracked_body_gets_a_knot(void **state)
     assert_near(joint(&s, 0)[X], x, 1e-3);
     assert_near(s.document->tails[0].position[2].value, 0, 0);
     session_key(&s, 'Z', MOD_CTRL);
-    assert_text(&s, before);
+    assert_saved(&s, before);
     free(before);
     session_close(&s);
 }
@@ -173,9 +158,7 @@ static void test_clicks_leave_the_body_alone(void **state)
     session_open(&s, scene);
     session_click(&s, "body(tail)");
     assert_null(history_undo_label(s.history));
-    session_point(&s, "stage(0.03,0.1)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 40, 0, 3);
+    session_pull(&s, "stage(0.03,0.1)", 40, 0, 3);
     session_release(&s, BUTTON_LEFT);
     assert_near(joint(&s, 0)[X], 0, 0);
     assert_null(history_undo_label(s.history));

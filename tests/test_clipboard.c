@@ -10,32 +10,6 @@ static const char FIVE[] =
 
 static const struct spline *sway(const struct session *s) { return &s->document->splines[0]; }
 
-static char *saved(const struct session *s)
-{
-    size_t size;
-    char *text = scene_print(s->document, &size);
-    assert_non_null(text);
-    return text;
-}
-
-static void assert_unchanged(const struct session *s, char *original)
-{
-    char *now = saved(s);
-    assert_string_equal(now, original);
-    free(now);
-    free(original);
-}
-
-static void assert_one_step(struct session *s, char *original)
-{
-    char *changed = saved(s);
-    assert_string_not_equal(changed, original);
-    session_key(s, 'Z', MOD_CTRL);
-    assert_unchanged(s, original);
-    session_key(s, 'Y', MOD_CTRL);
-    assert_unchanged(s, changed);
-}
-
 static void paste(struct session *s, const char *text)
 {
     session_send(s, (struct event){.kind = EVENT_PASTE, .text = text});
@@ -157,7 +131,7 @@ static void test_copy_and_paste_at_the_playhead(void **state)
     s.mods = 0;
     char *text = copied(&s, 'C');
     session_click(&s, "ruler(70)");
-    char *original = saved(&s);
+    char *original = session_saved(&s);
     session_key(&s, 'V', MOD_CTRL);
     assert_int_equal(editor_take_request(s.editor).kind, REQUEST_PASTE);
     paste(&s, text);
@@ -170,6 +144,7 @@ static void test_copy_and_paste_at_the_playhead(void **state)
     assert_int_equal(selection_count(&s.editor->selection, sway(&s)), 2);
     assert_true(selection_has(&s.editor->selection, sway(&s)->knots[5].id)); // what was pasted is selected
     assert_one_step(&s, original);
+    free(original);
     free(text);
     session_close(&s);
 }
@@ -180,11 +155,12 @@ static void test_cut_is_one_step(void **state)
     struct session s;
     session_open(&s, FIVE);
     session_key(&s, 'A', MOD_CTRL);
-    char *original = saved(&s);
+    char *original = session_saved(&s);
     char *text = copied(&s, 'X');
     assert_int_equal(sway(&s)->knot_count, 0);
     assert_string_equal(history_undo_label(s.history), "Cut knots");
     assert_one_step(&s, original);
+    free(original);
     session_click(&s, "ruler(10)");
     paste(&s, text);
     assert_int_equal(sway(&s)->knot_count, 5); // where they were
@@ -200,7 +176,7 @@ static void test_a_paste_that_does_not_fit_changes_nothing(void **state)
     struct session s;
     session_open(&s, FIVE);
     session_click(&s, "ruler(35)");
-    char *original = saved(&s);
+    char *original = session_saved(&s);
     paste(&s, "0,1\n5,2\n");
     assert_string_equal(s.editor->message.text, "sway: there is a knot at frame 40 already");
     paste(&s, "0,1\n1,2\n200,3\n");
@@ -210,7 +186,8 @@ static void test_a_paste_that_does_not_fit_changes_nothing(void **state)
     paste(&s, "nonsense");
     assert_true(s.editor->message.is_error);
     assert_null(history_undo_label(s.history));
-    assert_unchanged(&s, original);
+    assert_saved(&s, original);
+    free(original);
     paste(&s, " \n");
     assert_string_equal(s.editor->message.text, "There is no text on the clipboard.");
     session_close(&s);
@@ -225,21 +202,23 @@ static void test_copies_come_behind_and_pass_through(void **state)
     s.mods = MOD_SHIFT;
     session_click(&s, "knot(sway,3)");
     s.mods = 0;
-    char *original = saved(&s);
+    char *original = session_saved(&s);
     session_key(&s, 'D', MOD_CTRL); // 30, 40 → 50, and 60 is taken: 51, 61
     assert_int_equal(sway(&s)->knot_count, 7);
     assert_near(sway(&s)->knots[4].frame, 51, 0);
     assert_near(sway(&s)->knots[6].frame, 61, 0);
     assert_near(sway(&s)->knots[6].value, 0.5, 0);
     assert_one_step(&s, original);
+    free(original);
     session_key(&s, 'A', MOD_CTRL);
-    original = saved(&s);
+    original = session_saved(&s);
     session_key(&s, 'D', MOD_CTRL);
     assert_non_null(strstr(s.editor->message.text, "no room"));
-    assert_unchanged(&s, original);
+    assert_saved(&s, original);
+    free(original);
     session_click(&s, "knot(sway,5)");
     session_key(&s, 'D', MOD_CTRL);
-    char *now = saved(&s), *mark = strstr(now, "\"mark\": \"kept\"");
+    char *now = session_saved(&s), *mark = strstr(now, "\"mark\": \"kept\"");
     assert_non_null(mark);
     assert_non_null(strstr(mark + 1, "\"mark\": \"kept\"")); // keys that nobody here knows are copied too
     free(now);

@@ -10,31 +10,6 @@ static const char FIVE[] =
 
 static const struct spline *spline(const struct session *s, int i) { return &s->document->splines[i]; }
 
-static char *saved(const struct session *s)
-{
-    size_t size;
-    char *text = scene_print(s->document, &size);
-    assert_non_null(text);
-    return text;
-}
-
-/// One undo brings back `original` (which is freed) byte by byte, one redo what was there.
-static void assert_one_step(struct session *s, char *original)
-{
-    char *changed = saved(s), *undone, *redone;
-    assert_string_not_equal(changed, original);
-    session_key(s, 'Z', MOD_CTRL);
-    undone = saved(s);
-    assert_string_equal(undone, original);
-    session_key(s, 'Y', MOD_CTRL);
-    redone = saved(s);
-    assert_string_equal(redone, changed);
-    free(original);
-    free(changed);
-    free(undone);
-    free(redone);
-}
-
 static void assert_frames(const struct session *s, const double *frames)
 {
     for (int k = 0; k < spline(s, 0)->knot_count; k++) assert_near(spline(s, 0)->knots[k].frame, frames[k], 1e-9);
@@ -132,7 +107,7 @@ static void test_scaling_by_a_typed_factor(void **state)
     struct session s;
     session_open(&s, FIVE);
     box(&s, "curve(sway,5,1.4)", "curve(sway,35,-1.2)", 0);
-    char *original = saved(&s);
+    char *original = session_saved(&s);
     session_key(&s, 'S', 0);
     session_key(&s, 'X', 0);
     type_keys(&s, "1.3");
@@ -142,7 +117,8 @@ static void test_scaling_by_a_typed_factor(void **state)
     assert_near(spline(&s, 0)->knots[1].value, 1, 0);
     assert_near(spline(&s, 0)->knots[1].slope, 2 / 1.3, 1e-5); // the shape is stretched with the knots
     assert_one_step(&s, original);
-    original = saved(&s);
+    free(original);
+    original = session_saved(&s);
     session_key(&s, 'S', 0);
     session_key(&s, 'Y', 0);
     type_keys(&s, "-2");
@@ -152,6 +128,7 @@ static void test_scaling_by_a_typed_factor(void **state)
     assert_near(spline(&s, 0)->knots[2].value, 2, 1e-9);
     assert_near(spline(&s, 0)->knots[1].slope, -4 / 1.3, 1e-5);
     assert_one_step(&s, original);
+    free(original);
     session_close(&s);
 }
 
@@ -183,7 +160,7 @@ static void test_scaling_can_mirror_and_be_taken_back(void **state)
     struct session s;
     session_open(&s, FIVE);
     box(&s, "curve(sway,5,1.4)", "curve(sway,35,-1.2)", 0);
-    char *original = saved(&s);
+    char *original = session_saved(&s);
     session_key(&s, 'S', 0);
     session_key(&s, 'X', 0);
     type_keys(&s, "-1");
@@ -193,10 +170,8 @@ static void test_scaling_can_mirror_and_be_taken_back(void **state)
     assert_near(spline(&s, 0)->knots[2].value, 0, 0);
     assert_selected(&s, "11100");
     session_key(&s, KEY_ESCAPE, 0);
-    char *now = saved(&s);
-    assert_string_equal(now, original);
+    assert_saved(&s, original);
     assert_null(history_undo_label(s.history));
-    free(now);
     free(original);
     session_close(&s);
 }
@@ -210,15 +185,13 @@ static void test_scaling_never_swallows_a_knot(void **state)
     box(&s, "curve(sway,5,1.4)", "curve(sway,35,-1.2)", 0);
     const char *const bad[] = {"2", "0", "9"};
     for (int i = 0; i < 3; i++) {
-        char *original = saved(&s);
+        char *original = session_saved(&s);
         session_key(&s, 'S', 0);
         session_key(&s, 'X', 0);
         type_keys(&s, bad[i]);
         session_key(&s, KEY_ENTER, 0);
         assert_int_equal(spline(&s, 0)->knot_count, 5);
-        char *now = saved(&s);
-        assert_string_equal(now, original);
-        free(now);
+        assert_saved(&s, original);
         free(original);
     }
     session_close(&s);
@@ -229,7 +202,7 @@ static void test_a_ripple_moves_what_comes_after(void **state)
     (void)state;
     struct session s;
     session_open(&s, FIVE);
-    char *original = saved(&s);
+    char *original = session_saved(&s);
     float frame = (float)(s.editor->layout.plot.w / (s.editor->view.frame1 - s.editor->view.frame0));
     session_point(&s, "knot(sway,2)");
     session_press(&s, BUTTON_LEFT, 1);
@@ -250,6 +223,7 @@ static void test_a_ripple_moves_what_comes_after(void **state)
     session_release(&s, BUTTON_LEFT);
     assert_near(spline(&s, 0)->knots[3].value, 0.5, 0);
     assert_one_step(&s, original);
+    free(original);
     session_close(&s);
 }
 
@@ -266,9 +240,7 @@ static void test_ruler_units_and_snap(void **state)
     assert_false(s.editor->options.seconds);
     float frame = (float)(s.editor->layout.plot.w / (s.editor->view.frame1 - s.editor->view.frame0));
     session_key(&s, 'G', 0); // off the frames
-    session_point(&s, "knot(sway,0)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 2.25f * frame, 0, 3);
+    session_pull(&s, "knot(sway,0)", 2.25f * frame, 0, 3);
     assert_near(spline(&s, 0)->knots[0].frame, 12.25, 1e-3);
     s.mods = MOD_CTRL;
     session_drag(&s, 0.1f * frame, 0, 1);
@@ -307,19 +279,21 @@ static void test_slopes_flat_and_smooth(void **state)
     struct session s;
     session_open(&s, FIVE);
     session_key(&s, 'A', MOD_CTRL);
-    char *original = saved(&s);
+    char *original = session_saved(&s);
     session_key(&s, 'T', MOD_CTRL);
     assert_near(spline(&s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2); // only one neighbour
     assert_near(spline(&s, 0)->knots[2].slope, (0.5 - 1) / 20 * 24, 1e-2);
     assert_near(spline(&s, 0)->knots[3].slope, (0.0 + 1) / 30 * 24, 1e-2);
     assert_one_step(&s, original);
-    original = saved(&s);
+    free(original);
+    original = session_saved(&s);
     session_key(&s, 'T', MOD_SHIFT);
     for (int k = 0; k < 5; k++) {
         assert_true(spline(&s, 0)->knots[k].has_slope);
         assert_near(spline(&s, 0)->knots[k].slope, 0, 0);
     }
     assert_one_step(&s, original);
+    free(original);
     panel_click(&s, "slope.smooth"); // the same by the inspector's buttons
     assert_near(spline(&s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2);
     panel_click(&s, "slope.switch");

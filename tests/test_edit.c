@@ -4,19 +4,6 @@
 #include "world.h"
 #include <stdlib.h>
 
-/// The edit must be refused with that sentence, and leave document and history as they were.
-static void assert_refused(struct world *world, struct edit edit, const char *sentence)
-{
-    char *before = world_print(world);
-    const char *label = history_undo_label(world->history);
-    assert_false(world_step(world, edit));
-    assert_int_equal(world->error.kind, ERROR_INPUT);
-    assert_string_equal(world->error.text, sentence);
-    assert_document(world, before);
-    assert_ptr_equal(history_undo_label(world->history), label);
-    free(before);
-}
-
 /// A knot may pass others: it is found by its id, and knots stay by sample; its unknown keys go with it.
 static void test_knots(void **state)
 {

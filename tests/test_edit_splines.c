@@ -33,29 +33,6 @@ static struct edit edit_fit(int first, int last, enum range_fit fit)
     return (struct edit){.kind = EDIT_RANGE, .first = first, .last = last, .fit = fit};
 }
 
-static void assert_refused(struct world *world, struct edit edit, const char *sentence)
-{
-    char *before = world_print(world);
-    assert_false(world_step(world, edit));
-    assert_string_equal(world->error.text, sentence);
-    assert_document(world, before);
-    free(before);
-}
-
-/// One step forth, back and forth again; the document after it stays.
-static void assert_reversible(struct world *world, struct edit edit)
-{
-    char *before = world_print(world);
-    world_must(world, edit);
-    char *after = world_print(world);
-    assert_true(history_undo(world->history, world->document));
-    assert_document(world, before);
-    assert_true(history_redo(world->history, world->document));
-    assert_document(world, after);
-    free(before);
-    free(after);
-}
-
 static void test_a_new_spline(void **state)
 {
     (void)state;

@@ -5,31 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// The edit must be refused with that sentence and leave the document as it was.
-static void assert_refused(struct world *world, struct edit edit, const char *sentence)
-{
-    char *before = world_print(world);
-    assert_false(world_step(world, edit));
-    assert_string_equal(world->error.text, sentence);
-    assert_document(world, before);
-    free(before);
-}
-
-/// The edit must change the text; undoing it must give the old one, doing it again the new one.
-static void assert_there_and_back(struct world *world, struct edit edit)
-{
-    char *before = world_print(world);
-    world_must(world, edit);
-    char *after = world_print(world);
-    assert_string_not_equal(before, after);
-    assert_true(history_undo(world->history, world->document));
-    assert_document(world, before);
-    assert_true(history_redo(world->history, world->document));
-    assert_document(world, after);
-    free(after);
-    free(before);
-}
-
 static struct edit edit_position(int coordinate, double value, int track)
 {
     return (struct edit){.kind = EDIT_POSITION, .coordinate = coordinate, .param = {value, track}};
@@ -41,11 +16,11 @@ static void test_places(void **state)
     struct world world;
     world_open(&world);
     const struct tail *tail = &world.document->tails[0];
-    assert_there_and_back(&world, edit_position(0, 0.5, -1));
-    assert_there_and_back(&world, edit_position(2, 0, LOOP));
+    assert_reversible(&world, edit_position(0, 0.5, -1));
+    assert_reversible(&world, edit_position(2, 0, LOOP));
     assert_near(tail->position[0].value, 0.5, 0);
     assert_int_equal(tail->position[2].track, LOOP);
-    assert_there_and_back(&world, (struct edit){.kind = EDIT_LENGTH, .number = 2.5});
+    assert_reversible(&world, (struct edit){.kind = EDIT_LENGTH, .number = 2.5});
     assert_near(tail->length, 2.5, 0);
     assert_refused(&world, edit_position(0, NAN, -1), "t: the position must be finite");
     assert_refused(&world, edit_position(1, 0, 3), "t: there is no spline to follow");
@@ -61,12 +36,12 @@ static void test_channels(void **state)
     struct world world;
     world_open(&world);
     const struct channel *channel = &world.document->tails[0].channels[1];
-    assert_there_and_back(&world, (struct edit){.kind = EDIT_FEED, .channel = 1, .spline = PLUCK});
+    assert_reversible(&world, (struct edit){.kind = EDIT_FEED, .channel = 1, .spline = PLUCK});
     assert_int_equal(channel->spline, PLUCK);
-    assert_there_and_back(&world, (struct edit){.kind = EDIT_PART, .channel = 1, .of = PART_DISPLACEMENT});
+    assert_reversible(&world, (struct edit){.kind = EDIT_PART, .channel = 1, .of = PART_DISPLACEMENT});
     assert_int_equal(channel->of, PART_DISPLACEMENT);
     enum axis other = channel->axis == AXIS_UP ? AXIS_SIDE : AXIS_UP;
-    assert_there_and_back(&world, (struct edit){.kind = EDIT_AXIS, .channel = 1, .axis = other});
+    assert_reversible(&world, (struct edit){.kind = EDIT_AXIS, .channel = 1, .axis = other});
     assert_int_equal(channel->axis, other);
     assert_refused(&world, (struct edit){.kind = EDIT_FEED, .channel = 1, .spline = 9}, "there is no such spline");
     assert_refused(&world, (struct edit){.kind = EDIT_PART, .channel = 2}, "there is no such channel");
@@ -79,25 +54,25 @@ static void test_which_tails_there_are(void **state)
     struct world world;
     world_open(&world);
     char *before = world_print(&world);
-    assert_there_and_back(&world, (struct edit){.kind = EDIT_TAIL_ADD});
+    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_ADD});
     assert_int_equal(world.document->tail_count, 2);
     const struct tail *copy = &world.document->tails[1];
     assert_string_equal(copy->name, "tail");
     assert_int_equal(copy->channel_count, 2);
     assert_near(copy->channels[1].gain.value[2], 3, 0);
     assert_true(copy->position[0].value > world.document->tails[0].position[0].value);
-    assert_there_and_back(&world, (struct edit){.kind = EDIT_TAIL_NAME, .tail = 1, .text = "other"});
+    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_NAME, .tail = 1, .text = "other"});
     assert_refused(&world, (struct edit){.kind = EDIT_TAIL_NAME, .tail = 1, .text = "t"},
                    "there is a rig called t already");
     assert_refused(&world, (struct edit){.kind = EDIT_TAIL_NAME, .tail = 1, .text = ""}, "a tail needs a name");
     struct edit lag = {.kind = EDIT_ANGLES, .tail = 1, .channel = 1, .angle = ANGLE_LAG};
     const struct angles angles = {.value = {9}};
     lag.angles = &angles;
-    assert_there_and_back(&world, lag); // angles go by index: they find their place in a list that came back
-    assert_there_and_back(&world, (struct edit){.kind = EDIT_TAIL_REMOVE, .tail = 0});
+    assert_reversible(&world, lag); // angles go by index: they find their place in a list that came back
+    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_REMOVE, .tail = 0});
     assert_string_equal(world.document->tails[0].name, "other");
-    assert_there_and_back(&world, (struct edit){.kind = EDIT_TAIL_REMOVE, .tail = 0});
-    assert_there_and_back(&world, (struct edit){.kind = EDIT_TAIL_ADD, .tail = -1, .spline = PLUCK});
+    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_REMOVE, .tail = 0});
+    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_ADD, .tail = -1, .spline = PLUCK});
     assert_int_equal(world.document->tails[0].channels[0].spline, PLUCK);
     world_undo_all(&world);
     assert_document(&world, before);
@@ -111,13 +86,13 @@ static void test_which_channels_there_are(void **state)
     struct world world;
     world_open(&world);
     const struct edit add = {.kind = EDIT_CHANNEL_ADD, .spline = PLUCK, .axis = AXIS_UP, .of = PART_DISPLACEMENT};
-    assert_there_and_back(&world, add);
+    assert_reversible(&world, add);
     const struct tail *tail = &world.document->tails[0];
     assert_int_equal(tail->channel_count, 3);
     assert_int_equal(tail->channels[2].spline, PLUCK);
     assert_int_equal(tail->channels[2].of, PART_DISPLACEMENT);
     assert_near(tail->channels[2].lag.value[0], CHANNEL_DEFAULT_LAG, 0);
-    assert_there_and_back(&world, (struct edit){.kind = EDIT_CHANNEL_REMOVE, .channel = 0});
+    assert_reversible(&world, (struct edit){.kind = EDIT_CHANNEL_REMOVE, .channel = 0});
     assert_int_equal(world.document->tails[0].channel_count, 2);
     assert_int_equal(world.document->tails[0].channels[1].spline, PLUCK);
     assert_refused(&world, (struct edit){.kind = EDIT_CHANNEL_REMOVE, .channel = 2}, "there is no such channel");
@@ -133,15 +108,15 @@ static void test_joints_keep_the_shape(void **state)
     (void)state;
     struct world world;
     world_open(&world);
-    assert_there_and_back(&world, (struct edit){.kind = EDIT_JOINTS, .to = 5});
+    assert_reversible(&world, (struct edit){.kind = EDIT_JOINTS, .to = 5});
     const struct tail *tail = &world.document->tails[0];
     assert_int_equal(tail->joints, 5);
     assert_near(tail->channels[0].gain.value[0], 5 * 3.0 / 5, 1e-6);
     assert_near(tail->channels[0].lag.value[0], 6.5 * 3.0 / 5, 1e-6);
     const double gains[] = {0.6, 0.9, 1.2, 1.5, 1.8}; // 1, 1.5, 2, 2.5, 3, each three fifths
     for (int n = 0; n < 5; n++) assert_near(tail->channels[1].gain.value[n], gains[n], 1e-6);
-    assert_there_and_back(&world, (struct edit){.kind = EDIT_JOINTS, .to = 1});
-    assert_there_and_back(&world, (struct edit){.kind = EDIT_JOINTS, .to = TAIL_MAX_JOINTS});
+    assert_reversible(&world, (struct edit){.kind = EDIT_JOINTS, .to = 1});
+    assert_reversible(&world, (struct edit){.kind = EDIT_JOINTS, .to = TAIL_MAX_JOINTS});
     assert_refused(&world, (struct edit){.kind = EDIT_JOINTS, .to = 0}, "t: joints must be from 1 to 256");
     assert_refused(&world, (struct edit){.kind = EDIT_JOINTS, .to = 257}, "t: joints must be from 1 to 256");
     world_close(&world);

@@ -19,21 +19,6 @@ static void assert_knot(const struct session *s, int k, double frame, double val
     assert_near(sway(s)->knots[k].value, value, 1e-9);
 }
 
-static char *saved(const struct session *s)
-{
-    size_t size;
-    char *text = scene_print(s->document, &size);
-    assert_non_null(text);
-    return text;
-}
-
-static void assert_saved(const struct session *s, const char *expected)
-{
-    char *text = saved(s);
-    assert_string_equal(text, expected);
-    free(text);
-}
-
 static float pixels_per_frame(struct session *s)
 {
     session_point(s, "curve(sway,10,0)");
@@ -81,16 +66,14 @@ static void test_a_drag_is_one_step_and_snaps(void **state)
     (void)state;
     struct session s;
     session_open(&s, SWAY);
-    char *original = saved(&s);
+    char *original = session_saved(&s);
     float frame = pixels_per_frame(&s);
-    session_point(&s, "knot(sway,1)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 2.3f * frame, -20, 8);
+    session_pull(&s, "knot(sway,1)", 2.3f * frame, -20, 8);
     assert_near(sway(&s)->knots[1].frame, 14, 0); // already while dragging
     session_release(&s, BUTTON_LEFT);
     assert_near(sway(&s)->knots[1].frame, 14, 0);
     assert_true(sway(&s)->knots[1].value > 1.05);
-    char *moved = saved(&s);
+    char *moved = session_saved(&s);
     session_key(&s, 'Z', MOD_CTRL);
     assert_saved(&s, original);
     assert_null(history_undo_label(s.history));
@@ -138,9 +121,7 @@ static void test_a_drag_passes_through_an_occupied_frame(void **state)
     struct session s;
     session_open(&s, SWAY);
     float frame = pixels_per_frame(&s);
-    session_point(&s, "knot(sway,1)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 11 * frame, 0, 11);
+    session_pull(&s, "knot(sway,1)", 11 * frame, 0, 11);
     assert_near(sway(&s)->knots[1].frame, 23, 0);
     session_drag(&s, frame, 0, 1);
     assert_near(sway(&s)->knots[1].frame, 23, 0); // 24 is taken: it waits in front
@@ -175,10 +156,8 @@ static void test_escape_cancels_a_drag_then_drops_the_selection(void **state)
     (void)state;
     struct session s;
     session_open(&s, SWAY);
-    char *original = saved(&s);
-    session_point(&s, "knot(sway,1)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 60, -20, 5);
+    char *original = session_saved(&s);
+    session_pull(&s, "knot(sway,1)", 60, -20, 5);
     session_key(&s, KEY_ESCAPE, 0);
     assert_saved(&s, original);
     assert_false(history_is_open(s.history));
@@ -200,9 +179,7 @@ static void test_a_click_edits_nothing(void **state)
     session_open(&s, SWAY);
     uint64_t revision = history_revision(s.history);
     session_click(&s, "knot(sway,1)");
-    session_point(&s, "knot(sway,2)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 1, 1, 2); // a hand that trembles
+    session_pull(&s, "knot(sway,2)", 1, 1, 2); // a hand that trembles
     session_release(&s, BUTTON_LEFT);
     assert_true(history_revision(s.history) == revision);
     session_close(&s);
@@ -241,7 +218,7 @@ static void test_nudges_merge(void **state)
     (void)state;
     struct session s;
     session_open(&s, SWAY);
-    char *original = saved(&s);
+    char *original = session_saved(&s);
     session_click(&s, "knot(sway,1)");
     for (int i = 0; i < 3; i++) session_key(&s, KEY_RIGHT, MOD_ALT);
     assert_near(sway(&s)->knots[1].frame, 15, 0);
@@ -292,9 +269,7 @@ static void test_slopes(void **state)
     assert_near(sway(&s)->knots[1].slope, slope, 1e-12);
     session_key(&s, 'E', MOD_SHIFT);
     assert_near(sway(&s)->knots[1].stiffness, 1250, 1e-9);
-    session_point(&s, "handle(sway,1,1)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 0, -60, 5);
+    session_pull(&s, "handle(sway,1,1)", 0, -60, 5);
     session_release(&s, BUTTON_LEFT);
     assert_true(sway(&s)->knots[1].slope > slope + 0.1);
     assert_near(sway(&s)->knots[1].value, 1, 0);
@@ -333,9 +308,7 @@ static void test_keys_during_a_drag_do_not_mix(void **state)
     (void)state;
     struct session s;
     session_open(&s, SWAY);
-    session_point(&s, "knot(sway,1)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 30, -20, 3);
+    session_pull(&s, "knot(sway,1)", 30, -20, 3);
     session_key(&s, KEY_DELETE, 0);
     session_key(&s, 'Z', MOD_CTRL);
     session_key(&s, KEY_PAGE_DOWN, 0);
@@ -404,7 +377,7 @@ static void test_a_monkey_can_be_undone(void **state)
         struct session s;
         srand(seed);
         session_open(&s, SWAY);
-        char *original = saved(&s);
+        char *original = session_saved(&s);
         for (int i = 0; i < 1500; i++) {
             monkey(&s);
             if (below(3) == 0) session_frame(&s);

@@ -74,8 +74,7 @@ static void test_the_tail_follows_the_hand(void **state)
     struct session s;
     session_open(&s, TAIL);
     session_click(&s, "ruler(60)");
-    size_t size;
-    char *original = scene_print(s.document, &size);
+    char *original = session_saved(&s);
     pull(&s, 0.95f, 60, -40);
     assert_int_equal(s.document->splines[0].knot_count, 4); // one knot in each channel, at the playhead
     assert_int_equal(s.document->splines[1].knot_count, 3);
@@ -85,10 +84,8 @@ static void test_the_tail_follows_the_hand(void **state)
     session_key(&s, 'Z', MOD_CTRL);
     session_key(&s, 'Z', MOD_CTRL);
     assert_null(history_undo_label(s.history)); // a pull is one step
-    char *undone = scene_print(s.document, &size);
-    assert_string_equal(undone, original);
+    assert_saved(&s, original);
     free(original);
-    free(undone);
     session_close(&s);
 }
 
@@ -171,9 +168,7 @@ static void test_steady_frames_allocate_nothing(void **state)
     long before = allocation_count();
     for (int i = 0; i < 60; i++) session_frame(&s);
     assert_int_equal(allocation_count() - before, 0); // playing
-    session_point(&s, "knot(sway,1)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 10, -20, 5);
+    session_pull(&s, "knot(sway,1)", 10, -20, 5);
     before = allocation_count();
     session_drag(&s, 60, 40, 60);
     assert_int_equal(allocation_count() - before, 0); // dragging a knot while it plays
@@ -411,9 +406,7 @@ static void test_dividers(void **state)
     struct session s;
     session_open(&s, TAIL);
     float height = editor_stage(s.editor)->viewport.h;
-    session_point(&s, "divider(stage)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 0, -100, 4);
+    session_pull(&s, "divider(stage)", 0, -100, 4);
     session_release(&s, BUTTON_LEFT);
     assert_near(editor_stage(s.editor)->viewport.h, height - 100, 1);
     session_drag(&s, 0, -100, 4); // let go

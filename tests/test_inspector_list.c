@@ -14,29 +14,6 @@ static const char scene[] =
     "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"joints\": 3, \"channels\": ["
     "{\"spline\": \"sway\", \"axis\": \"side\"}, {\"spline\": \"lift\", \"axis\": \"up\"}]}]}";
 
-static char *print(const struct session *f)
-{
-    size_t size;
-    char *text = scene_print(f->document, &size);
-    assert_non_null(text);
-    return text;
-}
-
-/// Undoes the last step, which must give back the text, and does it again.
-static void assert_one_step(struct session *f, const char *before)
-{
-    char *after = print(f);
-    session_key(f, 'Z', MOD_CTRL);
-    char *undone = print(f);
-    assert_string_equal(undone, before);
-    free(undone);
-    session_key(f, 'Y', MOD_CTRL);
-    char *redone = print(f);
-    assert_string_equal(redone, after);
-    free(redone);
-    free(after);
-}
-
 static const char *active_name(const struct session *f) { return f->document->splines[f->editor->active].name; }
 
 static void test_a_spline_is_added_at_the_playhead(void **state)
@@ -45,7 +22,7 @@ static void test_a_spline_is_added_at_the_playhead(void **state)
     struct session f;
     panel_open(&f, scene, 1280, 720);
     session_click(&f, "ruler(24)");
-    char *before = print(&f);
+    char *before = session_saved(&f);
     panel_click(&f, "spline.add");
     assert_string_equal(active_name(&f), "spline");
     assert_near(f.document->splines[3].knots[0].frame, 24, 0);
@@ -64,7 +41,7 @@ static void test_the_active_spline_is_followed(void **state)
     struct session f;
     panel_open(&f, scene, 1280, 720);
     panel_click(&f, "spline.pace");
-    char *before = print(&f);
+    char *before = session_saved(&f);
     panel_click(&f, "spline.down");
     assert_string_equal(active_name(&f), "pace");
     assert_int_equal(f.editor->active, 2);
@@ -89,7 +66,7 @@ static void test_deleting_a_followed_spline_asks(void **state)
     panel_open(&f, scene, 1280, 720);
     session_click(&f, "ruler(90)");
     panel_click(&f, "spline.pace");
-    char *before = print(&f);
+    char *before = session_saved(&f);
     panel_click(&f, "spline.delete");
     assert_int_equal(f.editor->dialog.kind, DIALOG_ASK);
     session_key(&f, KEY_ESCAPE, 0);
@@ -103,7 +80,7 @@ static void test_deleting_a_followed_spline_asks(void **state)
     assert_one_step(&f, before);
     free(before);
     panel_click(&f, "spline.lift");
-    before = print(&f);
+    before = session_saved(&f);
     panel_click(&f, "spline.delete");
     session_key(&f, KEY_ENTER, 0);
     assert_int_equal(f.document->tails[0].channel_count, 1);
@@ -136,7 +113,7 @@ static void test_renaming(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
-    char *before = print(&f);
+    char *before = session_saved(&f);
     panel_press(&f, "spline.sway", 2);
     panel_release(&f);
     panel_type(&f, "swing");
@@ -164,7 +141,7 @@ static void test_rows_are_dragged_to_their_place(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
-    char *before = print(&f);
+    char *before = session_saved(&f);
     panel_press(&f, "spline.sway", 1);
     session_drag(&f, 0, 2 * UI_ROW, 4);
     assert_string_equal(f.document->splines[0].name, "sway"); // not before it is dropped
@@ -181,7 +158,7 @@ static void test_colours(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
-    char *before = print(&f);
+    char *before = session_saved(&f);
     panel_click(&f, "color.pace");
     panel_click(&f, "color.3");
     assert_int_equal(f.document->splines[1].color, 0x1F9E7A);
@@ -198,10 +175,8 @@ static void test_colours(void **state)
     session_key(&f, KEY_ENTER, 0);
     assert_int_equal(f.document->splines[1].color, 0x123456);
     panel_click(&f, "color.none");
-    char *after = print(&f);
-    assert_string_equal(after, before);
+    assert_saved(&f, before);
     free(before);
-    free(after);
     session_close(&f);
 }
 
@@ -233,7 +208,7 @@ static void test_a_track_is_attached_and_detached(void **state)
     struct session f;
     panel_open(&f, scene, 1280, 720);
     session_click(&f, "ruler(90)");
-    char *before = print(&f);
+    char *before = session_saved(&f);
     panel_click(&f, "follow.damping");
     assert_true(panel_shows(&f, "item.pace"));
     assert_false(panel_shows(&f, "item.sway"));
@@ -260,7 +235,7 @@ static void test_frames_per_second_ask(void **state)
     struct session f;
     panel_open(&f, scene, 1280, 720);
     panel_click(&f, "section.scene");
-    char *before = print(&f);
+    char *before = session_saved(&f);
     panel_enter(&f, "scene.fps", "48");
     assert_int_equal(f.editor->dialog.kind, DIALOG_ASK);
     assert_near(f.document->fps, 24, 0);
@@ -287,7 +262,7 @@ static void test_a_range_asks_for_its_knots(void **state)
     panel_open(&f, scene, 1280, 720);
     panel_click(&f, "section.scene");
     session_click(&f, "ruler(80)");
-    char *before = print(&f);
+    char *before = session_saved(&f);
     panel_enter(&f, "scene.last", "50");
     assert_int_equal(f.editor->dialog.kind, DIALOG_ASK);
     session_key(&f, 'T', 0);
@@ -350,21 +325,19 @@ static void test_random_input_comes_back(void **state)
         unsigned random = seed;
         panel_open(&f, scene, 1280, 720);
         panel_click(&f, "section.scene");
-        char *first = print(&f);
+        char *first = session_saved(&f);
         for (int i = 0; i < 3000 && f.document->spline_count < 50; i++) random_input(&f, &random);
         for (int i = 0; i < 3; i++) session_key(&f, KEY_ESCAPE, 0);
         session_release(&f, BUTTON_LEFT);
         session_key(&f, KEY_ESCAPE, 0);
         struct error error = {0};
-        char *last = print(&f);
+        char *last = session_saved(&f);
         struct document *again = scene_parse("again", last, strlen(last), NULL, &error);
         if (!again) fail_msg("seed %u: what was saved does not load: %s", seed, error.text);
         document_destroy(again);
         assert_false(history_is_open(f.history));
         while (history_undo(f.history, f.document)) steps++;
-        char *undone = print(&f);
-        assert_string_equal(undone, first);
-        free(undone);
+        assert_saved(&f, first);
         free(last);
         free(first);
         session_close(&f);

@@ -10,27 +10,19 @@ static const char scene[] =
     "\"joints\": 4, "
     "\"position\": [0, 0.26, 0], \"channels\": [{\"spline\": \"sway\", \"lag\": 6, \"gain\": 5}]}]}";
 
-static char *text_of(const struct session *s)
-{
-    size_t size;
-    return scene_print(s->document, &size);
-}
-
 static const struct tail *tail(const struct session *s) { return &s->document->tails[0]; }
 
 /// Everything is in reach on a tall screen.
 static char *open_tall(struct session *s)
 {
     panel_open(s, scene, 1280, 1600);
-    return text_of(s);
+    return session_saved(s);
 }
 
 static void close_undone(struct session *s, char *before)
 {
     while (history_undo_label(s->history)) session_key(s, 'Z', MOD_CTRL);
-    char *after = text_of(s);
-    assert_string_equal(after, before);
-    free(after);
+    assert_saved(s, before);
     free(before);
     session_close(s);
 }
@@ -105,15 +97,13 @@ static void test_angles_one_for_each_joint(void **state)
     session_key(&s, KEY_ENTER, 0);
     const double typed[] = {1, 2, 3.5, -4};
     for (int n = 0; n < 4; n++) assert_near(tail(&s)->channels[0].gain.value[n], typed[n], 0);
-    char *good = text_of(&s);
+    char *good = session_saved(&s);
     panel_click(&s, "gain.list");
     session_key(&s, 'A', MOD_CTRL);
     panel_type(&s, "1, 2, x");
     session_key(&s, KEY_ENTER, 0);
     assert_string_equal(s.editor->message.text, "gain: expected one number for each of the 4 joints.");
-    char *kept = text_of(&s);
-    assert_string_equal(kept, good);
-    free(kept);
+    assert_saved(&s, good);
     free(good);
     panel_click(&s, "rest.each");
     assert_true(tail(&s)->rest.each);

@@ -15,12 +15,6 @@ enum { JOINTS = 24, X = 12, DRAGGED = 60, WATCHED = 150 };
 
 static float joint_x(const struct session *s, int n) { return editor_stage(s->editor)->tails[0].pose.matrix[n][X]; }
 
-static char *text_of(const struct session *s)
-{
-    size_t size;
-    return scene_print(s->document, &size);
-}
-
 static void test_few_knots_keep_to_the_way(void **state)
 {
     (void)state;
@@ -71,7 +65,7 @@ static void test_recorded_is_what_was_seen(void **state)
     perform(&s, false, live_base, live_tip);
     session_close(&s);
     session_open(&s, scene);
-    char *before = text_of(&s);
+    char *before = session_saved(&s);
     perform(&s, true, base, tip);
     assert_int_equal(s.document->spline_count, 3);
     assert_string_equal(s.document->splines[1].name, "tail x");
@@ -94,12 +88,10 @@ static void test_recorded_is_what_was_seen(void **state)
     for (int i = DRAGGED + 14; i < WATCHED; i++) assert_near(tip[i], live_tip[i], 0.15 * most);
     session_key(&s, KEY_SPACE, 0);
     session_key(&s, 'Z', MOD_CTRL);
-    char *after = text_of(&s);
-    assert_string_equal(after, before);
+    assert_saved(&s, before);
     assert_null(history_undo_label(s.history));
     session_key(&s, 'Y', MOD_CTRL);
     assert_int_equal(s.document->spline_count, 3);
-    free(after);
     free(before);
     session_close(&s);
 }
@@ -126,7 +118,7 @@ static void test_escape_forgets_the_recording(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    char *before = text_of(&s);
+    char *before = session_saved(&s);
     session_point(&s, "body(tail)");
     session_frame(&s);
     session_press(&s, BUTTON_LEFT, 1);
@@ -134,10 +126,8 @@ static void test_escape_forgets_the_recording(void **state)
     session_send(&s, (struct event){.kind = EVENT_KEY, .key = 'R', .action = ACTION_PRESS});
     session_drag(&s, -40, 0, 20);
     session_key(&s, KEY_ESCAPE, 0);
-    char *after = text_of(&s);
-    assert_string_equal(after, before);
+    assert_saved(&s, before);
     assert_false(record_has_motion(s.editor));
-    free(after);
     free(before);
     session_close(&s);
 }

@@ -23,21 +23,13 @@ static const char WIDE[] =
     "\"damping\": 0.1, \"bandwidth\": 0.2, \"knots\": [{\"frame\": 0, \"value\": 1},"
     "{\"frame\": 24, \"value\": 1}, {\"frame\": 84, \"value\": 1}]}]}";
 
-static char *saved(const struct session *s)
-{
-    size_t size;
-    char *text = scene_print(s->document, &size);
-    assert_non_null(text);
-    return text;
-}
-
 /// Opens a scene that has a warning, clicks it, and finds it gone by one step that undo takes back byte by byte.
 static void assert_remedied(struct session *s, const char *scene, enum warning_kind kind)
 {
     session_open(s, scene);
     assert_int_equal(s->editor->warnings.count, 1);
     assert_int_equal(s->editor->warnings.list[0].kind, kind);
-    char *original = saved(s);
+    char *original = session_saved(s);
     session_point(s, "warning(0)");
     session_frame(s);
     assert_int_equal(s->editor->hover.kind, HOVER_WARNING);
@@ -45,14 +37,12 @@ static void assert_remedied(struct session *s, const char *scene, enum warning_k
     session_frame(s);
     assert_int_equal(s->editor->warnings.count, 0);
     session_key(s, 'Z', MOD_CTRL);
-    char *undone = saved(s);
-    assert_string_equal(undone, original);
+    assert_saved(s, original);
     assert_int_equal(s->editor->warnings.count, 1);
     assert_null(history_undo_label(s->history));
     session_key(s, 'Y', MOD_CTRL);
     assert_int_equal(s->editor->warnings.count, 0);
     free(original);
-    free(undone);
 }
 
 static void test_a_swing_is_tamed_by_what_helps(void **state)

@@ -60,6 +60,32 @@ void world_must(struct world *world, struct edit edit)
     if (!world_step(world, edit)) fail_msg("%s", world->error.text);
 }
 
+void assert_refused(struct world *world, struct edit edit, const char *sentence)
+{
+    char *before = world_print(world);
+    const char *label = history_undo_label(world->history);
+    assert_false(world_step(world, edit));
+    assert_int_equal(world->error.kind, ERROR_INPUT);
+    assert_string_equal(world->error.text, sentence);
+    assert_document(world, before);
+    assert_ptr_equal(history_undo_label(world->history), label);
+    free(before);
+}
+
+void assert_reversible(struct world *world, struct edit edit)
+{
+    char *before = world_print(world);
+    world_must(world, edit);
+    char *after = world_print(world);
+    assert_string_not_equal(before, after);
+    assert_true(history_undo(world->history, world->document));
+    assert_document(world, before);
+    assert_true(history_redo(world->history, world->document));
+    assert_document(world, after);
+    free(before);
+    free(after);
+}
+
 struct edit edit_insert(int spline, double frame, double value)
 {
     return (struct edit){.kind = EDIT_KNOT_INSERT,

@@ -26,6 +26,12 @@ bool world_apply(struct world *world, struct edit edit);
 bool world_step(struct world *world, struct edit edit);
 void world_must(struct world *world, struct edit edit);
 
+/// The edit is refused with that sentence, and leaves document and history as they were.
+void assert_refused(struct world *world, struct edit edit, const char *sentence);
+
+/// The edit changes the text as a step that undo takes back byte by byte and redo makes again, as which it stays.
+void assert_reversible(struct world *world, struct edit edit);
+
 /// Undoes all, and says how many steps there were.
 int world_undo_all(struct world *world);
 
