@@ -63,7 +63,8 @@ static double *number_of(const struct knot_field *field, struct knot *knot)
     return (double *)(void *)((char *)knot + field->offset);
 }
 
-/// The selected knots as the document has them, in the memory that a drag of knots has for the same; how many.
+/// The selected knots as the document has them, in the memory that a drag of knots has for the same: for an edit alone, while
+/// none is under way; how many.
 static int collect(struct inspection *in)
 {
     const struct spline *spline = editor_active_spline(in->editor, in->world);
@@ -100,7 +101,7 @@ static void change_all(struct inspection *in, enum ui_change change, const struc
     double *possible = &in->editor->inspector.dragged;
     struct error error = {0};
     inspector_take_back(in, change);
-    if (collect(in) == 0 || (change != UI_DRAG && history_is_open(history))) return;
+    if ((change != UI_DRAG && history_is_open(history)) || collect(in) == 0) return;
     if (!history_is_open(history)) {
         uint64_t merge = change == UI_NUDGE ? merge_key(in->editor, in->world, ui_id(field->number.name)) : 0;
         history_begin(history, field->undo, merge);
@@ -118,18 +119,33 @@ static void change_all(struct inspection *in, enum ui_change change, const struc
     if (error.kind != ERROR_NONE) editor_message(in->editor, true, error.text);
 }
 
-static void build_field(struct inspection *in, const struct knot_field *field)
+/// What the selected knots have in a field: the first one's number, and whether others have another.
+struct numbers {
+    double first;
+    bool mixed;
+};
+
+static struct numbers survey(const struct inspection *in, const struct spline *spline, const struct knot_field *field)
 {
-    struct knot *first = in->editor->drag.originals;
+    struct numbers numbers = {.first = NAN};
+    for (int k = 0; k < spline->knot_count; k++) {
+        if (!selection_has(&in->editor->selection, spline->knots[k].id)) continue;
+        double number = *number_of(field, &spline->knots[k]);
+        if (isnan(numbers.first)) numbers.first = number;
+        numbers.mixed |= number != numbers.first;
+    }
+    return numbers;
+}
+
+static void build_field(struct inspection *in, const struct knot_field *field, struct numbers numbers)
+{
     struct ui_number number = field->number;
-    double value = *number_of(field, first);
-    bool mixed = false;
-    for (int i = 1; i < in->editor->drag.count; i++) mixed |= *number_of(field, &first[i]) != value;
+    double value = numbers.first;
     char shown[64];
     if (field->moves) {
         snprintf(shown, sizeof shown, "%.6g …", value);
         number.shown = shown;
-    } else if (mixed) {
+    } else if (numbers.mixed) {
         number.shown = "mixed";
     }
     enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &number, &value);
@@ -140,14 +156,23 @@ static void build_field(struct inspection *in, const struct knot_field *field)
     }
 }
 
-void inspector_knots(struct inspection *in)
+static bool all_sloped(const struct inspection *in, const struct spline *spline)
 {
     bool sloped = true;
+    for (int k = 0; k < spline->knot_count; k++)
+        sloped &= !selection_has(&in->editor->selection, spline->knots[k].id) || spline->knots[k].has_slope;
+    return sloped;
+}
+
+void inspector_knots(struct inspection *in)
+{
+    const struct spline *spline = editor_active_spline(in->editor, in->world);
+    bool sloped = all_sloped(in, spline);
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++) {
-        int count = collect(in); // each field from the document as the one before left it
-        for (int k = 0; k < count; k++) sloped &= in->editor->drag.originals[k].has_slope;
         bool of_slope =
             fields[i].offset != offsetof(struct knot, frame) && fields[i].offset != offsetof(struct knot, value);
-        if (count > 0 && (sloped || !of_slope)) build_field(in, &fields[i]);
+        if (!sloped && of_slope) continue;
+        struct numbers numbers = survey(in, spline, &fields[i]); // as the field before left the document
+        if (!isnan(numbers.first)) build_field(in, &fields[i], numbers);
     }
 }
