@@ -1,4 +1,5 @@
 #include "model/motion.h"
+#include "base/npy.h"
 #include "model/motion_format.h"
 #include <errno.h>
 #include <fcntl.h>

@@ -7,8 +7,8 @@
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the files' numbers are read as they lie");
 
-/// Bytes at the start of an .npy file and of a PC2 file.
-extern const char npy_magic[6], pc2_magic[12];
+/// Bytes at the start of a PC2 file.
+extern const char pc2_magic[12];
 
 /// Each fills frames, vertices, fps and the private part from the header of an open file of `size` bytes.
 bool npy_read_header(struct motion *motion, int64_t size, struct error *error);

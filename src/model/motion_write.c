@@ -1,19 +1,15 @@
+#include "base/npy.h"
 #include "model/motion.h"
 #include "model/motion_format.h"
 #include <errno.h>
 #include <string.h>
 #include <strings.h>
 
-/// Version 1: the header's text is padded so that the numbers start at a multiple of 64 bytes.
 static void write_npy_header(FILE *out, int frames, int vertices)
 {
-    enum { START = 10, HEADER = 128 };
-    char text[HEADER - START + 1];
-    int length = snprintf(text, sizeof text, "{'descr': '<f4', 'fortran_order': False, 'shape': (%d, %d, 3), }",
-                          frames, vertices);
-    fwrite(npy_magic, 1, sizeof npy_magic, out);
-    fwrite((const char[]){1, 0, HEADER - START, 0}, 1, 4, out);
-    fprintf(out, "%s%*s\n", text, HEADER - START - 1 - length, "");
+    char header[NPY_HEADER];
+    npy_print_header((const int[]){frames, vertices, 3}, 3, header);
+    fwrite(header, 1, sizeof header, out);
 }
 
 static void write_pc2_header(FILE *out, int frames, int vertices)

@@ -1,0 +1,104 @@
+#include "base/npy.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char npy_magic[6] = "\x93NUMPY";
+
+static bool bad_header(const char *path, struct error *error)
+{
+    return fail(error, ERROR_INPUT, "%s: expected the header of an .npy array, got something else", path);
+}
+
+bool npy_start(struct npy *npy, const char *path, const unsigned char start[NPY_START], struct error *error)
+{
+    *npy = (struct npy){0};
+    bool is_short = start[6] == 1; // version 1 has a length of 2 bytes, later ones of 4
+    uint32_t length = (uint32_t)start[8] | (uint32_t)start[9] << 8;
+    if (!is_short) length |= (uint32_t)start[10] << 16 | (uint32_t)start[11] << 24;
+    bool good = memcmp(start, npy_magic, sizeof npy_magic) == 0 && start[6] >= 1 && start[6] <= 3;
+    if (!good || length > NPY_DICTIONARY) return bad_header(path, error);
+    npy->dictionary = length;
+    npy->data = (is_short ? 10 : 12) + (int64_t)length;
+    return true;
+}
+
+/// What follows 'key': in the dictionary, or NULL.
+static const char *value_of(const char *text, const char *key)
+{
+    const char *found = strstr(text, key);
+    if (!found) return NULL;
+    found += strlen(key);
+    found += strspn(found, " ");
+    if (*found != ':') return NULL;
+    return found + 1 + strspn(found + 1, " ");
+}
+
+static bool read_type(struct npy *npy, const char *path, const char *text, struct error *error)
+{
+    static const char *const types[] = {"'<f4'", "'<f8'", "'>f4'", "'>f8'"};
+    const char *type = value_of(text, "'descr'");
+    bool known = false;
+    if (!type) return bad_header(path, error);
+    for (int i = 0; i < 4; i++) known |= strncmp(type, types[i], strlen(types[i])) == 0;
+    if (!known)
+        return fail(error, ERROR_INPUT, "%s: expected numbers of type float32 or float64, got %.*s", path,
+                    (int)strcspn(type, ","), type);
+    npy->swapped = type[1] == '>';
+    npy->number_size = type[3] - '0';
+    return true;
+}
+
+/// Lengths "(96, 4000, 3)"; false where that is no shape.
+static bool read_lengths(struct npy *npy, const char *shape)
+{
+    const char *at = shape + 1;
+    if (*shape != '(') return false;
+    snprintf(npy->shape, sizeof npy->shape, "%.*s", (int)strcspn(shape, ")") + 1, shape);
+    for (npy->count = 0; npy->count < NPY_MAX_LENGTHS; npy->count++) {
+        at += strspn(at, " ,");
+        if (*at == ')') return true;
+        char *end;
+        npy->lengths[npy->count] = strtoll(at, &end, 10);
+        if (end == at || npy->lengths[npy->count] < 0) return false;
+        at = end;
+    }
+    return true;
+}
+
+bool npy_dictionary(struct npy *npy, const char *path, const char *text, struct error *error)
+{
+    if (!read_type(npy, path, text, error)) return false;
+    const char *shape = value_of(text, "'shape'"), *order = value_of(text, "'fortran_order'");
+    if (!shape || !order || !read_lengths(npy, shape)) return bad_header(path, error);
+    npy->columns_first = strncmp(order, "True", 4) == 0;
+    return true;
+}
+
+double npy_number(const struct npy *npy, const char *at)
+{
+    unsigned char bytes[8];
+    for (int i = 0; i < npy->number_size; i++)
+        bytes[i] = (unsigned char)at[npy->swapped ? npy->number_size - 1 - i : i];
+    float single;
+    double number;
+    memcpy(&single, bytes, sizeof single);
+    if (npy->number_size == 4) return (double)single;
+    memcpy(&number, bytes, sizeof number);
+    return number;
+}
+
+void npy_print_header(const int *lengths, int count, char header[NPY_HEADER])
+{
+    enum { PRELUDE = 10 };
+    char shape[NPY_HEADER] = "", text[NPY_HEADER - PRELUDE + 1];
+    int used = 0;
+    for (int i = 0; i < count; i++)
+        used += snprintf(shape + used, sizeof shape - (size_t)used, i > 0 ? ", %d" : "%d", lengths[i]);
+    int length = snprintf(text, sizeof text, "{'descr': '<f4', 'fortran_order': False, 'shape': (%.40s), }", shape);
+    memcpy(header, npy_magic, sizeof npy_magic);
+    memcpy(header + sizeof npy_magic, (const char[]){1, 0, NPY_HEADER - PRELUDE, 0}, 4);
+    memset(header + PRELUDE, ' ', NPY_HEADER - PRELUDE); // padded so that the numbers start at a multiple of 64 bytes
+    memcpy(header + PRELUDE, text, (size_t)length);
+    header[NPY_HEADER - 1] = '\n';
+}
