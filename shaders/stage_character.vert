@@ -10,7 +10,7 @@ uniform vec3 place; // from the model's space to the world's
 uniform vec2 shade; // height of the ground, and how far above it its shade reaches
 uniform float seam; // metres a pixel at a distance of 1 m in the pass that softens silhouettes, else 0
 // For each coordinate and vertex: Re N, Im N and their derivatives along the tangents u and v, packed into 5 texels of a
-// row that holds 128 vertices (see figure_pack() in stage_morph.c). Coordinate k begins at row first_row[k].
+// row that holds 128 vertices (see pack_row() in stage_morph.c). Coordinate k begins at row first_row[k].
 uniform highp sampler2D coordinates;
 uniform int count;
 uniform int first_row[4];

@@ -253,7 +253,7 @@ static void test_cannot_write(void **state)
 enum { KILLS = 60 };
 
 /// Saves two documents in turn for ever. The larger one takes several writes.
-static void save_for_ever(const char *path, const struct document *small, const struct document *large)
+static void save_for_ever(const char *path, struct document *small, struct document *large)
 {
     struct error error;
     for (int i = 0;; i++) {

@@ -111,7 +111,8 @@ static bool take_snapshot(struct autosave *autosave, const struct autosave_work 
     struct snapshot *snapshot = &autosave->snapshot;
     autosave->revision = work->revision;
     snprintf(snapshot->path, sizeof snapshot->path, "%s", work->path);
-    return scene_print_into(work->document, RECOVERY_FOLDER, &snapshot->text, &snapshot->capacity, &snapshot->size);
+    return scene_print_into(work->document, RECOVERY_FOLDER, &snapshot->text, &snapshot->capacity, &snapshot->size) &&
+           scene_print_paint(work->document, &snapshot->text, &snapshot->capacity, &snapshot->size);
 }
 
 /// Passes the thread's complaint on, the first one of a run of them; the next interval tries again.

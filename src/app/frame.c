@@ -1,6 +1,7 @@
 #include "app/state.h"
 #include "platform/process.h"
 #include "scene/background.h"
+#include "scene/load.h"
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -122,6 +123,7 @@ static void recast(struct app *app)
     struct error error;
     if (app->cast_serial == app->document->serial) return;
     app->cast_serial = app->document->serial;
+    if (!scene_read_paint(app->document, &error)) editor_message(app->editor, true, error.text);
     if (!cast_update(app->cast, app->document, &error)) editor_message(app->editor, true, error.text);
 }
 
@@ -163,6 +165,7 @@ static void pose(struct app *app)
     recast(app);
     double start = clock_now();
     struct editor_world world = app_world(app);
+    cast_paint(app->cast, app->document);
     editor_pose(app->editor, &world);
     editor_show(app->editor, &world);
     app->row.pose_us = microseconds(start, clock_now());

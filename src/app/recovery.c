@@ -53,6 +53,17 @@ void recovery_release(struct recovery_slot *slot)
     slot->lock = -1;
 }
 
+/// The document in the text after the first line: scene, and where there is a NUL the paint behind it.
+static struct document *parse_work(const char *path, const char *text, size_t size, struct error *error)
+{
+    const char *end = memchr(text, '\0', size);
+    struct document *document = scene_parse(path, text, end ? (size_t)(end - text) : size, NULL, error);
+    if (!document || !end) return document;
+    if (scene_parse_paint(document, path, end + 1, size - (size_t)(end + 1 - text), error)) return document;
+    document_destroy(document);
+    return NULL;
+}
+
 /// The path in a file's first line; "" where it has none.
 static void read_original(const char *path, char original[RECOVERY_PATH])
 {
@@ -104,7 +115,7 @@ struct document *recovery_read(const struct recovery_slot *slot, struct error *e
     const char *line_end = memchr(data, '\n', size);
     if (line_end && strncmp(data, first_line, sizeof first_line - 1) == 0) {
         const char *text = line_end + 1;
-        document = scene_parse(slot->path, text, size - (size_t)(text - data), NULL, error);
+        document = parse_work(slot->path, text, size - (size_t)(text - data), error);
         if (document) document->folder = strdup(RECOVERY_FOLDER);
     } else {
         fail(error, ERROR_INPUT, "%s:1: expected \"%s\", got something else", slot->path, first_line);

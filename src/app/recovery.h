@@ -5,6 +5,8 @@
 ///
 ///     wiggly-recovery 1 /home/me/walk.json      (the path of the document's own file; nothing for an untitled one)
 ///     { "wiggly": 1, …                          (the document's canonical text, for a file in RECOVERY_FOLDER)
+///
+/// and, where its characters are painted, a NUL and their paint (scene/load.h).
 #ifndef APP_RECOVERY_H
 #define APP_RECOVERY_H
 
@@ -42,7 +44,7 @@ bool recovery_find(const char *folder, struct recovery_entry *entry, int *count)
 /// The document in a file. NULL with a sentence where it is not whole.
 struct document *recovery_read(const struct recovery_slot *slot, struct error *error);
 
-/// Writes a slot's file, atomically: `text` is the document's canonical text for RECOVERY_FOLDER.
+/// Writes a slot's file, atomically: `text` is the document's canonical text for RECOVERY_FOLDER, with paint where there is.
 bool recovery_write(const struct recovery_slot *slot, const char *original, const char *text, size_t size,
                     struct error *error);
 

@@ -52,12 +52,14 @@ static bool check_solution(const char *path, const struct document *document, st
     return true;
 }
 
-/// What the scene's characters need: their models, and the coordinates in them.
-static bool check_models(const char *path, const struct document *document, struct problems *problems)
+/// What the scene's characters need: their paint, their models, and the coordinates in them.
+static bool check_models(const char *path, struct document *document, struct problems *problems)
 {
     struct error error = {0};
     struct cast *cast = cast_create();
-    bool good = cast ? cast_update(cast, document, &error) : fail(&error, ERROR_ENVIRONMENT, "not enough memory");
+    bool good = scene_read_paint(document, &error);
+    if (good)
+        good = cast ? cast_update(cast, document, &error) : fail(&error, ERROR_ENVIRONMENT, "not enough memory");
     cast_destroy(cast);
     if (good) return true;
     struct error problem;

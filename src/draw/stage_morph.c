@@ -5,9 +5,10 @@
 #include <string.h>
 
 enum {
-    TEXELS = 5,         ///< of one vertex and coordinate, four floats each
-    ROW_VERTICES = 128, ///< in one row of the texture
-    MAX_KEPT = 4,       ///< figures on the GPU; more take turns
+    TEXELS = 5,                  ///< of one vertex and coordinate, four floats each
+    ROW_VERTICES = FIGURE_BLOCK, ///< in one row of the texture
+    ROW_FLOATS = 4 * TEXELS * ROW_VERTICES,
+    MAX_KEPT = 4, ///< figures on the GPU; more take turns
     SLOPE_FLOATS = sizeof(struct slope) / sizeof(float),
 };
 
@@ -17,7 +18,8 @@ struct model {
     long used;   ///< when it was drawn last
     GLuint vertex_array, vertices, fine, coarse, coordinates;
     GLsizei fine_count, coarse_count;
-    int rows; ///< of the texture, for one coordinate
+    int rows;         ///< of the texture, for one coordinate
+    uint64_t version; ///< of the figure that is in it
 };
 
 struct stage_morph {
@@ -81,19 +83,19 @@ void stage_morph_destroy(struct stage_morph *morph)
     free(morph);
 }
 
-/// The figure's place in the texture: what stage_character.vert reads. Zero where a row is not full.
-static void figure_pack(const struct figure *figure, int rows, float *texels)
+/// A row of the texture: what stage_character.vert reads. Zero where it is not full.
+static void pack_row(const struct figure *figure, int coordinate, int row, float texels[ROW_FLOATS])
 {
     const struct character *c = &figure->character;
-    for (int k = 0; k < c->coordinate_count; k++) {
-        for (int i = 0; i < c->vertex_count; i++) {
-            const size_t row = (size_t)(k * rows + i / ROW_VERTICES), column = (size_t)(i % ROW_VERTICES);
-            float *out = texels + 4 * TEXELS * (row * ROW_VERTICES + column);
-            memcpy(out, c->coordinates[k].re[i], 3 * sizeof *out);
-            memcpy(out + 3, c->coordinates[k].im[i], 3 * sizeof *out);
-            memcpy(out + 6, &figure->slopes[k * c->vertex_count + i], SLOPE_FLOATS * sizeof *out);
-        }
+    const int first = row * ROW_VERTICES, left = c->vertex_count - first;
+    const int count = left < ROW_VERTICES ? left : ROW_VERTICES;
+    for (int i = 0; i < count; i++) {
+        float *out = texels + 4 * TEXELS * i;
+        memcpy(out, c->coordinates[coordinate].re[first + i], 3 * sizeof *out);
+        memcpy(out + 3, c->coordinates[coordinate].im[first + i], 3 * sizeof *out);
+        memcpy(out + 6, &figure->slopes[coordinate * c->vertex_count + first + i], SLOPE_FLOATS * sizeof *out);
     }
+    memset(texels + 4 * TEXELS * count, 0, (size_t)(ROW_VERTICES - count) * 4 * TEXELS * sizeof *texels);
 }
 
 static long upload_coordinates(struct model *model, const struct figure *figure)
@@ -101,7 +103,7 @@ static long upload_coordinates(struct model *model, const struct figure *figure)
     const struct character *c = &figure->character;
     const int width = TEXELS * ROW_VERTICES;
     GLint largest = 0;
-    model->rows = (c->vertex_count + ROW_VERTICES - 1) / ROW_VERTICES;
+    model->rows = figure_blocks(figure);
     const int height = model->rows * c->coordinate_count;
     const size_t bytes = (size_t)width * (size_t)(height + 1) * 4 * sizeof(float);
     float *texels = calloc(1, bytes);
@@ -110,7 +112,8 @@ static long upload_coordinates(struct model *model, const struct figure *figure)
         free(texels);
         return 0;
     }
-    figure_pack(figure, model->rows, texels);
+    for (int row = 0; row < height; row++)
+        pack_row(figure, row / model->rows, row % model->rows, texels + (size_t)row * ROW_FLOATS);
     glGenTextures(1, &model->coordinates);
     glBindTexture(GL_TEXTURE_2D, model->coordinates);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height + 1, 0, GL_RGBA, GL_FLOAT, texels);
@@ -118,6 +121,23 @@ static long upload_coordinates(struct model *model, const struct figure *figure)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     free(texels);
     return (long)bytes;
+}
+
+/// The rows of a painted figure that have changed since they were uploaded.
+static long upload_changes(struct model *model, const struct figure *figure)
+{
+    float texels[ROW_FLOATS];
+    long bytes = 0;
+    if (!model->coordinates || !figure->changed || figure->version == model->version) return 0;
+    glBindTexture(GL_TEXTURE_2D, model->coordinates);
+    for (int row = 0; row < model->rows * figure->character.coordinate_count; row++) {
+        if (figure->changed[row] <= model->version) continue;
+        pack_row(figure, row / model->rows, row % model->rows, texels);
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, row, TEXELS * ROW_VERTICES, 1, GL_RGBA, GL_FLOAT, texels);
+        bytes += (long)sizeof texels;
+    }
+    model->version = figure->version;
+    return bytes;
 }
 
 static GLuint upload_buffer(GLenum target, size_t bytes, const void *data)
@@ -149,7 +169,10 @@ static long model_upload(struct model *model, const struct figure *figure)
     const struct character *c = &figure->character;
     const size_t fine = sizeof(uint32_t) * (size_t)c->index_count;
     const size_t coarse = sizeof(uint32_t) * (size_t)figure->coarse_count;
-    *model = (struct model){.id = figure->id, .fine_count = c->index_count, .coarse_count = figure->coarse_count};
+    *model = (struct model){.id = figure->id,
+                            .version = figure->version,
+                            .fine_count = c->index_count,
+                            .coarse_count = figure->coarse_count};
     glGenVertexArrays(1, &model->vertex_array);
     glBindVertexArray(model->vertex_array);
     long bytes = upload_vertices(model, figure) + upload_coordinates(model, figure);
@@ -181,6 +204,7 @@ void stage_morph_upload(struct stage_morph *morph, const struct stage_view *view
             model_free(model);
             *bytes += model_upload(model, figure);
         }
+        if (model->id == figure->id) *bytes += upload_changes(model, figure);
         model->used = morph->clock;
     }
 }

@@ -10,7 +10,7 @@ struct stage_morph;
 struct stage_morph *stage_morph_create(struct error *error);
 void stage_morph_destroy(struct stage_morph *morph);
 
-/// Uploads the figures that are seen for the first time. Adds to `bytes`.
+/// Uploads the figures that are seen for the first time, and what has changed of the others. Adds to `bytes`.
 void stage_morph_upload(struct stage_morph *morph, const struct stage_view *view, long *bytes);
 
 /// Draws the characters; `seam` as in stage_mesh.vert.

@@ -109,7 +109,7 @@ static uint64_t characters_hash(uint64_t hash, const struct stage_view *view)
         const struct stage_character *shown = &view->characters[c];
         const struct morph *morph = &shown->morph;
         const int looks[] = {shown->coarse, shown->map_coordinate, shown->map_axis};
-        hash = hash_bytes(hash, &shown->figure->id, sizeof shown->figure->id);
+        hash = hash_word(hash_word(hash, shown->figure->id), shown->figure->version);
         hash = hash_bytes(hash, shown->position, sizeof shown->position);
         hash = hash_bytes(hash, looks, sizeof looks);
         hash = hash_bytes(hash, morph->coordinate, (size_t)morph->count * sizeof *morph->coordinate);

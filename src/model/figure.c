@@ -78,36 +78,34 @@ static void solve_fit(const struct fit *fit, float by_u[3], float by_v[3])
     }
 }
 
-static void add_slopes(const struct figure *figure, uint32_t i, uint32_t j, struct fit *fit)
+void figure_fit(struct figure *figure, int coordinate, int vertex)
 {
     const struct character *c = &figure->character;
-    float uv[2], weight;
-    if (!edge_in_plane(figure, i, j, uv, &weight)) return;
-    add_edge(fit, uv, weight);
-    for (int k = 0; k < c->coordinate_count; k++) {
-        const struct coordinate *n = &c->coordinates[k];
-        struct slope *s = &figure->slopes[k * c->vertex_count + (int)i];
-        add_difference(n->re[i], n->re[j], uv, weight, s->re_u, s->re_v);
-        add_difference(n->im[i], n->im[j], uv, weight, s->im_u, s->im_v);
+    const struct coordinate *n = &c->coordinates[coordinate];
+    struct slope *s = &figure->slopes[coordinate * c->vertex_count + vertex];
+    struct fit fit = {0};
+    *s = (struct slope){0};
+    for (int e = figure->edges.first[vertex]; e < figure->edges.first[vertex + 1]; e++) {
+        const uint32_t other = figure->edges.other[e];
+        float uv[2], weight;
+        if (!edge_in_plane(figure, (uint32_t)vertex, other, uv, &weight)) continue;
+        add_edge(&fit, uv, weight);
+        add_difference(n->re[vertex], n->re[other], uv, weight, s->re_u, s->re_v);
+        add_difference(n->im[vertex], n->im[other], uv, weight, s->im_u, s->im_v);
     }
+    solve_fit(&fit, s->re_u, s->re_v);
+    solve_fit(&fit, s->im_u, s->im_v);
 }
 
-/// `fits` has room for every vertex, and is zero.
-static void make_slopes(const struct figure *figure, struct fit *fits)
+void figure_measure(struct figure *figure, int coordinate)
 {
-    const struct character *c = &figure->character;
-    for (int t = 0; t < c->index_count; t++) {
-        const uint32_t i = c->indices[t], j = c->indices[t % 3 == 2 ? t - 2 : t + 1];
-        add_slopes(figure, i, j, &fits[i]);
-        add_slopes(figure, j, i, &fits[j]);
+    const struct coordinate *n = &figure->character.coordinates[coordinate];
+    float square[3] = {0};
+    for (int i = 0; i < figure->character.vertex_count; i++) {
+        for (int k = 0; k < 3; k++)
+            square[k] = fmaxf(square[k], n->re[i][k] * n->re[i][k] + n->im[i][k] * n->im[i][k]);
     }
-    for (int k = 0; k < c->coordinate_count; k++) {
-        for (int i = 0; i < c->vertex_count; i++) {
-            struct slope *s = &figure->slopes[k * c->vertex_count + i];
-            solve_fit(&fits[i], s->re_u, s->re_v);
-            solve_fit(&fits[i], s->im_u, s->im_v);
-        }
-    }
+    for (int k = 0; k < 3; k++) figure->largest[coordinate][k] = sqrtf(square[k]);
 }
 
 static void measure(struct figure *figure)
@@ -122,12 +120,6 @@ static void measure(struct figure *figure)
         for (int k = 0; k < 3; k++) {
             figure->lo[k] = fminf(figure->lo[k], c->position[i][k]);
             figure->hi[k] = fmaxf(figure->hi[k], c->position[i][k]);
-        }
-    }
-    for (int n = 0; n < c->coordinate_count; n++) {
-        for (int i = 0; i < 3 * c->vertex_count; i++) {
-            const float re = c->coordinates[n].re[i / 3][i % 3], im = c->coordinates[n].im[i / 3][i % 3];
-            figure->largest[n][i % 3] = fmaxf(figure->largest[n][i % 3], hypotf(re, im));
         }
     }
 }
@@ -167,20 +159,28 @@ static bool reserve(struct figure *figure)
     return figure->tangent && figure->slopes && figure->largest && figure->coarse;
 }
 
-bool figure_create(struct figure *figure, struct character *character)
+uint64_t figure_new_id(void)
 {
     static uint64_t made;
-    *figure = (struct figure){.character = *character, .id = ++made};
+    return ++made;
+}
+
+bool figure_create(struct figure *figure, struct character *character)
+{
+    *figure = (struct figure){.character = *character, .id = figure_new_id()};
     *character = (struct character){0};
-    struct fit *fits = calloc((size_t)figure->character.vertex_count + 1, sizeof *fits);
-    bool good = fits && reserve(figure);
+    const struct character *c = &figure->character;
+    bool good =
+        reserve(figure) && adjacency_create(&figure->edges, c->position, c->vertex_count, c->indices, c->index_count);
     if (good) {
         measure(figure);
-        make_slopes(figure, fits);
+        for (int k = 0; k < c->coordinate_count; k++) {
+            figure_measure(figure, k);
+            for (int i = 0; i < c->vertex_count; i++) figure_fit(figure, k, i);
+        }
         find_soles(figure);
-        good = decimate(&figure->character, FIGURE_COARSE, figure->coarse, &figure->coarse_count);
+        good = decimate(c, FIGURE_COARSE, figure->coarse, &figure->coarse_count);
     }
-    free(fits);
     if (!good) figure_free(figure);
     return good;
 }
@@ -192,6 +192,7 @@ void figure_free(struct figure *figure)
     free(figure->slopes);
     free(figure->largest);
     free(figure->coarse);
+    adjacency_free(&figure->edges);
     *figure = (struct figure){0};
 }
 

@@ -6,9 +6,14 @@
 #ifndef MODEL_FIGURE_H
 #define MODEL_FIGURE_H
 
+#include "model/adjacency.h"
 #include "model/character.h"
 
-enum { FIGURE_SOLES = 2, FIGURE_COARSE = 10000 }; ///< of the coarse mesh: triangles
+enum {
+    FIGURE_SOLES = 2,
+    FIGURE_COARSE = 10000, ///< triangles of the coarse mesh
+    FIGURE_BLOCK = 128,    ///< vertices whose changes are noted together
+};
 
 /// Derivatives of one coordinate at one vertex, along t₁ (u) and t₂ (v), per metre.
 struct slope {
@@ -27,14 +32,30 @@ struct figure {
     float (*largest)[3];  ///< per coordinate: the largest |Ñ| over all vertices in x, y and z
     uint32_t *coarse; ///< triangles over the same vertices, at most FIGURE_COARSE; the fine ones where these are few
     int coarse_count; ///< indices
+    struct adjacency edges;
     float lo[3], hi[3]; ///< box at rest
     struct sole soles[FIGURE_SOLES];
-    uint64_t id; ///< no other figure of this run has it
+    uint64_t id;      ///< no other figure of this run has it
+    uint64_t version; ///< grows whenever coordinates and slopes change; 0: they never do
+    /// The version at which vertices FIGURE_BLOCK·b … of coordinate k changed last, at k·figure_blocks() + b; NULL: never.
+    uint64_t *changed;
 };
 
 /// Takes a character over and makes the rest; the character is left empty. false where memory is short: the figure is then
 /// empty and the character freed.
 bool figure_create(struct figure *figure, struct character *character);
+
+/// Blocks of FIGURE_BLOCK vertices that it has, the last one may be smaller.
+static inline int figure_blocks(const struct figure *figure)
+{
+    return (figure->character.vertex_count + FIGURE_BLOCK - 1) / FIGURE_BLOCK;
+}
+
+/// For those who make a figure that differs from another in its coordinates: an id, the slope of one coordinate at one vertex
+/// after it or a neighbour has changed, and its largest amplitudes.
+uint64_t figure_new_id(void);
+void figure_fit(struct figure *figure, int coordinate, int vertex);
+void figure_measure(struct figure *figure, int coordinate);
 
 /// Leaves an empty figure.
 void figure_free(struct figure *figure);

@@ -13,11 +13,18 @@ struct reel {
     struct figure figure;
 };
 
+/// What a character is played by.
+struct role {
+    const struct figure *plain; ///< in the reels; NULL where it could not be read
+    struct painted *painted;    ///< NULL as long as nobody has painted on it
+    uint64_t version;           ///< of the paint that it has, 0: none
+};
+
 struct cast {
     struct reel **reels;
     int reel_count;
-    const struct figure **figures; ///< by character, pointing into the reels
-    int figure_count;
+    struct role *roles; ///< one a character
+    int role_count;
 };
 
 struct cast *cast_create(void) { return calloc(1, sizeof(struct cast)); }
@@ -30,12 +37,19 @@ static void reel_destroy(struct reel *reel)
     free(reel);
 }
 
+static void drop_roles(struct cast *cast)
+{
+    for (int i = 0; i < cast->role_count; i++) painted_destroy(cast->roles[i].painted);
+    cast->role_count = 0;
+}
+
 void cast_destroy(struct cast *cast)
 {
     if (!cast) return;
+    drop_roles(cast);
     for (int i = 0; i < cast->reel_count; i++) reel_destroy(cast->reels[i]);
     free(cast->reels);
-    free(cast->figures);
+    free(cast->roles);
     free(cast);
 }
 
@@ -114,33 +128,70 @@ static bool check_names(const struct character_rig *rig, const struct figure *fi
     return true;
 }
 
+bool cast_fits(const struct paint *paint, const struct figure *figure)
+{
+    return paint->coordinates == figure->character.coordinate_count &&
+           paint->vertices == figure->character.vertex_count;
+}
+
+static bool check_paint(const struct character_rig *rig, const struct figure *figure, struct error *error)
+{
+    const struct paint *paint = rig->painted;
+    if (!paint || cast_fits(paint, figure)) return true;
+    return fail(error, ERROR_INPUT, "%s: expected paint for the %d coordinates of %d vertices of %s, got %d of %d",
+                rig->paint ? rig->paint : "paint", figure->character.coordinate_count, figure->character.vertex_count,
+                rig->model, paint->coordinates, paint->vertices);
+}
+
+/// The model of one rig, or NULL with a sentence; also with one where it does not suit the rig.
+static const struct figure *find_figure(struct cast *cast, const struct document *document,
+                                        const struct character_rig *rig, struct error *error)
+{
+    char path[PATH_LIMIT];
+    if (!path_resolve(document->folder, rig->model, path)) {
+        fail(error, ERROR_INPUT, "%s: the path is too long", rig->model);
+        return NULL;
+    }
+    const struct figure *figure = obtain(cast, path, error);
+    if (figure && check_names(rig, figure, error)) check_paint(rig, figure, error);
+    return figure;
+}
+
 bool cast_update(struct cast *cast, const struct document *document, struct error *error)
 {
     struct error first = {0};
-    size_t room = (size_t)document->character_count + 1;
-    const struct figure **figures = realloc(cast->figures, room * sizeof(const struct figure *));
-    cast->figure_count = 0;
-    if (!figures) return fail(error, ERROR_ENVIRONMENT, "not enough memory for the characters");
-    cast->figures = figures;
+    drop_roles(cast);
+    struct role *roles = realloc(cast->roles, ((size_t)document->character_count + 1) * sizeof *roles);
+    if (!roles) return fail(error, ERROR_ENVIRONMENT, "not enough memory for the characters");
+    cast->roles = roles;
     for (int i = 0; i < document->character_count; i++) {
-        const struct character_rig *rig = &document->characters[i];
         struct error trouble = {0};
-        char path[PATH_LIMIT];
-        figures[i] = NULL;
-        if (path_resolve(document->folder, rig->model, path)) {
-            figures[i] = obtain(cast, path, &trouble);
-            if (figures[i]) check_names(rig, figures[i], &trouble);
-        } else {
-            fail(&trouble, ERROR_INPUT, "%s: the path is too long", rig->model);
-        }
+        roles[i] = (struct role){.plain = find_figure(cast, document, &document->characters[i], &trouble)};
         if (first.kind == ERROR_NONE) first = trouble;
     }
-    cast->figure_count = document->character_count;
+    cast->role_count = document->character_count;
+    cast_paint(cast, document);
     if (first.kind != ERROR_NONE && error) *error = first;
     return first.kind == ERROR_NONE;
 }
 
+void cast_paint(struct cast *cast, const struct document *document)
+{
+    for (int i = 0; i < cast->role_count && i < document->character_count; i++) {
+        const struct paint *paint = document->characters[i].painted;
+        struct role *role = &cast->roles[i];
+        if (paint && (!role->plain || !cast_fits(paint, role->plain))) paint = NULL;
+        if (role->version == (paint ? paint->version : 0)) continue;
+        if (!role->painted) role->painted = painted_create(role->plain);
+        if (!role->painted) continue;
+        painted_update(role->painted, paint ? (const float(*)[2])paint->values : NULL);
+        role->version = paint ? paint->version : 0;
+    }
+}
+
 const struct figure *cast_figure(const struct cast *cast, int character)
 {
-    return cast && character < cast->figure_count ? cast->figures[character] : NULL;
+    if (!cast || character >= cast->role_count) return NULL;
+    const struct role *role = &cast->roles[character];
+    return role->painted ? &role->painted->figure : role->plain;
 }

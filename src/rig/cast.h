@@ -3,7 +3,7 @@
 #ifndef RIG_CAST_H
 #define RIG_CAST_H
 
-#include "model/figure.h"
+#include "model/painted.h"
 #include "scene/document.h"
 
 struct cast;
@@ -17,7 +17,15 @@ void cast_destroy(struct cast *cast);
 /// asked for; the others are there all the same.
 bool cast_update(struct cast *cast, const struct document *document, struct error *error);
 
-/// The figure of the document's i-th character; NULL where it could not be read. `cast` may be NULL.
+/// Puts the document's paint onto the figures of its characters: after cast_update() did, to be called once a frame, before they
+/// are posed. Only what has changed costs anything, and only the first paint on a character allocates; where there is
+/// no memory for that, or the paint is for another model, the character stays plain.
+void cast_paint(struct cast *cast, const struct document *document);
+
+/// Whether paint is for a figure: it has as many coordinates and vertices.
+bool cast_fits(const struct paint *paint, const struct figure *figure);
+
+/// The figure of the document's i-th character, painted; NULL where it could not be read. `cast` may be NULL.
 const struct figure *cast_figure(const struct cast *cast, int character);
 
 #endif

@@ -41,6 +41,10 @@ size_t change_bytes(const struct change *change, const struct document *document
         return own + document_bytes(change->document);
     case CHANGE_TAILS:
         return own + tail_list_bytes(change->tails);
+    case CHANGE_SHEET:
+        return own + paint_bytes(change->sheet.paint);
+    case CHANGE_PAINT:
+        return own + touched_bytes(change->stroke.touched);
     case CHANGE_TIMING:
         return own + (change->timing.frames ? knots_of(document) * sizeof *change->timing.frames : 0);
     default:
@@ -184,6 +188,14 @@ static void swap_place(struct change *change, struct document *document)
     change->to = from;
 }
 
+size_t change_settle(struct change *change)
+{
+    if (change->kind != CHANGE_PAINT) return 0;
+    const size_t before = touched_bytes(change->stroke.touched);
+    touched_settle(change->stroke.touched);
+    return before - touched_bytes(change->stroke.touched);
+}
+
 void change_release(struct change *change)
 {
     if (change->kind == CHANGE_SPLINE_OUT) {
@@ -194,6 +206,8 @@ void change_release(struct change *change)
     if (change->kind == CHANGE_NAME) free(change->name);
     if (change->kind == CHANGE_DOCUMENT) document_destroy(change->document);
     if (change->kind == CHANGE_TAILS) tail_list_free(change->tails);
+    if (change->kind == CHANGE_SHEET) paint_destroy(change->sheet.paint);
+    if (change->kind == CHANGE_PAINT) touched_destroy(change->stroke.touched);
     if (change->kind == CHANGE_TIMING) free(change->timing.frames);
 }
 
@@ -288,6 +302,12 @@ void change_swap(struct change *change, struct document *document)
         break;
     case CHANGE_DRIVES:
         swap_drives(change, document);
+        break;
+    case CHANGE_SHEET:
+        SWAP(struct paint *, document->characters[change->sheet.character].painted, change->sheet.paint);
+        break;
+    case CHANGE_PAINT:
+        touched_swap(change->stroke.touched, document->characters[change->stroke.character].painted);
         break;
     }
 }

@@ -25,6 +25,8 @@ enum change_kind {
     CHANGE_EACH,        ///< whether angles are one for all joints or one for each
     CHANGE_ANGLE,       ///< one of them
     CHANGE_DRIVES,      ///< what moves a character's coordinates
+    CHANGE_SHEET,       ///< all of the paint on a character
+    CHANGE_PAINT,       ///< a stroke on it
 };
 
 /// What EDIT_PARAMETER, EDIT_MODE, EDIT_START and EDIT_SPRING change.
@@ -85,6 +87,14 @@ struct change {
             int character, count;
             struct drive drives[CHARACTER_MAX_DRIVES];
         } drives;
+        struct {
+            int character;
+            struct paint *paint; ///< owned; may be NULL
+        } sheet;
+        struct {
+            int character;
+            struct touched *touched; ///< owned
+        } stroke;
     };
 };
 
@@ -109,6 +119,9 @@ struct timing timing_of(const struct document *document);
 /// Swaps the change's state with the document's. A knot's spline must have room for it, and so must the document for
 /// a spline.
 void change_swap(struct change *change, struct document *document);
+
+/// The step is whole: gives back memory that a change needed only while it grew. Returns how much.
+size_t change_settle(struct change *change);
 
 /// Frees what a change holds, when it is forgotten.
 void change_release(struct change *change);

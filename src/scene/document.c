@@ -78,6 +78,7 @@ void document_destroy(struct document *document)
         free(document->characters[i].name);
         free(document->characters[i].model);
         free(document->characters[i].paint);
+        paint_destroy(document->characters[i].painted);
     }
     free(document->path);
     free(document->about);
@@ -144,7 +145,7 @@ size_t document_bytes(const struct document *document)
     }
     for (int i = 0; i < document->character_count; i++) {
         const struct character_rig *rig = &document->characters[i];
-        bytes += sizeof *rig + strlen(rig->model) + 1;
+        bytes += sizeof *rig + strlen(rig->model) + 1 + paint_bytes(rig->painted);
     }
     return bytes;
 }

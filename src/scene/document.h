@@ -5,6 +5,7 @@
 #define SCENE_DOCUMENT_H
 
 #include "base/error.h"
+#include "scene/paint.h"
 #include <stdbool.h>
 #include <stdint.h>
 #include <wiggly/wiggly.h>
@@ -105,9 +106,11 @@ struct drive {
 
 /// A soft character. Its model is a file of its own, which is not read here and may be missing.
 struct character_rig {
-    char *name;          ///< NULL where the file has none
-    char *model, *paint; ///< files, relative to the document's folder unless absolute; paint may be NULL
-    double position[3];  ///< metres
+    char *name;            ///< NULL where the file has none
+    char *model, *paint;   ///< files, relative to the document's folder unless absolute; paint may be NULL
+    struct paint *painted; ///< NULL: none, or what the file `paint` holds could not be read
+    uint64_t filed;        ///< the version of `painted` that the file `paint` holds; 0: the file has other content
+    double position[3];    ///< metres
     struct drive drives[CHARACTER_MAX_DRIVES];
     int drive_count;
     int phases; ///< shown at first: of movement along 0 … 2, x, y, z, of its first coordinate; −1: its own colours

@@ -50,6 +50,8 @@ static const struct {
     [EDIT_DRIVE] = {plan_drive, TARGET_CHARACTER},
     [EDIT_DRIVE_ADD] = {plan_drive_add, TARGET_CHARACTER},
     [EDIT_DRIVE_REMOVE] = {plan_drive_remove, TARGET_CHARACTER},
+    [EDIT_PAINT_NEW] = {plan_paint_new, TARGET_CHARACTER},
+    [EDIT_PAINT] = {plan_dab, TARGET_CHARACTER},
 };
 
 bool edit_plan(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)

@@ -43,6 +43,8 @@ enum edit_kind {
     EDIT_DRIVE,          ///< character, channel: which drive, drive: replaces spline, amplitude and lag
     EDIT_DRIVE_ADD,      ///< character, drive (its name is copied)
     EDIT_DRIVE_REMOVE,   ///< character, channel: which drive
+    EDIT_PAINT_NEW, ///< character, coordinates, vertices (of its model): paint that changes nothing in place of what is there
+    EDIT_PAINT, ///< character, dab. All dabs of a step on one coordinate make one change of what they touch
 };
 
 enum range_fit {
@@ -75,6 +77,8 @@ struct edit {
     double number;
     int character;
     struct drive drive;
+    int coordinates, vertices;
+    const struct dab *dab;       ///< read during the call only
     const struct angles *angles; ///< read during the call only
 };
 

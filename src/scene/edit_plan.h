@@ -15,6 +15,7 @@ planner plan_document, plan_fps, plan_substeps, plan_range;
 planner plan_joints, plan_tail_add, plan_tail_remove, plan_tail_name, plan_channel_add, plan_channel_remove;
 planner plan_angles, plan_axis, plan_part, plan_feed, plan_position, plan_length;
 planner plan_drive, plan_drive_add, plan_drive_remove;
+planner plan_paint_new, plan_dab;
 
 /// Adds one change to a plan. What the change owns is the plan's from here on, and is freed on failure.
 bool plan_add(struct change_list *list, const struct change *change, struct error *error);

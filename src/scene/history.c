@@ -216,6 +216,7 @@ void history_end(struct history *history)
     assert(history->is_open);
     history->is_open = false;
     if (open->count == 0) return;
+    for (size_t i = 0; i < open->count; i++) history->open_bytes -= change_settle(&open->items[i]);
     forget_undone(history);
     bool wants_to_join = joins_last(history);
     size_t bytes = history->open_bytes + sizeof *history->steps;

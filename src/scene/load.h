@@ -32,8 +32,21 @@ char *scene_print(const struct document *document, size_t *size);
 bool scene_print_into(const struct document *document, const char *folder, char **buffer, size_t *capacity,
                       size_t *size);
 
-/// scene_print() into a file, atomically.
-bool scene_save(const struct document *document, const char *path, struct error *error);
+/// scene_print() into a file, atomically; before it the paint of its characters, each into an .npy file of its own beside it (the
+/// document then knows these as its paint's files). On failure the old scene is intact and no new file is left.
+bool scene_save(struct document *document, const char *path, struct error *error);
+
+/// Reads the paint that the document's characters name and that is not there yet; without it they are as their models are.
+/// false with the first sentence where a file is missing or broken: its name stays in the document, and the others are
+/// read all the same.
+bool scene_read_paint(struct document *document, struct error *error);
+
+/// Appends a NUL and all paint to a text of scene_print_into(), for a recovery file; nothing where there is none.
+bool scene_print_paint(const struct document *document, char **buffer, size_t *capacity, size_t *size);
+
+/// Gives paint that was printed so to the document; `text` is what follows the NUL, and must itself be followed by one. `name` stands for the path in messages.
+bool scene_parse_paint(struct document *document, const char *name, const char *text, size_t size,
+                       struct error *error);
 
 /// Hash of the canonical text, for replays (64-bit FNV-1a).
 uint64_t scene_hash(const struct document *document);

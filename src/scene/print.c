@@ -1,5 +1,3 @@
-#include "base/file.h"
-#include "base/path.h"
 #include "scene/color.h"
 #include "scene/load.h"
 #include "scene/members.h"
@@ -189,18 +187,6 @@ char *scene_print(const struct document *document, size_t *size)
     if (scene_print_into(document, document->folder, &text, &capacity, size)) return text;
     free(text);
     return NULL;
-}
-
-bool scene_save(const struct document *document, const char *path, struct error *error)
-{
-    struct text text = {0};
-    char folder[PATH_LIMIT];
-    if (!path_folder(path, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", path);
-    print_document(&text, document, folder);
-    bool saved = text.no_memory ? fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path)
-                                : file_write_atomic(path, text.data, text.size, error);
-    free(text.data);
-    return saved;
 }
 
 uint64_t scene_hash(const struct document *document)

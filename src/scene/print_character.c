@@ -22,6 +22,13 @@ static void print_drive(struct text *text, const struct document *document, cons
     text_string(text, " }");
 }
 
+/// Paint that was taken away again, or that does nothing, needs no file; one that could not be read stays named.
+static bool is_painted(const struct character_rig *rig)
+{
+    if (!rig->paint) return false;
+    return rig->painted ? !paint_is_plain(rig->painted) : rig->filed == 0;
+}
+
 void print_character(struct text *text, const struct document *document, const struct character_rig *rig,
                      const char *folder)
 {
@@ -38,7 +45,7 @@ void print_character(struct text *text, const struct document *document, const s
     }
     text_string(text, rig->drive_count > 0 ? "\n      ]" : "[]");
     if (rig->phases >= 0) member_string(&members, "phases", axis_names[rig->phases]);
-    if (rig->paint) member_path(&members, "paint", document, rig->paint, folder);
+    if (is_painted(rig)) member_path(&members, "paint", document, rig->paint, folder);
     members_extra(&members, rig->extra, NULL);
     text_string(text, "\n    }");
 }

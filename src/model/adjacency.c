@@ -1,0 +1,120 @@
+#include "model/adjacency.h"
+#include <stdlib.h>
+#include <string.h>
+
+/// A vertex, to be sorted by its place.
+struct spot {
+    float position[3];
+    uint32_t vertex;
+};
+
+static int compare_spots(const void *a, const void *b)
+{
+    const struct spot *p = a, *q = b;
+    for (int k = 0; k < 3; k++) {
+        if (p->position[k] != q->position[k]) return p->position[k] < q->position[k] ? -1 : 1;
+    }
+    return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
+}
+
+static bool is_same_place(const struct spot *a, const struct spot *b)
+{
+    return memcmp(a->position, b->position, sizeof a->position) == 0;
+}
+
+static struct spot *sort_spots(const float (*position)[3], int count)
+{
+    struct spot *spots = malloc(((size_t)count + 1) * sizeof *spots);
+    for (int i = 0; spots && i < count; i++) {
+        for (int k = 0; k < 3; k++) spots[i].position[k] = position[i][k] + 0.0f; // −0 is 0
+        spots[i].vertex = (uint32_t)i;
+    }
+    if (spots) qsort(spots, (size_t)count, sizeof *spots, compare_spots);
+    return spots;
+}
+
+/// Both directions of an edge: counted into `fill` where there is no room yet, else entered at it.
+static void add_edge(struct adjacency *adjacency, int *fill, uint32_t i, uint32_t j)
+{
+    if (adjacency->other) {
+        adjacency->other[fill[i]] = j;
+        adjacency->other[fill[j]] = i;
+    }
+    fill[i]++;
+    fill[j]++;
+}
+
+struct edges {
+    const uint32_t *indices;
+    int index_count;
+    const struct spot *spots;
+    int vertex_count;
+};
+
+static void add_edges(struct adjacency *adjacency, const struct edges *edges, int *fill)
+{
+    for (int t = 0; t < edges->index_count; t++) {
+        add_edge(adjacency, fill, edges->indices[t], edges->indices[t % 3 == 2 ? t - 2 : t + 1]);
+    }
+    for (int i = 0; i + 1 < edges->vertex_count; i++) {
+        const struct spot *a = &edges->spots[i], *b = a + 1;
+        if (is_same_place(a, b)) add_edge(adjacency, fill, a->vertex, b->vertex);
+    }
+}
+
+static int compare_vertices(const void *a, const void *b)
+{
+    const uint32_t *p = a, *q = b;
+    return *p < *q ? -1 : *p > *q;
+}
+
+/// Sorts each vertex's neighbours and leaves one of each; most edges are sides of two triangles.
+static void tidy(struct adjacency *adjacency, int vertex_count)
+{
+    int kept = 0;
+    for (int i = 0; i < vertex_count; i++) {
+        const int begin = adjacency->first[i], end = adjacency->first[i + 1];
+        uint32_t *list = adjacency->other + begin;
+        qsort(list, (size_t)(end - begin), sizeof *list, compare_vertices);
+        adjacency->first[i] = kept;
+        for (int n = 0; n < end - begin; n++) {
+            if (list[n] == (uint32_t)i || (n > 0 && list[n] == list[n - 1])) continue;
+            adjacency->other[kept++] = list[n];
+        }
+    }
+    adjacency->first[vertex_count] = kept;
+}
+
+bool adjacency_create(struct adjacency *adjacency, const float (*position)[3], int vertex_count,
+                      const uint32_t *indices, int index_count)
+{
+    const size_t room = (size_t)vertex_count + 1;
+    *adjacency = (struct adjacency){0};
+    struct spot *spots = sort_spots(position, vertex_count);
+    int *fill = calloc(room, sizeof *fill);
+    const struct edges edges = {indices, index_count, spots, vertex_count};
+    adjacency->first = calloc(room, sizeof *adjacency->first);
+    bool good = spots && fill && adjacency->first;
+    if (good) {
+        add_edges(adjacency, &edges, fill);
+        for (int i = 0; i < vertex_count; i++) adjacency->first[i + 1] = adjacency->first[i] + fill[i];
+        memcpy(fill, adjacency->first, (size_t)vertex_count * sizeof *fill);
+        adjacency->other = malloc(((size_t)adjacency->first[vertex_count] + 1) * sizeof *adjacency->other);
+        good = adjacency->other != NULL;
+    }
+    if (good) {
+        add_edges(adjacency, &edges, fill);
+        tidy(adjacency, vertex_count);
+    }
+    free(spots);
+    free(fill);
+    if (!good) adjacency_free(adjacency);
+    return good;
+}
+
+void adjacency_free(struct adjacency *adjacency)
+{
+    free(adjacency->first);
+    free(adjacency->other);
+    *adjacency = (struct adjacency){0};
+}

@@ -1,0 +1,22 @@
+/// Which vertices of a triangle mesh are joined by edges.
+#ifndef MODEL_ADJACENCY_H
+#define MODEL_ADJACENCY_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/// The neighbours of vertex i are other[first[i]] … other[first[i + 1] − 1], in ascending order. Vertices at the very same place
+/// (the seams of a mesh with several normals or colours at a corner) are neighbours too, in a chain.
+struct adjacency {
+    int *first;
+    uint32_t *other;
+};
+
+/// false where memory is short: nothing is left to be freed.
+bool adjacency_create(struct adjacency *adjacency, const float (*position)[3], int vertex_count,
+                      const uint32_t *indices, int index_count);
+
+/// Leaves an empty one, all zero.
+void adjacency_free(struct adjacency *adjacency);
+
+#endif

@@ -1,0 +1,195 @@
+/// Saving a document: the paint of its characters first, each into a file of its own beside the scene, then the scene that names
+/// them. A scene that is seen on disk thus never names paint that is not there.
+#include "base/file.h"
+#include "base/path.h"
+#include "scene/load.h"
+#include "scene/paint_file.h"
+#include "scene/text.h"
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MAX_NAMES = 10000 };
+
+/// One character's paint that is being saved.
+struct sheet {
+    bool written;
+    bool is_new;    ///< a file that was not there before
+    char *old_path; ///< the rig's, to be had back on failure; owned once written
+    char file[PATH_LIMIT];
+};
+
+/// "walk-paint.npy" beside "walk.json", or with the next number that no file has: what is there may be another scene's.
+static bool new_file(const char *scene, char file[PATH_LIMIT])
+{
+    const char *slash = strrchr(scene, '/'), *name = slash ? slash + 1 : scene, *dot = strrchr(name, '.');
+    const int stem = (int)(dot && dot > name ? dot - scene : (long)strlen(scene));
+    for (int i = 1; i < MAX_NAMES; i++) {
+        char number[16] = "";
+        if (i > 1) snprintf(number, sizeof number, "-%d", i);
+        if (snprintf(file, PATH_LIMIT, "%.*s-paint%s.npy", stem, scene, number) >= PATH_LIMIT) return false;
+        if (access(file, F_OK) != 0) return true;
+    }
+    return false;
+}
+
+/// Whether a rig before this one has its paint in the same file.
+static bool is_shared(const struct document *document, int character)
+{
+    const char *path = document->characters[character].paint;
+    for (int i = 0; i < character; i++) {
+        const char *other = document->characters[i].paint;
+        if (other && document->characters[i].painted && strcmp(other, path) == 0) return true;
+    }
+    return false;
+}
+
+/// The file for a rig's paint: its own one where the scene stays where it is, else a new one.
+static bool choose_file(const struct document *document, int character, const char *scene, struct sheet *sheet,
+                        struct error *error)
+{
+    const struct character_rig *rig = &document->characters[character];
+    const bool stays = document->path && strcmp(document->path, scene) == 0;
+    if (stays && rig->paint && rig->filed != 0 && !is_shared(document, character))
+        return path_resolve(document->folder, rig->paint, sheet->file) ||
+               fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", rig->paint);
+    sheet->is_new = true;
+    return new_file(scene, sheet->file) ||
+           fail(error, ERROR_ENVIRONMENT, "%s: there is no name left for its paint", scene);
+}
+
+/// Names a new file in the rig, as seen from the document's folder.
+static bool name_file(struct document *document, struct character_rig *rig, struct sheet *sheet, struct error *error)
+{
+    char folder[PATH_LIMIT], moved[PATH_LIMIT];
+    const char *slash = strrchr(sheet->file, '/');
+    const char *name = slash ? slash + 1 : sheet->file;
+    if (!path_folder(sheet->file, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", name);
+    char *path = strdup(path_rebase(name, folder, document->folder, moved) ? moved : name);
+    if (!path) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", sheet->file);
+    sheet->old_path = rig->paint;
+    rig->paint = path;
+    return true;
+}
+
+static bool save_sheet(struct document *document, int character, const char *scene, struct sheet *sheet,
+                       struct error *error)
+{
+    struct character_rig *rig = &document->characters[character];
+    if (!rig->painted || paint_is_plain(rig->painted)) return true;
+    if (!choose_file(document, character, scene, sheet, error)) return false;
+    if (!sheet->is_new && rig->filed == rig->painted->version) return true;
+    if (!paint_write(rig->painted, sheet->file, error)) return false;
+    if (sheet->is_new && !name_file(document, rig, sheet, error)) {
+        unlink(sheet->file);
+        return false;
+    }
+    sheet->written = true;
+    return true;
+}
+
+/// Keeps the new names, or on failure takes them and the new files back.
+static void finish(struct document *document, struct sheet *sheets, int count, bool saved)
+{
+    for (int i = 0; i < count; i++) {
+        struct character_rig *rig = &document->characters[i];
+        struct sheet *sheet = &sheets[i];
+        if (!sheet->written) continue;
+        if (saved || !sheet->is_new) {
+            rig->filed = rig->painted->version;
+            free(sheet->old_path);
+        } else {
+            unlink(sheet->file);
+            free(rig->paint);
+            rig->paint = sheet->old_path;
+        }
+    }
+}
+
+static bool save_scene(const struct document *document, const char *path, struct error *error)
+{
+    char folder[PATH_LIMIT], *data = NULL;
+    size_t capacity = 0, size;
+    if (!path_folder(path, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", path);
+    const bool saved = scene_print_into(document, folder, &data, &capacity, &size)
+                           ? file_write_atomic(path, data, size, error)
+                           : fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
+    free(data);
+    return saved;
+}
+
+bool scene_save(struct document *document, const char *path, struct error *error)
+{
+    const int count = document->character_count;
+    struct sheet *sheets = calloc((size_t)count + 1, sizeof *sheets);
+    if (!sheets) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
+    bool saved = true;
+    for (int i = 0; saved && i < count; i++) saved = save_sheet(document, i, path, &sheets[i], error);
+    saved = saved && save_scene(document, path, error);
+    finish(document, sheets, count, saved);
+    free(sheets);
+    return saved;
+}
+
+bool scene_read_paint(struct document *document, struct error *error)
+{
+    struct error first = {0};
+    for (int i = 0; i < document->character_count; i++) {
+        struct character_rig *rig = &document->characters[i];
+        struct error trouble = {0};
+        char path[PATH_LIMIT];
+        if (!rig->paint || rig->painted || rig->filed != 0) continue;
+        if (path_resolve(document->folder, rig->paint, path)) {
+            rig->painted = paint_read(path, &trouble);
+        } else {
+            fail(&trouble, ERROR_INPUT, "%s: the path is too long", rig->paint);
+        }
+        if (rig->painted) rig->filed = rig->painted->version;
+        if (first.kind == ERROR_NONE) first = trouble;
+    }
+    if (first.kind != ERROR_NONE && error) *error = first;
+    return first.kind == ERROR_NONE;
+}
+
+bool scene_print_paint(const struct document *document, char **buffer, size_t *capacity, size_t *size)
+{
+    struct text text = {.data = *buffer, .size = *size, .capacity = *capacity};
+    for (int i = 0; i < document->character_count; i++) {
+        const struct character_rig *rig = &document->characters[i];
+        char line[96];
+        if (!rig->painted) continue;
+        if (text.size == *size) text_bytes(&text, "", 1);
+        snprintf(line, sizeof line, "paint %d %zu %d\n", i, paint_file_size(rig->painted), rig->filed != 0);
+        text_string(&text, line);
+        paint_print(&text, rig->painted);
+    }
+    *buffer = text.data;
+    *capacity = text.capacity;
+    *size = text.size;
+    return !text.no_memory;
+}
+
+bool scene_parse_paint(struct document *document, const char *name, const char *text, size_t size,
+                       struct error *error)
+{
+    while (size > 0) {
+        int character, has_file;
+        size_t bytes;
+        const char *line_end = memchr(text, '\n', size);
+        const bool good = line_end && sscanf(text, "paint %d %zu %d\n", &character, &bytes, &has_file) == 3;
+        if (!good || character < 0 || character >= document->character_count)
+            return fail(error, ERROR_INPUT, "%s: expected the paint of a character, got something else", name);
+        size -= (size_t)(line_end + 1 - text);
+        text = line_end + 1;
+        if (bytes > size)
+            return fail(error, ERROR_INPUT, "%s: expected %zu bytes of paint, got %zu", name, bytes, size);
+        struct character_rig *rig = &document->characters[character];
+        paint_destroy(rig->painted);
+        rig->painted = paint_parse(name, text, bytes, error);
+        if (!rig->painted) return false;
+        rig->filed = has_file && rig->paint ? UINT64_MAX : 0; // its file may hold older paint
+        text += bytes;
+        size -= bytes;
+    }
+    return true;
+}

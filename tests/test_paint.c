@@ -1,0 +1,526 @@
+/// Paint on characters as data: strokes and their undo, files that are saved, read and refused, what a recovery file keeps, and
+/// what it makes of a figure.
+#include "app/recovery.h"
+#include "base/npy.h"
+#include "puppet.h"
+#include "rig/cast.h"
+#include "rig/morph.h"
+#include "scene/edit.h"
+#include "scene/load.h"
+#include "temporary.h"
+#include <string.h>
+
+enum { COORDINATES = 2, VERTICES = 50 };
+
+static const char scene[] =
+    "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}], \"rigs\": ["
+    "{\"type\": \"character\", \"model\": \"m.glb\", \"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}]}";
+
+struct studio {
+    struct document *document;
+    struct history *history;
+};
+
+static struct character_rig *rig_of(const struct studio *s) { return &s->document->characters[0]; }
+
+static struct studio studio_open(const char *text)
+{
+    struct error error = {0};
+    struct studio s = {scene_parse("test", text, strlen(text), NULL, &error), history_create()};
+    if (!s.document) fail_msg("%s", error.text);
+    assert_non_null(s.history);
+    return s;
+}
+
+static void studio_close(struct studio *s)
+{
+    history_destroy(s->history);
+    document_destroy(s->document);
+}
+
+static void apply(struct studio *s, const struct edit *edit)
+{
+    struct error error = {0};
+    if (!history_apply(s->history, s->document, edit, &error)) fail_msg("%s", error.text);
+}
+
+/// One moment of a brush: `count` vertices of coordinate 1 from `first` on get (a, ψ).
+static void dab(struct studio *s, int first, int count, float swell, float lead)
+{
+    int vertices[VERTICES];
+    float values[VERTICES][2];
+    for (int i = 0; i < count; i++) {
+        vertices[i] = first + i;
+        values[i][0] = swell;
+        values[i][1] = lead;
+    }
+    const struct dab made = {1, count, vertices, (const float(*)[2])values};
+    apply(s, &(struct edit){.kind = EDIT_PAINT, .dab = &made});
+}
+
+static void new_paint(struct studio *s)
+{
+    apply(s, &(struct edit){.kind = EDIT_PAINT_NEW, .coordinates = COORDINATES, .vertices = VERTICES});
+}
+
+/// A stroke of three dabs, with the paint it is the first on.
+static void paint_stroke(struct studio *s)
+{
+    history_begin(s->history, "Paint", 0);
+    if (!rig_of(s)->painted) new_paint(s);
+    dab(s, 10, 5, 0.1f, 0.5f);
+    dab(s, 12, 5, 0.2f, 1.5f);
+    dab(s, 10, 1, 0.3f, 2.5f);
+    history_end(s->history);
+}
+
+static const float *value_of(const struct studio *s, int coordinate, int vertex)
+{
+    return rig_of(s)->painted->values[coordinate * VERTICES + vertex];
+}
+
+static void a_stroke_is_one_step_and_comes_back_byte_by_byte(void **state)
+{
+    (void)state;
+    struct studio s = studio_open(scene);
+    float before[COORDINATES * VERTICES][2], after[COORDINATES * VERTICES][2];
+    paint_stroke(&s);
+    assert_int_equal((int)history_count(s.history), 1);
+    assert_near((double)value_of(&s, 1, 10)[1], 2.5, 0);
+    assert_near((double)value_of(&s, 1, 11)[1], 0.5, 0);
+    assert_near((double)value_of(&s, 1, 16)[0], 0.2f, 0);
+    assert_near((double)value_of(&s, 1, 17)[0], 0, 0);
+    assert_near((double)value_of(&s, 0, 10)[1], 0, 0);
+    memcpy(before, rig_of(&s)->painted->values, sizeof before);
+    history_begin(s.history, "Paint", 0);
+    dab(&s, 0, 12, -1, 0.25f);
+    history_end(s.history);
+    memcpy(after, rig_of(&s)->painted->values, sizeof after);
+    assert_true(history_undo(s.history, s.document));
+    assert_memory_equal(rig_of(&s)->painted->values, before, sizeof before);
+    assert_true(history_redo(s.history, s.document));
+    assert_memory_equal(rig_of(&s)->painted->values, after, sizeof after);
+    assert_true(history_undo(s.history, s.document));
+    assert_true(history_undo(s.history, s.document));
+    assert_null(rig_of(&s)->painted);
+    while (history_redo(s.history, s.document)) continue;
+    assert_memory_equal(rig_of(&s)->painted->values, after, sizeof after);
+    studio_close(&s);
+}
+
+/// A stroke that is cancelled leaves nothing; one that goes on for long takes no more than what it touches.
+static void a_stroke_costs_what_it_touches(void **state)
+{
+    (void)state;
+    struct studio s = studio_open(scene);
+    paint_stroke(&s);
+    const size_t bytes = history_bytes(s.history);
+    history_begin(s.history, "Paint", 0);
+    for (int i = 0; i < 1000; i++) dab(&s, 20, 3, 0, 0.001f * (float)i);
+    history_end(s.history);
+    const size_t stroke = history_bytes(s.history) - bytes;
+    assert_true(stroke < 3 * 12 + 1000);
+    history_begin(s.history, "Paint", 0);
+    dab(&s, 0, VERTICES, 1, 1);
+    history_restart(s.history, s.document);
+    assert_near((double)value_of(&s, 1, 0)[0], 0, 0);
+    assert_near((double)value_of(&s, 1, 20)[1], 0.999, 1e-6);
+    history_end(s.history);
+    assert_int_equal((int)history_count(s.history), 2);
+    studio_close(&s);
+}
+
+static void paint_that_is_no_number_is_refused(void **state)
+{
+    (void)state;
+    struct studio s = studio_open(scene);
+    const float broken[][2] = {{NAN, 0}, {0, INFINITY}, {11, 0}, {0, -2000}};
+    struct error error;
+    const int vertex = 3, beyond = VERTICES;
+    struct dab made = {0, 1, &vertex, NULL};
+    const struct edit edit = {.kind = EDIT_PAINT, .dab = &made};
+    history_begin(s.history, "Paint", 0);
+    made.values = broken;
+    assert_false(history_apply(s.history, s.document, &edit, &error)); // no paint yet
+    new_paint(&s);
+    for (int i = 0; i < 4; i++) {
+        made.values = &broken[i];
+        assert_false(history_apply(s.history, s.document, &edit, &error));
+    }
+    made = (struct dab){0, 1, &beyond, (const float[][2]){{0, 0}}};
+    assert_false(history_apply(s.history, s.document, &edit, &error));
+    made = (struct dab){COORDINATES, 1, &vertex, (const float[][2]){{0, 0}}};
+    assert_false(history_apply(s.history, s.document, &edit, &error));
+    assert_true(paint_is_plain(rig_of(&s)->painted));
+    history_end(s.history);
+    studio_close(&s);
+}
+
+/// An empty folder for one test.
+static const char *fresh_folder(void)
+{
+    static char folder[64];
+    snprintf(folder, sizeof folder, "/tmp/wiggly-test-XXXXXX");
+    assert_non_null(mkdtemp(folder));
+    return folder;
+}
+
+static void remove_folder(const char *folder)
+{
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
+static const char *in(const char *folder, const char *name)
+{
+    static char paths[8][256];
+    static int next;
+    next = (next + 1) % 8;
+    snprintf(paths[next], sizeof paths[next], "%s/%s", folder, name);
+    return paths[next];
+}
+
+static bool is_there(const char *folder, const char *name) { return access(in(folder, name), F_OK) == 0; }
+
+/// Paths in the document start there.
+static void settle_in(struct studio *s, const char *folder)
+{
+    free(s->document->folder);
+    s->document->folder = strdup(folder);
+    assert_non_null(s->document->folder);
+}
+
+/// Saves as the app does: the document is then at home there.
+static void save(struct studio *s, const char *folder, const char *name)
+{
+    struct error error = {0};
+    const char *path = in(folder, name);
+    if (!scene_save(s->document, path, &error)) fail_msg("%s", error.text);
+    assert_true(document_set_folder(s->document, folder));
+    assert_true(document_set_path(s->document, path));
+}
+
+static struct document *load(const char *folder, const char *name)
+{
+    struct error error = {0};
+    struct document *document = scene_load(in(folder, name), NULL, &error);
+    if (!document) fail_msg("%s", error.text);
+    if (!scene_read_paint(document, &error)) fail_msg("%s", error.text);
+    return document;
+}
+
+static void assert_loads(const struct studio *s, const char *folder, const char *name, const char *file)
+{
+    struct document *document = load(folder, name);
+    const struct paint *paint = document->characters[0].painted;
+    assert_string_equal(document->characters[0].paint, file);
+    assert_non_null(paint);
+    assert_int_equal(paint->coordinates, COORDINATES);
+    assert_int_equal(paint->vertices, VERTICES);
+    assert_memory_equal(paint->values, rig_of(s)->painted->values, sizeof(float[COORDINATES * VERTICES][2]));
+    document_destroy(document);
+}
+
+static void paint_is_saved_beside_its_scene(void **state)
+{
+    (void)state;
+    const char *folder = fresh_folder();
+    struct studio s = studio_open(scene);
+    save(&s, folder, "plain.json");
+    assert_false(is_there(folder, "plain-paint.npy"));
+    paint_stroke(&s);
+    save(&s, folder, "walk.json");
+    assert_loads(&s, folder, "walk.json", "walk-paint.npy");
+    history_begin(s.history, "Paint", 0);
+    dab(&s, 30, 3, 0, 3);
+    history_end(s.history);
+    save(&s, folder, "walk.json"); // its own file is written anew
+    assert_loads(&s, folder, "walk.json", "walk-paint.npy");
+    assert_false(is_there(folder, "walk-paint-2.npy"));
+    save(&s, folder, "run.json"); // save as: the old one stays
+    assert_loads(&s, folder, "run.json", "run-paint.npy");
+    history_begin(s.history, "Paint", 0);
+    dab(&s, 30, 3, 0, -3);
+    history_end(s.history);
+    save(&s, folder, "run.json");
+    assert_loads(&s, folder, "run.json", "run-paint.npy");
+    struct document *walk = load(folder, "walk.json");
+    assert_near((double)walk->characters[0].painted->values[VERTICES + 30][1], 3, 0);
+    document_destroy(walk);
+    while (history_undo(s.history, s.document)) continue;
+    save(&s, folder, "run.json"); // nothing is painted any more
+    struct document *run = load(folder, "run.json");
+    assert_null(run->characters[0].paint);
+    document_destroy(run);
+    while (history_redo(s.history, s.document)) continue;
+    save(&s, folder, "run.json");
+    assert_loads(&s, folder, "run.json", "run-paint.npy");
+    studio_close(&s);
+    remove_folder(folder);
+}
+
+/// What is in the way is left alone; a scene that cannot be written leaves no paint behind and the document as it was.
+static void saving_loses_nothing(void **state)
+{
+    (void)state;
+    const char *folder = fresh_folder();
+    struct studio s = studio_open(scene);
+    struct error error;
+    paint_stroke(&s);
+    FILE *other = fopen(in(folder, "walk-paint.npy"), "w");
+    fputs("another's", other);
+    fclose(other);
+    save(&s, folder, "walk.json");
+    assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
+    mkdir(in(folder, "taken.json"), 0777);
+    assert_false(scene_save(s.document, in(folder, "taken.json"), &error));
+    assert_false(is_there(folder, "taken-paint.npy"));
+    assert_string_equal(rig_of(&s)->paint, "walk-paint-2.npy");
+    assert_false(scene_save(s.document, "/nowhere/at/all.json", &error));
+    assert_string_equal(rig_of(&s)->paint, "walk-paint-2.npy");
+    save(&s, folder, "walk.json");
+    assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
+    studio_close(&s);
+    remove_folder(folder);
+}
+
+/// An .npy file with this dictionary, and `size` bytes of numbers.
+static void write_npy(const char *path, const char *dictionary, const void *numbers, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fwrite("\x93NUMPY\1\0", 1, 8, file);
+    fputc((int)strlen(dictionary), file);
+    fputc(0, file);
+    fputs(dictionary, file);
+    fwrite(numbers, 1, size, file);
+    fclose(file);
+}
+
+#define F4 "{'descr': '<f4', 'fortran_order': False, 'shape': "
+
+static void broken_paint_is_said_and_stays_named(void **state)
+{
+    (void)state;
+    const char *folder = fresh_folder();
+    static const float numbers[8] = {0, 1, 0, 1, 0, NAN, 0, 1};
+    static const struct {
+        const char *dictionary;
+        size_t size;
+        const char *says;
+    } cases[] = {
+        {F4 "(1, 4, 2), }", 32, "coordinate 0, vertex 2: expected a phase in radians within ±1000, got "},
+        {F4 "(1, 4, 2), }", 31, "bytes for the shape (1, 4, 2), got "},
+        {F4 "(1, 4, 3), }", 32, "expected paint, an array of shape (coordinates, vertices, 2), got (1, 4, 3)"},
+        {F4 "(8,), }", 32, "got (8,)"},
+        {F4 "(99999999, 99999999, 2), }", 32, "expected paint, an array of shape"},
+        {"{'descr': '<i4', 'fortran_order': False, 'shape': (1, 4, 2), }", 32, "expected numbers of type float32"},
+        {"{'descr': '<f4'}", 32, "expected the header of an .npy array"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct studio s = studio_open(scene);
+        struct error error = {0};
+        rig_of(&s)->paint = strdup("x.npy");
+        settle_in(&s, folder);
+        write_npy(in(folder, "x.npy"), cases[i].dictionary, numbers, cases[i].size);
+        assert_false(scene_read_paint(s.document, &error));
+        if (!strstr(error.text, cases[i].says)) fail_msg("'%s' lacks '%s'", error.text, cases[i].says);
+        assert_non_null(strstr(error.text, in(folder, "x.npy")));
+        save(&s, folder, "walk.json");
+        paint_stroke(&s); // goes to a file of its own: the broken one may be worth mending
+        save(&s, folder, "walk.json");
+        assert_loads(&s, folder, "walk.json", "walk-paint.npy");
+        assert_true(is_there(folder, "x.npy"));
+        studio_close(&s);
+        unlink(in(folder, "walk-paint.npy"));
+    }
+    struct studio s = studio_open(scene);
+    struct error error = {0};
+    rig_of(&s)->paint = strdup("missing.npy");
+    settle_in(&s, folder);
+    assert_false(scene_read_paint(s.document, &error));
+    save(&s, folder, "walk.json");
+    struct document *again = scene_load(in(folder, "walk.json"), NULL, &error);
+    assert_string_equal(again->characters[0].paint, "missing.npy");
+    document_destroy(again);
+    studio_close(&s);
+    remove_folder(folder);
+}
+
+/// Paint that NumPy's users write: float64, big endian, Fortran order.
+static void other_layouts_are_read(void **state)
+{
+    (void)state;
+    const char *folder = fresh_folder();
+    const double doubles[8] = {0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4}; // a of vertices 0 … 3, then their ψ
+    unsigned char swapped[8][8];
+    for (int i = 0; i < 64; i++) swapped[i / 8][i % 8] = ((const unsigned char *)&doubles[i / 8])[7 - i % 8];
+    for (int kind = 0; kind < 2; kind++) {
+        struct studio s = studio_open(scene);
+        struct error error = {0};
+        rig_of(&s)->paint = strdup("x.npy");
+        settle_in(&s, folder);
+        write_npy(in(folder, "x.npy"),
+                  kind ? "{'descr': '>f8', 'fortran_order': True, 'shape': (1, 4, 2), }"
+                       : "{'descr': '<f8', 'fortran_order': True, 'shape': (1, 4, 2), }",
+                  kind ? (const void *)swapped : (const void *)doubles, sizeof doubles);
+        if (!scene_read_paint(s.document, &error)) fail_msg("%s", error.text);
+        for (int i = 0; i < 4; i++) {
+            assert_near((double)rig_of(&s)->painted->values[i][0], doubles[i], 0);
+            assert_near((double)rig_of(&s)->painted->values[i][1], doubles[4 + i], 0);
+        }
+        studio_close(&s);
+    }
+    remove_folder(folder);
+}
+
+/// What is not saved is in the recovery file, and the document that comes out of it saves into the file it had.
+static void a_recovery_file_keeps_paint(void **state)
+{
+    (void)state;
+    const char *folder = fresh_folder();
+    struct studio s = studio_open(scene);
+    struct recovery_slot slot;
+    struct error error = {0};
+    char *text = NULL;
+    size_t capacity = 0, size;
+    paint_stroke(&s);
+    save(&s, folder, "walk.json");
+    history_begin(s.history, "Paint", 0);
+    dab(&s, 40, 3, 0, 1);
+    history_end(s.history);
+    assert_true(scene_print_into(s.document, RECOVERY_FOLDER, &text, &capacity, &size));
+    assert_true(scene_print_paint(s.document, &text, &capacity, &size));
+    if (!recovery_claim(folder, &slot, &error)) fail_msg("%s", error.text);
+    assert_true(recovery_write(&slot, in(folder, "walk.json"), text, size, &error));
+    struct studio t = {recovery_read(&slot, &error), history_create()};
+    if (!t.document) fail_msg("%s", error.text);
+    assert_true(scene_read_paint(t.document, &error)); // has nothing to do: the saved file is older
+    assert_memory_equal(rig_of(&t)->painted->values, rig_of(&s)->painted->values,
+                        sizeof(float[COORDINATES * VERTICES][2]));
+    assert_true(document_set_path(t.document, in(folder, "walk.json")));
+    save(&t, folder, "walk.json");
+    assert_loads(&s, folder, "walk.json", "walk-paint.npy");
+    assert_false(is_there(folder, "walk-paint-2.npy"));
+    assert_true(recovery_write(&slot, "", text, size - 1, &error)); // cut off
+    assert_null(recovery_read(&slot, &error));
+    recovery_release(&slot);
+    free(text);
+    studio_close(&s);
+    studio_close(&t);
+    remove_folder(folder);
+}
+
+/// Paint on a figure is e^{a + jψ} at each vertex; normals follow as if the model had been made so.
+static void paint_turns_and_scales_coordinates(void **state)
+{
+    (void)state;
+    struct character character = puppet_character(0.1f, 1), made = puppet_character(0.1f, 1);
+    const int vertices = character.vertex_count;
+    float(*paint)[2] = calloc((size_t)vertices, sizeof *paint);
+    for (int i = 0; i < vertices; i++) {
+        const float *p = character.position[i];
+        paint[i][0] = 0.4f * p[0];
+        paint[i][1] = p[1] > 0.5f ? p[1] - 0.5f : 0;
+        for (int k = 0; k < 3; k++) {
+            character.coordinates[0].re[i][k] = 0.2f * p[(k + 1) % 3];
+            character.coordinates[0].im[i][k] = -0.1f * p[k];
+        }
+        const float size = expf(paint[i][0]), c = size * cosf(paint[i][1]), s = size * sinf(paint[i][1]);
+        for (int k = 0; k < 3; k++) {
+            const float re = character.coordinates[0].re[i][k], im = character.coordinates[0].im[i][k];
+            made.coordinates[0].re[i][k] = c * re - s * im;
+            made.coordinates[0].im[i][k] = s * re + c * im;
+        }
+    }
+    struct figure plain = puppet_figure(&character), expected = puppet_figure(&made);
+    struct painted *painted = painted_create(&plain);
+    const struct morph morph = {1, {0}, {{0.7f, -0.6f}}};
+    assert_non_null(painted);
+    painted_update(painted, (const float(*)[2])paint);
+    for (int i = 0; i < vertices; i++) {
+        float p[3], n[3], q[3], m[3];
+        morph_vertex(&painted->figure, &morph, i, p, n);
+        morph_vertex(&expected, &morph, i, q, m);
+        for (int k = 0; k < 3; k++) {
+            assert_near((double)p[k], (double)q[k], 1e-5);
+            assert_near((double)n[k], (double)m[k], 1e-4);
+        }
+    }
+    painted_update(painted, NULL);
+    assert_memory_equal(painted->figure.character.coordinates[0].re, plain.character.coordinates[0].re,
+                        (size_t)vertices * sizeof(float[3]));
+    assert_memory_equal(painted->figure.slopes, plain.slopes, (size_t)vertices * sizeof *plain.slopes);
+    painted_destroy(painted);
+    figure_free(&plain);
+    figure_free(&expected);
+    free(paint);
+}
+
+/// Only the blocks of vertices around what has changed are noted for the GPU.
+static void changes_are_noted_where_they_are(void **state)
+{
+    (void)state;
+    struct character character = puppet_character(0.06f, 2);
+    struct figure plain = puppet_figure(&character);
+    struct painted *painted = painted_create(&plain);
+    const int vertices = plain.character.vertex_count, blocks = figure_blocks(&plain);
+    float(*paint)[2] = calloc(2 * (size_t)vertices, sizeof *paint);
+    assert_true(blocks > 4);
+    const uint64_t before = painted->figure.version;
+    painted_update(painted, (const float(*)[2])paint);
+    assert_true(painted->figure.version == before);
+    paint[vertices + 5][1] = 0.5f;
+    painted_update(painted, (const float(*)[2])paint);
+    assert_true(painted->figure.version > before);
+    int noted = 0;
+    for (int b = 0; b < 2 * blocks; b++) noted += painted->figure.changed[b] > before;
+    assert_true(painted->figure.changed[blocks] > before);
+    assert_true(noted >= 1 && noted < blocks / 2);
+    painted_destroy(painted);
+    figure_free(&plain);
+    free(paint);
+}
+
+/// Paint of another model is said, kept, and not put on.
+static void paint_for_another_model_is_kept(void **state)
+{
+    (void)state;
+    const char *folder = fresh_folder();
+    struct character character = puppet_character(0.2f, 1);
+    struct studio s = studio_open(scene);
+    struct cast *cast = cast_create();
+    struct error error = {0};
+    assert_true(character_write(in(folder, "m.glb"), &character, &error));
+    settle_in(&s, folder);
+    paint_stroke(&s);
+    assert_false(cast_update(cast, s.document, &error));
+    assert_non_null(strstr(error.text, "expected paint for the 1 coordinates of "));
+    assert_non_null(cast_figure(cast, 0));
+    assert_true(cast_figure(cast, 0)->version == 0);
+    save(&s, folder, "walk.json");
+    assert_loads(&s, folder, "walk.json", "walk-paint.npy");
+    cast_destroy(cast);
+    character_free(&character);
+    studio_close(&s);
+    remove_folder(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_stroke_is_one_step_and_comes_back_byte_by_byte),
+        cmocka_unit_test(a_stroke_costs_what_it_touches),
+        cmocka_unit_test(paint_that_is_no_number_is_refused),
+        cmocka_unit_test(paint_is_saved_beside_its_scene),
+        cmocka_unit_test(saving_loses_nothing),
+        cmocka_unit_test(broken_paint_is_said_and_stays_named),
+        cmocka_unit_test(other_layouts_are_read),
+        cmocka_unit_test(a_recovery_file_keeps_paint),
+        cmocka_unit_test(paint_turns_and_scales_coordinates),
+        cmocka_unit_test(changes_are_noted_where_they_are),
+        cmocka_unit_test(paint_for_another_model_is_kept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
