@@ -1,23 +1,9 @@
 # wiggly analyze: from simulated motions to a character and a scene; and what it says of files that it cannot use.
 . tests/check.sh
+. tests/box.sh
 WIGGLY=${WIGGLY:-build/wiggly}
 
-cat >"$scratch/box.obj" <<'END'
-v 0 0 0
-v 1 0 0
-v 1 0 1
-v 0 0 1
-v 0 2 0
-v 1 2 0
-v 1 2 1
-v 0 2 1
-f 1 2 3 4
-f 8 7 6 5
-f 1 5 6 2
-f 2 6 7 3
-f 3 7 8 4
-f 4 8 5 1
-END
+write_box "$scratch/box.obj"
 grep -v '^f' "$scratch/box.obj" | head -n 4 >"$scratch/small.obj"
 echo 'f 1 2 3' >>"$scratch/small.obj"
 

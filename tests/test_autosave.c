@@ -3,6 +3,7 @@
 
 #include "app/autosave.h"
 #include "base/file.h"
+#include "folder.h"
 #include "scene/load.h"
 #include "world.h"
 #include <signal.h>
@@ -12,23 +13,6 @@
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
-
-static char folder[64];
-
-static int make_folder(void **state)
-{
-    (void)state;
-    snprintf(folder, sizeof folder, "/tmp/wiggly-test-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
-}
 
 static void wait_a_moment(void) { nanosleep(&(struct timespec){.tv_nsec = 5000000}, NULL); }
 
@@ -304,13 +288,13 @@ static void test_killed_while_saving(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_when, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_large, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_left_behind, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_newest_first, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_not_a_recovery_file, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_cannot_write, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_killed_while_saving, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_when, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_large, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_left_behind, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_newest_first, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_not_a_recovery_file, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_cannot_write, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_killed_while_saving, folder_make, folder_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

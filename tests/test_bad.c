@@ -1,6 +1,7 @@
 /// Scenes that must be refused: each with one sentence that names file, line and path, and without a crash or a leak.
 #include "near.h"
 
+#include "folder.h"
 #include "scene/load.h"
 #include <dirent.h>
 #include <fcntl.h>
@@ -11,15 +12,6 @@
 #include <unistd.h>
 
 enum { MEGABYTE = 1 << 20, LINE_SIZE = 512, NOBODY = 65534 };
-
-static char folder[64]; ///< for what cannot be kept in a repository
-
-static const char *in_folder(const char *name)
-{
-    static char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
 
 static void write_file(const char *path, const char *data, size_t size)
 {
@@ -132,24 +124,24 @@ static void test_what_is_no_file(void **state)
 {
     (void)state;
     assert_refused(folder, "got a directory");
-    assert_refused(in_folder("missing.json"), "No such file");
+    assert_refused(folder_path("missing.json"), "No such file");
     assert_refused("/dev/zero", "expected a file");
     assert_refused("/dev/null", "expected a file");
     assert_refused("", "cannot be opened");
-    assert_int_equal(mkfifo(in_folder("fifo"), 0600), 0);
-    assert_refused(in_folder("fifo"), "expected a file");
-    assert_int_equal(symlink("loop", in_folder("loop")), 0);
-    assert_refused(in_folder("loop"), "cannot be opened");
+    assert_int_equal(mkfifo(folder_path("fifo"), 0600), 0);
+    assert_refused(folder_path("fifo"), "expected a file");
+    assert_int_equal(symlink("loop", folder_path("loop")), 0);
+    assert_refused(folder_path("loop"), "cannot be opened");
 }
 
 static void test_no_permission(void **state)
 {
     (void)state;
-    write_file(in_folder("secret.json"), "{}", 2);
-    assert_int_equal(chmod(in_folder("secret.json"), 0), 0);
+    write_file(folder_path("secret.json"), "{}", 2);
+    assert_int_equal(chmod(folder_path("secret.json"), 0), 0);
     bool is_root = geteuid() == 0; // who may read anything
     if (is_root) assert_int_equal(seteuid(NOBODY), 0);
-    assert_refused(in_folder("secret.json"), "Permission denied");
+    assert_refused(folder_path("secret.json"), "Permission denied");
     if (is_root) assert_int_equal(seteuid(0), 0);
 }
 
@@ -157,11 +149,11 @@ static void test_no_permission(void **state)
 static void test_too_large(void **state)
 {
     (void)state;
-    int file = open(in_folder("large.json"), O_CREAT | O_WRONLY, 0600);
+    int file = open(folder_path("large.json"), O_CREAT | O_WRONLY, 0600);
     assert_true(file >= 0);
     assert_int_equal(ftruncate(file, (off_t)1 << 40), 0);
     close(file);
-    assert_refused(in_folder("large.json"), "expected at most 256 MiB");
+    assert_refused(folder_path("large.json"), "expected at most 256 MiB");
 }
 
 /// The pattern again and again, with a bracket that no recursive parser's stack would stand, or that would fill its
@@ -172,10 +164,10 @@ static void assert_flood_refused(const char *pattern, const char *fragment)
     char *flood = malloc(size);
     assert_non_null(flood);
     for (size_t i = 0; i < size; i += length) memcpy(flood + i, pattern, length);
-    write_file(in_folder("flood.json"), flood, size);
+    write_file(folder_path("flood.json"), flood, size);
     free(flood);
-    assert_refused(in_folder("flood.json"), fragment);
-    assert_int_equal(unlink(in_folder("flood.json")), 0);
+    assert_refused(folder_path("flood.json"), fragment);
+    assert_int_equal(unlink(folder_path("flood.json")), 0);
 }
 
 static void test_floods(void **state)
@@ -274,23 +266,6 @@ static void test_long_chain_of_tracks(void **state)
     free(text);
 }
 
-static int make_folder(void **state)
-{
-    (void)state;
-    snprintf(folder, sizeof folder, "/tmp/wiggly-bad-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    DIR *all = opendir(folder);
-    if (!all) return -1;
-    for (struct dirent *entry; (entry = readdir(all));) unlinkat(dirfd(all), entry->d_name, 0);
-    closedir(all);
-    return rmdir(folder);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -300,5 +275,5 @@ int main(void)
         cmocka_unit_test(test_cut_off_anywhere), cmocka_unit_test(test_damaged_bytes),
         cmocka_unit_test(test_many_problems),    cmocka_unit_test(test_long_chain_of_tracks),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

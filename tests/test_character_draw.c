@@ -1,8 +1,6 @@
 /// The character's vertex shader, by what a person sees: the same picture as of a figure that already has the shape, the place
 /// or the colours that the shader should give it.
-#include "draw/gl.h"
-#include "draw/stage.h"
-#include "platform/platform.h"
+#include "offscreen.h"
 #include "puppet.h"
 #include "rig/camera.h"
 #include "ui/phase_color.h"
@@ -12,29 +10,10 @@ enum { WIDTH = 500, HEIGHT = 300 };
 
 typedef unsigned char picture[HEIGHT][WIDTH][4];
 
-static struct platform *platform;
-static struct stage_renderer *renderer;
-
 static int set_up(void **state)
 {
     (void)state;
-    struct error error = {0};
-    platform = platform_offscreen(WIDTH, HEIGHT, 1.0f, &error);
-    if (!platform) {
-        print_message("skipped: no offscreen drawing here: %s\n", error.text);
-        return 0;
-    }
-    renderer = stage_renderer_create(&error);
-    return renderer ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    if (!platform) return 0;
-    stage_renderer_destroy(renderer);
-    platform_destroy(platform);
-    return 0;
+    return offscreen_open(WIDTH, HEIGHT);
 }
 
 static struct stage_character shown(const struct figure *figure)
@@ -47,17 +26,13 @@ static void draw(const struct stage_character *character, picture pixels)
     static struct stage_view view;
     const float lo[3] = {-1, 0, -1}, hi[3] = {1, 1.5f, 1};
     struct camera camera = camera_default();
-    long bytes = 0;
     memset(&view, 0, sizeof view);
     view.colors = theme()->stage;
     camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT);
     camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
     view.characters[0] = *character;
     view.character_count = 1;
-    stage_upload(renderer, &view, &bytes);
-    stage_draw(renderer, &view, 0, 0, WIDTH, HEIGHT);
-    glReadPixels(0, 0, WIDTH, HEIGHT, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
-    assert_int_equal(glGetError(), GL_NO_ERROR);
+    offscreen_draw(&view, WIDTH, HEIGHT, pixels);
 }
 
 /// Pixels that differ by more than `tolerance` in any channel.
@@ -164,5 +139,5 @@ int main(void)
         cmocka_unit_test(normals_follow_on_the_stage),
         cmocka_unit_test(phases_are_the_legends_colours),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, offscreen_close);
 }

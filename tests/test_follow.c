@@ -2,21 +2,11 @@
 #include "near.h"
 
 #include "rig/follow.h"
+#include "spline_of.h"
 #include <math.h>
 #include <string.h>
 
 static const double turn = 6.283185307179586;
-
-static struct spline spline_of(enum wiggly_mode mode, double frequency, double damping, double bandwidth)
-{
-    struct spline spline = {0};
-    spline_reset(&spline);
-    spline.mode = mode;
-    spline.parameter[PARAMETER_FREQUENCY].value = frequency;
-    spline.parameter[PARAMETER_DAMPING].value = damping;
-    spline.parameter[PARAMETER_BANDWIDTH].value = bandwidth;
-    return spline;
-}
 
 static struct follow_filter filter_of(const struct spline *spline)
 {

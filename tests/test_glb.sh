@@ -1,6 +1,7 @@
 # The Khronos validator on a character that wiggly analyze wrote: no error, no warning. The validator comes from npm at a pinned
 # version into the build folder; where there is no npm or no network the case says that it was skipped.
 . tests/check.sh
+. tests/box.sh
 WIGGLY=${WIGGLY:-build/wiggly}
 validator=gltf-validator@2.0.0-dev.3.10
 folder=${B:-build}/gltf-validator
@@ -17,22 +18,8 @@ if [ ! -e "$folder/node_modules/gltf-validator/package.json" ]; then
 fi
 
 # A box with colours, shaken.
-cat >"$scratch/box.obj" <<'END'
-v 0 0 0 1 0.5 0
-v 1 0 0
-v 1 0 1
-v 0 0 1
-v 0 2 0 0.2 0.1 0
-v 1 2 0
-v 1 2 1
-v 0 2 1
-f 1 2 3 4
-f 8 7 6 5
-f 1 5 6 2
-f 2 6 7 3
-f 3 7 8 4
-f 4 8 5 1
-END
+write_box "$scratch/plain.obj"
+sed -e 's/^v 0 0 0$/& 1 0.5 0/' -e 's/^v 0 2 0$/& 0.2 0.1 0/' "$scratch/plain.obj" >"$scratch/box.obj"
 expect 0 "simulate" "$WIGGLY" simulate "$scratch/box.obj" --tets 60 --seconds 1 --substeps 2 -o "$scratch/up.npy"
 expect 0 "analyze" "$WIGGLY" analyze "$scratch/up.npy" --rest "$scratch/box.obj" --fps 24 --modes 2 -o "$scratch/box.glb"
 cat >"$scratch/validate.js" <<'END'

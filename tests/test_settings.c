@@ -3,28 +3,19 @@
 
 #include "app/recent.h"
 #include "base/file.h"
+#include "folder.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-static char folder[64], path[96];
+static char path[96];
 
 static int make_folder(void **state)
 {
-    (void)state;
-    snprintf(folder, sizeof folder, "/tmp/wiggly-test-XXXXXX");
-    if (!mkdtemp(folder)) return -1;
+    if (folder_make(state) != 0) return -1;
     snprintf(path, sizeof path, "%s/settings", folder);
     return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
 }
 
 static void write_text(const char *file, const char *text)
@@ -144,11 +135,11 @@ static void test_recent(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_unknown_lines_stay, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_numbers, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_broken, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_unstorable, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_recent, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(test_unknown_lines_stay, make_folder, folder_remove),
+        cmocka_unit_test_setup_teardown(test_numbers, make_folder, folder_remove),
+        cmocka_unit_test_setup_teardown(test_broken, make_folder, folder_remove),
+        cmocka_unit_test_setup_teardown(test_unstorable, make_folder, folder_remove),
+        cmocka_unit_test_setup_teardown(test_recent, make_folder, folder_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

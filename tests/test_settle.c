@@ -2,18 +2,8 @@
 #include "near.h"
 
 #include "editor/settle.h"
+#include "spline_of.h"
 #include <math.h>
-
-static struct spline spline_of(enum wiggly_mode mode, double frequency, double damping, double bandwidth)
-{
-    struct spline spline = {0};
-    spline_reset(&spline);
-    spline.mode = mode;
-    spline.parameter[PARAMETER_FREQUENCY].value = frequency;
-    spline.parameter[PARAMETER_DAMPING].value = damping;
-    spline.parameter[PARAMETER_BANDWIDTH].value = bandwidth;
-    return spline;
-}
 
 /// x″ + 2ζω x′ + ω² x = 0 from 1 at standstill, by a fourth-order Runge-Kutta method: last time at which |x| > 0.05.
 static double textbook_real(double omega, double zeta)

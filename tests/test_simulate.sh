@@ -1,26 +1,11 @@
 # wiggly simulate: what it writes, and what it says of meshes and options that it cannot use.
 . tests/check.sh
+. tests/box.sh
 WIGGLY=${WIGGLY:-build/wiggly}
 
-# A box of 1 × 2 × 1 m; its twin without the last triangle; one without volume.
-cat >"$scratch/box.obj" <<'END'
-v 0 0 0
-v 1 0 0
-v 1 0 1
-v 0 0 1
-v 0 2 0
-v 1 2 0
-v 1 2 1
-v 0 2 1
-f 1 2 3 4
-f 8 7 6 5
-f 1 5 6 2
-f 2 6 7 3
-f 3 7 8 4
-f 4 8 5
-END
-cp "$scratch/box.obj" "$scratch/open.obj"
-echo "f 4 5 1" >>"$scratch/box.obj"
+# A box; its twin without the last triangle; a mesh without volume.
+write_box "$scratch/box.obj"
+sed '$s/ 1$//' "$scratch/box.obj" >"$scratch/open.obj"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n' >"$scratch/flat.obj"
 quick="--tets 60 --seconds 0.25 --fps 24 --substeps 2"
 

@@ -1,10 +1,7 @@
 /// What a person sees on the stage, drawn offscreen; and the skinning of the real vertex shader, read back.
 #include "base/embedded.h"
-#include "draw/gl.h"
-#include "draw/stage.h"
 #include "model/creature.h"
-#include "near.h"
-#include "platform/platform.h"
+#include "offscreen.h"
 #include "rig/camera.h"
 #include "rig/shadow.h"
 #include "ui/theme.h"
@@ -14,8 +11,6 @@
 
 enum { WIDTH = 1000, HEIGHT = 400, JOINTS = 24 };
 
-static struct platform *platform;
-static struct stage_renderer *renderer;
 static struct stage_view view;
 static unsigned char pixels[HEIGHT][WIDTH][4]; ///< bottom row first
 
@@ -47,15 +42,7 @@ static void arrange(double side)
     camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
 }
 
-static void draw(void)
-{
-    long bytes = 0;
-    stage_upload(renderer, &view, &bytes);
-    assert_true(bytes > 0);
-    stage_draw(renderer, &view, 0, 0, WIDTH, HEIGHT);
-    glReadPixels(0, 0, WIDTH, HEIGHT, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
-    assert_int_equal(glGetError(), GL_NO_ERROR);
-}
+static void draw(void) { offscreen_draw(&view, WIDTH, HEIGHT, pixels); }
 
 /// The pixel where a point of the world is seen.
 static const unsigned char *pixel_of(const float world[3])
@@ -74,24 +61,7 @@ static bool is_fur(const unsigned char *pixel) { return pixel[0] > 60 && pixel[0
 static int set_up(void **state)
 {
     (void)state;
-    struct error error = {0};
-    platform = platform_offscreen(WIDTH, HEIGHT, 1.0f, &error);
-    if (!platform) {
-        print_message("skipped: no offscreen drawing here: %s\n", error.text);
-        return 0;
-    }
-    renderer = stage_renderer_create(&error);
-    if (!renderer) print_error("%s\n", error.text);
-    return renderer ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    if (!platform) return 0;
-    stage_renderer_destroy(renderer);
-    platform_destroy(platform);
-    return 0;
+    return offscreen_open(WIDTH, HEIGHT);
 }
 
 static void the_tail_is_drawn_where_its_joints_are(void **state)
@@ -344,5 +314,5 @@ int main(void)
         cmocka_unit_test(extreme_bends_stay_finite),
         cmocka_unit_test(skin_follows_the_joints),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, set_up, offscreen_close);
 }

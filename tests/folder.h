@@ -1,0 +1,35 @@
+/// An empty folder for each test, or for a group: folder_make() and folder_remove() are the fixtures.
+#ifndef TESTS_FOLDER_H
+#define TESTS_FOLDER_H
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static char folder[64]; ///< its path
+
+static inline int folder_make(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof folder, "/tmp/wiggly-test-XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static inline int folder_remove(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+/// The path of a file in it; the same storage at each second call.
+static inline const char *folder_path(const char *name)
+{
+    static char paths[2][128];
+    static int next;
+    next = 1 - next;
+    snprintf(paths[next], sizeof paths[next], "%s/%s", folder, name);
+    return paths[next];
+}
+
+#endif

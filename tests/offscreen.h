@@ -1,0 +1,46 @@
+/// The stage drawn offscreen, as the fixture of a group of tests. Where that is not possible `platform` is NULL, and tests skip().
+#ifndef TESTS_OFFSCREEN_H
+#define TESTS_OFFSCREEN_H
+
+#include "draw/gl.h"
+#include "draw/stage.h"
+#include "near.h"
+#include "platform/platform.h"
+
+static struct platform *platform;
+static struct stage_renderer *renderer;
+
+static inline int offscreen_open(int width, int height)
+{
+    struct error error = {0};
+    platform = platform_offscreen(width, height, 1.0f, &error);
+    if (!platform) {
+        print_message("skipped: no offscreen drawing here: %s\n", error.text);
+        return 0;
+    }
+    renderer = stage_renderer_create(&error);
+    if (!renderer) print_error("%s\n", error.text);
+    return renderer ? 0 : -1;
+}
+
+static inline int offscreen_close(void **state)
+{
+    (void)state;
+    if (!platform) return 0;
+    stage_renderer_destroy(renderer);
+    platform_destroy(platform);
+    return 0;
+}
+
+/// Draws a view over the whole picture and reads it, bottom row first.
+static inline void offscreen_draw(const struct stage_view *view, int width, int height, void *pixels)
+{
+    long bytes = 0;
+    stage_upload(renderer, view, &bytes);
+    assert_true(bytes > 0);
+    stage_draw(renderer, view, 0, 0, width, height);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    assert_int_equal(glGetError(), GL_NO_ERROR);
+}
+
+#endif

@@ -1,0 +1,19 @@
+/// A spline of the document with constant parameters.
+#ifndef TESTS_SPLINE_OF_H
+#define TESTS_SPLINE_OF_H
+
+#include "scene/document.h"
+
+/// Frequency in Hz, ratios of damping and bandwidth; all else is the default.
+static inline struct spline spline_of(enum wiggly_mode mode, double frequency, double damping, double bandwidth)
+{
+    struct spline spline = {0};
+    spline_reset(&spline);
+    spline.mode = mode;
+    spline.parameter[PARAMETER_FREQUENCY].value = frequency;
+    spline.parameter[PARAMETER_DAMPING].value = damping;
+    spline.parameter[PARAMETER_BANDWIDTH].value = bandwidth;
+    return spline;
+}
+
+#endif
