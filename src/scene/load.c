@@ -80,10 +80,7 @@ static void load_about(struct reader *reader, const struct where *scene_at, cons
 
 static bool load_frames(struct reader *reader, const struct where *at, const json_t *value, int frames[2])
 {
-    if (!json_is_array(value) || json_array_size(value) != 2) {
-        if (!json_is_array(value)) return reader_unexpected(reader, at, "[first, last]", value);
-        return reader_fail(reader, at, "expected [first, last], got %zu elements", json_array_size(value));
-    }
+    if (!reader_array(reader, at, value, 2, "[first, last]")) return false;
     bool good = true;
     for (size_t i = 0; i < 2; i++) {
         struct where element_at = {.parent = at, .index = i};

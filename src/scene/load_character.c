@@ -9,15 +9,7 @@ static const char *const drive_keys[] = {"name", "spline", "amplitude", "lag", N
 
 static void load_position(struct reader *reader, const struct where *at, const json_t *value, double position[3])
 {
-    if (!value) return;
-    if (!json_is_array(value)) {
-        reader_unexpected(reader, at, "[x, y, z]", value);
-        return;
-    }
-    if (json_array_size(value) != 3) {
-        reader_fail(reader, at, "expected [x, y, z], got %zu elements", json_array_size(value));
-        return;
-    }
+    if (!value || !reader_array(reader, at, value, 3, "[x, y, z]")) return;
     for (size_t i = 0; i < 3; i++) {
         struct where element_at = {.parent = at, .index = i};
         reader_number(reader, &element_at, json_array_get(value, i), true, range_any, &position[i]);

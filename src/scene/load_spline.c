@@ -26,13 +26,10 @@ static void load_parameter(struct reader *reader, const struct part *part, enum 
     enum wiggly_mode mode = part->spline->mode;
     struct range range = {parameter_minimum(parameter, mode), parameter_maximum(parameter, mode), false};
     if (!value) return;
-    if (json_is_object(value) && parameter != PARAMETER_CALM) {
-        reader_track(reader, &at, value, at.key, param, extra);
-    } else if (!json_is_number(value)) {
-        const char *expected = parameter == PARAMETER_CALM ? "a number" : "a number or {\"spline\": name}";
-        reader_unexpected(reader, &at, expected, value);
-    } else {
+    if (parameter == PARAMETER_CALM) {
         reader_number(reader, &at, value, true, range, &param->value);
+    } else {
+        reader_param(reader, &at, value, range, at.key, param, extra);
     }
 }
 

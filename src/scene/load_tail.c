@@ -39,25 +39,11 @@ static void load_position(struct reader *reader, const struct where *at, const j
                           struct param position[3], json_t **extra)
 {
     json_t *tracks = NULL;
-    if (!value) return;
-    if (!json_is_array(value)) {
-        reader_unexpected(reader, at, "[x, y, z]", value);
-        return;
-    }
-    if (json_array_size(value) != 3) {
-        reader_fail(reader, at, "expected [x, y, z], got %zu elements", json_array_size(value));
-        return;
-    }
+    if (!value || !reader_array(reader, at, value, 3, "[x, y, z]")) return;
     for (size_t i = 0; i < 3; i++) {
         struct where element_at = {.parent = at, .index = i};
-        json_t *element = json_array_get(value, i);
-        if (json_is_object(element)) {
-            reader_track(reader, &element_at, element, coordinate_name((int)i), &position[i], &tracks);
-        } else if (!json_is_number(element)) {
-            reader_unexpected(reader, &element_at, "a number or {\"spline\": name}", element);
-        } else {
-            reader_number(reader, &element_at, element, true, range_any, &position[i].value);
-        }
+        reader_param(reader, &element_at, json_array_get(value, i), range_any, coordinate_name((int)i), &position[i],
+                     &tracks);
     }
     if (!tracks) return;
     if (!*extra) *extra = json_object();

@@ -168,6 +168,14 @@ char *reader_name(struct reader *reader, const struct where *at, const json_t *v
     return name;
 }
 
+bool reader_array(struct reader *reader, const struct where *at, const json_t *value, size_t count,
+                  const char *expected)
+{
+    if (!json_is_array(value)) return reader_unexpected(reader, at, expected, value);
+    if (json_array_size(value) == count) return true;
+    return reader_fail(reader, at, "expected %s, got %zu elements", expected, json_array_size(value));
+}
+
 int reader_objects(struct reader *reader, const struct where *at, const json_t *value, int limit)
 {
     if (!value) return 0;
@@ -245,8 +253,9 @@ json_t *reader_extra(struct reader *reader, const struct where *object_at, json_
     return extra;
 }
 
-void reader_track(struct reader *reader, const struct where *at, json_t *object, const char *key, struct param *param,
-                  json_t **extra)
+/// `{"spline": "other"}`
+static void read_track(struct reader *reader, const struct where *at, json_t *object, const char *key,
+                       struct param *param, json_t **extra)
 {
     static const char *const known[] = {"spline", NULL};
     struct where name_at;
@@ -257,6 +266,18 @@ void reader_track(struct reader *reader, const struct where *at, json_t *object,
     if (!unknown) return;
     if (!*extra) *extra = json_object();
     if (!*extra || json_object_set_new(*extra, key, unknown) != 0) reader_no_memory(reader);
+}
+
+void reader_param(struct reader *reader, const struct where *at, json_t *value, struct range range, const char *key,
+                  struct param *param, json_t **extra)
+{
+    if (json_is_object(value)) {
+        read_track(reader, at, value, key, param, extra);
+    } else if (!json_is_number(value)) {
+        reader_unexpected(reader, at, "a number or {\"spline\": name}", value);
+    } else {
+        reader_number(reader, at, value, true, range, &param->value);
+    }
 }
 
 const void *reader_keep(struct reader *reader, json_t *extra)

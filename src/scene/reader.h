@@ -85,6 +85,10 @@ char *reader_name(struct reader *reader, const struct where *at, const json_t *v
 /// Elements of an optional array of at most `limit` objects; 0 where it is missing, -1 after an error.
 int reader_objects(struct reader *reader, const struct where *at, const json_t *value, int limit);
 
+/// Whether a value is an array of `count` elements; else fails with "expected `expected`, got …".
+bool reader_array(struct reader *reader, const struct where *at, const json_t *value, size_t count,
+                  const char *expected);
+
 /// Index of the spline that a required string names; -1 after an error.
 int reader_spline_name(struct reader *reader, const struct where *at, const json_t *value);
 
@@ -92,9 +96,10 @@ int reader_spline_name(struct reader *reader, const struct where *at, const json
 /// where there are none.
 json_t *reader_extra(struct reader *reader, const struct where *object_at, json_t *object, const char *const *known);
 
-/// `{"spline": "other"}`. Its unknown keys go into the object `*extra` (made where it is NULL) under `key`.
-void reader_track(struct reader *reader, const struct where *at, json_t *object, const char *key, struct param *param,
-                  json_t **extra);
+/// Reads a number in a range or a track, `{"spline": "other"}`. A track's unknown keys go into the object `*extra` (made where
+/// it is NULL) under `key`.
+void reader_param(struct reader *reader, const struct where *at, json_t *value, struct range range, const char *key,
+                  struct param *param, json_t **extra);
 
 /// Gives an object of unknown keys (or NULL) to the document.
 const void *reader_keep(struct reader *reader, json_t *extra);

@@ -2,6 +2,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+static void free_tail(struct tail *tail)
+{
+    free(tail->name);
+    free(tail->channels);
+    *tail = (struct tail){0};
+}
+
 bool tail_copy(const struct tail *tail, struct tail *copy)
 {
     size_t count = (size_t)tail->channel_count;
@@ -12,15 +19,8 @@ bool tail_copy(const struct tail *tail, struct tail *copy)
         if (count > 0) memcpy(copy->channels, tail->channels, count * sizeof *copy->channels);
         return true;
     }
-    tail_free(copy);
+    free_tail(copy);
     return false;
-}
-
-void tail_free(struct tail *tail)
-{
-    free(tail->name);
-    free(tail->channels);
-    *tail = (struct tail){0};
 }
 
 struct tail_list *tail_list_copy(const struct document *document, int more)
@@ -47,7 +47,7 @@ struct tail_list *tail_list_copy(const struct document *document, int more)
 void tail_list_free(struct tail_list *list)
 {
     if (!list) return;
-    for (int t = 0; t < list->count; t++) tail_free(&list->tails[t]);
+    for (int t = 0; t < list->count; t++) free_tail(&list->tails[t]);
     free(list->tails);
     free(list->tails_before);
     free(list);
@@ -56,7 +56,7 @@ void tail_list_free(struct tail_list *list)
 void tail_list_remove(struct tail_list *list, int index)
 {
     struct tail *tail = &list->tails[index];
-    tail_free(tail);
+    free_tail(tail);
     list->count--;
     memmove(tail, tail + 1, (size_t)(list->count - index) * sizeof *tail);
     for (int c = 0; c < list->character_count; c++) list->tails_before[c] -= list->tails_before[c] > index;

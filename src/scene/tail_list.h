@@ -28,7 +28,5 @@ size_t tail_list_bytes(const struct tail_list *list);
 
 /// A copy of one tail, name and channels its own. On failure nothing is left to be freed.
 bool tail_copy(const struct tail *tail, struct tail *copy);
-/// Frees what a tail owns.
-void tail_free(struct tail *tail);
 
 #endif
