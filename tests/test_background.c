@@ -5,8 +5,11 @@
 #include "editor/state.h"
 #include "scene/edit.h"
 #include "scene/extremes.h"
+#include "scene/storage.h"
+#include "spline/stop.h"
 #include <stdio.h>
 #include <stdlib.h>
+#include <threads.h>
 
 enum { LONG_SAMPLES = 3000001, ROWS_COMPARED = 5 };
 
@@ -39,9 +42,10 @@ static char *long_scene(int samples)
     return text;
 }
 
-/// Two splines, the second following the first by its frequency and equilibrium: 12,001 samples, solved in the band.
+/// Two splines, the second following the first by its frequency and equilibrium, which is solved in the band; %d: frames of 10
+/// samples.
 static const char *const followed =
-    "{ \"wiggly\": 1, \"fps\": 24, \"substeps\": 10, \"frames\": [0, 1200], \"splines\": ["
+    "{ \"wiggly\": 1, \"fps\": 24, \"substeps\": 10, \"frames\": [0, %d], \"splines\": ["
     "{ \"name\": \"leader\", \"mode\": \"real\", \"frequency\": 1, \"damping\": 0.2, "
     "\"knots\": [ { \"frame\": 0, \"value\": 1 }, { \"frame\": 600, \"value\": 2 }, "
     "{ \"frame\": 1100, \"value\": 1 } ] },"
@@ -253,7 +257,9 @@ static void followers_catch_up(void **state)
     (void)state;
     struct session s;
     uint64_t seed = 11;
-    open_threaded(&s, followed);
+    char scene[1000];
+    snprintf(scene, sizeof scene, followed, 1200);
+    open_threaded(&s, scene);
     for (int round = 0; round < 6; round++) {
         for (int i = 0; i < 5; i++) {
             edit_somehow(&s, &seed);
@@ -265,6 +271,59 @@ static void followers_catch_up(void **state)
         assert_same_bits(&s);
     }
     session_close(&s);
+}
+
+/// Frames go on for longer than a solve is worth waiting for, then the next edit has it stopped.
+static void a_slow_solve_is_dropped_for_a_newer_edit(void **state)
+{
+    (void)state;
+    struct session s;
+    char scene[1000];
+    snprintf(scene, sizeof scene, followed, 15000);
+    open_threaded(&s, scene);
+    for (int i = 0; i < 3; i++) {
+        struct edit edit = slider(0.1 + 0.01 * i);
+        edit.spline = i == 2 ? 1 : 0;
+        edit.parameter = PARAMETER_DAMPING;
+        change(&s, edit);
+        for (int frame = 0; frame < 12; frame++) {
+            session_frame(&s);
+            thrd_sleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+        }
+    }
+    settle(&s);
+    assert_same_bits(&s);
+    change(&s, (struct edit){.kind = EDIT_PARAMETER, .parameter = PARAMETER_DAMPING, .param = {0.3, -1}});
+    for (int frame = 0; frame < 5; frame++) session_frame(&s);
+    session_close(&s); // the follower may take as long as it wants
+}
+
+static void a_stopped_solver_is_as_good_as_new(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 5000 };
+    static double numbers[4][SAMPLES][5];
+    double *track = numbers[3][0];
+    for (int i = 0; i < SAMPLES; i++) track[i] = 1 + 0.5 * i / SAMPLES;
+    const wiggly_knot knots[] = {{.sample = 0, .value = 1}, {.sample = 3000, .value = -1}};
+    wiggly_desc desc = wiggly_default_desc();
+    desc.samples = SAMPLES;
+    desc.frequency.track = track;
+    desc.knots = knots;
+    desc.knot_count = 2;
+    wiggly_solver *solver = NULL;
+    solver_stop stop = {.wanted = true};
+    assert_int_equal(wiggly_create(SAMPLES, 2, &solver), WIGGLY_OK);
+    for (int i = 0; i < 3; i++) {
+        wiggly_curve curve;
+        storage_place(&curve, numbers[i][0], SAMPLES);
+        solver_watch(solver, i == 1 ? &stop : NULL);
+        wiggly_status status = wiggly_solve(solver, &desc, &curve);
+        assert_true((status == WIGGLY_OK) == (i != 1));
+    }
+    assert_true(stop.noticed);
+    assert_memory_equal(numbers[0], numbers[2], sizeof numbers[0]);
+    wiggly_destroy(solver);
 }
 
 static void extremes_are_those_of_a_plain_search(void **state)
@@ -297,6 +356,8 @@ int main(void)
         cmocka_unit_test(what_a_take_cannot_is_solved_whole),
         cmocka_unit_test(ends_with_the_thread_at_work),
         cmocka_unit_test(followers_catch_up),
+        cmocka_unit_test(a_slow_solve_is_dropped_for_a_newer_edit),
+        cmocka_unit_test(a_stopped_solver_is_as_good_as_new),
         cmocka_unit_test(extremes_are_those_of_a_plain_search),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -13,6 +13,9 @@ static const double LONG = 2e6; ///< nanoseconds of one spline above which a fra
 /// Seconds that the frame of an edit waits for the thread: up to there, an edit is seen in its own frame at any length.
 static const double PATIENCE = 0.004;
 
+/// Seconds after which a solve is given up for a newer edit of its spline; a shorter one is shown, so that a slider is followed.
+static const double WORTH_SHOWING = 0.1;
+
 enum {
     WIDEST = 1 << 18, ///< samples of a window that are read in a frame: 0.5 ms
     AROUND = 1 << 13, ///< on each side of the playhead and of a knot that moved
@@ -59,6 +62,7 @@ void background_destroy(struct background *background)
 {
     if (!background) return;
     struct job job = {0};
+    if (background->worker) worker_stop(background->worker);
     if (background->worker && worker_collect(background->worker, INFINITY, &job) && job.kind == WORK_TAKE)
         wiggly_take_destroy(job.take);
     worker_destroy(background->worker);
@@ -132,6 +136,11 @@ static void show_solved(struct evaluation *evaluation, const struct document *do
     struct storage *storage = evaluation->storage;
     struct background *b = storage->background;
     int spline = b->solving;
+    b->solving = -1;
+    if (job->stopped) {
+        b->pending[spline] = true;
+        return;
+    }
     b->spare = evaluation->curves[spline];
     b->spare_extremes = storage->extremes[spline];
     evaluation->curves[spline] = job->curve;
@@ -144,7 +153,6 @@ static void show_solved(struct evaluation *evaluation, const struct document *do
     for (int s = 0; s < evaluation->count; s++) {
         if (follows(&document->splines[s], spline, evaluation->cubic)) b->pending[s] = true;
     }
-    b->solving = -1;
 }
 
 static void adopt_take(struct evaluation *evaluation, const struct document *document, const struct job *job)
@@ -273,6 +281,18 @@ static bool show_windows(struct evaluation *evaluation, const struct focus *focu
     return good;
 }
 
+/// Ends a long solve of what was edited again, or of what follows it: it would come late, and keep newer windows from being shown.
+static void drop_superseded(const struct evaluation *evaluation, const struct document *document)
+{
+    const struct background *b = ((struct storage *)evaluation->storage)->background;
+    if (b->solving < 0 || worker_seconds(b->worker) < WORTH_SHOWING) return;
+    bool superseded = b->pending[b->solving];
+    for (int s = 0; s < evaluation->count; s++) {
+        if (b->pending[s] && follows(&document->splines[b->solving], s, evaluation->cubic)) superseded = true;
+    }
+    if (superseded) worker_stop(b->worker);
+}
+
 /// Notes what an edit made out of date; false where nothing was edited.
 static bool mark(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic)
 {
@@ -306,7 +326,9 @@ void background_update(struct evaluation *evaluation, const struct document *doc
     evaluation->solved_splines = evaluation->solved_samples = evaluation->solved_knots = 0;
     struct background *b = storage->background;
     collect(evaluation, document, 0);
-    bool edited = mark(evaluation, document, dirty, cubic), shown = show_windows(evaluation, focus);
+    bool edited = mark(evaluation, document, dirty, cubic);
+    if (edited) drop_superseded(evaluation, document);
+    bool shown = show_windows(evaluation, focus);
     give_next(evaluation, document, focus);
     while (edited && !shown && b->solving >= 0 && collect(evaluation, document, PATIENCE)) {
         give_next(evaluation, document, focus);
@@ -332,6 +354,7 @@ void background_halt(struct evaluation *evaluation)
     struct job job;
     if (!b) return;
     b->window.is_current = false;
+    worker_stop(b->worker);
     if (!worker_collect(b->worker, INFINITY, &job)) return;
     if (job.kind == WORK_TAKE) wiggly_take_destroy(job.take);
     if (b->solving >= 0) b->pending[b->solving] = true;

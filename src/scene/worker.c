@@ -1,5 +1,6 @@
 #include "scene/worker.h"
 #include "scene/storage.h"
+#include "spline/stop.h"
 #include <math.h>
 #include <stdlib.h>
 #include <threads.h>
@@ -11,11 +12,13 @@ struct worker {
     cnd_t given, done;
     struct job job;
     bool has_job;    ///< the frame's alone
+    double given_at; ///< seconds, the same
+    solver_stop halt;
     bool is_working; ///< with the lock, as the next
     bool stop;
 };
 
-static void work(struct job *job)
+static void work(struct job *job, solver_stop *stop)
 {
     if (job->kind == WORK_TAKE) {
         wiggly_take_destroy(job->take);
@@ -23,7 +26,11 @@ static void work(struct job *job)
         job->status = wiggly_take_create(&job->desc, &job->take);
         return;
     }
+    solver_watch(job->solver, stop);
     job->status = wiggly_solve(job->solver, &job->desc, &job->curve);
+    solver_watch(job->solver, NULL);
+    job->stopped = stop->noticed;
+    if (job->stopped) return;
     if (job->status >= WIGGLY_ERROR_ARGUMENT) storage_flatten(&job->curve, &job->desc);
     extremes_update(&job->extremes, job->curve.total, job->desc.samples, 0, job->desc.samples);
 }
@@ -36,7 +43,7 @@ static int run(void *user)
         while (!worker->is_working && !worker->stop) cnd_wait(&worker->given, &worker->lock);
         if (!worker->is_working) break;
         mtx_unlock(&worker->lock);
-        work(&worker->job);
+        work(&worker->job, &worker->halt);
         mtx_lock(&worker->lock);
         worker->is_working = false;
         cnd_signal(&worker->done);
@@ -60,6 +67,7 @@ struct worker *worker_create(void)
 void worker_destroy(struct worker *worker)
 {
     if (!worker) return;
+    worker_stop(worker);
     mtx_lock(&worker->lock);
     worker->stop = true;
     cnd_signal(&worker->given);
@@ -71,9 +79,19 @@ void worker_destroy(struct worker *worker)
     free(worker);
 }
 
+static double now(void)
+{
+    struct timespec time;
+    timespec_get(&time, TIME_UTC);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
 void worker_give(struct worker *worker, const struct job *job)
 {
     mtx_lock(&worker->lock);
+    worker->given_at = now();
+    worker->halt.noticed = false;
+    atomic_store(&worker->halt.wanted, false);
     worker->job = *job;
     worker->has_job = worker->is_working = true;
     cnd_signal(&worker->given);
@@ -82,14 +100,14 @@ void worker_give(struct worker *worker, const struct job *job)
 
 bool worker_has_job(const struct worker *worker) { return worker->has_job; }
 
+double worker_seconds(const struct worker *worker) { return now() - worker->given_at; }
+
+void worker_stop(struct worker *worker) { atomic_store(&worker->halt.wanted, true); }
+
 static struct timespec seconds_from_now(double seconds)
 {
-    struct timespec time;
-    timespec_get(&time, TIME_UTC);
-    double rest = (double)time.tv_nsec * 1e-9 + seconds;
-    time.tv_sec += (time_t)floor(rest);
-    time.tv_nsec = (long)((rest - floor(rest)) * 1e9);
-    return time;
+    double then = now() + seconds;
+    return (struct timespec){.tv_sec = (time_t)floor(then), .tv_nsec = (long)((then - floor(then)) * 1e9)};
 }
 
 bool worker_collect(struct worker *worker, double seconds, struct job *job)

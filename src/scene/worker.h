@@ -16,12 +16,13 @@ struct job {
     struct extremes extremes; ///< of the total, filled
     wiggly_take *take;        ///< WORK_TAKE: an old one to be freed, then the new one or NULL
     wiggly_status status;
+    bool stopped; ///< given up by worker_stop(): the curve is good for nothing
 };
 
 /// NULL where the thread cannot be had.
 struct worker *worker_create(void);
 
-/// Waits for a job that is under way; what it made is freed by nobody. NULL is fine.
+/// Stops and waits for a job that is under way; what it made is freed by nobody. NULL is fine.
 void worker_destroy(struct worker *worker);
 
 /// Gives a job to a worker that has none.
@@ -29,6 +30,12 @@ void worker_give(struct worker *worker, const struct job *job);
 
 /// Whether a job was given and not collected.
 bool worker_has_job(const struct worker *worker);
+
+/// Seconds since the job was given.
+double worker_seconds(const struct worker *worker);
+
+/// Has the job end as soon as it can.
+void worker_stop(struct worker *worker);
 
 /// Takes the finished job back. false where there is none after `seconds` of waiting (INFINITY: as long as it takes).
 bool worker_collect(struct worker *worker, double seconds, struct job *job);

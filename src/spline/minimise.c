@@ -26,12 +26,13 @@ minimum solver_minimise(wiggly_solver *solver)
     bool is_long = rows->count > solver->longest_squared;
     if (!is_long) system_matrix(rows, &solver->matrix);
     pentadiagonal_rank rank =
-        is_long ? orthogonal_factor(rows, &solver->matrix) : pentadiagonal_factor(&solver->matrix);
+        is_long ? orthogonal_factor(rows, &solver->matrix, solver->stop) : pentadiagonal_factor(&solver->matrix);
     if (rank == RANK_BROKEN) return result;
     result.weak = rank == RANK_WEAK;
     int unknowns = rows->count * (rows->is_complex ? 2 : 1);
     double before = INFINITY;
     while (result.sweeps < MAX_SWEEPS) {
+        if (solver_must_stop(solver->stop)) return result;
         system_gradient(rows);
         if (is_long) {
             orthogonal_solve(&solver->matrix, rows->gradient);

@@ -134,6 +134,8 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
     return f;
 }
 
+void solver_watch(wiggly_solver *solver, solver_stop *stop) { solver->stop = stop; }
+
 void solver_forget(wiggly_solver *solver)
 {
     solver->filter.known = false;

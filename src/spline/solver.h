@@ -3,6 +3,7 @@
 #define SPLINE_SOLVER_H
 
 #include "spline/chain.h"
+#include "spline/stop.h"
 #include "spline/system.h"
 
 /// The least damping ratio of the start's cost, and times calm of a loop.
@@ -22,6 +23,7 @@ typedef struct constant_filter {
 struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
+    solver_stop *stop;   ///< or NULL
     int longest_squared; ///< longer domains are factored without squaring; tests set it
     system_rows rows;
     pentadiagonal matrix;

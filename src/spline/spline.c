@@ -222,6 +222,7 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
         *result = attempt(solver, p, curve);
         bool may_be_singular = p->start == WIGGLY_LOOP ? p->calm == 0 : p->free_end;
         if (result->solved && !(may_be_singular && (result->weak || problem_blew_up(p, curve)))) return status;
+        if (solver_must_stop(solver->stop)) break;
         if (may_be_singular && p->calm == 0) {
             p->calm = fallback_calm;
             status = WIGGLY_CALMED;
