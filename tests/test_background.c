@@ -331,7 +331,7 @@ static void extremes_are_those_of_a_plain_search(void **state)
     (void)state;
     enum { COUNT = 5000, BLOCKS = 5 };
     static double numbers[COUNT];
-    int low[BLOCKS], high[BLOCKS];
+    double low[BLOCKS], high[BLOCKS];
     struct extremes extremes = {low, high}, none = {0};
     uint64_t seed = 3;
     assert_int_equal(extremes_blocks(COUNT), BLOCKS);

@@ -24,7 +24,7 @@ enum {
 struct background {
     struct worker *worker;
     double *numbers; ///< ROWS · N that no curve has at first; curves and `spare` change places from then on
-    int *marks;
+    double *marks;
     int samples; ///< N that there is room for
     wiggly_curve spare;
     struct extremes spare_extremes;
@@ -111,7 +111,7 @@ static void begin(struct evaluation *evaluation)
     storage->threaded_layout = storage->layout;
     if (!b) return;
     storage_place(&b->spare, b->numbers, evaluation->samples);
-    int *marks = storage_wants_extremes(evaluation->samples) ? b->marks : NULL;
+    double *marks = storage_wants_extremes(evaluation->samples) ? b->marks : NULL;
     b->spare_extremes = storage_extremes(marks, evaluation->samples);
     memset(b->pending, 0, (size_t)b->splines);
     wiggly_take_destroy(b->window.take);

@@ -69,7 +69,7 @@ static bool resize_numbers(struct storage *storage, int splines, int samples)
 
 bool storage_wants_extremes(int samples) { return samples >= MANY_SAMPLES; }
 
-struct extremes storage_extremes(int *marks, int samples)
+struct extremes storage_extremes(double *marks, int samples)
 {
     return marks ? (struct extremes){marks, marks + extremes_blocks(samples)} : (struct extremes){0};
 }
@@ -125,7 +125,7 @@ static void lay_out(struct evaluation *evaluation, struct storage *storage, int 
     for (int i = 0; i < splines; i++) {
         size_t row = (size_t)i * ROWS * (size_t)samples, mark = 2 * (size_t)i * extremes_blocks(samples);
         storage_place(&evaluation->curves[i], storage->numbers + row, samples);
-        int *marks = storage_wants_extremes(samples) ? storage->marks + mark : NULL;
+        double *marks = storage_wants_extremes(samples) ? storage->marks + mark : NULL;
         storage->extremes[i] = storage_extremes(marks, samples);
         evaluation->status[i] = WIGGLY_OK;
     }

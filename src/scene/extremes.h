@@ -7,9 +7,9 @@
 
 enum { EXTREMES_BLOCK = 1024 };
 
-/// Samples of the lowest and the highest number of every EXTREMES_BLOCK; NULL: not known.
+/// The lowest and the highest of every EXTREMES_BLOCK numbers; NULL: not known.
 struct extremes {
-    int *low, *high;
+    double *low, *high;
 };
 
 /// Elements that each of the two arrays needs for that many samples.

@@ -11,7 +11,7 @@ enum { ROWS = 5 }; ///< rows of numbers a curve: total, y, re, im, omega
 struct storage {
     double *numbers; ///< ROWS · N for each spline
     size_t number_capacity;
-    int *marks; ///< of all extremes
+    double *marks; ///< of all extremes
     size_t mark_capacity;
     wiggly_solver *solver;
     int solver_samples, solver_knots;
@@ -31,7 +31,7 @@ struct storage {
 void storage_place(wiggly_curve *curve, double *numbers, int samples);
 
 /// The same for extremes in 2 · extremes_blocks(samples) marks; none where marks is NULL.
-struct extremes storage_extremes(int *marks, int samples);
+struct extremes storage_extremes(double *marks, int samples);
 
 /// Whether curves of that many samples have extremes.
 bool storage_wants_extremes(int samples);
