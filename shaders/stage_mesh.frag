@@ -6,12 +6,12 @@ in vec3 fur;
 in float open_sky;
 uniform vec3 eye;
 uniform vec3 key_from;
+uniform vec3 earth; // the light that comes up from the ground
 uniform float seam; // 0 in the first pass
 out vec4 pixel;
 
 const vec3 KEY = vec3(1.0, 0.8796, 0.7157);      // #FFF1DC
 const vec3 SKY = vec3(0.2747, 0.3663, 0.5210);   // #8FA3BF
-const vec3 EARTH = vec3(0.0232, 0.0176, 0.0144); // #2A2420
 const vec3 RIM = vec3(0.3325, 0.5711, 1.0);      // #9CC7FF
 const float EXPOSURE = 0.82;                     // the white tip, fully lit, just does not burn out
 
@@ -42,7 +42,7 @@ void main()
     float key = max((dot(n, key_from) + 0.4) / 1.4, 0.0);
     float graze = 1.0 - clamp(facing, 0.0, 1.0);
     float upward = 0.5 + 0.5 * n.y;
-    vec3 light = KEY * key + mix(EARTH, SKY, upward) * open_sky;
+    vec3 light = KEY * key + mix(earth, SKY, upward) * open_sky;
     // The rim is the sky's: what faces the ground has less of it.
     vec3 linear = fur * light * EXPOSURE + RIM * (0.35 * graze * graze * graze * open_sky * upward);
     pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), seam > 0.0 ? seam_opacity(to_eye) : 1.0);

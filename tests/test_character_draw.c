@@ -30,6 +30,7 @@ static void draw(const struct stage_character *character, picture pixels)
     view.colors = theme()->stage;
     camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT);
     camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
+    camera_lamp(&camera, view.key_from);
     view.characters[0] = *character;
     view.character_count = 1;
     offscreen_draw(&view, WIDTH, HEIGHT, pixels);

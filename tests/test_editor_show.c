@@ -305,7 +305,8 @@ static void test_the_stage_turns_only_by_hand(void **state)
     (void)state;
     struct session s;
     session_open(&s, TAIL);
-    float before[16];
+    float before[16], lamp[3];
+    memcpy(lamp, editor_stage(s.editor)->key_from, sizeof lamp);
     memcpy(before, editor_stage(s.editor)->view, sizeof before);
     session_click(&s, "knot(sway,1)");
     session_key(&s, KEY_UP, MOD_ALT);
@@ -315,6 +316,7 @@ static void test_the_stage_turns_only_by_hand(void **state)
     session_drag(&s, 50, 0, 3);
     session_release(&s, BUTTON_RIGHT);
     assert_memory_not_equal(before, editor_stage(s.editor)->view, sizeof before);
+    assert_memory_equal(lamp, editor_stage(s.editor)->key_from, sizeof lamp); // the light stays with the world
     session_close(&s);
 }
 

@@ -40,6 +40,7 @@ static void arrange(double side)
     pose_bounds(&view.tails[0].pose, lo, hi);
     camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT);
     camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
+    camera_lamp(&camera, view.key_from);
 }
 
 static void draw(void) { offscreen_draw(&view, WIDTH, HEIGHT, pixels); }

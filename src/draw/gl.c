@@ -1,5 +1,6 @@
 #include "draw/gl.h"
 #include "base/embedded.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -60,4 +61,14 @@ GLuint gl_program(const char *vertex_name, const char *fragment_name, struct err
     if (vertex) glDeleteShader(vertex);
     if (fragment) glDeleteShader(fragment);
     return program;
+}
+
+void gl_uniform_linear(GLint location, uint32_t color)
+{
+    float linear[3];
+    for (int k = 0; k < 3; k++) {
+        float value = (float)(color >> (24 - 8 * k) & 0xFFu) / 255;
+        linear[k] = value <= 0.04045f ? value / 12.92f : powf((value + 0.055f) / 1.055f, 2.4f);
+    }
+    glUniform3fv(location, 1, linear);
 }

@@ -4,9 +4,13 @@
 
 #include "base/error.h"
 #include <epoxy/gl.h>
+#include <stdint.h>
 
 /// Compiles and links the embedded shaders "shaders/<vertex_name>" and "shaders/<fragment_name>". 0 with the compiler's
 /// first complaint as a sentence where that fails.
 GLuint gl_program(const char *vertex_name, const char *fragment_name, struct error *error);
+
+/// Sets a vec3 of the program in use to a colour 0xRRGGBBAA (sRGB), made linear.
+void gl_uniform_linear(GLint location, uint32_t color);
 
 #endif

@@ -45,6 +45,7 @@ static void arrange_stage(struct stage_view *stage, struct rect panel)
     *stage = (struct stage_view){
         .viewport = panel, .eye = {3.0f, 1.2f, 3.0f}, .colors = theme()->stage, .tail_count = 1, .hash = 1};
     mat4 view, projection, frame;
+    memcpy(stage->key_from, (float[3]){0, 0.8f, 0.6f}, sizeof stage->key_from);
     glm_lookat(stage->eye, (vec3){0.0f, 0.7f, 0.0f}, (vec3){0.0f, 1.0f, 0.0f}, view);
     glm_perspective(glm_rad(30.0f), panel.w / fmaxf(panel.h, 1.0f), 0.1f, 20.0f, projection);
     memcpy(stage->view, view, sizeof stage->view);

@@ -22,7 +22,7 @@ struct model {
 
 struct stage_renderer {
     GLuint program, joints;
-    GLint clip_from_world, shape, eye, key_from, seam;
+    GLint clip_from_world, shape, eye, key_from, earth, seam;
     struct model models[CREATURE_LEVELS];
     struct stage_flat *flat;
     struct stage_morph *morph;
@@ -78,6 +78,7 @@ static bool program_create(struct stage_renderer *renderer, struct error *error)
     renderer->shape = glGetUniformLocation(renderer->program, "shape");
     renderer->eye = glGetUniformLocation(renderer->program, "eye");
     renderer->key_from = glGetUniformLocation(renderer->program, "key_from");
+    renderer->earth = glGetUniformLocation(renderer->program, "earth");
     renderer->seam = glGetUniformLocation(renderer->program, "seam");
     glUniformBlockBinding(renderer->program, glGetUniformBlockIndex(renderer->program, "Joints"), JOINT_BINDING);
     glGenBuffers(1, &renderer->joints);
@@ -160,14 +161,14 @@ static void draw_animal(const struct stage_renderer *renderer, const struct mode
 static void draw_animals(const struct stage_renderer *renderer, const struct stage_view *view, float seam)
 {
     const struct model *model = &renderer->models[creature_level(view->tail_count)];
-    float clip_from_world[16], key_from[3];
+    float clip_from_world[16];
     if (view->tail_count == 0) return;
     stage_clip_from_world(view, clip_from_world);
-    stage_key_from(view, key_from);
     glUseProgram(renderer->program);
     glUniformMatrix4fv(renderer->clip_from_world, 1, GL_FALSE, clip_from_world);
     glUniform3fv(renderer->eye, 1, view->eye);
-    glUniform3fv(renderer->key_from, 1, key_from);
+    glUniform3fv(renderer->key_from, 1, view->key_from);
+    gl_uniform_linear(renderer->earth, view->colors.bounce);
     glUniform1f(renderer->seam, seam);
     glBindVertexArray(model->vertex_array);
     for (int t = 0; t < view->tail_count; t++) draw_animal(renderer, model, view, t);

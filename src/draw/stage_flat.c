@@ -63,14 +63,6 @@ void stage_flat_destroy(struct stage_flat *flat)
     free(flat);
 }
 
-void stage_key_from(const struct stage_view *view, float key_from[3])
-{
-    static const float from[3] = {-0.39955f, 0.79910f, 0.44949f};
-    for (int k = 0; k < 3; k++) {
-        key_from[k] = view->view[4 * k] * from[0] + view->view[4 * k + 1] * from[1] + view->view[4 * k + 2] * from[2];
-    }
-}
-
 void stage_clip_from_world(const struct stage_view *view, float clip_from_world[16])
 {
     for (int c = 0; c < 4; c++) {

@@ -20,8 +20,4 @@ void stage_flat_draw(const struct stage_flat *flat);
 /// projection · view, column-major.
 void stage_clip_from_world(const struct stage_view *view, float clip_from_world[16]);
 
-/// Where the key light comes from, world: it stands fixed to the camera, up on the left, so that the side in view is
-/// always the lit one.
-void stage_key_from(const struct stage_view *view, float key_from[3]);
-
 #endif

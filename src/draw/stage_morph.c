@@ -25,7 +25,7 @@ struct model {
 struct stage_morph {
     GLuint program;
     struct {
-        GLint clip_from_world, eye, key_from, place, shade, seam, count, first_row, weight, map_row, map_axis;
+        GLint clip_from_world, eye, key_from, earth, place, shade, seam, count, first_row, weight, map_row, map_axis;
     } at;
     struct model models[MAX_KEPT];
     long clock;
@@ -50,6 +50,7 @@ struct stage_morph *stage_morph_create(struct error *error)
         {&morph->at.clip_from_world, "clip_from_world"},
         {&morph->at.eye, "eye"},
         {&morph->at.key_from, "key_from"},
+        {&morph->at.earth, "earth"},
         {&morph->at.place, "place"},
         {&morph->at.shade, "shade"},
         {&morph->at.seam, "seam"},
@@ -235,14 +236,14 @@ static void draw_character(const struct stage_morph *morph, const struct model *
 
 void stage_morph_draw(const struct stage_morph *morph, const struct stage_view *view, float seam)
 {
-    float clip_from_world[16], key_from[3];
+    float clip_from_world[16];
     if (view->character_count == 0) return;
     stage_clip_from_world(view, clip_from_world);
-    stage_key_from(view, key_from);
     glUseProgram(morph->program);
     glUniformMatrix4fv(morph->at.clip_from_world, 1, GL_FALSE, clip_from_world);
     glUniform3fv(morph->at.eye, 1, view->eye);
-    glUniform3fv(morph->at.key_from, 1, key_from);
+    glUniform3fv(morph->at.key_from, 1, view->key_from);
+    gl_uniform_linear(morph->at.earth, view->colors.bounce);
     glUniform1f(morph->at.seam, seam);
     for (int i = 0; i < view->character_count; i++) {
         const struct stage_character *shown = &view->characters[i];

@@ -98,6 +98,7 @@ void stage_fit(struct editor *editor, const struct editor_world *world)
     bool any = characters_bounds(editor, world, lo, hi);
     if (any && world->document->tail_count == 0)
         editor->camera.azimuth = editor->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
+    camera_lamp(&editor->camera, editor->stage.key_from); // it stays there while the camera goes round
     if (!any && world->document->tail_count == 0) return;
     for (int k = 0; k < 2; k++) editor->stage.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
     camera_fit(&editor->camera, lo, hi, editor->layout.stage.w / editor->layout.stage.h);
@@ -124,6 +125,7 @@ static uint64_t view_hash(const struct stage_view *view)
     hash = hash_bytes(hash, view->view, sizeof view->view);
     hash = hash_bytes(hash, view->projection, sizeof view->projection);
     hash = hash_bytes(hash, view->middle, sizeof view->middle);
+    hash = hash_bytes(hash, view->key_from, sizeof view->key_from);
     hash = hash_bytes(hash, &view->colors, sizeof view->colors);
     for (int t = 0; t < view->tail_count; t++) {
         const struct stage_tail *tail = &view->tails[t];

@@ -32,6 +32,13 @@ struct camera camera_default(void)
     return (struct camera){.azimuth = 35.0f * degree, .elevation = 12.0f * degree, .distance = 4.0f};
 }
 
+void camera_lamp(const struct camera *camera, float from[3])
+{
+    static const float lamp[3] = {-0.39955f, 0.79910f, 0.44949f}; // to the right, up, towards the eye
+    const struct axes axes = camera_axes(camera);
+    for (int k = 0; k < 3; k++) from[k] = lamp[0] * axes.right[k] + lamp[1] * axes.up[k] + lamp[2] * axes.back[k];
+}
+
 /// near and far go with the distance, so that any size of scene keeps the same depth precision.
 void camera_matrices(const struct camera *camera, float aspect, float view[16], float projection[16], float eye[3])
 {

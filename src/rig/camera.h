@@ -23,6 +23,9 @@ struct camera camera_default(void);
 /// World → eye, eye → clip (for width/height = `aspect`) and where the eye is.
 void camera_matrices(const struct camera *camera, float aspect, float view[16], float projection[16], float eye[3]);
 
+/// Where a lamp up on the left of the camera shines from: a direction (unit length) of the world.
+void camera_lamp(const struct camera *camera, float from[3]);
+
 /// Moves target and distance, keeping both angles, so that the middles of the edges of the box lo … hi lie within the
 /// picture with 15 % to spare. An empty or broken box is left alone.
 void camera_fit(struct camera *camera, const float lo[3], const float hi[3], float aspect);

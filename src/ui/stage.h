@@ -41,6 +41,7 @@ struct stage_view {
     float projection[16]; ///< eye → clip
     float eye[3];         ///< camera position, world
     float middle[2];      ///< x and z of the middle of the lit ground
+    float key_from[3];    ///< where the key light comes from: a direction of the world, unit length
     struct stage_colors colors;
     struct stage_tail tails[STAGE_MAX_TAILS];
     int tail_count;

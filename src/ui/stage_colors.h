@@ -8,6 +8,7 @@
 struct stage_colors {
     uint32_t top, bottom; ///< of the background
     uint32_t ground, shadow;
+    uint32_t bounce; ///< light from the ground
 };
 
 #endif
