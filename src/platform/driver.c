@@ -1,8 +1,17 @@
 #include "platform/surface.h"
 #include <dlfcn.h>
 #include <link.h>
+#include <malloc.h>
 #include <stddef.h>
 #include <string.h>
+
+void keep_freed_memory(void)
+{
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 32 << 20); // the largest that it takes
+    mallopt(M_TRIM_THRESHOLD, 64 << 20);
+#endif
+}
 
 #ifdef __SANITIZE_ADDRESS__
 /// Pins a loaded library of Mesa's drivers.

@@ -9,6 +9,7 @@ static struct platform *allocate(struct error *error)
 {
     struct platform *platform = calloc(1, sizeof *platform);
     if (!platform) fail(error, ERROR_ENVIRONMENT, "out of memory for the window's events");
+    keep_freed_memory();
     return platform;
 }
 

@@ -49,6 +49,10 @@ struct surface_size offscreen_size(const struct offscreen *offscreen);
 /// Whether a swap leaves the back buffer as it is, found out by swapping twice. The current context's.
 bool probe_keeps(struct window *window);
 
+/// A software driver asks for the memory of a frame's triangles in each frame, and frees it: it is kept, because giving it to the
+/// system and back costs a tenth of the processor.
+void keep_freed_memory(void);
+
 /// In builds with the address sanitizer: keeps the loaded graphics driver in memory until the process ends.
 void keep_driver_loaded(void);
 
