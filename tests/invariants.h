@@ -14,7 +14,7 @@ static inline void assert_scene_timing(const struct document *d)
 {
     assert_true(isfinite(d->fps) && d->fps > 0 && d->fps <= SCENE_MAX_FPS);
     assert_in_range(d->substeps, 1, SCENE_MAX_SUBSTEPS);
-    assert_true(d->first_frame < d->last_frame);
+    assert_true(d->first_frame <= d->last_frame);
     assert_true(abs(d->first_frame) <= SCENE_MAX_FRAME && abs(d->last_frame) <= SCENE_MAX_FRAME);
     assert_true((int64_t)document_samples(d) * d->spline_count <= SCENE_MAX_SAMPLES);
 }
