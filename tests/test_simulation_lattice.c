@@ -1,5 +1,6 @@
 /// The lattice around a surface: what is inside, how much of it, what hangs together, and where the vertices are.
 #include "near.h"
+#include "simulation/closed.h"
 #include "simulation/lattice.h"
 #include "simulation/voxels.h"
 #include <stdlib.h>
@@ -79,6 +80,7 @@ static void voxels_inside_a_sphere(void **state)
     (void)state;
     struct surface sphere = {0};
     add_sphere(&sphere, 1);
+    for (int i = 0; i < sphere.vertex_count; i += 100) add_triangle(&sphere, i, i, i); // of no size: changes nothing
     // The grid's planes go through the poles and along edges: hits on vertices and edges are the rule here.
     struct voxels voxels = {.size = {41, 41, 41}, .origin = {-1.025, -1.025, -1.025}, .spacing = 0.05};
     assert_true(voxels_fill(&voxels, &sphere));
@@ -215,6 +217,24 @@ static void the_lattice_is_as_symmetric_as_the_mesh(void **state)
     surface_free(&sphere);
 }
 
+/// However thin it is, cutting it takes bounded memory, and where nothing is left of it that is said.
+static void a_needle_is_cut_within_bounds(void **state)
+{
+    (void)state;
+    struct lattice lattice;
+    struct error error = {0};
+    struct surface needle = {0}, hair = {0};
+    add_box(&needle, (const double[3]){0, 0, 0}, (const double[3]){1e-3, 2, 1e-3});
+    lattice = lattice_of(&needle, 3000);
+    assert_true(lattice.tet_count > 100);
+    lattice_free(&lattice);
+    add_box(&hair, (const double[3]){0, 0, 0}, (const double[3]){1e-9, 2, 1e-9});
+    assert_false(lattice_create(&lattice, &hair, 3000, "hair.obj", &error));
+    assert_string_equal(error.text, "hair.obj: the mesh is too thin for a lattice of 3000 tetrahedra");
+    surface_free(&needle);
+    surface_free(&hair);
+}
+
 static void open_edges_are_counted(void **state)
 {
     (void)state;
@@ -247,6 +267,7 @@ int main(void)
         cmocka_unit_test(prongs_closer_than_a_cell_are_not_glued),
         cmocka_unit_test(separate_solids_are_separate_parts),
         cmocka_unit_test(the_lattice_is_as_symmetric_as_the_mesh),
+        cmocka_unit_test(a_needle_is_cut_within_bounds),
         cmocka_unit_test(open_edges_are_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

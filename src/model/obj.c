@@ -227,6 +227,18 @@ bool obj_write(const char *path, const struct surface *surface, struct error *er
     return file_output_commit(&output, error);
 }
 
+void surface_bounds(const struct surface *surface, double lo[3], double hi[3])
+{
+    for (int c = 0; c < 3; c++) {
+        lo[c] = INFINITY;
+        hi[c] = -INFINITY;
+        for (int i = 0; i < surface->vertex_count; i++) {
+            lo[c] = fmin(lo[c], (double)surface->position[i][c]);
+            hi[c] = fmax(hi[c], (double)surface->position[i][c]);
+        }
+    }
+}
+
 void surface_free(struct surface *surface)
 {
     free(surface->position);

@@ -25,6 +25,9 @@ bool obj_read(const char *path, struct surface *surface, struct error *error);
 /// there, nothing between.
 bool obj_write(const char *path, const struct surface *surface, struct error *error);
 
+/// The box around the vertices, m; lo > hi where there are none.
+void surface_bounds(const struct surface *surface, double lo[3], double hi[3]);
+
 /// Leaves an empty surface.
 void surface_free(struct surface *surface);
 

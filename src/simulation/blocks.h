@@ -1,8 +1,4 @@
-/// Sparse symmetric matrices of 3×3 blocks, one block row a node, both triangles stored; and the systems in them.
-///
-/// Conjugate gradients rather than a factorisation: in a time step the matrix is 4M/h² + K, whose first term keeps the
-/// condition low, so that some twenty products of a matrix that fits the cache replace a factorisation whose fill would
-/// not (README.md has the measured times). Nothing but the C library is needed.
+/// Sparse symmetric matrices of 3×3 blocks, one block row a node, both triangles stored.
 #ifndef SIMULATION_BLOCKS_H
 #define SIMULATION_BLOCKS_H
 
@@ -26,18 +22,5 @@ int blocks_find(const struct blocks *blocks, int row, int column);
 
 /// y = A x, one vector of three a row.
 void blocks_multiply(const struct blocks *blocks, const double (*x)[3], double (*y)[3]);
-
-/// Scratch of the conjugate gradients: four vectors and the preconditioner. Made once, used for any number of solves.
-struct conjugate {
-    double (*r)[3], (*z)[3], (*p)[3], (*q)[3];
-    double (*inverse)[9]; ///< of the diagonal blocks
-};
-bool conjugate_create(struct conjugate *conjugate, int rows);
-void conjugate_free(struct conjugate *conjugate);
-
-/// Solves A x = b for a definite A from the guess x, until the residual in the preconditioner's norm has fallen by
-/// `tolerance` relative to that of x = 0. Returns the iterations taken, at most `limit`.
-int conjugate_solve(struct conjugate *conjugate, const struct blocks *a, const double (*b)[3], double (*x)[3],
-                    double tolerance, int limit);
 
 #endif

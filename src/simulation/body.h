@@ -5,6 +5,7 @@
 #define SIMULATION_BODY_H
 
 #include "simulation/blocks.h"
+#include "simulation/conjugate.h"
 #include "simulation/element.h"
 #include "simulation/material.h"
 #include <stdbool.h>
@@ -14,7 +15,7 @@ struct body {
     double (*rest)[3];        ///< m
     double *mass;             ///< kg
     bool *pinned;             ///< never moves
-    struct element *elements; ///< what is left of it may be empty nowhere: volume > 0
+    struct element *elements; ///< each of a volume above 0
     struct material material;
     struct svd *svd;          ///< a workspace: of each element's F where body_forces() was last called
     int (*place)[16];         ///< of each element's blocks in the matrix, or −1 where a node is pinned

@@ -1,5 +1,4 @@
-/// Whether a surface is closed: every edge is used once in each direction.
-#include "simulation/voxels.h"
+#include "simulation/closed.h"
 #include <stdlib.h>
 #include <string.h>
 

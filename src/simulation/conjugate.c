@@ -1,5 +1,4 @@
-/// Conjugate gradients, preconditioned by the inverses of the diagonal blocks.
-#include "simulation/blocks.h"
+#include "simulation/conjugate.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
 #include "simulation/lattice.h"
+#include "simulation/closed.h"
 #include "simulation/element.h"
 #include "simulation/tiling.h"
 #include "simulation/vec3.h"
@@ -6,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Cutting takes some 13 bytes a voxel; a thinner sheet than that many allow gets fewer tetrahedra than asked for.
+// Cutting takes some 13 bytes a voxel; a thinner sheet or needle than that many allow gets fewer tetrahedra than asked for.
 static const double voxels_max = 3e7;
 
 /// Volume inside, m³: the tetrahedra from the first vertex to each triangle.
@@ -25,30 +26,24 @@ static double surface_volume(const struct surface *surface)
     return fabs(sum);
 }
 
-/// The smallest cube's edge that keeps the voxels within bounds.
-static double smallest_cell(const struct surface *surface)
+/// A cube's edge from `cell` up that keeps the voxels within bounds.
+static double coarse_enough(const struct surface *surface, double cell)
 {
-    double volume = 1;
-    for (int c = 0; c < 3; c++) {
-        double lo = INFINITY, hi = -INFINITY;
-        for (int i = 0; i < surface->vertex_count; i++) {
-            lo = fmin(lo, (double)surface->position[i][c]);
-            hi = fmax(hi, (double)surface->position[i][c]);
-        }
-        volume *= fmax(hi - lo, 1e-30);
-    }
-    return VOXELS_A_CELL * cbrt(3 * volume / voxels_max); // 3 for the margin
+    while (tiling_voxels(surface, cell) > voxels_max) cell *= 1.1;
+    return cell;
 }
 
 /// Tries cubes of several sizes, twelve tetrahedra each inside, until the number is within 3 % or no longer gets nearer.
 static bool fit(struct tiling *best, const struct surface *surface, int target, double *best_cell)
 {
     enum { TRIES = 8 };
-    double cell = cbrt(12 * surface_volume(surface) / target), least = smallest_cell(surface), nearest = INFINITY;
+    double cell = cbrt(12 * surface_volume(surface) / target), nearest = INFINITY;
     *best = (struct tiling){0};
     for (int i = 0; i < TRIES && nearest > 0.03; i++) {
         struct tiling tiling;
-        cell = fmax(cell, least);
+        double allowed = coarse_enough(surface, cell);
+        if (allowed > cell && i > 0) break; // as fine as can be
+        cell = allowed;
         if (!tiling_create(&tiling, surface, cell)) return false;
         double ratio = fmax(tiling.kept, 1) / target;
         if (fabs(log(ratio)) < nearest) {

@@ -8,6 +8,7 @@
 #include "simulation/modes.h"
 #include "simulation/eigen.h"
 #include "simulation/vec3.h"
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -169,7 +170,7 @@ static void extract(struct lanczos *l, struct modes *modes, int wanted)
     for (int i = m - 1; i >= 0 && modes->count < wanted; i--) {
         double squared = 1 / l->values[i] - l->shift;
         if (!(l->values[i] > 0) || squared < 1e-4 * l->shift) continue;
-        modes->frequency[modes->count] = sqrt(squared) / (2 * acos(-1.0));
+        modes->frequency[modes->count] = sqrt(squared) / (2 * M_PI);
         expand(l, l->vectors + (size_t)i * (size_t)m, modes->shape + (size_t)modes->count * (size_t)l->node_count);
         modes->count++;
     }

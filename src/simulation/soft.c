@@ -11,13 +11,10 @@ struct soft_options soft_default_options(void)
 
 static void measure(struct soft *soft, const struct surface *surface)
 {
-    double lo = INFINITY, hi = -INFINITY;
-    for (int i = 0; i < surface->vertex_count; i++) {
-        lo = fmin(lo, (double)surface->position[i][1]);
-        hi = fmax(hi, (double)surface->position[i][1]);
-    }
-    soft->bottom = lo;
-    soft->height = hi - lo;
+    double lo[3], hi[3];
+    surface_bounds(surface, lo, hi);
+    soft->bottom = lo[1];
+    soft->height = hi[1] - lo[1];
 }
 
 static void pin(struct soft *soft, double height)
@@ -55,7 +52,7 @@ static bool tune(struct soft *soft, const struct soft_options *options)
     soft->young = options->young > 0 ? options->young : pow(options->frequency / first, 2);
     for (int k = 0; k < soft->modes.count; k++) soft->modes.frequency[k] *= sqrt(soft->young);
     soft->body.material = material_from(soft->young, options->poisson);
-    double omega = 2 * acos(-1.0) * soft->modes.frequency[0];
+    double omega = 2 * M_PI * soft->modes.frequency[0];
     soft->alpha = options->damping * omega;
     soft->beta = options->damping / omega;
     return true;
@@ -97,7 +94,7 @@ void soft_shake(const struct soft *soft, const struct shake *shake, struct integ
     for (int i = 0; i < soft->body.node_count; i++) {
         if (soft->body.pinned[i]) held = fmax(held, soft->body.rest[i][1]);
     }
-    double omega = soft->modes.count ? 2 * acos(-1.0) * soft->modes.frequency[0] : 0;
+    double omega = soft->modes.count ? 2 * M_PI * soft->modes.frequency[0] : 0;
     double size = shake->amplitude * soft->height * (shake->impulse ? omega : 1);
     for (int i = 0; i < soft->body.node_count; i++) {
         if (soft->body.pinned[i]) continue;

@@ -10,20 +10,25 @@ static const int neighbours[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1,
                                       {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0}, {1, 0, 1},
                                       {1, 1, -1}, {1, 1, 0},  {1, 1, 1}};
 
-/// Voxels over the surface's box and at least one cube more on each side, centred, so that a symmetric solid is cut
-/// symmetrically.
+/// Cubes along a side of the surface's box: those that cover it and one more or less at either end.
+static double cells_along(double side, double cell) { return ceil(side / cell) + 2; }
+
+double tiling_voxels(const struct surface *surface, double cell)
+{
+    double lo[3], hi[3], count = 1;
+    surface_bounds(surface, lo, hi);
+    for (int c = 0; c < 3; c++) count *= cells_along(hi[c] - lo[c], cell) * VOXELS_A_CELL;
+    return count;
+}
+
+/// Voxels over the surface's box and its margin, centred, so that a symmetric solid is cut symmetrically.
 static void lay_out(struct voxels *voxels, const struct surface *surface, double cell)
 {
-    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (int i = 0; i < surface->vertex_count; i++) {
-        for (int c = 0; c < 3; c++) {
-            lo[c] = fmin(lo[c], (double)surface->position[i][c]);
-            hi[c] = fmax(hi[c], (double)surface->position[i][c]);
-        }
-    }
+    double lo[3], hi[3];
+    surface_bounds(surface, lo, hi);
     voxels->spacing = cell / VOXELS_A_CELL;
     for (int c = 0; c < 3; c++) {
-        int cells = (int)ceil((hi[c] - lo[c]) / cell) + 2;
+        int cells = (int)cells_along(hi[c] - lo[c], cell);
         voxels->size[c] = cells * VOXELS_A_CELL;
         voxels->origin[c] = (lo[c] + hi[c] - cells * cell) / 2;
     }

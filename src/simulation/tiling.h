@@ -19,7 +19,10 @@ struct tiling {
     int *part; ///< per element: the part it is connected with through faces, by one of its elements; −1 left out
 };
 
-/// Cuts the surface's inside with cubes of edge `cell`. False where memory is short.
+/// How many voxels a tiling with cubes of edge `cell` has; as a double, for it may be any number.
+double tiling_voxels(const struct surface *surface, double cell);
+
+/// Cuts the surface's inside with cubes of edge `cell`, for which tiling_voxels() must fit an int. False where memory is short.
 bool tiling_create(struct tiling *tiling, const struct surface *surface, double cell);
 void tiling_free(struct tiling *tiling);
 

@@ -101,6 +101,7 @@ static void rasterise(const struct raster *raster, const struct surface *surface
             hi[c] = (int)fmin(v->size[c] - 1, fmax(hi[c], ceil(place + 0.01)));
         }
     }
+    if (area(p[0], p[1], p[2]) == 0) return; // seen edge on, or of no size: no ray passes through
     for (int i = lo[0]; i <= hi[0]; i++) {
         for (int j = lo[1]; j <= hi[1]; j++) cross(raster, p, z, i, j, list);
     }

@@ -23,8 +23,4 @@ static inline size_t voxels_count(const struct voxels *voxels)
     return (size_t)voxels->size[0] * (size_t)voxels->size[1] * (size_t)voxels->size[2];
 }
 
-/// Number of edges that are not used as often in one direction as in the other; 0 for a closed surface. Vertices at the same
-/// place count as one. −1 where memory is short.
-int surface_open_edges(const struct surface *surface);
-
 #endif
