@@ -1,9 +1,7 @@
 #include "scene/extremes.h"
 #include <math.h>
 
-enum {
-    CHAINS = 8
-}; ///< comparisons that do not wait for each other: ten million samples take 4 to 9 ms
+enum { CHAINS = 8 }; ///< comparisons that do not wait for each other: ten million samples take 4 to 9 ms
 
 size_t extremes_blocks(int samples) { return ((size_t)samples + EXTREMES_BLOCK - 1) / EXTREMES_BLOCK; }
 
