@@ -1,13 +1,11 @@
 #include "model/coat.h"
+#include "base/srgb.h"
 #include "model/creature.h"
 #include <math.h>
 
 void coat_linear(uint32_t srgb, float rgb[3])
 {
-    for (int k = 0; k < 3; k++) {
-        const float c = (float)(srgb >> (16 - 8 * k) & 0xFF) / 255.0f;
-        rgb[k] = c <= 0.04045f ? c / 12.92f : powf((c + 0.055f) / 1.055f, 2.4f);
-    }
+    for (int k = 0; k < 3; k++) rgb[k] = srgb_to_linear((float)(srgb >> (16 - 8 * k) & 0xFF) / 255.0f);
 }
 
 void coat_mix(float rgb[3], uint32_t to, float amount)

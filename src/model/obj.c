@@ -1,5 +1,6 @@
 #include "model/obj.h"
 #include "base/file.h"
+#include "base/srgb.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,11 +24,6 @@ static bool expected(const struct reader *r, const char *what, const char *got)
     if (shown == 0) return fail(r->error, ERROR_INPUT, "%s:%d: expected %s, got nothing", r->path, r->number, what);
     if (shown > SHOWN_MAX) shown = SHOWN_MAX;
     return fail(r->error, ERROR_INPUT, "%s:%d: expected %s, got '%.*s'", r->path, r->number, what, shown, got);
-}
-
-static bool no_memory(const char *path, struct error *error)
-{
-    return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
 }
 
 static char *skip_space(char *at) { return at + strspn(at, " \t\r"); }
@@ -83,14 +79,6 @@ static int read_numbers(const struct reader *r, char *at, float *numbers, int co
     return count;
 }
 
-/// IEC 61966-2-1.
-static float linear_of(float srgb) { return srgb <= 0.04045f ? srgb / 12.92f : powf((srgb + 0.055f) / 1.055f, 2.4f); }
-
-static float srgb_of(float linear)
-{
-    return linear <= 0.0031308f ? linear * 12.92f : 1.055f * powf(linear, 1 / 2.4f) - 0.055f;
-}
-
 /// A colour for the newest vertex; the vertices before the first that has one are white.
 static bool add_color(struct reader *r, const float srgb[3])
 {
@@ -98,9 +86,9 @@ static bool add_color(struct reader *r, const float srgb[3])
     int first = s->color ? s->vertex_count : 0;
     for (int i = first; i <= s->vertex_count; i++) {
         void *colors = s->color;
-        if (!reserve(&colors, sizeof *s->color, i, &r->color_capacity)) return no_memory(r->path, r->error);
+        if (!reserve(&colors, sizeof *s->color, i, &r->color_capacity)) return fail_no_memory(r->error, r->path);
         s->color = colors;
-        for (int k = 0; k < 3; k++) s->color[i][k] = i < s->vertex_count ? 1 : linear_of(srgb[k]);
+        for (int k = 0; k < 3; k++) s->color[i][k] = i < s->vertex_count ? 1 : srgb_to_linear(srgb[k]);
     }
     return true;
 }
@@ -116,7 +104,7 @@ static bool read_vertex(struct reader *r, char *at)
     if (count < 3) return expected(r, "three coordinates of a vertex", "");
     void *positions = s->position;
     if (!reserve(&positions, sizeof *s->position, s->vertex_count, &r->vertex_capacity))
-        return no_memory(r->path, r->error);
+        return fail_no_memory(r->error, r->path);
     s->position = positions;
     memcpy(s->position[s->vertex_count], numbers, sizeof *s->position);
     const float *color = count == 6 ? numbers + 3 : s->color ? white : NULL;
@@ -143,7 +131,7 @@ static bool add_index(struct reader *r, uint32_t index)
     struct surface *s = r->surface;
     void *indices = s->indices;
     if (!reserve(&indices, sizeof *s->indices, s->index_count, &r->index_capacity))
-        return no_memory(r->path, r->error);
+        return fail_no_memory(r->error, r->path);
     s->indices = indices;
     s->indices[s->index_count++] = index;
     return true;
@@ -212,7 +200,7 @@ static void write_surface(FILE *out, const struct surface *s)
     for (int i = 0; i < s->vertex_count; i++) {
         const float *p = s->position[i];
         fprintf(out, "v %.9g %.9g %.9g", (double)p[0], (double)p[1], (double)p[2]);
-        for (int k = 0; s->color && k < 3; k++) fprintf(out, " %.9g", (double)srgb_of(s->color[i][k]));
+        for (int k = 0; s->color && k < 3; k++) fprintf(out, " %.9g", (double)srgb_from_linear(s->color[i][k]));
         fputc('\n', out);
     }
     for (int i = 0; i + 2 < s->index_count; i += 3)

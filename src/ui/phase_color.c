@@ -1,4 +1,5 @@
 #include "ui/phase_color.h"
+#include "base/srgb.h"
 #include <math.h>
 
 /// The largest circle around grey that still lies in sRGB, and the power of the amplitude that makes small movements seen;
@@ -25,8 +26,7 @@ uint32_t phase_color(float re, float im)
     phase_color_linear(re, im, rgb);
     for (int k = 0; k < 3; k++) {
         const float c = fminf(fmaxf(rgb[k], 0.0f), 1.0f);
-        const float encoded = c <= 0.0031308f ? 12.92f * c : 1.055f * powf(c, 1.0f / 2.4f) - 0.055f;
-        color = color << 8 | (uint32_t)lroundf(255.0f * encoded);
+        color = color << 8 | (uint32_t)lroundf(255.0f * srgb_from_linear(c));
     }
     return color << 8 | 0xFFu;
 }
