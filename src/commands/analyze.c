@@ -23,8 +23,6 @@ struct job {
     int direction_count; ///< 0, 1 for all, or one a file
 };
 
-static bool no_memory(struct error *error) { return fail(error, ERROR_ENVIRONMENT, "not enough memory"); }
-
 /// Splits --shake at its colons. False where a part is no direction or the number of parts is wrong.
 static bool read_directions(struct job *job, int files)
 {
@@ -64,7 +62,7 @@ static bool keep(struct coordinate *to, const struct component *c, const struct 
                  const struct character *character, struct error *error)
 {
     to->name = make_name(path, character);
-    if (!to->name) return no_memory(error);
+    if (!to->name) return fail_no_memory(error, path);
     to->frequency = c->frequency;
     to->damping = c->damping;
     to->explained = c->explained;
@@ -148,7 +146,7 @@ static bool analyse_files(const struct job *job, const struct lapack *lapack, co
 {
     int files = 0, filled = 0;
     while (job->files[files]) files++;
-    if (!character_create(character, rest, files * job->modes)) return no_memory(error);
+    if (!character_create(character, rest, files * job->modes)) return fail_no_memory(error, job->rest);
     bool done = true;
     for (int i = 0; done && i < files; i++) done = analyse(job, i, lapack, rest, character, &filled, error);
     return done && character_write(job->output, character, error) &&
@@ -209,10 +207,7 @@ int command_analyze(int argc, char **argv)
     enum options_result result = options_parse(&usage, argc, argv, job.files);
     if (result != OPTIONS_RUN) return (int)result;
     const char *wrong = check(&job);
-    if (wrong) {
-        fprintf(stderr, "wiggly analyze: %s; see wiggly analyze --help\n", wrong);
-        return ERROR_USAGE;
-    }
+    if (wrong) return (int)options_wrong(&usage, "%s", wrong);
     struct error error;
     if (run(&job, &error)) return 0;
     fprintf(stderr, "%s\n", error.text);

@@ -49,10 +49,7 @@ const char *options_nearest(const char *word, const char *const *candidates, int
     return nearest;
 }
 
-static enum options_result wrong(const struct usage *usage, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-
-static enum options_result wrong(const struct usage *usage, const char *format, ...)
+enum options_result options_wrong(const struct usage *usage, const char *format, ...)
 {
     fprintf(stderr, "wiggly %s: ", usage->command);
     va_list arguments;
@@ -72,8 +69,8 @@ static enum options_result wrong_option(const struct usage *usage, const char *w
     char given[WORD_MAX + 1];
     snprintf(given, sizeof given, "%.*s", (int)length, word);
     const char *nearest = options_nearest(given, names, count);
-    if (nearest) return wrong(usage, "there is no option %s (did you mean %s?)", given, nearest);
-    return wrong(usage, "there is no option %s", given);
+    if (nearest) return options_wrong(usage, "there is no option %s (did you mean %s?)", given, nearest);
+    return options_wrong(usage, "there is no option %s", given);
 }
 
 static const struct option_spec *find(const struct usage *usage, const char *word, size_t length)
@@ -128,20 +125,21 @@ static enum options_result store(const struct usage *usage, const struct option_
         *(bool *)option->target = true;
         return OPTIONS_RUN;
     case OPTION_TEXT:
-        if (!*text) return wrong(usage, "%s: expected %s, got nothing", option->name, option->argument);
+        if (!*text) return options_wrong(usage, "%s: expected %s, got nothing", option->name, option->argument);
         *(const char **)option->target = text;
         return OPTIONS_RUN;
     case OPTION_INT:
         if (read_int(text, 0, low, high, option->target, &rest)) return OPTIONS_RUN;
-        return wrong(usage, "%s: expected a whole number from %.10g to %.10g, got '%s'", option->name, low, high,
-                     text);
+        return options_wrong(usage, "%s: expected a whole number from %.10g to %.10g, got '%s'", option->name, low,
+                             high, text);
     case OPTION_REAL:
         if (read_real(text, low, high, option->target)) return OPTIONS_RUN;
-        return wrong(usage, "%s: expected a number from %.10g to %.10g, got '%s'", option->name, low, high, text);
+        return options_wrong(usage, "%s: expected a number from %.10g to %.10g, got '%s'", option->name, low, high,
+                             text);
     case OPTION_SIZE:
         if (read_size(text, low, high, option->target)) return OPTIONS_RUN;
-        return wrong(usage, "%s: expected WIDTHxHEIGHT, each from %.10g to %.10g, got '%s'", option->name, low, high,
-                     text);
+        return options_wrong(usage, "%s: expected WIDTHxHEIGHT, each from %.10g to %.10g, got '%s'", option->name,
+                             low, high, text);
     }
     return OPTIONS_WRONG;
 }
@@ -155,41 +153,15 @@ static enum options_result read_option(const struct usage *usage, int argc, char
     const struct option_spec *option = find(usage, word, length);
     if (!option) return wrong_option(usage, word, length);
     if (option->kind == OPTION_FLAG) {
-        if (equals) return wrong(usage, "%s takes no value", option->name);
+        if (equals) return options_wrong(usage, "%s takes no value", option->name);
         return store(usage, option, NULL);
     }
     if (equals) return store(usage, option, equals + 1);
-    if (*at + 1 >= argc) return wrong(usage, "%s needs a value: %s", option->name, option->argument);
+    if (*at + 1 >= argc) return options_wrong(usage, "%s needs a value: %s", option->name, option->argument);
     return store(usage, option, argv[++*at]);
 }
 
-enum options_result options_parse(const struct usage *usage, int argc, char **argv, const char **operands)
-{
-    int count = 0;
-    bool only_operands = false;
-    for (int i = 0; i < usage->operand_maximum; i++) operands[i] = NULL;
-    for (int i = 1; i < argc; i++) {
-        if (!only_operands && (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)) {
-            options_help(usage);
-            return OPTIONS_HELP;
-        }
-        if (!only_operands && strcmp(argv[i], "--") == 0) {
-            only_operands = true;
-        } else if (!only_operands && argv[i][0] == '-' && argv[i][1]) {
-            if (read_option(usage, argc, argv, &i) == OPTIONS_WRONG) return OPTIONS_WRONG;
-        } else if (!*argv[i]) {
-            return wrong(usage, "expected %s, got an empty argument", usage->operands);
-        } else if (count < usage->operand_maximum) {
-            operands[count++] = argv[i];
-        } else {
-            return wrong(usage, "'%s' is one argument too many", argv[i]);
-        }
-    }
-    if (count < usage->operand_minimum) return wrong(usage, "an argument is missing: %s", usage->operands);
-    return OPTIONS_RUN;
-}
-
-void options_help(const struct usage *usage)
+static void print_help(const struct usage *usage)
 {
     printf("Usage: wiggly %s%s%s%s\n%s\n", usage->command, usage->option_count ? " [options]" : "",
            *usage->operands ? " " : "", usage->operands, usage->summary);
@@ -201,4 +173,30 @@ void options_help(const struct usage *usage)
                  option->name, option->argument ? " " : "", option->argument ? option->argument : "");
         printf("  %-26s %s\n", left, option->help);
     }
+}
+
+enum options_result options_parse(const struct usage *usage, int argc, char **argv, const char **operands)
+{
+    int count = 0;
+    bool only_operands = false;
+    for (int i = 0; i < usage->operand_maximum; i++) operands[i] = NULL;
+    for (int i = 1; i < argc; i++) {
+        if (!only_operands && (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)) {
+            print_help(usage);
+            return OPTIONS_HELP;
+        }
+        if (!only_operands && strcmp(argv[i], "--") == 0) {
+            only_operands = true;
+        } else if (!only_operands && argv[i][0] == '-' && argv[i][1]) {
+            if (read_option(usage, argc, argv, &i) == OPTIONS_WRONG) return OPTIONS_WRONG;
+        } else if (!*argv[i]) {
+            return options_wrong(usage, "expected %s, got an empty argument", usage->operands);
+        } else if (count < usage->operand_maximum) {
+            operands[count++] = argv[i];
+        } else {
+            return options_wrong(usage, "'%s' is one argument too many", argv[i]);
+        }
+    }
+    if (count < usage->operand_minimum) return options_wrong(usage, "an argument is missing: %s", usage->operands);
+    return OPTIONS_RUN;
 }

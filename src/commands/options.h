@@ -44,8 +44,9 @@ enum options_result {
 /// `operands` has room for usage->operand_maximum pointers; those not given become NULL.
 enum options_result options_parse(const struct usage *usage, int argc, char **argv, const char **operands);
 
-/// Prints the usage of a subcommand on stdout.
-void options_help(const struct usage *usage);
+/// Prints "wiggly COMMAND: sentence; see wiggly COMMAND --help" on stderr.
+enum options_result options_wrong(const struct usage *usage, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
 /// The candidate with the smallest edit distance to `word`, or NULL where none is near enough to be meant.
 const char *options_nearest(const char *word, const char *const *candidates, int count);

@@ -94,7 +94,7 @@ static bool shake(const struct job *job, const struct soft *soft, struct body *b
     bool good = position && integrator_create(&integrator, body, 1 / (job->fps * job->substeps));
     if (!good) {
         free(position);
-        return fail(error, ERROR_ENVIRONMENT, "out of memory");
+        return fail_no_memory(error, job->mesh);
     }
     integrator.mass_damping = soft->alpha;
     integrator.stiffness_damping = soft->beta;
@@ -112,7 +112,7 @@ static bool write_modes(const struct job *job, const struct soft *soft, struct e
     const int vertices = soft->lattice.vertex_count, nodes = soft->body.node_count;
     struct motion_writer writer;
     float(*shape)[3] = calloc((size_t)vertices + 1, sizeof *shape);
-    if (!shape) return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    if (!shape) return fail_no_memory(error, job->mesh);
     bool good = motion_write_open(&writer, job->output, soft->modes.count, vertices, error);
     for (int k = 0; good && k < soft->modes.count; k++) {
         lattice_embed(&soft->lattice, (const double(*)[3])(soft->modes.shape + (size_t)k * (size_t)nodes), shape);
@@ -167,26 +167,18 @@ static bool ends_in(const char *path, const char *extension)
     return length > tail && strcasecmp(path + length - tail, extension) == 0;
 }
 
-/// What the table of options cannot say; 0 or the exit status.
-static int check(struct job *job)
+/// What the table of options cannot say; NULL or what is wrong.
+static const char *check(struct job *job)
 {
-    const char *wrong = NULL;
-    if (!job->output) {
-        wrong = "-o FILE is missing: what to write";
-    } else if (!ends_in(job->output, ".npy") && (job->modal || !ends_in(job->output, ".pc2"))) {
-        wrong = job->modal ? "--output: expected a name ending in .npy for --modal"
-                           : "--output: expected a name ending in .npy or .pc2";
-    } else if (strlen(job->output) + 16 > sizeof job->rest) {
-        wrong = "--output: the name is too long";
-    } else if (!direction_read(job->shake_text, job->shake.direction)) {
-        wrong = "--shake: expected up, side, front or a vector x,y,z";
-    }
-    if (!wrong) {
-        snprintf(job->rest, sizeof job->rest, "%.*s.rest.obj", (int)strlen(job->output) - 4, job->output);
-        return 0;
-    }
-    fprintf(stderr, "wiggly simulate: %s; see wiggly simulate --help\n", wrong);
-    return ERROR_USAGE;
+    if (!job->output) return "-o FILE is missing: what to write";
+    if (job->modal && !ends_in(job->output, ".npy")) return "--output: expected a name ending in .npy for --modal";
+    if (!ends_in(job->output, ".npy") && !ends_in(job->output, ".pc2"))
+        return "--output: expected a name ending in .npy or .pc2";
+    if (strlen(job->output) + 16 > sizeof job->rest) return "--output: the name is too long";
+    if (!direction_read(job->shake_text, job->shake.direction))
+        return "--shake: expected up, side, front or a vector x,y,z";
+    snprintf(job->rest, sizeof job->rest, "%.*s.rest.obj", (int)strlen(job->output) - 4, job->output);
+    return NULL;
 }
 
 /// Lets Ctrl+C end the run in order, so that no temporary file stays.
@@ -243,8 +235,8 @@ int command_simulate(int argc, char **argv)
     if (result != OPTIONS_RUN) return (int)result;
     job.modal = modes > 0;
     if (job.modal) job.soft.modes = modes;
-    int status = check(&job);
-    if (status) return status;
+    const char *wrong = check(&job);
+    if (wrong) return (int)options_wrong(&usage, "%s", wrong);
     catch_interrupts();
     struct error error;
     if (run(&job, &error)) return 0;
