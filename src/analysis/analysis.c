@@ -3,11 +3,6 @@
 #include "analysis/spectrum.h"
 #include <stdlib.h>
 
-static bool no_memory(const struct motion *motion, struct error *error)
-{
-    return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", motion->path);
-}
-
 static bool create_components(struct analysis *a, const struct motion *motion, int count)
 {
     a->components = calloc((size_t)count, sizeof *a->components);
@@ -31,7 +26,7 @@ static bool form_shapes(struct analysis *a, const struct lapack *lapack, const s
     size_t frames = (size_t)motion->frames, columns = 3 * (size_t)motion->vertices, count = (size_t)a->count;
     double *weights = malloc(2 * count * frames * sizeof *weights);
     double *combined = malloc(2 * count * columns * sizeof *combined);
-    bool done = weights && combined ? true : no_memory(motion, error);
+    bool done = weights && combined ? true : fail_no_memory(error, motion->path);
     for (size_t k = 0; done && k < count; k++) spectrum_weights(spectrum, (int)k, weights + 2 * k * frames);
     done = done && slabs_combine(lapack, motion, weights, 2 * a->count, combined, error);
     for (size_t k = 0; done && k < count; k++) {
@@ -54,7 +49,7 @@ static bool finish(struct analysis *a, const struct motion *motion, const struct
         component_scale(c);
         component_turn(c, direction);
         component_fit(c, fps);
-        if (!component_lags(c)) return no_memory(motion, error);
+        if (!component_lags(c)) return fail_no_memory(error, motion->path);
     }
     return true;
 }
@@ -64,7 +59,7 @@ static bool make_spectrum(const struct lapack *lapack, const struct motion *moti
 {
     size_t n = (size_t)motion->frames;
     double *gram = malloc(n * n * sizeof *gram);
-    if (!gram) return no_memory(motion, error);
+    if (!gram) return fail_no_memory(error, motion->path);
     bool done = slabs_gram(lapack, motion, gram, means, error) &&
                 spectrum_create(spectrum, lapack, gram, motion->frames, motion->path, error);
     free(gram);
@@ -80,7 +75,7 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
         return fail(error, ERROR_INPUT, "%s: expected %d to %d frames, got %d", motion->path, ANALYSIS_FRAMES_MIN,
                     ANALYSIS_FRAMES_MAX, motion->frames);
     a->mean = malloc((size_t)motion->vertices * sizeof *a->mean);
-    if (!a->mean) return no_memory(motion, error);
+    if (!a->mean) return fail_no_memory(error, motion->path);
     if (!make_spectrum(lapack, motion, a->mean[0], &spectrum, error)) {
         analysis_free(a);
         return false;
@@ -90,7 +85,7 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
     bool done =
         create_components(a, motion, modes < motion->frames ? modes : motion->frames)
             ? form_shapes(a, lapack, motion, &spectrum, error) && finish(a, motion, &spectrum, fps, direction, error)
-            : no_memory(motion, error);
+            : fail_no_memory(error, motion->path);
     spectrum_free(&spectrum);
     if (!done) analysis_free(a);
     return done;

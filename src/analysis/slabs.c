@@ -23,7 +23,7 @@ static bool visit_slabs(const struct motion *motion, visit *each, void *user, do
     int columns = 3 * motion->vertices, width = SLAB_NUMBERS / motion->frames + 1;
     if (width > columns) width = columns;
     double *slab = malloc((size_t)motion->frames * (size_t)width * sizeof *slab);
-    if (!slab) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", motion->path);
+    if (!slab) return fail_no_memory(error, motion->path);
     bool done = true;
     for (int first = 0; done && first < columns; first += width) {
         int count = columns - first < width ? columns - first : width;

@@ -99,7 +99,7 @@ bool app_open(struct app *app, const char *path, struct error *error)
     if (!document) return false;
     if (path && !is_asset(path) && !document_set_path(document, path)) {
         document_destroy(document);
-        return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
+        return fail_no_memory(error, path);
     }
     app_adopt(app, document);
     personal_note_file(app, app_path(app));

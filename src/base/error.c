@@ -47,3 +47,8 @@ bool fail(struct error *error, enum error_kind kind, const char *format, ...)
     memcpy(error->text, text, strlen(text) + 1);
     return false;
 }
+
+bool fail_no_memory(struct error *error, const char *what)
+{
+    return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", what);
+}

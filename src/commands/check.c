@@ -58,8 +58,7 @@ static bool check_models(const char *path, struct document *document, struct pro
     struct error error = {0};
     struct cast *cast = cast_create();
     bool good = scene_read_paint(document, &error);
-    if (good)
-        good = cast ? cast_update(cast, document, &error) : fail(&error, ERROR_ENVIRONMENT, "not enough memory");
+    if (good) good = cast ? cast_update(cast, document, &error) : fail_no_memory(&error, "characters");
     cast_destroy(cast);
     if (good) return true;
     struct error problem;

@@ -201,7 +201,7 @@ bool glb_numbers(const struct glb *glb, int64_t index, struct glb_numbers *numbe
     if (!within) return outside(glb, index, error);
     numbers->count = (int)count;
     numbers->values = calloc((size_t)count * (size_t)e.components, sizeof *numbers->values);
-    if (!numbers->values) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", glb->path);
+    if (!numbers->values) return fail_no_memory(error, glb->path);
     bool read = fill(glb, accessor, &e, numbers), finite = read && all_finite(numbers);
     if (finite) return true;
     free(numbers->values);

@@ -70,7 +70,7 @@ static bool read_indices(const struct glb *glb, const json_t *primitive, int bas
         if (good) s->indices[s->index_count++] = (uint32_t)base + (uint32_t)index;
     }
     free(numbers.values);
-    if (!larger) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", glb->path);
+    if (!larger) return fail_no_memory(error, glb->path);
     return good ||
            fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected three vertices of %d a triangle, got others",
                 glb->path, (long long)accessor, count);
@@ -101,7 +101,7 @@ static bool read_surface(const struct glb *glb, const json_t *primitives, struct
     if (total > COUNT_LIMIT) return fail(error, ERROR_INPUT, "%s: expected fewer vertices", glb->path);
     s->position = calloc((size_t)total, sizeof *s->position);
     s->color = calloc((size_t)total, sizeof *s->color);
-    if (!s->position || !s->color) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", glb->path);
+    if (!s->position || !s->color) return fail_no_memory(error, glb->path);
     json_array_foreach(primitives, i, primitive)
     {
         int base = s->vertex_count, count = (int)vertex_count_of(glb, primitive);
@@ -205,7 +205,7 @@ static bool read_coordinates(const struct glb *glb, const json_t *mesh, struct c
         int im;
         if (!is_coordinate(names, i, &length, &im)) continue;
         coordinate->name = strndup(json_string_value(json_array_get(names, i)), length);
-        if (!coordinate->name) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", glb->path);
+        if (!coordinate->name) return fail_no_memory(error, glb->path);
         if (!read_target(glb, primitives, (int)i, 1, coordinate->re, error)) return false;
         if (!read_target(glb, primitives, im, -1, coordinate->im, error)) return false;
         read_extras(extras, coordinate++);
@@ -282,8 +282,7 @@ static bool read_character(const struct glb *glb, struct surface *surface, struc
     size_t length;
     for (size_t i = 0; i < json_array_size(names); i++) coordinates += is_coordinate(names, i, &length, &im);
     if (!read_surface(glb, primitives, surface, error)) return false;
-    if (!character_create(c, surface, coordinates))
-        return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", glb->path);
+    if (!character_create(c, surface, coordinates)) return fail_no_memory(error, glb->path);
     if (!read_normals(glb, primitives, c, error) || !read_coordinates(glb, mesh, c, error)) return false;
     if (glb_mesh_matrix(glb, number, matrix)) place(c, matrix);
     return true;

@@ -152,7 +152,7 @@ bool motion_columns(const struct motion *motion, int first, int count, double *s
 {
     size_t numbers = (size_t)(motion->columns_follow ? motion->frames : count);
     char *bytes = malloc(numbers * (size_t)motion->number_size);
-    if (!bytes) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", motion->path);
+    if (!bytes) return fail_no_memory(error, motion->path);
     bool done = motion->columns_follow ? read_columns(motion, first, count, bytes, slab, error)
                                        : read_rows(motion, first, count, bytes, slab, error);
     free(bytes);

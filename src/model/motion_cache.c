@@ -64,7 +64,7 @@ bool mdd_read_header(struct motion *m, int64_t size, struct error *error)
     if (!motion_layout(m, size, error)) return false;
     size_t bytes = 4 * (size_t)m->frames;
     unsigned char *times = malloc(bytes);
-    if (!times) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", m->path);
+    if (!times) return fail_no_memory(error, m->path);
     bool done = motion_read_at(m, MDD_HEADER, times, bytes, error);
     if (done) m->fps = m->frames > 1 ? fps_of_times(times, m->frames) : 0;
     free(times);

@@ -73,7 +73,7 @@ static struct reel *read_reel(const char *path, struct error *error)
     struct reel *reel = calloc(1, sizeof *reel);
     if (!reel || !(reel->path = strdup(path))) {
         reel_destroy(reel);
-        fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
+        fail_no_memory(error, path);
         return NULL;
     }
     if (!character_read(path, &character, error)) {
@@ -82,7 +82,7 @@ static struct reel *read_reel(const char *path, struct error *error)
     }
     if (!figure_create(&reel->figure, &character)) {
         reel_destroy(reel);
-        fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
+        fail_no_memory(error, path);
         return NULL;
     }
     return reel;
@@ -105,7 +105,7 @@ static const struct figure *obtain(struct cast *cast, const char *path, struct e
         struct reel **reels = realloc(cast->reels, ((size_t)cast->reel_count + 1) * sizeof(struct reel *));
         if (!reels) {
             reel_destroy(reel);
-            fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
+            fail_no_memory(error, path);
             return NULL;
         }
         cast->reels = reels;

@@ -1,11 +1,13 @@
 #include "scene/edit_plan.h"
 
+bool plan_no_memory(struct error *error) { return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit"); }
+
 bool plan_add(struct change_list *list, const struct change *change, struct error *error)
 {
     if (!change_list_reserve(list, 1)) {
         struct change lost = *change;
         change_release(&lost);
-        return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit");
+        return plan_no_memory(error);
     }
     list->items[list->count++] = *change;
     return true;

@@ -60,7 +60,7 @@ bool plan_drive_add(struct document *document, const struct edit *edit, struct c
                             .spline = edit->drive.spline,
                             .amplitude = edit->drive.amplitude + 0.0,
                             .lag = edit->drive.lag + 0.0};
-    if (!drive->name) return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit");
+    if (!drive->name) return plan_no_memory(error);
     return plan_add(list, &change, error);
 }
 

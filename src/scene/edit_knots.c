@@ -16,7 +16,7 @@ static bool reserve_knot(const struct document *document, struct spline *spline,
     if (spline->knot_count < spline->knot_capacity) return true;
     int capacity = spline->knot_capacity > 0 ? 2 * spline->knot_capacity : FIRST_KNOTS;
     struct knot *knots = realloc(spline->knots, (size_t)capacity * sizeof *knots);
-    if (!knots) return fail(error, ERROR_ENVIRONMENT, "not enough memory for another knot");
+    if (!knots) return plan_no_memory(error);
     spline->knots = knots;
     spline->knot_capacity = capacity;
     return true;

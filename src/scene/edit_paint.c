@@ -17,7 +17,7 @@ bool plan_paint_new(struct document *document, const struct edit *edit, struct c
     struct change change = {.kind = CHANGE_SHEET, .spline = -1};
     change.sheet.character = edit->character;
     change.sheet.paint = paint_create(edit->coordinates, edit->vertices);
-    if (!change.sheet.paint) return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit");
+    if (!change.sheet.paint) return plan_no_memory(error);
     return plan_add(list, &change, error);
 }
 
@@ -65,7 +65,7 @@ bool plan_dab(struct document *document, const struct edit *edit, struct change_
     struct change change = {.kind = CHANGE_PAINT, .spline = -1};
     change.stroke.character = edit->character;
     change.stroke.touched = touched_create(paint, edit->dab->coordinate);
-    if (!change.stroke.touched) return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit");
+    if (!change.stroke.touched) return plan_no_memory(error);
     touched_dab(change.stroke.touched, paint, edit->dab);
     touched_swap(change.stroke.touched, paint); // a plan is not carried out yet
     return plan_add(list, &change, error);

@@ -20,4 +20,7 @@ planner plan_paint_new, plan_dab;
 /// Adds one change to a plan. What the change owns is the plan's from here on, and is freed on failure.
 bool plan_add(struct change_list *list, const struct change *change, struct error *error);
 
+/// Refuses an edit for want of memory.
+bool plan_no_memory(struct error *error);
+
 #endif

@@ -13,16 +13,11 @@ static const double NEW_HEIGHT = 0.26;      ///< metres at which the body of a t
 static const double ASIDE = 0.75;           ///< of its length, from one tail to the next
 static const double ANGLE_RESOLUTION = 1e6; ///< a degree's parts that resampled angles are rounded to
 
-static bool no_memory(struct error *error)
-{
-    return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit");
-}
-
 /// The document's list to be changed; NULL with a sentence.
 static struct tail_list *begin(const struct document *document, struct error *error)
 {
     struct tail_list *tails = tail_list_copy(document, 1);
-    if (!tails) no_memory(error);
+    if (!tails) plan_no_memory(error);
     return tails;
 }
 
@@ -112,7 +107,7 @@ bool plan_tail_add(struct document *document, const struct edit *edit, struct ch
     if (!tails) return false;
     if (fill_new(document, edit, tails)) return finish(tails, list, error);
     tail_list_free(tails);
-    return no_memory(error);
+    return plan_no_memory(error);
 }
 
 bool plan_tail_remove(struct document *document, const struct edit *edit, struct change_list *list,
@@ -137,7 +132,7 @@ bool plan_tail_name(struct document *document, const struct edit *edit, struct c
     char *copy = strdup(name);
     if (!copy) {
         tail_list_free(tails);
-        return no_memory(error);
+        return plan_no_memory(error);
     }
     free(tails->tails[edit->tail].name);
     tails->tails[edit->tail].name = copy;
@@ -192,7 +187,7 @@ bool plan_channel_add(struct document *document, const struct edit *edit, struct
     if (!tails) return false;
     if (append_channel(&tails->tails[edit->tail], edit)) return finish(tails, list, error);
     tail_list_free(tails);
-    return no_memory(error);
+    return plan_no_memory(error);
 }
 
 bool plan_channel_remove(struct document *document, const struct edit *edit, struct change_list *list,

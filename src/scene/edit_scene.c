@@ -115,7 +115,7 @@ bool plan_fps(struct document *document, const struct edit *edit, struct change_
         timing.last = scaled_end(document->last_frame, factor, false);
         if (!check_timing(document, &timing, error)) return false;
         timing.frames = scaled_frames(document, factor);
-        if (!timing.frames) return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit");
+        if (!timing.frames) return plan_no_memory(error);
     }
     struct document moved = with_timing(document, &timing);
     if (check_loops(&moved, error) && check_knots_fit(&moved, timing.frames, error))

@@ -37,7 +37,7 @@ static bool check_track(struct document *document, const struct edit *edit, stru
     bool good = scene_has_order(document, &cycle);
     spline->parameter[edit->parameter] = old;
     if (good) return true;
-    if (cycle.spline < 0) return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit");
+    if (cycle.spline < 0) return plan_no_memory(error);
     return fail(error, ERROR_INPUT, "%s cannot follow %s, which follows it already", spline->name,
                 document->splines[track].name);
 }

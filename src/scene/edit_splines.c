@@ -9,11 +9,6 @@
 
 static const double NEW_FREQUENCY = 1, NEW_DAMPING = 0.1; ///< of an added spline, Hz and ratio
 
-static bool fail_memory(struct error *error)
-{
-    return fail(error, ERROR_ENVIRONMENT, "not enough memory for another spline");
-}
-
 /// Room for one spline more in the document, and whether its samples and knots are not too many.
 static bool reserve_spline(struct document *document, int knots, struct error *error)
 {
@@ -28,7 +23,7 @@ static bool reserve_spline(struct document *document, int knots, struct error *e
     if (document->spline_count < document->spline_capacity) return true;
     int capacity = document->spline_capacity > 0 ? 2 * document->spline_capacity : 8;
     struct spline *splines = realloc(document->splines, (size_t)capacity * sizeof *splines);
-    if (!splines) return fail_memory(error);
+    if (!splines) return plan_no_memory(error);
     document->splines = splines;
     document->spline_capacity = capacity;
     return true;
@@ -108,7 +103,7 @@ bool plan_spline_add(struct document *document, const struct edit *edit, struct 
     if (edit->flag && !check_first_knot(document, &edit->knot, error)) return false;
     if (!reserve_spline(document, edit->flag ? 1 : 0, error)) return false;
     struct spline *held = hold_spline(free_name(document, edit->text ? edit->text : "spline"), 1);
-    if (!held) return fail_memory(error);
+    if (!held) return plan_no_memory(error);
     spline_reset(held);
     held->parameter[PARAMETER_FREQUENCY].value = NEW_FREQUENCY;
     held->parameter[PARAMETER_DAMPING].value = NEW_DAMPING;
@@ -126,7 +121,7 @@ bool plan_spline_copy(struct document *document, const struct edit *edit, struct
     if (!reserve_spline(document, document->splines[edit->spline].knot_count, error)) return false;
     const struct spline *spline = &document->splines[edit->spline];
     struct spline *held = hold_spline(free_name(document, spline->name), spline->knot_count);
-    if (!held) return fail_memory(error);
+    if (!held) return plan_no_memory(error);
     char *name = held->name;
     struct knot *knots = held->knots;
     *held = *spline;
@@ -147,7 +142,7 @@ bool plan_spline_remove(struct document *document, const struct edit *edit, stru
                     document->splines[edit->spline].name, followers, followers == 1 ? "" : "s");
     }
     change.held = calloc(1, sizeof *change.held);
-    if (!change.held) return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit");
+    if (!change.held) return plan_no_memory(error);
     return plan_add(list, &change, error);
 }
 
@@ -168,7 +163,7 @@ bool plan_spline_name(struct document *document, const struct edit *edit, struct
     if (!check_name(document, edit->text, edit->spline, error)) return false;
     if (strcmp(document->splines[edit->spline].name, edit->text) == 0) return true;
     change.name = strdup(edit->text);
-    if (!change.name) return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit");
+    if (!change.name) return plan_no_memory(error);
     return plan_add(list, &change, error);
 }
 

@@ -20,7 +20,7 @@ bool plan_angles(struct document *document, const struct edit *edit, struct chan
         if (!isfinite(edit->angles->value[i])) return fail(error, ERROR_INPUT, "angles must be finite");
     }
     if (!change_list_reserve(list, 1 + TAIL_MAX_JOINTS)) {
-        return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit");
+        return plan_no_memory(error);
     }
     if (target->each != edit->angles->each) {
         list->items[list->count++] =

@@ -108,7 +108,7 @@ static bool add_knot(struct csv *csv, const struct knot *knot)
     if (list->count == csv->capacity) {
         int capacity = csv->capacity > 0 ? 2 * csv->capacity : FIRST_KNOTS;
         struct knot *knots = realloc(list->knots, (size_t)capacity * sizeof *knots);
-        if (!knots) return fail(csv->error, ERROR_ENVIRONMENT, "%s: not enough memory", csv->name);
+        if (!knots) return fail_no_memory(csv->error, csv->name);
         list->knots = knots;
         csv->capacity = capacity;
     }

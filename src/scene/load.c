@@ -215,7 +215,7 @@ struct document *scene_parse(const char *name, const char *text, size_t size, st
 {
     char *copy = malloc(size + 1);
     if (!copy) {
-        fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", name);
+        fail_no_memory(error, name);
         return NULL;
     }
     memcpy(copy, text, size);

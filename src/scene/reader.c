@@ -62,7 +62,7 @@ void reader_warn(struct reader *reader, const struct where *where, const char *f
 bool reader_no_memory(struct reader *reader)
 {
     struct error error;
-    fail(&error, ERROR_ENVIRONMENT, "%s: not enough memory", reader->source.name);
+    fail_no_memory(&error, reader->source.name);
     return reader_report(reader, &error);
 }
 

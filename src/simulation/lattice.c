@@ -175,7 +175,7 @@ bool lattice_create(struct lattice *lattice, const struct surface *surface, int 
 {
     *lattice = (struct lattice){0};
     int open = surface->index_count ? surface_open_edges(surface) : 0;
-    if (open < 0) return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    if (open < 0) return fail_no_memory(error, name);
     if (open > 0) {
         return fail(error, ERROR_INPUT, "%s: the mesh is not closed: %d %s no triangle on the other side", name, open,
                     open == 1 ? "edge has" : "edges have");
@@ -193,7 +193,7 @@ bool lattice_create(struct lattice *lattice, const struct surface *surface, int 
     tiling_free(&tiling);
     if (good) return true;
     lattice_free(lattice);
-    return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    return fail_no_memory(error, name);
 }
 
 void lattice_free(struct lattice *lattice)

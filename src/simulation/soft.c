@@ -77,7 +77,7 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
     good = good && count_loose(soft) && tune(soft, options);
     if (good) return true;
     soft_free(soft);
-    return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    return fail_no_memory(error, name);
 }
 
 void soft_free(struct soft *soft)
