@@ -217,6 +217,11 @@ static void bad_files_get_one_sentence(void **state)
                        "\"VEC2\"}]}",
                        bin, sizeof bin),
                    "accessors[0]: expected ");
+    assert_refused(glb("{\"accessors\":[{\"componentType\":5126,\"count\":100000000,\"type\":\"VEC3\"}],\"meshes\":["
+                       "{\"primitives\":[{\"attributes\":{\"POSITION\":0}}],\"extras\":{\"targetNames\":["
+                       "\"a.re\",\"a.im\",\"b.re\",\"b.im\"]}}]}",
+                       bin, 0),
+                   "expected at most 268435456 vertices with those of the coordinates, got 300000000");
     struct character c;
     struct error error;
     make_character(&c);

@@ -87,8 +87,9 @@ static bool check_primitive(const struct glb *glb, const json_t *primitive, stru
     return fail(error, ERROR_INPUT, "%s: expected a mesh with positions, got none", glb->path);
 }
 
-/// All primitives of a mesh as one surface.
-static bool read_surface(const struct glb *glb, const json_t *primitives, struct surface *s, struct error *error)
+/// All primitives of a mesh as one surface, for a character of so many coordinates.
+static bool read_surface(const struct glb *glb, const json_t *primitives, int coordinates, struct surface *s,
+                         struct error *error)
 {
     int64_t total = 0;
     size_t i;
@@ -98,7 +99,10 @@ static bool read_surface(const struct glb *glb, const json_t *primitives, struct
         if (!check_primitive(glb, primitive, error)) return false;
         total += vertex_count_of(glb, primitive);
     }
-    if (total > COUNT_LIMIT) return fail(error, ERROR_INPUT, "%s: expected fewer vertices", glb->path);
+    int64_t with_targets = total <= COUNT_LIMIT ? total * (1 + (int64_t)coordinates) : total;
+    if (with_targets > COUNT_LIMIT)
+        return fail(error, ERROR_INPUT, "%s: expected at most %d vertices with those of the coordinates, got %lld",
+                    glb->path, COUNT_LIMIT, (long long)with_targets);
     s->position = calloc((size_t)total, sizeof *s->position);
     s->color = calloc((size_t)total, sizeof *s->color);
     if (!s->position || !s->color) return fail_no_memory(error, glb->path);
@@ -281,7 +285,7 @@ static bool read_character(const struct glb *glb, struct surface *surface, struc
     int coordinates = 0, im;
     size_t length;
     for (size_t i = 0; i < json_array_size(names); i++) coordinates += is_coordinate(names, i, &length, &im);
-    if (!read_surface(glb, primitives, surface, error)) return false;
+    if (!read_surface(glb, primitives, coordinates, surface, error)) return false;
     if (!character_create(c, surface, coordinates)) return fail_no_memory(error, glb->path);
     if (!read_normals(glb, primitives, c, error) || !read_coordinates(glb, mesh, c, error)) return false;
     if (glb_mesh_matrix(glb, number, matrix)) place(c, matrix);
