@@ -1,18 +1,8 @@
 #include "model/character.h"
+#include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/// Twice the triangle's area times its normal: (b − a) × (c − a).
-static void face_normal(const float a[3], const float b[3], const float c[3], float normal[3])
-{
-    const float u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const float v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    for (int k = 0; k < 3; k++) {
-        int next = (k + 1) % 3, last = (k + 2) % 3;
-        normal[k] = u[next] * v[last] - u[last] * v[next];
-    }
-}
 
 /// Normals from the triangles, weighted by their area; (0, 1, 0) where there are none.
 static void compute_normals(struct character *c)
@@ -21,7 +11,7 @@ static void compute_normals(struct character *c)
     for (int i = 0; i + 2 < c->index_count; i += 3) {
         const uint32_t *corner = c->indices + i;
         float normal[3];
-        face_normal(c->position[corner[0]], c->position[corner[1]], c->position[corner[2]], normal);
+        triangle_normal(c->position[corner[0]], c->position[corner[1]], c->position[corner[2]], normal);
         for (int n = 0; n < 9; n++) c->normal[corner[n / 3]][n % 3] += normal[n % 3];
     }
     for (int i = 0; i < c->vertex_count; i++) {

@@ -1,6 +1,7 @@
 /// Half-edge collapses in rounds. In each round every vertex that may go has a neighbour onto which it goes at the least
 /// cost; the cheapest ones go, as long as none of them touches what another one has changed.
 #include "model/decimate.h"
+#include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,14 +59,6 @@ static int ring_of(const struct work *work, uint32_t v, uint32_t ring[MAX_RING])
     return count;
 }
 
-static void normal_of(const float a[3], const float b[3], const float c[3], float n[3])
-{
-    const float u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    n[0] = u[1] * v[2] - u[2] * v[1];
-    n[1] = u[2] * v[0] - u[0] * v[2];
-    n[2] = u[0] * v[1] - u[1] * v[0];
-}
-
 /// What becomes of a triangle when its corner v goes to `to`: false where it folds over; else by how much the surface
 /// departs from v, metres.
 static bool moved_triangle(const struct work *work, const uint32_t corner[3], uint32_t v, uint32_t to,
@@ -75,12 +68,10 @@ static bool moved_triangle(const struct work *work, const uint32_t corner[3], ui
     const float *moved[3];
     float before[3], after[3];
     for (int k = 0; k < 3; k++) moved[k] = p[corner[k] == v ? to : corner[k]];
-    normal_of(p[corner[0]], p[corner[1]], p[corner[2]], before);
-    normal_of(moved[0], moved[1], moved[2], after);
-    const float product = before[0] * after[0] + before[1] * after[1] + before[2] * after[2];
-    const float area = sqrtf(after[0] * after[0] + after[1] * after[1] + after[2] * after[2]);
-    const float old = sqrtf(before[0] * before[0] + before[1] * before[1] + before[2] * before[2]);
-    if (!(product > FLATTEST * area * old)) return false;
+    triangle_normal(p[corner[0]], p[corner[1]], p[corner[2]], before);
+    triangle_normal(moved[0], moved[1], moved[2], after);
+    const float area = sqrtf(vector_dot(after, after)), old = sqrtf(vector_dot(before, before));
+    if (!(vector_dot(before, after) > FLATTEST * area * old)) return false;
     const float *q = moved[0];
     *distance = fabsf((p[v][0] - q[0]) * after[0] + (p[v][1] - q[1]) * after[1] + (p[v][2] - q[2]) * after[2]) / area;
     return true;

@@ -1,5 +1,6 @@
 #include "model/figure.h"
 #include "model/decimate.h"
+#include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,15 +9,6 @@
 struct fit {
     float uu, uv, vv;
 };
-
-static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-static void cross(const float a[3], const float b[3], float out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
 
 /// A unit vector across n: the axis that n has least of, made orthogonal.
 static void tangent_of(const float n[3], float t[3])
@@ -28,7 +20,7 @@ static void tangent_of(const float n[3], float t[3])
     float axis[3] = {0};
     axis[least] = 1.0f;
     for (int k = 0; k < 3; k++) t[k] = axis[k] - n[least] * n[k];
-    const float length = sqrtf(dot(t, t));
+    const float length = sqrtf(vector_dot(t, t));
     for (int k = 0; k < 3; k++) t[k] /= length;
 }
 
@@ -39,11 +31,11 @@ static bool edge_in_plane(const struct figure *figure, uint32_t i, uint32_t j, f
     const float *p = c->position[i], *q = c->position[j], *t = figure->tangent[i];
     const float edge[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
     float across[3];
-    const float square = dot(edge, edge);
+    const float square = vector_dot(edge, edge);
     if (!(square > 0.0f)) return false;
-    cross(c->normal[i], t, across);
-    uv[0] = dot(edge, t);
-    uv[1] = dot(edge, across);
+    vector_cross(c->normal[i], t, across);
+    uv[0] = vector_dot(edge, t);
+    uv[1] = vector_dot(edge, across);
     *weight = 1.0f / square;
     return true;
 }

@@ -1,4 +1,5 @@
 #include "rig/morph.h"
+#include "model/vector.h"
 #include <math.h>
 #include <string.h>
 
@@ -28,26 +29,19 @@ static void add_real_part(const float z[2], const float re[3], const float im[3]
     for (int k = 0; k < 3; k++) sum[k] += z[0] * re[k] - z[1] * im[k];
 }
 
-static void cross(const float a[3], const float b[3], float out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 static void morph_normal(const struct figure *figure, const struct morph *morph, int vertex, float normal[3])
 {
     const float *n = figure->character.normal[vertex];
     float u[3], v[3];
     memcpy(u, figure->tangent[vertex], sizeof u);
-    cross(n, u, v);
+    vector_cross(n, u, v);
     for (int k = 0; k < morph->count; k++) {
         const struct slope *s = &figure->slopes[morph->coordinate[k] * figure->character.vertex_count + vertex];
         add_real_part(morph->weight[k], s->re_u, s->im_u, u);
         add_real_part(morph->weight[k], s->re_v, s->im_v, v);
     }
-    cross(u, v, normal);
-    const float length = sqrtf(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    vector_cross(u, v, normal);
+    const float length = sqrtf(vector_dot(normal, normal));
     for (int k = 0; k < 3; k++) normal[k] /= fmaxf(length, 1e-9f); // squeezed flat: no direction, and not NaN
 }
 
