@@ -113,7 +113,8 @@ double settings_number(const struct settings *settings, const char *key, double 
     return text && end != text && *end == '\0' && isfinite(value) ? value : fallback;
 }
 
-void settings_remove(struct settings *settings, const char *key)
+/// Removes all values of a key.
+static void remove_all(struct settings *settings, const char *key)
 {
     for (int at = find(settings, key, 0); at >= 0; at = find(settings, key, 0)) drop(settings, at);
 }
@@ -129,7 +130,7 @@ static bool is_storable(const char *value)
 void settings_set(struct settings *settings, const char *key, const char *value)
 {
     int at = find(settings, key, 0);
-    settings_remove(settings, key);
+    remove_all(settings, key);
     if (is_storable(value)) insert(settings, at >= 0 ? at : settings->count, key, value);
 }
 

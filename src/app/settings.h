@@ -25,8 +25,6 @@ double settings_number(const struct settings *settings, const char *key, double 
 /// Gives a key one value in place of all it had. A value that could not be read back (a line break in it) is left out.
 void settings_set(struct settings *settings, const char *key, const char *value);
 void settings_set_number(struct settings *settings, const char *key, double value);
-/// Removes all values of a key.
-void settings_remove(struct settings *settings, const char *key);
 /// Puts a value before the key's others, dropping an equal one, and keeps the first `most`.
 void settings_push(struct settings *settings, const char *key, const char *value, int most);
 

@@ -14,8 +14,6 @@ void drag_begin_knots(struct editor *editor, const struct editor_world *world, u
                       const struct event *event);
 /// X and Y while knots are dragged: only the frame, only the value may change. false for other keys.
 bool drag_lock(struct drag *drag, int key);
-/// Whether a knot, as it was before the drag, moves with it.
-bool drag_moves(const struct editor *editor, const struct knot *knot);
 /// The copies of all selected knots that the edits of a drag start from.
 void drag_collect(struct editor *editor, const struct spline *spline);
 void drag_begin_slope(struct editor *editor, const struct editor_world *world, unsigned knot, int handle,

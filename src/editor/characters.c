@@ -14,7 +14,7 @@ enum { BOUND_STEPS = 30 };
 
 #define PAIR_GAP 0.58f /* from the middle to each of a pair, in widths of the character */
 
-const struct character_rig *characters_selected(const struct editor *editor, const struct editor_world *world)
+static const struct character_rig *selected(const struct editor *editor, const struct editor_world *world)
 {
     const int index = editor->characters.character;
     return index < world->document->character_count ? &world->document->characters[index] : NULL;
@@ -22,7 +22,7 @@ const struct character_rig *characters_selected(const struct editor *editor, con
 
 const struct coordinate *characters_coordinate(const struct editor *editor, const struct editor_world *world)
 {
-    const struct character_rig *rig = characters_selected(editor, world);
+    const struct character_rig *rig = selected(editor, world);
     const struct figure *figure = cast_figure(world->cast, editor->characters.character);
     if (!rig || !figure || editor->characters.drive >= rig->drive_count) return NULL;
     const int at = figure_find(figure, rig->drives[editor->characters.drive].name);

@@ -12,8 +12,7 @@ struct character_view {
     bool compare;         ///< beside each character its stiff twin, moved by real parts alone
 };
 
-/// What is selected, or NULL: the rig, and the coordinate of its figure.
-const struct character_rig *characters_selected(const struct editor *editor, const struct editor_world *world);
+/// The coordinate that is selected, or NULL.
 const struct coordinate *characters_coordinate(const struct editor *editor, const struct editor_world *world);
 
 /// A new document is on the table: what its first character shows at first.

@@ -31,12 +31,18 @@ void drag_begin(struct editor *editor, enum drag_kind kind, const struct event *
     editor->ghost.visible = false;
 }
 
+/// Whether a knot, as it was before the drag, moves with it.
+static bool moves_along(const struct editor *editor, const struct knot *knot)
+{
+    return selection_has(&editor->selection, knot->id) || ripple_moves(&editor->drag, knot);
+}
+
 void drag_collect(struct editor *editor, const struct spline *spline)
 {
     struct drag *drag = &editor->drag;
     drag->count = 0;
     for (int k = 0; k < spline->knot_count && drag->count < drag->capacity; k++) {
-        if (drag_moves(editor, &spline->knots[k])) drag->originals[drag->count++] = spline->knots[k];
+        if (moves_along(editor, &spline->knots[k])) drag->originals[drag->count++] = spline->knots[k];
     }
 }
 
@@ -87,11 +93,6 @@ static double wanted_frames(struct editor *editor, const struct document *docume
     return fmax(fmin(frames, most), least);
 }
 
-bool drag_moves(const struct editor *editor, const struct knot *knot)
-{
-    return selection_has(&editor->selection, knot->id) || ripple_moves(&editor->drag, knot);
-}
-
 /// Whether no knot that stays is on a sample to which one would move.
 static bool is_free(const struct editor *editor, const struct document *document, const struct spline *spline,
                     double frames)
@@ -99,7 +100,7 @@ static bool is_free(const struct editor *editor, const struct document *document
     const struct drag *drag = &editor->drag;
     for (int k = 0; k < drag->count; k++) {
         int at = spline_find_knot(document, spline, document_sample(document, drag->originals[k].frame + frames));
-        if (at >= 0 && !drag_moves(editor, &spline->knots[at])) return false;
+        if (at >= 0 && !moves_along(editor, &spline->knots[at])) return false;
     }
     return true;
 }

@@ -12,10 +12,6 @@ void warnings_update(struct editor *editor, const struct editor_world *world);
 
 /// Where a warning's marker is, in logical pixels; false where it is out of sight.
 bool warning_place(const struct editor *editor, const struct warning *warning, float xy[2]);
-/// What is wrong, and what a click does about it.
-void warning_words(const struct warning *warning, char what[160], char remedy[96]);
-/// The hovered warning, or NULL.
-const struct warning *warning_hovered(const struct editor *editor);
 void warnings_show(struct editor *editor);
 /// Words under the pointer; after everything else, so that nothing lies over them.
 void warnings_show_words(struct editor *editor);

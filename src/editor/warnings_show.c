@@ -19,7 +19,8 @@ bool warning_place(const struct editor *editor, const struct warning *warning, f
     return xy[0] >= plot.x && xy[0] <= plot.x + plot.w;
 }
 
-void warning_words(const struct warning *warning, char what[160], char remedy[96])
+/// What is wrong, and what a click does about it.
+static void put_words(const struct warning *warning, char what[160], char remedy[96])
 {
     switch (warning->kind) {
     case WARNING_SWING:
@@ -42,7 +43,8 @@ void warning_words(const struct warning *warning, char what[160], char remedy[96
     }
 }
 
-const struct warning *warning_hovered(const struct editor *editor)
+/// The warning under the pointer, or NULL.
+static const struct warning *hovered_warning(const struct editor *editor)
 {
     int index = editor->hover.handle;
     if (editor->hover.kind != HOVER_WARNING || index >= editor->warnings.count) return NULL;
@@ -60,7 +62,7 @@ static void show_marker(struct drawlist *list, const float xy[2], bool hovered)
 
 void warnings_show(struct editor *editor)
 {
-    const struct warning *hovered = warning_hovered(editor);
+    const struct warning *hovered = hovered_warning(editor);
     for (int i = 0; i < editor->warnings.count; i++) {
         float xy[2];
         const struct warning *warning = &editor->warnings.list[i];
@@ -71,11 +73,11 @@ void warnings_show(struct editor *editor)
 void warnings_show_words(struct editor *editor)
 {
     enum { PAD = 10, LINE = 18 };
-    const struct warning *warning = warning_hovered(editor);
+    const struct warning *warning = hovered_warning(editor);
     float xy[2];
     if (!warning || !warning_place(editor, warning, xy)) return;
     char what[160], remedy[96];
-    warning_words(warning, what, remedy);
+    put_words(warning, what, remedy);
     const struct rect panel = editor->layout.curves;
     float width =
         fmaxf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, what), font_width(FONT_LABEL, THEME_TEXT_NORMAL, remedy));

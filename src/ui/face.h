@@ -16,7 +16,6 @@ struct face_glyph {
 
 /// The slot of a character, that of '?' where it has none.
 int face_slot(uint32_t codepoint);
-uint32_t face_codepoint(int slot);
 const struct face_glyph *face_glyph(enum font font, int slot);
 
 /// Bitmap of a glyph at `em` pixels an em, three times oversampled across: the box in oversampled pixels, y down.

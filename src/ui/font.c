@@ -41,7 +41,7 @@ int face_slot(uint32_t codepoint)
     return '?' - 0x20;
 }
 
-uint32_t face_codepoint(int slot)
+static uint32_t codepoint_of(int slot)
 {
     for (int i = 0; i < RUN_COUNT; i++) {
         int length = (int)(runs[i].last - runs[i].first) + 1;
@@ -107,7 +107,7 @@ bool font_init(struct error *error)
     }
     for (int font = 0; font < FONT_COUNT; font++) {
         for (int slot = 0; slot < FACE_SLOTS; slot++) {
-            struct face_glyph glyph = find_glyph((enum font)font, face_codepoint(slot));
+            struct face_glyph glyph = find_glyph((enum font)font, codepoint_of(slot));
             faces[font].glyphs[slot] = glyph.index ? glyph : find_glyph((enum font)font, '?');
         }
     }
