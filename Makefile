@@ -70,7 +70,7 @@ $(B)/obj/src/spline/%.o: CFLAGS += $(SPLINE_CFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all run test bench models check regress install clean packages FORCE
+.PHONY: all run test bench models check figures regress install clean packages FORCE
 
 all: $(B)/wiggly $(B)/libwiggly.a $(TOOLS:%=$(B)/%)
 

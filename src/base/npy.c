@@ -77,7 +77,7 @@ bool npy_dictionary(struct npy *npy, const char *path, const char *text, struct 
 
 double npy_number(const struct npy *npy, const char *at)
 {
-    unsigned char bytes[8];
+    unsigned char bytes[8] = {0};
     for (int i = 0; i < npy->number_size; i++)
         bytes[i] = (unsigned char)at[npy->swapped ? npy->number_size - 1 - i : i];
     float single;
