@@ -1,4 +1,4 @@
-/// Status line, help and dialogs; and of all panels: no text leaves its panel, none lies over another.
+/// Status line and dialogs; and of all panels: no text leaves its panel, none lies over another.
 #include "panel_session.h"
 
 static const char small_scene[] =
@@ -164,47 +164,7 @@ static void test_no_text_leaves_its_panel_or_overlaps(void **state)
     }
 }
 
-static void test_help_fits_whole(void **state)
-{
-    (void)state;
-    static const float sizes[][2] = {{1280, 720}, {960, 600}};
-    for (int i = 0; i < 2; i++) {
-        struct session f;
-        panel_open(&f, small_scene, sizes[i][0], sizes[i][1]);
-        session_key(&f, KEY_F1, 0);
-        show(&f);
-        help_show(f.editor);
-        const struct drawlist *list = &f.editor->list;
-        assert_true(assert_texts_apart(list, 0, f.editor->layout.window) > 80);
-        for (int c = 0; c < list->count; c++) {
-            const struct draw_command *command = &list->commands[c];
-            if (command->kind != DRAW_TEXT) continue;
-            const char *text = list->text + command->first;
-            if (command->count > 3 && strcmp(text + command->count - 3, "…") == 0) fail_msg("“%s” is cut", text);
-            if (command->y > f.editor->layout.window.h - 16) fail_msg("“%s” is below the box", text);
-        }
-        session_close(&f);
-    }
-}
-
 // --- behaviour --------------------------------------------------------------------------------------------------------
-
-static void test_any_key_closes_the_help_and_does_nothing_else(void **state)
-{
-    (void)state;
-    struct session f;
-    panel_open(&f, small_scene, 1280, 720);
-    session_key(&f, KEY_F1, 0);
-    assert_true(f.editor->help.open);
-    session_key(&f, 'V', 0);
-    assert_false(f.editor->help.open);
-    assert_int_equal(f.editor->look, LOOK_WIGGLY);
-    session_key(&f, KEY_F1, 0);
-    session_move(&f, 500, 500);
-    session_press(&f, BUTTON_LEFT, 1);
-    assert_false(f.editor->help.open);
-    session_close(&f);
-}
 
 static void expect_request(struct session *f, enum request_kind kind, const char *path)
 {
@@ -400,8 +360,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_no_text_leaves_its_panel_or_overlaps),
-        cmocka_unit_test(test_help_fits_whole),
-        cmocka_unit_test(test_any_key_closes_the_help_and_does_nothing_else),
         cmocka_unit_test(test_save_as_stays_until_it_succeeds),
         cmocka_unit_test(test_quitting_asks_for_unsaved_work),
         cmocka_unit_test(test_quit_waits_for_the_save),

@@ -1,6 +1,7 @@
 /// The keyboard: one table of what a key does (design: "The live app").
 #include "editor/actions.h"
 #include "editor/curves.h"
+#include "editor/keyboard.h"
 #include "editor/overlays.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -206,6 +207,8 @@ static void run_held(struct editor *e, const struct editor_world *w, int argumen
     if (e->held_key) nudge_parameter(e, w, e->held_key, argument);
 }
 
+enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT };
+
 static const struct binding bindings[] = {
     {.key = 'Z', .mods = MOD_CTRL, .repeats = true, .run = run_undo, .argument = -1},
     {.key = 'Z', .mods = MOD_CTRL | MOD_SHIFT, .repeats = true, .run = run_undo, .argument = 1},
@@ -237,6 +240,8 @@ static const struct binding bindings[] = {
     {.key = 'D', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_DUPLICATE},
     {.key = KEY_COMMA, .repeats = true, .run = select_neighbour, .argument = -1},
     {.key = KEY_PERIOD, .repeats = true, .run = select_neighbour, .argument = 1},
+    {.key = KEY_COMMA, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = -1},
+    {.key = KEY_PERIOD, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = 1},
     {.key = KEY_PAGE_UP, .repeats = true, .run = activate_neighbour, .argument = -1},
     {.key = KEY_PAGE_DOWN, .repeats = true, .run = activate_neighbour, .argument = 1},
     {.key = 'T', .run = run_toggle_slope},
@@ -264,6 +269,24 @@ static const struct binding bindings[] = {
     {.key = '-', .any_time = true, .run = playback_change_speed, .argument = -1},
     {.key = '=', .any_time = true, .run = playback_change_speed, .argument = 1},
     {.key = '+', .any_time = true, .run = playback_change_speed, .argument = 1},
+    {.key = KEY_LEFT, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_LEFT},
+    {.key = KEY_RIGHT, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_RIGHT},
+    {.key = KEY_UP, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_UP},
+    {.key = KEY_DOWN, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_DOWN},
+    {.key = '=', .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = 1},
+    {.key = '+', .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = 1},
+    {.key = '-', .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = -1},
+    {.key = KEY_LEFT, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_LEFT},
+    {.key = KEY_RIGHT, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_RIGHT},
+    {.key = KEY_UP, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_UP},
+    {.key = KEY_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_DOWN},
+    {.key = '=', .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = 1},
+    {.key = '+', .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = 1},
+    {.key = '-', .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = -1},
+    {.key = KEY_HOME, .mods = MOD_SHIFT, .run = keyboard_fit_stage},
+    {.key = 'W', .run = keyboard_remedy},
+    {.key = KEY_F6, .run = keyboard_panel, .argument = 0},
+    {.key = KEY_F6, .mods = MOD_SHIFT, .run = keyboard_panel, .argument = 1},
     {.key = KEY_HOME, .run = run_frame, .argument = 0},
     {.key = KEY_END, .run = run_frame, .argument = 1},
     {.key = 'V', .any_time = true, .run = run_look},

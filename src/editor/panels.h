@@ -50,11 +50,11 @@ const char *inspector_hint(const struct editor *editor);
 /// "channel.0", "look.stiff", "section.knot". false where it is not shown or scrolled out of sight.
 bool inspector_target(struct editor *editor, const struct editor_world *world, const char *name, float *x, float *y);
 
-/// What the scene is about, in the upper left corner of the stage: up to the first full stop as a title.
 /// A card on the stage with what to try first. A press on it takes it away and is used up; so do an edit and the help.
 bool welcome_event(struct editor *editor, const struct event *event);
 void welcome_show(struct editor *editor, const struct editor_world *world);
 
+/// What the scene is about, in the upper left corner of the stage: up to the first full stop as a title.
 void caption_show(struct editor *editor, const struct document *document);
 
 /// The right end of the status line; zero is a valid start.
@@ -70,9 +70,11 @@ void status_show(struct editor *editor, const struct editor_world *world);
 
 struct help {
     bool open;
+    float offset; ///< pixels that it is scrolled by, where the window is too low for all of it
 };
 
-/// F1 opens it, any key or click closes it. While it is open help_event() is true for keys, text, buttons and the wheel.
+/// F1 opens it; wheel, ↑ ↓ and PgUp PgDn scroll it; any other key or a click closes it. While it is open help_event() is true
+/// for keys, text, buttons and the wheel.
 bool help_event(struct editor *editor, const struct event *event);
 void help_show(struct editor *editor);
 

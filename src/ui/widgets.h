@@ -147,7 +147,7 @@ struct ui_number {
     const char *shown;       ///< in place of the number, or NULL
     double minimum, maximum; ///< ends of the bar
     double lowest, highest;  ///< what may be typed
-    double fallback;         ///< right-click; NAN: none
+    double fallback;         ///< right-click, Delete; NAN: none
     double step;             ///< arrow keys and what a drag rounds to
     int decimals;
 };
@@ -158,11 +158,12 @@ enum ui_change {
     UI_DRAG,   ///< the pointer moved it; more may come
     UI_DROP,   ///< the drag has ended (the value is that of the last UI_DRAG)
     UI_CANCEL, ///< the drag was cancelled by Esc: back to the value before
-    UI_SET,    ///< once: typed, or by right-click
+    UI_SET,    ///< once: typed, or the default
     UI_NUDGE,  ///< once, by an arrow key; a run of them is one step
 };
 
-/// Drag to change (Shift: a tenth as fast), double-click or Enter to type, right-click for the default, arrows when focused.
+/// Drag to change (Shift: a tenth as fast), double-click or Enter to type, right-click or (focused) Delete for the default,
+/// arrows when focused.
 /// `*value` is set for UI_DRAG, UI_SET and UI_NUDGE.
 enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *number, double *value);
 

@@ -192,6 +192,14 @@ static enum ui_change held_event(struct ui *ui, struct rect field, const struct 
     return UI_DRAG;
 }
 
+/// Back to the default, where there is one.
+static enum ui_change reset(const struct ui_number *number, double *value)
+{
+    if (isnan(number->fallback) || *value == number->fallback) return UI_NONE;
+    *value = number->fallback;
+    return UI_SET;
+}
+
 static bool starts_number(uint32_t c) { return (c >= '0' && c <= '9') || c == '-' || c == '.'; }
 
 static enum ui_change focused_event(struct ui *ui, uint32_t id, const struct ui_number *number, double *value)
@@ -208,6 +216,8 @@ static enum ui_change focused_event(struct ui *ui, uint32_t id, const struct ui_
     case KEY_ENTER:
         begin_typing(ui, id, *value, false);
         return UI_NONE;
+    case KEY_DELETE:
+        return reset(number, value);
     case KEY_LEFT:
     case KEY_DOWN:
         steps = -steps;
@@ -238,11 +248,7 @@ static enum ui_change idle_event(struct ui *ui, uint32_t id, struct rect field, 
         }
         return UI_NONE;
     }
-    if (!isnan(number->fallback) && ui_pressed(ui, field, BUTTON_RIGHT)) {
-        double before = *value;
-        *value = number->fallback;
-        return before == number->fallback ? UI_NONE : UI_SET;
-    }
+    if (!isnan(number->fallback) && ui_pressed(ui, field, BUTTON_RIGHT)) return reset(number, value);
     return focused_event(ui, id, number, value);
 }
 

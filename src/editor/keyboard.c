@@ -1,0 +1,93 @@
+#include "editor/keyboard.h"
+#include "editor/actions.h"
+#include "editor/curves.h"
+#include "editor/warnings.h"
+
+static const double PAN = 0.1;  ///< of the panel's size
+static const double ZOOM = 0.8; ///< of what is seen, a step
+static const float TURN = 0.1f; ///< radians
+static const int way_sign[][2] = {
+    [WAY_LEFT] = {-1, 0}, [WAY_RIGHT] = {1, 0}, [WAY_UP] = {0, -1}, [WAY_DOWN] = {0, 1}};
+
+void keyboard_pan(struct editor *editor, const struct editor_world *world, int way)
+{
+    const struct rect *plot = &editor->layout.plot;
+    (void)world;
+    view_pan(editor, -PAN * way_sign[way][0] * plot->w, -PAN * way_sign[way][1] * plot->h);
+}
+
+void keyboard_zoom(struct editor *editor, const struct editor_world *world, int direction)
+{
+    const struct rect *plot = &editor->layout.plot;
+    double factor = direction > 0 ? ZOOM : 1 / ZOOM;
+    (void)world;
+    view_zoom(editor, plot->x + plot->w / 2, plot->y + plot->h / 2, factor, factor);
+}
+
+void keyboard_orbit(struct editor *editor, const struct editor_world *world, int way)
+{
+    (void)world;
+    camera_orbit(&editor->camera, TURN * (float)way_sign[way][0], -TURN * (float)way_sign[way][1]);
+}
+
+void keyboard_approach(struct editor *editor, const struct editor_world *world, int direction)
+{
+    (void)world;
+    camera_zoom(&editor->camera, (float)(direction > 0 ? ZOOM : 1 / ZOOM));
+}
+
+void keyboard_fit_stage(struct editor *editor, const struct editor_world *world, int argument)
+{
+    (void)argument;
+    stage_fit(editor, world);
+}
+
+void keyboard_extend(struct editor *editor, const struct editor_world *world, int direction)
+{
+    const struct spline *spline = editor_active_spline(editor, world);
+    int end = -1;
+    for (int k = 0; spline && k < spline->knot_count; k++) {
+        if (selection_has(&editor->selection, spline->knots[k].id) && (end < 0 || direction > 0)) end = k;
+    }
+    if (end < 0) {
+        select_neighbour(editor, world, direction);
+        return;
+    }
+    int next = end + direction;
+    if (next < 0 || next >= spline->knot_count) return;
+    selection_set(&editor->selection, spline->knots[next].id, true);
+    view_reveal(editor, spline->knots[next].frame, spline->knots[next].value);
+}
+
+void keyboard_remedy(struct editor *editor, const struct editor_world *world, int argument)
+{
+    (void)argument;
+    warnings_update(editor, world);
+    if (editor->warnings.count > 0) {
+        warning_remedy(editor, world, &editor->warnings.list[0]);
+    } else {
+        editor_message(editor, false, "There is no warning about this spline.");
+    }
+}
+
+/// The first of the sizes that is clearly larger than the present one, round the end.
+static double next_size(const double sizes[3], double present)
+{
+    int next = 0;
+    while (next < 3 && sizes[next] <= present * 1.01) next++;
+    return sizes[next % 3];
+}
+
+void keyboard_panel(struct editor *editor, const struct editor_world *world, int inspector)
+{
+    static const double shares[3] = {0.35, 0.575, 0.75}, widths[3] = {280, 360, 440};
+    double share, width;
+    (void)world;
+    editor_panels(editor, &share, &width);
+    if (inspector) {
+        width = next_size(widths, width);
+    } else {
+        share = next_size(shares, share);
+    }
+    editor_set_panels(editor, share, width);
+}

@@ -1,0 +1,29 @@
+/// What the mouse does to views, selection, warnings and panels, for the keyboard: actions of the table in keys.c.
+#ifndef EDITOR_KEYBOARD_H
+#define EDITOR_KEYBOARD_H
+
+#include "editor/state.h"
+
+/// Arguments of keyboard_pan() and keyboard_orbit().
+enum keyboard_way { WAY_LEFT, WAY_RIGHT, WAY_UP, WAY_DOWN };
+
+/// The curves are looked at a tenth of the panel further that way.
+void keyboard_pan(struct editor *editor, const struct editor_world *world, int way);
+/// Nearer (1) or further away (-1), about the middle of the curves panel.
+void keyboard_zoom(struct editor *editor, const struct editor_world *world, int direction);
+
+/// The same for the stage's camera, which goes round what it looks at.
+void keyboard_orbit(struct editor *editor, const struct editor_world *world, int way);
+void keyboard_approach(struct editor *editor, const struct editor_world *world, int direction);
+/// All of the stage's rigs in sight, from where the camera was at first.
+void keyboard_fit_stage(struct editor *editor, const struct editor_world *world, int argument);
+
+/// The knot after the last selected one (1), or before the first one (-1), is selected besides.
+void keyboard_extend(struct editor *editor, const struct editor_world *world, int direction);
+/// Does away with the first warning.
+void keyboard_remedy(struct editor *editor, const struct editor_world *world, int argument);
+
+/// The next of a few sizes for the stage (0) or the inspector (1), in place of dragging a divider.
+void keyboard_panel(struct editor *editor, const struct editor_world *world, int inspector);
+
+#endif

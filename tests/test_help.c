@@ -1,0 +1,269 @@
+// The overlay with all keys: whole in every usual window, scrolled in small ones, and true: it names each key that the editor
+// answers to, and no other.
+#include "editor/actions.h"
+#include "editor/help_rows.h"
+#include "panel_session.h"
+
+static const char scene[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": "
+    "[{\"frame\": 0, \"value\": 0, \"slope\": 1}, {\"frame\": 36, \"value\": 1}]}],"
+    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"sway\"}]}";
+
+static void open_help(struct session *s, float width, float height)
+{
+    panel_open(s, scene, width, height);
+    session_key(s, KEY_F1, 0);
+    assert_true(s->editor->help.open);
+}
+
+/// The text on the screen that is `text`, or NULL.
+static const struct draw_command *shown(struct session *s, const char *text)
+{
+    const struct drawlist *list = editor_drawlist(s->editor);
+    const struct draw_command *found = NULL;
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *c = &list->commands[i];
+        if (c->kind == DRAW_TEXT && strcmp(list->text + c->first, text) == 0) found = c;
+    }
+    return found;
+}
+
+static bool is_seen(const struct draw_command *c) { return c && c->y > c->clip.y && c->y < c->clip.y + c->clip.h; }
+
+static void assert_whole(struct session *s)
+{
+    for (int g = 0; g < HELP_GROUPS; g++) {
+        for (int i = 0; i < HELP_MAX_ROWS && help_groups[g].rows[i].keys; i++) {
+            const struct help_row *row = &help_groups[g].rows[i];
+            if (!is_seen(shown(s, row->keys)) || !is_seen(shown(s, row->what))) {
+                fail_msg("“%s, %s” is not to be seen", row->keys, row->what);
+            }
+        }
+    }
+}
+
+static void test_all_of_it_fits(void **state)
+{
+    (void)state;
+    static const float sizes[][2] = {{960, 600}, {1280, 720}, {1920, 1080}, {3840, 2160}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        struct session s;
+        open_help(&s, sizes[i][0], sizes[i][1]);
+        assert_non_null(shown(&s, "Any key closes this"));
+        assert_whole(&s);
+        session_close(&s);
+    }
+}
+
+static void test_small_windows_scroll(void **state)
+{
+    (void)state;
+    struct session s;
+    open_help(&s, 500, 360);
+    assert_true(is_seen(shown(&s, "Double-click")));
+    assert_false(is_seen(shown(&s, "Ctrl+Q")));
+    for (int i = 0; i < 40; i++) session_key(&s, KEY_DOWN, 0);
+    assert_true(is_seen(shown(&s, "Ctrl+Q")));
+    assert_false(is_seen(shown(&s, "Double-click")));
+    session_wheel(&s, 1000);
+    assert_true(is_seen(shown(&s, "Double-click")));
+    session_key(&s, 'V', 0);
+    assert_false(s.editor->help.open);
+    session_close(&s);
+}
+
+static void test_any_key_closes_the_help_and_does_nothing_else(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open(&s, scene, 1280, 720);
+    session_key(&s, KEY_F1, 0);
+    assert_true(s.editor->help.open);
+    session_key(&s, 'V', 0);
+    assert_false(s.editor->help.open);
+    assert_int_equal(s.editor->look, LOOK_WIGGLY);
+    session_key(&s, KEY_F1, 0);
+    session_move(&s, 500, 500);
+    session_press(&s, BUTTON_LEFT, 1);
+    assert_false(s.editor->help.open);
+    session_close(&s);
+}
+
+// --- the table against the keys -------------------------------------------------------------------------------------------
+
+/// A key with exactly these modifiers.
+struct chord {
+    int key;
+    unsigned mods;
+};
+
+enum { MAX_CHORDS = 256 };
+
+struct chords {
+    struct chord list[MAX_CHORDS];
+    int count;
+};
+
+static void add(struct chords *chords, int key, unsigned mods)
+{
+    assert_true(chords->count < MAX_CHORDS);
+    chords->list[chords->count++] = (struct chord){key, mods};
+}
+
+static bool has(const struct chords *chords, int key, unsigned mods)
+{
+    for (int i = 0; i < chords->count; i++) {
+        if (chords->list[i].key == key && chords->list[i].mods == mods) return true;
+    }
+    return false;
+}
+
+/// The key of that name, as the help writes it; 0 where it is none (but a mouse button, say).
+static int key_of(const char *name)
+{
+    static const struct {
+        const char *name;
+        int key;
+    } names[] = {{"Del", KEY_DELETE}, {"Esc", KEY_ESCAPE}, {"PgUp", KEY_PAGE_UP}, {"PgDn", KEY_PAGE_DOWN},
+                 {"Home", KEY_HOME},  {"End", KEY_END},    {"Enter", KEY_ENTER},  {"Space", KEY_SPACE},
+                 {"←", KEY_LEFT},     {"→", KEY_RIGHT},    {"Tab", KEY_TAB},      {"Backspace", KEY_BACKSPACE}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (strcmp(names[i].name, name) == 0) return names[i].key;
+    }
+    if (name[0] == 'F' && name[1] >= '0' && name[1] <= '9') return KEY_F1 + atoi(name + 1) - 1;
+    return name[0] && !name[1] ? name[0] : 0;
+}
+
+/// Takes "Ctrl+Shift+" off the beginning of a text.
+static unsigned take_mods(const char **text)
+{
+    static const struct {
+        const char *name;
+        unsigned mod;
+    } mods[] = {{"Ctrl+", MOD_CTRL}, {"Shift+", MOD_SHIFT}, {"Alt+", MOD_ALT}};
+    unsigned taken = 0;
+    for (size_t i = 0; i < sizeof mods / sizeof *mods; i++) {
+        size_t length = strlen(mods[i].name);
+        if (strncmp(*text, mods[i].name, length) != 0) continue;
+        *text += length;
+        taken |= mods[i].mod;
+    }
+    return taken;
+}
+
+/// Where the next of several keys begins, and where this one ends.
+static const char *next_key(const char *text, size_t *length)
+{
+    static const char *const separators[] = {", ", "; ", "  "};
+    const char *end = text + strlen(text), *next = end;
+    for (size_t i = 0; i < 3; i++) {
+        const char *found = *text ? strstr(text + 1, separators[i]) : NULL;
+        if (!found || found >= end) continue;
+        end = found;
+        next = found + 2;
+    }
+    *length = (size_t)(end - text);
+    return next;
+}
+
+/// All that a row may mean: a key without modifiers of its own stands for itself and with those of the one before it.
+static void read_row(const char *text, struct chords *chords)
+{
+    unsigned before = 0;
+    while (*text) {
+        char name[32];
+        size_t length;
+        const char *next = next_key(text, &length), *key = name;
+        snprintf(name, sizeof name, "%.*s", (int)length, text);
+        unsigned mods = take_mods(&key);
+        if (strcmp(key, "arrows") == 0) {
+            for (int k = KEY_LEFT; k <= KEY_DOWN; k++) add(chords, k, mods);
+        } else if (strcmp(key, "1 … 7") == 0) {
+            for (int k = '1'; k <= '7'; k++) add(chords, k, mods);
+        } else if (key_of(key)) {
+            add(chords, key_of(key), mods);
+            if (!mods) add(chords, key_of(key), before);
+        }
+        if (mods) before = mods;
+        text = next;
+    }
+}
+
+/// What is said in words only, or elsewhere.
+static void add_words(struct chords *chords)
+{
+    add(chords, KEY_COMMA, MOD_SHIFT); // "(Shift: add)"
+    add(chords, KEY_PERIOD, MOD_SHIFT);
+    add(chords, 'Z', MOD_CTRL | MOD_SHIFT);
+    add(chords, KEY_UP, 0); // "Hold, and press ↑ ↓"
+    add(chords, KEY_DOWN, 0);
+    for (int ctrl = 0; ctrl < 3; ctrl++)
+        add(chords, '+', ctrl == 0 ? 0 : ctrl == 1 ? MOD_CTRL : MOD_CTRL | MOD_SHIFT);
+    for (int k = KEY_LEFT; k <= KEY_DOWN; k++) { // "nudge (Shift, Ctrl)"
+        for (unsigned mods = 0; mods < 4; mods++) add(chords, k, MOD_ALT | mods);
+    }
+}
+
+/// Whether the editor does something for a chord.
+static bool is_bound(int key, unsigned mods)
+{
+    struct session s;
+    session_open(&s, scene);
+    const struct event event = {.kind = EVENT_KEY, .key = key, .mods = mods, .action = ACTION_PRESS};
+    bool bound = keys_event(s.editor, &s.world, &event);
+    session_close(&s);
+    return bound;
+}
+
+static void test_every_key_is_in_the_help(void **state)
+{
+    (void)state;
+    struct chords chords = {.count = 0};
+    for (int g = 0; g < HELP_GROUPS; g++) {
+        for (int i = 0; i < HELP_MAX_ROWS && help_groups[g].rows[i].keys; i++) {
+            read_row(help_groups[g].rows[i].keys, &chords);
+        }
+    }
+    add_words(&chords);
+    int bound = 0;
+    for (int key = KEY_SPACE; key < KEY_COUNT; key++) {
+        for (unsigned mods = 0; mods < 8; mods++) {
+            if (!is_bound(key, mods)) continue;
+            bound++;
+            if (!has(&chords, key, mods)) fail_msg("%s with modifiers %u is not in the help", key_name(key), mods);
+        }
+    }
+    assert_true(bound > 80);
+}
+
+static void test_the_help_names_no_other_keys(void **state)
+{
+    (void)state;
+    static const int elsewhere[] = {KEY_F1, 'F', 'Z', 'B', 'C', 'L', 'X', 'Y', 'R', KEY_TAB, KEY_ENTER};
+    for (int g = 0; g < HELP_GROUPS; g++) {
+        for (int i = 0; i < HELP_MAX_ROWS && help_groups[g].rows[i].keys; i++) {
+            struct chords chords = {.count = 0};
+            bool any = false, other = false;
+            read_row(help_groups[g].rows[i].keys, &chords);
+            for (int k = 0; k < chords.count; k++) {
+                any |= is_bound(chords.list[k].key, chords.list[k].mods);
+                for (size_t e = 0; e < sizeof elsewhere / sizeof *elsewhere; e++) {
+                    other |= chords.list[k].key == elsewhere[e];
+                }
+            }
+            if (chords.count > 0 && !any && !other) fail_msg("%s does nothing", help_groups[g].rows[i].keys);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_all_of_it_fits),
+        cmocka_unit_test(test_small_windows_scroll),
+        cmocka_unit_test(test_any_key_closes_the_help_and_does_nothing_else),
+        cmocka_unit_test(test_every_key_is_in_the_help),
+        cmocka_unit_test(test_the_help_names_no_other_keys),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,131 @@
+// Nothing needs a mouse: what it does to selection, views, panels and warnings, the keyboard does too.
+#include "panel_session.h"
+
+static const char scene[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 0.5, \"damping\": 0.01, "
+    "\"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}, {\"frame\": 40, \"value\": -1}, "
+    "{\"frame\": 90, \"value\": 0}]}],"
+    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"sway\"}]}";
+
+/// A jump within two frames.
+static const char jump[] = "{\"wiggly\": 1, \"frames\": [0, 72], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
+                           "\"damping\": 0.05, \"bandwidth\": 0.05, \"knots\": [{\"frame\": 10, \"value\": 0},"
+                           "{\"frame\": 12, \"value\": 1}, {\"frame\": 24, \"value\": 1}]}]}";
+
+static bool is_selected(const struct session *s, int knot)
+{
+    return selection_has(&s->editor->selection, s->document->splines[0].knots[knot].id);
+}
+
+static void test_the_selection_grows_by_neighbours(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    session_key(&s, KEY_LEFT, MOD_SHIFT); // to the first frame
+    session_key(&s, KEY_PERIOD, MOD_SHIFT);
+    assert_true(is_selected(&s, 1));
+    session_key(&s, KEY_PERIOD, MOD_SHIFT);
+    session_key(&s, KEY_COMMA, MOD_SHIFT);
+    for (int k = 0; k < 3; k++) assert_true(is_selected(&s, k));
+    assert_false(is_selected(&s, 3));
+    for (int i = 0; i < 3; i++) session_key(&s, KEY_COMMA, MOD_SHIFT); // there is nothing before the first
+    assert_int_equal(selection_count(&s.editor->selection, &s.document->splines[0]), 3);
+    session_close(&s);
+}
+
+static void test_the_curves_pan_and_zoom(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    const struct view before = s.editor->view;
+    session_key(&s, KEY_RIGHT, MOD_CTRL);
+    session_key(&s, KEY_UP, MOD_CTRL);
+    assert_true(s.editor->view.frame0 > before.frame0 && s.editor->view.value0 > before.value0);
+    session_key(&s, KEY_LEFT, MOD_CTRL);
+    session_key(&s, KEY_DOWN, MOD_CTRL);
+    assert_near(s.editor->view.frame0, before.frame0, 1e-3);
+    assert_near(s.editor->view.value1, before.value1, 1e-3);
+    session_key(&s, '=', MOD_CTRL);
+    assert_near(s.editor->view.frame1 - s.editor->view.frame0, 0.8 * (before.frame1 - before.frame0), 1e-3);
+    session_key(&s, '-', MOD_CTRL);
+    assert_near(s.editor->view.frame1, before.frame1, 1e-3);
+    session_close(&s);
+}
+
+static void test_the_camera_turns_and_comes_back(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    const struct camera before = s.editor->camera;
+    session_key(&s, KEY_RIGHT, MOD_CTRL | MOD_SHIFT);
+    session_key(&s, KEY_UP, MOD_CTRL | MOD_SHIFT);
+    session_key(&s, '=', MOD_CTRL | MOD_SHIFT);
+    assert_true(s.editor->camera.azimuth > before.azimuth && s.editor->camera.elevation > before.elevation);
+    assert_true(s.editor->camera.distance < before.distance);
+    session_key(&s, KEY_HOME, MOD_SHIFT);
+    assert_memory_equal(&before, &s.editor->camera, sizeof before);
+    session_close(&s);
+}
+
+static void test_panels_have_sizes_to_choose_from(void **state)
+{
+    (void)state;
+    struct session s;
+    double share, width, first_share, first_width;
+    session_open(&s, scene);
+    editor_panels(s.editor, &first_share, &first_width);
+    session_key(&s, KEY_F6, 0);
+    session_key(&s, KEY_F6, MOD_SHIFT);
+    editor_panels(s.editor, &share, &width);
+    assert_true(share > first_share && width > first_width);
+    session_key(&s, KEY_F6, 0);
+    session_key(&s, KEY_F6, MOD_SHIFT);
+    editor_panels(s.editor, &share, &width);
+    assert_true(share < first_share && width < 480 && width > first_width);
+    session_close(&s);
+}
+
+static void test_a_warning_is_done_away_with(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, jump);
+    assert_int_equal(s.editor->warnings.count, 1);
+    session_key(&s, 'W', 0);
+    session_frame(&s);
+    assert_int_equal(s.editor->warnings.count, 0);
+    session_key(&s, 'Z', MOD_CTRL);
+    assert_int_equal(s.editor->warnings.count, 1);
+    session_close(&s);
+}
+
+static void test_a_number_goes_to_its_default(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    const double *frequency = &s.document->splines[0].parameter[PARAMETER_FREQUENCY].value;
+    for (int i = 0; i < 40 && s.editor->inspector.ui.focus != ui_id("frequency"); i++) session_key(&s, KEY_TAB, 0);
+    session_key(&s, KEY_DELETE, 0);
+    assert_near(*frequency, 1, 1e-12);
+    assert_int_equal(s.document->splines[0].knot_count, 4);
+    session_key(&s, 'Z', MOD_CTRL);
+    assert_near(*frequency, 0.5, 1e-12);
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_selection_grows_by_neighbours),
+        cmocka_unit_test(test_the_curves_pan_and_zoom),
+        cmocka_unit_test(test_the_camera_turns_and_comes_back),
+        cmocka_unit_test(test_panels_have_sizes_to_choose_from),
+        cmocka_unit_test(test_a_warning_is_done_away_with),
+        cmocka_unit_test(test_a_number_goes_to_its_default),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
