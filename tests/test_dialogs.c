@@ -167,7 +167,7 @@ static void test_discard_and_later(void **state)
     session_close(&s);
 }
 
-/// The card for new users goes with a click on it (and only there), the help, or an edit; not by itself.
+/// The card for new users goes with a click on it (and only there), Esc, the help, or an edit; not by itself.
 static void test_welcome(void **state)
 {
     (void)state;
@@ -179,6 +179,9 @@ static void test_welcome(void **state)
     session_key(&s, KEY_RIGHT, 0);
     assert_non_null(shown(&s, "Got it"));
     click(&s, "Got it", 1);
+    assert_false(editor_is_welcoming(s.editor));
+    editor_welcome(s.editor);
+    session_key(&s, KEY_ESCAPE, 0);
     assert_false(editor_is_welcoming(s.editor));
     editor_welcome(s.editor);
     session_key(&s, KEY_F1, 0);

@@ -149,6 +149,7 @@ static bool start(struct app *app, bool offscreen, struct error *error)
         if (!app->replay) process_catch_end();
     }
     personal_start(app);
+    if (o->welcome) editor_welcome(app->editor);
     return true;
 }
 

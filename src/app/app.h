@@ -13,6 +13,7 @@ struct app_options {
     int width, height;      ///< logical pixels; 0: the replay's, else 1280 × 720
     double scale;           ///< device pixels a logical pixel; 0: the replay's, else the display's (headless 1)
     const char *theme;      ///< a theme's name, or NULL: the user's own in a window, else dark
+    bool welcome;           ///< shows what to try first
     const char *log;        ///< timing log, CSV
     const char *screenshot; ///< PNG of the last frame
     const char *frames_dir; ///< a PNG for each frame

@@ -17,6 +17,8 @@ int command_live(int argc, char **argv)
         {"--scale", NULL, "S", "device pixels a logical pixel, headless", OPTION_REAL, &options.scale, 0.5, 4},
         {"--theme", NULL, "NAME", "dark or light (a window's own choice, F10; else dark)", OPTION_TEXT,
          &options.theme, 0, 0},
+        {"--welcome", NULL, NULL, "what to try first, as at the first start in a window", OPTION_FLAG,
+         &options.welcome, 0, 0},
         {"--log", NULL, "FILE.csv", "timing log, one row a frame", OPTION_TEXT, &options.log, 0, 0},
         {"--screenshot", NULL, "FILE.png", "picture of the last frame", OPTION_TEXT, &options.screenshot, 0, 0},
         {"--frames-dir", NULL, "DIR", "a PNG for each frame", OPTION_TEXT, &options.frames_dir, 0, 0},

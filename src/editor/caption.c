@@ -34,11 +34,12 @@ void caption_show(struct editor *editor, const struct document *document)
     rest = rest ? rest + 2 : "";
     snprintf(title, sizeof title, "%.*s", (int)fminf((float)length, 256), document->about);
     struct rect clip = drawlist_push_clip(&editor->list, stage);
+    const float bottom = editor->welcome ? welcome_card(editor).y : stage.y + stage.h;
     const char *more = title;
-    for (int line = 0; line < 2 && *more; line++) {
+    for (int line = 0; line < 2 && *more && y < bottom; line++) {
         more = show_line(editor, more, FONT_LABEL_BOLD, THEME_TEXT_NORMAL, theme()->text, width, &y);
     }
-    for (int line = 0; line < MAX_LINES && *rest; line++) {
+    for (int line = 0; line < MAX_LINES && *rest && y < bottom; line++) {
         rest = show_line(editor, rest, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, width, &y);
     }
     drawlist_set_clip(&editor->list, clip);

@@ -50,8 +50,9 @@ const char *inspector_hint(const struct editor *editor);
 /// "channel.0", "look.stiff", "section.knot". false where it is not shown or scrolled out of sight.
 bool inspector_target(struct editor *editor, const struct editor_world *world, const char *name, float *x, float *y);
 
-/// A card on the stage with what to try first. A press on it takes it away and is used up; so do an edit and the help.
+/// A card on the stage with what to try first. A press on it takes it away and is used up; so do Esc, an edit and the help.
 bool welcome_event(struct editor *editor, const struct event *event);
+struct rect welcome_card(const struct editor *editor);
 void welcome_show(struct editor *editor, const struct editor_world *world);
 
 /// What the scene is about, in the upper left corner of the stage: up to the first full stop as a title.
