@@ -24,10 +24,7 @@ static struct tail_list *begin(const struct document *document, struct error *er
 /// Adds the swap with a list; the list is the change's from here on.
 static bool finish(struct tail_list *tails, struct change_list *list, struct error *error)
 {
-    struct change change = {.kind = CHANGE_TAILS, .spline = -1, .tails = tails};
-    if (plan_add(list, &change, error)) return true;
-    tail_list_free(tails);
-    return false;
+    return plan_add(list, &(struct change){.kind = CHANGE_TAILS, .spline = -1, .tails = tails}, error);
 }
 
 static bool is_taken(const struct document *document, const char *name, int own)

@@ -19,9 +19,7 @@ bool plan_angles(struct document *document, const struct edit *edit, struct chan
     for (int i = 0; i < count; i++) {
         if (!isfinite(edit->angles->value[i])) return fail(error, ERROR_INPUT, "angles must be finite");
     }
-    if (!change_list_reserve(list, 1 + TAIL_MAX_JOINTS)) {
-        return plan_no_memory(error);
-    }
+    if (!change_list_reserve(list, 1 + TAIL_MAX_JOINTS)) return plan_no_memory(error);
     if (target->each != edit->angles->each) {
         list->items[list->count++] =
             (struct change){.kind = CHANGE_EACH, .spline = -1, .each = {at, edit->angles->each}};
