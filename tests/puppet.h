@@ -20,14 +20,13 @@ static inline void puppet_paint(struct vertex *vertex)
     for (int k = 0; k < 3; k++) vertex->color[k] = 0.5f;
 }
 
-/// A ball of 1 m that stands on the ground, with `coordinates` coordinates called "a", "b" … whose Ñ are zero.
-static inline struct character puppet_character(float cell, int coordinates)
+/// The skin of a solid, with `coordinates` coordinates called "a", "b" … whose Ñ are zero.
+static inline struct character puppet_solid(const struct solid *made_of, const float lo[3], const float hi[3],
+                                            float cell, int coordinates)
 {
-    const struct solid solid = {puppet_distance, puppet_paint};
-    const float lo[3] = {-0.55f, -0.05f, -0.55f}, hi[3] = {0.55f, 1.05f, 0.55f};
     struct mesh mesh = {0};
     struct character character;
-    isosurface(&solid, lo, hi, cell, &mesh);
+    isosurface(made_of, lo, hi, cell, &mesh);
     assert_false(mesh.failed);
     struct surface surface = {
         .vertex_count = mesh.vertex_count, .indices = mesh.indices, .index_count = mesh.index_count};
@@ -47,6 +46,14 @@ static inline struct character puppet_character(float cell, int coordinates)
     free(surface.position);
     mesh_free(&mesh);
     return character;
+}
+
+/// A ball of 1 m that stands on the ground.
+static inline struct character puppet_character(float cell, int coordinates)
+{
+    const struct solid ball = {puppet_distance, puppet_paint};
+    const float lo[3] = {-0.55f, -0.05f, -0.55f}, hi[3] = {0.55f, 1.05f, 0.55f};
+    return puppet_solid(&ball, lo, hi, cell, coordinates);
 }
 
 /// The figure of a character, which it takes over.

@@ -12,9 +12,11 @@
 
 enum { BOUND_STEPS = 30 };
 
+static const float FRONT_SHARE = 0.1f; ///< of a point's depth, in what decides between front and back
+
 #define PAIR_GAP 0.58f /* from the middle to each of a pair, in widths of the character */
 
-static const struct character_rig *selected(const struct editor *editor, const struct editor_world *world)
+const struct character_rig *characters_selected(const struct editor *editor, const struct editor_world *world)
 {
     const int index = editor->characters.character;
     return index < world->document->character_count ? &world->document->characters[index] : NULL;
@@ -22,7 +24,7 @@ static const struct character_rig *selected(const struct editor *editor, const s
 
 const struct coordinate *characters_coordinate(const struct editor *editor, const struct editor_world *world)
 {
-    const struct character_rig *rig = selected(editor, world);
+    const struct character_rig *rig = characters_selected(editor, world);
     const struct figure *figure = cast_figure(world->cast, editor->characters.character);
     if (!rig || !figure || editor->characters.drive >= rig->drive_count) return NULL;
     const int at = figure_find(figure, rig->drives[editor->characters.drive].name);
@@ -32,6 +34,7 @@ const struct coordinate *characters_coordinate(const struct editor *editor, cons
 void characters_open(struct editor *editor, const struct document *document)
 {
     const int phases = document->character_count > 0 ? document->characters[0].phases : -1;
+    editor->brush.on = false;
     editor->characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
 }
 
@@ -74,13 +77,16 @@ static void add_character(struct editor *editor, const struct editor_world *worl
     const struct character_rig *rig = &world->document->characters[index];
     struct stage_character *shown = &view->characters[view->character_count++];
     *shown = (struct stage_character){.figure = cast_figure(world->cast, index),
+                                      .rig = index,
+                                      .is_twin = aside > 0,
                                       .coarse = how->compare || world->document->character_count > 1,
                                       .map_coordinate = -1,
                                       .map_axis = how->axis};
     for (int k = 0; k < 3; k++) shown->position[k] = (float)rig->position[k] + (k == 0 ? aside : 0.0f);
     pose_at(world, rig, shown->figure, editor->playback.position, look, &shown->morph);
     const int drive = how->drive < rig->drive_count ? how->drive : 0;
-    if (how->mapped && rig->drive_count > 0)
+    const bool is_painted = editor->brush.on && index == how->character;
+    if ((how->mapped || is_painted) && rig->drive_count > 0)
         shown->map_coordinate = figure_find(shown->figure, rig->drives[drive].name);
     add_soles(view, shown);
 }
@@ -123,4 +129,36 @@ bool characters_bounds(const struct editor *editor, const struct editor_world *w
         }
     }
     return any;
+}
+
+/// The vertex that is seen there from the front of the character at rest.
+static int front_vertex(const struct figure *figure, const double uv[2])
+{
+    const float *lo = figure->lo, *hi = figure->hi;
+    const float x = lo[0] + (float)uv[0] * (hi[0] - lo[0]), y = lo[1] + (float)uv[1] * (hi[1] - lo[1]);
+    float best = INFINITY;
+    int found = 0;
+    for (int i = 0; i < figure->character.vertex_count; i++) {
+        const float *p = figure->character.position[i];
+        const float cost = hypotf(p[0] - x, p[1] - y) - FRONT_SHARE * p[2];
+        if (!(cost < best)) continue;
+        best = cost;
+        found = i;
+    }
+    return found;
+}
+
+bool characters_point(const struct editor *editor, int character, const double uv[2], float xy[2])
+{
+    const struct stage_view *view = &editor->stage;
+    const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
+    for (int i = 0; i < view->character_count; i++) {
+        const struct stage_character *shown = &view->characters[i];
+        float point[3];
+        if (shown->rig != character || shown->is_twin) continue;
+        morph_vertex(shown->figure, &shown->morph, front_vertex(shown->figure, uv), point, NULL);
+        for (int k = 0; k < 3; k++) point[k] += shown->position[k] - (k == 1 ? shown->figure->lo[1] : 0.0f);
+        return camera_project(view->view, view->projection, viewport, point, xy);
+    }
+    return false;
 }

@@ -12,7 +12,8 @@ struct character_view {
     bool compare;         ///< beside each character its stiff twin, moved by real parts alone
 };
 
-/// The coordinate that is selected, or NULL.
+/// The rig that is selected, or NULL; and its coordinate.
+const struct character_rig *characters_selected(const struct editor *editor, const struct editor_world *world);
 const struct coordinate *characters_coordinate(const struct editor *editor, const struct editor_world *world);
 
 /// A new document is on the table: what its first character shows at first.
@@ -23,6 +24,10 @@ void characters_pose(struct editor *editor, const struct editor_world *world);
 
 /// Adds their motion over the whole scene to the box lo … hi; true where there is any.
 bool characters_bounds(const struct editor *editor, const struct editor_world *world, float lo[3], float hi[3]);
+
+/// Where a point of its surface is on the screen: `uv` across and up its box at rest, seen from the front. false where it is not
+/// shown.
+bool characters_point(const struct editor *editor, int character, const double uv[2], float xy[2]);
 
 /// Legend of the phase map, and what the two of a pair are.
 void characters_show(struct editor *editor, const struct editor_world *world);

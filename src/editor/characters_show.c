@@ -74,6 +74,6 @@ static void show_pair(struct editor *editor)
 void characters_show(struct editor *editor, const struct editor_world *world)
 {
     const struct coordinate *coordinate = characters_coordinate(editor, world);
-    if (editor->characters.mapped && coordinate) show_legend(editor, coordinate);
+    if ((editor->characters.mapped || editor->brush.on) && coordinate) show_legend(editor, coordinate);
     if (editor->characters.compare) show_pair(editor);
 }

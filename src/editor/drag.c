@@ -245,6 +245,7 @@ void drag_end(struct editor *editor, const struct editor_world *world, bool keep
     if (open && !keep) history_restart(world->history, world->document);
     if (open && !keep) selection_drop_from(&editor->selection, world->document->next_id);
     if (open) history_end(world->history);
+    if (drag->kind == DRAG_PAINT) brush_end(editor, world, keep);
     if (!drag->moved && keep && drag->kind == DRAG_KNOTS && drag->collapse) {
         selection_clear(&editor->selection);
         selection_set(&editor->selection, drag->knot, true);

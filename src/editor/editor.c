@@ -26,6 +26,7 @@ struct editor *editor_create(struct error *error)
     editor->view = (struct view){0, 120, -1, 1};
     editor->camera = camera_default();
     editor->active = -1;
+    brush_init(&editor->brush);
     editor_resize(editor, 1280, 720, 1);
     return editor;
 }
@@ -39,6 +40,7 @@ void editor_destroy(struct editor *editor)
     free(editor->solo.bits);
     free(editor->before_box.bits);
     free(editor->clipboard);
+    brush_free(&editor->brush);
     free(editor->drag.originals);
     free(editor);
 }
@@ -300,8 +302,8 @@ bool editor_is_playing(const struct editor *editor) { return editor->playback.pl
 
 bool editor_wants_frames(const struct editor *editor)
 {
-    return editor->playback.playing || editor->drag.kind == DRAG_GRAB || follow_is_moving(editor) ||
-           editor->message.seconds_left > 0 || editor->warnings.search.running;
+    return editor->playback.playing || editor->drag.kind == DRAG_GRAB || editor->drag.kind == DRAG_PAINT ||
+           follow_is_moving(editor) || editor->message.seconds_left > 0 || editor->warnings.search.running;
 }
 
 double editor_frame(const struct editor *editor, const struct document *document)

@@ -107,6 +107,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
     status_advance(editor, dt);
     playback_advance(editor, world, dt);
     drag_apply(editor, world);
+    brush_advance(editor, world, dt);
     grab_apply(editor, world);
     follow_advance(editor, world, dt);
     record_advance(editor, world);
@@ -120,6 +121,7 @@ void editor_pose(struct editor *editor, const struct editor_world *world)
         stage_fit(editor, world);
     }
     stage_pose(editor, world);
+    brush_pose(editor, world);
 }
 
 /// What the pointer is over now: things move under it.
@@ -169,6 +171,7 @@ int editor_cursor(const struct editor *editor)
         [DRAG_STAGE_PAN] = SHAPE_MOVE,
         [DRAG_GRAB] = SHAPE_HAND,
         [DRAG_BODY] = SHAPE_MOVE,
+        [DRAG_PAINT] = SHAPE_ARROW,
         [DRAG_STAGE_DIVIDER] = SHAPE_VERTICAL,
         [DRAG_INSPECTOR_DIVIDER] = SHAPE_HORIZONTAL,
     };

@@ -26,6 +26,9 @@ void inspector_tail(struct inspection *in);
 void inspector_character(struct inspection *in);
 void inspector_history(struct inspection *in);
 
+/// The rows on the brush, below "Character".
+void inspector_brush(struct inspection *in);
+
 /// The fields of several selected knots, below "Knot".
 void inspector_knots(struct inspection *in);
 

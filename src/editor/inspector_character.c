@@ -178,6 +178,7 @@ void inspector_character(struct inspection *in)
         build_facts(in);
     }
     build_looks(in);
+    inspector_brush(in);
 }
 
 static void spline_popup(struct inspection *in, const struct drive *drive)

@@ -72,11 +72,15 @@ static void run_select_all(struct editor *e, const struct editor_world *w, int a
     select_all(e, w);
 }
 
+/// Puts the brush away; without one nothing is selected any more.
 static void run_select_none(struct editor *e, const struct editor_world *w, int argument)
 {
-    (void)w;
     (void)argument;
-    selection_clear(&e->selection);
+    if (e->brush.on) {
+        brush_set(e, w, false);
+    } else {
+        selection_clear(&e->selection);
+    }
 }
 
 static void run_toggle_slope(struct editor *e, const struct editor_world *w, int argument)
@@ -187,6 +191,12 @@ static void run_overlay(struct editor *e, const struct editor_world *w, int argu
     }
 }
 
+static void run_brush(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    brush_set(e, w, !e->brush.on);
+}
+
 static void run_rename(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
@@ -292,6 +302,7 @@ static const struct binding bindings[] = {
     {.key = 'V', .any_time = true, .run = run_look},
     {.key = 'O', .any_time = true, .run = run_overlay, .argument = 'O'},
     {.key = 'P', .any_time = true, .run = run_overlay, .argument = 'P'},
+    {.key = 'K', .run = run_brush},
 };
 
 static const struct nudge_key {

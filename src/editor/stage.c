@@ -196,6 +196,7 @@ void stage_show(struct editor *editor, const struct editor_world *world)
     onion_show(editor, world);
     trail_show(editor, world);
     characters_show(editor, world);
+    brush_show(editor, world);
     body_show(editor);
     show_hold(editor);
     drawlist_set_clip(&editor->list, clip);
@@ -259,6 +260,7 @@ void stage_press(struct editor *editor, const struct editor_world *world, const 
         drag_begin(editor, DRAG_STAGE_PAN, event);
         return;
     }
+    if (brush_press(editor, world, event)) return;
     struct hover hover = stage_hover(editor, event->x, event->y);
     if (event->button == BUTTON_LEFT && hover.kind == HOVER_BODY) {
         drag_begin(editor, DRAG_BODY, event);
@@ -273,5 +275,6 @@ void stage_press(struct editor *editor, const struct editor_world *world, const 
 
 void stage_wheel(struct editor *editor, const struct event *event)
 {
+    if (brush_wheel(editor, event)) return;
     camera_zoom(&editor->camera, (float)exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
 }

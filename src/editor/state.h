@@ -6,6 +6,7 @@
 #ifndef EDITOR_STATE_H
 #define EDITOR_STATE_H
 
+#include "editor/brush.h"
 #include "editor/characters.h"
 #include "editor/editor.h"
 #include "editor/panels.h"
@@ -68,6 +69,7 @@ enum drag_kind {
     DRAG_STAGE_PAN,
     DRAG_GRAB,
     DRAG_BODY,
+    DRAG_PAINT, ///< a stroke of the brush
     DRAG_STAGE_DIVIDER,
     DRAG_INSPECTOR_DIVIDER,
 };
@@ -311,6 +313,7 @@ struct editor {
     bool fitted; ///< camera and curves view, at the first editor_pose() of a document
     struct stage_view stage;
     struct character_view characters;
+    struct brush brush;
 
     struct inspector inspector;
     struct dialog dialog;

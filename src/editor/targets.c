@@ -147,6 +147,23 @@ static bool find_body(struct place *place, struct error *error)
     return fail(error, ERROR_INPUT, "there is no body of a tail \"%s\" to be seen", place->target->name);
 }
 
+/// A point of a character's surface: character(up,0.5,0.8), where it is now. u goes across and v up the box of the character
+/// at rest, seen from the front. One without a name is called as its model.
+static bool find_character(struct place *place, struct error *error)
+{
+    const struct document *document = place->world->document;
+    for (int c = 0; c < document->character_count; c++) {
+        const struct character_rig *rig = &document->characters[c];
+        float xy[2];
+        if (strcmp(rig->name ? rig->name : rig->model, place->target->name) != 0) continue;
+        if (!characters_point(place->editor, c, place->target->number, xy)) break;
+        place->x = xy[0];
+        place->y = xy[1];
+        return true;
+    }
+    return fail(error, ERROR_INPUT, "there is no character \"%s\" to be seen", place->target->name);
+}
+
 static bool find_divider(struct place *place, struct error *error)
 {
     const struct layout *l = &place->editor->layout;
@@ -182,6 +199,7 @@ static const struct target_kind {
     {.kind = "stage", .named = false, .numbers = 2, .find = find_stage},
     {.kind = "tail", .named = true, .numbers = 1, .find = find_tail},
     {.kind = "body", .named = true, .numbers = 0, .find = find_body},
+    {.kind = "character", .named = true, .numbers = 2, .find = find_character},
     {.kind = "divider", .named = true, .numbers = 0, .find = find_divider},
     {.kind = "slider", .named = true, .numbers = 0, .find = find_widget},
     {.kind = "widget", .named = true, .numbers = 0, .find = find_widget},

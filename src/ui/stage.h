@@ -25,6 +25,8 @@ struct stage_character {
     const struct figure *figure; ///< lives until the next frame at least
     struct morph morph;
     float position[3];
+    int rig;            ///< of the document's characters
+    bool is_twin;       ///< the stiff one of a pair
     bool coarse;        ///< half the triangles
     int map_coordinate; ///< whose phases its colours show, −1 for its own colours
     int map_axis;       ///< of movement, 0 … 2: x, y, z

@@ -1,0 +1,139 @@
+#include "model/reach.h"
+#include <math.h>
+#include <stdlib.h>
+
+static const float SHORTER = 0.86f; ///< 1/1.16
+
+bool reach_create(struct reach *reach, int vertices)
+{
+    const size_t room = (size_t)vertices + 1;
+    *reach = (struct reach){.capacity = vertices};
+    reach->distance = malloc(room * sizeof *reach->distance);
+    reach->vertices = malloc(room * sizeof *reach->vertices);
+    reach->along = malloc(room * sizeof *reach->along);
+    reach->heap = malloc(room * sizeof *reach->heap);
+    reach->place = malloc(room * sizeof *reach->place);
+    if (!reach->distance || !reach->vertices || !reach->along || !reach->heap || !reach->place) {
+        reach_free(reach);
+        return false;
+    }
+    for (int i = 0; i < vertices; i++) reach->distance[i] = reach->along[i] = INFINITY;
+    return true;
+}
+
+void reach_free(struct reach *reach)
+{
+    free(reach->distance);
+    free(reach->vertices);
+    free(reach->along);
+    free(reach->heap);
+    free(reach->place);
+    *reach = (struct reach){0};
+}
+
+static void put(struct reach *reach, int at, int vertex)
+{
+    reach->heap[at] = vertex;
+    reach->place[vertex] = at;
+}
+
+static void sift_up(struct reach *reach, int vertex)
+{
+    int at = reach->place[vertex];
+    while (at > 0 && reach->along[vertex] < reach->along[reach->heap[(at - 1) / 2]]) {
+        put(reach, at, reach->heap[(at - 1) / 2]);
+        at = (at - 1) / 2;
+    }
+    put(reach, at, vertex);
+}
+
+static void sift_down(struct reach *reach, int vertex)
+{
+    int at = reach->place[vertex];
+    for (;;) {
+        int child = 2 * at + 1;
+        if (child >= reach->heap_count) break;
+        if (child + 1 < reach->heap_count && reach->along[reach->heap[child + 1]] < reach->along[reach->heap[child]])
+            child++;
+        if (reach->along[vertex] <= reach->along[reach->heap[child]]) break;
+        put(reach, at, reach->heap[child]);
+        at = child;
+    }
+    put(reach, at, vertex);
+}
+
+static int take_nearest(struct reach *reach)
+{
+    const int nearest = reach->heap[0], last = reach->heap[--reach->heap_count];
+    if (reach->heap_count > 0) {
+        put(reach, 0, last);
+        sift_down(reach, last);
+    }
+    return nearest;
+}
+
+/// There is a way of that length to a vertex.
+static void offer(struct reach *reach, uint32_t vertex, float along)
+{
+    if (!(along < reach->along[vertex])) return;
+    const bool is_new = reach->along[vertex] == INFINITY;
+    reach->along[vertex] = along;
+    if (is_new) put(reach, reach->heap_count++, (int)vertex);
+    sift_up(reach, (int)vertex);
+}
+
+static float straight(const float a[3], const float b[3])
+{
+    const float d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    return sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+}
+
+void surface_position(const struct surface_spot *spot, const float (*positions)[3], float out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = 0;
+        for (int c = 0; c < 3; c++) out[k] += spot->weight[c] * positions[spot->corner[c]][k];
+    }
+}
+
+/// Forgets what was found before.
+static void clear(struct reach *reach)
+{
+    for (int i = 0; i < reach->count; i++)
+        reach->distance[reach->vertices[i]] = reach->along[reach->vertices[i]] = INFINITY;
+    for (int i = 0; i < reach->heap_count; i++) reach->along[reach->heap[i]] = INFINITY;
+    reach->count = reach->heap_count = 0;
+}
+
+static float nearest_straight(const float (*positions)[3], const struct surface_spot *spots, int count, int vertex)
+{
+    float least = INFINITY;
+    for (int s = 0; s < count; s++) {
+        float at[3];
+        surface_position(&spots[s], positions, at);
+        least = fminf(least, straight(at, positions[vertex]));
+    }
+    return least;
+}
+
+void reach_find(struct reach *reach, const struct figure *figure, const struct surface_spot *spots, int count,
+                float limit)
+{
+    const float(*positions)[3] = (const float(*)[3])figure->character.position;
+    clear(reach);
+    for (int s = 0; s < count; s++) {
+        float at[3];
+        surface_position(&spots[s], positions, at);
+        for (int c = 0; c < 3; c++) offer(reach, spots[s].corner[c], straight(at, positions[spots[s].corner[c]]));
+    }
+    while (reach->heap_count > 0 && SHORTER * reach->along[reach->heap[0]] <= limit) {
+        const int vertex = take_nearest(reach);
+        const float along = reach->along[vertex];
+        reach->vertices[reach->count++] = vertex;
+        reach->distance[vertex] = fmaxf(SHORTER * along, nearest_straight(positions, spots, count, vertex));
+        for (int e = figure->edges.first[vertex]; e < figure->edges.first[vertex + 1]; e++) {
+            const uint32_t other = figure->edges.other[e];
+            offer(reach, other, along + straight(positions[vertex], positions[other]));
+        }
+    }
+}

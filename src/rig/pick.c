@@ -1,0 +1,62 @@
+#include "rig/pick.h"
+#include "model/vector.h"
+#include <math.h>
+#include <string.h>
+
+void pick_pose(const struct figure *figure, const struct morph *morph, const float position[3], float (*posed)[3])
+{
+    for (int i = 0; i < figure->character.vertex_count; i++) {
+        morph_vertex(figure, morph, i, posed[i], NULL);
+        posed[i][0] += position[0];
+        posed[i][1] += position[1] - figure->lo[1];
+        posed[i][2] += position[2];
+    }
+}
+
+static const float SLACK = 1e-4f; ///< of a triangle: rounding must not leave gaps between neighbours
+
+static void subtract(const float a[3], const float b[3], float out[3])
+{
+    for (int k = 0; k < 3; k++) out[k] = a[k] - b[k];
+}
+
+/// Where along the ray it meets the front of a triangle (Möller and Trumbore 1997), or a negative number; `uv` are the weights of
+/// its second and third corner.
+static float meet(const float *const corner[3], const float eye[3], const float direction[3], float uv[2])
+{
+    float side[3], other[3], p[3], from[3], q[3];
+    subtract(corner[1], corner[0], side);
+    subtract(corner[2], corner[0], other);
+    vector_cross(direction, other, p);
+    const float determinant = vector_dot(side, p);
+    if (!(determinant > 0.0f)) return -1; // edge on, or its back
+    subtract(eye, corner[0], from);
+    uv[0] = vector_dot(from, p);
+    const float slack = SLACK * determinant;
+    if (uv[0] < -slack || uv[0] > determinant + slack) return -1;
+    vector_cross(from, side, q);
+    uv[1] = vector_dot(direction, q);
+    if (uv[1] < -slack || uv[0] + uv[1] > determinant + slack) return -1;
+    uv[0] /= determinant;
+    uv[1] /= determinant;
+    return vector_dot(other, q) / determinant;
+}
+
+bool pick_ray(const struct figure *figure, const float (*posed)[3], const float eye[3], const float direction[3],
+              struct surface_spot *spot)
+{
+    const uint32_t *indices = figure->character.indices;
+    float nearest = INFINITY;
+    for (int t = 0; t < figure->character.index_count; t += 3) {
+        const float *const corner[3] = {posed[indices[t]], posed[indices[t + 1]], posed[indices[t + 2]]};
+        float uv[2];
+        const float distance = meet(corner, eye, direction, uv);
+        if (!(distance > 0.0f && distance < nearest)) continue;
+        nearest = distance;
+        memcpy(spot->corner, indices + t, sizeof spot->corner);
+        spot->weight[0] = 1.0f - uv[0] - uv[1];
+        spot->weight[1] = uv[0];
+        spot->weight[2] = uv[1];
+    }
+    return nearest < INFINITY;
+}

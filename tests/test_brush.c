@@ -1,0 +1,426 @@
+/// The brush on a character's surface, by mouse and keys: what a stroke changes and what it leaves alone, its undo, its modes, and
+/// the distances that it works with.
+#include "editor/brush.h"
+#include "panel_session.h"
+#include "puppet.h"
+#include "timing/framelog.h"
+#include <stdio.h>
+#include <unistd.h>
+
+/// Two fingers of 0.8 m, 7 cm apart through the air, on one palm.
+static float hand_distance(const float p[3])
+{
+    float nearest = INFINITY;
+    for (int side = -1; side <= 1; side += 2) {
+        const float x = p[0] - 0.125f * (float)side, y = p[1] - fmaxf(0.15f, fminf(0.9f, p[1]));
+        nearest = fminf(nearest, sqrtf(x * x + y * y + p[2] * p[2]) - 0.09f);
+    }
+    const float x = p[0] - fmaxf(-0.125f, fminf(0.125f, p[0])), y = p[1] - 0.15f;
+    return fminf(nearest, sqrtf(x * x + y * y + p[2] * p[2]) - 0.09f);
+}
+
+static struct character make_hand(void)
+{
+    const struct solid hand = {hand_distance, puppet_paint};
+    const float lo[3] = {-0.3f, 0, -0.15f}, hi[3] = {0.3f, 1.05f, 0.15f};
+    struct character character = puppet_solid(&hand, lo, hi, 0.025f, 2);
+    for (int i = 0; i < character.vertex_count; i++) {
+        character.coordinates[0].re[i][0] = 0.05f;
+        character.coordinates[0].im[i][1] = 0.02f;
+        character.coordinates[1].im[i][2] = 0.05f;
+    }
+    return character;
+}
+
+static char model[] = "/tmp/wiggly-test-XXXXXX";
+
+static int make_model(void **state)
+{
+    (void)state;
+    struct error error = {0};
+    struct character character = make_hand();
+    close(mkstemp(model));
+    bool written = character_write(model, &character, &error);
+    character_free(&character);
+    return written ? 0 : -1;
+}
+
+static int remove_model(void **state)
+{
+    (void)state;
+    unlink(model);
+    return 0;
+}
+
+struct studio {
+    struct session session;
+    struct cast *cast;
+    const struct figure *plain;
+};
+
+static struct character_rig *rig_of(const struct studio *s) { return &s->session.document->characters[0]; }
+
+static void frame(struct studio *s)
+{
+    cast_paint(s->cast, s->session.document);
+    session_frame(&s->session);
+}
+
+static void frames(struct studio *s, int count)
+{
+    for (int i = 0; i < count; i++) frame(s);
+}
+
+static void studio_open(struct studio *s)
+{
+    char scene[700];
+    struct error error = {0};
+    snprintf(scene, sizeof scene,
+             "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"start\": "
+             "\"loop\", \"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 20, \"value\": -1}]}], \"rigs\": ["
+             "{\"type\": \"character\", \"name\": \"hand\", \"model\": \"%s\", \"coordinates\": [{\"name\": \"a\", "
+             "\"spline\": \"s\"}]}]}",
+             model);
+    panel_open(&s->session, scene, 1280, 1400);
+    s->cast = cast_create();
+    if (!cast_update(s->cast, s->session.document, &error)) fail_msg("%s", error.text);
+    s->session.world.cast = s->cast;
+    editor_open(s->session.editor, &s->session.world);
+    if (editor_is_playing(s->session.editor)) session_key(&s->session, KEY_SPACE, 0);
+    s->plain = cast_figure(s->cast, 0);
+    s->session.editor->camera.azimuth = -1.5708f; // from the front
+    frame(s);
+}
+
+static void studio_close(struct studio *s)
+{
+    session_close(&s->session);
+    cast_destroy(s->cast);
+}
+
+/// The middle of the front of a finger, 3/4 up.
+static const char left_finger[] = "character(hand,0.2,0.75)", right_finger[] = "character(hand,0.8,0.75)";
+
+/// Holds the button at a target for so many frames.
+static void hold(struct studio *s, const char *target, unsigned mods, int count)
+{
+    s->session.mods = mods;
+    session_point(&s->session, target);
+    session_press(&s->session, BUTTON_LEFT, 1);
+    frames(s, count);
+    session_release(&s->session, BUTTON_LEFT);
+    s->session.mods = 0;
+    frame(s);
+}
+
+static const float *value_of(const struct studio *s, int coordinate, int vertex)
+{
+    return rig_of(s)->painted->values[coordinate * rig_of(s)->painted->vertices + vertex];
+}
+
+static void a_stroke_changes_phase_where_it_is_and_nowhere_else(void **state)
+{
+    (void)state;
+    struct studio s;
+    studio_open(&s);
+    session_key(&s.session, 'K', 0);
+    s.session.editor->brush.radius = 0.2; // 0.19 m: through the air it would reach the other finger
+    hold(&s, left_finger, 0, 30);
+    assert_non_null(rig_of(&s)->painted);
+    float most = 0;
+    for (int i = 0; i < s.plain->character.vertex_count; i++) {
+        const float *p = s.plain->character.position[i], *value = value_of(&s, 0, i);
+        assert_true(value[1] >= 0);
+        assert_near((double)value[0], 0, 0);
+        assert_near((double)value_of(&s, 1, i)[1], 0, 0);
+        if (p[0] > 0 || p[1] < 0.4f) assert_near((double)value[1], 0, 0);
+        most = fmaxf(most, value[1]);
+    }
+    // Half a second at 0.4 of a turn a second, but for what the surface has moved under the pointer meanwhile.
+    assert_near((double)most, 0.5 * 0.4 * 6.2831853, 0.1);
+    assert_int_equal((int)history_count(s.session.history), 1);
+    assert_string_equal(history_undo_label(s.session.history), "Advance phase");
+    studio_close(&s);
+}
+
+static void undo_and_redo_are_exact(void **state)
+{
+    (void)state;
+    struct studio s;
+    studio_open(&s);
+    session_key(&s.session, 'K', 0);
+    hold(&s, left_finger, 0, 10);
+    const size_t size = 2 * (size_t)s.plain->character.vertex_count * sizeof(float[2]);
+    float *once = malloc(size), *twice = malloc(size);
+    assert_true(once && twice);
+    memcpy(once, rig_of(&s)->painted->values, size);
+    session_point(&s.session, left_finger);
+    session_press(&s.session, BUTTON_LEFT, 1);
+    for (int i = 0; i < 10; i++) {
+        session_move(&s.session, s.session.x, s.session.y + 8);
+        frame(&s);
+    }
+    session_release(&s.session, BUTTON_LEFT);
+    memcpy(twice, rig_of(&s)->painted->values, size);
+    assert_true(memcmp(once, twice, size) != 0);
+    session_key(&s.session, 'Z', MOD_CTRL);
+    assert_memory_equal(rig_of(&s)->painted->values, once, size);
+    session_key(&s.session, 'Z', MOD_CTRL);
+    assert_null(rig_of(&s)->painted);
+    frame(&s);
+    assert_memory_equal(cast_figure(s.cast, 0)->character.coordinates[0].re, s.plain->character.coordinates[0].re,
+                        (size_t)s.plain->character.vertex_count * sizeof(float[3]));
+    session_key(&s.session, 'Y', MOD_CTRL);
+    session_key(&s.session, 'Y', MOD_CTRL);
+    assert_memory_equal(rig_of(&s)->painted->values, twice, size);
+    session_point(&s.session, left_finger);
+    session_press(&s.session, BUTTON_LEFT, 1);
+    frames(&s, 5);
+    session_key(&s.session, KEY_ESCAPE, 0); // takes the stroke back, and the brush stays
+    assert_memory_equal(rig_of(&s)->painted->values, twice, size);
+    assert_true(s.session.editor->brush.on);
+    assert_int_equal((int)history_count(s.session.history), 2);
+    free(once);
+    free(twice);
+    studio_close(&s);
+}
+
+/// Only the press, which makes room for the stroke, may allocate.
+static void a_stroke_allocates_nothing_as_it_goes_on(void **state)
+{
+    (void)state;
+    struct studio s;
+    studio_open(&s);
+    session_key(&s.session, 'K', 0);
+    hold(&s, right_finger, 0, 3);
+    session_key(&s.session, KEY_SPACE, 0); // playing, as one paints
+    session_point(&s.session, left_finger);
+    session_press(&s.session, BUTTON_LEFT, 1);
+    frames(&s, 2);
+    const long before = allocation_count();
+    for (int i = 0; i < 20; i++) {
+        session_move(&s.session, s.session.x, s.session.y + 6);
+        frame(&s);
+    }
+    assert_int_equal(allocation_count() - before, 0);
+    session_release(&s.session, BUTTON_LEFT);
+    studio_close(&s);
+}
+
+static double mean_lead(const struct studio *s)
+{
+    double sum = 0;
+    for (int i = 0; i < rig_of(s)->painted->vertices; i++) sum += (double)value_of(s, 0, i)[1];
+    return sum / rig_of(s)->painted->vertices;
+}
+
+static void modes_and_modifiers_do_what_they_say(void **state)
+{
+    (void)state;
+    struct studio s;
+    studio_open(&s);
+    panel_click(&s.session, "paint.on");
+    assert_true(s.session.editor->brush.on);
+    hold(&s, left_finger, MOD_CTRL, 10);
+    assert_string_equal(history_undo_label(s.session.history), "Delay phase");
+    const double delayed = mean_lead(&s);
+    assert_true(delayed < -1e-3);
+    panel_click(&s.session, "phase.delay");
+    hold(&s, left_finger, MOD_CTRL, 10);
+    assert_string_equal(history_undo_label(s.session.history), "Advance phase");
+    assert_true(fabs(mean_lead(&s)) < -0.1 * delayed); // all but what the surface moved meanwhile
+    panel_click(&s.session, "swing.less");
+    hold(&s, left_finger, 0, 600);
+    panel_click(&s.session, "model's.erase");
+    assert_string_equal(history_undo_label(s.session.history), "Less amplitude");
+    float least = 0;
+    for (int i = 0; i < rig_of(&s)->painted->vertices; i++) {
+        const float swell = value_of(&s, 0, i)[0];
+        assert_true(expf(swell) > 0); // never turned round
+        least = fminf(least, swell);
+    }
+    assert_near((double)expf(least), 0.01, 1e-4);
+    hold(&s, left_finger, 0, 600);
+    panel_click(&s.session, "paint.clean");
+    assert_true(paint_is_plain(rig_of(&s)->painted));
+    assert_string_equal(history_undo_label(s.session.history), "Take paint off");
+    session_key(&s.session, 'Z', MOD_CTRL);
+    assert_false(paint_is_plain(rig_of(&s)->painted));
+    studio_close(&s);
+}
+
+/// Sum over all edges of the finger's middle of how much Ñ' differs in phase and in the logarithm of amplitude.
+static void variation(const struct studio *s, double sum[2])
+{
+    const struct figure *figure = cast_figure(s->cast, 0);
+    const struct coordinate *c = &figure->character.coordinates[0];
+    sum[0] = sum[1] = 0;
+    for (int i = 0; i < figure->character.vertex_count; i++) {
+        const float *p = figure->character.position[i];
+        if (p[0] > 0 || fabsf(p[1] - 0.72f) > 0.06f || p[2] < 0) continue;
+        for (int e = figure->edges.first[i]; e < figure->edges.first[i + 1]; e++) {
+            const uint32_t j = figure->edges.other[e];
+            const double a[2] = {(double)c->re[i][0], (double)c->im[i][0]};
+            const double b[2] = {(double)c->re[j][0], (double)c->im[j][0]};
+            sum[0] += fabs(atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]));
+            sum[1] += fabs(log(hypot(a[0], a[1]) / hypot(b[0], b[1])));
+        }
+    }
+}
+
+/// Random paint, phases all around the circle's seam.
+static void make_rough(struct studio *s)
+{
+    const int count = s->plain->character.vertex_count;
+    int *vertices = malloc((size_t)count * sizeof *vertices);
+    float(*values)[2] = malloc((size_t)count * sizeof *values);
+    uint32_t seed = 4711;
+    assert_true(vertices && values);
+    for (int i = 0; i < count; i++) {
+        vertices[i] = i;
+        for (int k = 0; k < 2; k++) {
+            seed = 1664525u * seed + 1013904223u;
+            values[i][k] = (float)(seed >> 8) / 16777216.0f - 0.5f;
+        }
+        values[i][1] += 3.14159265f;
+    }
+    const struct dab dab = {0, count, vertices, (const float(*)[2])values};
+    struct error error;
+    history_begin(s->session.history, "Rough", 0);
+    assert_true(history_apply(s->session.history, s->session.document,
+                              &(struct edit){.kind = EDIT_PAINT_NEW, .coordinates = 2, .vertices = count}, &error));
+    assert_true(history_apply(s->session.history, s->session.document,
+                              &(struct edit){.kind = EDIT_PAINT, .dab = &dab}, &error));
+    history_end(s->session.history);
+    free(vertices);
+    free(values);
+}
+
+static void smoothing_reduces_variation(void **state)
+{
+    (void)state;
+    struct studio s;
+    studio_open(&s);
+    make_rough(&s);
+    frame(&s);
+    double rough[2], even[2], calm[2];
+    variation(&s, rough);
+    session_key(&s.session, 'K', 0);
+    s.session.editor->brush.radius = 0.25;
+    hold(&s, left_finger, MOD_SHIFT, 30); // advance, with Shift
+    assert_string_equal(history_undo_label(s.session.history), "Smooth phase");
+    variation(&s, even);
+    assert_true(even[0] < 0.3 * rough[0]);
+    assert_near(even[1], rough[1], 1e-3 * rough[1]); // amplitudes stay
+    panel_click(&s.session, "swing.smooth");
+    hold(&s, left_finger, 0, 30);
+    variation(&s, calm);
+    assert_true(calm[1] < 0.3 * rough[1]);
+    assert_near(calm[0], even[0], 1e-3 * rough[0]);
+    studio_close(&s);
+}
+
+static void the_map_is_shown_and_the_rest_of_the_stage_still_turns(void **state)
+{
+    (void)state;
+    struct studio s;
+    studio_open(&s);
+    const struct editor *editor = s.session.editor;
+    assert_int_equal(editor->stage.characters[0].map_coordinate, -1);
+    session_key(&s.session, 'K', 0);
+    frame(&s);
+    assert_int_equal(editor->stage.characters[0].map_coordinate, 0);
+    assert_int_equal(editor->stage.characters[0].map_axis, 0); // it moves along x most
+    session_point(&s.session, left_finger);
+    frame(&s);
+    assert_true(editor->brush.covers);
+    const double radius = editor->brush.radius, strength = editor->brush.strength;
+    const float distance = editor->camera.distance;
+    s.session.mods = MOD_CTRL;
+    session_wheel(&s.session, 1);
+    s.session.mods = MOD_SHIFT;
+    session_wheel(&s.session, -1);
+    s.session.mods = 0;
+    assert_true(editor->brush.radius > radius && editor->brush.strength < strength);
+    assert_near((double)editor->camera.distance, (double)distance, 0);
+    const float azimuth = editor->camera.azimuth;
+    session_point(&s.session, "stage(0.95,0.5)");
+    session_press(&s.session, BUTTON_LEFT, 1);
+    session_drag(&s.session, -40, 0, 4);
+    session_release(&s.session, BUTTON_LEFT);
+    assert_true(editor->camera.azimuth != azimuth);
+    assert_int_equal((int)history_count(s.session.history), 0);
+    session_key(&s.session, KEY_ESCAPE, 0);
+    frame(&s);
+    assert_false(editor->brush.on);
+    assert_int_equal(editor->stage.characters[0].map_coordinate, -1);
+    studio_close(&s);
+}
+
+/// A press that is released before a frame came paints all the same; paint for another model is left alone.
+static void a_click_paints_and_foreign_paint_is_left_alone(void **state)
+{
+    (void)state;
+    struct studio s;
+    studio_open(&s);
+    session_key(&s.session, 'K', 0);
+    session_point(&s.session, left_finger);
+    session_press(&s.session, BUTTON_LEFT, 1);
+    session_release(&s.session, BUTTON_LEFT);
+    assert_true(mean_lead(&s) > 0);
+    struct error error;
+    history_begin(s.session.history, "Foreign", 0);
+    assert_true(history_apply(s.session.history, s.session.document,
+                              &(struct edit){.kind = EDIT_PAINT_NEW, .coordinates = 5, .vertices = 7}, &error));
+    history_end(s.session.history);
+    const uint64_t version = rig_of(&s)->painted->version;
+    frame(&s);
+    hold(&s, left_finger, 0, 5);
+    assert_int_equal(rig_of(&s)->painted->version, version);
+    assert_int_equal((int)history_count(s.session.history), 2);
+    studio_close(&s);
+}
+
+/// On a ball the way over the surface is radius times angle.
+static void distances_follow_the_surface(void **state)
+{
+    (void)state;
+    struct character ball = puppet_character(0.05f, 0);
+    struct figure figure = puppet_figure(&ball);
+    struct reach reach;
+    assert_true(reach_create(&reach, figure.character.vertex_count));
+    const uint32_t *corner = figure.character.indices;
+    const struct surface_spot spot = {{corner[0], corner[1], corner[2]}, {1, 0, 0}};
+    for (int round = 0; round < 2; round++) { // nothing is left of the first one
+        reach_find(&reach, &figure, &spot, 1, round == 0 ? 2.0f : 0.4f);
+        const float *from = figure.character.position[corner[0]];
+        int within = 0;
+        for (int i = 0; i < figure.character.vertex_count; i++) {
+            const float *p = figure.character.position[i];
+            const float cosine = 4 * ((p[0] * from[0] + p[2] * from[2]) + (p[1] - 0.5f) * (from[1] - 0.5f));
+            const float way = 0.5f * acosf(fmaxf(-1, fminf(1, cosine)));
+            if (way > 0.05f && way < 0.35f) assert_near((double)reach.distance[i], (double)way, 0.1 * (double)way);
+            if (round == 1 && way > 0.5f) assert_true(reach.distance[i] == INFINITY);
+            within += reach.distance[i] < INFINITY;
+        }
+        assert_int_equal(within, reach.count);
+        assert_true(round == 1 || within == figure.character.vertex_count);
+    }
+    reach_free(&reach);
+    figure_free(&figure);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_stroke_changes_phase_where_it_is_and_nowhere_else),
+        cmocka_unit_test(undo_and_redo_are_exact),
+        cmocka_unit_test(a_stroke_allocates_nothing_as_it_goes_on),
+        cmocka_unit_test(modes_and_modifiers_do_what_they_say),
+        cmocka_unit_test(smoothing_reduces_variation),
+        cmocka_unit_test(the_map_is_shown_and_the_rest_of_the_stage_still_turns),
+        cmocka_unit_test(a_click_paints_and_foreign_paint_is_left_alone),
+        cmocka_unit_test(distances_follow_the_surface),
+    };
+    return cmocka_run_group_tests(tests, make_model, remove_model);
+}
