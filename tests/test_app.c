@@ -1,8 +1,17 @@
 /// The app's frames and files, without a picture.
 #include "blind.h"
 
+#include "editor/state.h"
+#include "scene/load.h"
 #include "temporary.h"
+#include <signal.h>
 #include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+
+enum { NOBODY = 65534 };
 
 /// A scene in a file of its own, with knots at frames 0 and 36.
 static const char *scene_file(void)
@@ -49,10 +58,137 @@ static void a_figure_ends_a_drag_that_begins_in_its_frame(void **state)
     blind_close(&blind);
 }
 
+/// Opens a copy of the scene in a folder that everybody may read, and edits it.
+static void open_edited(struct blind *blind, char folder[64], char path[96])
+{
+    snprintf(folder, 64, "/tmp/wiggly-test-XXXXXX");
+    assert_non_null(mkdtemp(folder));
+    assert_int_equal(chmod(folder, 0755), 0);
+    snprintf(path, 96, "%s/scene.json", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}]}", file);
+    assert_int_equal(fclose(file), 0);
+    blind_open(blind, path);
+    blind_frame(blind);
+    send_key(blind, 'I', 0);
+    blind_frame(blind);
+    assert_false(history_is_saved(blind->app.history));
+}
+
+static void assert_knots_in_file(const char *path, int knots)
+{
+    struct error error = {0};
+    struct document *document = scene_load(path, NULL, &error);
+    if (!document) fail_msg("%s", error.text);
+    assert_int_equal(document->splines[0].knot_count, knots);
+    document_destroy(document);
+}
+
+/// Ctrl+S fails in one sentence that names the file; the work and the file as it was are there, and nothing else is.
+static void assert_save_fails(struct blind *blind, const char *folder, const char *path)
+{
+    send_key(blind, 'S', MOD_CTRL);
+    blind_frame(blind);
+    const struct message *message = &blind->app.editor->message;
+    assert_true(message->is_error);
+    assert_non_null(strstr(message->text, path));
+    assert_null(strchr(message->text, '\n'));
+    assert_false(history_is_saved(blind->app.history));
+    assert_int_equal(blind->app.document->splines[0].knot_count, 1);
+    assert_knots_in_file(path, 0);
+    char command[128];
+    snprintf(command, sizeof command, "[ \"$(ls -A %s)\" = scene.json ]", folder);
+    assert_int_equal(system(command), 0);
+}
+
+/// The same succeeds once there is nothing in its way.
+static void save_and_close(struct blind *blind, const char *folder, const char *path)
+{
+    send_key(blind, 'S', MOD_CTRL);
+    blind_frame(blind);
+    assert_true(history_is_saved(blind->app.history));
+    assert_knots_in_file(path, 1);
+    blind_close(blind);
+    unlink(path);
+    assert_int_equal(rmdir(folder), 0);
+}
+
+/// A limit of the process stands for the disk that ends.
+static void work_outlives_a_full_disk(void **state)
+{
+    (void)state;
+    struct blind blind;
+    char folder[64], path[96];
+    open_edited(&blind, folder, path);
+    struct rlimit before, small;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+    small = before;
+    small.rlim_cur = 100;
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    assert_save_fails(&blind, folder, path);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+    save_and_close(&blind, folder, path);
+}
+
+static void work_outlives_a_folder_that_cannot_be_written(void **state)
+{
+    (void)state;
+    struct blind blind;
+    char folder[64], path[96];
+    open_edited(&blind, folder, path);
+    const bool is_root = geteuid() == 0;
+    assert_int_equal(chmod(folder, 0555), 0);
+    if (is_root) assert_int_equal(seteuid(NOBODY), 0);
+    assert_save_fails(&blind, folder, path);
+    if (is_root) assert_int_equal(seteuid(0), 0);
+    assert_int_equal(chmod(folder, 0755), 0);
+    save_and_close(&blind, folder, path);
+}
+
+/// Saves again and again, a knot more or less each time, until it is killed.
+static void save_for_ever(struct blind *blind)
+{
+    for (;;) {
+        send_key(blind, 'Z', MOD_CTRL);
+        send_key(blind, 'S', MOD_CTRL);
+        blind_frame(blind);
+        send_key(blind, 'Y', MOD_CTRL);
+        send_key(blind, 'S', MOD_CTRL);
+        blind_frame(blind);
+    }
+}
+
+static void a_file_outlives_a_program_that_is_killed_while_it_saves(void **state)
+{
+    (void)state;
+    struct blind blind;
+    char folder[64], path[96], command[96];
+    open_edited(&blind, folder, path);
+    for (int i = 0; i < 20; i++) {
+        const pid_t child = fork();
+        assert_true(child >= 0);
+        if (child == 0) save_for_ever(&blind);
+        nanosleep(&(struct timespec){.tv_nsec = 3000000 + 700000 * i}, NULL);
+        assert_int_equal(kill(child, SIGKILL), 0);
+        assert_int_equal(waitpid(child, NULL, 0), child);
+        struct document *document = scene_load(path, NULL, NULL);
+        assert_non_null(document);
+        document_destroy(document);
+    }
+    blind_close(&blind);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_figure_ends_a_drag_that_begins_in_its_frame),
+        cmocka_unit_test(work_outlives_a_full_disk),
+        cmocka_unit_test(work_outlives_a_folder_that_cannot_be_written),
+        cmocka_unit_test(a_file_outlives_a_program_that_is_killed_while_it_saves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
