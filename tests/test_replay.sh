@@ -50,6 +50,9 @@ says "is named with its line" "nobody.replay:9: @knot(nobody,2) is not on the sc
 echo "hello" >"$scratch/hello.replay"
 expect 1 "a file that is no replay" play "$scratch/hello.replay" $scene hello
 says "says what was expected" "hello.replay:1: expected \"wiggly-replay 1\", got \"hello\"" "$err"
+printf '\f\f\n' >"$scratch/blank.replay"
+expect 1 "a replay of one blank line" play "$scratch/blank.replay" $scene blank
+says "says what was expected" "blank.replay:1: expected" "$err"
 expect 1 "a replay that is not there" play "$scratch/missing.replay" $scene missing
 says "is named" "missing.replay" "$err"
 

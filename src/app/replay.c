@@ -61,7 +61,7 @@ static char *take_line(struct replay *replay)
     char *line = seek_line(replay);
     if (!line) return NULL;
     char *end = pass_line(replay);
-    while (isspace((unsigned char)end[-1])) end--; // a line begins with something else
+    while (end > line && isspace((unsigned char)end[-1])) end--;
     *end = '\0';
     return line;
 }
