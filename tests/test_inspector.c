@@ -404,9 +404,27 @@ static void test_extremes_stay_finite_and_loadable(void **state)
     }
 }
 
+/// The status line shows it after the panel was laid out.
+static void test_the_hint_of_a_position_outlives_the_panel(void **state)
+{
+    (void)state;
+    static const char tail[] =
+        "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}], "
+        "\"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"s\"}]}";
+    struct session s;
+    float x, y;
+    panel_open(&s, tail, 1280, 1400);
+    assert_true(inspector_target(s.editor, &s.world, "position.y", &x, &y));
+    session_move(&s, x, y);
+    session_frame(&s);
+    assert_string_equal(inspector_hint(s.editor), "Where the body stands along y");
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_hint_of_a_position_outlives_the_panel),
         cmocka_unit_test(test_drag_is_one_undo_step),
         cmocka_unit_test(test_escape_takes_a_drag_back),
         cmocka_unit_test(test_closing_ends_a_drag),

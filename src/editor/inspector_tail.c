@@ -69,12 +69,11 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
     struct rect r = ui_row(in->ui, UI_ROW), icon = {r.x + r.w - ICON, r.y, ICON, r.h};
     const struct param *param = &tail->position[k];
     struct edit edit = tail_edit(in, EDIT_POSITION);
-    char button[32], hint[64];
+    char button[32];
     edit.coordinate = k;
     edit.param = *param;
     r.w -= ICON + 4;
     snprintf(button, sizeof button, "position.%s.follow", coordinate_name(k));
-    snprintf(hint, sizeof hint, "Where the body stands along %s", coordinate_name(k));
     struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
     if (param->track >= 0) {
         ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, coordinate_name(k), theme()->text_dim);
@@ -87,10 +86,12 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
         return;
     }
     const char *names[] = {"position.x", "position.y", "position.z"};
+    const char *hints[] = {"Where the body stands along x", "Where the body stands along y",
+                           "Where the body stands along z"};
     const struct ui_number number = {.name = names[k],
                                      .label = coordinate_name(k),
                                      .unit = "m",
-                                     .hint = hint,
+                                     .hint = hints[k],
                                      .lowest = -1e6,
                                      .highest = 1e6,
                                      .fallback = k == 1 ? 0.26 : 0,

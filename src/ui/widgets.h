@@ -76,7 +76,7 @@ struct ui {
     float anchor_x;           ///< where the drag's mapping starts anew: at the press and where Shift changes
     double anchor_value;
     float pointer_x, pointer_y;
-    const char *hint;    ///< of the widget that the pointer is over; NULL: none
+    const char *hint;    ///< of the widget that the pointer is over, a text that stays; NULL: none
     enum ui_over over;   ///< as of the last frame drawn
     char complaint[160]; ///< why what was typed was refused; the caller shows and clears it
 
