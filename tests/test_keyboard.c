@@ -1,5 +1,7 @@
 // Nothing needs a mouse: what it does to selection, views, panels and warnings, the keyboard does too.
 #include "panel_session.h"
+#include "ui/theme.h"
+#include <math.h>
 
 static const char scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 0.5, \"damping\": 0.01, "
@@ -117,6 +119,61 @@ static void test_a_number_goes_to_its_default(void **state)
     session_close(&s);
 }
 
+/// Whether a line of the accent's colour, as the focus is drawn, lies around a widget or the part of it that is set.
+static bool is_ringed(const struct session *s, struct rect r)
+{
+    const struct drawlist *list = editor_drawlist(s->editor);
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *c = &list->commands[i];
+        struct rect both = rect_intersect(c->bounds, r);
+        bool around = both.w * both.h > 0.6f * fminf(r.w * r.h, c->bounds.w * c->bounds.h);
+        bool near = c->bounds.h < r.h + 16;
+        if (c->kind == DRAW_LINE && c->color == theme()->accent && around && near) return true;
+    }
+    return false;
+}
+
+static struct rect rect_of_focus(const struct ui *ui)
+{
+    for (int i = 0; i < ui->stop_count; i++) {
+        if (ui->stop[i].id == ui->focus) return ui->stop[i].rect;
+    }
+    fail_msg("what has the focus is not shown");
+    return (struct rect){0};
+}
+
+/// Goes round with Tab, and sees the focus wherever it is. Returns how many places there are.
+static int tab_round(struct session *s)
+{
+    struct ui *ui = &s->editor->inspector.ui;
+    session_key(s, KEY_TAB, 0);
+    const uint32_t first = ui->focus;
+    int count = 0;
+    do {
+        struct rect r = rect_of_focus(ui);
+        if (!is_ringed(s, r)) {
+            fail_msg("stop %d, at %g, %g and %g × %g, has no ring", count, (double)r.x, (double)r.y, (double)r.w,
+                     (double)r.h);
+        }
+        session_key(s, KEY_TAB, 0);
+        count++;
+    } while (ui->focus != first && count < UI_MAX_FOCUS);
+    return count;
+}
+
+static void test_the_focus_is_seen_wherever_it_goes(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    inspector_unfold(s.editor, "section.scene");
+    inspector_unfold(s.editor, "section.poles");
+    inspector_unfold(s.editor, "section.history");
+    session_click(&s, "knot(sway,1)");
+    assert_true(tab_round(&s) > 45);
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -126,6 +183,7 @@ int main(void)
         cmocka_unit_test(test_panels_have_sizes_to_choose_from),
         cmocka_unit_test(test_a_warning_is_done_away_with),
         cmocka_unit_test(test_a_number_goes_to_its_default),
+        cmocka_unit_test(test_the_focus_is_seen_wherever_it_goes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
