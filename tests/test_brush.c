@@ -231,7 +231,7 @@ static void modes_and_modifiers_do_what_they_say(void **state)
     assert_true(fabs(mean_lead(&s)) < -0.1 * delayed); // all but what the surface moved meanwhile
     panel_click(&s.session, "swing.less");
     hold(&s, left_finger, 0, 600);
-    panel_click(&s.session, "model's.erase");
+    panel_click(&s.session, "erase.all");
     assert_string_equal(history_undo_label(s.session.history), "Less amplitude");
     float least = 0;
     for (int i = 0; i < rig_of(&s)->painted->vertices; i++) {

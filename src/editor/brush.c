@@ -128,8 +128,7 @@ static bool find_spot(const struct editor *editor, const struct figure *figure, 
     return pick_ray(figure, (const float(*)[3])editor->brush.work.posed, view->eye, direction, spot);
 }
 
-/// What a stroke does: Shift smooths, Ctrl turns it round.
-static enum brush_mode stroke_of(enum brush_mode mode, unsigned mods)
+enum brush_mode brush_stroke(const struct brush *brush, unsigned mods)
 {
     static const enum brush_mode smooth[] = {
         [BRUSH_ADVANCE] = BRUSH_SMOOTH_PHASE,  [BRUSH_DELAY] = BRUSH_SMOOTH_PHASE,
@@ -146,10 +145,10 @@ static enum brush_mode stroke_of(enum brush_mode mode, unsigned mods)
         [BRUSH_SMOOTH_AMPLITUDE] = BRUSH_SMOOTH_AMPLITUDE,
         [BRUSH_ERASE] = BRUSH_ERASE,
     };
-    return mods & MOD_SHIFT ? smooth[mode] : mods & MOD_CTRL ? other[mode] : mode;
+    return mods & MOD_SHIFT ? smooth[brush->mode] : mods & MOD_CTRL ? other[brush->mode] : brush->mode;
 }
 
-static const char *label_of(enum brush_mode mode)
+const char *brush_label(enum brush_mode stroke)
 {
     static const char *const labels[] = {
         [BRUSH_ADVANCE] = "Advance phase",     [BRUSH_DELAY] = "Delay phase",
@@ -157,7 +156,7 @@ static const char *label_of(enum brush_mode mode)
         [BRUSH_LESS] = "Less amplitude",       [BRUSH_SMOOTH_AMPLITUDE] = "Smooth amplitude",
         [BRUSH_ERASE] = "Erase paint",
     };
-    return labels[mode];
+    return labels[stroke];
 }
 
 static struct edit paint_edit(const struct editor *editor, enum edit_kind kind)
@@ -189,11 +188,11 @@ bool brush_press(struct editor *editor, const struct editor_world *world, const 
         return true;
     }
     drag_begin(editor, DRAG_PAINT, event);
-    brush->stroke = stroke_of(brush->mode, event->mods);
+    brush->stroke = brush_stroke(brush, event->mods);
     brush->x = event->x;
     brush->y = event->y;
     brush->has_dabbed = false;
-    history_begin(world->history, label_of(brush->stroke), 0);
+    history_begin(world->history, brush_label(brush->stroke), 0);
     const struct edit blank = blank_edit(editor, figure);
     if (!paint) editor_edit(editor, world, &blank);
     return true;

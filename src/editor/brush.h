@@ -64,7 +64,11 @@ void brush_end(struct editor *editor, const struct editor_world *world, bool kee
 /// Finds what is under the pointer once the stage is posed, and what the brush reaches from there.
 void brush_pose(struct editor *editor, const struct editor_world *world);
 
-/// The ring on the surface.
+/// What a stroke that begins with these modifiers does: Shift smooths, Ctrl turns it round. And its name.
+enum brush_mode brush_stroke(const struct brush *brush, unsigned mods);
+const char *brush_label(enum brush_mode stroke);
+
+/// The ring on the surface, and above the legend what the brush does and what is painted at the pointer.
 void brush_show(struct editor *editor, const struct editor_world *world);
 
 /// The radius on a figure, metres.

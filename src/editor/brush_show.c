@@ -2,10 +2,14 @@
 /// by triangle, so that it lies on the posed surface as the paint will.
 #include "editor/brush.h"
 #include "editor/state.h"
+#include "ui/theme.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-enum { MOST_PIECES = 512 };
+enum { MOST_PIECES = 512, SMOOTHINGS = 3, STATE_HEIGHT = 46 };
+
+static const double DEGREES = 57.29577951308232;
 
 static const float RING_WIDTH = 1.5f, SHADE_WIDTH = 3.5f;
 static const uint32_t RING = 0xFFFFFFFFu, SHADE = 0x00000060u; ///< on the colours of the map, in any theme
@@ -84,8 +88,8 @@ static int extend(struct ring *ring, const float from[2], float (*line)[2], int 
     return count;
 }
 
-/// Joins pieces into one line, as long as there are such as go on from it, and takes them out of the ring. Back to front, then on
-/// from the front.
+/// Takes a piece and all that go on from it out of the ring, as one line: from the piece's first end backwards, turned round, and
+/// then from its second end on.
 static int take_line(struct ring *ring, float (*line)[2])
 {
     float first[2][2];
@@ -102,21 +106,75 @@ static int take_line(struct ring *ring, float (*line)[2])
     return extend(ring, first[1], line, count);
 }
 
-void brush_show(struct editor *editor, const struct editor_world *world)
+/// Evens out the zigzag of ways along edges: each point goes halfway to the middle of its neighbours, ends of an open line stay.
+static void smooth_line(float (*line)[2], int count)
 {
-    const struct brush *brush = &editor->brush;
+    const bool closed = is_same(line[0], line[count - 1]);
+    for (int k = 0; k < 2 && count > 2; k++) {
+        float before = line[closed ? count - 2 : 0][k];
+        for (int i = closed ? 0 : 1; i < count - 1; i++) {
+            const float own = line[i][k];
+            line[i][k] = 0.5f * own + 0.25f * (before + line[i + 1][k]);
+            before = own;
+        }
+        if (closed) line[count - 1][k] = line[0][k];
+    }
+}
+
+static void show_ring(struct editor *editor, const struct figure *figure)
+{
     struct ring ring;
-    int coordinate;
-    const struct figure *figure = brush->covers ? brush_figure(editor, world, &coordinate) : NULL;
-    if (!figure) return;
     ring.count = 0;
-    const float radius = brush_radius_of(brush, figure);
+    const float radius = brush_radius_of(&editor->brush, figure);
     for (int t = 0; t < figure->character.index_count; t += 3)
         add_piece(editor, figure->character.indices + t, radius, &ring);
     while (ring.count > 0) {
         float line[2 * MOST_PIECES + 2][2];
         const int count = take_line(&ring, line);
+        for (int pass = 0; pass < SMOOTHINGS; pass++) smooth_line(line, count);
         drawlist_line(&editor->list, line[0], count, SHADE_WIDTH, SHADE);
         drawlist_line(&editor->list, line[0], count, RING_WIDTH, RING);
     }
+}
+
+/// What is painted at the vertex nearest to the pointer; leaves the text alone where that is nothing.
+static void describe_spot(const struct editor *editor, const struct paint *paint, int coordinate, char *text,
+                          size_t size)
+{
+    const struct surface_spot *spot = &editor->brush.spot;
+    int nearest = 0;
+    for (int c = 1; c < 3; c++) {
+        if (spot->weight[c] > spot->weight[nearest]) nearest = c;
+    }
+    const float *value = paint->values[(size_t)coordinate * (size_t)paint->vertices + spot->corner[nearest]];
+    if (value[0] == 0 && value[1] == 0) return;
+    snprintf(text, size, "painted here: %+.0f°, × %.2f", (double)value[1] * DEGREES, exp((double)value[0]));
+}
+
+static void show_state(struct editor *editor, const struct paint *paint, int coordinate)
+{
+    const struct brush *brush = &editor->brush;
+    const struct rect legend = characters_legend(editor);
+    const struct rect box = {legend.x, legend.y - STATE_HEIGHT - 8, legend.w, STATE_HEIGHT};
+    const bool paints = editor->drag.kind == DRAG_PAINT;
+    const char *label = brush_label(paints ? brush->stroke : brush_stroke(brush, editor->mods));
+    char text[64] = "nothing painted here";
+    if (brush->covers && paint) describe_spot(editor, paint, coordinate, text, sizeof text);
+    if (!brush->covers)
+        snprintf(text, sizeof text, "radius %.0f %%, strength %.0f %%", 100 * brush->radius, 100 * brush->strength);
+    drawlist_rounded(&editor->list, box, 6, (theme()->panel & 0xFFFFFF00u) | 0xD8u);
+    drawlist_text_fit(&editor->list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
+                      theme()->text, label);
+    drawlist_text_fit(&editor->list, box.x + 10, box.y + 35, box.w - 20, FONT_LABEL, THEME_TEXT_SMALL,
+                      theme()->text_dim, text);
+}
+
+void brush_show(struct editor *editor, const struct editor_world *world)
+{
+    int coordinate;
+    const struct figure *figure = editor->brush.on ? brush_figure(editor, world, &coordinate) : NULL;
+    if (!figure) return;
+    const struct paint *paint = characters_selected(editor, world)->painted;
+    if (editor->brush.covers) show_ring(editor, figure);
+    show_state(editor, paint && cast_fits(paint, figure) ? paint : NULL, coordinate);
 }

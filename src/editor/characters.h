@@ -29,6 +29,9 @@ bool characters_bounds(const struct editor *editor, const struct editor_world *w
 /// shown.
 bool characters_point(const struct editor *editor, int character, const double uv[2], float xy[2]);
 
+/// Where the legend is, when it is shown.
+struct rect characters_legend(const struct editor *editor);
+
 /// Legend of the phase map, and what the two of a pair are.
 void characters_show(struct editor *editor, const struct editor_world *world);
 

@@ -34,13 +34,18 @@ static void show_centred(struct drawlist *list, float x, float y, const char *te
     drawlist_text(list, x - width / 2, y, FONT_LABEL, TEXT_SIZE, color, text);
 }
 
+struct rect characters_legend(const struct editor *editor)
+{
+    const struct rect stage = editor->layout.stage;
+    return (struct rect){stage.x + 12, stage.y + stage.h - LEGEND_HEIGHT - 12, LEGEND_WIDTH, LEGEND_HEIGHT};
+}
+
 /// Angles are as in the plane: in step to the right, a quarter ahead on top.
 static void show_legend(struct editor *editor, const struct coordinate *coordinate)
 {
     static const char *const directions[] = {"left and right (x)", "up and down (y)", "back and forth (z)"};
     struct drawlist *list = &editor->list;
-    const struct rect stage = editor->layout.stage;
-    const struct rect box = {stage.x + 12, stage.y + stage.h - LEGEND_HEIGHT - 12, LEGEND_WIDTH, LEGEND_HEIGHT};
+    const struct rect box = characters_legend(editor);
     const float x = box.x + box.w / 2, y = box.y + 80;
     char title[96];
     snprintf(title, sizeof title, "%.40s: %s", coordinate->name, directions[editor->characters.axis]);

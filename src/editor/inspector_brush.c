@@ -3,15 +3,15 @@
 #include "editor/inspector.h"
 
 /// Modes of one kind side by side; none is marked where the brush is set to another kind.
-static void build_modes(struct inspection *in, const char *label, const char *hint, enum brush_mode first,
+static void build_modes(struct inspection *in, const char *name, const char *hint, enum brush_mode first,
                         const struct ui_choice *choices, int count)
 {
     struct brush *brush = &in->editor->brush;
-    struct rect r = inspector_labelled(in, label);
+    const struct rect r = ui_row(in->ui, UI_ROW);
     const int chosen = (int)brush->mode - (int)first;
     int index = chosen >= 0 && chosen < count ? chosen : -1;
     if (ui_hovered(in->ui, r)) in->ui->hint = hint;
-    if (ui_segments(in->ui, r, label, choices, count, &index)) brush->mode = (enum brush_mode)((int)first + index);
+    if (ui_segments(in->ui, r, name, choices, count, &index)) brush->mode = (enum brush_mode)((int)first + index);
 }
 
 static void build_share(struct inspection *in, const char *name, const char *hint, double fallback, double minimum,
@@ -36,8 +36,9 @@ void inspector_brush(struct inspection *in)
 {
     static const struct ui_choice switches[] = {{"off", "Off"}, {"on", "Brush"}};
     static const struct ui_choice phase[] = {{"advance", "Advance"}, {"delay", "Delay"}, {"smooth", "Smooth"}};
-    static const struct ui_choice amplitude[] = {{"more", "More"}, {"less", "Less"}, {"smooth", "Smooth"}};
-    static const struct ui_choice erase[] = {{"erase", "Erase"}};
+    static const struct ui_choice amplitude[] = {
+        {"more", "Swing more"}, {"less", "Swing less"}, {"smooth", "Smooth"}};
+    static const struct ui_choice erase[] = {{"all", "Erase"}};
     struct brush *brush = &in->editor->brush;
     struct rect r = inspector_labelled(in, "paint");
     int on = brush->on;
@@ -46,8 +47,9 @@ void inspector_brush(struct inspection *in)
     const struct character_rig *rig = characters_selected(in->editor, in->world);
     if (brush->on) {
         build_modes(in, "phase", "Move earlier, later, or as the surface around does", BRUSH_ADVANCE, phase, 3);
-        build_modes(in, "swing", "Move further, less far, or as far as the surface around", BRUSH_MORE, amplitude, 3);
-        build_modes(in, "model's", "Back to what the model says", BRUSH_ERASE, erase, 1);
+        build_modes(in, "swing", "Swing further, less far, or as far as the surface around", BRUSH_MORE, amplitude,
+                    3);
+        build_modes(in, "erase", "Back to what the model says", BRUSH_ERASE, erase, 1);
         build_share(in, "radius", "Of the character's height (Ctrl+wheel on the stage)", 0.12, 0.01, 0.5,
                     &brush->radius);
         build_share(in, "strength", "How fast paint flows (Shift+wheel on the stage)", 0.4, 0.02, 1,
