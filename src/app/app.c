@@ -1,5 +1,6 @@
 #include "app/app.h"
 #include "app/state.h"
+#include "base/clock.h"
 #include "platform/process.h"
 #include "scene/load.h"
 #include "ui/font.h"

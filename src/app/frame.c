@@ -1,4 +1,5 @@
 #include "app/state.h"
+#include "base/clock.h"
 #include "platform/process.h"
 #include "scene/background.h"
 #include "scene/load.h"

@@ -4,6 +4,7 @@
 #include "app/recent.h"
 #include "app/settings.h"
 #include "app/state.h"
+#include "base/clock.h"
 #include "ui/theme.h"
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,5 @@
 /// `wiggly simulate`: a closed mesh as a soft body that is shaken, or its normal modes.
+#include "base/clock.h"
 #include "base/file.h"
 #include "commands/commands.h"
 #include "commands/direction.h"
@@ -11,7 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <time.h>
 #include <unistd.h>
 
 struct job {
@@ -33,19 +33,12 @@ static void interrupt(int signal_number)
     interrupted = 1;
 }
 
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 /// Says how far it is and how long it will still take: on a terminal in one line, else ten times.
 static void report_progress(const struct job *job, int done, int frames, double started)
 {
     bool terminal = isatty(STDERR_FILENO);
     if (!terminal && !(job->verbose && done * 10 / frames != (done - 1) * 10 / frames)) return;
-    double left = (now() - started) * (frames - done) / done;
+    double left = (clock_now() - started) * (frames - done) / done;
     fprintf(stderr, "%sframe %d of %d, %.0f s left%s", terminal ? "\r" : "", done, frames, ceil(left),
             terminal ? "   " : "\n");
     if (terminal && done == frames) fputs("\r\033[K", stderr);
@@ -70,7 +63,7 @@ static bool write_frames(const struct job *job, const struct soft *soft, struct 
                          float (*position)[3], struct error *error)
 {
     struct motion_writer writer;
-    double started = now();
+    double started = clock_now();
     if (!motion_write_open(&writer, job->output, frames, soft->lattice.vertex_count, error)) return false;
     for (int frame = 0; frame < frames; frame++) {
         if (!simulate_frame(job, soft, integrator, frame, position, error) ||
@@ -82,7 +75,7 @@ static bool write_frames(const struct job *job, const struct soft *soft, struct 
     }
     if (!motion_write_commit(&writer, error)) return false;
     printf("%s: %d frames of %d vertices, %g a second, in %.1f s\n", job->output, frames, soft->lattice.vertex_count,
-           job->fps, now() - started);
+           job->fps, clock_now() - started);
     return true;
 }
 

@@ -1,12 +1,7 @@
 #include "draw/timer.h"
-#include <time.h>
+#include "base/clock.h"
 
-double timer_now_us(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec * 1.0e6 + (double)now.tv_nsec * 1.0e-3;
-}
+double timer_now_us(void) { return clock_now() * 1.0e6; }
 
 void gpu_timer_create(struct gpu_timer *timer, bool is_software)
 {

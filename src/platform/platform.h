@@ -1,4 +1,4 @@
-/// A surface to draw on and where its events come from: a GLFW window, or an offscreen EGL context. And the clock.
+/// A surface to draw on and where its events come from: a GLFW window, or an offscreen EGL context.
 #ifndef PLATFORM_PLATFORM_H
 #define PLATFORM_PLATFORM_H
 
@@ -46,8 +46,5 @@ void platform_cursor(struct platform *platform, enum cursor cursor);
 /// the window can be used any more. Register it once the window is open.
 typedef void platform_rescue(void *user);
 void platform_on_lost(platform_rescue *function, void *user);
-
-/// Seconds on a monotonic clock.
-double clock_now(void);
 
 #endif

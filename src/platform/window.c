@@ -1,3 +1,4 @@
+#include "base/clock.h"
 #include "platform/keys.h"
 #include "platform/surface.h"
 #include <epoxy/gl.h>

@@ -1,4 +1,5 @@
 #include "timing/bench.h"
+#include "base/clock.h"
 #include "base/lapack.h"
 #include "spline/batch.h"
 #include "spline/chain_lanes.h"
@@ -8,7 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { CROWD = 10000, CROWD_SAMPLES = 240 };
 enum { KNOT_EVERY = 24, KD = 5, COMPLEX_KD = 2, MIN_RUNS = 5, MAX_RUNS = 2000 };
@@ -38,13 +38,6 @@ static const struct bench_case {
     {"resolve/complex/10000", "complex", WIGGLY_COMPLEX, 10000, true},
     {"resolve/complex/100000", "complex", WIGGLY_COMPLEX, 100000, true},
 };
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /// What one case works on.
 struct work {
@@ -131,9 +124,9 @@ static double run_dpbsv(struct work *w, const struct lapack *lapack, int n)
     int kd = w->solver->rows.is_complex ? KD : 2;
     memcpy(w->band_copy, w->band, sizeof(double) * (size_t)n * (size_t)(kd + 1));
     memcpy(w->right_copy, w->right, sizeof(double) * (size_t)n);
-    double start = now();
+    double start = clock_now();
     int info = lapack->dpbsv(LAPACK_COLUMNS_FIRST, 'L', n, kd, 1, w->band_copy, kd + 1, w->right_copy, n);
-    double time = now() - start;
+    double time = clock_now() - start;
     return info == 0 ? time : NAN;
 }
 
@@ -152,9 +145,9 @@ static double run_zpbsv(struct work *w, const struct lapack *lapack)
         after[0] += 1;
     }
     for (int i = 0; i < n; i++) w->zband[3 * i] += rows->fixed[i] ? 1e3 : 1e-9, w->zright[i] = 1;
-    double start = now();
+    double start = clock_now();
     int info = lapack->zpbsv(LAPACK_COLUMNS_FIRST, 'L', n, COMPLEX_KD, 1, w->zband, COMPLEX_KD + 1, w->zright, n);
-    double time = now() - start;
+    double time = clock_now() - start;
     return info == 0 ? time : NAN;
 }
 
@@ -175,8 +168,8 @@ static double compare(struct work *w, const struct lapack *lapack)
 /// Fastest of several runs of one of LAPACK's solvers, per sample.
 static double time_lapack(struct work *w, const struct lapack *lapack, bool is_complex, int n)
 {
-    double best = INFINITY, end = now() + seconds_a_case / 4;
-    for (int run = 0; run < MAX_RUNS && (run < MIN_RUNS || now() < end); run++) {
+    double best = INFINITY, end = clock_now() + seconds_a_case / 4;
+    for (int run = 0; run < MAX_RUNS && (run < MIN_RUNS || clock_now() < end); run++) {
         double time = is_complex ? run_zpbsv(w, lapack) : run_dpbsv(w, lapack, n);
         if (!(time >= 0)) return NAN;
         if (run > 0) best = fmin(best, time);
@@ -187,12 +180,13 @@ static double time_lapack(struct work *w, const struct lapack *lapack, bool is_c
 static void time_solver(struct work *w, bool values_only, struct bench_result *result)
 {
     int runs = 0;
-    for (double end = now() + seconds_a_case; runs < MAX_RUNS && (runs < MIN_RUNS || now() < end); runs++) {
+    for (double end = clock_now() + seconds_a_case; runs < MAX_RUNS && (runs < MIN_RUNS || clock_now() < end);
+         runs++) {
         w->knots[w->desc.knot_count / 2].value += 1e-3;
         if (!values_only) solver_forget(w->solver);
-        double start = now();
+        double start = clock_now();
         wiggly_solve(w->solver, &w->desc, &w->curve);
-        w->times[runs] = now() - start;
+        w->times[runs] = clock_now() - start;
     }
     statistics_sort(w->times, runs);
     result->ns_per_sample = 1e9 * w->times[0] / w->desc.samples;
@@ -281,11 +275,12 @@ static bool run_crowd(struct crowd *crowd, int threads, int lanes, const struct 
     if (batch_of_lanes(CROWD_SAMPLES, CROWD_SAMPLES / KNOT_EVERY, threads, lanes, &batch) != WIGGLY_OK) return false;
     int runs = 0;
     wiggly_status worst = WIGGLY_OK;
-    for (double end = now() + seconds_a_case; runs < MAX_RUNS && (runs < MIN_RUNS || now() < end); runs++) {
+    for (double end = clock_now() + seconds_a_case; runs < MAX_RUNS && (runs < MIN_RUNS || clock_now() < end);
+         runs++) {
         for (int k = 0; k < CROWD * (CROWD_SAMPLES / KNOT_EVERY); k++) crowd->knots[k].value *= -1;
-        double start = now();
+        double start = clock_now();
         wiggly_status status = wiggly_batch_solve(batch, crowd->desc, crowd->curve, NULL, CROWD);
-        times[runs] = now() - start;
+        times[runs] = clock_now() - start;
         worst = status > worst ? status : worst;
     }
     wiggly_batch_destroy(batch);
@@ -343,10 +338,10 @@ static bool run_edit(double *times, void (*done)(void *, const struct bench_resu
         knot.value += 1e-3;
         knot.sample = EDITED * GAP + (13 * run) % 41 - 20;
         int from = knot.sample - WINDOW / 2;
-        double start = now();
+        double start = clock_now();
         good = wiggly_take_set_knot(take, EDITED, knot) == WIGGLY_OK &&
                wiggly_take_read(take, from, WINDOW, window, NULL) == WIGGLY_OK;
-        times[run] = now() - start;
+        times[run] = clock_now() - start;
         w->knots[EDITED] = knot;
         if (run > 0) continue;
         good = good && wiggly_solve(w->solver, &w->desc, &w->curve) == WIGGLY_OK;

@@ -1,4 +1,4 @@
-#include "platform/platform.h"
+#include "base/clock.h"
 #include <time.h>
 
 double clock_now(void)
