@@ -1,5 +1,6 @@
 /// The character's vertex shader, by what a person sees: the same picture as of a figure that already has the shape, the place
 /// or the colours that the shader should give it.
+#include "model/painted.h"
 #include "offscreen.h"
 #include "puppet.h"
 #include "rig/camera.h"
@@ -102,6 +103,43 @@ static void normals_follow_on_the_stage(void **state)
     figure_free(&firm_figure);
 }
 
+/// What is painted after a figure was drawn reaches the GPU: the picture is that of a figure which was made so, and of the plain
+/// one when the paint is gone.
+static void paint_shows_on_the_stage(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    struct character plain = puppet_character(0.03f, 2), made = puppet_character(0.03f, 2);
+    float(*paint)[2] = calloc(2 * (size_t)plain.vertex_count, sizeof *paint);
+    assert_non_null(paint);
+    for (int i = 0; i < plain.vertex_count; i++) {
+        const float y = plain.position[i][1], turn = y > 0.6f ? 3 * (y - 0.6f) : 0;
+        plain.coordinates[1].re[i][0] = 0.3f;
+        made.coordinates[1].re[i][0] = 0.3f * cosf(turn);
+        made.coordinates[1].im[i][0] = 0.3f * sinf(turn);
+        paint[plain.vertex_count + i][1] = turn;
+    }
+    struct figure plain_figure = puppet_figure(&plain), made_figure = puppet_figure(&made);
+    struct painted *painted = painted_create(&plain_figure);
+    assert_non_null(painted);
+    struct stage_character moved = shown(&painted->figure), expected = shown(&made_figure);
+    static picture first;
+    moved.morph = expected.morph = (struct morph){1, {1}, {{0.4f, 0.8f}}};
+    draw(&moved, first);
+    painted_update(painted, (const float(*)[2])paint);
+    draw(&moved, one);
+    draw(&expected, other);
+    assert_true(differing(one, other, 2) < 20);
+    assert_true(differing(one, first, 20) > 1000);
+    painted_update(painted, NULL);
+    draw(&moved, other);
+    assert_int_equal(differing(other, first, 0), 0);
+    painted_destroy(painted);
+    figure_free(&plain_figure);
+    figure_free(&made_figure);
+    free(paint);
+}
+
 /// The shader's phase map is the legend's.
 static void phases_are_the_legends_colours(void **state)
 {
@@ -138,6 +176,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coordinates_move_it),
         cmocka_unit_test(normals_follow_on_the_stage),
+        cmocka_unit_test(paint_shows_on_the_stage),
         cmocka_unit_test(phases_are_the_legends_colours),
     };
     return cmocka_run_group_tests(tests, set_up, offscreen_close);

@@ -1,4 +1,5 @@
 #include "editor/brush.h"
+#include "base/hash.h"
 #include "editor/actions.h"
 #include "rig/pick.h"
 #include <math.h>
@@ -86,7 +87,6 @@ void brush_set(struct editor *editor, const struct editor_world *world, bool on)
         editor_message(editor, true, "There is not enough memory to paint.");
     } else {
         brush->on = true;
-        brush->posed_hash = ~editor->stage.hash;
         choose_axis(editor, figure, coordinate);
         inspector_unfold(editor, "section.character");
         editor_message(editor, false, "Drag over the character. Ctrl: the other way, Shift: smooth, Esc: done.");
@@ -111,9 +111,10 @@ static const struct figure *pose_figure(struct editor *editor, const struct edit
     const struct figure *figure = brush_figure(editor, world, coordinate);
     const struct stage_character *shown = find_shown(editor);
     if (!figure || !shown || !reserve(&brush->work, figure->character.vertex_count)) return NULL;
-    if (brush->posed_hash != editor->stage.hash) {
+    const uint64_t hash = hash_word(hash_word(editor->stage.hash, figure->id), (uint64_t)shown->rig);
+    if (brush->posed_hash != hash) {
         pick_pose(figure, &shown->morph, shown->position, brush->work.posed);
-        brush->posed_hash = editor->stage.hash;
+        brush->posed_hash = hash;
     }
     return figure;
 }

@@ -36,7 +36,7 @@ struct brush {
     double strength;              ///< 0 … 1
     bool covers;                  ///< the pointer is over the character, at `spot`
     struct surface_spot spot;
-    uint64_t posed_hash; ///< of the stage that `posed` was made for
+    uint64_t posed_hash; ///< of the stage and the character on it that `posed` was made for
     float x, y;          ///< pointer in the last frame of the running stroke
     bool has_dabbed;     ///< the running stroke has come to a frame
     struct brush_work work;
