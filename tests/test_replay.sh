@@ -53,6 +53,9 @@ says "says what was expected" "hello.replay:1: expected \"wiggly-replay 1\", got
 printf '\f\f\n' >"$scratch/blank.replay"
 expect 1 "a replay of one blank line" play "$scratch/blank.replay" $scene blank
 says "says what was expected" "blank.replay:1: expected" "$err"
+printf 'wiggly-replay 1\n\v\n' >"$scratch/blank.replay"
+expect 1 "a header of blank lines" play "$scratch/blank.replay" $scene blank
+says "says what was expected" "expected a header with size and frames" "$err"
 expect 1 "a replay that is not there" play "$scratch/missing.replay" $scene missing
 says "is named" "missing.replay" "$err"
 

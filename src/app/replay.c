@@ -37,7 +37,7 @@ static bool bad_line(const struct replay *replay, struct error *error, const cha
 static char *seek_line(struct replay *replay)
 {
     for (; *replay->at; replay->at++, replay->next_line++) {
-        replay->at += strspn(replay->at, " \t\r");
+        replay->at += strspn(replay->at, " \t\r\v\f");
         if (*replay->at && *replay->at != '\n' && *replay->at != '#') break;
         replay->at = strchrnul(replay->at, '\n');
         if (!*replay->at) break;
@@ -61,7 +61,7 @@ static char *take_line(struct replay *replay)
     char *line = seek_line(replay);
     if (!line) return NULL;
     char *end = pass_line(replay);
-    while (end > line && isspace((unsigned char)end[-1])) end--;
+    while (isspace((unsigned char)end[-1])) end--; // a line begins with something else
     *end = '\0';
     return line;
 }
