@@ -52,7 +52,7 @@ expect 1 "a file that is no replay" play "$scratch/hello.replay" $scene hello
 says "says what was expected" "hello.replay:1: expected \"wiggly-replay 1\", got \"hello\"" "$err"
 printf '\f\f\n' >"$scratch/blank.replay"
 expect 1 "a replay of one blank line" play "$scratch/blank.replay" $scene blank
-says "says what was expected" "blank.replay:1: expected" "$err"
+says "says what was expected" "expected \"wiggly-replay 1\"" "$err"
 printf 'wiggly-replay 1\n\v\n' >"$scratch/blank.replay"
 expect 1 "a header of blank lines" play "$scratch/blank.replay" $scene blank
 says "says what was expected" "expected a header with size and frames" "$err"
