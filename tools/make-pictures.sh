@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the pictures in assets/pictures: the README's and the five that are looked at before a change of looks is accepted
+# Makes the pictures in assets/pictures: the README's, its animation, and the five that are looked at before a change of looks is accepted
 # (assets/pictures/README.md says what for). Run it from the root of the tree.
 # Usage: tools/make-pictures.sh [wiggly]
 set -eu
@@ -29,6 +29,34 @@ replay() { # <name>, events on standard input
     cat >>"$scratch/$1"
 }
 
+# Stage and curves of a window of 960×600 while a loop of the scene is played: a knot goes up, shakes and comes back.
+drag_events() {
+    echo "20 pointer @knot(sway,2)"
+    echo "36 press left @knot(sway,2)"
+    awk 'function ease(t) { return t < 0 ? 0 : t > 1 ? 1 : t * t * (3 - 2 * t) }
+        BEGIN {
+            for (f = 37; f <= 262; f++) {
+                up = ease((f - 40) / 60) - ease((f - 190) / 60)
+                shake = sin(0.07 * (f - 100)) * ease((f - 100) / 20) * (1 - ease((f - 180) / 15))
+                printf "%d pointer @curve(sway,%.2f,%.4f)\n", f, 56 + 2 * shake, 0.4 + 0.75 * up + 0.35 * shake
+            }
+        }'
+    echo "264 release left @curve(sway,56,0.4)"
+    echo "268 pointer @stage(0.02,0.95)"
+}
+
+animation() { # <name>: every fourth of 300 frames, 15 a second
+    "$wiggly" live --headless --frames 1 --size 960x600 --record "$scratch/loop.replay" >/dev/null 2>&1
+    sed -i 's/^frames .*/frames 300/' "$scratch/loop.replay"
+    drag_events >>"$scratch/loop.replay"
+    "$wiggly" live --headless --replay "$scratch/loop.replay" --frames-dir "$scratch/frames" >/dev/null
+    mkdir "$scratch/kept"
+    find "$scratch/frames" -name '*.png' | sort | awk 'NR % 4 == 1' | xargs mv -t "$scratch/kept"
+    convert -delay 7 -loop 0 "$scratch/kept/*.png" -crop 680x576+0+0 +repage +dither -colors 128 -fuzz 0.8% \
+        -layers OptimizeTransparency "$out/$1"
+    echo "$out/$1, $(($(wc -c <"$out/$1") / 1000)) kB"
+}
+
 replay select.replay <<'END'
 2 pointer @knot(sway,2)
 3 press left @knot(sway,2)
@@ -40,7 +68,10 @@ replay help.replay <<'END'
 11 keyup F1
 END
 
+animation drag.gif
 picture live.png 66 --replay "$scratch/select.replay"
+picture light.png 66 --theme light --replay "$scratch/select.replay"
+picture welcome.png 40 --size 960x600 --welcome --theme light
 picture start.png 20
 picture drag.png 95 --replay tests/replays/session.replay tests/replays/session.json
 picture help.png 20 --replay "$scratch/help.replay"

@@ -203,7 +203,8 @@ static void log_frame(struct app *app)
     if (app->log) framelog_push(app->log, &app->row);
     double now = clock_now();
     if (now - app->stats_time >= 0.5) {
-        double fps = app->stats_time > 0 ? (double)(app->frame - app->stats_frame) / (now - app->stats_time) : 0;
+        bool seen = app->stats_time > 0 && platform_is_window(app->platform); // offscreen nothing keeps time
+        double fps = seen ? (double)(app->frame - app->stats_frame) / (now - app->stats_time) : 0;
         editor_set_stats(app->editor, fps, app->row.solve_us);
         app->stats_time = now;
         app->stats_frame = app->frame;
