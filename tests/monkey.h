@@ -153,8 +153,8 @@ static inline void any_key(struct monkey *m)
 /// What the curves are edited with.
 static inline void edit_key(struct monkey *m)
 {
-    static const int keys[] = {'I', 'I', 'I', 'T', 'M',        'V', 'S', 'X', 'Y',
-                               'R', 'P', 'D', 'E', KEY_DELETE, '.', ',', 'N', 'U'};
+    static const int keys[] = {'I', 'I', 'I', 'T',        'M', 'V', 'S', 'X', 'Y', 'R',
+                               'P', 'D', 'E', KEY_DELETE, '.', ',', 'N', 'U', 'K'};
     static const int held[] = {'F', 'Z', 'B', 'C', 'L'};
     if (one_in(m, 4)) {
         const int letter = held[below(m, 5)];

@@ -22,7 +22,7 @@ static int name_count;
 /// The document as it was put on the table.
 struct origin {
     unsigned serial;
-    char *text, *folder;
+    char *text, *folder, *paint; ///< the folder and the file of its paint that it had
 };
 
 static const char *keep(const char *format, const char *name)
@@ -97,22 +97,32 @@ static char *printed(const struct document *document)
     return text;
 }
 
+/// What its first character's paint is saved in.
+static const char *paint_file(const struct document *document)
+{
+    const char *file = document->character_count > 0 ? document->characters[0].paint : NULL;
+    return file ? file : "";
+}
+
 static void remember(struct origin *origin, const struct document *document)
 {
     free(origin->text);
     free(origin->folder);
+    free(origin->paint);
     origin->serial = document->serial;
     origin->text = printed(document);
     origin->folder = strdup(document->folder ? document->folder : "");
+    origin->paint = strdup(paint_file(document));
 }
 
 /// Notices a document that was put on the table: it has no history. (A figure is a step of the one before.) One that was saved
-/// elsewhere calls its characters' files by other names.
+/// elsewhere calls its characters' files by other names, and has its paint in a file of its own.
 static void watch_origin(struct origin *origin, const struct app *app)
 {
     const struct document *d = app->document;
     bool fresh = history_count(app->history) == 0 && d->serial != origin->serial;
-    bool moved = d->serial == origin->serial && strcmp(origin->folder, d->folder ? d->folder : "") != 0;
+    bool moved = d->serial == origin->serial && (strcmp(origin->folder, d->folder ? d->folder : "") != 0 ||
+                                                 strcmp(origin->paint, paint_file(d)) != 0);
     if (!origin->text || fresh) remember(origin, d);
     if (moved) origin->serial = 0;
 }
@@ -230,6 +240,7 @@ static void let_loose(struct monkey *m, int events)
     assert_undone(m, &origin);
     free(origin.text);
     free(origin.folder);
+    free(origin.paint);
 }
 
 static const struct monkey *playing; ///< for what is said of a crash
