@@ -11,7 +11,7 @@ enum {
     COLUMN_LEAST = 270,
     COLUMN_MOST = 320,
     ROW = 20,
-    ROW_LEAST = 16,
+    ROW_LEAST = 15,
     HEADER = 22,
     GROUP_GAP = 10,
     TITLE = 78,
@@ -65,6 +65,7 @@ static struct flow flow_of(int columns, float row)
     struct flow flow = {.columns = columns, .row = row};
     float limit = 0;
     for (int g = 0; g < HELP_GROUPS; g++) limit += group_height(g, row) / (float)columns;
+    limit = ceilf(limit); // whole pixels, so that what just fits does not seem to need scrolling
     while (!fill(&flow, limit)) limit += step;
     return flow;
 }

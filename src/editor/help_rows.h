@@ -2,7 +2,7 @@
 #ifndef EDITOR_HELP_ROWS_H
 #define EDITOR_HELP_ROWS_H
 
-enum { HELP_MAX_ROWS = 10, HELP_GROUPS = 10 };
+enum { HELP_MAX_ROWS = 12, HELP_GROUPS = 10 };
 
 /// Keys are separated by ", ", "; " or two spaces; one without a Ctrl+ or Shift+ of its own may have that of the one before it.
 struct help_row {
