@@ -2,6 +2,8 @@
 // and finite answers whatever is asked.
 #include "near.h"
 
+#include <stdlib.h>
+
 #include "curve.h"
 #include <stdio.h>
 #include <string.h>
@@ -133,6 +135,29 @@ static void a_spring_that_starts_slack_is_levelled(void **state)
     wiggly_status status = wiggly_solve(solver, &desc, &curve);
     assert_true(status == WIGGLY_OK || status == WIGGLY_LEVELLED);
     for (int i = 0; i < 60; i++) assert_true(fabs(curve.total[i]) < 1e-4);
+}
+
+/// Two keys side by side throw a cubic as far as it runs: beyond 10⁴ times their scale that cannot be meant.
+static void a_thrown_cubic_is_levelled(void **state)
+{
+    (void)state;
+    for (int samples = 9000; samples <= 11000; samples += 2000) {
+        wiggly_knot knots[] = {{.sample = 0, .value = 0}, {.sample = 1, .value = 1}};
+        wiggly_desc desc = wiggly_default_desc();
+        double *total = malloc(sizeof *total * (size_t)samples);
+        wiggly_curve curve = {.total = total};
+        wiggly_solver *solver;
+        desc.samples = samples;
+        desc.mode = WIGGLY_CUBIC;
+        desc.knots = knots;
+        desc.knot_count = 2;
+        assert_non_null(total);
+        assert_int_equal(wiggly_create(samples, 2, &solver), WIGGLY_OK);
+        assert_int_equal(wiggly_solve(solver, &desc, &curve), samples > 10000 ? WIGGLY_LEVELLED : WIGGLY_OK);
+        if (samples < 10000) assert_near(total[samples - 1], samples - 1, 1e-6);
+        wiggly_destroy(solver);
+        free(total);
+    }
 }
 
 static void a_loop_closes(void **state)
@@ -362,6 +387,7 @@ int main(void)
         cmocka_unit_test(domains_of_one_and_two_samples),
         cmocka_unit_test(what_has_no_single_answer_is_calmed_and_said),
         cmocka_unit_test(a_spring_that_starts_slack_is_levelled),
+        cmocka_unit_test(a_thrown_cubic_is_levelled),
         cmocka_unit_test(a_loop_closes),
         cmocka_unit_test(between_samples_a_free_oscillation_is_followed),
         cmocka_unit_test(wrong_descriptions_are_named_and_leave_the_curve_alone),

@@ -138,12 +138,23 @@ void chain_reset_nodes(chain *c)
     }
 }
 
-bool chain_fill(const chain *c, double *x_re, double *x_im)
+/// What |x| of a cubic stays below from one node to the next: there, L samples apart, x is a cubic polynomial, its ends' line and
+/// r with r(0) = r(L) = 0, and |r| ≤ L (|u| + |v|) where u, v are the differences at the ends less the line's.
+static double bound_of_piece(const chain_node *from, const chain_node *to)
+{
+    return 5 * (fabs(from->value) + fabs(to->value)) +
+           (to->sample - from->sample) * (fabs(from->d_re) + fabs(to->d_re));
+}
+
+bool chain_fill(chain *c, double *x_re, double *x_im)
 {
     const chain_node *last = &c->nodes[c->node_count - 1];
     double *im = c->is_complex ? x_im : NULL;
     bool tame = true;
+    c->cubic_bound = fabs(last->value) + (c->count - last->sample) * fabs(last->d_re);
     for (const chain_node *p = c->nodes; p < last; p++) {
+        double piece = bound_of_piece(p, p + 1);
+        c->cubic_bound = piece > c->cubic_bound ? piece : c->cubic_bound;
         tame = chain_fill_stretch(c, p, p + 1, x_re + p->sample, im ? im + p->sample : NULL) && tame;
     }
     im = im ? im + last->sample : NULL;

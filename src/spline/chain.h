@@ -82,8 +82,9 @@ typedef struct chain {
     int node_count;
     chain_row *rows;
     bool kept; ///< tables and factor are those of the nodes' samples, fixed and slope_weight, and of everything above
-    chain_rank rank; ///< of the factor
-    double error;    ///< estimated error of x, where the nodes' system had to be refined
+    chain_rank rank;    ///< of the factor
+    double error;       ///< estimated error of x, where the nodes' system had to be refined
+    double cubic_bound; ///< both poles at 1: what |x| stays below, of the last chain_fill()
 } chain;
 
 /// Solves for the nodes and writes x of every sample of the system (x_im only in complex mode). Where `kept` is set, only
@@ -92,7 +93,7 @@ typedef struct chain {
 bool chain_solve(chain *chain, double *x_re, double *x_im);
 
 /// The last of its steps: x of every sample from the states at the nodes. false where sums might overflow.
-bool chain_fill(const chain *chain, double *x_re, double *x_im);
+bool chain_fill(chain *chain, double *x_re, double *x_im);
 
 /// Forgets tables and factor: another filter, or their memory was used for something else.
 void chain_forget(chain *chain);

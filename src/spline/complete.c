@@ -44,9 +44,10 @@ WIDEST static double largest_magnitude(const double *x, int count)
     return all;
 }
 
-bool problem_blew_up(const problem *p, const wiggly_curve *curve)
+bool problem_blew_up(const problem *p, const chain *solved, const wiggly_curve *curve)
 {
     double scale = problem_scale(p);
+    if (solved && p->desc->mode == WIGGLY_CUBIC && solved->cubic_bound <= blow_up * scale) return false;
     bool is_complex = p->desc->mode == WIGGLY_COMPLEX;
     const double *re = curve->re + p->first, *im = curve->im + p->first;
     double bound = largest_magnitude(re, p->count);

@@ -55,8 +55,8 @@ bool problem_join(wiggly_solver *solver, const problem *p);
 /// is wrong with them, and wiggly_solve() is to find a way.
 bool problem_finish(wiggly_solver *solver, const problem *p, wiggly_curve *curve);
 
-/// Whether max |x| is beyond what the knots can mean.
-bool problem_blew_up(const problem *p, const wiggly_curve *curve);
+/// Whether max |x| is beyond what the knots can mean. `solved` is the chain where that found x, else NULL.
+bool problem_blew_up(const problem *p, const chain *solved, const wiggly_curve *curve);
 
 /// What follows from x: samples outside the system, the total, the equilibrium, the band's centre.
 void problem_complete(wiggly_solver *solver, const problem *p, wiggly_curve *curve);

@@ -187,6 +187,7 @@ static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
     set_start(solver, p);
     if (problem_fits_chain(solver, p) && problem_solve_chain(solver, p, curve->re + p->first, curve->im + p->first)) {
         result.error = solver->chain.error;
+        result.by_chain = true;
         return result;
     }
     set_filter(solver, p);
@@ -221,7 +222,10 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
     for (;;) {
         *result = attempt(solver, p, curve);
         bool may_be_singular = p->start == WIGGLY_LOOP ? p->calm == 0 : p->free_end;
-        if (result->solved && !(may_be_singular && (result->weak || problem_blew_up(p, curve)))) return status;
+        if (result->solved &&
+            !(may_be_singular &&
+              (result->weak || problem_blew_up(p, result->by_chain ? &solver->chain : NULL, curve))))
+            return status;
         if (solver_must_stop(solver->stop)) break;
         if (may_be_singular && p->calm == 0) {
             p->calm = fallback_calm;
@@ -374,7 +378,7 @@ bool problem_finish(wiggly_solver *solver, const problem *p, wiggly_curve *curve
 {
     wiggly_curve all = with_arrays(solver, curve);
     if (!chain_fill(&solver->chain, all.re + p->first, all.im + p->first)) return false;
-    if (p->free_end && problem_blew_up(p, &all)) return false;
+    if (p->free_end && problem_blew_up(p, &solver->chain, &all)) return false;
     problem_complete(solver, p, &all);
     all.error = 0;
     all.refinements = 0;
