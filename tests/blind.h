@@ -32,17 +32,7 @@ static inline void blind_open(struct blind *blind, const char *scene)
     if (!app_open(app, scene, &error)) fail_msg("%s", error.text);
 }
 
-static inline void blind_close(struct blind *blind)
-{
-    struct app *app = &blind->app;
-    evaluation_free(&app->evaluation);
-    free(app->dirty);
-    history_destroy(app->history);
-    document_destroy(app->document);
-    cast_destroy(app->cast);
-    editor_destroy(app->editor);
-    platform_destroy(app->platform);
-}
+static inline void blind_close(struct blind *blind) { app_free(&blind->app); }
 
 /// Queues an event as the window's callbacks do.
 static inline void blind_send(struct blind *blind, struct event event)

@@ -5,6 +5,7 @@
 #include "session.h"
 
 #include "editor/state.h"
+#include "rig/cast.h"
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -15,6 +16,28 @@ static inline void panel_open(struct session *session, const char *scene, float 
     editor_resize(session->editor, width, height, 1);
     session_frame(session);
 }
+
+/// The same with the models of its characters, in a window so high that no section has to be scrolled to. The cast is the
+/// caller's, to be destroyed after the session is closed.
+static inline struct cast *panel_open_cast(struct session *session, const char *scene)
+{
+    struct error error = {0};
+    struct cast *cast = cast_create();
+    panel_open(session, scene, 1280, 1400);
+    if (!cast_update(cast, session->document, &error)) fail_msg("%s", error.text);
+    session->world.cast = cast;
+    editor_open(session->editor, &session->world);
+    return cast;
+}
+
+/// The splines that the tests of the inspector begin with: keyed; a cubic; one whose frequency follows that.
+#define PANEL_SPLINES                                                                                                \
+    "{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0},"             \
+    "  {\"frame\": 36, \"value\": 1}, {\"frame\": 60, \"value\": -0.5}]},"                                           \
+    "{\"name\": \"pace\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 90, "           \
+    "\"value\": 2}]},"                                                                                               \
+    "{\"name\": \"lift\", \"frequency\": {\"spline\": \"pace\"}, \"damping\": 0.2, \"knots\": [{\"frame\": 10, "     \
+    "\"value\": 1}]}"
 
 /// Characters with the keys that they come from, as a window sends them.
 static inline void panel_type(struct session *session, const char *text)

@@ -74,18 +74,13 @@ static void frames(struct studio *s, int count)
 static void studio_open(struct studio *s)
 {
     char scene[700];
-    struct error error = {0};
     snprintf(scene, sizeof scene,
              "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"start\": "
              "\"loop\", \"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 20, \"value\": -1}]}], \"rigs\": ["
              "{\"type\": \"character\", \"name\": \"hand\", \"model\": \"%s\", \"coordinates\": [{\"name\": \"a\", "
              "\"spline\": \"s\"}]}]}",
              model);
-    panel_open(&s->session, scene, 1280, 1400);
-    s->cast = cast_create();
-    if (!cast_update(s->cast, s->session.document, &error)) fail_msg("%s", error.text);
-    s->session.world.cast = s->cast;
-    editor_open(s->session.editor, &s->session.world);
+    s->cast = panel_open_cast(&s->session, scene);
     if (editor_is_playing(s->session.editor)) session_key(&s->session, KEY_SPACE, 0);
     s->plain = cast_figure(s->cast, 0);
     s->session.editor->camera.azimuth = -1.5708f; // from the front

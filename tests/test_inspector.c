@@ -2,13 +2,7 @@
 #include "panel_session.h"
 
 static const char scene[] =
-    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": ["
-    "{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0},"
-    "  {\"frame\": 36, \"value\": 1}, {\"frame\": 60, \"value\": -0.5}]},"
-    "{\"name\": \"pace\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 90, \"value\": "
-    "2}]},"
-    "{\"name\": \"lift\", \"frequency\": {\"spline\": \"pace\"}, \"damping\": 0.2, \"knots\": [{\"frame\": 10, "
-    "\"value\": 1}]}],"
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [" PANEL_SPLINES "],"
     "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"joints\": 3, \"rest\": [4, -2, 1], \"channels\": ["
     "{\"spline\": \"sway\", \"axis\": \"side\", \"lag\": 6.5, \"gain\": [3, 6, 9]},"
     "{\"spline\": \"lift\", \"axis\": \"up\", \"lag\": 5, \"gain\": 4}]}]}";

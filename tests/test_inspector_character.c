@@ -37,18 +37,13 @@ static int remove_model(void **state)
 static void open_puppet(struct puppetry *p)
 {
     char scene[600];
-    struct error error = {0};
     snprintf(scene, sizeof scene,
              "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": "
              "[{\"frame\": 0, \"value\": 1}, {\"frame\": 20, \"value\": -1}]}, {\"name\": \"t\", \"knots\": "
              "[{\"frame\": 9, \"value\": 2}]}], \"rigs\": [{\"type\": \"character\", \"model\": \"%s\", "
              "\"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}]}",
              model);
-    panel_open(&p->session, scene, 1280, 1400);
-    p->cast = cast_create();
-    if (!cast_update(p->cast, p->session.document, &error)) fail_msg("%s", error.text);
-    p->session.world.cast = p->cast;
-    editor_open(p->session.editor, &p->session.world);
+    p->cast = panel_open_cast(&p->session, scene);
     session_frame(&p->session);
 }
 

@@ -154,9 +154,8 @@ static bool start(struct app *app, bool offscreen, struct error *error)
     return true;
 }
 
-static void destroy(struct app *app, bool good)
+void app_free(struct app *app)
 {
-    personal_end(app, !good);
     evaluation_free(&app->evaluation);
     free(app->dirty);
     history_destroy(app->history);
@@ -188,6 +187,7 @@ int app_run(const struct app_options *options, struct error *error)
     }
     struct error late = {0};
     if (!finish(&app, good ? error : &late)) good = false;
-    destroy(&app, good);
+    personal_end(&app, !good);
+    app_free(&app);
     return good ? 0 : error->kind == ERROR_NONE ? ERROR_ENVIRONMENT : (int)error->kind;
 }

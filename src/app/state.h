@@ -57,6 +57,9 @@ static inline struct editor_world app_world(struct app *app)
         .document = app->document, .history = app->history, .cast = app->cast, .evaluation = &app->evaluation};
 }
 
+/// Frees all that the app holds; what was never made may be NULL.
+void app_free(struct app *app);
+
 /// One frame: input, edit, solve, pose, draw, log.
 void app_frame(struct app *app);
 
