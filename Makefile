@@ -11,7 +11,8 @@
 #   make install  PREFIX=/usr/local DESTDIR=
 #   make clean
 #
-# Variables: B (build folder), SANITIZE=1 (ASan and UBSan, in build/sanitize), WERROR=1 (warnings fail), V=1 (show commands).
+# Variables: B (build folder), CC, SANITIZE=1 (ASan and UBSan, in build/sanitize), WERROR=1 (warnings fail), V=1 (show commands).
+# CPPFLAGS, CFLAGS, LDFLAGS and LDLIBS, from the command line or the environment, add to the project's own.
 
 SANITIZE ?=
 WERROR ?=
@@ -20,6 +21,18 @@ B ?= $(if $(SANITIZE),build/sanitize,build)
 PREFIX ?= /usr/local
 CC := $(if $(filter default,$(origin CC)),gcc,$(CC))
 Q := $(if $(V),,@)
+
+# make's targets cannot hold a space: a build folder whose name does is reached through a link.
+ifneq ($(words $(B)),1)
+override B := $(shell tools/link-build.sh "$(B)")
+endif
+# Root that installs from somebody else's clone (sudo make install) leaves nothing there: what is built already is installed
+# as it stands, anything else is built elsewhere.
+ifneq ($(filter install,$(MAKECMDGOALS)),)
+INSTALL_FROM := $(shell tools/install-from.sh "$(B)")
+BORROWED := $(filter borrowed,$(INSTALL_FROM))
+override B := $(or $(filter-out borrowed,$(INSTALL_FROM)),$(B))
+endif
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
@@ -33,7 +46,7 @@ endif
 VERSION := $(shell sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h)
 SOURCES := $(sort $(shell find src -name '*.c'))
 LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/base/status.c
-EMBEDDED := $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json \
+EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json \
     assets/scenes/figure*.json)
 TOOLS := $(basename $(notdir $(wildcard tools/*.c)))
 TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))
@@ -56,17 +69,25 @@ comma := ,
 OPTIMISE := $(if $(SANITIZE),-O1 -fno-omit-frame-pointer,-O2)
 SANITIZERS := $(if $(SANITIZE),-fsanitize=address$(comma)undefined -fno-sanitize-recover=all)
 WARNINGS := -Wall -Wextra -Wshadow -Wconversion $(if $(WERROR),-Werror)
-CFLAGS := -std=c11 -D_GNU_SOURCE $(OPTIMISE) -g -ffp-contract=off $(WARNINGS) $(SANITIZERS)
-CPPFLAGS := -Isrc -Iinclude
+ERRORS := -Werror=implicit-function-declaration -Werror=implicit-int -Werror=int-conversion \
+    -Werror=incompatible-pointer-types
+OWN_CPPFLAGS := -Isrc -Iinclude -D_GNU_SOURCE
+OWN_CFLAGS := $(OPTIMISE) -g $(WARNINGS)
+# After the user's flags: what the code is written for, and what its results depend on.
+FIXED_CFLAGS := -std=c11 -fno-fast-math -ffp-contract=off $(ERRORS) $(SANITIZERS)
 SPLINE_CFLAGS := $(if $(SANITIZE),,-O3 -fno-math-errno -fno-trapping-math)
 
 # src/timing/allocations.c counts what our own objects allocate.
 WRAPPED := malloc calloc realloc aligned_alloc posix_memalign strdup
-LDFLAGS := $(SANITIZERS) -Wl,--as-needed $(WRAPPED:%=-Wl,--wrap=%)
-LIBS = $(PKG_LIBS) -lm -ldl -lpthread
+OWN_LDFLAGS := $(SANITIZERS) -Wl,--as-needed $(WRAPPED:%=-Wl,--wrap=%)
+LIBS = $(PKG_LIBS) -lm -ldl -lpthread $(LDLIBS)
 TEST_LIBS = -lcmocka -llapacke -lopenblas -lquadmath
 
-$(B)/obj/src/spline/%.o: CFLAGS += $(SPLINE_CFLAGS)
+$(B)/obj/src/spline/%.o: OWN_CFLAGS += $(filter -O%,$(SPLINE_CFLAGS))
+$(B)/obj/src/spline/%.o: FIXED_CFLAGS += $(filter -f%,$(SPLINE_CFLAGS))
+
+COMPILE = $(CC) $(OWN_CPPFLAGS) $(PKG_CFLAGS) $(CPPFLAGS) $(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS)
+LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
@@ -106,19 +127,21 @@ regress: $(B)/wiggly $(B)/timing_diff
 	$(Q)$(if $(BASE),,echo "make regress: BASE=path/to/other/wiggly is missing" >&2; exit 2;) \
 	tools/regress.sh "$(BASE)" $(B)/wiggly $(B)/timing_diff $(B)/regress
 
-install: $(B)/wiggly $(B)/libwiggly.a
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include/wiggly \
-	    $(DESTDIR)$(PREFIX)/share/wiggly/scenes $(DESTDIR)$(PREFIX)/share/wiggly/models
-	install -m 755 $(B)/wiggly $(DESTDIR)$(PREFIX)/bin/wiggly
-	install -m 644 $(B)/libwiggly.a $(DESTDIR)$(PREFIX)/lib/libwiggly.a
-	install -m 644 include/wiggly/wiggly.h $(DESTDIR)$(PREFIX)/include/wiggly/wiggly.h
-	install -m 644 $(wildcard assets/scenes/*.json) $(DESTDIR)$(PREFIX)/share/wiggly/scenes
-	install -m 644 $(wildcard assets/models/*.glb) $(DESTDIR)$(PREFIX)/share/wiggly/models
-	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' wiggly.pc.in \
-	    > $(DESTDIR)$(PREFIX)/lib/pkgconfig/wiggly.pc
+ROOT = $(DESTDIR)$(PREFIX)
+install: $(if $(BORROWED),,$(B)/wiggly $(B)/libwiggly.a)
+	install -d "$(ROOT)/bin" "$(ROOT)/lib/pkgconfig" "$(ROOT)/include/wiggly" "$(ROOT)/share/wiggly/scenes" \
+	    "$(ROOT)/share/wiggly/models" "$(ROOT)/share/doc/wiggly"
+	install -m 755 $(B)/wiggly "$(ROOT)/bin/wiggly"
+	install -m 644 $(B)/libwiggly.a "$(ROOT)/lib/libwiggly.a"
+	install -m 644 include/wiggly/wiggly.h "$(ROOT)/include/wiggly/wiggly.h"
+	install -m 644 $(wildcard assets/scenes/*.json) "$(ROOT)/share/wiggly/scenes"
+	install -m 644 $(wildcard assets/models/*.glb) "$(ROOT)/share/wiggly/models"
+	$(B)/wiggly --licenses > "$(ROOT)/share/doc/wiggly/copyright"
+	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' wiggly.pc.in > "$(ROOT)/lib/pkgconfig/wiggly.pc"
+	$(Q)tools/install-from.sh --done $(B)
 
 clean:
-	rm -rf $(B)
+	rm -rf "$(realpath $(B))" $(B)
 
 # --- what must be installed first --------------------------------------------------------------------------------------
 # Everything that is compiled waits for `packages` (order-only); it asks for no more than the goals at hand need.
@@ -127,17 +150,18 @@ SETS := $(if $(filter-out check clean,$(or $(MAKECMDGOALS),all)),build)
 SETS += $(if $(filter test $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check,$(MAKECMDGOALS))
 packages:
 	$(Q)tools/install-missing.sh $(SETS)
+	$(if $(filter build,$(SETS)),$(Q)tools/check-system.sh "$(CC)" $(PACKAGES))
 
 # --- objects and programs ----------------------------------------------------------------------------------------------
 
 $(B)/obj/%.o: %.c $(B)/flags | packages
 	@mkdir -p $(@D)
 	$(if $(Q),@echo "CC $<")
-	$(Q)$(CC) $(CPPFLAGS) $(PKG_CFLAGS) $(CFLAGS) -MMD -MP -c $< -o $@
+	$(Q)$(COMPILE) -MMD -MP -c $< -o $@
 
 $(B)/obj/%.o: $(GENERATED)/%.c $(B)/flags | packages
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c $< -o $@
+	$(Q)$(COMPILE) -MMD -MP -c $< -o $@
 
 $(B)/obj/%.o: $(GENERATED)/%.S | packages
 	@mkdir -p $(@D)
@@ -152,32 +176,34 @@ $(B)/parts.a: $(filter-out $(B)/obj/src/main.o,$(OBJECTS)) $(B)/objects | packag
 
 $(B)/wiggly: $(B)/obj/src/main.o $(B)/parts.a
 	$(if $(Q),@echo "LINK $@")
-	$(Q)$(CC) $(LDFLAGS) $^ $(LIBS) -o $@
+	$(Q)$(LINK) $^ $(LIBS) -o $@
 
 $(TOOLS:%=$(B)/%): $(B)/%: $(B)/obj/tools/%.o $(B)/parts.a
-	$(Q)$(CC) $(LDFLAGS) $^ $(LIBS) -o $@
+	$(Q)$(LINK) $^ $(LIBS) -o $@
 
-$(B)/obj/tests/%.o: CPPFLAGS += -Itests
+$(B)/obj/tests/%.o: OWN_CPPFLAGS += -Itests
 $(TEST_PROGRAMS): $(B)/tests/%: $(B)/obj/tests/%.o $(TEST_SUPPORT:%.c=$(B)/obj/%.o) $(B)/parts.a
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(LDFLAGS) $^ $(TEST_LIBS) $(LIBS) -o $@
+	$(Q)$(LINK) $^ $(TEST_LIBS) $(LIBS) -o $@
 
 # --- generated ---------------------------------------------------------------------------------------------------------
 
-$(GENERATED)/embedded_data.S $(GENERATED)/embedded_table.c &: tools/embed.sh $(EMBEDDED) $(B)/embedded | packages
+$(GENERATED)/embedded_data.S $(GENERATED)/embedded_table.c &: tools/embed.sh $(EMBEDDED) $(B)/embedded $(B)/parts.txt | packages
 	@mkdir -p $(@D)
-	$(Q)tools/embed.sh $(GENERATED) $(EMBEDDED)
+	$(Q)tools/embed.sh $(GENERATED) $(B)/parts.txt $(EMBEDDED)
 
 # Rewritten only when the text changes, so that what depends on it is rebuilt just then.
 replace = @mkdir -p $(@D); printf '%s\n' '$(1)' > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 $(B)/flags: FORCE
-	$(call replace,$(CC) $(CFLAGS) $(SPLINE_CFLAGS) $(CPPFLAGS))
+	$(call replace,$(CC) $(OWN_CPPFLAGS) $(CPPFLAGS) $(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS) $(SPLINE_CFLAGS))
 $(B)/objects: FORCE
 	$(call replace,$(OBJECTS))
 $(B)/embedded: FORCE
 	$(call replace,$(EMBEDDED))
+$(B)/parts.txt: FORCE | packages
+	@mkdir -p $(@D); tools/find-parts.sh > $@.new && { cmp -s $@.new $@ && rm $@.new || mv $@.new $@; }
 $(GENERATED)/build.c: FORCE | packages
-	@tools/build-info.sh $@ $(CC) "$(filter -O% -f%,$(CFLAGS))$(if $(SPLINE_CFLAGS),; spline $(SPLINE_CFLAGS))"
+	@tools/build-info.sh $@ "$(CC)" "$(filter -O% -f% -m%,$(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS))$(if $(SPLINE_CFLAGS),; spline $(SPLINE_CFLAGS))"
 
 .SECONDARY:
 -include $(wildcard $(B)/obj/*.d $(B)/obj/*/*.d $(B)/obj/*/*/*.d)

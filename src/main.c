@@ -1,5 +1,6 @@
 /// Reads the command line and hands over to one command.
 #include "base/build.h"
+#include "base/embedded.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include <stdbool.h>
@@ -35,8 +36,20 @@ static int print_help(void)
         printf("  %-30s %s\n", left, commands[i].summary);
     }
     printf("\n  --version                      version and commit\n"
+           "  --licenses                     of this program and of what is built into it\n"
            "  <command> --help               a command's options\n\n"
            "Exit status: 0 done, 1 the input was bad, 2 wrong usage, 3 the environment failed.\n");
+    return 0;
+}
+
+/// Our own licence, then those of what is built in: fonts and header-only libraries.
+static int print_licenses(void)
+{
+    fputs((const char *)embedded_find("LICENSE")->data, stdout);
+    for (const struct embedded *file = NULL; (file = embedded_next("licenses/", file));) {
+        printf("\n----\n%s, part of this program:\n\n", strchr(file->name, '/') + 1);
+        fwrite(file->data, 1, file->size, stdout);
+    }
     return 0;
 }
 
@@ -74,6 +87,7 @@ static int run(int argc, char **argv)
         printf("wiggly %s (%s)\n", WIGGLY_VERSION, build_commit);
         return 0;
     }
+    if (strcmp(argv[1], "--licenses") == 0) return print_licenses();
     const struct command *command = find_command(argv[1]);
     if (command) return command->run(argc - 1, argv + 1);
     if (!means_live(argv[1])) return wrong_command(argv[1]);

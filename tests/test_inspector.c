@@ -230,21 +230,20 @@ static void test_frame_drag_passes_through_a_neighbour(void **state)
 /// The pointer's shape says that a number is dragged, and where a text is typed.
 static void test_the_pointer_says_what_it_does(void **state)
 {
-    enum { ARROW = 0, HORIZONTAL = 2, TEXT = 5 };
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
-    assert_int_equal(editor_cursor(f.editor), ARROW);
+    assert_int_equal(editor_cursor(f.editor), CURSOR_ARROW);
     panel_drag(&f, "damping", 0.3);
-    assert_int_equal(editor_cursor(f.editor), HORIZONTAL);
+    assert_int_equal(editor_cursor(f.editor), CURSOR_HORIZONTAL);
     panel_release(&f);
-    assert_int_equal(editor_cursor(f.editor), HORIZONTAL);
+    assert_int_equal(editor_cursor(f.editor), CURSOR_HORIZONTAL);
     panel_press(&f, "damping", 2);
     panel_release(&f);
-    assert_int_equal(editor_cursor(f.editor), TEXT);
+    assert_int_equal(editor_cursor(f.editor), CURSOR_TEXT);
     session_key(&f, KEY_ESCAPE, 0);
     panel_click(&f, "section.knot");
-    assert_int_equal(editor_cursor(f.editor), ARROW);
+    assert_int_equal(editor_cursor(f.editor), CURSOR_ARROW);
     session_close(&f);
 }
 

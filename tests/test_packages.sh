@@ -14,8 +14,9 @@ stand_in() { # <name> <body>
 on_that_system() { PATH=$stand_ins /bin/sh "$script" "$@"; }
 
 # dpkg-query: everything but cppcheck is there. The one real call asks for a list and prints a line each.
-stand_in dpkg-query 'shift 3; for p in "$@"; do [ $p = cppcheck ] || echo "$p installed "; done'
+stand_in dpkg-query 'shift 3; for p in "$@"; do [ $p = cppcheck ] || printf "%s installed " "$p"; done'
 stand_in apt-get "echo \"\$*\" >>$calls"
+stand_in apt-cache 'exit 0'
 stand_in id 'echo 0'
 stand_in env 'while [ "${1#*=}" != "$1" ]; do shift; done; exec "$@"'
 
@@ -34,6 +35,21 @@ stand_in apt-get "echo \"\$1\" >>$calls; [ \$1 = update ] || [ \"\$(/usr/bin/wc 
 : >"$calls"
 expect 0 "an empty package list is filled" on_that_system check
 says "between two attempts" "install update install" "$(tr '\n' ' ' <"$calls")"
+
+# Ubuntu 22.04 has no JetBrains Mono.
+stand_in dpkg-query 'shift 3; for p in "$@"; do case $p in fonts-j* | fonts-d*) ;; *) printf "%s installed " "$p" ;; esac; done'
+stand_in apt-cache '[ "$2" != fonts-jetbrains-mono ]'
+stand_in apt-get "echo \"\$*\" >>$calls"
+: >"$calls"
+expect 0 "a package that the system lacks is replaced" on_that_system build
+says "by the next best" "install -y -qq --no-install-recommends fonts-dejavu-core" "$(cat "$calls")"
+stand_in dpkg-query 'shift 3; for p in "$@"; do case $p in fonts-j*) ;; *) printf "%s installed " "$p" ;; esac; done'
+: >"$calls"
+expect 0 "which is left in peace once it is there" on_that_system build
+[ ! -s "$calls" ]
+ok "and nothing installed" $?
+stand_in dpkg-query 'shift 3; for p in "$@"; do [ $p = cppcheck ] || printf "%s installed " "$p"; done'
+stand_in apt-cache 'exit 0'
 
 stand_in apt-get 'exit 100'
 expect 3 "apt-get that fails is reported" on_that_system check

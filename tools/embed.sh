@@ -1,29 +1,11 @@
 #!/bin/sh
 # Makes the sources that put files into the binary: embedded_data.S (the bytes) and embedded_table.c (their names).
-# Usage: tools/embed.sh <output folder> <shader or scene>...
-# Fonts are found through fontconfig; a substitute family is an error, because the layout is made for these.
+# Usage: tools/embed.sh <output folder> <list of name, tab, file> <file>...
 set -eu
 export LC_ALL=C
 out=$1
-shift
-
-font() { # <family> <style>
-    answer=$(fc-match -f '%{family}\t%{style}\t%{file}' "$1:style=$2")
-    family=$(printf '%s' "$answer" | cut -f1)
-    style=$(printf '%s' "$answer" | cut -f2)
-    case ",$family,/,$style," in
-    *",$1,"*/*",$2,"*) printf '%s' "$answer" | cut -f3 ;;
-    *)
-        echo "embed.sh: the font '$1 $2' is not installed (fontconfig offers '$family $style');" \
-            "install fonts-inter and fonts-jetbrains-mono" >&2
-        exit 3
-        ;;
-    esac
-}
-
-label=$(font Inter Regular)
-label_bold=$(font Inter "Semi Bold")
-number=$(font "JetBrains Mono" Regular)
+list=$2
+shift 2
 
 data=$out/embedded_data.S.new
 table=$out/embedded_table.c.new
@@ -42,9 +24,8 @@ add() { # <name in the binary> <file>
     count=$((count + 1))
 }
 
-add font/label "$label"
-add font/label-bold "$label_bold"
-add font/number "$number"
+tab=$(printf '\t')
+while IFS=$tab read -r name file; do add "$name" "$file"; done <"$list"
 for file in "$@"; do add "${file#assets/}" "$file"; done
 echo '    .section .note.GNU-stack,"",%progbits' >>"$data"
 

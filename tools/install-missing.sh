@@ -1,17 +1,19 @@
 #!/bin/sh
 # Installs the Debian packages that the named sets need and that are not there. Fast and silent when nothing is missing.
-# Usage: tools/install-missing.sh [build] [test] [bench] [check]
+# "a|b": a, or b where the system has no package a.
+# Usage: tools/install-missing.sh [build] [test] [bench] [check] [bare]
 set -eu
 
 packages_of() {
     case $1 in
     build) echo gcc libc6-dev pkg-config libglfw3-dev libepoxy-dev libegl-dev libcglm-dev libjansson-dev libstb-dev \
-        fontconfig fonts-inter fonts-jetbrains-mono libegl1 libgl1-mesa-dri ;;
+        fontconfig fonts-inter "fonts-jetbrains-mono|fonts-dejavu-core" libegl1 libgl1-mesa-dri ;;
     test) echo g++ liblapacke-dev libopenblas-dev libcmocka-dev xvfb xdotool imagemagick ;;
     bench) echo liblapacke-dev libopenblas-dev ;;
     check) echo clang-format-14 cppcheck ;;
+    bare) echo debootstrap ;;
     *)
-        echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench and check" >&2
+        echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench, check and bare" >&2
         exit 2
         ;;
     esac
@@ -24,6 +26,7 @@ probes_of() {
     test) echo g++ Xvfb xdotool convert cmocka.pc lapacke.pc openblas.pc ;;
     bench) echo lapacke.pc openblas.pc ;;
     check) echo clang-format-14 cppcheck ;;
+    bare) echo debootstrap ;;
     esac
 }
 
@@ -49,16 +52,29 @@ if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     exit 3
 fi
 
+names=""
+for choice in $wanted; do names="$names ${choice%|*} ${choice#*|}"; done
 # shellcheck disable=SC2086 # the list is split on purpose
-installed=$(dpkg-query -W -f '${Package} ${db:Status-Status} \n' $wanted 2>/dev/null || true)
+installed=" $(dpkg-query -W -f '${Package} ${db:Status-Status} ' $names 2>/dev/null || true)"
 missing=""
-for package in $wanted; do
-    case "$installed" in
-    *"$package installed "*) ;;
-    *) missing="$missing $package" ;;
-    esac
+for choice in $wanted; do
+    there=""
+    for package in "${choice%|*}" "${choice#*|}"; do
+        case "$installed" in *" $package installed "*) there=yes ;; esac
+    done
+    [ -n "$there" ] || missing="$missing $choice"
 done
 [ -z "$missing" ] && exit 0
+
+# Of each choice the first that the package lists have; the last where they have none.
+chosen() {
+    for choice in $missing; do
+        for package in "${choice%|*}" "${choice#*|}"; do
+            apt-cache show "$package" >/dev/null 2>&1 && break
+        done
+        echo "$package"
+    done
+}
 
 if [ "$(id -u)" = 0 ]; then
     as_root="env"
@@ -69,13 +85,16 @@ else
     exit 3
 fi
 
-echo "Installing:$missing"
 quietly="DEBIAN_FRONTEND=noninteractive"
-# shellcheck disable=SC2086
-if ! $as_root $quietly apt-get install -y -qq --no-install-recommends $missing >/dev/null 2>&1; then
+install() { # shellcheck disable=SC2046,SC2086
+    $as_root $quietly apt-get install -y -qq --no-install-recommends $(chosen) >/dev/null
+}
+echo "Installing:" $missing
+# The package lists of a fresh system are empty.
+if ! install 2>/dev/null; then
     $as_root $quietly apt-get update -qq || true # the installation says what is wrong
-    $as_root $quietly apt-get install -y -qq --no-install-recommends $missing >/dev/null || {
-        echo "apt-get could not install:$missing" >&2
+    install || {
+        echo "apt-get could not install:" $missing >&2
         exit 3
     }
 fi

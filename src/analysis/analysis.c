@@ -31,7 +31,7 @@ static bool form_shapes(struct analysis *a, const struct lapack *lapack, const s
     done = done && slabs_combine(lapack, motion, weights, 2 * a->count, combined, error);
     for (size_t k = 0; done && k < count; k++) {
         const double *re = combined + 2 * k * columns, *im = re + columns;
-        for (size_t n = 0; n < columns; n++) a->components[k].shape[n / 3][n % 3] = CMPLX(re[n], im[n]);
+        for (size_t n = 0; n < columns; n++) a->components[k].shape[n / 3][n % 3] = re[n] + I * im[n];
     }
     free(weights);
     free(combined);

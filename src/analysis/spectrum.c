@@ -18,7 +18,7 @@ static bool covariance(const struct lapack *lapack, const double *h, const doubl
                   hgh, frames);
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < n; j++) // columns first, as LAPACK has it
-            result[j * n + i] = CMPLX(hgh[i * n + j], hg[i * n + j] - hg[j * n + i]);
+            result[j * n + i] = hgh[i * n + j] + I * (hg[i * n + j] - hg[j * n + i]);
     }
     free(hg);
     return true;

@@ -195,7 +195,7 @@ static void draw(struct app *app)
     app->row.frame_ms = 1e3 * (end - app->frame_start);
     app->row.event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
     app->row.allocations = allocation_count() - app->row.allocations;
-    platform_cursor(app->platform, (enum cursor)editor_cursor(app->editor));
+    platform_cursor(app->platform, editor_cursor(app->editor));
 }
 
 static void log_frame(struct app *app)

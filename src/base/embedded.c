@@ -12,3 +12,10 @@ const struct embedded *embedded_find(const char *name)
     }
     return NULL;
 }
+
+const struct embedded *embedded_next(const char *folder, const struct embedded *previous)
+{
+    const struct embedded *file = previous ? previous + 1 : embedded_files, *end = embedded_files + embedded_file_count;
+    while (file < end && strncmp(file->name, folder, strlen(folder)) != 0) file++;
+    return file < end ? file : NULL;
+}

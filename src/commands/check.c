@@ -73,7 +73,7 @@ static int check(const char *path)
     struct problems problems = {.report = print_problem};
     struct error error = {0};
     struct document *document = scene_load(path, &problems, &error);
-    if (!document) return error.kind;
+    if (!document) return (int)error.kind;
     bool done = check_solution(path, document, &problems, &error);
     if (!done) fprintf(stderr, "%s\n", error.text);
     if (done && !check_models(path, document, &problems)) error.kind = ERROR_INPUT;

@@ -118,5 +118,5 @@ int command_solve(int argc, char **argv)
     struct error error;
     if (solve(scene, out, &error)) return 0;
     fprintf(stderr, "%s\n", error.text);
-    return error.kind;
+    return (int)error.kind;
 }

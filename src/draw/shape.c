@@ -36,9 +36,8 @@ static int cut_spans(float from, float to, int clip_from, int clip_to, struct sp
     }
     int count = 0;
     float lead = (float)(first + 1) - from, tail = to - (float)last;
-    if (lead < 1.0f) spans[count++] = (struct span){first++, first, lead};
-    struct span whole = {first, tail < 1.0f ? last : last + 1, 1.0f};
-    if (lead < 1.0f) spans[0].to = first;
+    if (lead < 1.0f) spans[count++] = (struct span){first, first + 1, lead};
+    struct span whole = {lead < 1.0f ? first + 1 : first, tail < 1.0f ? last : last + 1, 1.0f};
     if (whole.to > whole.from) spans[count++] = whole;
     if (tail < 1.0f) spans[count++] = (struct span){last, last + 1, tail};
     return count;

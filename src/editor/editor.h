@@ -7,6 +7,7 @@
 #include "scene/background.h"
 #include "scene/edit.h"
 #include "scene/evaluate.h"
+#include "ui/cursor.h"
 #include "ui/drawlist.h"
 #include "ui/event.h"
 #include "ui/stage.h"
@@ -119,9 +120,8 @@ enum look editor_look(const struct editor *editor);
 bool editor_is_playing(const struct editor *editor);
 /// Whether something moves by itself, so that the next frame should not wait for an event.
 bool editor_wants_frames(const struct editor *editor);
-/// Mouse cursor for where the pointer is: an index into platform's enum cursor (arrow, hand, horizontal, vertical,
-/// move, text).
-int editor_cursor(const struct editor *editor);
+/// Mouse cursor for where the pointer is.
+enum cursor editor_cursor(const struct editor *editor);
 
 /// Where a replay's target is on the screen now: "knot(sway,2)", "curve(sway,36,1)", "slider(frequency)",
 /// "stage(0.5,0.5)", "tail(tail,0.9)", "warning(0)". false where there is no such thing (with a sentence).

@@ -6,9 +6,6 @@
 #include "ui/theme.h"
 #include <stdio.h>
 
-/// As in the platform's enum cursor.
-enum pointer_shape { SHAPE_ARROW, SHAPE_HAND, SHAPE_HORIZONTAL, SHAPE_VERTICAL, SHAPE_MOVE, SHAPE_TEXT };
-
 static void press(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     enum drag_kind divider = divider_at(editor, event->x, event->y);
@@ -158,37 +155,37 @@ void editor_show(struct editor *editor, const struct editor_world *world)
     dialog_show(editor, world);
 }
 
-int editor_cursor(const struct editor *editor)
+enum cursor editor_cursor(const struct editor *editor)
 {
-    static const enum pointer_shape of_drag[] = {
-        [DRAG_KNOTS] = SHAPE_MOVE,
-        [DRAG_SLOPE] = SHAPE_MOVE,
-        [DRAG_PAN] = SHAPE_MOVE,
-        [DRAG_BOX] = SHAPE_ARROW,
-        [DRAG_SCALE] = SHAPE_MOVE,
-        [DRAG_SCRUB] = SHAPE_HORIZONTAL,
-        [DRAG_RANGE] = SHAPE_HORIZONTAL,
-        [DRAG_STAGE_PAN] = SHAPE_MOVE,
-        [DRAG_GRAB] = SHAPE_HAND,
-        [DRAG_BODY] = SHAPE_MOVE,
-        [DRAG_PAINT] = SHAPE_ARROW,
-        [DRAG_STAGE_DIVIDER] = SHAPE_VERTICAL,
-        [DRAG_INSPECTOR_DIVIDER] = SHAPE_HORIZONTAL,
+    static const enum cursor of_drag[] = {
+        [DRAG_KNOTS] = CURSOR_MOVE,
+        [DRAG_SLOPE] = CURSOR_MOVE,
+        [DRAG_PAN] = CURSOR_MOVE,
+        [DRAG_BOX] = CURSOR_ARROW,
+        [DRAG_SCALE] = CURSOR_MOVE,
+        [DRAG_SCRUB] = CURSOR_HORIZONTAL,
+        [DRAG_RANGE] = CURSOR_HORIZONTAL,
+        [DRAG_STAGE_PAN] = CURSOR_MOVE,
+        [DRAG_GRAB] = CURSOR_HAND,
+        [DRAG_BODY] = CURSOR_MOVE,
+        [DRAG_PAINT] = CURSOR_ARROW,
+        [DRAG_STAGE_DIVIDER] = CURSOR_VERTICAL,
+        [DRAG_INSPECTOR_DIVIDER] = CURSOR_HORIZONTAL,
     };
-    static const enum pointer_shape of_hover[] = {
-        [HOVER_NONE] = SHAPE_ARROW, [HOVER_KNOT] = SHAPE_MOVE,        [HOVER_SLOPE] = SHAPE_MOVE,
-        [HOVER_CURVE] = SHAPE_HAND, [HOVER_RULER] = SHAPE_HORIZONTAL, [HOVER_JOINT] = SHAPE_HAND,
-        [HOVER_UNITS] = SHAPE_HAND, [HOVER_BODY] = SHAPE_MOVE,        [HOVER_PLAY] = SHAPE_HAND,
-        [HOVER_LOOP] = SHAPE_HAND,  [HOVER_SPEED] = SHAPE_HAND,       [HOVER_WARNING] = SHAPE_HAND,
+    static const enum cursor of_hover[] = {
+        [HOVER_NONE] = CURSOR_ARROW, [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
+        [HOVER_CURVE] = CURSOR_HAND, [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
+        [HOVER_UNITS] = CURSOR_HAND, [HOVER_BODY] = CURSOR_MOVE,        [HOVER_PLAY] = CURSOR_HAND,
+        [HOVER_LOOP] = CURSOR_HAND,  [HOVER_SPEED] = CURSOR_HAND,       [HOVER_WARNING] = CURSOR_HAND,
     };
-    static const enum pointer_shape of_widget[] = {
-        [UI_OVER_NOTHING] = SHAPE_ARROW, [UI_OVER_NUMBER] = SHAPE_HORIZONTAL, [UI_OVER_TEXT] = SHAPE_TEXT};
+    static const enum cursor of_widget[] = {
+        [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};
     if (editor->dialog.kind != DIALOG_NONE) return of_widget[editor->dialog.ui.over];
-    if (editor->help.open) return SHAPE_ARROW;
+    if (editor->help.open) return CURSOR_ARROW;
     if (editor->drag.kind != DRAG_NONE) return of_drag[editor->drag.kind];
     enum drag_kind divider = divider_at(editor, editor->pointer_x, editor->pointer_y);
     if (divider != DRAG_NONE) return of_drag[divider];
     if (editor->inspector.ui.over != UI_OVER_NOTHING) return of_widget[editor->inspector.ui.over];
-    if (editor->hover.kind == HOVER_CURVE && editor->hover.spline == editor->active) return SHAPE_ARROW;
+    if (editor->hover.kind == HOVER_CURVE && editor->hover.spline == editor->active) return CURSOR_ARROW;
     return of_hover[editor->hover.kind];
 }

@@ -165,14 +165,14 @@ void poles_draw_inset(const struct poles_view *view, const struct pole_setting *
     drawlist_set_clip(list, whole);
 }
 
-static void draw_curve(const struct poles_view *view, int kind, struct rect plot, struct drawlist *list)
+static void draw_curve(const struct poles_view *view, enum filter_kind kind, struct rect plot, struct drawlist *list)
 {
     float xy[POLES_COLUMNS][2];
     for (int i = 0; i < POLES_COLUMNS; i++) {
         xy[i][0] = plot.x + plot.w * (float)i / (POLES_COLUMNS - 1);
         xy[i][1] = plot.y + plot.h * fmaxf(view->decibels[kind][i], 2 * floor_decibels) / floor_decibels;
     }
-    bool own = view->setting.kind == (enum filter_kind)kind;
+    bool own = view->setting.kind == kind;
     drawlist_line(list, xy[0], POLES_COLUMNS, own ? 2 : 1.25f, theme_fade(filter_color(view, kind), own ? 1 : 0.7f));
 }
 
@@ -196,8 +196,8 @@ void poles_draw_response(const struct poles_view *view, struct rect r, struct dr
         draw_below(list, r, x, r.y + r.h - 2, text);
     }
     struct rect old = drawlist_push_clip(list, (struct rect){plot.x, plot.y - 2, plot.w, plot.h + 2});
-    for (int kind = 0; kind < FILTER_KINDS; kind++) {
-        if (view->setting.kind != (enum filter_kind)kind) draw_curve(view, kind, plot, list);
+    for (enum filter_kind kind = 0; kind < FILTER_KINDS; kind++) {
+        if (view->setting.kind != kind) draw_curve(view, kind, plot, list);
     }
     draw_curve(view, view->setting.kind, plot, list);
     drawlist_set_clip(list, old);

@@ -3,6 +3,7 @@
 #define PLATFORM_PLATFORM_H
 
 #include "base/error.h"
+#include "ui/cursor.h"
 #include "ui/event.h"
 
 struct platform;
@@ -39,7 +40,6 @@ bool platform_is_fullscreen(const struct platform *platform);
 /// call.
 const char *platform_clipboard(struct platform *platform);
 void platform_set_clipboard(struct platform *platform, const char *text);
-enum cursor { CURSOR_ARROW, CURSOR_HAND, CURSOR_HORIZONTAL, CURSOR_VERTICAL, CURSOR_MOVE, CURSOR_TEXT };
 void platform_cursor(struct platform *platform, enum cursor cursor);
 
 /// Called when the connection to the display is lost, or the window was destroyed by somebody else; after that the process ends with exit status 3, because nothing of

@@ -1,0 +1,64 @@
+#!/bin/sh
+# Runs a command on this tree in a system that has nothing but make: what a newcomer's first command meets.
+# Usage: tools/bare-machine.sh <bookworm | trixie | jammy | noble> <command>...   as root, e.g. tools/bare-machine.sh noble make test
+# The bare system is made once (debootstrap) and kept as build/bare/SUITE.tar; each run unpacks it anew and removes it.
+# BARE_OUT=FOLDER keeps the build folder that the command leaves. Exit status: the command's.
+set -eu
+[ $# -ge 2 ] || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
+suite=$1
+shift
+cd "$(dirname "$0")/.."
+
+case $suite in
+bookworm | trixie) mirror=http://deb.debian.org/debian components=main script="" ;;
+# Debian's debootstrap may be older than the suite; all of Ubuntu's share one script.
+jammy | noble) mirror=http://archive.ubuntu.com/ubuntu components=main,universe script=/usr/share/debootstrap/scripts/gutsy ;;
+*)
+    echo "bare-machine: unknown suite '$suite'; expected bookworm, trixie, jammy or noble" >&2
+    exit 2
+    ;;
+esac
+[ "$(id -u)" = 0 ] || { echo "bare-machine: a system in a folder needs root" >&2; exit 3; }
+tools/install-missing.sh bare
+
+mkdir -p build/bare
+base=build/bare/$suite.tar
+root=$(mktemp -d "$PWD/build/bare/$suite.XXXXXX")
+trap 'rm -rf "$root"' EXIT INT TERM
+if [ ! -s "$base" ]; then
+    # shellcheck disable=SC2086 # script may be empty
+    debootstrap --variant=minbase --include=make --components="$components" "$suite" "$root" $mirror $script \
+        >"build/bare/$suite.log" 2>&1 || {
+        tail -n 5 "build/bare/$suite.log" >&2
+        echo "bare-machine: debootstrap could not make $suite; all it said is in build/bare/$suite.log" >&2
+        exit 3
+    }
+    rm -rf "$root"/var/cache/apt/archives/*.deb
+    tar -C "$root" -cf "$base.new" .
+    mv "$base.new" "$base"
+else
+    tar -C "$root" -xf "$base"
+fi
+
+mkdir "$root/wiggly"
+git ls-files -z --cached --others --exclude-standard | tar --null -T - -cf - | tar -C "$root/wiggly" -xf -
+cp /etc/resolv.conf "$root/etc/resolv.conf"
+
+started=$(date +%s)
+status=0
+# Mounts and processes of the run end with its namespaces.
+# shellcheck disable=SC2016 # expanded inside
+unshare --mount --pid --fork sh -c '
+    root=$1
+    shift
+    mount -t proc proc "$root/proc"
+    mount --rbind /dev "$root/dev"
+    exec chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin \
+        sh -c "cd /wiggly && exec \"\$@\"" sh "$@"
+' sh "$root" "$@" </dev/null || status=$?
+echo "bare-machine: $suite, $*: exit status $status after $(($(date +%s) - started)) s"
+if [ -n "${BARE_OUT:-}" ] && [ -d "$root/wiggly/build" ]; then
+    rm -rf "$BARE_OUT"
+    cp -r "$root/wiggly/build" "$BARE_OUT"
+fi
+exit $status
