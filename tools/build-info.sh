@@ -3,8 +3,12 @@
 # Usage: tools/build-info.sh <output.c> <compiler> <flags>
 set -eu
 output=$1
-commit=$(git describe --always --dirty --abbrev=12 --exclude '*' 2>/dev/null || echo unknown)
-compiler=$("$2" --version | head -n 1 | tr -d '"\\')
+# Root may build in somebody else's clone, which git calls dubious and must not write to.
+git() { GIT_OPTIONAL_LOCKS=0 command git -c safe.directory='*' "$@" 2>/dev/null; }
+commit=$(git rev-parse --short=12 HEAD || echo unknown)
+[ -z "$(git status --porcelain --untracked-files=no || true)" ] || commit=$commit-dirty
+# shellcheck disable=SC2086 # a compiler may come with a word before it (ccache gcc)
+compiler=$($2 --version | head -n 1 | tr -d '"\\')
 mkdir -p "$(dirname "$output")"
 {
     echo '#include "base/build.h"'

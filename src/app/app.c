@@ -13,20 +13,22 @@
 enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, HEADLESS_FRAMES = 1200, WARM_UP = 10, REFERENCE_FRAMES = 21 };
 enum { LOG_ROWS = 200000 };
 
-static bool open_platform(struct app *app, bool offscreen, struct error *error)
+/// A window; where none opens, it says so in a line and goes on without.
+static bool open_platform(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
     const struct replay_header *header = app->replay ? replay_get_header(app->replay) : NULL;
     int width = o->width ? o->width : header ? header->width : DEFAULT_WIDTH;
     int height = o->height ? o->height : header ? header->height : DEFAULT_HEIGHT;
     double scale = o->scale > 0 ? o->scale : header ? header->scale : 1;
-    if (offscreen) {
-        app->platform =
-            platform_offscreen((int)lround(width * scale), (int)lround(height * scale), (float)scale, error);
-    } else {
+    if (!o->headless) {
+        struct error refused = {0};
         int vsync = app->replay || o->frames ? 0 : 1;
-        app->platform = platform_window(width, height, "wiggly", vsync, error);
+        app->platform = platform_window(width, height, "wiggly", vsync, &refused);
+        if (app->platform) return true;
+        fprintf(stderr, "wiggly: %s; running headless (see wiggly live --help for what it can write)\n", refused.text);
     }
+    app->platform = platform_offscreen((int)lround(width * scale), (int)lround(height * scale), (float)scale, error);
     return app->platform != NULL;
 }
 
@@ -114,12 +116,12 @@ static void on_lost(void *user)
     fprintf(stderr, "wiggly live: %s\n", error.text);
 }
 
-static bool start(struct app *app, bool offscreen, struct error *error)
+static bool start(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
     if (o->replay && !(app->replay = replay_load(o->replay, error))) return false;
     if (o->theme) theme_use((enum theme_kind)theme_find(o->theme));
-    if (!font_init(error) || !open_platform(app, offscreen, error)) return false;
+    if (!font_init(error) || !open_platform(app, error)) return false;
     int width, height;
     float scale;
     platform_size(app->platform, &width, &height, &scale);
@@ -143,9 +145,10 @@ static bool start(struct app *app, bool offscreen, struct error *error)
         if (!(app->recording = recording_open(o->record, &header, error))) return false;
     }
     if (o->frames_dir) mkdir(o->frames_dir, 0777);
-    app->fixed_clock = offscreen || app->replay || app->recording;
+    bool window = platform_is_window(app->platform);
+    app->fixed_clock = !window || app->replay || app->recording;
     app->lost = true;
-    if (!offscreen) {
+    if (window) {
         platform_on_lost(on_lost, app);
         if (!app->replay) process_catch_end();
     }
@@ -170,19 +173,14 @@ void app_free(struct app *app)
 int app_run(const struct app_options *options, struct error *error)
 {
     struct app app = {.options = options};
-    bool offscreen = options->headless;
-    if (!offscreen && !platform_has_display()) {
-        fprintf(stderr, "wiggly: no display, running headless (see wiggly live --help for what it can write)\n");
-        offscreen = true;
-    }
     double age = process_age();
     app.process_start = clock_now() - (isnan(age) ? 0 : age);
-    bool good = start(&app, offscreen, error);
+    bool good = start(&app, error);
     if (good) {
-        long frames = options->frames ? options->frames
-                      : app.replay    ? replay_get_header(app.replay)->frames
-                      : offscreen     ? HEADLESS_FRAMES
-                                      : 0;
+        long frames = options->frames                    ? options->frames
+                      : app.replay                       ? replay_get_header(app.replay)->frames
+                      : platform_is_window(app.platform) ? 0
+                                                         : HEADLESS_FRAMES;
         good = rescue(&app, run_frames(&app, frames, frames > 0 || options->log, error), error);
     }
     struct error late = {0};

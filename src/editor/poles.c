@@ -95,20 +95,20 @@ void poles_draw_circle(const struct pole_setting *setting, struct rect r, struct
 }
 
 /// The filter in force has the accent, the others a colour of their own.
-static uint32_t filter_color(const struct poles_view *view, int kind)
+static uint32_t filter_color(const struct poles_view *view, enum filter_kind kind)
 {
     static const int spare[FILTER_KINDS] = {1, 2, 1};
-    return view->setting.kind == (enum filter_kind)kind ? theme()->accent : theme()->spline[spare[kind]];
+    return view->setting.kind == kind ? theme()->accent : theme()->spline[spare[kind]];
 }
 
 void poles_draw_legend(const struct poles_view *view, struct rect r, struct drawlist *list)
 {
-    static const int order[FILTER_KINDS] = {FILTER_TWO_COMPLEX, FILTER_TWO_REAL, FILTER_FOUR_REAL};
+    static const enum filter_kind order[FILTER_KINDS] = {FILTER_TWO_COMPLEX, FILTER_TWO_REAL, FILTER_FOUR_REAL};
     const float row = 33;
     drawlist_text(list, r.x, r.y + 8, FONT_LABEL, THEME_TEXT_SMALL, theme()->text_dim, "at 0 Hz · width");
     for (int i = 0; i < FILTER_KINDS; i++) {
         const struct passband *band = &view->band[order[i]];
-        bool own = view->setting.kind == (enum filter_kind)order[i];
+        bool own = view->setting.kind == order[i];
         uint32_t color = filter_color(view, order[i]), text_color = own ? theme()->text : theme()->text_dim;
         char text[64];
         float y = r.y + 26 + row * (float)i;

@@ -1,4 +1,4 @@
-#include "platform/platform.h"
+#include "platform/surface.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <stddef.h>
@@ -46,7 +46,7 @@ static bool wayland_answers(const char *display)
     return length < (int)sizeof path && answers(path, (size_t)length);
 }
 
-bool platform_has_display(void)
+bool display_answers(void)
 {
     const char *x11 = getenv("DISPLAY"), *wayland = getenv("WAYLAND_DISPLAY");
     return (x11 && *x11 && x11_answers(x11)) || (wayland && *wayland && wayland_answers(wayland));

@@ -9,7 +9,7 @@
 struct platform;
 
 /// A window (GLX under X11) with a current 3.3 core context. Swap interval `vsync` 0 or 1.
-/// NULL with a sentence: no display, no GLX, version.
+/// NULL with a sentence: no display answers or takes us in, no GLX, version.
 struct platform *platform_window(int width, int height, const char *title, int vsync, struct error *error);
 
 /// An offscreen framebuffer object of width × height device pixels with a current context (EGL surfaceless or device).
@@ -31,8 +31,6 @@ bool platform_keeps(const struct platform *platform);
 void platform_swap(struct platform *platform);
 
 bool platform_is_window(const struct platform *platform);
-/// Has a display been found at all ($DISPLAY or $WAYLAND_DISPLAY opens)? For the choice window or offscreen.
-bool platform_has_display(void);
 void platform_title(struct platform *platform, const char *title);
 void platform_fullscreen(struct platform *platform, bool on);
 bool platform_is_fullscreen(const struct platform *platform);

@@ -23,6 +23,9 @@ struct surface_size {
     float scale;       ///< device pixels a logical pixel
 };
 
+/// Does somebody listen at $DISPLAY or $WAYLAND_DISPLAY?
+bool display_answers(void);
+
 /// Events go to `queue`, which must outlive the window.
 struct window *window_create(int width, int height, const char *title, int vsync, struct event_queue *queue,
                              struct error *error);

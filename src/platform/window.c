@@ -230,14 +230,18 @@ static void create_cursors(struct window *window)
 struct window *window_create(int width, int height, const char *title, int vsync, struct event_queue *queue,
                              struct error *error)
 {
+    if (!display_answers()) {
+        fail(error, ERROR_ENVIRONMENT, "no display");
+        return NULL;
+    }
     if (!glfwInit()) {
-        fail_glfw(error, "no window can be opened (try --headless)");
+        fail_glfw(error, "no window opens");
         return NULL;
     }
     struct window *window = calloc(1, sizeof *window);
     if (window) window->handle = open_handle(width, height, title);
     if (!window || !window->handle) {
-        fail_glfw(error, "no window with OpenGL 3.3 can be opened (try --headless)");
+        fail_glfw(error, "no window with OpenGL 3.3 opens");
         free(window);
         glfwTerminate();
         return NULL;

@@ -1,0 +1,53 @@
+# Displays that refuse: the app says so in one line and runs headless, as it does where there is none.
+. tests/check.sh
+WIGGLY=${WIGGLY:-build/wiggly}
+unset WAYLAND_DISPLAY
+server=""
+trap 'kill $server 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
+
+start_server() { # <Xvfb's options>...
+    rm -f "$scratch/display"
+    Xvfb -displayfd 3 -noreset -screen 0 640x480x24 -nolisten tcp "$@" 3>"$scratch/display" 2>"$scratch/xvfb.log" &
+    server=$!
+    for _ in $(seq 100); do [ -s "$scratch/display" ] && break; sleep 0.1; done
+    export DISPLAY=:$(cat "$scratch/display")
+}
+
+stop_server() {
+    kill $server
+    wait $server 2>/dev/null
+    server=""
+}
+
+falls_back() { # <what>
+    rm -f "$scratch/picture.png"
+    expect 0 "$1: the app runs all the same" timeout 60 "$WIGGLY" live --frames 20 --screenshot "$scratch/picture.png"
+    [ -s "$scratch/picture.png" ]
+    ok "$1: and draws" $?
+    [ "$(printf '%s\n' "$err" | grep -c '^wiggly')" = 1 ]
+    ok "$1: it says so in one line" $?
+    says "$1: which tells what it does" "running headless" "$err"
+}
+
+DISPLAY=:6173 falls_back "a DISPLAY that nobody serves"
+DISPLAY="" falls_back "an empty DISPLAY"
+
+start_server -auth "$scratch/cookies"
+mcookie=$(od -An -N16 -tx1 /dev/urandom | tr -d ' \n')
+# One entry for the server: family 0x0100 (local), this host's name, the display's number, the cookie.
+entry() { printf '\001\000'; field "$(uname -n)"; field "${DISPLAY#:}"; field MIT-MAGIC-COOKIE-1; printf '\000\020'; printf '%s' "$mcookie" | sed 's/../\\x&/g' | xargs -0 printf; }
+field() { printf "\\$(printf %03o $((${#1} / 256)))\\$(printf %03o $((${#1} % 256)))%s" "$1"; }
+entry >"$scratch/cookies"
+kill -HUP $server
+export XAUTHORITY=$scratch/none
+falls_back "a display that wants a cookie"
+XAUTHORITY=$scratch/cookies expect 0 "with the cookie it opens" timeout 60 "$WIGGLY" live --frames 20
+! printf '%s\n' "$err" | grep -q "^wiggly"
+ok "in a window" $?
+stop_server
+unset XAUTHORITY
+
+start_server -extension GLX
+falls_back "a display without GLX"
+stop_server
+exit $((cases_failed > 0))
