@@ -27,6 +27,11 @@ says() { # <what> <fragment> <text>
     ok "$1" $status
 }
 
+# Whether the program itself said nothing; libraries have words of their own (XDG_RUNTIME_DIR, an X server's cookie).
+silent() { # <text>
+    ! printf '%s\n' "$1" | grep -E '^wiggly|ERROR: |runtime error'
+}
+
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 

@@ -70,8 +70,8 @@ static void read_reference(struct reference *r)
         if (strcmp(what, "total") == 0) r->total = re;
         if (strcmp(what, "pca1") == 0) r->pca1 = re;
         if (strcmp(what, "pca2") == 0) r->pca2 = re;
-        if (strcmp(what, "shape0") == 0) r->shape[0][index] = CMPLX(re, im);
-        if (strcmp(what, "shape1") == 0) r->shape[1][index] = CMPLX(re, im);
+        if (strcmp(what, "shape0") == 0) r->shape[0][index] = re + I * im;
+        if (strcmp(what, "shape1") == 0) r->shape[1][index] = re + I * im;
         lines++;
     }
     fclose(file);

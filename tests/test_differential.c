@@ -193,7 +193,7 @@ static void without_squaring(void **state)
     solver->longest_squared = usual;
 }
 
-static int create(void **state) { return wiggly_create(MAX, MAX, (wiggly_solver **)state); }
+static int create(void **state) { return (int)wiggly_create(MAX, MAX, (wiggly_solver **)state); }
 
 static int destroy(void **state)
 {

@@ -42,7 +42,7 @@ kill -HUP $server
 export XAUTHORITY=$scratch/none
 falls_back "a display that wants a cookie"
 XAUTHORITY=$scratch/cookies expect 0 "with the cookie it opens" timeout 60 "$WIGGLY" live --frames 20
-! printf '%s\n' "$err" | grep -q "^wiggly"
+silent "$err"
 ok "in a window" $?
 stop_server
 unset XAUTHORITY

@@ -87,10 +87,10 @@ static void check_inspector(struct session *f)
 
 static void check_status(struct session *f)
 {
-    static const char *const messages[] = {
-        "", "Saved.",
+    static const char long_message[] =
         "a sentence that goes on and on about what is wrong with this file until there is no room left for it "
-        "in the line, whatever the width of the window may be, and then some more"};
+        "in the line, whatever the width of the window may be, and then some more";
+    static const char *const messages[] = {"", "Saved.", long_message};
     editor_set_stats(f->editor, 1234, 123456);
     status_advance(f->editor, 1);
     for (size_t m = 0; m < sizeof messages / sizeof messages[0]; m++) {
@@ -130,10 +130,9 @@ static void check_dialogs(struct session *f)
 
 static int list_names(void *user, const char *folder, char names[][256], int max)
 {
-    static const char *const root[] = {
-        "figures/", "figure1.json", "figure3.json", "tail.json",
-        "a name so long that it does not fit into any dialog, however wide it was made, and "
-        "that goes on after that.json"};
+    static const char long_name[] = "a name so long that it does not fit into any dialog, however wide it was made, and "
+                                    "that goes on after that.json";
+    static const char *const root[] = {"figures/", "figure1.json", "figure3.json", "tail.json", long_name};
     static const char *const figures[] = {"one.json", "two.json"};
     bool in_root = strcmp(folder, ".") == 0;
     const char *const *source = in_root ? root : figures;

@@ -17,7 +17,7 @@ static int set_up(void **state)
 {
     (void)state;
     curve = curve_create(MAX);
-    return wiggly_create(MAX, MAX, &solver);
+    return (int)wiggly_create(MAX, MAX, &solver);
 }
 
 static int tear_down(void **state)

@@ -8,7 +8,7 @@ packages_of() {
     case $1 in
     build) echo gcc libc6-dev pkg-config libglfw3-dev libepoxy-dev libegl-dev libcglm-dev libjansson-dev libstb-dev \
         fontconfig fonts-inter "fonts-jetbrains-mono|fonts-dejavu-core" libegl1 libgl1-mesa-dri ;;
-    test) echo g++ liblapacke-dev libopenblas-dev libcmocka-dev xvfb xdotool imagemagick ;;
+    test) echo g++ liblapacke-dev libopenblas-dev libcmocka-dev xvfb x11-xkb-utils xdotool imagemagick ;;
     bench) echo liblapacke-dev libopenblas-dev ;;
     check) echo clang-format-14 cppcheck ;;
     bare) echo debootstrap ;;
@@ -23,7 +23,7 @@ packages_of() {
 probes_of() {
     case $1 in
     build) echo gcc pkg-config fc-match glfw3.pc epoxy.pc egl.pc cglm.pc jansson.pc stb.pc ;;
-    test) echo g++ Xvfb xdotool convert cmocka.pc lapacke.pc openblas.pc ;;
+    test) echo g++ Xvfb setxkbmap xdotool convert cmocka.pc lapacke.pc openblas.pc ;;
     bench) echo lapacke.pc openblas.pc ;;
     check) echo clang-format-14 cppcheck ;;
     bare) echo debootstrap ;;
