@@ -62,10 +62,10 @@ END
 strike ctrl+24
 for _ in $(seq 100); do kill -0 $app 2>/dev/null || break; sleep 0.1; done
 if kill -0 $app 2>/dev/null; then
-    ok "$layout: Ctrl+Q quits" 1
+    ok "gr: Ctrl+Q quits" 1
 else
     wait $app
-    ok "$layout: Ctrl+Q quits" $?
+    ok "gr: Ctrl+Q quits" $?
     app=""
 fi
 exit $((cases_failed > 0))
