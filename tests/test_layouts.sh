@@ -11,9 +11,7 @@ trap 'kill $app $xvfb 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
 for _ in $(seq 100); do [ -s "$scratch/display" ] && break; sleep 0.1; done
 export DISPLAY=:$(cat "$scratch/display")
 
-# Numbers are keys by their place, as X counts them.
-escape=9 enter=36 left=113 delete=119
-
+# Keys by name, or by the number that X gives to their place.
 strike() { xdotool key --delay 10 "$@"; }
 
 # Saves until the file has a text so many times: the app gets to keys and files when it gets to them.
@@ -40,11 +38,11 @@ xdotool mousemove 500 560
 # Where the layout has: A, S, Y, Z, "-", "1", ".", "5", and what selects one more knot.
 while read -r layout A S Y Z minus one point five more; do
     setxkbmap -layout "$layout" -model pc105
-    strike "ctrl+$A" "$S" "$Y" "$minus" "$one" "$point" "$five" $enter
+    strike "ctrl+$A" "$S" "$Y" "$minus" "$one" "$point" "$five" Return
     saves "S, Y and -1.5 scale the values by that" '"value": \(1.25\|-0.25\)' 3
     strike "ctrl+$Z"
     saves "Ctrl+Z takes it back" '"value": [01]' 3
-    strike $escape "shift+$left" "$point" "$more" $delete
+    strike Escape shift+Left "$point" "$more" Delete
     saves "a knot, then one more, and both are deleted" '"frame":' 1
     strike "ctrl+$Z"
     saves "and brought back" '"frame":' 3
@@ -54,7 +52,7 @@ fr 24 39 29 25 15 shift+10 shift+59 shift+14 shift+94
 de 38 39 52 29 61 10       60       14       shift+94
 no 38 39 29 52 61 10       60       14       shift+94
 se 38 39 29 52 61 10       60       14       shift+94
-ru 38 39 29 52 20 10       61       14       shift+117
+ru 38 39 29 52 20 10       61       14       shift+Next
 gr 38 39 29 52 20 10       60       14       shift+60
 END
 
