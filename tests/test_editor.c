@@ -327,7 +327,7 @@ static int below(int limit) { return rand() % limit; }
 static void monkey(struct session *s)
 {
     static const int keys[] = {KEY_SPACE, KEY_ESCAPE, KEY_ENTER,     KEY_TAB,       KEY_DELETE, KEY_LEFT, KEY_RIGHT,
-                               KEY_UP,    KEY_DOWN,   KEY_PAGE_DOWN, KEY_HOME,      KEY_END,    KEY_F1,   KEY_COMMA,
+                               KEY_UP,    KEY_DOWN,   KEY_PAGE_DOWN, KEY_HOME,      KEY_END,    KEY_F1,   ',',
                                'A',       'B',        'C',           'D',           'E',        'F',      'I',
                                'L',       'M',        'T',           'V',           'X',        'Y',      'Z',
                                '1',       '.',        '-',           KEY_BACKSPACE, 'I',        'T',      'S',
