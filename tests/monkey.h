@@ -153,8 +153,8 @@ static inline void any_key(struct monkey *m)
 /// What the curves are edited with.
 static inline void edit_key(struct monkey *m)
 {
-    static const int keys[] = {'I', 'I', 'I', 'T',        'M', 'V', 'S', 'X', 'Y', 'R',
-                               'P', 'D', 'E', KEY_DELETE, '.', ',', 'N', 'U', 'K'};
+    static const int keys[] = {'I', 'I', 'I', 'T', 'M',        'V', 'S', 'X', 'Y',
+                               'R', 'P', 'D', 'E', KEY_DELETE, 'N', 'U', 'K'};
     static const int held[] = {'F', 'Z', 'B', 'C', 'L'};
     if (one_in(m, 4)) {
         const int letter = held[below(m, 5)];
@@ -223,7 +223,9 @@ static inline void wheel(struct monkey *m)
 
 static inline void play(struct monkey *m)
 {
-    static const int keys[] = {KEY_SPACE, KEY_SPACE, KEY_LEFT, KEY_RIGHT, KEY_HOME, KEY_END, '[', ']', '-', '='};
+    static const int keys[] = {KEY_SPACE, KEY_SPACE, KEY_LEFT, KEY_RIGHT, KEY_HOME, KEY_END};
+    static const char *const typed[] = {"[", "]", "-", "+", "=", ",", ".", "<", ">"};
+    if (one_in(m, 2)) monkey_type(m, typed[below(m, sizeof typed / sizeof typed[0])]);
     monkey_key(m, keys[below(m, sizeof keys / sizeof keys[0])], one_in(m, 4) ? MOD_SHIFT : 0);
 }
 

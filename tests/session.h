@@ -8,6 +8,7 @@
 #include "editor/editor.h"
 #include "scene/load.h"
 #include "ui/font.h"
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -142,6 +143,21 @@ static inline void session_key(struct session *session, int key, unsigned mods)
     session_send(session, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS, .mods = mods});
     session_send(session, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE, .mods = mods});
     session_frame(session);
+}
+
+/// Strikes a key that types a character: under another layout that is not the one it is named after.
+static inline void session_strike(struct session *session, int key, unsigned mods, uint32_t typed)
+{
+    session_send(session, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS, .mods = mods});
+    session_send(session, (struct event){.kind = EVENT_TEXT, .codepoint = typed});
+    session_send(session, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE, .mods = mods});
+    session_frame(session);
+}
+
+/// Strikes the keys that small letters, digits and punctuation are printed on.
+static inline void session_type(struct session *session, const char *text)
+{
+    for (; *text; text++) session_strike(session, toupper((unsigned char)*text), 0, (unsigned char)*text);
 }
 
 /// The document's canonical text; freed by the caller.

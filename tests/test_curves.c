@@ -96,11 +96,6 @@ static void test_a_knot_of_another_curve_makes_it_active(void **state)
     session_close(&s);
 }
 
-static void type_keys(struct session *s, const char *text)
-{
-    for (; *text; text++) session_key(s, *text, 0);
-}
-
 static void test_scaling_by_a_typed_factor(void **state)
 {
     (void)state;
@@ -108,7 +103,7 @@ static void test_scaling_by_a_typed_factor(void **state)
     session_open(&s, FIVE);
     box(&s, "curve(sway,5,1.4)", "curve(sway,35,-1.2)", 0);
     char *original = session_saved(&s);
-    type_keys(&s, "SX1.3");
+    session_type(&s, "sx1.3");
     session_key(&s, KEY_ENTER, 0);
     const double frames[] = {7, 20, 33, 40, 60}; // about the middle of 10 … 30
     assert_frames(&s, frames);
@@ -117,7 +112,7 @@ static void test_scaling_by_a_typed_factor(void **state)
     assert_one_step(&s, original);
     free(original);
     original = session_saved(&s);
-    type_keys(&s, "SY-2");
+    session_type(&s, "sy-2");
     session_key(&s, KEY_ENTER, 0);
     assert_frames(&s, frames);
     assert_near(spline(&s, 0)->knots[1].value, -2, 1e-9);
@@ -136,7 +131,7 @@ static void test_scaling_by_pointer_about_the_playhead(void **state)
     session_click(&s, "ruler(20)");
     session_key(&s, 'A', MOD_CTRL);
     session_point(&s, "curve(sway,40,0)");
-    type_keys(&s, "SPX");
+    session_type(&s, "spx");
     session_point(&s, "curve(sway,50,0.7)"); // one and a half times as far
     session_frame(&s);
     const double frames[] = {5, 20, 35, 50, 80};
@@ -155,7 +150,7 @@ static void test_scaling_can_mirror_and_be_taken_back(void **state)
     session_open(&s, FIVE);
     box(&s, "curve(sway,5,1.4)", "curve(sway,35,-1.2)", 0);
     char *original = session_saved(&s);
-    type_keys(&s, "SX-1");
+    session_type(&s, "sx-1");
     session_frame(&s);
     assert_near(spline(&s, 0)->knots[0].value, -1, 0); // in reverse order
     assert_near(spline(&s, 0)->knots[1].slope, -2, 1e-5);
@@ -178,8 +173,8 @@ static void test_scaling_never_swallows_a_knot(void **state)
     const char *const bad[] = {"2", "0", "9"};
     for (int i = 0; i < 3; i++) {
         char *original = session_saved(&s);
-        type_keys(&s, "SX");
-        type_keys(&s, bad[i]);
+        session_type(&s, "sx");
+        session_type(&s, bad[i]);
         session_key(&s, KEY_ENTER, 0);
         assert_int_equal(spline(&s, 0)->knot_count, 5);
         assert_saved(&s, original);

@@ -222,7 +222,7 @@ static void test_key_names_read_back(void **state)
     }
     assert_int_equal(named, 65 + KEY_COUNT - KEY_ESCAPE);
     assert_string_equal(key_name('Z'), "Z");
-    assert_string_equal(key_name(KEY_COMMA), ",");
+    assert_string_equal(key_name(','), ",");
     assert_string_equal(key_name(KEY_F12), "F12");
     assert_int_equal(key_from_name("F13"), KEY_NONE);
     assert_int_equal(key_from_name(""), KEY_NONE);

@@ -213,25 +213,28 @@ static void read_row(const char *text, struct chords *chords)
 /// What is said in words only, or elsewhere.
 static void add_words(struct chords *chords)
 {
-    add(chords, KEY_COMMA, MOD_SHIFT); // "(Shift: add)"
-    add(chords, KEY_PERIOD, MOD_SHIFT);
     add(chords, 'Z', MOD_CTRL | MOD_SHIFT);
     add(chords, KEY_UP, 0); // "Hold, and press ↑ ↓"
     add(chords, KEY_DOWN, 0);
-    for (int ctrl = 0; ctrl < 3; ctrl++)
-        add(chords, '+', ctrl == 0 ? 0 : ctrl == 1 ? MOD_CTRL : MOD_CTRL | MOD_SHIFT);
+    add(chords, '=', 0); // "(also =)"
+    for (unsigned shift = 0; shift <= MOD_SHIFT; shift += MOD_SHIFT) {
+        add(chords, '+', MOD_CTRL | shift);         // is where = is
+        add(chords, KEY_PAGE_UP, MOD_CTRL | shift); // "(or PgUp, PgDn)"
+        add(chords, KEY_PAGE_DOWN, MOD_CTRL | shift);
+    }
     for (int k = KEY_LEFT; k <= KEY_DOWN; k++) { // "nudge (Shift, Ctrl)"
         for (unsigned mods = 0; mods < 4; mods++) add(chords, k, MOD_ALT | mods);
     }
 }
 
-/// Whether the editor does something for a chord.
+/// Whether the editor does something for a chord, or for the character that a key without modifiers is named after.
 static bool is_bound(int key, unsigned mods)
 {
     struct session s;
     session_open(&s, scene);
-    const struct event event = {.kind = EVENT_KEY, .key = key, .mods = mods, .action = ACTION_PRESS};
-    bool bound = keys_event(s.editor, &s.world, &event);
+    const struct event press = {.kind = EVENT_KEY, .key = key, .mods = mods, .action = ACTION_PRESS};
+    const struct event text = {.kind = EVENT_TEXT, .codepoint = (uint32_t)key};
+    bool bound = keys_event(s.editor, &s.world, &press) || (mods == 0 && keys_event(s.editor, &s.world, &text));
     session_close(&s);
     return bound;
 }

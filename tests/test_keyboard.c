@@ -25,13 +25,13 @@ static void test_the_selection_grows_by_neighbours(void **state)
     struct session s;
     session_open(&s, scene);
     session_key(&s, KEY_LEFT, MOD_SHIFT); // to the first frame
-    session_key(&s, KEY_PERIOD, MOD_SHIFT);
+    session_type(&s, ">");
     assert_true(is_selected(&s, 1));
-    session_key(&s, KEY_PERIOD, MOD_SHIFT);
-    session_key(&s, KEY_COMMA, MOD_SHIFT);
+    session_type(&s, ">");
+    session_type(&s, "<");
     for (int k = 0; k < 3; k++) assert_true(is_selected(&s, k));
     assert_false(is_selected(&s, 3));
-    for (int i = 0; i < 3; i++) session_key(&s, KEY_COMMA, MOD_SHIFT); // there is nothing before the first
+    for (int i = 0; i < 3; i++) session_type(&s, "<"); // there is nothing before the first
     assert_int_equal(selection_count(&s.editor->selection, &s.document->splines[0]), 3);
     session_close(&s);
 }

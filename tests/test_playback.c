@@ -38,14 +38,14 @@ static void test_speed(void **state)
     open_at(&s, 10);
     static const double slower[] = {0.5, 0.25, 0.1, 0.1}, faster[] = {0.25, 0.5, 1, 2, 4, 4};
     for (int i = 0; i < 4; i++) {
-        session_key(&s, '-', 0);
+        session_type(&s, "-");
         assert_near(s.editor->playback.speed, slower[i], 0);
     }
     s.editor->playback.playing = true;
     pass(&s, 1);
     assert_near(frame_of(&s), 12.4, 1e-9);
     for (int i = 0; i < 6; i++) {
-        session_key(&s, '=', 0);
+        session_type(&s, i % 2 ? "+" : "=");
         assert_near(s.editor->playback.speed, faster[i], 0);
     }
     playback_seek(s.editor, s.document, 0);
@@ -94,9 +94,9 @@ static void test_part(void **state)
     (void)state;
     struct session s;
     open_at(&s, 20);
-    session_key(&s, '[', 0);
+    session_type(&s, "[");
     playback_seek(s.editor, s.document, 30);
-    session_key(&s, ']', 0);
+    session_type(&s, "]");
     playback_seek(s.editor, s.document, 80);
     session_key(&s, KEY_SPACE, 0); // from outside it begins at the start
     assert_near(frame_of(&s), 20 + 0.4, 1e-9);
@@ -170,13 +170,13 @@ static void test_no_part(void **state)
     (void)state;
     struct session s;
     open_at(&s, 40);
-    session_key(&s, ']', 0);
+    session_type(&s, "]");
     assert_range(&s, 0, 40);
     playback_seek(s.editor, s.document, 60);
-    session_key(&s, '[', 0); // after its end: to the scene's end
+    session_type(&s, "["); // after its end: to the scene's end
     assert_range(&s, 60, 100);
     playback_seek(s.editor, s.document, 0);
-    session_key(&s, '[', 0);
+    session_type(&s, "[");
     assert_range(&s, 0, 100);
     assert_false(s.editor->playback.has_range);
     session_close(&s);

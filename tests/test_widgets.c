@@ -290,6 +290,23 @@ static void test_focused_slider_takes_arrows_and_digits_only(void **state)
     assert_int_equal(p.ui.focus, ui_id("offset"));
 }
 
+static void test_the_comma_of_a_keypad_is_a_point(void **state)
+{
+    (void)state;
+    struct panel p = make_panel();
+    key(&p, KEY_TAB, 0);
+    type(&p, ",5");
+    key(&p, KEY_ENTER, 0);
+    assert_near(p.speed, 0.5, 0);
+    type(&p, "1,25");
+    key(&p, KEY_ENTER, 0);
+    assert_near(p.speed, 1.25, 0);
+    type(&p, "1,000.5");
+    key(&p, KEY_ENTER, 0);
+    assert_near(p.speed, 1.25, 0);
+    assert_string_equal(p.ui.complaint, "speed: expected a number, got “1,000.5”");
+}
+
 static void test_typing_takes_all_keys_but_chords_and_f_keys(void **state)
 {
     (void)state;
@@ -434,6 +451,7 @@ int main(void)
         cmocka_unit_test(test_press_elsewhere_takes_what_was_typed),
         cmocka_unit_test(test_tab_moves_the_focus_round),
         cmocka_unit_test(test_focused_slider_takes_arrows_and_digits_only),
+        cmocka_unit_test(test_the_comma_of_a_keypad_is_a_point),
         cmocka_unit_test(test_typing_takes_all_keys_but_chords_and_f_keys),
         cmocka_unit_test(test_right_click_goes_to_the_default),
         cmocka_unit_test(test_segments_are_found_by_name),

@@ -53,7 +53,7 @@ void scale_apply(struct editor *editor, const struct editor_world *world);
 /// The pivot, and the line from it to the pointer.
 void scale_show(struct editor *editor);
 
-/// Keys; true where the event is used up.
+/// Keys and characters; true where the event is used up.
 bool keys_event(struct editor *editor, const struct editor_world *world, const struct event *event);
 
 /// Moves the selected knots by frames and values, as one step with equal nudges before.

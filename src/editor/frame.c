@@ -26,6 +26,7 @@ static void dispatch(struct editor *editor, const struct editor_world *world, co
     struct request request = {.kind = event->kind == EVENT_CLOSE ? REQUEST_QUIT : REQUEST_OPEN};
     switch (event->kind) {
     case EVENT_KEY:
+    case EVENT_TEXT:
         keys_event(editor, world, event);
         break;
     case EVENT_BUTTON:
@@ -90,6 +91,9 @@ void editor_event(struct editor *editor, const struct editor_world *world, const
     bool used = dialog_event(editor, world, event) || help_event(editor, event) || welcome_event(editor, event) ||
                 drag_event(editor, world, event) ||
                 (editor->drag.kind == DRAG_NONE && inspector_event(editor, world, event));
+    if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
+        editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
+    }
     if (!used) dispatch(editor, world, event);
     let_go(editor, world);
 }
@@ -97,6 +101,7 @@ void editor_event(struct editor *editor, const struct editor_world *world, const
 void editor_advance(struct editor *editor, const struct editor_world *world, double dt)
 {
     struct message *message = &editor->message;
+    editor->press = (struct press){.used = false}; // what it types comes in the same frame
     if (message->seconds_left > 0) {
         message->seconds_left -= dt;
         if (message->seconds_left <= 0) message->text[0] = 0;

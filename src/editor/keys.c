@@ -1,21 +1,11 @@
-/// The keyboard: one table of what a key does (design: "The live app").
+/// The keyboard: one table of what a key does and one of what a typed character does (design: "The live app").
+#include "editor/keys.h"
 #include "editor/actions.h"
 #include "editor/curves.h"
 #include "editor/keyboard.h"
 #include "editor/overlays.h"
 #include "ui/theme.h"
 #include <math.h>
-
-typedef void key_action(struct editor *editor, const struct editor_world *world, int argument);
-
-struct binding {
-    int key;
-    unsigned mods; ///< exactly these
-    bool repeats;  ///< also while the key is kept down
-    bool any_time; ///< also while a drag holds a step of the history open
-    key_action *run;
-    int argument;
-};
 
 static void run_undo(struct editor *e, const struct editor_world *w, int argument)
 {
@@ -219,7 +209,7 @@ static void run_held(struct editor *e, const struct editor_world *w, int argumen
 
 enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT };
 
-static const struct binding bindings[] = {
+const struct binding key_bindings[] = {
     {.key = 'Z', .mods = MOD_CTRL, .repeats = true, .run = run_undo, .argument = -1},
     {.key = 'Z', .mods = MOD_CTRL | MOD_SHIFT, .repeats = true, .run = run_undo, .argument = 1},
     {.key = 'Y', .mods = MOD_CTRL, .repeats = true, .run = run_undo, .argument = 1},
@@ -248,12 +238,10 @@ static const struct binding bindings[] = {
     {.key = 'X', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_CUT},
     {.key = 'V', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_PASTE},
     {.key = 'D', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_DUPLICATE},
-    {.key = KEY_COMMA, .repeats = true, .run = select_neighbour, .argument = -1},
-    {.key = KEY_PERIOD, .repeats = true, .run = select_neighbour, .argument = 1},
-    {.key = KEY_COMMA, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = -1},
-    {.key = KEY_PERIOD, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = 1},
     {.key = KEY_PAGE_UP, .repeats = true, .run = activate_neighbour, .argument = -1},
     {.key = KEY_PAGE_DOWN, .repeats = true, .run = activate_neighbour, .argument = 1},
+    {.key = KEY_PAGE_UP, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = -1},
+    {.key = KEY_PAGE_DOWN, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = 1},
     {.key = 'T', .run = run_toggle_slope},
     {.key = 'T', .mods = MOD_SHIFT, .run = run_flatten},
     {.key = 'T', .mods = MOD_CTRL, .run = run_smooth},
@@ -274,15 +262,14 @@ static const struct binding bindings[] = {
     {.key = KEY_LEFT, .mods = MOD_SHIFT, .run = playback_end, .argument = -1},
     {.key = KEY_RIGHT, .mods = MOD_SHIFT, .run = playback_end, .argument = 1},
     {.key = 'L', .mods = MOD_CTRL, .run = playback_toggle_loop},
-    {.key = '[', .run = range_mark, .argument = 0},
-    {.key = ']', .run = range_mark, .argument = 1},
-    {.key = '-', .any_time = true, .run = playback_change_speed, .argument = -1},
-    {.key = '=', .any_time = true, .run = playback_change_speed, .argument = 1},
-    {.key = '+', .any_time = true, .run = playback_change_speed, .argument = 1},
+    {.key = KEY_HOME, .mods = MOD_CTRL, .run = range_mark, .argument = 0},
+    {.key = KEY_END, .mods = MOD_CTRL, .run = range_mark, .argument = 1},
     {.key = KEY_LEFT, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_LEFT},
     {.key = KEY_RIGHT, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_RIGHT},
     {.key = KEY_UP, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_UP},
     {.key = KEY_DOWN, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_DOWN},
+    {.key = KEY_PAGE_UP, .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = 1},
+    {.key = KEY_PAGE_DOWN, .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = -1},
     {.key = '=', .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = 1},
     {.key = '+', .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = 1},
     {.key = '-', .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = -1},
@@ -290,6 +277,8 @@ static const struct binding bindings[] = {
     {.key = KEY_RIGHT, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_RIGHT},
     {.key = KEY_UP, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_UP},
     {.key = KEY_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_DOWN},
+    {.key = KEY_PAGE_UP, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = 1},
+    {.key = KEY_PAGE_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = -1},
     {.key = '=', .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = 1},
     {.key = '+', .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = 1},
     {.key = '-', .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = -1},
@@ -303,6 +292,20 @@ static const struct binding bindings[] = {
     {.key = 'O', .any_time = true, .run = run_overlay, .argument = 'O'},
     {.key = 'P', .any_time = true, .run = run_overlay, .argument = 'P'},
     {.key = 'K', .run = run_brush},
+    {.run = NULL},
+};
+
+const struct binding character_bindings[] = {
+    {.key = ',', .repeats = true, .run = select_neighbour, .argument = -1},
+    {.key = '.', .repeats = true, .run = select_neighbour, .argument = 1},
+    {.key = '<', .repeats = true, .run = keyboard_extend, .argument = -1},
+    {.key = '>', .repeats = true, .run = keyboard_extend, .argument = 1},
+    {.key = '[', .run = range_mark, .argument = 0},
+    {.key = ']', .run = range_mark, .argument = 1},
+    {.key = '-', .any_time = true, .run = playback_change_speed, .argument = -1},
+    {.key = '=', .any_time = true, .run = playback_change_speed, .argument = 1},
+    {.key = '+', .any_time = true, .run = playback_change_speed, .argument = 1},
+    {.run = NULL},
 };
 
 static const struct nudge_key {
@@ -343,8 +346,28 @@ static void space_event(struct editor *editor, const struct editor_world *world,
 
 static bool is_held_letter(int key) { return key == 'F' || key == 'Z' || key == 'B' || key == 'C' || key == 'L'; }
 
+/// Does what is bound, unless the key is kept down or a drag is on and it is not for that; true where anything is bound.
+static bool run(struct editor *editor, const struct editor_world *world, const struct binding *list, int key,
+                unsigned mods, bool repeated)
+{
+    const struct binding *binding = list;
+    while (binding->run && (binding->key != key || binding->mods != mods)) binding++;
+    if (!binding->run) return false;
+    bool idle = (repeated && !binding->repeats) || (history_is_open(world->history) && !binding->any_time);
+    if (!idle) binding->run(editor, world, binding->argument);
+    return true;
+}
+
+/// What a key types that somebody else has used, as one that closes the help, is no command.
+static bool text_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    const struct press *press = &editor->press;
+    return !press->used && run(editor, world, character_bindings, (int)event->codepoint, 0, press->repeated);
+}
+
 bool keys_event(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
+    if (event->kind == EVENT_TEXT) return text_event(editor, world, event);
     unsigned mods = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
     if (event->key == KEY_SPACE && (mods == 0 || event->action == ACTION_RELEASE)) {
         space_event(editor, world, event);
@@ -356,13 +379,5 @@ bool keys_event(struct editor *editor, const struct editor_world *world, const s
     }
     if (mods == 0 && event->action == ACTION_PRESS && is_held_letter(event->key)) editor->held_key = event->key;
     if (nudge_event(editor, world, event)) return true;
-    for (size_t i = 0; i < sizeof bindings / sizeof bindings[0]; i++) {
-        const struct binding *binding = &bindings[i];
-        if (binding->key != event->key || binding->mods != mods) continue;
-        bool idle = event->action == ACTION_REPEAT && !binding->repeats;
-        if (idle || (history_is_open(world->history) && !binding->any_time)) return true;
-        binding->run(editor, world, binding->argument);
-        return true;
-    }
-    return false;
+    return run(editor, world, key_bindings, event->key, mods, event->action == ACTION_REPEAT);
 }

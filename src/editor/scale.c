@@ -177,20 +177,29 @@ void scale_show(struct editor *editor)
     if (!editor->drag.lock_x) drawlist_line(&editor->list, down, 2, 1.5f, theme()->playhead);
 }
 
-/// Digits, sign and point of a typed factor; Backspace takes the last one back.
-static bool type(struct scaling *scaling, int key)
+/// Digits, sign and point of a factor; by what is typed, because layouts have them on different keys.
+static bool type(struct scaling *scaling, uint32_t c)
 {
     size_t length = strlen(scaling->typed);
-    if (key == KEY_BACKSPACE) {
-        if (length > 0) scaling->typed[length - 1] = 0;
-        return true;
-    }
-    bool digit = key >= '0' && key <= '9', sign = key == '-' && length == 0;
-    bool point = (key == '.' || key == ',') && !strchr(scaling->typed, '.');
+    bool digit = c >= '0' && c <= '9', sign = c == '-' && length == 0;
+    bool point = (c == '.' || c == ',') && !strchr(scaling->typed, '.');
     if (!(digit || sign || point) || length + 1 >= sizeof scaling->typed) return false;
-    scaling->typed[length] = (char)(key == ',' ? '.' : key);
+    scaling->typed[length] = (char)(c == ',' ? '.' : c);
     scaling->typed[length + 1] = 0;
     return true;
+}
+
+/// Takes the last character back.
+static void erase(struct scaling *scaling)
+{
+    size_t length = strlen(scaling->typed);
+    if (length > 0) scaling->typed[length - 1] = 0;
+}
+
+static void change(struct editor *editor, const struct editor_world *world)
+{
+    drag_start_moving(editor, world);
+    editor->drag.stale = true;
 }
 
 static void press_key(struct editor *editor, const struct editor_world *world, const struct event *event)
@@ -204,11 +213,12 @@ static void press_key(struct editor *editor, const struct editor_world *world, c
         if (editor->drag.moved) history_restart(world->history, world->document);
         scaling->about_playhead = !scaling->about_playhead;
         place_pivot(editor, world);
-    } else if (!drag_lock(&editor->drag, event->key) && !type(scaling, event->key)) {
+    } else if (event->key == KEY_BACKSPACE) {
+        erase(scaling);
+    } else if (!drag_lock(&editor->drag, event->key)) {
         return;
     }
-    drag_start_moving(editor, world);
-    editor->drag.stale = true;
+    change(editor, world);
 }
 
 bool scale_event(struct editor *editor, const struct editor_world *world, const struct event *event)
@@ -221,6 +231,9 @@ bool scale_event(struct editor *editor, const struct editor_world *world, const 
     case EVENT_KEY:
         if (press) press_key(editor, world, event);
         return press; /* of a key that was held before, the release is somebody else's */
+    case EVENT_TEXT:
+        if (type(&editor->scaling, event->codepoint)) change(editor, world);
+        return true;
     default:
         return event->kind == EVENT_WHEEL; /* the factor is measured in pixels: no zooming meanwhile */
     }

@@ -99,6 +99,12 @@ struct drag {
     double ripple_from; ///< frame of that knot, before
 };
 
+/// The last key that went down in this frame, whose character follows it.
+struct press {
+    bool used;     ///< by a dialog, a drag, a field …
+    bool repeated; ///< it is kept down
+};
+
 /// Scaling of the selected knots (DRAG_SCALE), about a frame and a value.
 struct scaling {
     bool about_playhead; ///< else about the middle of the selection
@@ -306,6 +312,7 @@ struct editor {
     enum look look;
     float pointer_x, pointer_y;
     unsigned mods;
+    struct press press;
     int held_key; ///< F Z B C L while pressed, else 0
     bool space_down, space_used;
 

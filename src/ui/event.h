@@ -24,12 +24,10 @@ enum event_mods { MOD_SHIFT = 1, MOD_CTRL = 2, MOD_ALT = 4, MOD_SUPER = 8 };
 
 enum event_button { BUTTON_LEFT, BUTTON_RIGHT, BUTTON_MIDDLE };
 
-/// Letters and digits are their upper-case ASCII code, printed punctuation its ASCII code (by the key's printed name).
+/// Letters and digits are their upper-case ASCII code, punctuation that is printed on a key is its ASCII code.
 enum key {
     KEY_NONE = 0,
     KEY_SPACE = ' ',
-    KEY_COMMA = ',',
-    KEY_PERIOD = '.',
     KEY_ESCAPE = 256,
     KEY_ENTER,
     KEY_TAB,

@@ -35,9 +35,14 @@ static void format_number(const struct ui_number *number, double value, char *te
     }
 }
 
-/// "1.5" or "1.5 Hz": a decimal number and nothing else but the unit. Not hexadecimal, not "inf".
-static bool parse_number(const struct ui_number *number, const char *text, double *value)
+/// "1.5", "1,5" as many keypads type it, or "1.5 Hz": a decimal number and nothing else but the unit. Not hexadecimal,
+/// not "inf".
+static bool parse_number(const struct ui_number *number, const char *typed, double *value)
 {
+    char copy[UI_TEXT_SIZE], *comma;
+    const char *text = copy;
+    snprintf(copy, sizeof copy, "%s", typed);
+    if ((comma = strchr(copy, ','))) *comma = '.';
     while (*text == ' ') text++;
     size_t length = strspn(text, "+-.0123456789eE");
     char *end;
@@ -200,7 +205,7 @@ static enum ui_change reset(const struct ui_number *number, double *value)
     return UI_SET;
 }
 
-static bool starts_number(uint32_t c) { return (c >= '0' && c <= '9') || c == '-' || c == '.'; }
+static bool starts_number(uint32_t c) { return (c >= '0' && c <= '9') || c == '-' || c == '.' || c == ','; }
 
 static enum ui_change focused_event(struct ui *ui, uint32_t id, const struct ui_number *number, double *value)
 {

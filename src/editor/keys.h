@@ -1,0 +1,24 @@
+/// What each key and each typed character does, as tables. Private to src/editor.
+#ifndef EDITOR_KEYS_H
+#define EDITOR_KEYS_H
+
+#include "editor/state.h"
+
+typedef void key_action(struct editor *editor, const struct editor_world *world, int argument);
+
+struct binding {
+    int key;       ///< or character
+    unsigned mods; ///< exactly these
+    bool repeats;  ///< also while the key is kept down
+    bool any_time; ///< also while a drag holds a step of the history open
+    key_action *run;
+    int argument;
+};
+
+/// Up to one without `run`. Letters are what is printed on a key, digits a place.
+extern const struct binding key_bindings[];
+/// Punctuation, by what is typed: every layout has it on other keys, and some need Shift for it. What AZERTY, QWERTZ or
+/// Nordic layouts cannot type without AltGr has a key as well.
+extern const struct binding character_bindings[];
+
+#endif

@@ -1,0 +1,167 @@
+// Keyboards of other countries: every action has a key there, and what is typed is what counts, not the key that types it.
+#include "editor/keys.h"
+#include "editor/playback.h"
+#include "panel_session.h"
+
+static const char scene[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": "
+    "[{\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}, {\"frame\": 60, \"value\": 0}]}]}";
+
+/// The punctuation of a layout as xkb-data 2.35 has it. Letters, digits by their places and keys with a name are on all of them.
+static const struct layout_of {
+    const char *name;
+    const char *printed; ///< on a key's lower left, but for the row of digits, which are bound by place
+    const char *typed;   ///< with Shift or without, not with AltGr
+} layouts[] = {
+    {"us", "-=[];'`\\,./<", "!@#$%^&*()-_=+[{]};:'\"`~\\|,<.>/?"},
+    {"fr", ")=$*,;:!<", "&\"'(-_)=+$%*,?;.:/!<>"},
+    {"be", ")-$,;:=<", "&\"'(!)-_$*%,?;.:/=+<>"},
+    {"de", "+#,.-<", "!\"$%&/()=?+*#',;.:-_<>"},
+    {"ch", "'$,.-<", "+\"*%&/()='?!$,;.:-_<>"},
+    {"no", "+\\|',.-<", "!\"#%&/()=+?\\|'*,;.:-_<>"},
+    {"se", "+',.-<", "!\"#%&/()=+?'*,;.:-_<>"},
+    {"dk", "+',.-<", "!\"#%&/()=+?'*,;.:-_<>"},
+    {"ru", "-=\\./", "!\";%:?*()-_=+\\/.,|"},
+};
+
+static bool is_punctuation(int key) { return key < KEY_ESCAPE && key != KEY_SPACE && !isalnum(key); }
+
+/// Whether an action can be reached: one of what it is bound to is on the layout.
+static bool is_reached(const struct binding *action, const struct layout_of *layout)
+{
+    for (const struct binding *b = key_bindings; b->run; b++) {
+        if (b->run != action->run || b->argument != action->argument) continue;
+        if (!is_punctuation(b->key) || strchr(layout->printed, b->key)) return true;
+    }
+    for (const struct binding *b = character_bindings; b->run; b++) {
+        if (b->run == action->run && b->argument == action->argument && strchr(layout->typed, b->key)) return true;
+    }
+    return false;
+}
+
+static int check_reached(const struct binding *list, const struct layout_of *layout)
+{
+    int count = 0;
+    for (const struct binding *b = list; b->run; b++, count++) {
+        if (is_reached(b, layout)) continue;
+        fail_msg("%s has no key for what “%s” with modifiers %u does", layout->name, key_name(b->key), b->mods);
+    }
+    return count;
+}
+
+static void test_every_layout_has_a_key_for_every_action(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++) {
+        assert_true(check_reached(key_bindings, &layouts[i]) + check_reached(character_bindings, &layouts[i]) > 80);
+    }
+}
+
+static void test_no_key_is_bound_twice(void **state)
+{
+    (void)state;
+    for (const struct binding *b = key_bindings; b->run; b++) {
+        for (const struct binding *other = key_bindings; other < b; other++) {
+            assert_false(b->key == other->key && b->mods == other->mods);
+        }
+        assert_true(!is_punctuation(b->key) || b->mods); // it would act once more when its character comes
+    }
+}
+
+/// AZERTY has - on the key of the 6, and needs Shift for 1, 5 and the point.
+static void test_a_factor_is_what_is_typed(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    session_key(&s, 'A', MOD_CTRL);
+    session_type(&s, "sy");
+    session_strike(&s, '6', 0, '-');
+    session_strike(&s, '1', MOD_SHIFT, '1');
+    session_strike(&s, ';', MOD_SHIFT, '.');
+    session_strike(&s, '7', MOD_SHIFT, '7');
+    session_key(&s, KEY_BACKSPACE, 0);
+    session_strike(&s, '5', MOD_SHIFT, '5');
+    session_key(&s, KEY_ENTER, 0);
+    const struct knot *knots = s.document->splines[0].knots;
+    assert_near(knots[0].value, 1.25, 1e-9);
+    assert_near(knots[1].value, -0.25, 1e-9);
+    session_close(&s);
+}
+
+static void test_punctuation_is_what_is_typed(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    const struct playback *playback = &s.editor->playback;
+    session_strike(&s, '6', 0, '-'); // AZERTY
+    assert_near(playback->speed, 0.5, 0);
+    session_strike(&s, '0', MOD_SHIFT, '='); // QWERTZ
+    assert_near(playback->speed, 1, 0);
+    session_strike(&s, '8', 0, '[');         // with AltGr
+    session_strike(&s, ';', MOD_SHIFT, '.'); // AZERTY
+    assert_int_equal(selection_count(&s.editor->selection, &s.document->splines[0]), 1);
+    session_strike(&s, '<', MOD_SHIFT, '>');
+    assert_int_equal(selection_count(&s.editor->selection, &s.document->splines[0]), 2);
+    session_close(&s);
+}
+
+static void test_a_part_is_played_without_brackets(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    const struct playback *playback = &s.editor->playback;
+    playback_seek(s.editor, s.document, 20);
+    session_key(&s, KEY_HOME, MOD_CTRL);
+    playback_seek(s.editor, s.document, 50);
+    session_key(&s, KEY_END, MOD_CTRL);
+    assert_true(playback->has_range);
+    assert_near(playback->range[0], 20, 0);
+    assert_near(playback->range[1], 50, 0);
+    session_close(&s);
+}
+
+static void test_a_key_kept_down_is_one_press_where_it_should(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    session_hold(&s, '6', ACTION_PRESS);
+    for (int i = 0; i < 3; i++) {
+        session_send(&s, (struct event){.kind = EVENT_TEXT, .codepoint = '-'});
+        session_frame(&s);
+        session_hold(&s, '6', ACTION_REPEAT);
+    }
+    assert_near(s.editor->playback.speed, 0.5, 0);
+    session_close(&s);
+}
+
+static void test_a_key_that_closes_something_types_nothing(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    session_key(&s, KEY_F1, 0);
+    session_type(&s, ".");
+    assert_false(s.editor->help.open);
+    assert_int_equal(selection_count(&s.editor->selection, &s.document->splines[0]), 0);
+    session_type(&s, ".");
+    assert_int_equal(selection_count(&s.editor->selection, &s.document->splines[0]), 1);
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_layout_has_a_key_for_every_action),
+        cmocka_unit_test(test_no_key_is_bound_twice),
+        cmocka_unit_test(test_a_factor_is_what_is_typed),
+        cmocka_unit_test(test_punctuation_is_what_is_typed),
+        cmocka_unit_test(test_a_part_is_played_without_brackets),
+        cmocka_unit_test(test_a_key_kept_down_is_one_press_where_it_should),
+        cmocka_unit_test(test_a_key_that_closes_something_types_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
