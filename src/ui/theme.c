@@ -57,7 +57,7 @@ static const struct theme themes[THEME_COUNT] = {
                       .ground = 0xF4F3EFFFu,
                       .shadow = 0x4A4640FFu,
                       .bounce = 0x8A8378FFu},
-            .spline = {0xC75D00FFu, 0x1B75C7FFu, 0xA1638EFFu, 0x4C764EFFu, 0x343B46FFu, 0xA73408FFu},
+            .spline = {0xC25F00FFu, 0x1775C8FFu, 0x9E6690FFu, 0x4D7552FFu, 0x333B46FFu, 0xA43023FFu},
         },
 };
 
