@@ -126,7 +126,7 @@ static void check_controls(void)
     const unsigned panels = ON(PANEL) | ON(FIELD) | ON(OUTSIDE);
     const struct use uses[] = {
         {"an outline or a thumb", t->control, panels},
-        {"an outline under the pointer, a slider's handle, a toggle's knob, an icon or a grip", t->text_dim,
+        {"an outline under the pointer, a slider's handle or strip, a toggle's knob, an icon or a grip", t->text_dim,
          panels | ON(FILL) | ON(HOVER) | ON(HORIZON) | ON(GROUND)},
         {"focus, what is chosen, a held handle, or an icon that is lit", t->accent, panels | ON(FILL) | ON(HOVER)},
         {"a refused field", t->error, panels},
@@ -150,7 +150,7 @@ static void check_curves(void)
     for (int i = 0; i < THEME_SPLINE_COLORS; i++) {
         const uint32_t color = theme()->spline[i];
         const uint32_t other = color_blend(theme_fade(color, THEME_OTHERS), theme()->panel);
-        const struct use use[] = {{"a curve", color, ON(PANEL) | ON(FIELD) | ON(OUTSIDE)},
+        const struct use use[] = {{"a curve or a swatch", color, ON(PANEL) | ON(FIELD) | ON(OUTSIDE) | ON(FILL)},
                                   {"another curve", other, ON(PANEL)}};
         check_uses(use, 2, 3);
         assert_contrast(theme_readable(color, theme()->panel, 4.5f), theme()->panel, 4.5f);

@@ -266,14 +266,14 @@ static float handle_x(struct rect field, float at) { return field.x + fmaxf(3, f
 static void paint_strip(struct ui *ui, struct rect field, float zero, float at, bool hot)
 {
     const float height = 2;
-    struct rect strip = {field.x + fminf(at, zero), field.y + field.h - height - 2, fabsf(at - zero), height};
+    struct rect strip = {field.x + fminf(at, zero), field.y + field.h - height - 1, fabsf(at - zero), height};
     drawlist_rect(ui->list, strip, hot ? theme()->accent : theme()->text_dim);
     float x = handle_x(field, at);
     drawlist_rect(ui->list, (struct rect){x, strip.y - 2, 2, height + 2}, hot ? theme()->accent : theme()->text);
     drawlist_rect(ui->list, (struct rect){field.x + zero - 0.5f, strip.y - 1, 1, height + 1}, theme()->text_dim);
 }
 
-/// Filled from the left end to the value. The handle is a notch where the text, `text_width` wide at the right, would be
+/// Filled from the left end to the value, faintly, as text stands on it; the strip below is what is seen from afar. The handle is a notch where the text, `text_width` wide at the right, would be
 /// struck through.
 static void paint_bar(struct ui *ui, struct rect field, const struct ui_number *number, double value,
                       float text_width, bool hot, bool held)
@@ -289,9 +289,11 @@ static void paint_bar(struct ui *ui, struct rect field, const struct ui_number *
     drawlist_rounded(ui->list, field, UI_RADIUS, fill);
     drawlist_set_clip(ui->list, old);
     float x = handle_x(field, at);
+    struct rect strip = {field.x + 3, field.y + field.h - 3, fmaxf(0, x - field.x - 3), 2};
+    drawlist_rect(ui->list, strip, held || hot ? theme()->accent : theme()->text_dim);
     float text = field.x + field.w - UI_GAP - text_width;
     bool under = x > text - 4 && x < text + text_width + 2;
-    struct rect handle = {x, field.y + (under ? field.h - 6 : 4), 2, under ? 4 : field.h - 8};
+    struct rect handle = {x, field.y + (under ? field.h - 6 : 4), 2, under ? 4 : field.h - 7};
     drawlist_rect(ui->list, handle, held || hot ? theme()->accent : theme()->text_dim);
 }
 
