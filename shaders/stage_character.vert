@@ -20,11 +20,13 @@ uniform vec3 map_axis;  // the direction of movement that is shown, divided by i
 out vec3 world;
 out vec3 world_normal;
 out vec3 fur;
+out vec2 phase;
 out float open_sky;
 
-// Lightness and largest chroma of the phase map, and the power of the amplitude in it (see ui/phase_color.h).
-const float LIGHTNESS = 0.76;
-const float CHROMA = 0.12;
+// The phase map's colours: see ui/phase_color.h.
+const float LIGHTNESS = 0.70;
+const float CHROMA = 0.10;
+const vec2 SWING = vec2(0.09298, 0.19939);
 const float SPREAD = 0.6;
 
 void add_coordinate(int row, vec2 z, inout vec3 moved, inout vec3 u, inout vec3 v)
@@ -40,10 +42,9 @@ void add_coordinate(int row, vec2 z, inout vec3 moved, inout vec3 u, inout vec3 
     v += z.x * d.xyz - z.y * vec3(d.w, e.xy);
 }
 
-// Linear RGB of a point in Oklab's plane of the map's lightness.
-vec3 oklab(vec2 ab)
+vec3 linear_of_oklab(float lightness, vec2 ab)
 {
-    vec3 lms = vec3(LIGHTNESS) + vec3(0.3963377774 * ab.x + 0.2158037573 * ab.y,
+    vec3 lms = vec3(lightness) + vec3(0.3963377774 * ab.x + 0.2158037573 * ab.y,
                                       -0.1055613458 * ab.x - 0.0638541728 * ab.y, -0.0894841775 * ab.x - 1.2914855480 * ab.y);
     lms = lms * lms * lms;
     return vec3(dot(lms, vec3(4.0767416621, -3.3077115913, 0.2309699292)),
@@ -51,14 +52,19 @@ vec3 oklab(vec2 ab)
                 dot(lms, vec3(-0.0041960863, -0.7034186147, 1.7076147010)));
 }
 
-// Phase as hue, amplitude as chroma: the movement along map_axis is a point in the plane of both.
-vec3 phase_color()
+// The movement along map_axis, as a share of the largest: phase and amplitude as an angle and a length.
+vec2 mapped_movement()
 {
     ivec2 at = ivec2(5 * (gl_VertexID & 127), map_row + (gl_VertexID >> 7));
     vec4 a = texelFetch(coordinates, at, 0);
     vec4 b = texelFetch(coordinates, at + ivec2(1, 0), 0);
-    vec2 z = vec2(dot(a.xyz, map_axis), dot(vec3(a.w, b.xy), map_axis));
-    return oklab(CHROMA * pow(max(length(z), 1e-6), SPREAD - 1.0) * z);
+    return vec2(dot(a.xyz, map_axis), dot(vec3(a.w, b.xy), map_axis));
+}
+
+vec3 phase_color(vec2 z)
+{
+    vec2 shown = pow(max(length(z), 1e-6), SPREAD - 1.0) * z;
+    return linear_of_oklab(LIGHTNESS + dot(SWING, shown), CHROMA * vec2(-shown.y, shown.x));
 }
 
 void main()
@@ -71,7 +77,8 @@ void main()
     // What the deformation makes of both tangents spans the surface; squeezed flat, there is no direction and no NaN.
     vec3 across = cross(u, v);
     world_normal = across / max(length(across), 1e-9);
-    fur = map_row >= 0 ? phase_color() : color;
+    phase = map_row >= 0 ? mapped_movement() : vec2(0.0);
+    fur = map_row >= 0 ? phase_color(phase) : color;
     open_sky = 0.45 + 0.55 * smoothstep(0.0, shade.y, world.y - shade.x);
     vec3 ray = world - eye;
     gl_Position = clip_from_world * vec4(world + seam * (1.3 * length(ray) * world_normal + 2.5 * ray), 1.0);

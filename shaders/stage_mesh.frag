@@ -3,11 +3,13 @@
 in vec3 world;
 in vec3 world_normal;
 in vec3 fur;
+in vec2 phase; // of the phase map: movement as a share of the largest, at the angle by which it leads
 in float open_sky;
 uniform vec3 eye;
 uniform vec3 key_from;
 uniform vec3 earth; // the light that comes up from the ground
 uniform float seam; // 0 in the first pass
+uniform float line; // pixels: width of the phase map's lines; 0 where no phases are shown
 out vec4 pixel;
 
 const vec3 KEY = vec3(1.0, 0.8796, 0.7157);      // #FFF1DC
@@ -34,6 +36,25 @@ float seam_opacity(vec3 to_eye)
     return clamp(0.5 * facing * abs(facing) / max(slope * flat_facing, 1e-6), 0.0, 1.0);
 }
 
+// Dark lines on the phase map between each eighth of a turn and the next, so that phases are told apart without hue and in any
+// light. What is in step has none across it. They fade where they would run together, and where next to nothing moves,
+// as phases mean nothing there.
+vec3 with_phase_lines(vec3 color)
+{
+    const float EIGHTH = 0.785398163;
+    float amplitude = length(phase);
+    vec2 dx = dFdx(phase);
+    vec2 dy = dFdy(phase);
+    // Radians a pixel; unlike fwidth of the angle, it has no jump where half a turn ahead becomes half a turn behind.
+    float slope = length(vec2(phase.x * dx.y - phase.y * dx.x, phase.x * dy.y - phase.y * dy.x)) /
+                  max(amplitude * amplitude, 1e-9);
+    float turn = amplitude > 0.0 ? atan(phase.y, phase.x) / EIGHTH : 0.0;
+    float pixels = EIGHTH / max(slope, 1e-6); // from one line to the next
+    float covered = clamp(0.5 * line + 0.5 - abs(fract(turn) - 0.5) * pixels, 0.0, 1.0);
+    covered *= smoothstep(3.0 * line, 8.0 * line, pixels) * smoothstep(0.05, 0.12, amplitude);
+    return color * (1.0 - 0.8 * covered);
+}
+
 void main()
 {
     vec3 n = direction(world_normal);
@@ -44,6 +65,7 @@ void main()
     float upward = 0.5 + 0.5 * n.y;
     vec3 light = KEY * key + mix(earth, SKY, upward) * open_sky;
     // The rim is the sky's: what faces the ground has less of it.
-    vec3 linear = fur * light * EXPOSURE + RIM * (0.35 * graze * graze * graze * open_sky * upward);
+    vec3 coat = line > 0.0 ? with_phase_lines(fur) : fur;
+    vec3 linear = coat * light * EXPOSURE + RIM * (0.35 * graze * graze * graze * open_sky * upward);
     pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), seam > 0.0 ? seam_opacity(to_eye) : 1.0);
 }

@@ -13,6 +13,7 @@ layout(std140) uniform Joints { vec4 rows[3 * 257]; };
 out vec3 world;
 out vec3 world_normal;
 out vec3 fur;
+out vec2 phase; // none
 out float open_sky;
 
 // Blends in what the joints do to a point: rows of bind → world, and how the weights' change along the tail moves it.
@@ -58,6 +59,7 @@ void main()
                      cross(across, upward) * normal.z;
     world_normal = cofactors / max(length(cofactors), 1e-9);
     fur = color;
+    phase = vec2(0.0);
     open_sky = 0.45 + 0.55 * smoothstep(0.0, 0.35 * shape.x, world.y - shape.w);
     // The seam is the same skin, 1.3 pixels larger (1 is too little where facets are large) and pushed back behind
     // the first pass: only what sticks out is seen.

@@ -1,4 +1,5 @@
 #include "legible.h"
+#include "color.h"
 #include "near.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -50,17 +51,6 @@ static bool is_hidden(const struct drawlist *list, int after, int before, struct
     return false;
 }
 
-static uint32_t blend(uint32_t over, uint32_t under)
-{
-    const float alpha = (float)(over & 0xFFu) / 255;
-    uint32_t color = 0xFFu;
-    for (int shift = 8; shift < 32; shift += 8) {
-        float a = (float)(over >> shift & 0xFFu), b = (float)(under >> shift & 0xFFu);
-        color |= (uint32_t)lroundf(b + (a - b) * alpha) << shift;
-    }
-    return color;
-}
-
 /// The contrast of a text over `base` with all that was painted over it there before.
 static float contrast_over(const struct drawlist *list, const struct text *text, uint32_t base)
 {
@@ -69,9 +59,9 @@ static float contrast_over(const struct drawlist *list, const struct text *text,
     uint32_t color = base;
     for (int i = 0; i < at; i++) {
         const struct draw_command *c = &list->commands[i];
-        if (is_fill(c) && covers(c->bounds, middle)) color = blend(c->color, color);
+        if (is_fill(c) && covers(c->bounds, middle)) color = color_blend(c->color, color);
     }
-    return theme_contrast(blend(list->commands[at].color, color), color);
+    return theme_contrast(color_blend(list->commands[at].color, color), color);
 }
 
 static float contrast_of(const struct drawlist *list, const struct text *text, const struct legible_ground *ground)
@@ -79,7 +69,8 @@ static float contrast_of(const struct drawlist *list, const struct text *text, c
     const struct rect r = text->ink;
     const struct stage_colors *stage = &theme()->stage;
     if (!rect_contains(ground->stage, r.x + r.w / 2, r.y + r.h / 2)) return contrast_over(list, text, theme()->panel);
-    return fminf(contrast_over(list, text, stage->top), contrast_over(list, text, stage->bottom));
+    float least = fminf(contrast_over(list, text, stage->top), contrast_over(list, text, stage->bottom));
+    return fminf(least, contrast_over(list, text, stage->ground));
 }
 
 static int check_place(const struct drawlist *list, const struct draw_command *c, const struct legible_ground *ground,

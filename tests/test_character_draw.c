@@ -28,6 +28,7 @@ static void draw(const struct stage_character *character, picture pixels)
     const float lo[3] = {-1, 0, -1}, hi[3] = {1, 1.5f, 1};
     struct camera camera = camera_default();
     memset(&view, 0, sizeof view);
+    view.viewport = (struct rect){0, 0, WIDTH, HEIGHT};
     view.colors = theme()->stage;
     camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT);
     camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
@@ -140,35 +141,78 @@ static void paint_shows_on_the_stage(void **state)
     free(paint);
 }
 
-/// The shader's phase map is the legend's.
-static void phases_are_the_legends_colours(void **state)
+/// A puppet whose phase along z is `phase` at its feet and grows by `more` a metre upwards.
+static struct character phased(float phase, float more)
 {
-    (void)state;
-    if (!platform) skip();
-    struct character mapped = puppet_character(0.03f, 2), painted = puppet_character(0.03f, 0);
-    for (int i = 0; i < mapped.vertex_count; i++) {
-        const float angle = 6.0f * mapped.position[i][1], amplitude = mapped.position[i][1];
-        mapped.coordinates[1].re[i][2] = amplitude * cosf(angle);
-        mapped.coordinates[1].im[i][2] = amplitude * sinf(angle);
+    struct character character = puppet_character(0.03f, 2);
+    for (int i = 0; i < character.vertex_count; i++) {
+        const float y = character.position[i][1], angle = phase + more * y;
+        character.coordinates[1].re[i][2] = y * cosf(angle);
+        character.coordinates[1].im[i][2] = y * sinf(angle);
     }
-    struct figure figure = puppet_figure(&mapped);
-    for (int i = 0; i < painted.vertex_count; i++) {
-        const struct coordinate *c = &figure.character.coordinates[1];
-        const float largest = figure.largest[1][2];
+    return character;
+}
+
+/// Draws a figure twice: by the shader's phase map into `one`, painted with the legend's colours into `other`.
+static void draw_mapped(const struct figure *figure)
+{
+    struct character painted = puppet_character(0.03f, 0);
+    const struct coordinate *c = &figure->character.coordinates[1];
+    const float largest = figure->largest[1][2];
+    for (int i = 0; i < painted.vertex_count; i++)
         phase_color_linear(c->re[i][2] / largest, c->im[i][2] / largest, painted.color[i]);
-    }
     struct figure painted_figure = puppet_figure(&painted);
-    struct stage_character by_shader = shown(&figure), by_hand = shown(&painted_figure);
+    struct stage_character by_shader = shown(figure), by_hand = shown(&painted_figure);
     by_shader.map_coordinate = 1;
     by_shader.map_axis = 2;
     draw(&by_shader, one);
     draw(&by_hand, other);
-    assert_int_equal(differing(one, other, 2), 0);
-    by_shader.map_axis = 0; // nothing moves along x: grey
-    draw(&by_shader, one);
-    assert_true(differing(one, other, 20) > 1000);
-    figure_free(&figure);
     figure_free(&painted_figure);
+}
+
+/// The shader's phase map has the legend's colours, all around; where nothing moves it is grey.
+static void phases_are_the_legends_colours(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    for (int eighth = 0; eighth < 8; eighth++) {
+        struct character mapped = phased((float)eighth * 0.785398163f - 0.15f, 0.3f);
+        struct figure figure = puppet_figure(&mapped);
+        draw_mapped(&figure);
+        assert_int_equal(differing(one, other, 2), 0);
+        struct stage_character still = shown(&figure);
+        still.map_coordinate = 1;
+        still.map_axis = 0;
+        draw(&still, one);
+        assert_true(differing(one, other, 20) > 1000);
+        figure_free(&figure);
+    }
+}
+
+/// Between two eighths of a turn there is a thin dark line, wherever on the circle; it has no gap to either side of where half
+/// a turn ahead is half a turn behind.
+static void a_line_divides_eighths_of_a_turn(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    for (int eighth = 0; eighth < 8; eighth++) {
+        struct character mapped = phased(((float)eighth + 0.5f) * 0.785398163f - 0.45f, 0.7f);
+        struct figure figure = puppet_figure(&mapped);
+        draw_mapped(&figure);
+        int rows = 0, lit = 0;
+        for (int y = 0; y < HEIGHT; y++) {
+            int dark = 0;
+            for (int x = 0; x < WIDTH; x++) {
+                dark += other[y][x][1] - one[y][x][1] > 15;
+                lit += one[y][x][1] - other[y][x][1] > 2;
+            }
+            rows += dark > 0;
+        }
+        assert_int_equal(lit, 0);
+        assert_in_range(differing(one, other, 15), 20, 1000);
+        assert_in_range(rows, 1, HEIGHT / 4);
+        figure_free(&figure);
+    }
 }
 
 int main(void)
@@ -178,6 +222,7 @@ int main(void)
         cmocka_unit_test(normals_follow_on_the_stage),
         cmocka_unit_test(paint_shows_on_the_stage),
         cmocka_unit_test(phases_are_the_legends_colours),
+        cmocka_unit_test(a_line_divides_eighths_of_a_turn),
     };
     return cmocka_run_group_tests(tests, set_up, offscreen_close);
 }

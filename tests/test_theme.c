@@ -1,5 +1,8 @@
-// Both themes: every text can be read on what it stands on, and the splines are told apart, by colour-blind eyes too.
+// Both themes: every text can be read on what it stands on, controls are seen, and splines and phases are told apart, by
+// colour-blind eyes too.
+#include "color.h"
 #include "near.h"
+#include "ui/phase_color.h"
 #include "ui/theme.h"
 #include <math.h>
 
@@ -31,21 +34,82 @@ static void test_contrast_is_the_definition(void **state)
     assert_near((double)theme_contrast(0x123456FFu, 0x123456FFu), 1, 1e-6);
 }
 
+/// What lies under texts and controls, as it is seen.
+enum surface {
+    PANEL,   ///< of curves, inspector, status line, dialogs, help
+    FIELD,   ///< fields, popups, warnings, a row under the pointer, the plot of poles
+    OUTSIDE, ///< the plot before and after the scene's range
+    FILL,    ///< the filled part of a bar, buttons, a selected row, an icon under the pointer
+    HOVER,   ///< the same under the pointer; the chosen segment
+    HELD,    ///< the filled part of a bar that is dragged
+    MARKED,  ///< selected text
+    RANGE,   ///< the ruler where only a part of the scene plays
+    LEGEND,  ///< of the phase map, over the brightest of the stage
+    SKY,     ///< of the stage, at the top
+    HORIZON, ///< at the bottom
+    GROUND,  ///< where it is brightest
+    PRIMARY, ///< the main button, a toggle that is on
+    TAG,     ///< of the frame
+    SURFACES
+};
+
+static uint32_t surface(enum surface which)
+{
+    const struct theme *t = theme();
+    const uint32_t legend = (t->panel & 0xFFFFFF00u) | 0xD8u;
+    const uint32_t seen[SURFACES] = {[PANEL] = t->panel,
+                                     [FIELD] = t->raised,
+                                     [OUTSIDE] = t->outside,
+                                     [FILL] = t->fill,
+                                     [HOVER] = t->hover,
+                                     [HELD] = color_blend(theme_fade(t->accent, 0.35f), t->raised),
+                                     [MARKED] = color_blend(theme_fade(t->accent, 0.3f), t->raised),
+                                     [RANGE] = color_blend(theme_fade(t->accent, 0.14f), t->panel),
+                                     [LEGEND] = color_blend(legend, t->stage.ground),
+                                     [SKY] = t->stage.top,
+                                     [HORIZON] = t->stage.bottom,
+                                     [GROUND] = t->stage.ground,
+                                     [PRIMARY] = t->accent,
+                                     [TAG] = t->playhead};
+    return seen[which];
+}
+
+/// A colour of the theme and the surfaces, as bits, on which the app has it.
+struct use {
+    const char *what;
+    uint32_t color;
+    unsigned on;
+};
+
+static void check_uses(const struct use *uses, size_t count, float least)
+{
+    for (size_t i = 0; i < count; i++) {
+        for (int s = 0; s < SURFACES; s++) {
+            if (!(uses[i].on >> s & 1u)) continue;
+            const float contrast = theme_contrast(uses[i].color, surface((enum surface)s));
+            if (contrast >= least) continue;
+            fail_msg("%s theme: %s, #%06X on #%06X, has a contrast of %.2f", theme()->name, uses[i].what,
+                     uses[i].color >> 8, surface((enum surface)s) >> 8, (double)contrast);
+        }
+    }
+}
+
+#define ON(surface) (1u << (surface))
+
 static void check_text(void)
 {
     const struct theme *t = theme();
-    const uint32_t texts[] = {t->text, t->text_dim, t->accent, t->warning, t->error};
-    const uint32_t under[] = {t->panel, t->raised, t->outside};
-    const uint32_t under_text[] = {t->fill, t->hover, t->stage.top, t->stage.bottom, t->stage.ground};
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
-        for (size_t k = 0; k < sizeof under / sizeof *under; k++) assert_contrast(texts[i], under[k], 4.5f);
-    }
-    for (size_t k = 0; k < sizeof under_text / sizeof *under_text; k++) {
-        assert_contrast(t->text, under_text[k], 4.5f);
-    }
-    assert_contrast(t->text_dim, t->stage.top, 4.5f); // a scene's caption
-    assert_contrast(t->panel, t->accent, 4.5f);       // the main button
-    assert_contrast(t->panel, t->playhead, 4.5f);     // the frame's tag
+    const unsigned panels = ON(PANEL) | ON(FIELD) | ON(OUTSIDE),
+                   stage = ON(SKY) | ON(HORIZON) | ON(GROUND) | ON(LEGEND);
+    const struct use uses[] = {
+        {"text", t->text, panels | stage | ON(FILL) | ON(HOVER) | ON(HELD) | ON(MARKED) | ON(RANGE)},
+        {"dimmed text", t->text_dim, panels | stage | ON(FILL) | ON(HOVER) | ON(RANGE)},
+        {"accent", t->accent, panels},
+        {"a warning", t->warning, panels},
+        {"an error", t->error, panels},
+        {"what is on accent or a tag", t->panel, ON(PRIMARY) | ON(TAG)},
+    };
+    check_uses(uses, sizeof uses / sizeof *uses, 4.5f);
 }
 
 static void test_text_can_be_read(void **state)
@@ -54,86 +118,146 @@ static void test_text_can_be_read(void **state)
     each_theme(check_text);
 }
 
-static void check_lines(void)
+/// What shows that there is a control, and its state: WCAG 2.2, success criterion 1.4.11. Grids and hairlines between sections
+/// are decoration.
+static void check_controls(void)
+{
+    const struct theme *t = theme();
+    const unsigned panels = ON(PANEL) | ON(FIELD) | ON(OUTSIDE);
+    const struct use uses[] = {
+        {"an outline or a thumb", t->control, panels},
+        {"an outline under the pointer, a slider's handle or strip, a toggle's knob, an icon or a grip", t->text_dim,
+         panels | ON(FILL) | ON(HOVER) | ON(HORIZON) | ON(GROUND)},
+        {"focus, what is chosen, a held handle, or an icon that is lit", t->accent, panels | ON(FILL) | ON(HOVER)},
+        {"a refused field", t->error, panels},
+        {"a toggle's knob", t->panel, ON(PRIMARY)},
+        {"a grip under the pointer", t->text, panels | ON(HORIZON) | ON(GROUND)},
+        {"the playhead, a ring, or a box", t->playhead, panels},
+        {"the equilibrium", t->equilibrium, panels},
+        {"a triangle that warns", t->warning, panels},
+    };
+    check_uses(uses, sizeof uses / sizeof *uses, 3);
+}
+
+static void test_controls_are_seen(void **state)
+{
+    (void)state;
+    each_theme(check_controls);
+}
+
+static void check_curves(void)
 {
     for (int i = 0; i < THEME_SPLINE_COLORS; i++) {
-        assert_contrast(theme()->spline[i], theme()->panel, 3);
-        assert_contrast(theme_readable(theme()->spline[i], theme()->panel, 4.5f), theme()->panel, 4.5f);
-        assert_true(theme_spline(theme_spline_rgb(i)) == theme()->spline[i]);
+        const uint32_t color = theme()->spline[i];
+        const uint32_t other = color_blend(theme_fade(color, THEME_OTHERS), theme()->panel);
+        const struct use use[] = {{"a curve or a swatch", color, ON(PANEL) | ON(FIELD) | ON(OUTSIDE) | ON(FILL)},
+                                  {"another curve", other, ON(PANEL)}};
+        check_uses(use, 2, 3);
+        assert_contrast(theme_readable(color, theme()->panel, 4.5f), theme()->panel, 4.5f);
+        assert_true(theme_spline(theme_spline_rgb(i)) == color);
     }
     assert_contrast(theme_spline(0x101010), theme()->panel, 3);
     assert_contrast(theme_spline(0xFFFFF0), theme()->panel, 3);
-    assert_contrast(theme()->playhead, theme()->panel, 3);
-    assert_contrast(theme()->equilibrium, theme()->panel, 3);
 }
 
-static void test_lines_are_seen(void **state)
+static void test_curves_are_seen(void **state)
 {
     (void)state;
-    each_theme(check_lines);
+    each_theme(check_curves);
 }
 
-static double linear(uint32_t color, int shift)
+/// Table 1 of Sharma, Wu and Dalal 2005: pairs at which implementations of CIEDE2000 go wrong.
+static void test_differences_are_ciede2000(void **state)
 {
-    double value = (color >> shift & 0xFFu) / 255.0;
-    return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
-}
-
-static double lab_curve(double t) { return t > 216.0 / 24389 ? cbrt(t) : t * 841 / 108 + 4.0 / 29; }
-
-/// CIE L*a*b* (D65) of a colour as seen with one kind of cone missing (Machado, Oliveira, Fernandes 2009, severity 1),
-/// or, for NULL, with all.
-static void seen_lab(uint32_t color, const double missing[9], double lab[3])
-{
-    static const double whole[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    static const double xyz_of[9] = {0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505};
-    static const double white[3] = {0.9505, 1, 1.089};
-    const double rgb[3] = {linear(color, 24), linear(color, 16), linear(color, 8)};
-    const double *m = missing ? missing : whole;
-    double seen[3], f[3];
-    for (int r = 0; r < 3; r++) {
-        double sum = m[3 * r] * rgb[0] + m[3 * r + 1] * rgb[1] + m[3 * r + 2] * rgb[2];
-        seen[r] = fmin(fmax(sum, 0), 1);
+    (void)state;
+    static const struct {
+        double one[3], other[3], difference;
+    } pairs[] = {
+        {{50, 2.6772, -79.7751}, {50, 0, -82.7485}, 2.0425},
+        {{50, -1.3802, -84.2814}, {50, 0, -82.7485}, 1.0000},
+        {{50, 0, 0}, {50, -1, 2}, 2.3669},
+        {{50, 2.49, -0.001}, {50, -2.49, 0.0009}, 7.1792},
+        {{50, 2.49, -0.001}, {50, -2.49, 0.0011}, 7.2195},
+        {{50, -0.001, 2.49}, {50, 0.0011, -2.49}, 4.7461},
+        {{50, 2.5, 0}, {73, 25, -18}, 27.1492},
+        {{50, 2.5, 0}, {58, 24, 15}, 19.4535},
+        {{60.2574, -34.0099, 36.2677}, {60.4626, -34.1751, 39.4387}, 1.2644},
+        {{22.7233, 20.0904, -46.6940}, {23.0331, 14.9730, -42.5619}, 2.0373},
+        {{2.0776, 0.0795, -1.1350}, {0.9033, -0.0636, -0.5514}, 0.9082},
+    };
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        assert_near(color_lab_difference(pairs[i].one, pairs[i].other), pairs[i].difference, 5e-5);
+        assert_near(color_lab_difference(pairs[i].other, pairs[i].one), pairs[i].difference, 5e-5);
     }
-    for (int r = 0; r < 3; r++) {
-        f[r] = lab_curve((xyz_of[3 * r] * seen[0] + xyz_of[3 * r + 1] * seen[1] + xyz_of[3 * r + 2] * seen[2]) /
-                         white[r]);
-    }
-    lab[0] = 116 * f[1] - 16;
-    lab[1] = 500 * (f[0] - f[1]);
-    lab[2] = 200 * (f[1] - f[2]);
 }
 
-/// ΔE (CIE 1976) of two spline colours; about 2.3 is just noticeable, and thin lines need several times that.
-static void assert_apart(int i, int j, const double missing[9], const char *eyes)
+/// Greys stay what they are to all eyes; colours that one kind confuses come together.
+static void test_eyes_are_blind_to_what_they_should_be(void **state)
 {
-    double a[3], b[3];
-    seen_lab(theme()->spline[i], missing, a);
-    seen_lab(theme()->spline[j], missing, b);
-    double distance = sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
-    if (distance < 15) print_error("%s theme, %s: %d and %d are %.1f apart\n", theme()->name, eyes, i, j, distance);
-    assert_true(distance >= 15);
+    (void)state;
+    static const struct {
+        enum color_eyes eyes;
+        uint32_t one, other;
+    } confused[] = {
+        {EYES_PROTANOPIA, 0xA05000FFu, 0x5A5F00FFu},           {EYES_DEUTERANOPIA, 0xC06A00FFu, 0x808000FFu},
+        {EYES_TRITANOPIA, 0x30A0C0FFu, 0x30A890FFu},           {EYES_PROTANOPIA_BRETTEL, 0xA05000FFu, 0x5A5F00FFu},
+        {EYES_DEUTERANOPIA_BRETTEL, 0xC06A00FFu, 0x808000FFu}, {EYES_TRITANOPIA_BRETTEL, 0x30A0C0FFu, 0x30A890FFu},
+    };
+    for (int eyes = 0; eyes < EYES_COUNT; eyes++) {
+        double lab[3];
+        color_lab(0x777777FFu, (enum color_eyes)eyes, lab);
+        assert_near(lab[0], 50.03, 0.02); // of #777777 by definition: 116 ∛0.1845 − 16
+        assert_near(hypot(lab[1], lab[2]), 0, 0.05);
+    }
+    for (size_t i = 0; i < sizeof confused / sizeof *confused; i++) {
+        const double all = color_difference(confused[i].one, confused[i].other, EYES_WITH_ALL_CONES);
+        const double seen = color_difference(confused[i].one, confused[i].other, confused[i].eyes);
+        assert_true(seen < 0.2 * all);
+    }
+}
+
+/// Every two of the colours are 10 or more apart to all eyes.
+static void assert_apart(const uint32_t *colors, int count, const char *what)
+{
+    for (int eyes = 0; eyes < EYES_COUNT; eyes++) {
+        for (int i = 0; i < count; i++) {
+            for (int j = 0; j < i; j++) {
+                const double apart = color_difference(colors[i], colors[j], (enum color_eyes)eyes);
+                if (apart >= 10) continue;
+                fail_msg("%s theme, %s: %s %d and %d, #%06X and #%06X, are %.1f apart", theme()->name,
+                         color_eyes_name((enum color_eyes)eyes), what, j, i, colors[j] >> 8, colors[i] >> 8, apart);
+            }
+        }
+    }
 }
 
 static void check_splines(void)
 {
-    static const double no_red[9] = {0.152286, 1.052583,  -0.204868, 0.114503, 0.786281,
-                                     0.099216, -0.003882, -0.048116, 1.051998};
-    static const double no_green[9] = {0.367322, 0.860646,  -0.227968, 0.280085, 0.672501,
-                                       0.047413, -0.011820, 0.042940,  0.968881};
-    for (int i = 0; i < THEME_SPLINE_COLORS; i++) {
-        for (int j = 0; j < i; j++) {
-            assert_apart(i, j, NULL, "all cones");
-            assert_apart(i, j, no_red, "no red cones");
-            assert_apart(i, j, no_green, "no green cones");
-        }
-    }
+    uint32_t others[THEME_SPLINE_COLORS];
+    for (int i = 0; i < THEME_SPLINE_COLORS; i++)
+        others[i] = color_blend(theme_fade(theme()->spline[i], THEME_OTHERS), theme()->panel);
+    assert_apart(theme()->spline, THEME_SPLINE_COLORS, "splines");
+    assert_apart(others, THEME_SPLINE_COLORS, "splines that are not active");
 }
 
 static void test_splines_are_apart(void **state)
 {
     (void)state;
     each_theme(check_splines);
+}
+
+/// All eighths of a turn, not only neighbours, where the amplitude is the largest. Between them the surface has lines:
+/// a_line_divides_eighths_of_a_turn in test_character_draw.c.
+static void test_phases_are_apart(void **state)
+{
+    (void)state;
+    enum { PHASES = 8 };
+    uint32_t colors[PHASES];
+    for (int i = 0; i < PHASES; i++) {
+        const float angle = 0.785398163f * (float)i;
+        colors[i] = phase_color(cosf(angle), sinf(angle));
+    }
+    assert_apart(colors, PHASES, "eighths of a turn");
 }
 
 static void test_names(void **state)
@@ -149,8 +273,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_contrast_is_the_definition),
         cmocka_unit_test(test_text_can_be_read),
-        cmocka_unit_test(test_lines_are_seen),
+        cmocka_unit_test(test_controls_are_seen),
+        cmocka_unit_test(test_curves_are_seen),
+        cmocka_unit_test(test_differences_are_ciede2000),
+        cmocka_unit_test(test_eyes_are_blind_to_what_they_should_be),
         cmocka_unit_test(test_splines_are_apart),
+        cmocka_unit_test(test_phases_are_apart),
         cmocka_unit_test(test_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,7 @@
 /// Widgets, driven by events as a person would: what is dragged, typed and chosen, and where the keyboard goes.
 #include "near.h"
 #include "ui/font.h"
+#include "ui/theme.h"
 #include "ui/widgets.h"
 #include <stdio.h>
 #include <string.h>
@@ -433,6 +434,41 @@ static void test_drawing_is_steady_and_fits(void **state)
     drawlist_destroy(&list);
 }
 
+/// Whether something goes around, or fills, all of `r` with a contrast of 3:1 against the panel.
+static bool is_seen(const struct drawlist *list, struct rect r)
+{
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *c = &list->commands[i];
+        const struct rect inside = rect_intersect(c->bounds, r);
+        if (c->kind == DRAW_TEXT || inside.w < r.w - 1 || inside.h < r.h - 1) continue;
+        if ((c->color & 0xFFu) == 0xFFu && theme_contrast(c->color, theme()->panel) >= 3) return true;
+    }
+    return false;
+}
+
+/// At rest, off and unfocused, each control has an outline or a fill of its own in both themes.
+static void test_controls_are_seen_where_they_are(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"speed", "offset", "kind", "on", "go"};
+    struct drawlist list;
+    assert_true(drawlist_create(&list, 1000, 10000, 10000));
+    for (int kind = 0; kind < THEME_COUNT; kind++) {
+        struct panel p = make_panel();
+        theme_use((enum theme_kind)kind);
+        drawlist_clear(&list, (struct rect){0, 0, 1280, 720});
+        ui_begin_draw(&p.ui, p.area, &list);
+        build(&p);
+        ui_end(&p.ui);
+        for (int i = 0; i < 5; i++) {
+            assert_true(p.ui.stop[i].id == ui_id(names[i]));
+            if (!is_seen(&list, p.ui.stop[i].rect)) fail_msg("%s theme: \"%s\" is not seen", theme()->name, names[i]);
+        }
+    }
+    theme_use(THEME_DARK);
+    drawlist_destroy(&list);
+}
+
 static int start(void **state)
 {
     (void)state;
@@ -458,6 +494,7 @@ int main(void)
         cmocka_unit_test(test_scrolling_is_limited_and_follows_the_focus),
         cmocka_unit_test(test_text_is_edited_by_characters),
         cmocka_unit_test(test_drawing_is_steady_and_fits),
+        cmocka_unit_test(test_controls_are_seen_where_they_are),
     };
     return cmocka_run_group_tests(tests, start, NULL);
 }

@@ -175,14 +175,15 @@ static void draw_animals(const struct stage_renderer *renderer, const struct sta
     glBindVertexArray(0);
 }
 
-static void draw_rigs(const struct stage_renderer *renderer, const struct stage_view *view, float seam)
+static void draw_rigs(const struct stage_renderer *renderer, const struct stage_view *view, float scale, float seam)
 {
     draw_animals(renderer, view, seam);
-    stage_morph_draw(renderer->morph, view, seam);
+    stage_morph_draw(renderer->morph, view, scale, seam);
 }
 
 void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, int x, int y, int width, int height)
 {
+    const float scale = (float)height / view->viewport.h;
     glViewport(x, y, width, height);
     glDisable(GL_DEPTH_TEST);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
@@ -191,12 +192,12 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_rigs(renderer, view, 0.0f);
+    draw_rigs(renderer, view, scale, 0.0f);
     // Edges without multisampling: a second skin, a pixel larger, fades out from the first one's silhouettes over
     // whatever is behind them, be it the background or the animal itself.
     glEnable(GL_BLEND);
     glDepthMask(GL_FALSE);
-    draw_rigs(renderer, view, 2.0f / (view->projection[5] * (float)height));
+    draw_rigs(renderer, view, scale, 2.0f / (view->projection[5] * (float)height));
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);

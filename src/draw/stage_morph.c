@@ -12,6 +12,8 @@ enum {
     SLOPE_FLOATS = sizeof(struct slope) / sizeof(float),
 };
 
+static const float PHASE_LINE = 1.25f; ///< logical pixels
+
 /// A figure's buffers.
 struct model {
     uint64_t id; ///< 0: free
@@ -25,7 +27,8 @@ struct model {
 struct stage_morph {
     GLuint program;
     struct {
-        GLint clip_from_world, eye, key_from, earth, place, shade, seam, count, first_row, weight, map_row, map_axis;
+        GLint clip_from_world, eye, key_from, earth, place, shade, seam, count, first_row, weight, map_row, map_axis,
+            line;
     } at;
     struct model models[MAX_KEPT];
     long clock;
@@ -59,6 +62,7 @@ struct stage_morph *stage_morph_create(struct error *error)
         {&morph->at.weight, "weight"},
         {&morph->at.map_row, "map_row"},
         {&morph->at.map_axis, "map_axis"},
+        {&morph->at.line, "line"},
     };
     for (size_t i = 0; i < sizeof uniforms / sizeof *uniforms; i++) {
         *uniforms[i].location = glGetUniformLocation(morph->program, uniforms[i].name);
@@ -211,7 +215,7 @@ void stage_morph_upload(struct stage_morph *morph, const struct stage_view *view
 }
 
 static void draw_character(const struct stage_morph *morph, const struct model *model,
-                           const struct stage_character *shown)
+                           const struct stage_character *shown, float scale)
 {
     const struct figure *figure = shown->figure;
     const float *p = shown->position;
@@ -228,13 +232,14 @@ static void draw_character(const struct stage_morph *morph, const struct model *
     axis[shown->map_axis] = largest > 0.0f ? 1.0f / largest : 0.0f;
     glUniform1i(morph->at.map_row, mapped ? model->rows * shown->map_coordinate : -1);
     glUniform3fv(morph->at.map_axis, 1, axis);
+    glUniform1f(morph->at.line, mapped ? PHASE_LINE * scale : 0.0f);
     glBindVertexArray(model->vertex_array);
     glBindTexture(GL_TEXTURE_2D, model->coordinates);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, shown->coarse ? model->coarse : model->fine);
     glDrawElements(GL_TRIANGLES, shown->coarse ? model->coarse_count : model->fine_count, GL_UNSIGNED_INT, NULL);
 }
 
-void stage_morph_draw(const struct stage_morph *morph, const struct stage_view *view, float seam)
+void stage_morph_draw(const struct stage_morph *morph, const struct stage_view *view, float scale, float seam)
 {
     float clip_from_world[16];
     if (view->character_count == 0) return;
@@ -248,7 +253,7 @@ void stage_morph_draw(const struct stage_morph *morph, const struct stage_view *
     for (int i = 0; i < view->character_count; i++) {
         const struct stage_character *shown = &view->characters[i];
         for (int m = 0; m < MAX_KEPT; m++) {
-            if (morph->models[m].id == shown->figure->id) draw_character(morph, &morph->models[m], shown);
+            if (morph->models[m].id == shown->figure->id) draw_character(morph, &morph->models[m], shown, scale);
         }
     }
     glBindVertexArray(0);

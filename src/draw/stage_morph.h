@@ -13,7 +13,7 @@ void stage_morph_destroy(struct stage_morph *morph);
 /// Uploads the figures that are seen for the first time, and what has changed of the others. Adds to `bytes`.
 void stage_morph_upload(struct stage_morph *morph, const struct stage_view *view, long *bytes);
 
-/// Draws the characters; `seam` as in stage_mesh.vert.
-void stage_morph_draw(const struct stage_morph *morph, const struct stage_view *view, float seam);
+/// Draws the characters; `scale` is device pixels a logical one, `seam` as in stage_mesh.vert.
+void stage_morph_draw(const struct stage_morph *morph, const struct stage_view *view, float scale, float seam);
 
 #endif

@@ -13,7 +13,7 @@ enum { SECTORS = 36, RINGS = 5, LEGEND_WIDTH = 196, LEGEND_HEIGHT = 132 };
 static const float WHEEL = 30; ///< radius
 static const float TEXT_SIZE = 11;
 
-/// Chroma grows outwards. Rings lie one on the other, and sectors overlap by a bit, so that no edge shows.
+/// Amplitude grows outwards. Rings lie one on the other, and sectors overlap by a bit, so that no edge shows.
 static void show_wheel(struct drawlist *list, float x, float y)
 {
     const float step = 6.28318531f / SECTORS;
@@ -25,6 +25,17 @@ static void show_wheel(struct drawlist *list, float x, float y)
                 x, y, x + radius * cosf(from), y - radius * sinf(from), x + radius * cosf(to), y - radius * sinf(to)};
             drawlist_convex(list, xy, 3, phase_color(amplitude * cosf(middle), amplitude * sinf(middle)));
         }
+    }
+}
+
+/// The lines that the map on the stage has, as stage_mesh.frag draws them.
+static void show_spokes(struct drawlist *list, float x, float y)
+{
+    for (int i = 0; i < 8; i++) {
+        const float angle = 0.785398163f * ((float)i + 0.5f), along = cosf(angle), up = sinf(angle),
+                    from = 0.2f * WHEEL;
+        const float xy[] = {x + from * along, y - from * up, x + WHEEL * along, y - WHEEL * up};
+        drawlist_line(list, xy, 2, 1.25f, 0x000000A0u);
     }
 }
 
@@ -52,6 +63,7 @@ static void show_legend(struct editor *editor, const struct coordinate *coordina
     drawlist_rounded(list, box, 6, (theme()->panel & 0xFFFFFF00u) | 0xD8u);
     drawlist_text_fit(list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL, TEXT_SIZE, theme()->text, title);
     show_wheel(list, x, y);
+    show_spokes(list, x, y);
     show_centred(list, x, y - WHEEL - 6, "ahead", theme()->text_dim);
     show_centred(list, x, y + WHEEL + 14, "behind", theme()->text_dim);
     drawlist_text(list, x + WHEEL + 8, y + 4, FONT_LABEL, TEXT_SIZE, theme()->text_dim, "in step");

@@ -55,10 +55,9 @@ static void show_lines(struct editor *editor, const struct editor_world *world)
     uint32_t color = arrange_color(world->document, editor->active);
     if (cache->count < 2) return;
     for (int i = 0; i < cache->other_count; i++) {
-        float alpha =
-            editor->hover.kind == HOVER_CURVE && editor->hover.spline == cache->other_spline[i] ? 0.7f : 0.35f;
+        const bool hot = editor->hover.kind == HOVER_CURVE && editor->hover.spline == cache->other_spline[i];
         show_line(editor, cache->others[i], 1.25f,
-                  theme_fade(arrange_color(world->document, cache->other_spline[i]), alpha));
+                  theme_fade(arrange_color(world->document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
     }
     if (!spline) return;
     show_ghost(editor);
@@ -207,7 +206,7 @@ static void show_other_knots(struct editor *editor, const struct document *docum
 {
     const struct spline *spline = &document->splines[s];
     const struct rect *plot = &editor->layout.plot;
-    uint32_t color = theme_fade(arrange_color(document, s), 0.55f);
+    uint32_t color = theme_fade(arrange_color(document, s), THEME_OTHERS);
     float last_x = -INFINITY;
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];

@@ -4,6 +4,7 @@
 #include "editor/follow.h"
 #include "editor/record.h"
 #include "ui/theme.h"
+#include <math.h>
 #include <stdio.h>
 
 static void press(struct editor *editor, const struct editor_world *world, const struct event *event)
@@ -138,11 +139,27 @@ static void update_hover(struct editor *editor, const struct editor_world *world
     if (rect_contains(editor->layout.status, x, y)) editor->hover = transport_hover(editor, x, y);
 }
 
+/// A short thick piece in the middle of a divider: the line alone does not look as if it could be dragged.
+static void show_grip(struct editor *editor, enum drag_kind divider, float x, float y)
+{
+    enum { LENGTH = 36, THICKNESS = 3 };
+    const bool across = divider == DRAG_STAGE_DIVIDER;
+    const float w = across ? LENGTH : THICKNESS, h = across ? THICKNESS : LENGTH;
+    const bool held = editor->drag.kind == divider;
+    const bool hot =
+        editor->drag.kind == DRAG_NONE && divider_at(editor, editor->pointer_x, editor->pointer_y) == divider;
+    const uint32_t color = held ? theme()->accent : hot ? theme()->text : theme()->text_dim;
+    drawlist_rounded(&editor->list, (struct rect){roundf(x - w / 2), roundf(y - h / 2), w, h}, THICKNESS / 2.0f,
+                     color);
+}
+
 static void show_dividers(struct editor *editor)
 {
     const struct layout *l = &editor->layout;
     drawlist_rect(&editor->list, (struct rect){0, l->curves.y, l->curves.w, 1}, theme()->border);
     drawlist_rect(&editor->list, (struct rect){l->inspector.x, 0, 1, l->inspector.h}, theme()->border);
+    show_grip(editor, DRAG_STAGE_DIVIDER, l->curves.w / 2, l->curves.y + 0.5f);
+    show_grip(editor, DRAG_INSPECTOR_DIVIDER, l->inspector.x + 0.5f, l->inspector.h / 2);
 }
 
 void editor_show(struct editor *editor, const struct editor_world *world)

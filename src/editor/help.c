@@ -202,7 +202,7 @@ static void show_bar(struct drawlist *list, const struct page *page, float offse
     if (range <= 0) return;
     float length = page->body.h * page->body.h / (page->body.h + range);
     float y = page->body.y + (page->body.h - length) * offset / range;
-    drawlist_rounded(list, (struct rect){page->box.x + page->box.w - 8, y, 4, length}, 2, theme()->hover);
+    drawlist_rounded(list, (struct rect){page->box.x + page->box.w - 8, y, 4, length}, 2, theme()->control);
 }
 
 void help_show(struct editor *editor)

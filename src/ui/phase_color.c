@@ -2,17 +2,18 @@
 #include "base/srgb.h"
 #include <math.h>
 
-/// The largest circle around grey that still lies in sRGB, and the power of the amplitude that makes small movements seen;
-/// stage_character.vert has the same.
-static const float LIGHTNESS = 0.76f, CHROMA = 0.12f, SPREAD = 0.6f;
+/// Of grey; radius of the circle of hues; how much lighter what moves with re = 1, with im = 1 is than grey; the power of the
+/// amplitude that makes small movements seen. stage_character.vert has the same.
+static const float LIGHTNESS = 0.70f, CHROMA = 0.10f, SWING_RE = 0.09298f, SWING_IM = 0.19939f, SPREAD = 0.6f;
 
 /// Oklab → cube roots of cone responses → linear RGB.
 void phase_color_linear(float re, float im, float rgb[3])
 {
-    const float chroma = CHROMA * powf(fmaxf(hypotf(re, im), 1e-6f), SPREAD - 1.0f), a = chroma * re, b = chroma * im;
-    float l = LIGHTNESS + 0.3963377774f * a + 0.2158037573f * b;
-    float m = LIGHTNESS - 0.1055613458f * a - 0.0638541728f * b;
-    float s = LIGHTNESS - 0.0894841775f * a - 1.2914855480f * b;
+    const float shown = powf(fmaxf(hypotf(re, im), 1e-6f), SPREAD - 1.0f), x = shown * re, y = shown * im;
+    const float lightness = LIGHTNESS + SWING_RE * x + SWING_IM * y, a = -CHROMA * y, b = CHROMA * x;
+    float l = lightness + 0.3963377774f * a + 0.2158037573f * b;
+    float m = lightness - 0.1055613458f * a - 0.0638541728f * b;
+    float s = lightness - 0.0894841775f * a - 1.2914855480f * b;
     l = l * l * l, m = m * m * m, s = s * s * s;
     rgb[0] = 4.0767416621f * l - 3.3077115913f * m + 0.2309699292f * s;
     rgb[1] = -1.2684380046f * l + 2.6097574011f * m - 0.3413193965f * s;

@@ -43,7 +43,7 @@ void ui_popup_begin(struct ui *ui, float width, float height)
     if (ui->pass == UI_PASS_DRAW) {
         drawlist_rounded(ui->list, rect_inset(box, -1), UI_RADIUS + 2, theme()->veil);
         drawlist_rounded(ui->list, box, UI_RADIUS + 1, theme()->raised);
-        drawlist_rounded_line(ui->list, box, UI_RADIUS + 1, 1, theme()->zero);
+        ui_outline(ui, box, UI_RADIUS + 1, false);
     }
     ui_scroll_begin(ui, &ui->popup.scroll, rect_inset(box, POPUP_PAD));
 }
@@ -105,7 +105,7 @@ void ui_dropdown(struct ui *ui, struct rect r, const char *name, int which, cons
     if (ui->pass != UI_PASS_DRAW) return;
     bool hot = ui_hovered(ui, field) || (ui_popup_is_open(ui, name) && ui->popup.which == which);
     drawlist_rounded(ui->list, field, UI_RADIUS, theme()->raised);
-    if (hot) drawlist_rounded_line(ui->list, field, UI_RADIUS, 1, theme()->hover);
+    ui_outline(ui, field, UI_RADIUS, hot);
     float left = field.x + UI_GAP, x = field.x + field.w - 14, y = field.y + field.h / 2;
     if (color) {
         drawlist_rounded(ui->list, (struct rect){left, y - 4, 8, 8}, 3, color);
@@ -139,7 +139,7 @@ bool ui_color(struct ui *ui, struct rect r, const char *name, uint32_t color, bo
     drawlist_rounded(ui->list, field, UI_RADIUS, color);
     if (chosen || ui_hovered(ui, r)) {
         drawlist_rounded_line(ui->list, rect_inset(field, -2), UI_RADIUS + 1, 1.5f,
-                              chosen ? theme()->text : theme()->hover);
+                              chosen ? theme()->text : theme()->control);
     }
     ui_focus_ring(ui, id, rect_inset(field, -1));
     return pressed;

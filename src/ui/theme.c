@@ -11,8 +11,9 @@ static const struct theme themes[THEME_COUNT] = {
             .raised = 0x1B1F26FFu,
             .fill = 0x2B313BFFu,
             .hover = 0x363D49FFu,
+            .control = 0x666E7AFFu,
             .text = 0xD7DCE3FFu,
-            .text_dim = 0x8A93A0FFu,
+            .text_dim = 0xA6AEBAFFu,
             .accent = 0xFFB000FFu,
             .warning = 0xE3B34FFFu,
             .error = 0xE0705AFFu,
@@ -28,7 +29,7 @@ static const struct theme themes[THEME_COUNT] = {
                       .ground = 0x39414CFFu,
                       .shadow = 0x07080AFFu,
                       .bounce = 0x2A2420FFu},
-            .spline = {0xFFB000FFu, 0x4FA3E3FFu, 0xE39AC8FFu, 0x1F9E7AFFu, 0xF4F1E8FFu, 0xC8502AFFu},
+            .spline = {0xFFB000FFu, 0x45A8F1FFu, 0xD2A4C7FFu, 0x379570FFu, 0xF4F1E8FFu, 0xCD5C33FFu},
         },
     [THEME_LIGHT] =
         {
@@ -38,8 +39,9 @@ static const struct theme themes[THEME_COUNT] = {
             .raised = 0xEAEEF3FFu,
             .fill = 0xD5DCE5FFu,
             .hover = 0xC8D1DCFFu,
+            .control = 0x7C8693FFu,
             .text = 0x1C222BFFu,
-            .text_dim = 0x515B68FFu,
+            .text_dim = 0x4D5764FFu,
             .accent = 0x935600FFu,
             .warning = 0x8A5300FFu,
             .error = 0xB3301BFFu,
@@ -55,9 +57,12 @@ static const struct theme themes[THEME_COUNT] = {
                       .ground = 0xF4F3EFFFu,
                       .shadow = 0x4A4640FFu,
                       .bounce = 0x8A8378FFu},
-            .spline = {0xC27800FFu, 0x1F74BFFFu, 0xC25A9EFFu, 0x0C7F60FFu, 0x343B46FFu, 0xA8370FFFu},
+            .spline = {0xC25F00FFu, 0x1775C8FFu, 0x9E6690FFu, 0x4D7552FFu, 0x333B46FFu, 0xA43023FFu},
         },
 };
+
+/// Of the first dark theme. Documents have these, so they never change.
+static const uint32_t stored[THEME_SPLINE_COLORS] = {0xFFB000, 0x4FA3E3, 0xE39AC8, 0x1F9E7A, 0xF4F1E8, 0xC8502A};
 
 static enum theme_kind in_use = THEME_DARK;
 
@@ -118,13 +123,12 @@ uint32_t theme_readable(uint32_t color, uint32_t background, float contrast)
     return blended;
 }
 
-uint32_t theme_spline_rgb(int index) { return themes[THEME_DARK].spline[index] >> 8; }
+uint32_t theme_spline_rgb(int index) { return stored[index]; }
 
 uint32_t theme_spline(uint32_t rgb)
 {
-    const uint32_t color = rgb << 8 | 0xFFu;
     for (int i = 0; i < THEME_SPLINE_COLORS; i++) {
-        if (themes[THEME_DARK].spline[i] == color) return theme()->spline[i];
+        if (stored[i] == rgb) return theme()->spline[i];
     }
-    return theme_readable(color, theme()->panel, 3);
+    return theme_readable(rgb << 8 | 0xFFu, theme()->panel, 3);
 }

@@ -9,16 +9,21 @@
 #include "ui/stage_colors.h"
 #include <stdint.h>
 
-/// Spline colours are apart under red-green blindness and taken in turn.
+/// Spline colours are taken in turn. Under each of the three kinds of colour blindness every two are a ΔE2000 of 10 or more apart.
 enum { THEME_SPLINE_COLORS = 6 };
 
-/// Every text colour (text, text_dim, accent, warning, error) has a contrast of 4.5:1 or more on panel and raised, and `text`
-/// on fill and hover too; spline colours have 3:1, which is enough for lines.
+/// Opacity of the curves and knots that are not of the active spline; they keep 3:1 and their distance.
+#define THEME_OTHERS 0.8f
+
+/// Every text colour (text, text_dim, accent, warning, error) has a contrast of 4.5:1 or more on panel and raised, `text` and
+/// `text_dim` on fill, hover and the stage too; `control`, spline colours, and what else has to be seen without being read have
+/// 3:1. tests/test_theme.c has the pairs.
 struct theme {
     const char *name; ///< in the settings and on the command line
     uint32_t panel, border;
     uint32_t raised;      ///< fields, buttons at rest
     uint32_t fill, hover; ///< the filled part of a bar, chosen segments; the same under the pointer
+    uint32_t control;     ///< outlines of controls at rest, thumbs: what shows that there is something to use
     uint32_t text, text_dim, accent, warning, error;
     uint32_t veil;    ///< over what a dialog keeps out of reach, and the shade of a popup
     uint32_t outside; ///< the plot before and after the scene's range
@@ -45,10 +50,10 @@ float theme_contrast(uint32_t a, uint32_t b);
 /// An opaque colour, blended with the text's just so far that its contrast on a background is `contrast` or more.
 uint32_t theme_readable(uint32_t color, uint32_t background, float contrast);
 
-/// How the theme in use shows a colour that a document asks for (0xRRGGBB): the dark theme's spline colours stand for its
-/// own, others are made out against the panel.
+/// How the theme in use shows a colour that a document asks for (0xRRGGBB): what theme_spline_rgb() gives stands for the
+/// theme's own, others are made out against the panel.
 uint32_t theme_spline(uint32_t rgb);
-/// What a document stores for the `index`th spline colour.
+/// What a document stores for the `index`th spline colour, whichever shade a theme has for it.
 uint32_t theme_spline_rgb(int index);
 
 /// The pixel sizes of text that exist (atlases are built for these).

@@ -171,7 +171,8 @@ void ui_scroll_end(struct ui *ui)
         if (room > 0) {
             float length = view.h * view.h / scroll->content;
             float top = view.y + (view.h - length) * fminf(1, scroll->offset / room);
-            drawlist_rounded(ui->list, (struct rect){view.x + view.w - 6, top + 2, 4, length - 4}, 2, theme()->hover);
+            drawlist_rounded(ui->list, (struct rect){view.x + view.w - 6, top + 2, 4, length - 4}, 2,
+                             theme()->control);
         }
         drawlist_set_clip(ui->list, ui->scroll_clip);
     }

@@ -15,6 +15,11 @@ void ui_focus_ring(struct ui *ui, uint32_t id, struct rect r)
     if (ui->focus == id) drawlist_rounded_line(ui->list, rect_inset(r, -1), UI_RADIUS + 1, 1.5f, theme()->accent);
 }
 
+void ui_outline(struct ui *ui, struct rect r, float radius, bool hot)
+{
+    drawlist_rounded_line(ui->list, r, radius, 1, hot ? theme()->text_dim : theme()->control);
+}
+
 static void paint_label(struct ui *ui, struct rect r, enum font font, const char *text, uint32_t color)
 {
     float y = ui_baseline(r, font, THEME_TEXT_NORMAL);
@@ -104,6 +109,7 @@ bool ui_button(struct ui *ui, struct rect r, const char *name, const char *label
         bool hot = ui_hovered(ui, field);
         uint32_t fill = primary ? theme()->accent : hot ? theme()->hover : theme()->fill;
         drawlist_rounded(ui->list, field, UI_RADIUS, fill);
+        if (!primary) ui_outline(ui, field, UI_RADIUS, hot);
         paint_centred(ui, field, label, primary ? theme()->panel : theme()->text);
         ui_focus_ring(ui, id, rect_inset(field, primary ? -2 : 0));
     }
@@ -120,6 +126,7 @@ bool ui_toggle(struct ui *ui, struct rect r, const char *name, bool *on)
     if (ui->pass == UI_PASS_DRAW) {
         uint32_t fill = *on ? theme()->accent : ui_hovered(ui, box) ? theme()->hover : theme()->fill;
         drawlist_rounded(ui->list, box, 8, fill);
+        if (!*on) ui_outline(ui, box, 8, ui_hovered(ui, box));
         struct rect knob = {box.x + (*on ? 14.0f : 2.0f), box.y + 2, 12, 12};
         drawlist_rounded(ui->list, knob, 6, *on ? theme()->panel : theme()->text_dim);
         ui_focus_ring(ui, id, rect_inset(box, -1));
@@ -153,12 +160,13 @@ static void paint_segments(struct ui *ui, struct rect field, const struct ui_cho
 {
     float w = field.w / (float)count;
     drawlist_rounded(ui->list, field, UI_RADIUS, theme()->raised);
+    ui_outline(ui, field, UI_RADIUS, false);
     for (int i = 0; i < count; i++) {
         struct rect part = {field.x + w * (float)i, field.y, w, field.h};
         bool hot = ui_hovered(ui, part);
         if (i == chosen) {
             drawlist_rounded(ui->list, rect_inset(part, 1), UI_RADIUS - 1, theme()->hover);
-            struct rect mark = {part.x + 8, part.y + part.h - 2, part.w - 16, 2};
+            struct rect mark = {part.x + 8, part.y + part.h - 3, part.w - 16, 2};
             drawlist_rect(ui->list, mark, theme()->accent);
         }
         paint_centred(ui, part, choices[i].label, i == chosen || hot ? theme()->text : theme()->text_dim);

@@ -22,6 +22,8 @@ void ui_move_focus(struct ui *ui, int direction);
 /// Enter or Space on the focused widget; used up.
 bool ui_activated(struct ui *ui, uint32_t id);
 
+/// The line around a control by which it is seen; `hot`: under the pointer.
+void ui_outline(struct ui *ui, struct rect r, float radius, bool hot);
 void ui_focus_ring(struct ui *ui, uint32_t id, struct rect r);
 /// Baseline that centres capitals in `r`.
 float ui_baseline(struct rect r, enum font font, float size);

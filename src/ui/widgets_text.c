@@ -218,7 +218,11 @@ bool ui_text_field(struct ui *ui, struct rect r, const char *name)
     if (ui->pass != UI_PASS_DRAW) return changed;
     if (ui_hovered(ui, r)) ui->over = UI_OVER_TEXT;
     drawlist_rounded(ui->list, r, UI_RADIUS, theme()->raised);
-    drawlist_rounded_line(ui->list, r, UI_RADIUS, active ? 1.5f : 1.0f, active ? theme()->accent : theme()->zero);
+    if (active) {
+        drawlist_rounded_line(ui->list, r, UI_RADIUS, 1.5f, theme()->accent);
+    } else {
+        ui_outline(ui, r, UI_RADIUS, ui_hovered(ui, r));
+    }
     ui_paint_text(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, &ui->text, FONT_LABEL, THEME_TEXT_NORMAL, active);
     return changed;
 }

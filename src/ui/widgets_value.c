@@ -264,18 +264,21 @@ static float part_of(const struct ui_number *number, double value)
     return (float)fmax(0, fmin(1, part));
 }
 
+/// The left side of a bar's handle, 2 wide, within the field's outline.
+static float handle_x(struct rect field, float at) { return field.x + fmaxf(3, fminf(at - 1, field.w - 4)); }
+
 /// A bar with 0 inside would end in the middle of the text: it is a strip below it, with a mark at 0.
 static void paint_strip(struct ui *ui, struct rect field, float zero, float at, bool hot)
 {
     const float height = 2;
-    struct rect strip = {field.x + fminf(at, zero), field.y + field.h - height, fabsf(at - zero), height};
-    drawlist_rect(ui->list, strip, hot ? theme()->accent : theme_fade(theme()->text_dim, 0.5f));
-    float x = field.x + fmaxf(0, fminf(at - 1, field.w - 2));
+    struct rect strip = {field.x + fminf(at, zero), field.y + field.h - height - 1, fabsf(at - zero), height};
+    drawlist_rect(ui->list, strip, hot ? theme()->accent : theme()->text_dim);
+    float x = handle_x(field, at);
     drawlist_rect(ui->list, (struct rect){x, strip.y - 2, 2, height + 2}, hot ? theme()->accent : theme()->text);
     drawlist_rect(ui->list, (struct rect){field.x + zero - 0.5f, strip.y - 1, 1, height + 1}, theme()->text_dim);
 }
 
-/// Filled from the left end to the value. The handle is a notch where the text, `text_width` wide at the right, would be
+/// Filled from the left end to the value, faintly, as text stands on it; the strip below is what is seen from afar. The handle is a notch where the text, `text_width` wide at the right, would be
 /// struck through.
 static void paint_bar(struct ui *ui, struct rect field, const struct ui_number *number, double value,
                       float text_width, bool hot, bool held)
@@ -290,10 +293,12 @@ static void paint_bar(struct ui *ui, struct rect field, const struct ui_number *
     uint32_t fill = held ? theme_fade(theme()->accent, 0.35f) : hot ? theme()->hover : theme()->fill;
     drawlist_rounded(ui->list, field, UI_RADIUS, fill);
     drawlist_set_clip(ui->list, old);
-    float x = field.x + fmaxf(0, fminf(at - 1, field.w - 2));
+    float x = handle_x(field, at);
+    struct rect strip = {field.x + 3, field.y + field.h - 3, fmaxf(0, x - field.x - 3), 2};
+    drawlist_rect(ui->list, strip, held || hot ? theme()->accent : theme()->text_dim);
     float text = field.x + field.w - UI_GAP - text_width;
     bool under = x > text - 4 && x < text + text_width + 2;
-    struct rect handle = {x, field.y + (under ? field.h - 4 : 3), 2, under ? 4 : field.h - 6};
+    struct rect handle = {x, field.y + (under ? field.h - 6 : 4), 2, under ? 4 : field.h - 7};
     drawlist_rect(ui->list, handle, held || hot ? theme()->accent : theme()->text_dim);
 }
 
@@ -319,8 +324,11 @@ static void paint(struct ui *ui, struct rect r, struct rect field, uint32_t id, 
     const char *text = number->shown ? number->shown : formatted;
     if (has_bar(number)) {
         paint_bar(ui, field, number, value, font_width(FONT_NUMBER, THEME_TEXT_SMALL, text), hot, held);
-    } else if (hot || held) {
-        drawlist_rounded_line(ui->list, field, UI_RADIUS, 1, held ? theme()->accent : theme()->hover);
+    }
+    if (held) {
+        drawlist_rounded_line(ui->list, field, UI_RADIUS, 1, theme()->accent);
+    } else {
+        ui_outline(ui, field, UI_RADIUS, hot);
     }
     ui_number_text(ui, inner, text, theme()->text);
     ui_focus_ring(ui, id, field);
