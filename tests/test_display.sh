@@ -1,23 +1,7 @@
 # Displays that refuse: the app says so in one line and runs headless, as it does where there is none.
 . tests/check.sh
+. tests/desktop.sh
 WIGGLY=${WIGGLY:-build/wiggly}
-unset WAYLAND_DISPLAY
-server=""
-trap 'kill $server 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
-
-start_server() { # <Xvfb's options>...
-    rm -f "$scratch/display"
-    Xvfb -displayfd 3 -noreset -screen 0 640x480x24 -nolisten tcp "$@" 3>"$scratch/display" 2>"$scratch/xvfb.log" &
-    server=$!
-    for _ in $(seq 100); do [ -s "$scratch/display" ] && break; sleep 0.1; done
-    export DISPLAY=:$(cat "$scratch/display")
-}
-
-stop_server() {
-    kill $server
-    wait $server 2>/dev/null
-    server=""
-}
 
 falls_back() { # <what>
     rm -f "$scratch/picture.png"

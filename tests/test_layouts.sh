@@ -1,15 +1,9 @@
 # The live app under keyboards of other countries: the same board, with other letters and signs on its keys. Each is struck
 # where that layout has it.
 . tests/check.sh
+. tests/desktop.sh
 WIGGLY=${WIGGLY:-build/wiggly}
-unset WAYLAND_DISPLAY
-
-Xvfb -displayfd 3 -noreset -screen 0 1280x720x24 -nolisten tcp 3>"$scratch/display" 2>"$scratch/xvfb.log" &
-xvfb=$!
-app=""
-trap 'kill $app $xvfb 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
-for _ in $(seq 100); do [ -s "$scratch/display" ] && break; sleep 0.1; done
-export DISPLAY=:$(cat "$scratch/display")
+start_server
 
 # Keys by name, or by the number that X gives to their place.
 strike() { xdotool key --delay 10 "$@"; }
@@ -29,11 +23,7 @@ cat >"$scratch/mine.json" <<'END'
 {"wiggly": 1, "frames": [0, 48], "splines": [{"name": "sway", "frequency": 1, "knots": [
 {"frame": 6, "value": 0}, {"frame": 24, "value": 1}, {"frame": 48, "value": 0}]}]}
 END
-"$WIGGLY" live "$scratch/mine.json" >"$scratch/app.out" 2>"$scratch/app.err" &
-app=$!
-timeout 20 xdotool search --sync --onlyvisible --name wiggly >/dev/null
-ok "a window opens" $?
-xdotool mousemove 500 560
+start_app mine.json "$scratch/mine.json"
 
 # Where the layout has: A, S, Y, Z, "-", "1", ".", "5", and what selects one more knot.
 while read -r layout A S Y Z minus one point five more; do
@@ -58,7 +48,7 @@ END
 
 # In Greek the key of Q has a semicolon on it.
 strike ctrl+24
-for _ in $(seq 100); do kill -0 $app 2>/dev/null || break; sleep 0.1; done
+for _ in $(seq 600); do kill -0 $app 2>/dev/null || break; sleep 0.1; done
 if kill -0 $app 2>/dev/null; then
     ok "gr: Ctrl+Q quits" 1
 else

@@ -1,53 +1,21 @@
 # Unsaved work outlives kill -9: the next start offers it, and neither the scene's own file nor another running app is touched.
 . tests/check.sh
+. tests/desktop.sh
 WIGGLY=${WIGGLY:-build/wiggly}
-unset WAYLAND_DISPLAY
 state=$XDG_STATE_HOME/wiggly
 
 expect 0 "a headless run" "$WIGGLY" live --headless --frames 2
 [ ! -e "$XDG_STATE_HOME" ] && [ ! -e "$XDG_CONFIG_HOME" ]
 ok "a headless run makes no files of the user's" $?
 
-Xvfb -displayfd 3 -noreset -screen 0 1280x720x24 -nolisten tcp 3>"$scratch/display" 2>"$scratch/xvfb.log" &
-xvfb=$!
-app=""
 other=""
-trap 'kill $app $other $xvfb 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
-for _ in $(seq 100); do [ -s "$scratch/display" ] && break; sleep 0.1; done
-export DISPLAY=:$(cat "$scratch/display")
-
-start_app() { # <window's title> [scene]
-    local title=$1
-    shift
-    "$WIGGLY" live "$@" >"$scratch/app.out" 2>"$scratch/app.err" &
-    app=$!
-    timeout 20 xdotool search --sync --onlyvisible --name "$title" >/dev/null
-    xdotool mousemove 500 560
-    sleep 0.7
-}
-
-quit_app() {
-    xdotool key --delay 30 "$@" ctrl+q
-    for _ in $(seq 50); do kill -0 $app 2>/dev/null || break; sleep 0.1; done
-    wait $app
-    ok "it quits" $?
-    app=""
-}
-
-# Waits at most two seconds for a test's exit status 0.
-within_two_seconds() { # <what> <command>...
-    local what=$1 tries
-    shift
-    for tries in $(seq 20); do "$@" && break; sleep 0.1; done
-    ok "$what" $((tries == 20))
-}
-
-gone() { [ ! -e "$1" ]; }
+trap 'kill $app $other $server 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
+start_server
 
 # Inserts a knot, waits for the recovery file, and kills the app.
 edit_and_kill() { # <keys that go to a frame without one>...
     xdotool key --delay 30 space Home "$@" i
-    within_two_seconds "unsaved work is kept within two seconds of the edit" [ -s "$state/recovery-1" ]
+    eventually "unsaved work is kept soon after the edit" [ -s "$state/recovery-1" ]
     kill -9 $app
     wait $app 2>/dev/null
     app=""
@@ -58,10 +26,10 @@ before=$(grep -o '"frame":' "$scratch/mine.json" | wc -l)
 start_app mine.json "$scratch/mine.json"
 xdotool key F1 Escape
 said() { grep -qx "welcomed = yes" "$XDG_CONFIG_HOME/wiggly/settings"; }
-within_two_seconds "what to try first is said once" said
+eventually "what to try first is said once" said
 xdotool key F10
 light() { grep -qx "theme = light" "$XDG_CONFIG_HOME/wiggly/settings"; }
-within_two_seconds "the theme is remembered" light
+eventually "the theme is remembered" light
 edit_and_kill shift+Left Right Right Right
 cmp "$scratch/mine.json" assets/scenes/tail.json
 ok "the scene's own file is as it was" $?
@@ -75,13 +43,12 @@ ok "later: it stays" $?
 
 start_app wiggly
 xdotool key r
-timeout 20 xdotool search --sync --onlyvisible --name '^\*mine.json' >/dev/null
+timeout 60 xdotool search --sync --onlyvisible --name '^\*mine.json' >/dev/null
 ok "recover: the title shows the scene with unsaved work" $?
 [ -s "$state/recovery-1" ]
 ok "it is still kept while it is not saved" $?
 other=$app
 start_app '^tail.json|^untitled'
-sleep 0.3
 xdotool key r # would recover what is offered, and insert nothing
 quit_app
 [ -s "$state/recovery-1" ]
@@ -89,7 +56,7 @@ ok "what a running app works on is not offered to another" $?
 app=$other
 other=""
 xdotool key ctrl+s
-within_two_seconds "saved: nothing is left to recover" gone "$state/recovery-1"
+eventually "saved: nothing is left to recover" gone "$state/recovery-1"
 quit_app
 [ "$(grep -o '"frame":' "$scratch/mine.json" | wc -l)" -eq $((before + 1)) ]
 ok "the work is in the scene's own file" $?
@@ -99,16 +66,14 @@ start_app mine.json "$scratch/mine.json"
 edit_and_kill shift+Left Right Right Right Right Right
 start_app wiggly
 xdotool key d
-within_two_seconds "discard: it is deleted" gone "$state/recovery-1"
+eventually "discard: it is deleted" gone "$state/recovery-1"
 quit_app
 
 start_app mine.json "$scratch/mine.json"
 xdotool key --delay 30 space Home shift+Left Right Right Right Right i
-within_two_seconds "kept again" [ -s "$state/recovery-1" ]
+eventually "kept again" [ -s "$state/recovery-1" ]
 xdotool key --delay 30 ctrl+q d
-for _ in $(seq 50); do kill -0 $app 2>/dev/null || break; sleep 0.1; done
-wait $app
-app=""
+await_end
 gone "$state/recovery-1"
 ok "quitting without saving deletes it" $?
 

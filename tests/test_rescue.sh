@@ -1,29 +1,14 @@
 # What happens to unsaved work when the program cannot go on: the X server dies, or the session ends by a signal.
 . tests/check.sh
+. tests/desktop.sh
 WIGGLY=${WIGGLY:-build/wiggly}
-unset WAYLAND_DISPLAY
-xvfb=""
-app=""
-trap 'kill $app $xvfb 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
-
-start_server() {
-    rm -f "$scratch/display"
-    Xvfb -displayfd 3 -noreset -screen 0 1280x720x24 -nolisten tcp 3>"$scratch/display" 2>"$scratch/xvfb.log" &
-    xvfb=$!
-    disown $xvfb
-    for _ in $(seq 100); do [ -s "$scratch/display" ] && break; sleep 0.1; done
-    export DISPLAY=:$(cat "$scratch/display")
-}
 
 # Starts the app on a fresh scene and inserts a knot that is not saved.
 start_edited() {
     cp assets/scenes/tail.json "$scratch/mine.json"
-    "$WIGGLY" live "$scratch/mine.json" --record "$scratch/mine.replay" >"$scratch/app.out" 2>"$scratch/app.err" &
-    app=$!
-    timeout 20 xdotool search --sync --onlyvisible --name wiggly >/dev/null
-    sleep 0.7
+    start_app mine.json "$scratch/mine.json" --record "$scratch/mine.replay"
     xdotool key --delay 30 space Home shift+Left Right Right Right i
-    timeout 20 xdotool search --sync --onlyvisible --name '^\*mine.json' >/dev/null
+    timeout 60 xdotool search --sync --onlyvisible --name '^\*mine.json' >/dev/null
     ok "the title shows unsaved work" $?
 }
 
@@ -31,14 +16,11 @@ knots() { grep -o '"frame":' "$1" | wc -l; }
 
 # Waits for the app's own end and looks at what it left.
 check_rescue() { # <cause> <file with the work> <what the sentence says>
-    local status=0
-    for _ in $(seq 100); do kill -0 $app 2>/dev/null || break; sleep 0.1; done
-    wait $app || status=$?
-    app=""
+    await_end
     [ $status -eq 3 ]
     ok "$1: exit status 3" $?
     says "$1: one sentence says where the work is" "$3" "$(cat "$scratch/app.err")"
-    [ "$(wc -l <"$scratch/app.err")" -eq 1 ] && cmp "$scratch/mine.json" assets/scenes/tail.json
+    [ "$(grep -c ^wiggly "$scratch/app.err")" -eq 1 ] && cmp "$scratch/mine.json" assets/scenes/tail.json
     ok "$1: the scene's own file is as it was" $?
     grep -v '^wiggly-recovery 1 ' "$2" >"$scratch/work.json"
     [ "$(knots "$2")" -eq $(($(knots "$scratch/mine.json") + 1)) ] && "$WIGGLY" check "$scratch/work.json" >/dev/null
@@ -51,7 +33,8 @@ start_edited
 kill $app
 check_rescue "a signal" "$recovery-1" "$recovery-1: the next start offers it"
 start_edited
-kill -9 $xvfb
+disown $server
+kill -9 $server
 check_rescue "a lost display" "$recovery-2" "$recovery-2: the next start offers it"
 start_server
 for slot in 3 4; do # destroyed while nothing moves, and while it draws
