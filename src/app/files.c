@@ -1,4 +1,5 @@
 // What the editor may not do itself: files, the window, and the end of the run.
+#include "app/assets.h"
 #include "app/state.h"
 #include "base/embedded.h"
 #include "base/path.h"
@@ -49,28 +50,11 @@ void app_adopt(struct app *app, struct document *document)
     show_title(app);
 }
 
-/// The scenes that come with the program open as untitled: saving must not write over them.
-static bool is_asset(const char *path)
-{
-    char full[4096];
-    const char *place = realpath(path, full) ? full : path;
-    return strstr(place, "/assets/scenes/") || strstr(place, "/share/wiggly/scenes/");
-}
-
-/// Where the models of the scenes that are in the binary are: beside it, as it was built or installed.
+/// Where the models of the scenes that are in the binary are: with the program's other scenes.
 static struct document *built_in_place(struct document *document)
 {
-    static const char *const places[] = {"../assets/scenes", "../../assets/scenes", "../share/wiggly/scenes"};
-    char program[PATH_LIMIT], folder[PATH_LIMIT], place[PATH_LIMIT];
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (!document || length < 0) return document;
-    program[length] = '\0';
-    if (!path_folder(program, folder)) return document;
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        if (!path_resolve(folder, places[i], place) || access(place, F_OK) != 0) continue;
-        document->folder = strdup(place);
-        return document;
-    }
+    char folder[PATH_LIMIT];
+    if (document && assets_folder(folder)) document->folder = strdup(folder);
     return document;
 }
 
@@ -97,7 +81,8 @@ bool app_open(struct app *app, const char *path, struct error *error)
         document = parse_built_in("tail.json", error);
     }
     if (!document) return false;
-    if (path && !is_asset(path) && !document_set_path(document, path)) {
+    bool is_users = path && !assets_has(path); // saving must not write over the scenes that come with the program
+    if (is_users && !document_set_path(document, path)) {
         document_destroy(document);
         return fail_no_memory(error, path);
     }
