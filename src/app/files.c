@@ -140,24 +140,17 @@ bool app_screenshot(struct app *app, const char *path, struct error *error)
     return done;
 }
 
-/// F12: the first name wiggly-NNNN.png that is free, in the folder of the scene.
+/// F12: the first name wiggly-NNNN.png that is free, in the folder of the scene's file, else in the working folder.
 static bool take_picture(struct app *app, struct error *error)
 {
-    char path[1100], folder[1024];
-    snprintf(folder, sizeof folder, "%s", app_path(app));
-    char *slash = strrchr(folder, '/');
-    if (slash) {
-        slash[1] = '\0';
-    } else {
-        folder[0] = '\0';
-    }
-    struct stat status;
+    char folder[PATH_LIMIT], name[32], path[PATH_LIMIT], text[PATH_LIMIT + 16];
     int number = 0;
+    if (!path_folder(app_path(app), folder)) folder[0] = '\0';
     do {
-        snprintf(path, sizeof path, "%swiggly-%04d.png", folder, ++number);
-    } while (stat(path, &status) == 0 && number < 9999);
+        snprintf(name, sizeof name, "wiggly-%04d.png", ++number);
+        if (!path_resolve(folder, name, path)) return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
+    } while (access(path, F_OK) == 0);
     if (!app_screenshot(app, path, error)) return false;
-    char text[1200];
     snprintf(text, sizeof text, "Saved %s.", path);
     editor_message(app->editor, false, text);
     return true;
