@@ -84,7 +84,7 @@ paste() { # <where> <text>
 shown() { # <where> <text>
     local line found=0
     while IFS= read -r line; do
-        [[ -z $line ]] || grep -qrF -- "$line" "$scratch/work" --exclude-dir=build || found=1
+        [[ -z $line ]] || grep -qrF --exclude-dir=build -e "$line" "$scratch/work" || found=1
     done <<<"$2"
     ok "$1: is what the commands put out" $found
 }
@@ -156,7 +156,9 @@ done < <(grep -ohE '`make [^`]*`' $documents | tr -d '`' | sort -u)
 for document in $documents; do
     missing=$(
         grep -oE '\]\([^)]*\)' "$document" | tr -d '[]()' | while read -r link; do
-            [[ $link == http* || $link == \#* || -e $(dirname "$document")/${link%%#*} ]] || echo "$link"
+            target=$(dirname "$document")/${link%%#*} heading=${link#*#}
+            [[ $link == http* || -e $target ]] || echo "$link"
+            [[ $link != *#* ]] || grep -qi "^#* ${heading//-/ }\$" "$target" || echo "$link"
         done
         grep -oE '`(assets|docs|examples|include|src|shaders|tests|tools)/[^` *]*`' "$document" | tr -d '`' |
             while read -r path; do [ -e "$path" ] || echo "$path"; done
