@@ -39,10 +39,15 @@ cat >"$scratch/bin/make" <<END
 case \$1 in models | figures) ;; *) set -- -n "\$@" ;; esac
 exec $(command -v make) --no-print-directory -C "$root" B="$B" SANITIZE="${SANITIZE:-}" "\$@"
 END
+cat >"$scratch/bin/timing_diff" <<END
+#!/bin/bash
+# 1 says that the second log is slower, which on a busy machine it may be.
+"$build/timing_diff" "\$@" || [ \$? -eq 1 ]
+END
 printf '#!/bin/bash\nexec %s %s "$@"\n' "$CC" "$sanitizers" >"$scratch/bin/cc"
 chmod +x "$scratch"/bin/*
 for file in "$build"/*; do ln -s "$file" "$scratch/work/build/"; done
-ln -sf "$scratch/bin/wiggly" "$scratch/work/build/wiggly"
+ln -sf "$scratch/bin/wiggly" "$scratch/bin/timing_diff" "$scratch/work/build/"
 for file in assets examples tests tools; do ln -s "$root/$file" "$scratch/work/$file"; done
 export PATH=$scratch/bin:$PATH
 
