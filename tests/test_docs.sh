@@ -46,6 +46,7 @@ cat >"$scratch/bin/timing_diff" <<END
 END
 printf '#!/bin/bash\nexec %s %s "$@"\n' "$CC" "$sanitizers" >"$scratch/bin/cc"
 chmod +x "$scratch"/bin/*
+mkdir -p "$build/models" # which the first of the commands fills
 for file in "$build"/*; do ln -s "$file" "$scratch/work/build/"; done
 ln -sf "$scratch/bin/wiggly" "$scratch/bin/timing_diff" "$scratch/work/build/"
 for file in assets examples tests tools; do ln -s "$root/$file" "$scratch/work/$file"; done
