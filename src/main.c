@@ -19,21 +19,21 @@ static const struct command {
     {"check", command_check, "scene.json", "prints every problem of a scene file"},
     {"simulate", command_simulate, "mesh.obj -o sim.npy",
      "shakes a closed mesh as a soft body; its vertices in every frame"},
-    {"analyze", command_analyze, "up.npy -o creature.glb",
+    {"analyze", command_analyze, "up.npy --rest mesh.obj --fps N -o creature.glb",
      "finds how a motion oscillates; a character for a spline to drive"},
     {"bench", command_bench, "[--json FILE]", "the solver against LAPACKE"},
 };
 
-enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
+enum { COMMAND_COUNT = sizeof commands / sizeof commands[0], SUMMARY_AT = 33 };
 
 static int print_help(void)
 {
     printf("wiggly %s: splines that swing, overshoot and follow through, keyed live\n\n", WIGGLY_VERSION);
     printf("Usage: wiggly [command] [options]\n\nCommands:\n");
     for (int i = 0; i < COMMAND_COUNT; i++) {
-        char left[48];
-        snprintf(left, sizeof left, "%s %s", commands[i].name, commands[i].operands);
-        printf("  %-30s %s\n", left, commands[i].summary);
+        int length = printf("  %s %s", commands[i].name, commands[i].operands);
+        if (length > SUMMARY_AT - 2) length = printf("\n") - 1;
+        printf("%*s%s\n", SUMMARY_AT - length, "", commands[i].summary);
     }
     printf("\n  --version                      version and commit\n"
            "  --licenses                     of this program and of what is built into it\n"

@@ -50,6 +50,8 @@ o="-o $scratch/none.npy"
     refused 2 "there is no option --yuong (did you mean --young?)" "$scratch/box.obj" --yuong 1 $o
     refused 2 "--poisson" "$scratch/box.obj" --poisson 0.5 $o
     refused 2 "--shake: expected up, side, front or a vector x,y,z" "$scratch/box.obj" --shake 0,0,0 $o
+    refused 2 "--young and --frequency both set the stiffness" "$scratch/box.obj" --young 1e6 --frequency 2 $o
+    refused 2 "--density needs --young" "$scratch/box.obj" --density 500 $o
     refused 2 "-o FILE is missing" "$scratch/box.obj"
     refused 2 "expected a name ending in .npy or .pc2" "$scratch/box.obj" -o "$scratch/box.abc"
     refused 2 "expected a name ending in .npy for --modal" "$scratch/box.obj" --modal 2 -o "$scratch/box.pc2"

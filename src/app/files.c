@@ -1,4 +1,5 @@
 // What the editor may not do itself: files, the window, and the end of the run.
+#include "app/assets.h"
 #include "app/state.h"
 #include "base/embedded.h"
 #include "base/path.h"
@@ -49,28 +50,11 @@ void app_adopt(struct app *app, struct document *document)
     show_title(app);
 }
 
-/// The scenes that come with the program open as untitled: saving must not write over them.
-static bool is_asset(const char *path)
-{
-    char full[4096];
-    const char *place = realpath(path, full) ? full : path;
-    return strstr(place, "/assets/scenes/") || strstr(place, "/share/wiggly/scenes/");
-}
-
-/// Where the models of the scenes that are in the binary are: beside it, as it was built or installed.
+/// Where the models of the scenes that are in the binary are: with the program's other scenes.
 static struct document *built_in_place(struct document *document)
 {
-    static const char *const places[] = {"../assets/scenes", "../../assets/scenes", "../share/wiggly/scenes"};
-    char program[PATH_LIMIT], folder[PATH_LIMIT], place[PATH_LIMIT];
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (!document || length < 0) return document;
-    program[length] = '\0';
-    if (!path_folder(program, folder)) return document;
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        if (!path_resolve(folder, places[i], place) || access(place, F_OK) != 0) continue;
-        document->folder = strdup(place);
-        return document;
-    }
+    char folder[PATH_LIMIT];
+    if (document && assets_folder(folder)) document->folder = strdup(folder);
     return document;
 }
 
@@ -97,7 +81,8 @@ bool app_open(struct app *app, const char *path, struct error *error)
         document = parse_built_in("tail.json", error);
     }
     if (!document) return false;
-    if (path && !is_asset(path) && !document_set_path(document, path)) {
+    bool is_users = path && !assets_has(path); // saving must not write over the scenes that come with the program
+    if (is_users && !document_set_path(document, path)) {
         document_destroy(document);
         return fail_no_memory(error, path);
     }
@@ -155,24 +140,17 @@ bool app_screenshot(struct app *app, const char *path, struct error *error)
     return done;
 }
 
-/// F12: the first name wiggly-NNNN.png that is free, in the folder of the scene.
+/// F12: the first name wiggly-NNNN.png that is free, in the folder of the scene's file, else in the working folder.
 static bool take_picture(struct app *app, struct error *error)
 {
-    char path[1100], folder[1024];
-    snprintf(folder, sizeof folder, "%s", app_path(app));
-    char *slash = strrchr(folder, '/');
-    if (slash) {
-        slash[1] = '\0';
-    } else {
-        folder[0] = '\0';
-    }
-    struct stat status;
+    char folder[PATH_LIMIT], name[32], path[PATH_LIMIT], text[PATH_LIMIT + 16];
     int number = 0;
+    if (!path_folder(app_path(app), folder)) folder[0] = '\0';
     do {
-        snprintf(path, sizeof path, "%swiggly-%04d.png", folder, ++number);
-    } while (stat(path, &status) == 0 && number < 9999);
+        snprintf(name, sizeof name, "wiggly-%04d.png", ++number);
+        if (!path_resolve(folder, name, path)) return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
+    } while (access(path, F_OK) == 0);
     if (!app_screenshot(app, path, error)) return false;
-    char text[1200];
     snprintf(text, sizeof text, "Saved %s.", path);
     editor_message(app->editor, false, text);
     return true;

@@ -185,10 +185,11 @@ int command_analyze(int argc, char **argv)
 {
     struct job job = {.modes = 1};
     const struct option_spec options[] = {
-        {"--rest", NULL, "FILE", "the mesh at rest, OBJ; its vertices are the files', in their order", OPTION_TEXT,
-         &job.rest, 0, 0},
-        {"--output", "-o", "FILE", "write the character there, .glb", OPTION_TEXT, &job.output, 0, 0},
-        {"--fps", NULL, "N", "frames a second; .npy and .pc2 do not say", OPTION_REAL, &job.fps, 1e-3, 100000},
+        {"--rest", NULL, "FILE", "needed: the mesh at rest, OBJ; its vertices are the files', in their order",
+         OPTION_TEXT, &job.rest, 0, 0},
+        {"--output", "-o", "FILE", "needed: the character is written there, .glb", OPTION_TEXT, &job.output, 0, 0},
+        {"--fps", NULL, "N", "frames a second; needed for .npy and .pc2, which do not say", OPTION_REAL, &job.fps,
+         1e-3, 100000},
         {"--modes", NULL, "K", "coordinates of each file, the largest first (1)", OPTION_INT, &job.modes, 1,
          MODES_MAX},
         {"--shake", NULL, "DIR", "up, side, front or x,y,z, one or one a file (up:side): the sign of coordinates",

@@ -160,6 +160,19 @@ static bool ends_in(const char *path, const char *extension)
     return length > tail && strcasecmp(path + length - tail, extension) == 0;
 }
 
+/// Stiffness and mass; 0 is what was not given. NULL or what is wrong.
+static const char *set_material(struct soft_options *soft)
+{
+    const struct soft_options usual = soft_default_options();
+    if (soft->young > 0 && soft->frequency > 0) return "--young and --frequency both set the stiffness: give one";
+    if (soft->density > 0 && soft->young == 0)
+        return "--density needs --young: a stiffness found for a frequency follows the mass, and the motion is the "
+               "same";
+    if (soft->frequency == 0) soft->frequency = usual.frequency;
+    if (soft->density == 0) soft->density = usual.density;
+    return NULL;
+}
+
 /// What the table of options cannot say; NULL or what is wrong.
 static const char *check(struct job *job)
 {
@@ -171,7 +184,7 @@ static const char *check(struct job *job)
     if (!direction_read(job->shake_text, job->shake.direction))
         return "--shake: expected up, side, front or a vector x,y,z";
     snprintf(job->rest, sizeof job->rest, "%.*s.rest.obj", (int)strlen(job->output) - 4, job->output);
-    return NULL;
+    return set_material(&job->soft);
 }
 
 /// Lets Ctrl+C end the run in order, so that no temporary file stays.
@@ -191,9 +204,11 @@ int command_simulate(int argc, char **argv)
                       .fps = 24,
                       .substeps = 8};
     int modes = 0;
+    job.soft.frequency = job.soft.density = 0;
     const struct option_spec options[] = {
-        {"--output", "-o", "FILE", "NAME.npy or NAME.pc2 (--modal: .npy); the mesh at rest goes to NAME.rest.obj",
-         OPTION_TEXT, &job.output, 0, 0},
+        {"--output", "-o", "FILE",
+         "needed: NAME.npy or NAME.pc2 (--modal: .npy); the mesh at rest goes to NAME.rest.obj", OPTION_TEXT,
+         &job.output, 0, 0},
         {"--shake", NULL, "DIR", "up, side, front or a vector x,y,z (default: up)", OPTION_TEXT, &job.shake_text, 0,
          0},
         {"--amplitude", NULL, "A", "how far the top goes, as a part of the height (0.2)", OPTION_REAL,
@@ -210,7 +225,7 @@ int command_simulate(int argc, char **argv)
         {"--young", NULL, "E", "Young's modulus in Pa, in place of --frequency", OPTION_REAL, &job.soft.young, 1e-6,
          1e15},
         {"--poisson", NULL, "NU", "Poisson's ratio (0.35)", OPTION_REAL, &job.soft.poisson, 0, 0.49},
-        {"--density", NULL, "RHO", "kg/m^3 (1000)", OPTION_REAL, &job.soft.density, 1e-6, 1e9},
+        {"--density", NULL, "RHO", "kg/m^3, beside --young (1000)", OPTION_REAL, &job.soft.density, 1e-6, 1e9},
         {"--damping", NULL, "Z", "damping ratio at the lowest mode (0.03)", OPTION_REAL, &job.soft.damping, 0, 1},
         {"--modal", NULL, "K", "no shake: the K lowest normal modes", OPTION_INT, &modes, 1, 200},
         {"--verbose", NULL, NULL, "progress although standard error is no terminal", OPTION_FLAG, &job.verbose, 0, 0},

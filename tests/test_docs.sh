@@ -1,0 +1,177 @@
+# What README and docs tell a reader to type works as it stands: every command line runs, every program compiles without a warning
+# and runs, every scene is one, every text for the clipboard is pasted; every option, make target, file and link that they
+# name is there, and every option there is, is named.
+#
+# Blocks of code are fenced, with a language and, for a file, its name: sh, c NAME, json NAME, json or csv (the clipboard), text (what
+# the commands above put out). They are taken in order, in a folder that looks like the root of a tree that was built.
+. tests/check.sh
+root=$PWD
+B=${B:-build}
+build=$(realpath "$B")
+CC=${CC:-gcc}
+sanitizers=""
+[ -n "${SANITIZE:-}" ] && sanitizers="-fsanitize=address,undefined"
+documents="README.md docs/*.md"
+commands="live solve check simulate analyze bench"
+unset DISPLAY WAYLAND_DISPLAY
+
+# --- what a command line finds, and how it is cut short where it would last
+
+mkdir "$scratch/bin" "$scratch/work" "$scratch/work/build"
+make B="$B" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
+ok "make install" $?
+export PKG_CONFIG_PATH=$scratch/stage/opt/wiggly/lib/pkgconfig PKG_CONFIG_SYSROOT_DIR=$scratch/stage
+
+cat >"$scratch/bin/wiggly" <<END
+#!/bin/bash
+# The live app lasts until somebody quits it: ten frames do. A simulation takes 10 s: a coarse, short one does.
+case \${1-live} in
+simulate) set -- "\$@" --tets 300 --seconds 2 ;;
+solve | check | analyze | bench | -*) ;;
+*) [[ " \$* " == *" --frames "* || " \$* " == *" --replay "* ]] || set -- "\$@" --frames 10 ;;
+esac
+exec "$build/wiggly" "\$@"
+END
+cat >"$scratch/bin/make" <<END
+#!/bin/bash
+# These two are made. Of the others it is enough that there is something to do: test is this suite, run and install have tests of
+# their own, bench and regress take minutes, check installs packages, and clean would take the build away.
+case \$1 in models | figures) ;; *) set -- -n "\$@" ;; esac
+exec $(command -v make) --no-print-directory -C "$root" B="$B" SANITIZE="${SANITIZE:-}" "\$@"
+END
+cat >"$scratch/bin/timing_diff" <<END
+#!/bin/bash
+# 1 says that the second log is slower, which on a busy machine it may be.
+"$build/timing_diff" "\$@" || [ \$? -eq 1 ]
+END
+printf '#!/bin/bash\nexec %s %s "$@"\n' "$CC" "$sanitizers" >"$scratch/bin/cc"
+chmod +x "$scratch"/bin/*
+mkdir -p "$build/models" # which the first of the commands fills
+for file in "$build"/*; do ln -s "$file" "$scratch/work/build/"; done
+ln -sf "$scratch/bin/wiggly" "$scratch/bin/timing_diff" "$scratch/work/build/"
+for file in assets examples tests tools; do ln -s "$root/$file" "$scratch/work/$file"; done
+export PATH=$scratch/bin:$PATH
+
+# --- blocks
+
+run() { # <where> <command lines>
+    local line
+    while IFS= read -r line; do
+        [[ -n $line ]] || continue
+        expect 0 "$1: $line" bash -c "cd '$scratch/work' && $line"
+        printf '%s\n' "$out" "$err" >>"$scratch/work/said"
+    done <<<"$2"
+}
+
+compile() { # <where> <name> <text>
+    printf '%s' "$3" >"$scratch/work/$2"
+    # shellcheck disable=SC2046
+    expect 0 "$1: $2 compiles" cc -std=c11 -Wall -Wextra -Wconversion -Werror "$scratch/work/$2" \
+        $(pkg-config --cflags --libs wiggly) -o "$scratch/program"
+    expect 0 "$1: $2 runs" "$scratch/program"
+}
+
+# Onto a spline without knots, so that those at the end are those of the text.
+paste() { # <where> <text>
+    local encoded
+    encoded=$(printf '%s' "$2" | od -An -v -tx1 | tr -d ' \n' | sed 's/../%&/g')
+    rm -f "$scratch/pasted.json"
+    (
+        cd "$scratch" || exit
+        echo '{"wiggly": 1, "frames": [0, 96], "splines": [{"name": "s"}]}' >empty.json
+        "$build/wiggly" live --headless --size 640x360 --frames 1 --record header empty.json &&
+            { sed '/^frames/d' header && echo "frames 5" && echo "2 paste $encoded"; } >paste.replay &&
+            "$build/wiggly" live --headless --replay paste.replay --result pasted.json empty.json
+    ) >/dev/null 2>&1
+    grep -q '"value": 1, "slope": 0, "stiffness": 50 }' "$scratch/pasted.json"
+    ok "$1: is pasted" $?
+}
+
+shown() { # <where> <text>
+    local line found=0
+    while IFS= read -r line; do
+        [[ -z $line ]] || grep -qrF --exclude-dir=build -e "$line" "$scratch/work" || found=1
+    done <<<"$2"
+    ok "$1: is what the commands put out" $found
+}
+
+block() { # <where> <language> <name> <text>
+    case "$2 ${3:+NAME}" in
+    "sh ") run "$1" "$4" ;;
+    "c NAME") compile "$1" "$3" "$4" ;;
+    "json NAME")
+        printf '%s' "$4" >"$scratch/work/$3"
+        expect 0 "$1: $3 is a scene" "$build/wiggly" check "$scratch/work/$3"
+        ;;
+    "json " | "csv ") paste "$1" "$4" ;;
+    "text ") shown "$1" "$4" ;;
+    *) ok "$1: a block of a language that is tested ($2 $3)" 1 ;;
+    esac
+}
+
+for document in $documents; do
+    number=0 language="" name="" text="" from=0
+    while IFS= read -r line; do
+        number=$((number + 1))
+        if [[ -z $language && $line =~ ^\`\`\`([a-z]*)\ ?(.*)$ ]]; then
+            language=${BASH_REMATCH[1]:-none} name=${BASH_REMATCH[2]} text="" from=$number
+        elif [[ -n $language && $line == '```' ]]; then
+            block "$document:$from" "$language" "$name" "$text"
+            language=""
+        elif [[ -n $language ]]; then
+            text+=$line$'\n'
+        elif [[ $line == "    "* ]]; then
+            ok "$document:$number: code is fenced" 1
+        fi
+    done <"$document"
+done
+
+# --- what is named in the text
+
+for command in $commands; do
+    "$build/wiggly" "$command" --help | sed -nE 's/^  ((-.), )?(--[a-z-]+).*/\3 \2/p' >"$scratch/$command.options"
+done
+# shellcheck disable=SC2086
+all=$(cat $documents)
+for command in $commands; do
+    missing=$(while read -r option short; do
+        [[ $all =~ $option[^a-z-] || (-n $short && $all == *" $short "*) ]] || echo "$option"
+    done <"$scratch/$command.options")
+    [ -z "$missing" ] || echo "  not in README or docs: $missing"
+    [ -z "$missing" ]
+    ok "every option of $command is named" $?
+done
+# shellcheck disable=SC2086
+unknown=$(grep -ohE '`[^`]*`' $documents | grep -oE -- '--[a-z][a-z-]*' | sort -u |
+    grep -vxFf <(cut -d' ' -f1 "$scratch"/*.options; printf '%s\n' --help --version --cflags --libs))
+[ -z "$unknown" ] || echo "  there is no option $unknown"
+[ -z "$unknown" ]
+ok "every option that is named is there" $?
+
+# shellcheck disable=SC2086
+unknown=$(grep -ohE '`wiggly [a-z]+' $documents | cut -d' ' -f2 | sort -u | grep -vxFf <(tr ' ' '\n' <<<"$commands"))
+[ -z "$unknown" ] || echo "  there is no command $unknown"
+[ -z "$unknown" ]
+ok "every command that is named is there" $?
+
+# shellcheck disable=SC2086
+while read -r line; do
+    expect 0 "$line: something to do" bash -c "${line/#make/make -n}"
+done < <(grep -ohE '`make [^`]*`' $documents | tr -d '`' | sort -u)
+
+for document in $documents; do
+    missing=$(
+        grep -oE '\]\([^)]*\)' "$document" | tr -d '[]()' | while read -r link; do
+            target=$(dirname "$document")/${link%%#*} heading=${link#*#}
+            [[ $link == http* || -e $target ]] || echo "$link"
+            [[ $link != *#* ]] || grep -qi "^#* ${heading//-/ }\$" "$target" || echo "$link"
+        done
+        grep -oE '`(assets|docs|examples|include|src|shaders|tests|tools)/[^` *]*`' "$document" | tr -d '`' |
+            while read -r path; do [ -e "$path" ] || echo "$path"; done
+        grep -oE '`test_[a-z0-9_]+`' "$document" | tr -d '`' | while read -r test; do [ -e "tests/$test.c" ] || echo "$test"; done
+    )
+    [ -z "$missing" ] || echo "  not there:" $missing
+    [ -z "$missing" ]
+    ok "$document: files and links are there" $?
+done
+exit $((cases_failed > 0))
