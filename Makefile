@@ -64,7 +64,8 @@ PACKAGES := glfw3 epoxy egl jansson cglm stb
 PKG_CFLAGS = $(eval PKG_CFLAGS := $(patsubst -I%,-isystem %,$(shell pkg-config --cflags $(PACKAGES))))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs glfw3 epoxy egl jansson))$(PKG_LIBS)
 
-# No fused multiply-add and no -ffast-math anywhere: the same document must give the same bits in every build.
+# No fused multiply-add and no -ffast-math anywhere: a scene gives the same bits at every optimisation level, number of threads
+# and width of lanes; only libm's exp, expm1, sin, cos and pow may differ from one machine to the next.
 comma := ,
 OPTIMISE := $(if $(SANITIZE),-O1 -fno-omit-frame-pointer,-O2)
 SANITIZERS := $(if $(SANITIZE),-fsanitize=address$(comma)undefined -fno-sanitize-recover=all)
