@@ -207,4 +207,4 @@ $(GENERATED)/build.c: FORCE | packages
 	@tools/build-info.sh $@ "$(CC)" "$(filter -O% -f% -m%,$(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS))$(if $(SPLINE_CFLAGS),; spline $(SPLINE_CFLAGS))"
 
 .SECONDARY:
--include $(wildcard $(B)/obj/*.d $(B)/obj/*/*.d $(B)/obj/*/*/*.d)
+-include $(shell find $(B)/obj -name "*.d" 2>/dev/null)

@@ -5,7 +5,7 @@
 
 #include "blind.h"
 
-#include "editor/state.h"
+#include "editor/core/state.h"
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>

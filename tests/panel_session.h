@@ -4,7 +4,7 @@
 
 #include "session.h"
 
-#include "editor/state.h"
+#include "editor/core/state.h"
 #include "rig/cast.h"
 #include <stdio.h>
 #include <stdlib.h>

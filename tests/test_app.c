@@ -1,7 +1,7 @@
 /// The app's frames and files, without a picture.
 #include "blind.h"
 
-#include "editor/state.h"
+#include "editor/core/state.h"
 #include "scene/load.h"
 #include "temporary.h"
 #include <signal.h>

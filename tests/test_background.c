@@ -2,7 +2,7 @@
 // row is wiggly_solve()'s, bit for bit, whatever was edited while it worked.
 #include "session.h"
 
-#include "editor/state.h"
+#include "editor/core/state.h"
 #include "scene/edit.h"
 #include "scene/extremes.h"
 #include "scene/storage.h"

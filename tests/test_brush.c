@@ -1,6 +1,6 @@
 /// The brush on a character's surface, by mouse and keys: what a stroke changes and what it leaves alone, its undo, its modes, and
 /// the distances that it works with.
-#include "editor/brush.h"
+#include "editor/stage/brush.h"
 #include "panel_session.h"
 #include "puppet.h"
 #include "timing/framelog.h"

@@ -1,7 +1,7 @@
 // What the editor shows, frame by frame: playback, views, the tail that is pulled, and what it costs. Without GL.
 #include "session.h"
 
-#include "editor/state.h"
+#include "editor/core/state.h"
 #include "timing/framelog.h"
 #include "ui/theme.h"
 #include <stdio.h>

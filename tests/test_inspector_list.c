@@ -1,7 +1,7 @@
 /// The inspector's scene, list of splines, tracks and palette, by the events of mouse and keyboard.
 #include "panel_session.h"
 
-#include "editor/arrange.h"
+#include "editor/core/arrange.h"
 
 static const char scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [" PANEL_SPLINES "],"

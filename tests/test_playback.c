@@ -1,7 +1,7 @@
 /// Playback: the real clock, speed, the part that is played, and scrubbing.
 #include "panel_session.h"
 
-#include "editor/playback.h"
+#include "editor/core/playback.h"
 
 /// 24 frames a second, two samples a frame: a position of 2 is one frame.
 static const char scene[] =

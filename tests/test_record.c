@@ -1,7 +1,7 @@
 /// Recording the body's way: few knots that keep to the hand's motion, a tail that swings as it did, one step to undo.
 #include "panel_session.h"
 
-#include "editor/record.h"
+#include "editor/stage/record.h"
 #include <math.h>
 
 static const char scene[] =

@@ -1,7 +1,7 @@
 /// The settle time beside damping, against the differential equation solved on a fine grid by other means.
 #include "near.h"
 
-#include "editor/settle.h"
+#include "editor/inspector/settle.h"
 #include "spline_of.h"
 #include <math.h>
 

@@ -1,6 +1,6 @@
 // Warnings in the curves panel: said where something is wrong, silent where nothing is, and gone after one click.
 #include "base/file.h"
-#include "editor/warnings.h"
+#include "editor/curves/warnings.h"
 #include "panel_session.h"
 
 /// A jump within two frames, and a knot half a period later that asks for the same value again.

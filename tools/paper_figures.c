@@ -1,7 +1,7 @@
 /// Writes the paper's figures as SVG and CSV, from the scenes in assets/scenes and the solver as it stands.
 /// Usage: paper_figures <folder>. Exit status 1 where a scene cannot be read or solved, 3 where a file cannot be written.
 #include "base/error.h"
-#include "editor/response.h"
+#include "editor/inspector/response.h"
 #include "model/character.h"
 #include "rig/pose.h"
 #include "scene/evaluate.h"

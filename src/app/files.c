@@ -4,7 +4,7 @@
 #include "base/embedded.h"
 #include "base/path.h"
 #include "base/png.h"
-#include "editor/dialog_files.h"
+#include "editor/dialogs/dialog_files.h"
 #include "scene/load.h"
 #include <dirent.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #define APP_PERSONAL_H
 
 #include "base/error.h"
-#include "editor/dialog_files.h"
+#include "editor/dialogs/dialog_files.h"
 #include <stdbool.h>
 
 struct app;

@@ -3,7 +3,7 @@
 #define APP_RECENT_H
 
 #include "app/settings.h"
-#include "editor/dialog_files.h"
+#include "editor/dialogs/dialog_files.h"
 
 /// Puts a file at the top of the list, by its absolute path; at most DIALOG_MAX_RECENT are kept.
 void recent_note(struct settings *settings, const char *path);

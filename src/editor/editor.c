@@ -1,8 +1,8 @@
 /// The editor's public functions: who gets an event, and what happens once a frame.
-#include "editor/actions.h"
-#include "editor/arrange.h"
-#include "editor/curves.h"
-#include "editor/follow.h"
+#include "editor/core/actions.h"
+#include "editor/core/arrange.h"
+#include "editor/curves/curves.h"
+#include "editor/stage/follow.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>

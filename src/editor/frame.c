@@ -1,8 +1,8 @@
 /// One frame of the editor: events are handed to who wants them, time passes, everything is shown.
-#include "editor/actions.h"
-#include "editor/curves.h"
-#include "editor/follow.h"
-#include "editor/record.h"
+#include "editor/core/actions.h"
+#include "editor/curves/curves.h"
+#include "editor/stage/follow.h"
+#include "editor/stage/record.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 #include "editor/keyboard.h"
-#include "editor/actions.h"
-#include "editor/curves.h"
-#include "editor/warnings.h"
+#include "editor/core/actions.h"
+#include "editor/curves/curves.h"
+#include "editor/curves/warnings.h"
 
 static const double PAN = 0.1;  ///< of the panel's size
 static const double ZOOM = 0.8; ///< of what is seen, a step

@@ -2,7 +2,7 @@
 #ifndef EDITOR_KEYBOARD_H
 #define EDITOR_KEYBOARD_H
 
-#include "editor/state.h"
+#include "editor/core/state.h"
 
 /// Arguments of keyboard_pan() and keyboard_orbit().
 enum keyboard_way { WAY_LEFT, WAY_RIGHT, WAY_UP, WAY_DOWN };

@@ -1,9 +1,9 @@
 /// The keyboard: one table of what a key does and one of what a typed character does (design: "The live app").
 #include "editor/keys.h"
-#include "editor/actions.h"
-#include "editor/curves.h"
+#include "editor/core/actions.h"
+#include "editor/curves/curves.h"
 #include "editor/keyboard.h"
-#include "editor/overlays.h"
+#include "editor/stage/overlays.h"
 #include "ui/theme.h"
 #include <math.h>
 

@@ -2,7 +2,7 @@
 #ifndef EDITOR_KEYS_H
 #define EDITOR_KEYS_H
 
-#include "editor/state.h"
+#include "editor/core/state.h"
 
 typedef void key_action(struct editor *editor, const struct editor_world *world, int argument);
 

@@ -1,8 +1,8 @@
 /// Names for places on the screen that survive a new layout, for replays: "knot(sway,2)", "tail(tail,0.9)".
-#include "editor/actions.h"
-#include "editor/body.h"
-#include "editor/curves.h"
-#include "editor/warnings.h"
+#include "editor/core/actions.h"
+#include "editor/curves/curves.h"
+#include "editor/curves/warnings.h"
+#include "editor/stage/body.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,0 +1,107 @@
+/// Time: playing, stepping, scrubbing. The position is in samples and may lie between two.
+#include "editor/core/playback.h"
+#include "editor/curves/curves.h"
+#include <math.h>
+#include <stdio.h>
+
+static const double REFRESH = 60; ///< pictures a second that a display shows at least
+
+static const double speeds[] = {0.1, 0.25, 0.5, 1, 2, 4};
+
+enum { SPEEDS = sizeof speeds / sizeof speeds[0] };
+
+static double last_position(const struct document *document) { return fmax(document_samples(document) - 1, 0); }
+
+static void go_to(struct editor *editor, const struct document *document, double position)
+{
+    editor->playback.position = fmin(fmax(position, 0), last_position(document));
+}
+
+/// The range that is played, in samples.
+static void range_positions(const struct editor *editor, const struct document *document, double range[2])
+{
+    playback_range(editor, document, range);
+    for (int end = 0; end < 2; end++) range[end] = curves_position(document, range[end]);
+}
+
+void playback_toggle(struct editor *editor, const struct editor_world *world)
+{
+    struct playback *playback = &editor->playback;
+    double range[2];
+    playback->playing = !playback->playing;
+    if (!playback->playing) return;
+    range_positions(editor, world->document, range);
+    playback->dropped = 0;
+    bool at_end = !playback->looping && playback->position >= range[1];
+    if (at_end || playback->position < range[0] || playback->position > range[1]) playback->position = range[0];
+}
+
+/// Whole frames between two positions that had no picture, beyond those that a display has no time for at this speed.
+static long frames_dropped(const struct document *document, double from, double to, double speed)
+{
+    const double rounding = 1e-6; // a sum of steps may end just before the frame that it means
+    double passed = floor(to / document->substeps + rounding) - floor(from / document->substeps + rounding);
+    double expected = fmax(1, ceil(document->fps * speed / REFRESH));
+    return passed > expected ? (long)(passed - expected) : 0;
+}
+
+void playback_advance(struct editor *editor, const struct editor_world *world, double dt)
+{
+    struct playback *playback = &editor->playback;
+    const struct document *document = world->document;
+    double range[2], from = playback->position;
+    if (!playback->playing) {
+        go_to(editor, document, from); /* an edit may have shortened the scene */
+        return;
+    }
+    range_positions(editor, document, range);
+    double to = from + dt * document->fps * document->substeps * playback->speed;
+    playback->dropped += frames_dropped(document, from, to, playback->speed);
+    playback->position = fmax(to, range[0]);
+    if (to < range[1]) return;
+    if (playback->looping && range[1] > range[0]) {
+        playback->position = range[0] + fmod(to - range[0], range[1] - range[0]);
+    } else {
+        playback->position = range[1];
+        playback->playing = playback->looping;
+    }
+}
+
+void playback_seek(struct editor *editor, const struct document *document, double frame)
+{
+    editor->playback.playing = false;
+    go_to(editor, document, curves_position(document, frame));
+}
+
+void playback_step(struct editor *editor, const struct editor_world *world, int direction)
+{
+    double frame = editor_frame(editor, world->document);
+    playback_seek(editor, world->document, direction > 0 ? floor(frame + 1e-6) + 1 : ceil(frame - 1e-6) - 1);
+}
+
+void playback_end(struct editor *editor, const struct editor_world *world, int direction)
+{
+    playback_seek(editor, world->document,
+                  direction > 0 ? world->document->last_frame : world->document->first_frame);
+}
+
+void playback_change_speed(struct editor *editor, const struct editor_world *world, int direction)
+{
+    (void)world;
+    double *speed = &editor->playback.speed;
+    int at = 0;
+    char text[64];
+    while (at < SPEEDS - 1 && speeds[at] < *speed) at++;
+    at += direction;
+    *speed = direction == 0 ? 1 : speeds[at < 0 ? 0 : at >= SPEEDS ? SPEEDS - 1 : at];
+    snprintf(text, sizeof text, *speed == 1 ? "Playback in real time." : "Playback at %g times real time.", *speed);
+    editor_message(editor, false, text);
+}
+
+void playback_toggle_loop(struct editor *editor, const struct editor_world *world, int unused)
+{
+    (void)world;
+    (void)unused;
+    editor->playback.looping = !editor->playback.looping;
+    editor_message(editor, false, editor->playback.looping ? "Playback loops." : "Playback stops at the end.");
+}

@@ -1,0 +1,117 @@
+/// The slopes of the selected knots: on, off, flat, Catmull-Rom, turned and made firmer by keys.
+#include "editor/core/actions.h"
+#include "editor/curves/curves.h"
+#include <math.h>
+
+/// Kinds of nudges for merge_key(), apart from those of nudge.c.
+enum nudge_kind { NUDGE_SLOPE = 50, NUDGE_STIFFNESS };
+
+static const double FIRM = 1000;             ///< stiffness where a knot has none yet, 1/s (spec: default)
+static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
+
+/// The curve's slope around a knot, in values a second, for a slope that changes as little as possible.
+static double slope_at(const struct editor *editor, const struct editor_world *world, const struct knot *knot)
+{
+    double sample = document_sample(world->document, knot->frame);
+    wiggly_value before = curves_solved(world, editor->active, sample - 0.5);
+    wiggly_value after = curves_solved(world, editor->active, sample + 0.5);
+    double slope = (after.y + after.re - before.y - before.re) / document_step(world->document);
+    return isfinite(slope) ? slope : 0;
+}
+
+/// A slope for one knot of the active spline, in values a second.
+typedef double slope_rule(const struct document *document, const struct spline *spline, int k);
+
+static double flat(const struct document *document, const struct spline *spline, int k)
+{
+    (void)document;
+    (void)spline;
+    (void)k;
+    return 0;
+}
+
+/// Catmull and Rom: the slope of the chord from the knot before to the knot after; at an end of the curve to the only one
+/// beside it, in a loop around its end.
+static double catmull_rom(const struct document *document, const struct spline *spline, int k)
+{
+    const struct knot *knots = spline->knots;
+    int count = spline->knot_count;
+    bool loop = spline->start == WIGGLY_LOOP && count > 1;
+    double period = document->last_frame - document->first_frame;
+    int before = k > 0 ? k - 1 : loop ? count - 1 : 0, after = k + 1 < count ? k + 1 : loop ? 0 : count - 1;
+    double frames = knots[after].frame - knots[before].frame;
+    if (loop && (k == 0 || k == count - 1)) frames += period;
+    if (loop && count == 2) return 0; /* the same knot on both sides */
+    return frames > 0 ? (knots[after].value - knots[before].value) / frames * document->fps : 0;
+}
+
+/// Calls for a change of every selected knot as one step.
+struct knot_change {
+    const char *label;
+    uint64_t kind;    ///< for merging, 0: never
+    bool on;          ///< slopes are switched on where they are not, or off
+    slope_rule *rule; ///< what slopes are set to, or NULL
+    double slope;     ///< added
+    double stiffness; ///< multiplied
+};
+
+static void change_knots(struct editor *editor, const struct editor_world *world, const struct knot_change *change)
+{
+    struct spline *spline = editor_active_spline(editor, world);
+    if (selection_count(&editor->selection, spline) == 0 || history_is_open(world->history)) return;
+    double visible = editor->view.value1 - editor->view.value0;
+    history_begin(world->history, change->label, change->kind ? merge_key(editor, world, change->kind) : 0);
+    for (int k = 0; k < spline->knot_count; k++) {
+        const struct knot *knot = &spline->knots[k];
+        if (!selection_has(&editor->selection, knot->id)) continue;
+        struct edit edit = editor_edit_of(EDIT_KNOT_SET, editor->active);
+        edit.knot = *knot;
+        if (change->on && !knot->has_slope) edit.knot.slope = slope_at(editor, world, knot);
+        if (!(knot->stiffness > 0)) edit.knot.stiffness = FIRM;
+        edit.knot.has_slope = change->on;
+        if (change->rule) edit.knot.slope = change->rule(world->document, spline, k);
+        bool changes = change->rule || change->slope != 0 || (change->on && !knot->has_slope);
+        if (changes) edit.knot.slope = round_value(edit.knot.slope + change->slope, SLOPE_RESOLUTION * visible);
+        edit.knot.stiffness = fmin(fmax(edit.knot.stiffness * change->stiffness, 1e-3), 1e9);
+        editor_edit(editor, world, &edit);
+    }
+    history_end(world->history);
+}
+
+void nudge_slope(struct editor *editor, const struct editor_world *world, double share)
+{
+    double visible = editor->view.value1 - editor->view.value0;
+    struct knot_change change = {
+        .label = "Change slope", .kind = NUDGE_SLOPE, .on = true, .slope = share * visible, .stiffness = 1};
+    change_knots(editor, world, &change);
+}
+
+void nudge_stiffness(struct editor *editor, const struct editor_world *world, double factor)
+{
+    struct knot_change change = {
+        .label = "Change stiffness", .kind = NUDGE_STIFFNESS, .on = true, .stiffness = factor};
+    change_knots(editor, world, &change);
+}
+
+void toggle_slope(struct editor *editor, const struct editor_world *world)
+{
+    const struct spline *spline = editor_active_spline(editor, world);
+    bool all = true;
+    for (int k = 0; spline && k < spline->knot_count; k++) {
+        if (selection_has(&editor->selection, spline->knots[k].id)) all &= spline->knots[k].has_slope;
+    }
+    struct knot_change change = {.label = all ? "Slope off" : "Slope on", .on = !all, .stiffness = 1};
+    change_knots(editor, world, &change);
+}
+
+void flatten_slopes(struct editor *editor, const struct editor_world *world)
+{
+    const struct knot_change change = {.label = "Slope flat", .on = true, .rule = flat, .stiffness = 1};
+    change_knots(editor, world, &change);
+}
+
+void smooth_slopes(struct editor *editor, const struct editor_world *world)
+{
+    const struct knot_change change = {.label = "Slope smooth", .on = true, .rule = catmull_rom, .stiffness = 1};
+    change_knots(editor, world, &change);
+}

@@ -1,0 +1,126 @@
+/// One click against a warning. What could help against a swing is tried on the solved document, and the first that does is
+/// kept.
+#include "editor/core/actions.h"
+#include "editor/curves/curves.h"
+#include "editor/curves/warnings.h"
+#include <math.h>
+#include <stdio.h>
+
+enum { LOWER_STEPS = 8 };
+
+static const double LOWER = 0.9; ///< factor of the frequency from try to try
+
+/// Swings that the spline has too many of with the document as it is now; -1 where it cannot be solved.
+static int count_swings(const struct document *document, int spline)
+{
+    struct evaluation trial = {0};
+    struct warnings found = {0};
+    bool good = evaluation_resize(&trial, document, NULL);
+    if (good) {
+        evaluation_update(&trial, document, NULL, false);
+        warnings_find(document, &trial, spline, &found);
+    }
+    int count = 0;
+    for (int i = 0; i < found.count; i++) count += found.list[i].kind == WARNING_SWING;
+    evaluation_free(&trial);
+    return good ? count : -1;
+}
+
+/// Does an edit in the open step and says whether there are fewer swings than `before`; if not, it is taken back.
+static bool helps(struct editor *editor, const struct editor_world *world, const struct edit *edit, int before)
+{
+    struct document *document = world->document;
+    int count = -1;
+    if (history_apply(world->history, document, edit, NULL)) count = count_swings(document, editor->active);
+    if (count >= 0 && count < before) return true;
+    history_restart(world->history, document);
+    return false;
+}
+
+static struct edit parameter_edit(const struct editor *editor, enum parameter parameter, double value)
+{
+    struct edit edit = editor_edit_of(EDIT_PARAMETER, editor->active);
+    edit.parameter = parameter;
+    edit.param.value = value;
+    return edit;
+}
+
+static bool lower_frequency(struct editor *editor, const struct editor_world *world, const struct spline *spline,
+                            int before, char text[96])
+{
+    const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
+    double value = frequency->value;
+    if (frequency->track >= 0 || spline->spring_friction) return false;
+    for (int i = 0; i < LOWER_STEPS; i++) {
+        value = round_value(value * LOWER, 0.01);
+        struct edit edit = parameter_edit(editor, PARAMETER_FREQUENCY, value);
+        if (!helps(editor, world, &edit, before)) continue;
+        snprintf(text, 96, "%.3g Hz keeps the swing down.", value);
+        return true;
+    }
+    return false;
+}
+
+static bool tame(struct editor *editor, const struct editor_world *world, const struct warning *warning,
+                 char text[96])
+{
+    const struct spline *spline = editor_active_spline(editor, world);
+    int before = count_swings(world->document, editor->active);
+    struct edit calm = parameter_edit(editor, PARAMETER_CALM, 1);
+    struct edit hold = editor_edit_of(EDIT_KNOT_INSERT, editor->active);
+    double resolution = 0.01 / curves_pixels_per_value(editor);
+    hold.knot = (struct knot){.frame = warning->frame,
+                              .value = round_value(warning->remedy, resolution),
+                              .stiffness = KNOT_DEFAULT_STIFFNESS};
+    if (spline->parameter[PARAMETER_CALM].value < 1 && helps(editor, world, &calm, before)) {
+        snprintf(text, 96, "Calm 1 keeps the swing down.");
+        return true;
+    }
+    if (helps(editor, world, &hold, before)) {
+        snprintf(text, 96, "A knot at frame %.6g keeps the swing down.", warning->frame);
+        return true;
+    }
+    return lower_frequency(editor, world, spline, before, text);
+}
+
+/// More substeps keep the motion as it is; where there is no room for them the frequency gives way.
+static bool resolve_rate(struct editor *editor, const struct editor_world *world, const struct warning *warning,
+                         char text[96])
+{
+    struct edit edit = editor_edit_of(EDIT_SUBSTEPS, -1);
+    edit.substeps = (int)fmin(warning->remedy, SCENE_MAX_SUBSTEPS);
+    snprintf(text, 96, "%d substeps a frame.", edit.substeps);
+    if (warning->remedy <= SCENE_MAX_SUBSTEPS && history_apply(world->history, world->document, &edit, NULL)) {
+        return true;
+    }
+    const struct spline *spline = editor_active_spline(editor, world);
+    double value = spline->parameter[PARAMETER_FREQUENCY].value * warning->limit / warning->amount;
+    edit = parameter_edit(editor, PARAMETER_FREQUENCY, round_value(0.99 * value, 0.01));
+    snprintf(text, 96, "%.3g Hz.", edit.param.value);
+    return editor_edit(editor, world, &edit);
+}
+
+void warning_remedy(struct editor *editor, const struct editor_world *world, const struct warning *warning)
+{
+    static const char *const labels[] = {
+        [WARNING_SWING] = "Tame swing", [WARNING_RATE] = "Add substeps", [WARNING_DRIFT] = "Narrow bandwidth"};
+    const struct warning chosen = *warning;
+    char text[96] = "";
+    bool good = false;
+    if (!editor_active_spline(editor, world) || history_is_open(world->history)) return;
+    history_begin(world->history, labels[chosen.kind], 0);
+    if (chosen.kind == WARNING_SWING) good = tame(editor, world, &chosen, text);
+    if (chosen.kind == WARNING_RATE) good = resolve_rate(editor, world, &chosen, text);
+    if (chosen.kind == WARNING_DRIFT) {
+        struct edit edit = parameter_edit(editor, PARAMETER_BANDWIDTH, chosen.remedy);
+        good = editor_edit(editor, world, &edit);
+        snprintf(text, sizeof text, "Bandwidth %.3g.", chosen.remedy);
+    }
+    history_end(world->history);
+    editor_reserve(editor, world->document);
+    if (good) {
+        editor_message(editor, false, text);
+    } else if (chosen.kind == WARNING_SWING) {
+        editor_message(editor, false, "Neither calm nor a knot nor a lower frequency helps here: move the knots.");
+    }
+}

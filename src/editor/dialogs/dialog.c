@@ -1,0 +1,341 @@
+/// The dialogs: open, save as, and the questions.
+#include "editor/dialogs/dialog.h"
+#include "editor/core/state.h"
+#include "editor/dialogs/dialog_question.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LIST_ROWS = 8, BUTTON_WIDTH = 104 };
+enum { ANSWER_SAVE, ANSWER_DISCARD, ANSWER_CANCEL };
+
+void editor_set_files(struct editor *editor, const struct dialog_files *files) { editor->dialog.files = *files; }
+
+static bool is_question(const struct dialog *dialog)
+{
+    return dialog->kind == DIALOG_UNSAVED || dialog->kind == DIALOG_RECOVER || dialog->kind == DIALOG_ASK;
+}
+
+static void open_dialog(struct editor *editor, enum dialog_kind kind, const char *path)
+{
+    struct dialog *dialog = &editor->dialog;
+    dialog->kind = kind;
+    dialog->waiting = false;
+    dialog->error[0] = '\0';
+    dialog->name_count = -1;
+    dialog->choice = 0;
+    ui_release(&dialog->ui);
+    ui_text_set(&dialog->ui.text, path);
+    dialog->ui.text.all = path[0] != '\0';
+    if (is_question(dialog)) return;
+    bool lists = kind == DIALOG_OPEN && dialog->files.recent;
+    dialog->recent_count = lists ? dialog->files.recent(dialog->files.user, dialog->recent, DIALOG_MAX_RECENT) : 0;
+    dialog_match(dialog);
+}
+
+void dialog_open(struct editor *editor, enum dialog_kind kind) { open_dialog(editor, kind, ""); }
+
+void dialog_close(struct editor *editor)
+{
+    struct dialog *dialog = &editor->dialog;
+    dialog->kind = DIALOG_NONE;
+    dialog->waiting = false;
+    dialog->after.kind = REQUEST_NONE;
+}
+
+void dialog_ask_open(struct editor *editor) { open_dialog(editor, DIALOG_OPEN, ""); }
+
+void dialog_ask_save_as(struct editor *editor)
+{
+    size_t length = strlen(editor->title);
+    bool named = length > 5 && strcmp(editor->title + length - 5, ".json") == 0;
+    const char *name = named ? editor->title : "untitled.json";
+    open_dialog(editor, DIALOG_SAVE_AS, editor->path[0] ? editor->path : name);
+}
+
+static void go_on(struct editor *editor, const struct request *after)
+{
+    if (after->kind == REQUEST_OPEN && !after->path[0]) {
+        dialog_ask_open(editor);
+    } else if (after->kind != REQUEST_NONE) {
+        editor_request(editor, after->kind, after->path);
+    }
+}
+
+void dialog_leave(struct editor *editor, const struct editor_world *world, const struct request *after)
+{
+    inspector_let_go(editor, world);
+    if (history_is_saved(world->history)) {
+        go_on(editor, after);
+        return;
+    }
+    open_dialog(editor, DIALOG_UNSAVED, "");
+    editor->dialog.after = *after;
+}
+
+void dialog_done(struct editor *editor)
+{
+    if (!editor->dialog.waiting) return;
+    struct request after = editor->dialog.after;
+    dialog_close(editor);
+    go_on(editor, &after);
+}
+
+bool dialog_failed(struct editor *editor, const char *sentence)
+{
+    struct dialog *dialog = &editor->dialog;
+    if (!dialog->waiting) return false;
+    dialog->waiting = false;
+    snprintf(dialog->error, sizeof dialog->error, "%s", sentence);
+    return true;
+}
+
+static void decide(struct editor *editor, int choice)
+{
+    struct dialog *dialog = &editor->dialog;
+    struct request after = dialog->after;
+    if (choice == ANSWER_SAVE && editor->path[0]) {
+        dialog->waiting = true;
+        editor_request(editor, REQUEST_SAVE, NULL);
+    } else if (choice == ANSWER_SAVE) {
+        dialog_ask_save_as(editor);
+    } else {
+        dialog_close(editor);
+        if (choice == ANSWER_DISCARD) go_on(editor, &after);
+    }
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+    size_t length = strlen(text), n = strlen(end);
+    return length >= n && strcmp(text + length - n, end) == 0;
+}
+
+/// Asks the app to open or save what is typed.
+static void confirm(struct editor *editor)
+{
+    struct dialog *dialog = &editor->dialog;
+    char path[sizeof((struct request *)0)->path];
+    const char *typed = dialog->ui.text.bytes;
+    bool saving = dialog->kind == DIALOG_SAVE_AS;
+    if (is_question(dialog)) return;
+    if (!typed[0] || ends_with(typed, "/")) {
+        snprintf(dialog->error, sizeof dialog->error, "Type the name of a file.");
+        return;
+    }
+    int length = snprintf(path, sizeof path, "%s%s", typed, saving && !ends_with(typed, ".json") ? ".json" : "");
+    if (length >= (int)sizeof path) {
+        snprintf(dialog->error, sizeof dialog->error, "The path is too long.");
+        return;
+    }
+    dialog->error[0] = '\0';
+    dialog->waiting = true;
+    editor_request(editor, saving ? REQUEST_SAVE_AS : REQUEST_OPEN, path);
+}
+
+static void unsaved_question(const struct editor *editor, struct question *question)
+{
+    static const struct answer answers[] = {
+        [ANSWER_SAVE] = {"dialog.save", "Save", 'S'},
+        [ANSWER_DISCARD] = {"dialog.discard", "Discard", 'D'},
+        [ANSWER_CANCEL] = {"dialog.cancel", "Cancel", 'C'},
+    };
+    question->answers = answers;
+    question->count = sizeof answers / sizeof answers[0];
+    snprintf(question->title, sizeof question->title, "%s has unsaved changes", editor->title);
+    snprintf(question->note, sizeof question->note,
+             "They are lost unless you save them.  S saves, D discards, Esc cancels.");
+}
+
+/// The question that is on the screen.
+static struct question question_of(const struct editor *editor)
+{
+    struct question question = {0};
+    if (editor->dialog.kind == DIALOG_ASK) {
+        question = editor->dialog.question;
+    } else if (editor->dialog.kind == DIALOG_UNSAVED) {
+        unsaved_question(editor, &question);
+    } else {
+        dialog_recover_question(editor, &question);
+    }
+    return question;
+}
+
+static void answer(struct editor *editor, const struct editor_world *world, int given)
+{
+    if (given < 0) return;
+    if (editor->dialog.kind == DIALOG_ASK) {
+        dialog_ask_answer(editor, world, given);
+    } else if (editor->dialog.kind == DIALOG_UNSAVED) {
+        decide(editor, given);
+    } else {
+        dialog_recover_answer(editor, given);
+    }
+}
+
+/// A letter that answers brings its character along, which is no part of a path that is typed next.
+static bool question_event(struct editor *editor, const struct editor_world *world, int key)
+{
+    struct question question = question_of(editor);
+    int given = question_key(&editor->dialog, &question, key);
+    if (given == QUESTION_UNUSED) return false;
+    editor->dialog.skip_text = true;
+    answer(editor, world, given);
+    return true;
+}
+
+static void move_choice(struct dialog *dialog, int direction)
+{
+    if (dialog->match_count == 0) return;
+    int next = dialog->choice + direction;
+    dialog->choice = next < 0 ? 0 : next >= dialog->match_count ? dialog->match_count - 1 : next;
+}
+
+static bool path_key(struct editor *editor, int key)
+{
+    struct dialog *dialog = &editor->dialog;
+    switch (key) {
+    case KEY_ESCAPE:
+        dialog_close(editor);
+        return true;
+    case KEY_TAB:
+        dialog_complete(dialog);
+        return true;
+    case KEY_UP:
+        move_choice(dialog, -1);
+        return true;
+    case KEY_DOWN:
+        move_choice(dialog, 1);
+        return true;
+    case KEY_ENTER:
+        if (dialog->kind == DIALOG_OPEN && dialog->match_count == 1) dialog->choice = 0;
+        if (dialog->choice < 0 || dialog_take(dialog, dialog->choice)) confirm(editor);
+        return true;
+    default:
+        return false;
+    }
+}
+
+/// The second press of a double-click on a name, which the first one has put into the path.
+static bool is_confirmed(const struct dialog *dialog, struct rect list)
+{
+    const struct ui *ui = &dialog->ui;
+    const struct event *event = ui->event;
+    bool twice = ui->pass == UI_PASS_EVENT && event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
+                 event->button == BUTTON_LEFT && event->clicks == 2;
+    return twice && rect_contains(list, event->x, event->y) && ui->text.bytes[0] && !ends_with(ui->text.bytes, "/");
+}
+
+static void build_list(struct editor *editor)
+{
+    struct dialog *dialog = &editor->dialog;
+    struct ui *ui = &dialog->ui;
+    struct rect list = {ui->area.x, ui->y, ui->area.w, LIST_ROWS * UI_ROW};
+    bool confirmed = is_confirmed(dialog, list);
+    int first = dialog->choice >= LIST_ROWS ? dialog->choice - LIST_ROWS + 1 : 0, taken = -1;
+    for (int row = 0; row < LIST_ROWS; row++) {
+        struct rect r = ui_row(ui, UI_ROW);
+        if (first + row < dialog->match_count && dialog_row(dialog, r, first + row)) taken = first + row;
+    }
+    if (taken >= 0) dialog->error[0] = '\0';
+    bool direct = taken >= 0 && dialog_recent_of(dialog, taken); // a recent file is opened by one click
+    bool done = taken >= 0 && !confirmed && dialog_take(dialog, taken);
+    if (confirmed || (done && direct)) confirm(editor);
+}
+
+static void build_path(struct editor *editor)
+{
+    struct dialog *dialog = &editor->dialog;
+    struct ui *ui = &dialog->ui;
+    bool saving = dialog->kind == DIALOG_SAVE_AS;
+    ui_label(ui, ui_row(ui, UI_ROW), saving ? "Save the scene as" : "Open a scene", theme()->text);
+    ui_space(ui, 4);
+    if (ui_text_field(ui, ui_row(ui, 28), "dialog.path")) {
+        dialog->error[0] = '\0';
+        dialog_match(dialog);
+    }
+    ui_space(ui, 8);
+    if (dialog->files.list) build_list(editor);
+    const char *note = saving && dialog_exists(dialog) ? "Replaces the file that is there." : "";
+    if (dialog->match_count > 0 && dialog_recent_of(dialog, 0))
+        note = "Recent files first.  Type or choose; Tab completes.";
+    if (!note[0] && dialog->files.list) note = "Tab completes, arrows choose.";
+    ui_space(ui, 4);
+    float top = ui->y;
+    ui_paragraph(ui, dialog->error[0] ? dialog->error : note, dialog->error[0] ? theme()->error : theme()->text_dim);
+    ui_space(ui, fmaxf(8, 40 - (ui->y - top)));
+    struct rect row = ui_row(ui, 28);
+    struct rect right = {row.x + row.w - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
+    struct rect left = {right.x - UI_GAP - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
+    bool cancelled = ui_button(ui, left, "dialog.cancel", "Cancel", false);
+    if (ui_button(ui, right, "dialog.confirm", saving ? "Save" : "Open", true)) confirm(editor);
+    if (cancelled) dialog_close(editor);
+}
+
+static void build(struct editor *editor, const struct editor_world *world)
+{
+    struct dialog *dialog = &editor->dialog;
+    struct ui *ui = &dialog->ui;
+    ui_space(ui, 8);
+    if (is_question(dialog)) {
+        struct question question = question_of(editor);
+        answer(editor, world, question_build(dialog, &question));
+    } else {
+        ui->focus = ui_id("dialog.path"); // the path is all there is to type in
+        build_path(editor);
+    }
+    ui_space(ui, 12);
+}
+
+/// The dialog's rectangle: as high as its content, in the middle of the window.
+static struct rect dialog_box(struct editor *editor, const struct editor_world *world)
+{
+    struct rect window = editor->layout.window;
+    struct ui *ui = &editor->dialog.ui;
+    float w = fminf(is_question(&editor->dialog) ? 440 : 560, window.w - 48);
+    ui_begin_find(ui, (struct rect){0, 0, w, window.h}, "", NULL);
+    build(editor, world);
+    float h = fminf(ui->y, window.h - 16);
+    ui_end(ui);
+    return (struct rect){roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 3), w, h};
+}
+
+bool dialog_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    struct dialog *dialog = &editor->dialog;
+    if (dialog->kind == DIALOG_NONE || event->kind == EVENT_SIZE || event->kind == EVENT_EXPOSE) return false;
+    if (dialog->kind == DIALOG_RECOVER && event->kind == EVENT_CLOSE && !dialog->waiting) {
+        dialog_close(editor);
+        return false;
+    }
+    bool key = event->kind == EVENT_KEY;
+    if (key && event->action == ACTION_RELEASE) return false; // of a key that was pressed before the dialog came
+    bool typed_by_answer = dialog->skip_text && event->kind == EVENT_TEXT;
+    dialog->skip_text = false;
+    if (dialog->waiting || typed_by_answer) return true;
+    bool chord = event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER);
+    if (key && !chord) {
+        bool done = is_question(dialog) ? question_event(editor, world, event->key) : path_key(editor, event->key);
+        if (done) return true;
+    }
+    struct rect box = dialog_box(editor, world);
+    ui_begin_event(&dialog->ui, box, event);
+    build(editor, world);
+    ui_end(&dialog->ui);
+    return true;
+}
+
+void dialog_show(struct editor *editor, const struct editor_world *world)
+{
+    struct dialog *dialog = &editor->dialog;
+    if (dialog->kind == DIALOG_NONE) return;
+    struct drawlist *list = &editor->list;
+    struct rect box = dialog_box(editor, world);
+    drawlist_rect(list, editor->layout.window, theme()->veil);
+    drawlist_rounded(list, box, 8, theme()->panel);
+    drawlist_rounded_line(list, box, 8, 1, theme()->zero);
+    ui_begin_draw(&dialog->ui, box, list);
+    build(editor, world);
+    ui_end(&dialog->ui);
+}

@@ -1,0 +1,84 @@
+/// Questions before an edit that touches more than what was asked for: frames per second, a smaller range, deleting a
+/// spline that others follow.
+#include "editor/core/arrange.h"
+#include "editor/dialogs/dialog.h"
+#include "scene/reference.h"
+#include <stdio.h>
+
+static const struct answer fps_answers[] = {
+    {"dialog.frames", "Keep frames", 'F'}, {"dialog.seconds", "Keep seconds", 'S'}, {"dialog.cancel", "Cancel", 'C'}};
+static const struct answer range_answers[] = {
+    {"dialog.move", "Move", 'M'}, {"dialog.trim", "Trim", 'T'}, {"dialog.cancel", "Cancel", 'C'}};
+static const struct answer remove_answers[] = {{"dialog.delete", "Delete", 'D'}, {"dialog.cancel", "Cancel", 'C'}};
+
+static void ask_fps(struct question *question, const struct document *document, const struct ask *ask)
+{
+    question->answers = fps_answers;
+    question->count = sizeof fps_answers / sizeof fps_answers[0];
+    snprintf(question->title, sizeof question->title, "%g frames per second, and not %g", ask->number, document->fps);
+    snprintf(question->note, sizeof question->note,
+             "Keep frames: knots stay on their frames, and all goes %s.  Keep seconds: knots and range move to other "
+             "frames, and the motion stays.",
+             ask->number > document->fps ? "faster" : "slower");
+}
+
+static void ask_range(struct question *question, const struct document *document, const struct ask *ask)
+{
+    int count = arrange_outside(document, ask->first, ask->last);
+    question->answers = range_answers;
+    question->count = sizeof range_answers / sizeof range_answers[0];
+    snprintf(question->title, sizeof question->title, "%d knot%s would lie outside of %d to %d", count,
+             count == 1 ? "" : "s", ask->first, ask->last);
+    snprintf(question->note, sizeof question->note,
+             "Move: to the nearest free frames inside, in their order.  Trim: deletes them.");
+}
+
+static void ask_remove(struct question *question, const struct document *document, int spline)
+{
+    int count = reference_count(document, spline);
+    question->answers = remove_answers;
+    question->count = sizeof remove_answers / sizeof remove_answers[0];
+    snprintf(question->title, sizeof question->title, "%.200s is followed in %d place%s",
+             document->splines[spline].name, count, count == 1 ? "" : "s");
+    snprintf(
+        question->note, sizeof question->note,
+        "Parameters that follow it keep the value that they have at the playhead; what it bends or drives on the "
+        "stage lets go of it.");
+}
+
+void dialog_ask(struct editor *editor, const struct editor_world *world, const struct ask *ask)
+{
+    struct question *question = &editor->dialog.question;
+    *question = (struct question){0};
+    editor->dialog.ask = *ask;
+    if (ask->kind == ASK_FPS) ask_fps(question, world->document, ask);
+    if (ask->kind == ASK_RANGE) ask_range(question, world->document, ask);
+    if (ask->kind == ASK_REMOVE) ask_remove(question, world->document, editor->active);
+    inspector_let_go(editor, world);
+    dialog_open(editor, DIALOG_ASK);
+}
+
+void dialog_ask_answer(struct editor *editor, const struct editor_world *world, int answer)
+{
+    const struct ask ask = editor->dialog.ask;
+    bool cancelled = answer == editor->dialog.question.count - 1;
+    dialog_close(editor);
+    if (cancelled) return;
+    struct edit edit = editor_edit_of(ask.kind == ASK_FPS ? EDIT_FPS : EDIT_RANGE, -1);
+    switch (ask.kind) {
+    case ASK_FPS:
+        edit.number = ask.number;
+        edit.flag = answer == 1;
+        editor_step(editor, world, "Set frames per second", 0, &edit);
+        break;
+    case ASK_RANGE:
+        edit.first = ask.first;
+        edit.last = ask.last;
+        edit.fit = answer == 0 ? RANGE_MOVE : RANGE_TRIM;
+        editor_step(editor, world, "Set range", 0, &edit);
+        break;
+    case ASK_REMOVE:
+        arrange_remove_now(editor, world);
+        break;
+    }
+}

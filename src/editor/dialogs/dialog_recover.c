@@ -1,0 +1,47 @@
+/// What to do with unsaved work that an earlier run left behind: recover it, discard it, or decide later.
+#include "editor/core/state.h"
+#include "editor/dialogs/dialog.h"
+#include <stdio.h>
+
+static const struct answer answers[] = {
+    [RECOVER_RECOVER] = {"dialog.recover", "Recover", 'R'},
+    [RECOVER_DISCARD] = {"dialog.discard", "Discard", 'D'},
+    [RECOVER_LATER] = {"dialog.later", "Later", 'L'},
+};
+
+void editor_offer_recovery(struct editor *editor, const struct recovery_offer *offer)
+{
+    editor->dialog.offer = *offer;
+    dialog_open(editor, DIALOG_RECOVER);
+}
+
+void editor_recovery_done(struct editor *editor)
+{
+    if (editor->dialog.kind == DIALOG_RECOVER) dialog_close(editor);
+}
+
+void dialog_recover_question(const struct editor *editor, struct question *question)
+{
+    const struct recovery_offer *offer = &editor->dialog.offer;
+    char others[64] = "";
+    if (offer->others > 0) {
+        snprintf(others, sizeof others, "  %d older one%s after this.", offer->others, offer->others > 1 ? "s" : "");
+    }
+    question->answers = answers;
+    question->count = sizeof answers / sizeof answers[0];
+    snprintf(question->title, sizeof question->title, "Unsaved work on %s was left behind", offer->name);
+    snprintf(question->note, sizeof question->note, "Kept on %s.  Later asks again at the next start.%s", offer->when,
+             others);
+}
+
+void dialog_recover_answer(struct editor *editor, int answer)
+{
+    struct dialog *dialog = &editor->dialog;
+    if (answer == RECOVER_LATER) {
+        dialog_close(editor);
+        return;
+    }
+    dialog->error[0] = '\0';
+    dialog->waiting = true;
+    editor_request(editor, answer == RECOVER_RECOVER ? REQUEST_RECOVER : REQUEST_FORGET, NULL);
+}

@@ -1,0 +1,267 @@
+#include "editor/inspector/inspector.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FOOTER = 40 }; ///< height of the look switch, which never scrolls away
+
+static bool has_spline(const struct inspection *in) { return editor_active_spline(in->editor, in->world) != NULL; }
+
+static bool has_tail(const struct inspection *in)
+{
+    return in->document->tail_count > 0 || in->document->character_count == 0;
+}
+
+static bool has_character(const struct inspection *in) { return in->document->character_count > 0; }
+
+/// From the top down; `name` is what replays call the header.
+static const struct section {
+    const char *name, *title;
+    void (*build)(struct inspection *in);
+    bool (*shown)(const struct inspection *in); ///< NULL: always
+    bool closed;                                ///< at first
+} sections[] = {
+    {"section.scene", "Scene", inspector_scene, NULL, true},
+    {"section.splines", "Splines", inspector_splines, NULL, false},
+    {"section.spline", "Spline", inspector_spline, has_spline, false},
+    {"section.poles", "Poles and response", inspector_poles, has_spline, true},
+    {"section.knot", "Knot", inspector_knot, has_spline, false},
+    {"section.tail", "Tail", inspector_tail, has_tail, false},
+    {"section.character", "Character", inspector_character, has_character, false},
+    {"section.history", "History", inspector_history, NULL, true}, // the last one: see there
+};
+
+_Static_assert(sizeof sections / sizeof sections[0] <= INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
+
+static void build_sections(struct inspection *in)
+{
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+        const struct section *section = &sections[i];
+        bool *flipped = &in->editor->inspector.flipped[i];
+        if (section->shown && !section->shown(in)) continue;
+        bool closed = *flipped != section->closed;
+        bool open = ui_section(in->ui, section->name, section->title, &closed);
+        *flipped = closed != section->closed;
+        if (!open) continue;
+        section->build(in);
+        ui_space(in->ui, 4);
+    }
+}
+
+void inspector_unfold(struct editor *editor, const char *name)
+{
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+        if (strcmp(sections[i].name, name) == 0) editor->inspector.flipped[i] = sections[i].closed;
+    }
+}
+
+static void build_look(struct inspection *in, struct rect footer)
+{
+    static const struct ui_choice looks[] = {
+        [LOOK_WIGGLY] = {"wiggly", "Wiggly"}, [LOOK_STIFF] = {"stiff", "Stiff"}, [LOOK_CUBIC] = {"cubic", "Cubic"}};
+    struct ui *ui = in->ui;
+    struct rect r = {footer.x + UI_PAD, footer.y + 8, footer.w - 2 * UI_PAD, UI_ROW};
+    if (ui->pass == UI_PASS_DRAW) {
+        drawlist_rect(ui->list, footer, theme()->panel);
+        drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
+    }
+    if (ui_hovered(ui, footer)) ui->hint = "The same knots: wiggly, without lag, or as a classical cubic (V)";
+    int look = (int)in->editor->look;
+    if (ui_segments(ui, r, "look", looks, 3, &look)) editor_set_look(in->editor, (enum look)look);
+}
+
+static void build(struct inspection *in, struct rect area)
+{
+    struct ui *ui = in->ui;
+    struct rect view = {area.x, area.y, area.w, fmaxf(0, area.h - FOOTER)};
+    ui_scroll_begin(ui, &in->editor->inspector.scroll, view);
+    build_sections(in);
+    ui_space(ui, 4);
+    ui_scroll_end(ui);
+    build_look(in, (struct rect){area.x, area.y + view.h, area.w, FOOTER});
+    inspector_palette(in);
+    inspector_follow_list(in);
+    inspector_character_lists(in);
+    inspector_feed_list(in);
+    inspector_place_list(in);
+}
+
+static struct inspection inspection_of(struct editor *editor, const struct editor_world *world)
+{
+    return (struct inspection){editor, world, world->document, &editor->inspector.ui};
+}
+
+void inspector_reset(struct editor *editor)
+{
+    struct inspector *inspector = &editor->inspector;
+    ui_release(&inspector->ui);
+    inspector->scroll.offset = 0;
+    inspector->tail = 0;
+    inspector->channel = 0;
+}
+
+/// Whether the panel's code has to run for the event at all; keys are the editor's where nothing here has the keyboard.
+static bool concerns(const struct editor *editor, const struct event *event)
+{
+    const struct ui *ui = &editor->inspector.ui;
+    struct rect area = editor->layout.inspector;
+    bool input = event->kind <= EVENT_WHEEL;
+    if (event->kind == EVENT_KEY && event->action == ACTION_RELEASE) return false;
+    if (ui->popup.id) return input;
+    switch (event->kind) {
+    case EVENT_KEY:
+        if (editor->held_key && !ui->typing) return false; // F and an arrow is the editor's, whatever has the focus
+        return ui->held || ui->typing || ui->focus || event->key == KEY_TAB;
+    case EVENT_TEXT:
+        return ui->typing || ui->focus;
+    case EVENT_POINTER:
+        return ui->held || rect_contains(area, event->x, event->y);
+    case EVENT_BUTTON:
+        return ui->held || ui->typing || rect_contains(area, event->x, event->y);
+    case EVENT_WHEEL:
+        return rect_contains(area, event->x, event->y);
+    default:
+        return false;
+    }
+}
+
+/// What passes the inspector by still ends hovering and, for a press, the keyboard focus.
+static void event_elsewhere(struct ui *ui, const struct event *event)
+{
+    if (event->kind == EVENT_SIZE) ui->popup.id = 0; // what it hangs on is elsewhere now
+    if (event->kind != EVENT_POINTER && event->kind != EVENT_BUTTON) return;
+    ui->pointer_x = event->x;
+    ui->pointer_y = event->y;
+    ui->hint = NULL;
+    if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) ui->focus = 0;
+}
+
+bool inspector_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    struct inspection in = inspection_of(editor, world);
+    struct ui *ui = in.ui;
+    struct rect area = editor->layout.inspector;
+    if (!concerns(editor, event)) {
+        event_elsewhere(ui, event);
+        return false;
+    }
+    bool was_dragging = ui->held && ui->moved;
+    ui_begin_event(ui, area, event);
+    build(&in, area);
+    bool used = ui_end(ui);
+    if (was_dragging && !ui->held && history_is_open(world->history)) history_end(world->history);
+    if (ui->complaint[0]) {
+        editor_message(editor, true, ui->complaint);
+        ui->complaint[0] = '\0';
+    }
+    bool inside = rect_contains(area, ui->pointer_x, ui->pointer_y);
+    bool pointer = event->kind == EVENT_POINTER || event->kind == EVENT_WHEEL ||
+                   (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS);
+    return used || (pointer && inside);
+}
+
+void inspector_show(struct editor *editor, const struct editor_world *world)
+{
+    struct inspection in = inspection_of(editor, world);
+    struct rect area = editor->layout.inspector;
+    bool covered = editor->dialog.kind != DIALOG_NONE || editor->help.open;
+    if (covered) in.ui->pointer_x = area.x - 1; // nothing here is under the pointer
+    ui_begin_find(in.ui, area, "", NULL); // measures, so that a shorter panel is not drawn scrolled past its end
+    build(&in, area);
+    ui_end(in.ui);
+    drawlist_rect(&editor->list, area, theme()->panel);
+    ui_begin_draw(in.ui, area, &editor->list);
+    build(&in, area);
+    ui_end(in.ui);
+    drawlist_rect(&editor->list, (struct rect){area.x, area.y, 1, area.h}, theme()->border);
+}
+
+void inspector_let_go(struct editor *editor, const struct editor_world *world)
+{
+    if (inspector_is_dragging(editor) && history_is_open(world->history)) history_end(world->history);
+    ui_release(&editor->inspector.ui);
+}
+
+bool inspector_is_dragging(const struct editor *editor)
+{
+    return editor->inspector.ui.held && editor->inspector.ui.moved;
+}
+
+bool inspector_is_typing(const struct editor *editor) { return editor->inspector.ui.typing != 0; }
+
+const char *inspector_hint(const struct editor *editor) { return editor->inspector.ui.hint; }
+
+bool inspector_target(struct editor *editor, const struct editor_world *world, const char *name, float *x, float *y)
+{
+    struct inspection in = inspection_of(editor, world);
+    char widget[128];
+    snprintf(widget, sizeof widget, "%s", name);
+    char *comma = strrchr(widget, ',');
+    double value = 0;
+    if (comma) {
+        char *end;
+        value = strtod(comma + 1, &end);
+        if (end == comma + 1 || *end || !isfinite(value)) return false;
+        *comma = '\0';
+    }
+    ui_begin_find(in.ui, editor->layout.inspector, widget, comma ? &value : NULL);
+    build(&in, editor->layout.inspector);
+    bool found = ui_end(in.ui);
+    *x = in.ui->found_x;
+    *y = in.ui->found_y;
+    return found;
+}
+
+void inspector_take_back(struct inspection *in, enum ui_change change)
+{
+    struct history *history = in->world->history;
+    if (change != UI_DRAG || !history_is_open(history)) return;
+    history_restart(history, in->document);
+    editor_follow(in->editor, in->world);
+}
+
+void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
+                      const struct edit *edit)
+{
+    inspector_change_all(in, change, label, what, edit, 1);
+}
+
+void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
+                          const struct edit *edits, int count)
+{
+    struct history *history = in->world->history;
+    uint64_t merge = 0;
+    switch (change) {
+    case UI_NONE:
+        return;
+    case UI_DRAG:
+        inspector_take_back(in, change);
+        if (!history_is_open(history)) history_begin(history, label, 0);
+        for (int i = 0; i < count; i++) editor_edit(in->editor, in->world, &edits[i]);
+        return;
+    case UI_CANCEL:
+    case UI_DROP:
+        if (!history_is_open(history)) return; // nothing was moved by this drag
+        if (change == UI_CANCEL) history_restart(history, in->document);
+        history_end(history);
+        editor_follow(in->editor, in->world);
+        return;
+    case UI_NUDGE:
+        merge = (uint64_t)ui_id(what) << 32 | (uint32_t)(in->editor->active + 1);
+        break;
+    case UI_SET:
+        break;
+    }
+    if (history_is_open(history)) return; // as editor_step()
+    history_begin(history, label, merge);
+    for (int i = 0; i < count; i++) editor_edit(in->editor, in->world, &edits[i]);
+    history_end(history);
+}
+
+struct rect inspector_labelled(struct inspection *in, const char *label)
+{
+    struct rect r = ui_row(in->ui, UI_ROW);
+    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
+    return (struct rect){r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
+}

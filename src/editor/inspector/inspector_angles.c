@@ -1,0 +1,196 @@
+/// Angles in the inspector: one for all joints as a slider; one for each as a slider that scales them, the first and the last
+/// to fill in between, and a list to type.
+#include "editor/inspector/inspector_tail.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SWITCH = 26 }; ///< width of the button between one and each
+
+const struct angle_row angle_row_lag = {
+    ANGLE_LAG, "lag", "How much later each joint follows, in degrees of swing (hold L, arrows)", "Set lag", 0, 30,
+    6.5,       0.5};
+const struct angle_row angle_row_gain = {
+    ANGLE_GAIN, "gain", "How far a joint bends at a spline value of 1", "Set gain", 0, 20, 5, 0.5};
+const struct angle_row angle_row_rest = {
+    ANGLE_REST, "rest", "Curl of the tail without motion; a joint's bend upwards", "Set rest pose", -15, 15, 0, 0.5};
+
+/// Joint with the largest angle: what a slider shows and sets where there is one angle a joint.
+static int peak_joint(const struct angles *angles, int joints)
+{
+    int peak = 0;
+    for (int n = 1; angles->each && n < joints; n++) {
+        if (fabs(angles->value[n]) > fabs(angles->value[peak])) peak = n;
+    }
+    return peak;
+}
+
+/// All angles in proportion, so that the largest becomes `value`.
+static void scale_angles(struct angles *angles, int joints, double value)
+{
+    int peak = peak_joint(angles, joints);
+    double before = angles->value[peak];
+    angles->value[peak] = value;
+    for (int n = 0; angles->each && n < joints; n++) {
+        if (n != peak) angles->value[n] = before == 0 ? value : angles->value[n] * (value / before);
+    }
+}
+
+/// The edit that replaces the angles of a row.
+static struct edit angles_edit(const struct inspection *in, const struct angle_row *row, const struct angles *angles)
+{
+    struct edit edit = editor_edit_of(EDIT_ANGLES, 0);
+    edit.tail = in->editor->inspector.tail;
+    edit.channel = row->kind == ANGLE_REST ? -1 : in->editor->inspector.channel;
+    edit.angle = row->kind;
+    edit.angles = angles;
+    return edit;
+}
+
+static void build_slider(struct inspection *in, const struct angle_row *row, const struct angles *angles, int joints,
+                         struct rect r)
+{
+    char shown[64];
+    bool lags =
+        row->kind == ANGLE_LAG && angles->each; // each joint's own lag: up to a few turns, not degrees a joint
+    struct ui_number number = {.name = row->name,
+                               .label = row->name,
+                               .unit = "°",
+                               .hint = row->hint,
+                               .minimum = row->minimum,
+                               .maximum = lags ? 720 : row->maximum,
+                               .lowest = -36000,
+                               .highest = 36000,
+                               .fallback = angles->each ? NAN : row->fallback,
+                               .step = row->step,
+                               .decimals = 1};
+    if (angles->each) {
+        snprintf(shown, sizeof shown, "%.1f → %.1f°", angles->value[0], angles->value[joints - 1]);
+        number.shown = shown;
+    }
+    double value = angles->value[peak_joint(angles, joints)];
+    enum ui_change change = ui_value(in->ui, r, &number, &value);
+    if (change == UI_NONE) return;
+    inspector_take_back(in, change); // scaled from where the drag began, so that a drag through 0 loses no proportion
+    struct angles next = *angles;
+    scale_angles(&next, joints, value);
+    struct edit edit = angles_edit(in, row, &next);
+    inspector_change(in, change, row->undo, row->name, &edit);
+}
+
+/// One angle as one for each joint, or back, with as little change of the pose as there can be.
+static struct angles converted(const struct angles *angles, enum angle_kind kind, int joints)
+{
+    struct angles next = {.each = !angles->each};
+    double sum = 0;
+    for (int n = 0; n < joints; n++) {
+        next.value[n] = kind == ANGLE_LAG ? n * angles->value[0] : angles->value[0];
+        sum += angles->value[n];
+    }
+    if (next.each) return next;
+    memset(next.value, 0, sizeof next.value);
+    next.value[0] = kind != ANGLE_LAG ? sum / joints : joints > 1 ? angles->value[joints - 1] / (joints - 1) : 0;
+    next.value[0] = round(next.value[0] * 1e4) / 1e4;
+    return next;
+}
+
+/// The first or the last of one angle a joint; all between are filled in.
+static void build_end(struct inspection *in, const struct angle_row *row, const struct angles *angles, int joints,
+                      bool last, struct rect r)
+{
+    char name[32];
+    double ends[2] = {angles->value[0], angles->value[joints - 1]};
+    snprintf(name, sizeof name, "%s.%s", row->name, last ? "last" : "first");
+    const struct ui_number number = {.name = name,
+                                     .unit = "°",
+                                     .hint = last ? "The last joint's; those between are filled in"
+                                                  : "The first joint's; those between are filled in",
+                                     .lowest = -36000,
+                                     .highest = 36000,
+                                     .fallback = NAN,
+                                     .step = row->step,
+                                     .decimals = 1};
+    enum ui_change change = ui_value(in->ui, r, &number, &ends[last]);
+    if (change == UI_NONE) return;
+    struct angles next = {.each = true};
+    for (int n = 0; n < joints; n++) {
+        double share = joints > 1 ? (double)n / (joints - 1) : last;
+        next.value[n] = round((ends[0] + (ends[1] - ends[0]) * share) * 1e4) / 1e4;
+    }
+    struct edit edit = angles_edit(in, row, &next);
+    inspector_change(in, change, row->undo, name, &edit);
+}
+
+/// Numbers set apart by commas or spaces; false where there are not just `count`.
+static bool parse_list(const char *text, double *values, int count)
+{
+    int found = 0;
+    while (*text) {
+        char *end;
+        double value = strtod(text, &end);
+        if (end == text || !isfinite(value) || found == count) return false;
+        values[found++] = value;
+        text = end + strspn(end, ", ;\t");
+    }
+    return found == count;
+}
+
+static void print_list(const struct angles *angles, int joints, char *text, size_t size)
+{
+    size_t used = 0;
+    for (int n = 0; n < joints && used + 24 < size; n++) {
+        used += (size_t)snprintf(text + used, size - used, "%s%.4g", n > 0 ? ", " : "", angles->value[n]);
+    }
+}
+
+/// All of them as a line to be typed over.
+static void build_list(struct inspection *in, const struct angle_row *row, const struct angles *angles, int joints,
+                       struct rect r)
+{
+    char name[32], text[UI_TEXT_SIZE];
+    snprintf(name, sizeof name, "%s.list", row->name);
+    if (!ui_line_is_open(in->ui, name)) {
+        if (ui_hovered(in->ui, r)) in->ui->hint = "Type one number for each joint, with commas between them";
+        print_list(angles, joints, text, sizeof text);
+        if (ui_button(in->ui, r, name, "List", false)) ui_line_begin(in->ui, name, text);
+        return;
+    }
+    if (ui_line(in->ui, r, name) != UI_LINE_DONE) return;
+    struct angles next = {.each = true};
+    if (parse_list(in->ui->text.bytes, next.value, joints)) {
+        struct edit edit = angles_edit(in, row, &next);
+        editor_step(in->editor, in->world, row->undo, 0, &edit);
+        return;
+    }
+    snprintf(text, sizeof text, "%s: expected one number for each of the %d joints.", row->name, joints);
+    editor_message(in->editor, true, text);
+}
+
+void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
+{
+    struct ui *ui = in->ui;
+    int joints = in->document->tails[in->editor->inspector.tail].joints;
+    struct rect r = ui_row(ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y + 2, SWITCH, r.h - 4};
+    char name[32];
+    build_slider(in, row, angles, joints, (struct rect){r.x, r.y, r.w - SWITCH - 4, r.h});
+    snprintf(name, sizeof name, "%s.each", row->name);
+    if (ui_hovered(ui, right)) ui->hint = angles->each ? "One angle for all joints" : "One angle for each joint";
+    if (ui_button(ui, right, name, angles->each ? "n" : "1", false)) {
+        struct angles next = converted(angles, row->kind, joints);
+        struct edit edit = angles_edit(in, row, &next);
+        editor_step(in->editor, in->world, row->undo, 0, &edit);
+        return;
+    }
+    if (!angles->each) return;
+    struct rect line = ui_row(ui, UI_ROW);
+    snprintf(name, sizeof name, "%s.list", row->name);
+    float x = line.x + UI_LABEL + UI_GAP, w = (line.x + line.w - x - 2 * 4) / 3;
+    if (ui_line_is_open(ui, name)) {
+        build_list(in, row, angles, joints, line);
+        return;
+    }
+    build_end(in, row, angles, joints, false, (struct rect){x, line.y, w, line.h});
+    build_end(in, row, angles, joints, true, (struct rect){x + w + 4, line.y, w, line.h});
+    build_list(in, row, angles, joints, (struct rect){x + 2 * (w + 4), line.y + 2, w, line.h - 4});
+}

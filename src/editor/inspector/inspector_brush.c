@@ -1,0 +1,61 @@
+/// The inspector's rows on the brush that paints phase and amplitude onto a character.
+#include "editor/inspector/inspector.h"
+#include "editor/stage/brush.h"
+
+/// Modes of one kind side by side; none is marked where the brush is set to another kind.
+static void build_modes(struct inspection *in, const char *name, const char *hint, enum brush_mode first,
+                        const struct ui_choice *choices, int count)
+{
+    struct brush *brush = &in->editor->brush;
+    const struct rect r = ui_row(in->ui, UI_ROW);
+    const int chosen = (int)brush->mode - (int)first;
+    int index = chosen >= 0 && chosen < count ? chosen : -1;
+    if (ui_hovered(in->ui, r)) in->ui->hint = hint;
+    if (ui_segments(in->ui, r, name, choices, count, &index)) brush->mode = (enum brush_mode)((int)first + index);
+}
+
+static void build_share(struct inspection *in, const char *name, const char *hint, double fallback, double minimum,
+                        double maximum, double *share)
+{
+    const struct ui_number row = {.name = name,
+                                  .label = name,
+                                  .unit = "%",
+                                  .hint = hint,
+                                  .minimum = 100 * minimum,
+                                  .maximum = 100 * maximum,
+                                  .lowest = 100 * minimum,
+                                  .highest = 100 * maximum,
+                                  .fallback = 100 * fallback,
+                                  .step = 1};
+    double percent = 100 * *share;
+    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &row, &percent);
+    if (change == UI_DRAG || change == UI_SET || change == UI_NUDGE) *share = percent / 100;
+}
+
+void inspector_brush(struct inspection *in)
+{
+    static const struct ui_choice switches[] = {{"off", "Off"}, {"on", "Brush"}};
+    static const struct ui_choice phase[] = {{"advance", "Advance"}, {"delay", "Delay"}, {"smooth", "Smooth"}};
+    static const struct ui_choice amplitude[] = {
+        {"more", "Swing more"}, {"less", "Swing less"}, {"smooth", "Smooth"}};
+    static const struct ui_choice erase[] = {{"all", "Erase"}};
+    struct brush *brush = &in->editor->brush;
+    struct rect r = inspector_labelled(in, "paint");
+    int on = brush->on;
+    if (ui_hovered(in->ui, r)) in->ui->hint = "Phase and amplitude by hand, on the character's surface (K)";
+    if (ui_segments(in->ui, r, "paint", switches, 2, &on)) brush_set(in->editor, in->world, on);
+    const struct character_rig *rig = characters_selected(in->editor, in->world);
+    if (brush->on) {
+        build_modes(in, "phase", "Move earlier, later, or as the surface around does", BRUSH_ADVANCE, phase, 3);
+        build_modes(in, "swing", "Swing further, less far, or as far as the surface around", BRUSH_MORE, amplitude,
+                    3);
+        build_modes(in, "erase", "Back to what the model says", BRUSH_ERASE, erase, 1);
+        build_share(in, "radius", "Of the character's height (Ctrl+wheel on the stage)", 0.12, 0.01, 0.5,
+                    &brush->radius);
+        build_share(in, "strength", "How fast paint flows (Shift+wheel on the stage)", 0.4, 0.02, 1,
+                    &brush->strength);
+    }
+    if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
+    if (ui_button(in->ui, ui_row(in->ui, UI_ROW), "paint.clean", "Take all paint off", false))
+        brush_clean(in->editor, in->world);
+}

@@ -1,0 +1,116 @@
+/// The channels of a tail: which splines bend it, how, and how much.
+#include "editor/core/arrange.h"
+#include "editor/inspector/inspector_tail.h"
+#include <stdio.h>
+
+enum { ICON = 24, MAX_SPLINES = 256 };
+
+static const char feed_list[] = "feed";
+
+static struct edit channel_edit(const struct inspection *in, enum edit_kind kind)
+{
+    struct edit edit = editor_edit_of(kind, in->editor->active);
+    edit.tail = in->editor->inspector.tail;
+    edit.channel = in->editor->inspector.channel;
+    return edit;
+}
+
+static void build_list(struct inspection *in, const struct tail *tail)
+{
+    struct ui *ui = in->ui;
+    for (int c = 0; c < tail->channel_count; c++) {
+        const struct channel *channel = &tail->channels[c];
+        char name[32], text[192];
+        snprintf(name, sizeof name, "channel.%d", c);
+        const char *axis = channel->axis == AXIS_SIDE ? "sideways" : "up and down";
+        snprintf(text, sizeof text, "%s, %s", in->document->splines[channel->spline].name, axis);
+        struct rect r = ui_row(ui, UI_ROW);
+        if (ui_hovered(ui, r)) ui->hint = "A spline that bends this tail";
+        uint32_t color = arrange_color(in->document, channel->spline);
+        if (ui_list_row(ui, r, name, text, color, c == in->editor->inspector.channel)) {
+            in->editor->inspector.channel = c;
+        }
+    }
+}
+
+static void build_buttons(struct inspection *in, const struct tail *tail)
+{
+    struct rect r = inspector_labelled(in, "channel"), icon = {r.x - 2, r.y, ICON, r.h};
+    if (ui_icon_button(in->ui, icon, "channel.add", UI_ICON_ADD, false,
+                       "The active spline bends this tail as well")) {
+        struct edit edit = channel_edit(in, EDIT_CHANNEL_ADD);
+        if (editor_step(in->editor, in->world, "Add channel", 0, &edit)) {
+            in->editor->inspector.channel = in->document->tails[edit.tail].channel_count - 1;
+        }
+        return;
+    }
+    icon.x += ICON + 6;
+    if (tail->channel_count == 0) return;
+    if (ui_icon_button(in->ui, icon, "channel.delete", UI_ICON_DELETE, false, "Takes this channel away")) {
+        struct edit edit = channel_edit(in, EDIT_CHANNEL_REMOVE);
+        editor_step(in->editor, in->world, "Delete channel", 0, &edit);
+    }
+}
+
+static void build_choices(struct inspection *in, const struct channel *channel)
+{
+    static const struct ui_choice axes[] = {[AXIS_SIDE] = {"side", "Sideways"}, [AXIS_UP] = {"up", "Up"}};
+    static const struct ui_choice parts[] = {
+        [PART_TOTAL] = {"total", "Total"}, [PART_DISPLACEMENT] = {"displacement", "Displaced"}};
+    struct ui *ui = in->ui;
+    int axis = (int)channel->axis, part = (int)channel->of;
+    if (ui_segments(ui, inspector_labelled(in, "axis"), "axis", axes, 2, &axis)) {
+        struct edit edit = channel_edit(in, EDIT_AXIS);
+        edit.axis = (enum axis)axis;
+        editor_step(in->editor, in->world, "Set axis", 0, &edit);
+    }
+    struct rect r = inspector_labelled(in, "bends by");
+    if (ui_hovered(ui, r)) ui->hint = "The whole value, or x without the equilibrium: for a tail whose base moves";
+    if (ui_segments(ui, r, "part", parts, 2, &part)) {
+        struct edit edit = channel_edit(in, EDIT_PART);
+        edit.of = (enum channel_part)part;
+        editor_step(in->editor, in->world, "Set what bends", 0, &edit);
+    }
+}
+
+void inspector_feed_list(struct inspection *in)
+{
+    const struct inspector *inspector = &in->editor->inspector;
+    if (!ui_popup_is_open(in->ui, feed_list) || inspector->tail >= in->document->tail_count) return;
+    struct ui_item items[MAX_SPLINES];
+    int count = in->document->spline_count < MAX_SPLINES ? in->document->spline_count : MAX_SPLINES;
+    const struct tail *tail = &in->document->tails[inspector->tail];
+    if (inspector->channel >= tail->channel_count) return;
+    for (int s = 0; s < count; s++) {
+        const char *name = in->document->splines[s].name;
+        items[s] = (struct ui_item){name, name, arrange_color(in->document, s)};
+    }
+    int picked = ui_popup_list(in->ui, feed_list, items, count, tail->channels[inspector->channel].spline);
+    if (picked < 0) return;
+    struct edit edit = channel_edit(in, EDIT_FEED);
+    edit.spline = picked;
+    editor_step(in->editor, in->world, "Set channel's spline", 0, &edit);
+}
+
+void inspector_channels(struct inspection *in, const struct tail *tail)
+{
+    const struct inspector *inspector = &in->editor->inspector;
+    build_list(in, tail);
+    ui_space(in->ui, 4);
+    if (inspector->channel >= tail->channel_count) return;
+    inspector_angles(in, &angle_row_lag, &tail->channels[inspector->channel].lag);
+    inspector_angles(in, &angle_row_gain, &tail->channels[inspector->channel].gain);
+}
+
+void inspector_channel(struct inspection *in, const struct tail *tail)
+{
+    const struct inspector *inspector = &in->editor->inspector;
+    build_buttons(in, tail);
+    tail = &in->document->tails[inspector->tail]; // a button may have made another list of tails
+    if (inspector->channel >= tail->channel_count) return;
+    const struct channel *channel = &tail->channels[inspector->channel];
+    const char *spline = in->document->splines[channel->spline].name;
+    ui_dropdown(in->ui, inspector_labelled(in, "spline"), feed_list, inspector->channel, spline,
+                arrange_color(in->document, channel->spline));
+    build_choices(in, channel);
+}

@@ -1,0 +1,216 @@
+/// The inspector's section on a soft character: what moves each of its coordinates, and how it is looked at.
+#include "editor/core/actions.h"
+#include "editor/core/arrange.h"
+#include "editor/inspector/inspector.h"
+#include "rig/cast.h"
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX_ITEMS = 32 }; ///< of a list: splines, or coordinates that may be added
+
+static const char spline_list[] = "drive.splines", add_list[] = "drive.add";
+
+static struct edit drive_edit(const struct inspection *in, enum edit_kind kind, const struct drive *drive)
+{
+    struct edit edit = editor_edit_of(kind, 0);
+    edit.character = in->editor->characters.character;
+    edit.channel = in->editor->characters.drive;
+    edit.drive = *drive;
+    return edit;
+}
+
+/// A row for each character where there is a choice.
+static void build_characters(struct inspection *in)
+{
+    for (int c = 0; in->document->character_count > 1 && c < in->document->character_count; c++) {
+        const struct character_rig *rig = &in->document->characters[c];
+        struct character_view *view = &in->editor->characters;
+        char name[32];
+        snprintf(name, sizeof name, "character.%d", c);
+        const char *text = rig->name ? rig->name : rig->model;
+        if (!ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, text, 0, c == view->character)) continue;
+        view->character = c;
+        view->drive = 0;
+    }
+}
+
+/// A row for each coordinate that is driven, with what takes it away.
+static void build_drives(struct inspection *in, const struct character_rig *rig)
+{
+    struct ui *ui = in->ui;
+    for (int k = 0; k < rig->drive_count; k++) {
+        const struct drive *drive = &rig->drives[k];
+        char name[32], remove[32], text[160];
+        struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
+        snprintf(name, sizeof name, "drive.%d", k);
+        snprintf(remove, sizeof remove, "drive.%d.remove", k);
+        snprintf(text, sizeof text, "%.60s, by %.60s", drive->name, in->document->splines[drive->spline].name);
+        r.w -= r.h + 4;
+        if (ui_hovered(ui, r)) ui->hint = "A way in which this character swings";
+        const uint32_t color = arrange_color(in->document, drive->spline);
+        if (ui_list_row(ui, r, name, text, color, k == in->editor->characters.drive))
+            in->editor->characters.drive = k;
+        if (ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Stop moving the character in this way")) {
+            struct edit edit = drive_edit(in, EDIT_DRIVE_REMOVE, drive);
+            edit.channel = k;
+            editor_step(in->editor, in->world, "Remove coordinate", 0, &edit);
+            return;
+        }
+    }
+}
+
+static void build_numbers(struct inspection *in, const struct drive *drive)
+{
+    static const struct ui_number amplitude_row = {.name = "amplitude",
+                                                   .label = "amplitude",
+                                                   .hint = "How far it swings at a spline value of 1",
+                                                   .minimum = -2,
+                                                   .maximum = 2,
+                                                   .lowest = -INSPECTOR_NO_LIMIT,
+                                                   .highest = INSPECTOR_NO_LIMIT,
+                                                   .fallback = DRIVE_DEFAULT_AMPLITUDE,
+                                                   .step = 0.05,
+                                                   .decimals = 2};
+    static const struct ui_number lag_row = {.name = "drive.lag",
+                                             .label = "lag",
+                                             .unit = "°",
+                                             .hint = "How much later than the spline it swings; 360 is a full swing",
+                                             .minimum = -180,
+                                             .maximum = 180,
+                                             .lowest = -36000,
+                                             .highest = 36000,
+                                             .fallback = 0,
+                                             .step = 1,
+                                             .decimals = 1};
+    struct drive next = *drive;
+    enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &amplitude_row, &next.amplitude);
+    struct edit edit = drive_edit(in, EDIT_DRIVE, &next);
+    inspector_change(in, change, "Set amplitude", amplitude_row.name, &edit);
+    next = *drive;
+    change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &lag_row, &next.lag);
+    edit = drive_edit(in, EDIT_DRIVE, &next);
+    inspector_change(in, change, "Set lag", lag_row.name, &edit);
+}
+
+static void build_spline(struct inspection *in, const struct drive *drive)
+{
+    struct rect r = inspector_labelled(in, "spline");
+    const uint32_t color = arrange_color(in->document, drive->spline);
+    if (ui_hovered(in->ui, r)) in->ui->hint = "The spline that this coordinate swings by";
+    ui_dropdown(in->ui, r, spline_list, 0, in->document->splines[drive->spline].name, color);
+}
+
+/// Whether the rig drives the coordinate already.
+static bool is_driven(const struct character_rig *rig, const char *name)
+{
+    for (int k = 0; k < rig->drive_count; k++) {
+        if (strcmp(rig->drives[k].name, name) == 0) return true;
+    }
+    return false;
+}
+
+/// The figure's coordinates that nothing drives yet; returns how many.
+static int free_coordinates(const struct inspection *in, const struct character_rig *rig,
+                            struct ui_item items[MAX_ITEMS])
+{
+    const struct figure *figure = cast_figure(in->world->cast, in->editor->characters.character);
+    int count = 0;
+    if (!figure || rig->drive_count == CHARACTER_MAX_DRIVES) return 0;
+    for (int k = 0; k < figure->character.coordinate_count && count < MAX_ITEMS; k++) {
+        const char *name = figure->character.coordinates[k].name;
+        if (!is_driven(rig, name)) items[count++] = (struct ui_item){name, name, 0};
+    }
+    return count;
+}
+
+/// Phases as colours, by direction of movement; and the stiff twin beside it.
+static void build_looks(struct inspection *in)
+{
+    static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
+    static const struct ui_choice pairs[] = {{"off", "Off"}, {"on", "Beside it"}};
+    struct character_view *view = &in->editor->characters;
+    struct rect r = inspector_labelled(in, "phases");
+    int map = view->mapped ? 1 + view->axis : 0, pair = view->compare;
+    if (ui_hovered(in->ui, r)) in->ui->hint = "Colours say how far ahead each point moves along x, y or z";
+    if (ui_segments(in->ui, r, "phases", maps, 4, &map)) {
+        view->mapped = map > 0;
+        if (map > 0) view->axis = map - 1;
+    }
+    r = inspector_labelled(in, "stiff twin");
+    if (ui_hovered(in->ui, r)) in->ui->hint = "The same character moved by real parts alone, all points in step";
+    if (ui_segments(in->ui, r, "twin", pairs, 2, &pair)) {
+        view->compare = pair;
+        stage_fit(in->editor, in->world);
+    }
+}
+
+/// What the analysis found out about the selected coordinate.
+static void build_facts(struct inspection *in)
+{
+    const struct coordinate *c = characters_coordinate(in->editor, in->world);
+    char text[160];
+    if (!c) {
+        ui_paragraph(in->ui, "The model has no such coordinate.", theme()->text_dim);
+    } else if (c->frequency > 0) {
+        snprintf(text, sizeof text,
+                 "Found at %.2f Hz, damping %.3f. Explains %.0f %%; real PCA %.0f, its first two %.0f %%.",
+                 c->frequency, c->damping, 100 * c->explained, 100 * c->pca1, 100 * c->pca2);
+        ui_paragraph(in->ui, text, theme()->text_dim);
+    }
+}
+
+void inspector_character(struct inspection *in)
+{
+    struct character_view *view = &in->editor->characters;
+    if (view->character >= in->document->character_count) view->character = 0;
+    const struct character_rig *rig = &in->document->characters[view->character];
+    struct ui_item items[MAX_ITEMS];
+    if (view->drive >= rig->drive_count) view->drive = 0;
+    build_characters(in);
+    build_drives(in, rig);
+    if (free_coordinates(in, rig, items) > 0 && in->document->spline_count > 0) {
+        ui_dropdown(in->ui, ui_row(in->ui, UI_ROW), add_list, 0, "Add a coordinate", 0);
+    }
+    ui_space(in->ui, 4);
+    if (view->drive < rig->drive_count) {
+        build_spline(in, &rig->drives[view->drive]);
+        build_numbers(in, &rig->drives[view->drive]);
+        build_facts(in);
+    }
+    build_looks(in);
+    inspector_brush(in);
+}
+
+static void spline_popup(struct inspection *in, const struct drive *drive)
+{
+    struct ui_item items[MAX_ITEMS];
+    int count = 0;
+    for (; count < in->document->spline_count && count < MAX_ITEMS; count++) {
+        const char *name = in->document->splines[count].name;
+        items[count] = (struct ui_item){name, name, arrange_color(in->document, count)};
+    }
+    struct drive next = *drive;
+    next.spline = ui_popup_list(in->ui, spline_list, items, count, drive->spline);
+    if (next.spline < 0) return;
+    struct edit edit = drive_edit(in, EDIT_DRIVE, &next);
+    editor_step(in->editor, in->world, "Set spline", 0, &edit);
+}
+
+void inspector_character_lists(struct inspection *in)
+{
+    const struct character_view *view = &in->editor->characters;
+    if (view->character >= in->document->character_count) return;
+    const struct character_rig *rig = &in->document->characters[view->character];
+    if (ui_popup_is_open(in->ui, spline_list) && view->drive < rig->drive_count) {
+        spline_popup(in, &rig->drives[view->drive]);
+    } else if (ui_popup_is_open(in->ui, add_list)) {
+        struct ui_item items[MAX_ITEMS];
+        const int picked = ui_popup_list(in->ui, add_list, items, free_coordinates(in, rig, items), -1);
+        if (picked < 0) return;
+        const int spline = in->editor->active >= 0 ? in->editor->active : 0;
+        const struct drive drive = {
+            .name = items[picked].name, .spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+        struct edit edit = drive_edit(in, EDIT_DRIVE_ADD, &drive);
+        editor_step(in->editor, in->world, "Add coordinate", 0, &edit);
+    }
+}

@@ -1,0 +1,91 @@
+/// Parameters that follow another spline: the row that says so, and the list to choose from.
+#include "editor/core/arrange.h"
+#include "editor/inspector/inspector.h"
+#include "scene/order.h"
+#include <stdio.h>
+
+enum { MAX_LEADERS = 256 }; ///< splines that are looked at, from the top of the list
+
+static const char follow_list[] = "follow";
+
+/// Splines that the active one may follow without a cycle; how many there are.
+static int find_leaders(const struct inspection *in, int leaders[MAX_LEADERS])
+{
+    bool followers[MAX_LEADERS];
+    int count = in->document->spline_count < MAX_LEADERS ? in->document->spline_count : MAX_LEADERS, found = 0;
+    scene_followers(in->document, in->editor->active, followers, count);
+    for (int s = 0; s < count; s++) {
+        if (!followers[s]) leaders[found++] = s;
+    }
+    return found;
+}
+
+static void follow(struct inspection *in, enum parameter parameter, struct param param)
+{
+    struct edit edit = editor_edit_of(EDIT_PARAMETER, in->editor->active);
+    edit.parameter = parameter;
+    edit.param = param;
+    const char *label = param.track >= 0 ? "Follow spline" : "Stop following";
+    editor_step(in->editor, in->world, label, 0, &edit);
+}
+
+static void open_list(struct inspection *in, enum parameter parameter, struct rect r)
+{
+    int leaders[MAX_LEADERS];
+    if (find_leaders(in, leaders) > 0) {
+        ui_popup_open(in->ui, follow_list, (int)parameter, r);
+        return;
+    }
+    char text[160];
+    snprintf(text, sizeof text, "There is no other spline that %.80s could follow.",
+             in->document->splines[in->editor->active].name);
+    editor_message(in->editor, true, text);
+}
+
+void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r)
+{
+    const struct spline *spline = &in->document->splines[in->editor->active];
+    int track = spline->parameter[parameter].track;
+    char text[160];
+    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
+    snprintf(text, sizeof text, "%s", in->document->splines[track].name);
+    struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
+    if (ui_hovered(in->ui, field)) in->ui->hint = "Follows this spline at every sample";
+    ui_dropdown(in->ui, field, follow_list, (int)parameter, text, arrange_color(in->document, track));
+}
+
+void inspector_follow_button(struct inspection *in, enum parameter parameter, struct rect r)
+{
+    int active = in->editor->active;
+    bool follows = in->document->splines[active].parameter[parameter].track >= 0;
+    enum ui_icon icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW;
+    const char *hint = follows ? "Stops following; keeps the value at the playhead" : "Follows another spline";
+    char name[64];
+    snprintf(name, sizeof name, "follow.%s", parameter_name(parameter));
+    if (!ui_icon_button(in->ui, r, name, icon, false, hint)) return;
+    if (follows) {
+        double value = arrange_present(in->editor, in->world, active, parameter);
+        follow(in, parameter, (struct param){value, -1});
+    } else {
+        struct rect row = {in->ui->area.x + UI_PAD + UI_LABEL + UI_GAP, r.y, 0, r.h};
+        row.w = r.x - 2 - row.x;
+        open_list(in, parameter, row);
+    }
+}
+
+void inspector_follow_list(struct inspection *in)
+{
+    struct ui *ui = in->ui;
+    const struct spline *spline = editor_active_spline(in->editor, in->world);
+    if (!ui_popup_is_open(ui, follow_list) || !spline) return;
+    int leaders[MAX_LEADERS], count = find_leaders(in, leaders), chosen = -1;
+    enum parameter parameter = (enum parameter)ui->popup.which;
+    struct ui_item items[MAX_LEADERS];
+    for (int i = 0; i < count; i++) {
+        const char *name = in->document->splines[leaders[i]].name;
+        items[i] = (struct ui_item){name, name, arrange_color(in->document, leaders[i])};
+        if (leaders[i] == spline->parameter[parameter].track) chosen = i;
+    }
+    int picked = ui_popup_list(ui, follow_list, items, count, chosen);
+    if (picked >= 0) follow(in, parameter, (struct param){0, leaders[picked]});
+}

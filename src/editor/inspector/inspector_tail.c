@@ -1,0 +1,208 @@
+/// The inspector's section on tails: which there are, where they stand, how they are built, and what is shown of their motion.
+#include "editor/inspector/inspector_tail.h"
+#include "editor/core/arrange.h"
+#include "editor/curves/curves.h"
+#include <math.h>
+#include <stdio.h>
+
+enum { ICON = 24, MAX_SPLINES = 256 };
+
+static const char rename_line[] = "tail.rename", place_list[] = "place";
+
+static struct edit tail_edit(const struct inspection *in, enum edit_kind kind)
+{
+    struct edit edit = editor_edit_of(kind, in->editor->active);
+    edit.tail = in->editor->inspector.tail;
+    return edit;
+}
+
+/// The tail that is shown, and below it a row for each where there is a choice.
+static void build_tails(struct inspection *in)
+{
+    struct inspector *inspector = &in->editor->inspector;
+    for (int t = 0; in->document->tail_count > 1 && t < in->document->tail_count; t++) {
+        char name[32];
+        snprintf(name, sizeof name, "tail.%d", t);
+        if (ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, in->document->tails[t].name, 0, t == inspector->tail)) {
+            inspector->tail = t;
+            inspector->channel = 0;
+        }
+    }
+}
+
+static void build_name(struct inspection *in, const struct tail *tail)
+{
+    struct rect r = inspector_labelled(in, "name");
+    if (!ui_line_is_open(in->ui, rename_line)) {
+        struct rect field = {r.x, r.y + 2, r.w, r.h - 4};
+        if (ui_hovered(in->ui, field)) in->ui->hint = "Click to type another name";
+        if (ui_button(in->ui, field, "tail.name", tail->name, false)) ui_line_begin(in->ui, rename_line, tail->name);
+    } else if (ui_line(in->ui, r, rename_line) == UI_LINE_DONE) {
+        struct edit edit = tail_edit(in, EDIT_TAIL_NAME);
+        edit.text = in->ui->text.bytes;
+        editor_step(in->editor, in->world, "Rename tail", 0, &edit);
+    }
+}
+
+static void build_buttons(struct inspection *in)
+{
+    struct inspector *inspector = &in->editor->inspector;
+    struct rect r = inspector_labelled(in, "tail"), icon = {r.x - 2, r.y, ICON, r.h};
+    bool any = in->document->tail_count > 0;
+    const char *hint = any ? "Another tail like this one, beside it" : "A tail, bent by the active spline";
+    if (ui_icon_button(in->ui, icon, "tail.add", UI_ICON_ADD, false, hint)) {
+        struct edit edit = tail_edit(in, EDIT_TAIL_ADD);
+        if (!editor_step(in->editor, in->world, "Add tail", 0, &edit)) return;
+        inspector->tail = in->document->tail_count - 1;
+        inspector->channel = 0;
+        return;
+    }
+    icon.x += ICON + 6;
+    if (!any || !ui_icon_button(in->ui, icon, "tail.delete", UI_ICON_DELETE, false, "Takes this tail away")) return;
+    struct edit edit = tail_edit(in, EDIT_TAIL_REMOVE);
+    editor_step(in->editor, in->world, "Delete tail", 0, &edit);
+}
+
+/// A coordinate: a number, or the spline that it follows, and the button from one to the other.
+static void build_coordinate(struct inspection *in, const struct tail *tail, int k)
+{
+    struct rect r = ui_row(in->ui, UI_ROW), icon = {r.x + r.w - ICON, r.y, ICON, r.h};
+    const struct param *param = &tail->position[k];
+    struct edit edit = tail_edit(in, EDIT_POSITION);
+    char button[32];
+    edit.coordinate = k;
+    edit.param = *param;
+    r.w -= ICON + 4;
+    snprintf(button, sizeof button, "position.%s.follow", coordinate_name(k));
+    struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
+    if (param->track >= 0) {
+        ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, coordinate_name(k), theme()->text_dim);
+        ui_dropdown(in->ui, field, place_list, k, in->document->splines[param->track].name,
+                    arrange_color(in->document, param->track));
+        wiggly_value now = curves_solved(in->world, param->track, in->editor->playback.position);
+        if (!ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false, "Stays where it is now")) return;
+        edit.param = (struct param){round_value(now.y + now.re, 1e-3), -1};
+        editor_step(in->editor, in->world, "Stop following", 0, &edit);
+        return;
+    }
+    const char *names[] = {"position.x", "position.y", "position.z"};
+    const char *hints[] = {"Where the body stands along x", "Where the body stands along y",
+                           "Where the body stands along z"};
+    const struct ui_number number = {.name = names[k],
+                                     .label = coordinate_name(k),
+                                     .unit = "m",
+                                     .hint = hints[k],
+                                     .lowest = -1e6,
+                                     .highest = 1e6,
+                                     .fallback = k == 1 ? 0.26 : 0,
+                                     .step = 0.01,
+                                     .decimals = 3};
+    enum ui_change change = ui_value(in->ui, r, &number, &edit.param.value);
+    if (change != UI_NONE) inspector_change(in, change, "Move body", names[k], &edit);
+    if (in->document->spline_count == 0) return;
+    if (ui_icon_button(in->ui, icon, button, UI_ICON_FOLLOW, false, "Follows a spline, in metres")) {
+        ui_popup_open(in->ui, place_list, k, field);
+    }
+}
+
+void inspector_place_list(struct inspection *in)
+{
+    const struct inspector *inspector = &in->editor->inspector;
+    if (!ui_popup_is_open(in->ui, place_list) || inspector->tail >= in->document->tail_count) return;
+    int k = in->ui->popup.which, count = in->document->spline_count;
+    struct ui_item items[MAX_SPLINES];
+    if (count > MAX_SPLINES) count = MAX_SPLINES;
+    for (int s = 0; s < count; s++) {
+        const char *name = in->document->splines[s].name;
+        items[s] = (struct ui_item){name, name, arrange_color(in->document, s)};
+    }
+    int chosen = in->document->tails[inspector->tail].position[k].track;
+    int picked = ui_popup_list(in->ui, place_list, items, count, chosen);
+    if (picked < 0) return;
+    struct edit edit = tail_edit(in, EDIT_POSITION);
+    edit.coordinate = k;
+    edit.param = (struct param){0, picked};
+    editor_step(in->editor, in->world, "Follow spline", 0, &edit);
+}
+
+static void build_size(struct inspection *in, const struct tail *tail)
+{
+    static const struct ui_number joints = {.name = "joints",
+                                            .label = "joints",
+                                            .hint = "More joints bend finer; the tail keeps its shape and its swing",
+                                            .minimum = 1,
+                                            .maximum = 64,
+                                            .lowest = 1,
+                                            .highest = TAIL_MAX_JOINTS,
+                                            .fallback = TAIL_DEFAULT_JOINTS,
+                                            .step = 1};
+    static const struct ui_number length = {.name = "length",
+                                            .label = "length",
+                                            .unit = "m",
+                                            .hint = "Length of the tail; the body goes with it",
+                                            .minimum = 0.2,
+                                            .maximum = 4,
+                                            .lowest = 1e-3,
+                                            .highest = 1e6,
+                                            .fallback = TAIL_DEFAULT_LENGTH,
+                                            .step = 0.05,
+                                            .decimals = 2};
+    double value = tail->joints;
+    enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &joints, &value);
+    if (change != UI_NONE) {
+        inspector_take_back(in, change); // resampled from what they were, not from what the drag has made of them
+        struct edit edit = tail_edit(in, EDIT_JOINTS);
+        edit.to = (int)lround(value);
+        inspector_change(in, change, "Set joints", "joints", &edit);
+        tail = &in->document->tails[in->editor->inspector.tail];
+    }
+    struct edit edit = tail_edit(in, EDIT_LENGTH);
+    edit.number = tail->length;
+    change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &length, &edit.number);
+    if (change != UI_NONE) inspector_change(in, change, "Set length", "length", &edit);
+}
+
+/// What belongs to the view: the overlays, and whether the next drag of the body is recorded.
+static void build_view(struct inspection *in)
+{
+    struct editor *editor = in->editor;
+    const struct {
+        const char *name, *label, *hint;
+        bool *on;
+    } toggles[] = {
+        {"record", "record", "The next drag of the body becomes knots that its position follows (R while dragging)",
+         &editor->record.armed},
+        {"onion", "onion skin", "The tail at the knots around the playhead (O)", &editor->overlays.onion},
+        {"trail", "motion arc", "The way of the tip, a mark a frame (P)", &editor->overlays.trail},
+    };
+    for (size_t i = 0; i < sizeof toggles / sizeof toggles[0]; i++) {
+        struct rect r = inspector_labelled(in, toggles[i].label);
+        if (ui_hovered(in->ui, r)) in->ui->hint = toggles[i].hint;
+        ui_toggle(in->ui, r, toggles[i].name, toggles[i].on);
+    }
+}
+
+/// Buttons among these rows may make another list of tails: each looks its tail up anew.
+static void build_tail(struct inspection *in)
+{
+    struct inspector *inspector = &in->editor->inspector;
+    struct tail *const *tails = &in->document->tails;
+    if (inspector->channel >= (*tails)[inspector->tail].channel_count) inspector->channel = 0;
+    inspector_channels(in, &(*tails)[inspector->tail]);
+    inspector_angles(in, &angle_row_rest, &(*tails)[inspector->tail].rest);
+    inspector_channel(in, &(*tails)[inspector->tail]);
+    ui_space(in->ui, 4);
+    build_name(in, &(*tails)[inspector->tail]);
+    build_size(in, &(*tails)[inspector->tail]);
+    for (int k = 0; k < 3; k++) build_coordinate(in, &(*tails)[inspector->tail], k);
+}
+
+void inspector_tail(struct inspection *in)
+{
+    struct inspector *inspector = &in->editor->inspector;
+    if (inspector->tail >= in->document->tail_count) inspector->tail = 0;
+    build_tails(in);
+    if (in->document->tail_count > 0) build_tail(in);
+    build_buttons(in);
+    build_view(in);
+}

@@ -1,0 +1,204 @@
+#include "editor/inspector/poles.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+
+static const float floor_decibels = -60;
+static const float margin_left = 26, margin_bottom = 15; // of a plot, for its numbers
+
+static const char *const filter_name[FILTER_KINDS] = {"two-pole real", "four-pole real", "two-pole complex"};
+
+static bool same_setting(const struct pole_setting *a, const struct pole_setting *b)
+{
+    return a->kind == b->kind && a->hz == b->hz && a->damping == b->damping && a->bandwidth == b->bandwidth &&
+           a->step == b->step;
+}
+
+void poles_update(struct poles_view *view, const struct pole_setting *setting)
+{
+    if (same_setting(&view->setting, setting)) return;
+    view->setting = *setting;
+    view->span = fmin(0.5 / setting->step, 3 * setting->hz);
+    for (int kind = 0; kind < FILTER_KINDS; kind++) {
+        struct filter filter =
+            filter_of((enum filter_kind)kind, setting->hz, setting->damping, setting->bandwidth, setting->step);
+        view->band[kind] = filter_passband(&filter);
+        for (int i = 0; i < POLES_COLUMNS; i++) {
+            double hz = view->span * (2.0 * i / (POLES_COLUMNS - 1) - 1);
+            view->decibels[kind][i] = (float)(filter_decibels(&filter, hz) - view->band[kind].peak);
+        }
+    }
+}
+
+void poles_fit(struct poles_view *view, const struct pole_setting *setting)
+{
+    static const double nice[] = {1, 1.5, 2, 3, 4, 6, 8, 10};
+    double wanted = fmax(0.05, 1.3 * setting->hz * (1 + setting->bandwidth)), decade = pow(10, floor(log10(wanted)));
+    int i = 0;
+    while (i < 7 && nice[i] * decade < wanted) i++;
+    view->reach = nice[i] * decade;
+    view->top = setting->damping > 1 ? 3 : 1;
+}
+
+float poles_x(const struct poles_view *view, struct rect inset, double hz)
+{
+    return inset.x + inset.w * (float)(hz / view->reach);
+}
+
+float poles_y(const struct poles_view *view, struct rect inset, double damping)
+{
+    return inset.y + inset.h * (1 - (float)sqrt(fmin(1, damping / view->top)));
+}
+
+double poles_hz(const struct poles_view *view, struct rect inset, float x)
+{
+    return fmax(0, (x - inset.x) / inset.w) * view->reach;
+}
+
+double poles_damping(const struct poles_view *view, struct rect inset, float y)
+{
+    double part = fmax(0, fmin(1, 1 - (y - inset.y) / inset.h));
+    return part * part * view->top;
+}
+
+static void draw_cross(struct drawlist *list, float x, float y, float arm, uint32_t color)
+{
+    const float falling[] = {x - arm, y - arm, x + arm, y + arm}, rising[] = {x - arm, y + arm, x + arm, y - arm};
+    drawlist_line(list, falling, 2, 1.75f, color);
+    drawlist_line(list, rising, 2, 1.75f, color);
+}
+
+static void draw_straight(struct drawlist *list, float x0, float y0, float x1, float y1, uint32_t color)
+{
+    const float xy[] = {x0, y0, x1, y1};
+    drawlist_line(list, xy, 2, 1, color);
+}
+
+void poles_draw_circle(const struct pole_setting *setting, struct rect r, struct drawlist *list)
+{
+    enum { POINTS = 65 };
+    float radius = fminf(r.w, r.h) / 2 - 6, cx = r.x + r.w / 2, cy = r.y + r.h / 2, circle[POINTS][2];
+    for (int i = 0; i < POINTS; i++) {
+        double angle = 2 * M_PI * (i % (POINTS - 1)) / (POINTS - 1);
+        circle[i][0] = cx + radius * (float)cos(angle);
+        circle[i][1] = cy - radius * (float)sin(angle);
+    }
+    draw_straight(list, cx - radius - 5, cy, cx + radius + 5, cy, theme()->grid_major);
+    draw_straight(list, cx, cy - radius - 5, cx, cy + radius + 5, theme()->grid_major);
+    drawlist_line(list, circle[0], POINTS, 1.25f, theme()->equilibrium);
+    struct filter filter = filter_of(setting->kind, setting->hz, setting->damping, setting->bandwidth, setting->step);
+    for (int i = 0; i < filter.count; i++) {
+        double size = radius * exp(filter.s[i][0] * setting->step), angle = filter.s[i][1] * setting->step;
+        draw_cross(list, cx + (float)(size * cos(angle)), cy - (float)(size * sin(angle)), 3, theme()->accent);
+    }
+}
+
+/// The filter in force has the accent, the others a colour of their own.
+static uint32_t filter_color(const struct poles_view *view, enum filter_kind kind)
+{
+    static const int spare[FILTER_KINDS] = {1, 2, 1};
+    return view->setting.kind == kind ? theme()->accent : theme()->spline[spare[kind]];
+}
+
+void poles_draw_legend(const struct poles_view *view, struct rect r, struct drawlist *list)
+{
+    static const enum filter_kind order[FILTER_KINDS] = {FILTER_TWO_COMPLEX, FILTER_TWO_REAL, FILTER_FOUR_REAL};
+    const float row = 33;
+    drawlist_text(list, r.x, r.y + 8, FONT_LABEL, THEME_TEXT_SMALL, theme()->text_dim, "at 0 Hz · width");
+    for (int i = 0; i < FILTER_KINDS; i++) {
+        const struct passband *band = &view->band[order[i]];
+        bool own = view->setting.kind == order[i];
+        uint32_t color = filter_color(view, order[i]), text_color = own ? theme()->text : theme()->text_dim;
+        char text[64];
+        float y = r.y + 26 + row * (float)i;
+        drawlist_rounded(list, (struct rect){r.x, y - 8, 3, 24}, 1.5f, color);
+        drawlist_text(list, r.x + 9, y, own ? FONT_LABEL_BOLD : FONT_LABEL, THEME_TEXT_SMALL, text_color,
+                      filter_name[order[i]]);
+        snprintf(text, sizeof text, "%.1f dB %.3g Hz", band->zero, band->width);
+        drawlist_text_fit(list, r.x + 9, y + 14, r.w - 9, FONT_NUMBER, THEME_TEXT_SMALL, text_color, text);
+    }
+}
+
+static void draw_number(struct drawlist *list, float x, float y, const char *text)
+{
+    drawlist_text(list, x, y, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
+}
+
+/// A number below a plot, centred at x but never outside `r`.
+static void draw_below(struct drawlist *list, struct rect r, float x, float y, const char *text)
+{
+    float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
+    draw_number(list, fmaxf(r.x, fminf(r.x + r.w - width, x - width / 2)), y, text);
+}
+
+void poles_draw_inset(const struct poles_view *view, const struct pole_setting *setting, struct rect r,
+                      struct drawlist *list)
+{
+    static const double dampings[] = {0, 0.05, 0.2, 0.5, 1, 2};
+    char text[32];
+    drawlist_rounded(list, r, 3, theme()->raised);
+    for (int i = 0; i < 6 && dampings[i] < view->top; i++) {
+        float y = poles_y(view, r, dampings[i]);
+        draw_straight(list, r.x, y, r.x + r.w, y, theme()->grid_major);
+        snprintf(text, sizeof text, "ζ %g", dampings[i]);
+        if (i > 0) draw_number(list, r.x + 4, y - 3, text);
+    }
+    for (int i = 1; i <= 3; i++) {
+        double hz = view->reach * i / 4;
+        float x = poles_x(view, r, hz);
+        draw_straight(list, x, r.y, x, r.y + r.h, theme()->grid_major);
+        snprintf(text, sizeof text, "%.4g Hz", hz);
+        draw_below(list, r, x, r.y + r.h + 12, text);
+    }
+    float y = poles_y(view, r, setting->damping), spread = 0;
+    if (setting->kind == FILTER_TWO_COMPLEX) spread = (float)(setting->hz * setting->bandwidth);
+    struct rect whole = drawlist_push_clip(list, rect_inset(r, -6));
+    if (spread > 0) {
+        float low = poles_x(view, r, setting->hz - spread), high = poles_x(view, r, setting->hz + spread);
+        draw_straight(list, low, y, high, y, theme_fade(theme()->accent, 0.5f));
+        draw_cross(list, low, y, 3.5f, theme()->accent);
+        draw_cross(list, high, y, 3.5f, theme()->accent);
+    }
+    float x = poles_x(view, r, setting->hz);
+    drawlist_rounded(list, (struct rect){x - 3.5f, y - 3.5f, 7, 7}, 3.5f, theme()->text);
+    drawlist_set_clip(list, whole);
+}
+
+static void draw_curve(const struct poles_view *view, enum filter_kind kind, struct rect plot, struct drawlist *list)
+{
+    float xy[POLES_COLUMNS][2];
+    for (int i = 0; i < POLES_COLUMNS; i++) {
+        xy[i][0] = plot.x + plot.w * (float)i / (POLES_COLUMNS - 1);
+        xy[i][1] = plot.y + plot.h * fmaxf(view->decibels[kind][i], 2 * floor_decibels) / floor_decibels;
+    }
+    bool own = view->setting.kind == kind;
+    drawlist_line(list, xy[0], POLES_COLUMNS, own ? 2 : 1.25f, theme_fade(filter_color(view, kind), own ? 1 : 0.7f));
+}
+
+void poles_draw_response(const struct poles_view *view, struct rect r, struct drawlist *list)
+{
+    struct rect plot = {r.x + margin_left, r.y + 4, r.w - margin_left, r.h - margin_bottom - 4};
+    char text[32];
+    for (int db = 0; db >= (int)floor_decibels; db -= 20) {
+        float y = plot.y + plot.h * (float)db / floor_decibels;
+        draw_straight(list, plot.x, y, plot.x + plot.w, y, theme()->grid_major);
+        snprintf(text, sizeof text, "%d", db);
+        draw_number(list, plot.x - 6 - font_width(FONT_NUMBER, THEME_TEXT_SMALL, text), y + 4, text);
+    }
+    float middle = plot.x + plot.w / 2, peak = plot.w / 2 * (float)(view->setting.hz / view->span);
+    draw_straight(list, middle, plot.y, middle, plot.y + plot.h, theme()->zero);
+    draw_below(list, r, middle, r.y + r.h - 2, "0");
+    for (int side = -1; side <= 1 && peak <= plot.w / 2; side += 2) {
+        float x = middle + (float)side * peak;
+        draw_straight(list, x, plot.y, x, plot.y + plot.h, theme()->grid_major);
+        snprintf(text, sizeof text, "%.3g Hz", side * view->setting.hz);
+        draw_below(list, r, x, r.y + r.h - 2, text);
+    }
+    struct rect old = drawlist_push_clip(list, (struct rect){plot.x, plot.y - 2, plot.w, plot.h + 2});
+    for (enum filter_kind kind = 0; kind < FILTER_KINDS; kind++) {
+        if (view->setting.kind != kind) draw_curve(view, kind, plot, list);
+    }
+    draw_curve(view, view->setting.kind, plot, list);
+    drawlist_set_clip(list, old);
+}

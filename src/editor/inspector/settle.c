@@ -1,0 +1,70 @@
+#include "editor/inspector/settle.h"
+#include <complex.h>
+#include <math.h>
+
+static const double LEFT = 0.05; ///< of the displacement that it was let go from
+enum { MAX_SAMPLES = 100000 };
+
+/// ω_n and ζ of a spline (spec: "Parameters"); false where a track drives one.
+static bool swing_of(const struct spline *spline, double *omega, double *zeta)
+{
+    const struct param *p = spline->parameter;
+    bool pair = spline->mode == WIGGLY_REAL && spline->spring_friction;
+    const struct param *first = &p[pair ? PARAMETER_SPRING : PARAMETER_FREQUENCY];
+    const struct param *second = &p[pair ? PARAMETER_FRICTION : PARAMETER_DAMPING];
+    if (first->track >= 0 || second->track >= 0) return false;
+    if (spline->mode == WIGGLY_COMPLEX && p[PARAMETER_BANDWIDTH].track >= 0) return false;
+    *omega = pair ? sqrt(first->value) : 2 * acos(-1.0) * first->value;
+    *zeta = !pair ? second->value : *omega > 0 ? second->value / (2 * *omega) : 0;
+    return true;
+}
+
+/// The continuous poles s₀, s₁ in 1/s.
+static void poles_of(const struct spline *spline, double omega, double zeta, double complex s[2])
+{
+    double complex root = csqrt(zeta * zeta - 1);
+    s[0] = -zeta * omega + omega * root;
+    s[1] = -zeta * omega - omega * root;
+    if (zeta > 1) s[0] = -omega / (zeta + creal(root)); // without the cancellation
+    if (spline->mode != WIGGLY_COMPLEX) return;
+    double turn = spline->parameter[PARAMETER_BANDWIDTH].value * omega;
+    double complex centre = -zeta * omega + I * omega * sqrt(fmax(0, 1 - zeta * zeta));
+    s[0] = centre + I * turn;
+    s[1] = centre - I * turn;
+}
+
+/// Samples until the swing stays within LEFT, of the first `count`; between samples by linear interpolation. Two equal
+/// samples stand still half-way between them.
+static double settled_sample(const double complex s[2], double step, bool is_complex, int count)
+{
+    double complex l0 = cexp(s[0] * step), l1 = cexp(s[1] * step), a = l0 + l1, b = -l0 * l1;
+    double complex before = 1, now = is_complex ? a / 2 : 1;
+    double size = 1, settled = 0;
+    for (int i = 0; i < count; i++) {
+        double next_size = is_complex ? cabs(now) : fabs(creal(now));
+        if (size > LEFT) settled = next_size < size ? i + fmin(1, (size - LEFT) / (size - next_size)) : i + 1;
+        double complex next = a * now + b * before;
+        before = now;
+        now = next;
+        size = next_size;
+    }
+    return is_complex ? settled : settled - 0.5;
+}
+
+struct settling settle_measure(const struct spline *spline, double step)
+{
+    double omega, zeta;
+    double complex s[2];
+    if (spline->mode == WIGGLY_CUBIC) return (struct settling){SETTLE_CUBIC, 0};
+    if (!swing_of(spline, &omega, &zeta)) return (struct settling){SETTLE_UNKNOWN, 0};
+    if (omega == 0) return (struct settling){SETTLE_CUBIC, 0};
+    if (zeta == 0) return (struct settling){SETTLE_NEVER, 0};
+    poles_of(spline, omega, zeta, s);
+    double rate = fmin(-creal(s[0]), -creal(s[1])); // the slower pole's
+    double expected = log(1 / LEFT) / rate;
+    if (expected > SETTLE_LIMIT) return (struct settling){SETTLE_LATE, 0};
+    double samples = 3 * expected / step + 8; // a double pole takes 1.6 times as long as its radius says
+    if (samples > MAX_SAMPLES) return (struct settling){SETTLE_MEASURED, expected};
+    bool is_complex = spline->mode == WIGGLY_COMPLEX;
+    return (struct settling){SETTLE_MEASURED, step * settled_sample(s, step, is_complex, (int)samples)};
+}

@@ -1,0 +1,164 @@
+/// Poses soft characters and their stiff twins on the stage.
+#include "editor/stage/characters.h"
+#include "editor/core/state.h"
+#include "editor/curves/curves.h"
+#include "rig/cast.h"
+#include "rig/morph.h"
+#include "ui/font.h"
+#include "ui/phase_color.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+
+enum { BOUND_STEPS = 30 };
+
+static const float FRONT_SHARE = 0.1f; ///< of a point's depth, in what decides between front and back
+
+#define PAIR_GAP 0.58f /* from the middle to each of a pair, in widths of the character */
+
+const struct character_rig *characters_selected(const struct editor *editor, const struct editor_world *world)
+{
+    const int index = editor->characters.character;
+    return index < world->document->character_count ? &world->document->characters[index] : NULL;
+}
+
+const struct coordinate *characters_coordinate(const struct editor *editor, const struct editor_world *world)
+{
+    const struct character_rig *rig = characters_selected(editor, world);
+    const struct figure *figure = cast_figure(world->cast, editor->characters.character);
+    if (!rig || !figure || editor->characters.drive >= rig->drive_count) return NULL;
+    const int at = figure_find(figure, rig->drives[editor->characters.drive].name);
+    return at >= 0 ? &figure->character.coordinates[at] : NULL;
+}
+
+void characters_open(struct editor *editor, const struct document *document)
+{
+    const int phases = document->character_count > 0 ? document->characters[0].phases : -1;
+    editor->brush.on = false;
+    editor->characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
+}
+
+static void pose_at(const struct editor_world *world, const struct character_rig *rig, const struct figure *figure,
+                    double position, enum look look, struct morph *morph)
+{
+    wiggly_value values[CHARACTER_MAX_DRIVES] = {{0}};
+    for (int k = 0; k < rig->drive_count; k++) values[k] = curves_solved(world, rig->drives[k].spline, position);
+    pose_character(rig, figure, values, look, morph);
+}
+
+/// How far each of a pair stands from the middle.
+static float pair_offset(const struct figure *figure) { return PAIR_GAP * (figure->hi[0] - figure->lo[0]); }
+
+static void add_soles(struct stage_view *view, const struct stage_character *shown)
+{
+    const struct figure *figure = shown->figure;
+    const float width = figure->hi[0] - figure->lo[0], depth = figure->hi[2] - figure->lo[2];
+    const float *p = shown->position;
+    if (view->blob_count < STAGE_MAX_BLOBS) {
+        view->blobs[view->blob_count++] =
+            (struct stage_blob){p[0] + 0.5f * (figure->lo[0] + figure->hi[0]),
+                                p[2] + 0.5f * (figure->lo[2] + figure->hi[2]), 0.32f * (width + depth), 0.5f};
+    }
+    for (int s = 0; s < FIGURE_SOLES && view->blob_count < STAGE_MAX_BLOBS; s++) {
+        const struct sole *sole = &figure->soles[s];
+        if (sole->radius <= 0.0f) continue;
+        view->blobs[view->blob_count++] =
+            (struct stage_blob){p[0] + sole->x, p[2] + sole->z, 1.35f * sole->radius, 0.7f};
+    }
+}
+
+/// One figure on the stage, `aside` metres from where its rig stands.
+static void add_character(struct editor *editor, const struct editor_world *world, int index, enum look look,
+                          float aside)
+{
+    struct stage_view *view = &editor->stage;
+    const struct character_view *how = &editor->characters;
+    if (view->character_count == STAGE_MAX_CHARACTERS) return;
+    const struct character_rig *rig = &world->document->characters[index];
+    struct stage_character *shown = &view->characters[view->character_count++];
+    *shown = (struct stage_character){.figure = cast_figure(world->cast, index),
+                                      .rig = index,
+                                      .is_twin = aside > 0,
+                                      .coarse = how->compare || world->document->character_count > 1,
+                                      .map_coordinate = -1,
+                                      .map_axis = how->axis};
+    for (int k = 0; k < 3; k++) shown->position[k] = (float)rig->position[k] + (k == 0 ? aside : 0.0f);
+    pose_at(world, rig, shown->figure, editor->playback.position, look, &shown->morph);
+    const int drive = how->drive < rig->drive_count ? how->drive : 0;
+    const bool is_painted = editor->brush.on && index == how->character;
+    if ((how->mapped || is_painted) && rig->drive_count > 0)
+        shown->map_coordinate = figure_find(shown->figure, rig->drives[drive].name);
+    add_soles(view, shown);
+}
+
+void characters_pose(struct editor *editor, const struct editor_world *world)
+{
+    editor->stage.character_count = 0;
+    for (int i = 0; i < world->document->character_count; i++) {
+        const struct figure *figure = cast_figure(world->cast, i);
+        if (!figure) continue;
+        if (!editor->characters.compare) {
+            add_character(editor, world, i, editor->look, 0.0f);
+        } else {
+            add_character(editor, world, i, editor->look, -pair_offset(figure));
+            add_character(editor, world, i, LOOK_STIFF, pair_offset(figure));
+        }
+    }
+}
+
+bool characters_bounds(const struct editor *editor, const struct editor_world *world, float lo[3], float hi[3])
+{
+    const double last = document_samples(world->document) - 1;
+    bool any = false;
+    for (int i = 0; i < world->document->character_count; i++) {
+        const struct figure *figure = cast_figure(world->cast, i);
+        const struct character_rig *rig = &world->document->characters[i];
+        if (!figure) continue;
+        any = true;
+        for (int step = 0; step <= BOUND_STEPS; step++) {
+            struct morph morph;
+            float low[3], high[3];
+            pose_at(world, rig, figure, last * step / BOUND_STEPS, editor->look, &morph);
+            morph_bounds(figure, &morph, low, high);
+            for (int k = 0; k < 3; k++) {
+                const float at = (float)rig->position[k] - (k == 1 ? figure->lo[1] : 0.0f);
+                const float aside = k == 0 && editor->characters.compare ? pair_offset(figure) : 0.0f;
+                lo[k] = fminf(lo[k], low[k] + at - aside);
+                hi[k] = fmaxf(hi[k], high[k] + at + aside);
+            }
+        }
+    }
+    return any;
+}
+
+/// The vertex that is seen there from the front of the character at rest.
+static int front_vertex(const struct figure *figure, const double uv[2])
+{
+    const float *lo = figure->lo, *hi = figure->hi;
+    const float x = lo[0] + (float)uv[0] * (hi[0] - lo[0]), y = lo[1] + (float)uv[1] * (hi[1] - lo[1]);
+    float best = INFINITY;
+    int found = 0;
+    for (int i = 0; i < figure->character.vertex_count; i++) {
+        const float *p = figure->character.position[i];
+        const float cost = hypotf(p[0] - x, p[1] - y) - FRONT_SHARE * p[2];
+        if (!(cost < best)) continue;
+        best = cost;
+        found = i;
+    }
+    return found;
+}
+
+bool characters_point(const struct editor *editor, int character, const double uv[2], float xy[2])
+{
+    const struct stage_view *view = &editor->stage;
+    const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
+    for (int i = 0; i < view->character_count; i++) {
+        const struct stage_character *shown = &view->characters[i];
+        float point[3];
+        if (shown->rig != character || shown->is_twin) continue;
+        morph_vertex(shown->figure, &shown->morph, front_vertex(shown->figure, uv), point, NULL);
+        for (int k = 0; k < 3; k++) point[k] += shown->position[k] - (k == 1 ? shown->figure->lo[1] : 0.0f);
+        return camera_project(view->view, view->projection, viewport, point, xy);
+    }
+    return false;
+}

@@ -1,0 +1,188 @@
+/// Pulling the tail: one damped Newton step a frame on the values of the knots at the playhead.
+///
+/// The grabbed point p (pixels) depends on the values v of at most two knots, one for each axis. Its derivative J
+/// comes from posing the tail again with x changed by δ(1 + j·turn), which is what a change of the knot does once
+/// `turn` is known (Re x follows the knot exactly; how Im x follows is linear, so one observed step tells it for
+/// good). Then
+///
+///     (JᵀJ + λ) dv = Jᵀ (target − p),   in radians of bend, so that both axes count alike.
+#include "editor/core/actions.h"
+#include "editor/curves/curves.h"
+#include "editor/stage/follow.h"
+#include <math.h>
+
+static const double DAMPING = 12; ///< √λ, pixels a radian: below this a channel moves the point too little to be used
+static const double LARGEST_STEP = 0.35, LARGEST_BEND = 7; ///< radians at the grabbed joint, a frame and in all
+static const double CLOSE = 0.2;                           ///< pixels: near enough
+static const double PROBE = 0.01;                          ///< radians of bend for the derivative
+static const double RESOLUTION = 1e-4;                     ///< radians of bend
+static const double DEGREE = 0.017453292519943295;
+
+static double angle_of(const struct angles *angles, int joint)
+{
+    return angles->each ? angles->value[joint] : angles->value[0];
+}
+
+/// The channel of a tail for an axis: the active spline's where there is a choice. NULL where there is none.
+static const struct channel *channel_for(const struct editor *editor, const struct tail *tail, enum axis axis)
+{
+    const struct channel *found = NULL;
+    for (int c = 0; c < tail->channel_count; c++) {
+        const struct channel *channel = &tail->channels[c];
+        if (channel->axis == axis && (!found || channel->spline == editor->active)) found = channel;
+    }
+    return found;
+}
+
+static struct grab_axis axis_for(const struct editor *editor, const struct tail *tail, int joint, enum axis axis)
+{
+    const struct channel *channel = channel_for(editor, tail, axis);
+    double gain = 0;
+    for (int n = 0; channel && n <= joint && n < tail->joints; n++)
+        gain += fabs(angle_of(&channel->gain, n)) * DEGREE;
+    if (!(gain > 1e-9)) return (struct grab_axis){0};
+    return (struct grab_axis){.active = true, .spline = channel->spline, .values_per_radian = 1 / gain};
+}
+
+/// The sample nearest to the playhead that may carry knots of all steered splines, on a whole frame.
+static int sample_for(const struct editor *editor, const struct document *document)
+{
+    int sample = document_sample(document, round(editor_frame(editor, document)));
+    for (int a = 0; a < 2; a++) {
+        const struct grab_axis *axis = &editor->grab.axis[a];
+        if (!axis->active) continue;
+        int last = document_last_knot_sample(document, &document->splines[axis->spline]);
+        sample = sample > last ? last : sample;
+    }
+    return sample < 0 ? 0 : sample;
+}
+
+void grab_begin(struct editor *editor, const struct editor_world *world, const struct hover *hover)
+{
+    const struct tail *tail = &world->document->tails[hover->tail];
+    struct grab *grab = &editor->grab;
+    *grab = (struct grab){.tail = hover->tail, .joint = hover->joint, .fraction = hover->fraction};
+    grab->axis[AXIS_SIDE] = axis_for(editor, tail, grab->joint, AXIS_SIDE);
+    grab->axis[AXIS_UP] = axis_for(editor, tail, grab->joint, AXIS_UP);
+    if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
+        grab->axis[AXIS_UP].active = false;
+    }
+    follow_stop(editor, grab->tail);
+    grab->sample = sample_for(editor, world->document);
+    editor->playback.playing = false;
+    editor->playback.position = grab->sample;
+    grab->start[0] = hover->x;
+    grab->start[1] = hover->y;
+    struct pose pose;
+    stage_pose_tail(editor, world, grab->tail, NULL, &pose);
+    stage_project_pose(editor, &pose, grab->joint, grab->fraction, grab->start);
+}
+
+/// Takes the present value over and learns from the last step how Im x follows it.
+static void observe(struct grab_axis *axis, const struct editor_world *world, int sample)
+{
+    wiggly_value v = curves_solved(world, axis->spline, sample);
+    double value = v.y + v.re;
+    double change = value - axis->seen_value;
+    if (axis->seen_value != axis->value && fabs(change) > 1e-3 * axis->values_per_radian) {
+        axis->turn = fmax(-5, fmin(5, (v.im - axis->seen_im) / change));
+    }
+    axis->value = axis->seen_value = value;
+    axis->seen_im = v.im;
+}
+
+/// Derivative of the grabbed point by radians of bend through one axis.
+static void derivative(const struct editor *editor, const struct editor_world *world, const struct grab_axis *axis,
+                       const float at[2], double response[2])
+{
+    const struct grab *grab = &editor->grab;
+    struct pose pose;
+    float moved[2] = {at[0], at[1]};
+    double change = PROBE * axis->values_per_radian;
+    stage_pose_tail(editor, world, grab->tail, &(struct what_if){axis->spline, change, change * axis->turn}, &pose);
+    stage_project_pose(editor, &pose, grab->joint, grab->fraction, moved);
+    response[0] = (moved[0] - at[0]) / PROBE;
+    response[1] = (moved[1] - at[1]) / PROBE;
+}
+
+/// Solves (JᵀJ + λ) step = Jᵀ miss for two unknowns; J by column. A column of zeros leaves its unknown at 0.
+static void damped_step(const double column[2][2], const double miss[2], double step[2])
+{
+    double lambda = DAMPING * DAMPING;
+    double a = column[0][0] * column[0][0] + column[0][1] * column[0][1] + lambda;
+    double b = column[0][0] * column[1][0] + column[0][1] * column[1][1];
+    double d = column[1][0] * column[1][0] + column[1][1] * column[1][1] + lambda;
+    double p = column[0][0] * miss[0] + column[0][1] * miss[1];
+    double q = column[1][0] * miss[0] + column[1][1] * miss[1];
+    double determinant = a * d - b * b; /* at least λ² */
+    step[0] = (d * p - b * q) / determinant;
+    step[1] = (a * q - b * p) / determinant;
+    double size = hypot(step[0], step[1]);
+    double factor = size > LARGEST_STEP ? LARGEST_STEP / size : 1;
+    step[0] *= factor;
+    step[1] *= factor;
+}
+
+/// Sets the knot of one axis at the grabbed sample, or inserts it.
+static void set_knot(struct editor *editor, const struct editor_world *world, const struct grab_axis *axis)
+{
+    const struct document *document = world->document;
+    const struct spline *spline = &document->splines[axis->spline];
+    int at = spline_find_knot(document, spline, editor->grab.sample);
+    struct edit edit = editor_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, axis->spline);
+    if (at < 0) {
+        edit.knot = (struct knot){.frame = document_frame(document, editor->grab.sample), .stiffness = 1000};
+    } else {
+        edit.knot = spline->knots[at];
+    }
+    edit.knot.value = axis->value;
+    editor_edit(editor, world, &edit);
+}
+
+/// Makes the knot that is pulled the selected one.
+static void select_knot(struct editor *editor, const struct editor_world *world)
+{
+    const struct grab *grab = &editor->grab;
+    bool steered = false;
+    for (int a = 0; a < 2; a++) steered |= grab->axis[a].active && grab->axis[a].spline == editor->active;
+    if (!steered)
+        editor_activate(editor, world, grab->axis[grab->axis[AXIS_SIDE].active ? AXIS_SIDE : AXIS_UP].spline);
+    const struct spline *spline = editor_active_spline(editor, world);
+    int at = spline ? spline_find_knot(world->document, spline, grab->sample) : -1;
+    if (at < 0) return;
+    editor_reserve(editor, world->document);
+    selection_clear(&editor->selection);
+    selection_set(&editor->selection, spline->knots[at].id, true);
+}
+
+void grab_apply(struct editor *editor, const struct editor_world *world)
+{
+    struct grab *grab = &editor->grab;
+    const struct drag *drag = &editor->drag;
+    if (drag->kind != DRAG_GRAB || !drag->moved) return;
+    if (!grab->axis[AXIS_SIDE].active && !grab->axis[AXIS_UP].active) return;
+    struct pose pose;
+    float at[2];
+    stage_pose_tail(editor, world, grab->tail, NULL, &pose);
+    if (!stage_project_pose(editor, &pose, grab->joint, grab->fraction, at)) return;
+    double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
+    if (grab->applied && hypot(miss[0], miss[1]) < CLOSE) return;
+    double column[2][2] = {{0}}, step[2];
+    for (int a = 0; a < 2; a++) {
+        if (!grab->axis[a].active) continue;
+        observe(&grab->axis[a], world, grab->sample);
+        derivative(editor, world, &grab->axis[a], at, column[a]);
+    }
+    damped_step(column, miss, step);
+    history_restart(world->history, world->document);
+    for (int a = 0; a < 2; a++) {
+        struct grab_axis *axis = &grab->axis[a];
+        if (!axis->active) continue;
+        double most = fmax(LARGEST_BEND * axis->values_per_radian, fabs(axis->value));
+        double value = fmax(-most, fmin(most, axis->value + step[a] * axis->values_per_radian));
+        axis->value = round_value(value, RESOLUTION * axis->values_per_radian);
+        set_knot(editor, world, axis);
+    }
+    grab->applied = true;
+    select_knot(editor, world);
+}

@@ -1,0 +1,121 @@
+/// Onion skin: light proxies of the tail, an outline each, at the knots around the playhead.
+#include "editor/core/actions.h"
+#include "editor/core/arrange.h"
+#include "editor/stage/overlays.h"
+#include "model/creature.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdlib.h>
+
+enum {
+    MAX_SKINS = 8,
+    STATIONS = 20,                ///< along the tail
+    TIP = 5,                      ///< points round it
+    OUTLINE = 2 * STATIONS + TIP, ///< there, round the tip and back
+};
+
+static const double FROM = 0.16,
+                    TO = 0.985; ///< shares of the length: outside of the body, and where the rounded tip begins
+static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first and of the last skin
+
+int overlay_tail(const struct editor *editor, const struct document *document)
+{
+    int tail, channel;
+    if (!active_channel(editor, document, &tail, &channel)) tail = document->tail_count > 0 ? 0 : -1;
+    return tail < editor->stage.tail_count ? tail : -1;
+}
+
+/// The spline whose knots are shown: the active one, or where it has none, the one that it swings about.
+static const struct spline *keyed_spline(const struct editor *editor, const struct editor_world *world)
+{
+    const struct spline *spline = editor_active_spline(editor, world);
+    if (!spline || spline->knot_count > 0) return spline;
+    int track = spline->parameter[PARAMETER_EQUILIBRIUM].track;
+    return track >= 0 ? &world->document->splines[track] : spline;
+}
+
+/// Samples of the knots nearest to a position, the nearest first; returns how many.
+static int nearest_knots(const struct document *document, const struct spline *spline, double position,
+                         int samples[MAX_SKINS])
+{
+    int after = spline_lower_bound(document, spline, (int)ceil(position)), before = after - 1, count = 0;
+    while (count < MAX_SKINS && (before >= 0 || after < spline->knot_count)) {
+        int low = before >= 0 ? document_sample(document, spline->knots[before].frame) : 0;
+        int high = after < spline->knot_count ? document_sample(document, spline->knots[after].frame) : 0;
+        bool back = after == spline->knot_count || (before >= 0 && position - low <= high - position);
+        samples[count++] = back ? low : high;
+        if (back) {
+            before--;
+        } else {
+            after++;
+        }
+    }
+    return count;
+}
+
+/// A point of the centre line at a share of the length, and the pixels that the tail is thick there to each side.
+static bool station(const struct editor *editor, const struct pose *pose, double share, float xy[2], float *radius)
+{
+    const struct stage_view *view = &editor->stage;
+    double at = share * (pose->count - 1);
+    int joint = at >= pose->count - 1 ? pose->count - 2 : (int)at;
+    if (!stage_project_pose(editor, pose, joint, at - joint, xy)) return false;
+    const float *place = pose->matrix[joint] + 12;
+    float depth = 0;
+    for (int k = 0; k < 3; k++) depth += (view->eye[k] - place[k]) * view->view[4 * k + 2];
+    float metres =
+        creature_tail_radius((float)share * CREATURE_TAIL_LENGTH) * pose_length(pose) / CREATURE_TAIL_LENGTH;
+    *radius = metres * 0.5f * view->viewport.h * view->projection[5] / fmaxf(depth, 0.1f);
+    return true;
+}
+
+/// The outline of a tail on the screen, open where it grows out of the body; false where a part of it is behind the eye.
+static bool outline(const struct editor *editor, const struct pose *pose, float out[OUTLINE][2])
+{
+    float middle[STATIONS][2], radius[STATIONS], across[2] = {0, 0};
+    for (int i = 0; i < STATIONS; i++) {
+        if (!station(editor, pose, FROM + (TO - FROM) * i / (STATIONS - 1), middle[i], &radius[i])) return false;
+    }
+    for (int i = 0; i < STATIONS; i++) {
+        const float *from = middle[i > 0 ? i - 1 : 0], *to = middle[i + 1 < STATIONS ? i + 1 : i];
+        float dx = to[0] - from[0], dy = to[1] - from[1], length = hypotf(dx, dy);
+        if (length > 0.01f) across[0] = -dy / length, across[1] = dx / length;
+        for (int k = 0; k < 2; k++) {
+            out[i][k] = middle[i][k] + radius[i] * across[k];
+            out[2 * STATIONS + TIP - 1 - i][k] = middle[i][k] - radius[i] * across[k];
+        }
+    }
+    for (int i = 0; i < TIP; i++) { // half a turn round the tip
+        float angle = 3.14159265f * (float)(i + 1) / (TIP + 1), c = cosf(angle), s = sinf(angle);
+        out[STATIONS + i][0] = middle[STATIONS - 1][0] + radius[STATIONS - 1] * (c * across[0] + s * across[1]);
+        out[STATIONS + i][1] = middle[STATIONS - 1][1] + radius[STATIONS - 1] * (c * across[1] - s * across[0]);
+    }
+    return true;
+}
+
+void onion_show(struct editor *editor, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    const struct spline *spline = keyed_spline(editor, world);
+    int tail = overlay_tail(editor, document), samples[MAX_SKINS];
+    if (!editor->overlays.onion || !spline || tail < 0) return;
+    int count = nearest_knots(document, spline, editor->playback.position, samples);
+    uint32_t color = arrange_color(document, editor->active);
+    for (int i = count - 1; i >= 0; i--) {
+        struct pose pose;
+        float points[OUTLINE][2];
+        stage_pose_at(editor, world, tail, samples[i], &pose);
+        if (!outline(editor, &pose, points)) continue;
+        float share = count > 1 ? (float)i / (float)(count - 1) : 0;
+        drawlist_line(&editor->list, points[0], OUTLINE, 1.25f,
+                      theme_fade(color, NEAREST + (FARTHEST - NEAREST) * share));
+    }
+}
+
+void onion_toggle(struct editor *editor)
+{
+    editor->overlays.onion = !editor->overlays.onion;
+    editor_message(editor, false,
+                   editor->overlays.onion ? "Onion skin: the tail at the knots around the playhead (O)."
+                                          : "No onion skin.");
+}

@@ -1,0 +1,138 @@
+/// The motion arc: where the tip of the tail goes, a mark a frame, fading with the distance from the playhead.
+#include "base/hash.h"
+#include "editor/core/actions.h"
+#include "editor/stage/overlays.h"
+#include "ui/theme.h"
+#include <math.h>
+
+enum {
+    MAX_REACH = TRAIL_FRAMES / 2 - 1, ///< frames to each side
+    PIECES = 3,                       ///< straight pieces from frame to frame
+    RUN = 4,                          ///< frames of one opacity
+};
+
+static const double REACH = 2;                            ///< seconds to each side
+static const float OPACITY = 0.85f, MARK = 2.5f, NOW = 5; ///< pixels of a mark, and of the one at the playhead
+
+/// Whether frames beyond the range are those at its other end: where all that moves the tail loops.
+static bool tail_loops(const struct document *document, const struct tail *tail)
+{
+    bool loops = tail->channel_count > 0;
+    for (int c = 0; c < tail->channel_count; c++) {
+        loops &= document->splines[tail->channels[c].spline].start == WIGGLY_LOOP;
+    }
+    for (int k = 0; k < 3; k++) {
+        int track = tail->position[k].track;
+        loops &= track < 0 || document->splines[track].start == WIGGLY_LOOP;
+    }
+    return loops;
+}
+
+/// The tip at a frame counted from the first, world; from memory while nothing was edited.
+static const float *tip_at(struct editor *editor, const struct editor_world *world, int tail, int frame)
+{
+    uint64_t solved = world->evaluation ? world->evaluation->revision : 0;
+    uint64_t key = hash_word(hash_word(HASH_START, history_revision(world->history)), solved);
+    key = hash_word(key, (uint64_t)tail << 8 | (uint64_t)editor->look);
+    struct trail_point *point = &editor->overlays.trail_point[(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
+    if (point->known && point->key == key && point->frame == frame) return point->tip;
+    struct pose pose;
+    stage_pose_at(editor, world, tail, (double)frame * world->document->substeps, &pose);
+    *point = (struct trail_point){.known = true, .key = key, .frame = frame};
+    for (int k = 0; k < 3; k++) point->tip[k] = pose.matrix[pose.count - 1][12 + k];
+    return point->tip;
+}
+
+static bool project(const struct editor *editor, const float tip[3], float xy[2])
+{
+    const struct rect *r = &editor->layout.stage;
+    const float viewport[4] = {r->x, r->y, r->w, r->h};
+    return camera_project(editor->stage.view, editor->stage.projection, viewport, tip, xy);
+}
+
+/// Catmull-Rom through four neighbours, on the screen.
+static void between(const float a[2], const float b[2], const float c[2], const float d[2], float u, float out[2])
+{
+    for (int k = 0; k < 2; k++) {
+        float m0 = 0.5f * (c[k] - a[k]), m1 = 0.5f * (d[k] - b[k]), step = c[k] - b[k];
+        out[k] = b[k] + u * (m0 + u * (3 * step - 2 * m0 - m1 + u * (m0 + m1 - 2 * step)));
+    }
+}
+
+/// Frames first … last as points of the screen with PIECES − 1 more after each; returns how many points.
+static int lay_out(float screen[TRAIL_FRAMES][2], int count, float points[][2])
+{
+    int made = 0;
+    for (int i = 0; i + 1 < count; i++) {
+        const float *a = screen[i > 0 ? i - 1 : i], *d = screen[i + 2 < count ? i + 2 : i + 1];
+        for (int p = 0; p < PIECES; p++) {
+            between(a, screen[i], screen[i + 1], d, (float)p / PIECES, points[made++]);
+        }
+    }
+    points[made][0] = screen[count - 1][0];
+    points[made][1] = screen[count - 1][1];
+    return made + 1;
+}
+
+static float fade_at(double frames, double reach) { return OPACITY * fmaxf(0, 1 - (float)(fabs(frames) / reach)); }
+
+static void show_marks(struct editor *editor, float screen[TRAIL_FRAMES][2], int first, int count, double now,
+                       double reach)
+{
+    for (int i = 0; i < count; i++) {
+        float alpha = fade_at(first + i - now, reach);
+        struct rect mark = {screen[i][0] - MARK / 2, screen[i][1] - MARK / 2, MARK, MARK};
+        if (alpha > 0.02f) drawlist_rect(&editor->list, mark, theme_fade(theme()->playhead, alpha));
+    }
+}
+
+static void show_line(struct editor *editor, float points[][2], int first, int count, double now, double reach)
+{
+    for (int i = 0; i + 1 < count; i += RUN * PIECES) {
+        int length = count - i < RUN * PIECES + 1 ? count - i : RUN * PIECES + 1;
+        float alpha = fade_at(first + (i + length / 2.0) / PIECES - now, reach);
+        if (alpha > 0.02f)
+            drawlist_line(&editor->list, points[i], length, 1.5f, theme_fade(theme()->playhead, 0.7f * alpha));
+    }
+}
+
+/// A ring round the tip as it is now, which a body that is being dragged takes along.
+static void show_now(struct editor *editor, int tail)
+{
+    float xy[2];
+    const struct pose *pose = &editor->stage.tails[tail].pose;
+    if (!stage_project(editor, tail, pose->count - 1, 0, xy)) return;
+    struct rect ring = {xy[0] - NOW, xy[1] - NOW, 2 * NOW, 2 * NOW};
+    drawlist_rounded_line(&editor->list, ring, NOW, 1.5f, theme()->playhead);
+}
+
+void trail_show(struct editor *editor, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    int tail = overlay_tail(editor, document);
+    if (!editor->overlays.trail || tail < 0) return;
+    double now = editor->playback.position / document->substeps;
+    double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
+    int first = (int)ceil(now - reach), last = (int)floor(now + reach);
+    if (!tail_loops(document, &document->tails[tail])) {
+        first = first < 0 ? 0 : first;
+        last =
+            last < document->last_frame - document->first_frame ? last : document->last_frame - document->first_frame;
+    }
+    float screen[TRAIL_FRAMES][2], points[PIECES * TRAIL_FRAMES][2];
+    int count = 0;
+    for (int frame = first; frame <= last; frame++) {
+        if (!project(editor, tip_at(editor, world, tail, frame), screen[count++])) return;
+    }
+    if (count == 0) return;
+    show_line(editor, points, first, lay_out(screen, count, points), now, reach);
+    show_marks(editor, screen, first, count, now, reach);
+    show_now(editor, tail);
+}
+
+void trail_toggle(struct editor *editor)
+{
+    editor->overlays.trail = !editor->overlays.trail;
+    editor_message(editor, false,
+                   editor->overlays.trail ? "Motion arc: the way of the tip, a mark a frame (P)." : "No motion arc.");
+}

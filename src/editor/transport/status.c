@@ -1,0 +1,124 @@
+/// The status line: where playback is, which scene, and one sentence: a message, or what the pointer is over.
+#include "editor/core/playback.h"
+#include "editor/core/state.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double REFRESH = 0.5; ///< seconds between changes of the figures at the right
+static const double SOLVED = 5;    ///< µs; what took less was only a look for something to solve
+
+void status_advance(struct editor *editor, double dt)
+{
+    struct status *status = &editor->status;
+    status->age += dt;
+    if (status->fps > 0 && status->age < REFRESH) return;
+    status->age = 0;
+    status->fps = editor->fps;
+    status->solve_us = editor->solve_us;
+    status->dropped = editor->playback.dropped;
+}
+
+static const char *hover_hint(const struct editor *editor, const struct document *document)
+{
+    if (editor->drag.kind == DRAG_SCALE) return editor->scaling.sentence;
+    switch (editor->hover.kind) {
+    case HOVER_KNOT:
+        return "Drag to move (X, Y lock an axis, R takes the later knots along, Shift fine, Ctrl off the frames)";
+    case HOVER_SLOPE:
+        return "Drag to turn the slope, longer to hold it more firmly; T takes it away";
+    case HOVER_CURVE:
+        return editor->hover.spline == editor->active ? "Double-click: a knot that keeps the curve; drag: a box"
+                                                      : "Click to edit this spline";
+    case HOVER_RULER:
+        return "Drag to scrub; Shift+drag: play only a part, Shift+click: all again";
+    case HOVER_WARNING:
+        return "Click the warning to do away with it; Ctrl+Z brings it back";
+    case HOVER_UNITS:
+        return "Click to count frames or seconds (U)";
+    case HOVER_JOINT:
+        return "Pull the tail: it sets the knot at the playhead";
+    case HOVER_BODY:
+        return "Drag the body: the tail follows through (X, Y along one axis, R records)";
+    case HOVER_PLAY:
+        return "Play, pause (Space)";
+    case HOVER_LOOP:
+        return "Loop, or stop at the end (Ctrl+L)";
+    case HOVER_SPEED:
+        return "Faster; Shift: slower; right button: real time (- and =, or the wheel)";
+    case HOVER_NONE:
+        break;
+    }
+    if (document->spline_count == 0) return "Ctrl+O opens a scene.  F1 shows all keys";
+    if (document->tail_count == 0) return "Drag a knot.  Space plays, F1 shows all keys";
+    return "Drag a knot, or pull the tail.  Space plays, F1 shows all keys";
+}
+
+static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
+{
+    float size = font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
+    float y = roundf(r.y + (r.h + font_cap_height(font, size)) / 2);
+    drawlist_text_fit(list, r.x, y, r.w, font, size, color, text);
+}
+
+/// Frame and time, in a column whose width does not depend on them; returns the column's right end.
+static float show_time(struct editor *editor, const struct document *document, struct rect bar, float x)
+{
+    char text[64];
+    double frame = editor_frame(editor, document);
+    snprintf(text, sizeof text, "%5.0f  %6.2f s", round(frame), frame / document->fps);
+    float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
+    paint_text(&editor->list, (struct rect){x, bar.y, width, bar.h}, FONT_NUMBER, theme()->text, text);
+    return x + width;
+}
+
+/// The scene's name, with a dot while it has unsaved changes; returns its right end.
+static float show_title(struct editor *editor, const struct editor_world *world, struct rect bar, float x)
+{
+    char text[sizeof editor->title + 8];
+    bool saved = history_is_saved(world->history);
+    snprintf(text, sizeof text, "%s%s", editor->title, saved ? "" : " •");
+    float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, text), bar.w / 5);
+    struct rect r = {x, bar.y, width, bar.h};
+    paint_text(&editor->list, r, FONT_LABEL, saved ? theme()->text_dim : theme()->text, text);
+    return x + width;
+}
+
+/// Frames a second only while it plays: at rest frames come as events do, and their number would say nothing.
+static void figures_text(const struct editor *editor, const struct editor_world *world, char *text, size_t size)
+{
+    const struct status *status = &editor->status;
+    char fps[64] = "", solve[32] = "";
+    if (editor->playback.playing && status->fps > 0) {
+        snprintf(fps, sizeof fps, "%.0f fps  %ld dropped", status->fps, status->dropped);
+    }
+    if (world->evaluation && world->evaluation->stale) {
+        snprintf(solve, sizeof solve, "solving…");
+    } else if (status->solve_us >= SOLVED) {
+        snprintf(solve, sizeof solve, "solve %.0f µs", status->solve_us);
+    }
+    snprintf(text, size, "%s%s%s", fps, fps[0] && solve[0] ? "  " : "", solve);
+}
+
+void status_show(struct editor *editor, const struct editor_world *world)
+{
+    enum { GAP = 24 };
+    struct rect bar = editor->layout.status;
+    const struct message *message = &editor->message;
+    drawlist_rect(&editor->list, bar, theme()->panel);
+    drawlist_rect(&editor->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
+    float x = show_time(editor, world->document, bar, transport_show(editor)) + GAP;
+    x = show_title(editor, world, bar, x) + GAP;
+    char figures[128];
+    figures_text(editor, world, figures, sizeof figures);
+    float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
+    float right = bar.x + bar.w - 12 - width;
+    paint_text(&editor->list, (struct rect){right, bar.y, width, bar.h}, FONT_NUMBER, theme()->text_dim, figures);
+    const char *hint = inspector_hint(editor);
+    const char *text = message->text[0] ? message->text : hint ? hint : hover_hint(editor, world->document);
+    uint32_t color = !message->text[0] ? theme()->text_dim : message->is_error ? theme()->error : theme()->text;
+    struct rect middle = {x, bar.y, right - GAP - x, bar.h};
+    if (middle.w > 40) paint_text(&editor->list, middle, FONT_LABEL, color, text);
+}
