@@ -46,6 +46,7 @@ static bool open_log(struct app *app, struct error *error)
     if (o->log && !header.vsync) {
         header.reference_ms = draw_reference_ms(app->draw, header.width, header.height, REFERENCE_FRAMES);
         app->lost = true;
+        app->last_swap = NAN;
     }
     app->log = framelog_open(o->log, &header, LOG_ROWS, error);
     if (!app->log) return false;
@@ -169,7 +170,7 @@ void app_free(struct app *app)
 
 int app_run(const struct app_options *options, struct error *error)
 {
-    struct app app = {.options = options};
+    struct app app = {.options = options, .last_swap = NAN};
     bool offscreen = options->headless;
     if (!offscreen && !platform_has_display()) {
         fprintf(stderr, "wiggly: no display, running headless (see wiggly live --help for what it can write)\n");

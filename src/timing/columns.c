@@ -8,6 +8,7 @@ const struct column timing_columns[COLUMN_COUNT] = {
     {ROW(frame), .use = COLUMN_LABEL, .is_count = true},
     {ROW(t_s), .use = COLUMN_LABEL, .decimals = 6},
     {ROW(frame_ms), .use = COLUMN_COST, .decimals = 4, .grain = 0.001},
+    {ROW(frame_interval_ms), .use = COLUMN_COST, .decimals = 4, .grain = 0.001},
     {ROW(wait_us), .use = COLUMN_WAIT, .decimals = 1},
     {ROW(input_us), .use = COLUMN_COST, .decimals = 1, .grain = 1},
     {ROW(edit_us), .use = COLUMN_COST, .decimals = 1, .grain = 1},

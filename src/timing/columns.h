@@ -5,7 +5,7 @@
 #include "timing/framelog.h"
 #include <stddef.h>
 
-#define TIMING_SCHEMA "wiggly-frames 1"
+#define TIMING_SCHEMA "wiggly-frames 2"
 
 enum column_use {
     COLUMN_LABEL,   ///< identifies the frame; never compared
@@ -27,9 +27,12 @@ enum {
     COLUMN_FRAME,
     COLUMN_TIME,
     COLUMN_FRAME_MS,
-    COLUMN_SOLVE_US = 6,
-    COLUMN_EVENT_TO_SWAP_US = 16,
-    COLUMN_COUNT = 19
+    COLUMN_FRAME_INTERVAL_MS,
+    COLUMN_INPUT_US = 5,
+    COLUMN_SOLVE_US = 7,
+    COLUMN_SWAP_US = 12,
+    COLUMN_EVENT_TO_SWAP_US = 17,
+    COLUMN_COUNT = 20
 };
 
 extern const struct column timing_columns[COLUMN_COUNT];

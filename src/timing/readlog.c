@@ -81,7 +81,7 @@ static bool read_row(struct cursor *at, const char *text)
         row[c] = missing ? NAN : strtod(rest, &end);
         if (missing) end = (char *)rest + 2;
         if (end == rest || *end != (c + 1 < COLUMN_COUNT ? ',' : 0) || (!missing && !isfinite(row[c]))) {
-            return bad(at, "19 numbers or NA, separated by commas", text);
+            return bad(at, "20 numbers or NA, separated by commas", text);
         }
         rest = end + 1;
     }

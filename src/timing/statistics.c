@@ -30,6 +30,19 @@ double statistics_quantile(const double *sorted, int count, double p)
     return sorted[below] + (position - below) * (sorted[above] - sorted[below]);
 }
 
+const double frame_budgets_ms[BUDGET_COUNT] = {1000.0 / 60, 1000.0 / 30};
+
+struct over_budget statistics_over(const double *values, int count, double budget)
+{
+    struct over_budget over = {0, 0};
+    for (int i = 0, run = 0; i < count; i++) {
+        run = values[i] > budget ? run + 1 : 0;
+        over.frames += run > 0;
+        if (run > over.longest) over.longest = run;
+    }
+    return over;
+}
+
 static int by_value(const void *a, const void *b)
 {
     const struct observation *x = a, *y = b;

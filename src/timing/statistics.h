@@ -10,6 +10,18 @@ void statistics_sort(double *values, int count);
 /// The quantile p in 0 … 1 of sorted values, between two of them by linear interpolation at p·(count − 1). NAN for none.
 double statistics_quantile(const double *sorted, int count, double p);
 
+/// What a frame may take to be shown 60 and 30 times a second.
+enum { BUDGET_60, BUDGET_30, BUDGET_COUNT };
+extern const double frame_budgets_ms[BUDGET_COUNT];
+
+/// Frames over a budget, and the longest run of them.
+struct over_budget {
+    int frames, longest;
+};
+
+/// Counts the values above `budget`, which are in the order of time; NaN breaks a run.
+struct over_budget statistics_over(const double *values, int count, double budget);
+
 /// A measured value and the stretch of frames that it belongs to.
 struct observation {
     double value;
