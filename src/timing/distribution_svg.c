@@ -31,7 +31,10 @@ static void number(FILE *svg, double x, double y, const char *anchor, double val
 
 static void text(FILE *svg, double x, double y, const char *anchor, const char *color, const char *what)
 {
-    fprintf(svg, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" fill=\"%s\">", x, y, anchor, color);
+    fprintf(svg,
+            "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" fill=\"%s\" stroke=\"#fff\" stroke-width=\"3\" "
+            "paint-order=\"stroke\">",
+            x, y, anchor, color);
     for (; *what; what++) {
         if (strchr("<>&\"", *what) || (unsigned char)*what < ' ') {
             fprintf(svg, "&#%d;", (unsigned char)*what < ' ' ? ' ' : *what);
