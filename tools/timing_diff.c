@@ -32,7 +32,7 @@ static bool compare_column(struct comparison *comparison, int column)
     if (!compare_times(comparison, column, changes)) return true;
     for (int i = 0; i < QUANTILE_COUNT; i++) {
         const struct change *c = &changes[i];
-        printf("%-18s p%-3.0f %12.4g %12.4g %+8.1f %%  [%+.1f, %+.1f]%s\n", i ? "" : timing_columns[column].name,
+        printf("%-18s p%-3.0f %12.4g %12.4g %+8.1f %%  [%+.1f, %+.1f]%s\n", timing_columns[column].name,
                100 * compared_quantiles[i], c->old, c->new, 100 * c->change.value, 100 * c->change.low,
                100 * c->change.high, c->worse ? "  SLOWER" : "");
         good &= !c->worse;
@@ -49,10 +49,12 @@ static bool compare_budgets(struct comparison *comparison)
             fprintf(stderr, "timing_diff: out of memory\n");
             exit(OUT_OF_MEMORY);
         }
-        printf("over %.1f ms       share %9.1f %% %10.1f %% %+8.1f    [%+.1f, %+.1f]%s\n", frame_budgets_ms[b],
-               100 * share.old, 100 * share.new, 100 * share.change.value, 100 * share.change.low,
-               100 * share.change.high, share.worse ? "  SLOWER" : "");
-        printf("                 longest %11.1f %12.1f %+8.1f    [%+.1f, %+.1f]%s\n", longest.old, longest.new,
+        char name[32];
+        snprintf(name, sizeof name, "over %.1f ms", frame_budgets_ms[b]);
+        printf("%-18s share   %7.1f %% %10.1f %% %+8.1f    [%+.1f, %+.1f]%s\n", name, 100 * share.old,
+               100 * share.new, 100 * share.change.value, 100 * share.change.low, 100 * share.change.high,
+               share.worse ? "  SLOWER" : "");
+        printf("%-18s longest %9.1f %12.1f %+8.1f    [%+.1f, %+.1f]%s\n", name, longest.old, longest.new,
                longest.change.value, longest.change.low, longest.change.high, longest.worse ? "  SLOWER" : "");
         good &= !share.worse && !longest.worse;
     }

@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #define TIMING_SCHEMA "wiggly-frames 2"
+#define TIMING_SCHEMA_BEFORE "wiggly-frames 1" ///< without frame_interval_ms; still read
 
 enum column_use {
     COLUMN_LABEL,   ///< identifies the frame; never compared
@@ -30,6 +31,7 @@ enum {
     COLUMN_FRAME_INTERVAL_MS,
     COLUMN_INPUT_US = 5,
     COLUMN_SOLVE_US = 7,
+    COLUMN_GPU_US = 11,
     COLUMN_SWAP_US = 12,
     COLUMN_EVENT_TO_SWAP_US = 17,
     COLUMN_COUNT = 20

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { RESAMPLES = 2000 };
+enum { RESAMPLES = 1000 };
 
 static int by_number(const void *a, const void *b)
 {

@@ -49,7 +49,7 @@ struct estimate {
 /// Computes a quantity of both sets with each segment counted as often as its weight says; NAN where there is nothing.
 typedef double statistics_quantity(const int *old_weight, const int *new_weight, const void *user);
 
-/// The quantity with every segment counted once, and over 2000 draws of as many segments as there are, with replacement. The
+/// The quantity with every segment counted once, and over 1000 draws of as many segments as there are, with replacement. The
 /// seed is fixed: the same input gives the same interval. false where memory is short.
 bool statistics_bootstrap(const struct segments *segments, statistics_quantity *quantity, const void *user,
                           struct estimate *result);
