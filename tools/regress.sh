@@ -2,14 +2,14 @@
 # Frame times of two builds on the committed session, compared. Both play it at once and draw their frames in turn, so that
 # frame n of one is measured milliseconds from frame n of the other, and whatever else the machine does hits both. A build
 # that knows no --turns plays whole sessions in turn, which says far less.
-# Usage: tools/regress.sh <old wiggly> <new wiggly> <timing_diff> <output folder>   (PAIRS, at least 5, from the environment)
+# Usage: tools/regress.sh <old wiggly> <new wiggly> <timing_diff> <output folder>   (PAIRS, at least 11, from the environment)
 set -eu
 old=$1 new=$2 timing_diff=$3 out=$4
 session=tests/replays/session.replay
 scene=tests/replays/session.json
 pairs=${PAIRS:-11}
 [ -x "$old" ] || { echo "regress: $old is not a program" >&2; exit 2; }
-[ "$pairs" -ge 5 ] || { echo "regress: fewer than 5 pairs say too little; got PAIRS=$pairs" >&2; exit 2; }
+[ "$pairs" -ge 11 ] || { echo "regress: fewer than 11 pairs say too little; got PAIRS=$pairs" >&2; exit 2; }
 mkdir -p "$out"
 rm -f "$out"/*.csv "$out"/to-old "$out"/to-new
 mkfifo "$out/to-old" "$out/to-new"

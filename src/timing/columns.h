@@ -18,10 +18,11 @@ enum column_use {
 struct column {
     const char *name;
     enum column_use use;
-    bool is_count; ///< a long in struct frame_row, else a double
-    int decimals;  ///< of a double, in the file
-    size_t offset; ///< in struct frame_row
-    double grain;  ///< COLUMN_COST: smaller differences are the clock's, not the program's
+    bool is_count;     ///< a long in struct frame_row, else a double
+    int decimals;      ///< of a double, in the file
+    size_t offset;     ///< in struct frame_row
+    double grain;      ///< COLUMN_COST: smaller differences are the clock's, not the program's
+    double tail_grain; ///< COLUMN_COST: smaller ones at p95 and p99 are the scheduler's, and nobody sees them
 };
 
 enum {

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STRETCH_FRAMES = 60, RUNS_ENOUGH = 5 };
+enum { STRETCH_FRAMES = 60, RUNS_ENOUGH = 8 }; ///< of five runs all differ in one sense once in 16 times by chance
 
 /// Worse is what grew by more than `value`, with the whole interval above `low`. Twelve pairs of the same build in turn, on two
 /// cores that others kept busy (load 6 to 10), differed by at most 0.6 % frame by frame in what takes longer than 0.1 ms, by
@@ -150,7 +150,7 @@ bool compare_times(struct comparison *c, int column, struct change changes[QUANT
         change->old = plain_quantile(c->old_items, old_count, compared_quantiles[i]);
         change->new = plain_quantile(c->new_items, new_count, compared_quantiles[i]);
         double grew = by_frame && change->old > 0 ? change->change.value * change->old : change->new - change->old;
-        change->worse = about->use == COLUMN_COST && grew > about->grain &&
+        change->worse = about->use == COLUMN_COST && grew > (i == QUANTILE_P50 ? about->grain : about->tail_grain) &&
                         is_past(&change->change, by_frame ? frame_limit : quantile_limit);
     }
     return true;

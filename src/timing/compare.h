@@ -9,7 +9,7 @@
 struct comparison {
     const struct timing_log *old, *new;
     struct segments segments;
-    bool by_run; ///< segments are runs: at least five in both; else stretches of 60 frames
+    bool by_run; ///< segments are runs: at least eight in both; else stretches of 60 frames
     bool
         same_shape; ///< as many runs of as many frames in both: frame n did the same work, so frames are compared one by one
     struct observation *old_items, *new_items, *ratios; ///< private

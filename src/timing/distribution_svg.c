@@ -31,10 +31,7 @@ static void number(FILE *svg, double x, double y, const char *anchor, double val
 
 static void text(FILE *svg, double x, double y, const char *anchor, const char *color, const char *what)
 {
-    fprintf(svg,
-            "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" fill=\"%s\" stroke=\"#fff\" stroke-width=\"3\" "
-            "paint-order=\"stroke\">",
-            x, y, anchor, color);
+    fprintf(svg, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" fill=\"%s\">", x, y, anchor, color);
     for (; *what; what++) {
         if (strchr("<>&\"", *what) || (unsigned char)*what < ' ') {
             fprintf(svg, "&#%d;", (unsigned char)*what < ' ' ? ' ' : *what);
@@ -61,14 +58,17 @@ static void budgets(FILE *svg, const struct plot *p)
         double y = at_y(p, frame_budgets_ms[b]);
         if (frame_budgets_ms[b] > p->y1) continue;
         line(svg, p->x, y, p->x + p->w, y, red, "5 4");
-        text(svg, p->x + p->w, y - 4, "end", red, names[b]);
+        double below = b == BUDGET_60 ? 13 : -4; // the two may be near each other
+        fprintf(svg, "<rect x=\"%.1f\" y=\"%.1f\" width=\"122\" height=\"14\" fill=\"#fff\" fill-opacity=\"0.8\"/>\n",
+                p->x + p->w - 122, y + below - 11);
+        text(svg, p->x + p->w, y + below, "end", red, names[b]);
     }
 }
 
 /// Every frame of every run as a dot, fainter where there are more runs.
 static void draw_frames(FILE *svg, const struct timing_log *log, double top_ms)
 {
-    double last = 1, shown = fmax(0.15, 0.7 / sqrt(log->runs));
+    double last = 1, shown = fmax(0.4, 0.7 / sqrt(log->runs));
     for (int row = 0; row < log->rows; row++) {
         last = fmax(last, log->values[(size_t)row * COLUMN_COUNT + COLUMN_FRAME]);
     }
@@ -77,14 +77,15 @@ static void draw_frames(FILE *svg, const struct timing_log *log, double top_ms)
     double step = round_step(last / 12);
     for (double frame = 0; frame <= last; frame += step)
         number(svg, at_x(&p, frame), p.y + p.h + 18, "middle", frame, "");
-    text(svg, p.x, p.y - 12, "start", ink, "frame_ms of every frame, along the session");
+    text(svg, p.x, p.y - 12, "start", ink,
+         "frame_ms of every frame, along the session; at the upper edge: that and more");
     text(svg, p.x + p.w, p.y + p.h + 34, "end", grey, "frame");
     fprintf(svg, "<path stroke=\"%s\" stroke-opacity=\"%.2f\" stroke-width=\"2.4\" stroke-linecap=\"round\" d=\"",
             blue, shown);
     for (int row = 0; row < log->rows; row++) {
         const double *values = &log->values[(size_t)row * COLUMN_COUNT];
         if (isnan(values[COLUMN_FRAME_MS])) continue;
-        fprintf(svg, "M%.1f %.1fh0", at_x(&p, values[COLUMN_FRAME]), at_y(&p, values[COLUMN_FRAME_MS]));
+        fprintf(svg, "M%.1f %.1fh0", at_x(&p, values[COLUMN_FRAME]), at_y(&p, fmin(values[COLUMN_FRAME_MS], top_ms)));
     }
     fputs("\"/>\n", svg);
     budgets(svg, &p);
@@ -140,11 +141,13 @@ static void draw_percentiles(FILE *svg, const struct timing_log *log, const doub
         number(svg, at_x(&p, nines(at[i])), p.y + p.h + 18, "middle", 100 * at[i], " %");
     }
     text(svg, p.x, p.y - 12, "start", blue, "frame_ms");
-    text(svg, p.x + 66, p.y - 12, "start", grey, "frame_interval_ms");
     text(svg, p.x + p.w, p.y - 12, "end", ink, "this share of frames is faster");
     int intervals = column_values(log, COLUMN_FRAME_INTERVAL_MS, values);
     statistics_sort(values, intervals);
-    if (intervals > 0) percentile_curve(svg, &p, values, intervals, "#b3bac4");
+    if (intervals > 0) {
+        text(svg, p.x + 66, p.y - 12, "start", grey, "frame_interval_ms");
+        percentile_curve(svg, &p, values, intervals, "#b3bac4");
+    }
     percentile_curve(svg, &p, sorted, count, blue);
     budgets(svg, &p);
 }
@@ -155,7 +158,8 @@ bool distribution_draw(const struct timing_log *log, const char *name, FILE *out
     if (!sorted) return fail_no_memory(error, "a timing log");
     int count = column_values(log, COLUMN_FRAME_MS, sorted);
     statistics_sort(sorted, count);
-    double top_ms = count ? fmax(1.04 * sorted[count - 1], 1e-3) : 1;
+    double top_ms =
+        count ? fmax(1.04 * fmin(sorted[count - 1], 1.5 * statistics_quantile(sorted, count, 0.999)), 1e-3) : 1;
     fprintf(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\" "
