@@ -54,8 +54,9 @@ static bool compare_budgets(struct comparison *comparison)
         printf("%-18s share   %7.1f %% %10.1f %% %+8.1f    [%+.1f, %+.1f]%s\n", name, 100 * share.old,
                100 * share.new, 100 * share.change.value, 100 * share.change.low, 100 * share.change.high,
                share.worse ? "  SLOWER" : "");
-        printf("%-18s longest %9.1f %12.1f %+8.1f    [%+.1f, %+.1f]%s\n", name, longest.old, longest.new,
-               longest.change.value, longest.change.low, longest.change.high, longest.worse ? "  SLOWER" : "");
+        printf("%-18s longest %9.1f %12.1f %+8.1f", name, longest.old, longest.new, longest.change.value);
+        if (!isnan(longest.change.low)) printf("    [%+.1f, %+.1f]", longest.change.low, longest.change.high);
+        printf("%s\n", longest.worse ? "  SLOWER" : "");
         good &= !share.worse && !longest.worse;
     }
     return good;
