@@ -3,6 +3,7 @@
 #include "near.h"
 
 #include "draw/draw.h"
+#include "draw/timer.h"
 #include "platform/platform.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -51,7 +52,7 @@ static void begin(void)
 /// Draws `list` and the stage and reads the picture.
 static struct draw_cost show_on(const struct stage_view *stage, bool keeps, unsigned char *out)
 {
-    struct draw_input input = {WIDTH, HEIGHT, 1.0f, keeps, &list, stage};
+    struct draw_input input = {WIDTH, HEIGHT, 1.0f, keeps, &list, stage, 0};
     struct draw_cost cost;
     draw_frame(draw, &input, &cost);
     platform_swap(platform);
@@ -384,9 +385,34 @@ static void test_reference_frame_does_not_depend_on_the_scene(void **state)
     assert_memory_equal(pixels, expected, sizeof pixels);
 }
 
+static void test_gpu_times_come_back_with_their_frames(void **state)
+{
+    (void)state;
+    begin();
+    struct gpu_timer timer;
+    long frame = 0;
+    gpu_timer_create(&timer, false); // software renderers have the queries, too; only their numbers mislead
+    if (!timer.usable) skip();
+    for (long n = 7; n < 14; n += 2) {
+        gpu_timer_begin(&timer, n);
+        glClear(GL_COLOR_BUFFER_BIT);
+        gpu_timer_end(&timer);
+    }
+    gpu_timer_begin(&timer, 99); // all queries are out: this frame is not timed
+    gpu_timer_end(&timer);
+    glFinish();
+    for (long n = 7; n < 14; n += 2) {
+        assert_true(gpu_timer_take(&timer, &frame) >= 0);
+        assert_int_equal(frame, n);
+    }
+    assert_true(gpu_timer_take(&timer, &frame) < 0);
+    gpu_timer_destroy(&timer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_gpu_times_come_back_with_their_frames),
         cmocka_unit_test(test_rect_has_its_color_and_exact_edges),
         cmocka_unit_test(test_later_commands_cover_earlier_ones),
         cmocka_unit_test(test_line_has_its_width_at_every_slope),

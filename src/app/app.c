@@ -2,12 +2,14 @@
 #include "app/state.h"
 #include "base/clock.h"
 #include "platform/process.h"
+#include "platform/turns.h"
 #include "scene/load.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 
 enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, HEADLESS_FRAMES = 1200, WARM_UP = 10, REFERENCE_FRAMES = 21 };
@@ -48,6 +50,7 @@ static bool open_log(struct app *app, struct error *error)
     if (o->log && !header.vsync) {
         header.reference_ms = draw_reference_ms(app->draw, header.width, header.height, REFERENCE_FRAMES);
         app->lost = true;
+        app->last_swap = NAN;
     }
     app->log = framelog_open(o->log, &header, LOG_ROWS, error);
     if (!app->log) return false;
@@ -59,8 +62,13 @@ static bool open_log(struct app *app, struct error *error)
 static bool run_frames(struct app *app, long frames, bool timed, struct error *error)
 {
     while (!app->quit && !app->failed && !process_was_told_to_end() && (frames == 0 || app->frame < frames)) {
+        if (app->options->turns) {
+            turns_take();
+            app->last_swap = NAN; // the other program's frame was in between
+        }
         app_frame(app);
         if (app->frame == 1 && timed && !app->log && !open_log(app, error)) return false;
+        if (app->options->turns) turns_give();
     }
     if (app->failed) *error = app->error;
     return !app->failed;
@@ -172,7 +180,11 @@ void app_free(struct app *app)
 
 int app_run(const struct app_options *options, struct error *error)
 {
-    struct app app = {.options = options};
+    struct app app = {.options = options, .last_swap = NAN};
+    if (options->turns && !turns_open(strcmp(options->turns, "first") == 0)) {
+        fail(error, ERROR_USAGE, "--turns: descriptors 3 and 4 must be pipes to and from the other program");
+        return ERROR_USAGE;
+    }
     double age = process_age();
     app.process_start = clock_now() - (isnan(age) ? 0 : age);
     bool good = start(&app, error);

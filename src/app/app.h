@@ -20,6 +20,7 @@ struct app_options {
     const char *replay;     ///< events from this file; its clock is its own
     const char *record;     ///< events to this file
     const char *result;     ///< the document at the end
+    const char *turns;      ///< "first" or "second": draws frames in turn with another program (platform/turns.h)
 };
 
 /// Runs until the user quits or the frames are done; prints the timing summary where frames were counted. Unless headless,

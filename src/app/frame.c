@@ -76,8 +76,10 @@ static bool take_input(struct app *app)
     app->was_idle = !wanted;
     int count = 0;
     const struct event *events = platform_events(app->platform, waiting_time(app, wanted), &count);
-    if (!wanted && count == 0) return false;
     app->frame_start = clock_now();
+    bool rested = !wanted && (count == 0 || app->frame_start - wait_start > frame_time);
+    if (rested) app->last_swap = NAN; // the frame after a rest is not late
+    if (!wanted && count == 0) return false;
     app->oldest_event = NAN;
     app->row = (struct frame_row){.frame = app->frame, .wait_us = microseconds(wait_start, app->frame_start)};
     app->row.allocations = allocation_count();
@@ -178,6 +180,7 @@ static void draw(struct app *app)
         .keeps = !app->lost && platform_keeps(app->platform),
         .list = editor_drawlist(app->editor),
         .stage = editor_stage(app->editor),
+        .frame = app->frame,
     };
     platform_size(app->platform, &input.width, &input.height, &input.scale);
     struct draw_cost cost = {0};
@@ -188,11 +191,14 @@ static void draw(struct app *app)
     double end = clock_now();
     app->row.upload_us = cost.upload_us;
     app->row.draw_us = cost.draw_us;
-    app->row.gpu_us = cost.gpu_us < 0 ? NAN : cost.gpu_us;
+    app->row.gpu_us = NAN;
+    if (app->log && cost.gpu_us >= 0) framelog_gpu(app->log, cost.gpu_frame, cost.gpu_us);
     app->row.uploaded_bytes = cost.uploaded_bytes;
     app->row.swap_us = microseconds(swap_start, end);
     app->row.t_s = app->frame_start - app->process_start;
     app->row.frame_ms = 1e3 * (end - app->frame_start);
+    app->row.frame_interval_ms = 1e3 * (end - app->last_swap);
+    app->last_swap = end;
     app->row.event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
     app->row.allocations = allocation_count() - app->row.allocations;
     platform_cursor(app->platform, editor_cursor(app->editor));

@@ -38,6 +38,7 @@ struct app {
     struct framelog *log;
     struct frame_row row; ///< of the frame in progress
     double frame_start, oldest_event;
+    double last_swap;     ///< when the last frame's swap ended; NAN where the next one's interval means nothing
     bool fixed_clock;     ///< every frame is 1/60 s (headless, replays, recordings)
     bool was_idle;        ///< nothing moved by itself before this frame
     bool lost;            ///< the framebuffer does not hold the last frame

@@ -4,6 +4,7 @@
 #include "commands/options.h"
 #include "ui/theme.h"
 #include <stdio.h>
+#include <string.h>
 
 int command_live(int argc, char **argv)
 {
@@ -24,6 +25,8 @@ int command_live(int argc, char **argv)
         {"--frames-dir", NULL, "DIR", "a PNG for each frame", OPTION_TEXT, &options.frames_dir, 0, 0},
         {"--replay", NULL, "FILE", "play recorded events; its clock is its own", OPTION_TEXT, &options.replay, 0, 0},
         {"--record", NULL, "FILE", "record events", OPTION_TEXT, &options.record, 0, 0},
+        {"--turns", NULL, "WHICH", "first or second: frames in turn with another program (docs/measuring.md)",
+         OPTION_TEXT, &options.turns, 0, 0},
         {"--result", NULL, "FILE.json", "the document at the end", OPTION_TEXT, &options.result, 0, 0},
     };
     const struct usage usage = {
@@ -38,6 +41,10 @@ int command_live(int argc, char **argv)
     if (result != OPTIONS_RUN) return (int)result;
     if (options.theme && theme_find(options.theme) < 0) {
         fprintf(stderr, "wiggly live: --theme: expected dark or light, got '%s'\n", options.theme);
+        return OPTIONS_WRONG;
+    }
+    if (options.turns && strcmp(options.turns, "first") != 0 && strcmp(options.turns, "second") != 0) {
+        fprintf(stderr, "wiggly live: --turns: expected first or second, got '%s'\n", options.turns);
         return OPTIONS_WRONG;
     }
     options.width = size[0];

@@ -110,7 +110,7 @@ static void draw_damage(struct draw *draw, const struct draw_input *input, struc
     if (input->stage && any_touches(damage, viewport)) stage_upload(draw->stage, input->stage, &cost->uploaded_bytes);
     cost->upload_us = timer_now_us() - start;
 
-    gpu_timer_begin(&draw->timer);
+    gpu_timer_begin(&draw->timer, input->frame);
     struct batch *batch = &draw->batch;
     struct painter painter = {batch, &draw->scratch, &draw->atlas, input->scale};
     for (int i = 0; i < damage->count; i++) {
@@ -131,7 +131,8 @@ static void draw_damage(struct draw *draw, const struct draw_input *input, struc
 
 void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_cost *cost)
 {
-    *cost = (struct draw_cost){.gpu_us = gpu_timer_take(&draw->timer)};
+    *cost = (struct draw_cost){0};
+    cost->gpu_us = gpu_timer_take(&draw->timer, &cost->gpu_frame);
     double start = timer_now_us();
     // Without memory for the new size the old glyphs serve, if not as sharply.
     if (input->scale != draw->atlas.scale) load_atlas(draw, input->scale, NULL);
@@ -165,7 +166,7 @@ double draw_reference_ms(struct draw *draw, int width, int height, int count)
 {
     const float scale = draw->atlas.scale;
     reference_arrange(&draw->reference, (float)width / scale, (float)height / scale);
-    struct draw_input input = {width, height, scale, false, &draw->reference.list, &draw->reference.stage};
+    struct draw_input input = {width, height, scale, false, &draw->reference.list, &draw->reference.stage, -1};
     for (int i = 0; i < count && i < REFERENCE_RUNS_MAX; i++) {
         struct draw_cost cost;
         double start = timer_now_us();

@@ -23,12 +23,14 @@ struct draw_input {
     bool keeps;        ///< the framebuffer still holds the last frame; false forces everything
     const struct drawlist *list;
     const struct stage_view *stage; ///< drawn below the list, in its viewport; NULL where there is none
+    long frame;                     ///< its number, which the GPU's time comes back with
 };
 
 /// What drawing cost. Times in microseconds.
 struct draw_cost {
     double upload_us, draw_us;
-    double gpu_us; ///< of an earlier frame, where the driver has timer queries; else negative
+    double gpu_us;  ///< of an earlier frame, where the driver has timer queries; else negative
+    long gpu_frame; ///< the number of that frame
     long uploaded_bytes;
     int rectangles; ///< that were redrawn
     long pixels;    ///< inside them
