@@ -114,9 +114,18 @@ static void on_lost(void *user)
     fprintf(stderr, "wiggly live: %s\n", error.text);
 }
 
+static bool set_resolution(struct app *app, bool offscreen, struct error *error)
+{
+    const struct app_options *o = app->options;
+    const char *scale = o->stage_scale ? o->stage_scale : offscreen || o->replay || o->record ? "1" : "auto";
+    return resolution_parse(&app->resolution, scale) ||
+           fail(error, ERROR_USAGE, "--stage-scale: expected auto or a number from 0.25 to 1, got '%s'", scale);
+}
+
 static bool start(struct app *app, bool offscreen, struct error *error)
 {
     const struct app_options *o = app->options;
+    if (!set_resolution(app, offscreen, error)) return false;
     if (o->replay && !(app->replay = replay_load(o->replay, error))) return false;
     if (o->theme) theme_use((enum theme_kind)theme_find(o->theme));
     if (!font_init(error) || !open_platform(app, offscreen, error)) return false;

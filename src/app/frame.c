@@ -57,6 +57,13 @@ static void paste(struct app *app)
     if (text) handle_event(app, &(struct event){.kind = EVENT_PASTE, .text = text});
 }
 
+/// The stage's movement is timed by the frames where they keep time themselves, so that their pictures do not depend on the
+/// machine.
+static double resolution_now(const struct app *app)
+{
+    return app->fixed_clock ? (double)app->frame * replay_dt : app->frame_start;
+}
+
 /// How long the next frame may wait for input: to its turn (an event brings it forward), or for a while where nothing moves by
 /// itself. The frames of a live recording all come in their turn, because its clock counts frames.
 static double waiting_time(const struct app *app, bool wanted)
@@ -64,7 +71,7 @@ static double waiting_time(const struct app *app, bool wanted)
     double left = fmax(0, app->next_time - clock_now());
     if (app->recording && !app->replay) process_sleep(left);
     if (app->fixed_clock) return 0;
-    return wanted ? left : idle_wait;
+    return wanted ? left : fmin(idle_wait, resolution_wait(&app->resolution, clock_now()));
 }
 
 /// Waits, then takes the frame's events. false where nothing happened that would need a frame.
@@ -76,7 +83,8 @@ static bool take_input(struct app *app)
     app->was_idle = !wanted;
     int count = 0;
     const struct event *events = platform_events(app->platform, waiting_time(app, wanted), &count);
-    if (!wanted && count == 0) return false;
+    bool exact_due = !app->fixed_clock && resolution_wait(&app->resolution, clock_now()) == 0;
+    if (!wanted && count == 0 && !exact_due) return false;
     app->frame_start = clock_now();
     app->oldest_event = NAN;
     app->row = (struct frame_row){.frame = app->frame, .wait_us = microseconds(wait_start, app->frame_start)};
@@ -168,18 +176,40 @@ static void pose(struct app *app)
     struct editor_world world = app_world(app);
     cast_paint(app->cast, app->document);
     editor_pose(app->editor, &world);
+    float scale = resolution_choose(&app->resolution, editor_stage(app->editor)->hash, resolution_now(app));
+    editor_set_stage_scale(app->editor, scale);
     editor_show(app->editor, &world);
     app->row.pose_us = microseconds(start, clock_now());
 }
 
-static void draw(struct app *app)
+static struct draw_input draw_input(const struct app *app, float stage_scale)
 {
     struct draw_input input = {
         .keeps = !app->lost && platform_keeps(app->platform),
         .list = editor_drawlist(app->editor),
         .stage = editor_stage(app->editor),
+        .stage_scale = stage_scale,
     };
     platform_size(app->platform, &input.width, &input.height, &input.scale);
+    return input;
+}
+
+/// A swap that waits for the display is no work: where the graphics card has a clock, that one counts.
+static void measure(struct app *app)
+{
+    const struct frame_row *row = &app->row;
+    double draw_ms = 1e-3 * (row->upload_us + row->draw_us);
+    double before_ms = row->frame_ms - draw_ms - 1e-3 * row->swap_us;
+    if (isnan(row->gpu_us))
+        draw_ms += 1e-3 * row->swap_us;
+    else
+        draw_ms = fmax(draw_ms, 1e-3 * row->gpu_us);
+    resolution_measure(&app->resolution, before_ms + draw_ms, draw_ms);
+}
+
+static void draw(struct app *app)
+{
+    struct draw_input input = draw_input(app, app->resolution.shown);
     struct draw_cost cost = {0};
     draw_frame(app->draw, &input, &cost);
     app->lost = false;
@@ -195,7 +225,16 @@ static void draw(struct app *app)
     app->row.frame_ms = 1e3 * (end - app->frame_start);
     app->row.event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
     app->row.allocations = allocation_count() - app->row.allocations;
+    if (app->resolution.changed == resolution_now(app)) measure(app);
     platform_cursor(app->platform, (enum cursor)editor_cursor(app->editor));
+}
+
+void app_draw_exactly(struct app *app)
+{
+    if (!app->draw || resolution_is_exact(&app->resolution)) return;
+    struct draw_input input = draw_input(app, 1);
+    struct draw_cost cost;
+    draw_frame(app->draw, &input, &cost);
 }
 
 static void log_frame(struct app *app)

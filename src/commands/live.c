@@ -15,6 +15,8 @@ int command_live(int argc, char **argv)
          &options.frames, 1, 10000000},
         {"--size", NULL, "WxH", "logical pixels (1280x720)", OPTION_SIZE, size, 320, 8192},
         {"--scale", NULL, "S", "device pixels a logical pixel, headless", OPTION_REAL, &options.scale, 0.5, 4},
+        {"--stage-scale", NULL, "S", "of the stage while it moves: auto, or 0.25 to 1 (a window auto, else 1)",
+         OPTION_TEXT, &options.stage_scale, 0, 0},
         {"--theme", NULL, "NAME", "dark or light (a window's own choice, F10; else dark)", OPTION_TEXT,
          &options.theme, 0, 0},
         {"--welcome", NULL, NULL, "what to try first, as at the first start in a window", OPTION_FLAG,

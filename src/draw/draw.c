@@ -1,9 +1,11 @@
 #include "draw/draw.h"
+#include "base/hash.h"
 #include "draw/batch.h"
 #include "draw/damage.h"
 #include "draw/paint.h"
 #include "draw/reference.h"
 #include "draw/stage.h"
+#include "draw/stage_target.h"
 #include "draw/timer.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -14,6 +16,7 @@
 struct draw {
     struct batch batch;
     struct stage_renderer *stage;
+    struct stage_target stage_target;
     struct atlas atlas;
     GLuint atlas_texture;
     struct line_scratch scratch;
@@ -26,6 +29,8 @@ static bool is_software(const char *renderer)
 {
     return strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") || strstr(renderer, "Software");
 }
+
+static bool is_reduced(float stage_scale) { return stage_scale > 0.0f && stage_scale < 1.0f; }
 
 /// Rasterises the fonts for `scale` and puts them into the texture; the old ones stay where that fails.
 static bool load_atlas(struct draw *draw, float scale, struct error *error)
@@ -69,11 +74,23 @@ void draw_destroy(struct draw *draw)
     if (!draw) return;
     gpu_timer_destroy(&draw->timer);
     reference_destroy(&draw->reference);
+    stage_target_destroy(&draw->stage_target);
     if (draw->stage) stage_renderer_destroy(draw->stage);
     if (draw->atlas_texture) glDeleteTextures(1, &draw->atlas_texture);
     atlas_free(&draw->atlas);
     batch_destroy(&draw->batch);
     free(draw);
+}
+
+/// The part of the stage that shows in `visible`.
+static void draw_stage(struct draw *draw, const struct draw_input *input, struct area viewport, struct area visible)
+{
+    const struct stage_place place = {viewport, visible, input->height};
+    const float scale = input->stage_scale;
+    if (is_reduced(scale) && stage_target_draw(&draw->stage_target, draw->stage, input->stage, place, scale)) return;
+    int width = viewport.x1 - viewport.x0, height = viewport.y1 - viewport.y0;
+    batch_apply_scissor(visible, input->height);
+    stage_draw(draw->stage, input->stage, viewport.x0, input->height - viewport.y1, width, height);
 }
 
 /// The bottom layer of one rectangle: panel colour, and the stage where its viewport is touched.
@@ -89,9 +106,14 @@ static void draw_below(struct draw *draw, const struct draw_input *input, struct
         glClear(GL_COLOR_BUFFER_BIT);
     }
     if (area_empty(on_stage)) return;
-    int width = viewport.x1 - viewport.x0, height = viewport.y1 - viewport.y0;
-    batch_apply_scissor(on_stage, input->height);
-    stage_draw(draw->stage, input->stage, viewport.x0, input->height - viewport.y1, width, height);
+    draw_stage(draw, input, viewport, on_stage);
+}
+
+static uint64_t stage_hash(const struct draw_input *input)
+{
+    if (!input->stage) return 0;
+    if (!is_reduced(input->stage_scale)) return input->stage->hash;
+    return hash_bytes(input->stage->hash, &input->stage_scale, sizeof input->stage_scale);
 }
 
 static bool any_touches(const struct damage *damage, struct area viewport)
@@ -138,8 +160,7 @@ void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_c
     if (!input->keeps) damage_forget(&draw->damage);
     struct area viewport = {0};
     if (input->stage) viewport = area_rounded(input->stage->viewport, input->scale);
-    damage_update(&draw->damage, input->width, input->height, input->scale, input->list, viewport,
-                  input->stage ? input->stage->hash : 0);
+    damage_update(&draw->damage, input->width, input->height, input->scale, input->list, viewport, stage_hash(input));
     double compared = timer_now_us() - start;
     if (draw->damage.count > 0) draw_damage(draw, input, viewport, cost);
     cost->draw_us += compared;
@@ -165,7 +186,7 @@ double draw_reference_ms(struct draw *draw, int width, int height, int count)
 {
     const float scale = draw->atlas.scale;
     reference_arrange(&draw->reference, (float)width / scale, (float)height / scale);
-    struct draw_input input = {width, height, scale, false, &draw->reference.list, &draw->reference.stage};
+    struct draw_input input = {width, height, scale, false, &draw->reference.list, &draw->reference.stage, 1.0f};
     for (int i = 0; i < count && i < REFERENCE_RUNS_MAX; i++) {
         struct draw_cost cost;
         double start = timer_now_us();
