@@ -5,6 +5,7 @@
 #include "draw/paint.h"
 #include "draw/reference.h"
 #include "draw/stage.h"
+#include "draw/stage_extent.h"
 #include "draw/stage_target.h"
 #include "draw/timer.h"
 #include "ui/font.h"
@@ -109,11 +110,18 @@ static void draw_below(struct draw *draw, const struct draw_input *input, struct
     draw_stage(draw, input, viewport, on_stage);
 }
 
-static uint64_t stage_hash(const struct draw_input *input)
+/// At a lower resolution every pixel of the stage is another one, and what moves reaches as much farther as it is enlarged.
+static struct damage_stage describe_stage(const struct draw_input *input)
 {
-    if (!input->stage) return 0;
-    if (!is_reduced(input->stage_scale)) return input->stage->hash;
-    return hash_bytes(input->stage->hash, &input->stage_scale, sizeof input->stage_scale);
+    static const float seam = 3.0f; ///< pixels that the soft silhouette sticks out, and a little
+    if (!input->stage) return (struct damage_stage){0};
+    struct damage_stage stage = {.viewport = area_rounded(input->stage->viewport, input->scale),
+                                 .hash = stage_backdrop_hash(input->stage),
+                                 .moving_hash = input->stage->hash};
+    const float scale = is_reduced(input->stage_scale) ? input->stage_scale : 1.0f;
+    stage.moving = stage_extent(input->stage, stage.viewport, (int)ceilf(seam / scale));
+    stage.hash = hash_bytes(stage.hash, &scale, sizeof scale);
+    return stage;
 }
 
 static bool any_touches(const struct damage *damage, struct area viewport)
@@ -158,11 +166,10 @@ void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_c
     // Without memory for the new size the old glyphs serve, if not as sharply.
     if (input->scale != draw->atlas.scale) load_atlas(draw, input->scale, NULL);
     if (!input->keeps) damage_forget(&draw->damage);
-    struct area viewport = {0};
-    if (input->stage) viewport = area_rounded(input->stage->viewport, input->scale);
-    damage_update(&draw->damage, input->width, input->height, input->scale, input->list, viewport, stage_hash(input));
+    const struct damage_stage stage = describe_stage(input);
+    damage_update(&draw->damage, input->width, input->height, input->scale, input->list, &stage);
     double compared = timer_now_us() - start;
-    if (draw->damage.count > 0) draw_damage(draw, input, viewport, cost);
+    if (draw->damage.count > 0) draw_damage(draw, input, stage.viewport, cost);
     cost->draw_us += compared;
 }
 

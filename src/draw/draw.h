@@ -23,7 +23,8 @@ struct draw_input {
     bool keeps;        ///< the framebuffer still holds the last frame; false forces everything
     const struct drawlist *list;
     const struct stage_view *stage; ///< drawn below the list, in its viewport; NULL where there is none
-    float stage_scale; ///< the stage's pixels a device pixel, a side: below 1 it is drawn smaller and enlarged; 0 means 1
+    float
+        stage_scale; ///< the stage's pixels a device pixel, a side: below 1 it is drawn smaller and enlarged; 0 means 1
 };
 
 /// What drawing cost. Times in microseconds.
