@@ -9,7 +9,6 @@
 #include <stdlib.h>
 
 static const double replay_dt = 1.0 / 60;
-static const double frame_time = 1.0 / 60; ///< the limiter's: a swap interval of 1 does not hold everywhere
 static const double idle_wait = 0.5;
 static const float smallest_width = 320, smallest_height = 240; ///< of the layout; less shows a part of it
 static const double longest_step = 1; ///< after a longer stall playback goes on from where it was
@@ -100,13 +99,20 @@ static bool take_input(struct app *app)
     return true;
 }
 
+/// The clock of a recording counts frames of one length, whatever the display.
+static double next_time(const struct app *app)
+{
+    if (app->fixed_clock) return fmax(app->next_time + replay_dt, app->frame_start);
+    return pace_next(&app->pace, app->next_time, app->frame_start);
+}
+
 static void edit(struct app *app)
 {
     double start = clock_now();
     double dt = app->fixed_clock ? replay_dt : fmin(fmax(app->frame_start - app->last_time, 0), longest_step);
     if (app->frame == 0 || (app->was_idle && !app->fixed_clock)) dt = 0; // what starts now has not waited since then
     app->last_time = app->frame_start;
-    app->next_time = fmax(app->next_time + frame_time, app->frame_start);
+    app->next_time = next_time(app);
     struct editor_world world = app_world(app);
     editor_advance(app->editor, &world, dt);
     app_requests(app);
@@ -216,6 +222,7 @@ static void draw(struct app *app)
     double swap_start = clock_now();
     platform_swap(app->platform);
     double end = clock_now();
+    pace_swapped(&app->pace, end, !app->was_idle && cost.rectangles > 0);
     app->row.upload_us = cost.upload_us;
     app->row.draw_us = cost.draw_us;
     app->row.gpu_us = cost.gpu_us < 0 ? NAN : cost.gpu_us;
@@ -247,6 +254,7 @@ static void log_frame(struct app *app)
         editor_set_stats(app->editor, fps, app->row.solve_us);
         app->stats_time = now;
         app->stats_frame = app->frame;
+        pace_set_rate(&app->pace, platform_refresh_rate(app->platform));
     }
     if (!app->options->frames_dir) return;
     char path[PATH_MAX + 32]; // what is cut off here is longer than the system takes

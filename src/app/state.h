@@ -3,6 +3,7 @@
 #define APP_STATE_H
 
 #include "app/app.h"
+#include "app/pace.h"
 #include "app/personal.h"
 #include "app/replay.h"
 #include "app/resolution.h"
@@ -42,6 +43,7 @@ struct app {
     bool fixed_clock; ///< every frame is 1/60 s (headless, replays, recordings)
     bool was_idle;    ///< nothing moved by itself before this frame
     bool lost;        ///< the framebuffer does not hold the last frame
+    struct pace pace;
     struct resolution resolution;
     double process_start; ///< on the clock
     double last_time, next_time, stats_time;

@@ -81,6 +81,11 @@ void platform_swap(struct platform *platform)
     }
 }
 
+double platform_refresh_rate(struct platform *platform)
+{
+    return platform->window ? window_refresh_rate(platform->window) : 0;
+}
+
 bool platform_is_window(const struct platform *platform) { return platform->window != NULL; }
 
 void platform_title(struct platform *platform, const char *title)

@@ -29,6 +29,9 @@ bool platform_keeps(const struct platform *platform);
 /// Shows the frame; offscreen: glFinish.
 void platform_swap(struct platform *platform);
 
+/// Pictures a second of the monitor that shows most of the window; 0 where that is not known. Asks the display.
+double platform_refresh_rate(struct platform *platform);
+
 bool platform_is_window(const struct platform *platform);
 /// Has a display been found at all ($DISPLAY or $WAYLAND_DISPLAY opens)? For the choice window or offscreen.
 bool platform_has_display(void);

@@ -314,6 +314,13 @@ static GLFWmonitor *nearest_monitor(struct window *window)
     return best;
 }
 
+double window_refresh_rate(struct window *window)
+{
+    GLFWmonitor *monitor = nearest_monitor(window);
+    const GLFWvidmode *mode = monitor ? glfwGetVideoMode(monitor) : NULL;
+    return mode ? mode->refreshRate : 0.0;
+}
+
 void window_fullscreen(struct window *window, bool on)
 {
     if (on == window->is_fullscreen) return;
