@@ -1,6 +1,7 @@
 #include "base/clock.h"
 #include "platform/keys.h"
 #include "platform/surface.h"
+#include "platform/wayland.h"
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -224,6 +225,7 @@ static void create_cursors(struct window *window)
         [CURSOR_HORIZONTAL] = GLFW_HRESIZE_CURSOR, [CURSOR_VERTICAL] = GLFW_VRESIZE_CURSOR,
         [CURSOR_MOVE] = GLFW_CROSSHAIR_CURSOR,     [CURSOR_TEXT] = GLFW_IBEAM_CURSOR,
     };
+    if (!wayland_allows_cursors()) return;
     for (int i = 0; i < CURSOR_KINDS; i++) window->cursors[i] = glfwCreateStandardCursor(shapes[i]);
 }
 
@@ -344,5 +346,5 @@ void window_cursor(struct window *window, enum cursor cursor)
 {
     if (cursor == window->cursor) return;
     window->cursor = cursor;
-    glfwSetCursor(window->handle, window->cursors[cursor]);
+    if (window->cursors[cursor]) glfwSetCursor(window->handle, window->cursors[cursor]);
 }
