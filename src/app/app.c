@@ -186,6 +186,7 @@ int app_run(const struct app_options *options, struct error *error)
     }
     double age = process_age();
     app.process_start = clock_now() - (isnan(age) ? 0 : age);
+    if (options->gl_debug) platform_debug_gl();
     bool good = start(&app, offscreen, error);
     if (good) {
         long frames = options->frames ? options->frames
@@ -198,5 +199,8 @@ int app_run(const struct app_options *options, struct error *error)
     if (!finish(&app, good ? error : &late)) good = false;
     personal_end(&app, !good);
     app_free(&app);
+    int complaints = platform_gl_complaints();
+    if (good && complaints > 0)
+        good = fail(error, ERROR_ENVIRONMENT, "--gl-debug: the OpenGL driver complained %d times", complaints);
     return good ? 0 : error->kind == ERROR_NONE ? ERROR_ENVIRONMENT : (int)error->kind;
 }

@@ -14,6 +14,7 @@ struct app_options {
     double scale;            ///< device pixels a logical pixel; 0: the replay's, else the display's (headless 1)
     const char *stage_scale; ///< of the stage while it moves: "auto" or a number; NULL: auto in a window, else 1
     const char *theme;       ///< a theme's name, or NULL: the user's own in a window, else dark
+    bool gl_debug;           ///< prints the OpenGL driver's messages; a complaint among them is a failure
     bool welcome;            ///< shows what to try first
     const char *log;         ///< timing log, CSV
     const char *screenshot;  ///< PNG of the last frame

@@ -132,6 +132,19 @@ static bool fit_evaluation(struct app *app, bool resized)
     return true;
 }
 
+/// Says which characters are too large for the graphics driver.
+static void check_sizes(struct app *app)
+{
+    struct error error, full;
+    for (int c = 0; app->draw && c < app->document->character_count; c++) {
+        const struct figure *figure = cast_figure(app->cast, c);
+        if (!figure || draw_can_move(figure, &error)) continue;
+        const struct character_rig *rig = &app->document->characters[c];
+        fail(&full, error.kind, "%s: %s", rig->name ? rig->name : rig->model, error.text);
+        editor_message(app->editor, true, full.text);
+    }
+}
+
 /// The models of a document that has come to the table, or come back by undo.
 static void recast(struct app *app)
 {
@@ -140,6 +153,7 @@ static void recast(struct app *app)
     app->cast_serial = app->document->serial;
     if (!scene_read_paint(app->document, &error)) editor_message(app->editor, true, error.text);
     if (!cast_update(app->cast, app->document, &error)) editor_message(app->editor, true, error.text);
+    check_sizes(app);
 }
 
 static void solve(struct app *app)

@@ -21,6 +21,8 @@ int command_live(int argc, char **argv)
          &options.theme, 0, 0},
         {"--welcome", NULL, NULL, "what to try first, as at the first start in a window", OPTION_FLAG,
          &options.welcome, 0, 0},
+        {"--gl-debug", NULL, NULL, "the OpenGL driver's messages on stderr; a complaint is a failure", OPTION_FLAG,
+         &options.gl_debug, 0, 0},
         {"--log", NULL, "FILE.csv", "timing log, one row a frame", OPTION_TEXT, &options.log, 0, 0},
         {"--screenshot", NULL, "FILE.png", "picture of the last frame", OPTION_TEXT, &options.screenshot, 0, 0},
         {"--frames-dir", NULL, "DIR", "a PNG for each frame", OPTION_TEXT, &options.frames_dir, 0, 0},

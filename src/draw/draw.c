@@ -6,6 +6,7 @@
 #include "draw/reference.h"
 #include "draw/stage.h"
 #include "draw/stage_extent.h"
+#include "draw/stage_morph.h"
 #include "draw/stage_target.h"
 #include "draw/timer.h"
 #include "ui/font.h"
@@ -38,6 +39,13 @@ static bool load_atlas(struct draw *draw, float scale, struct error *error)
 {
     struct atlas atlas;
     if (!atlas_build(scale, &atlas, error)) return false;
+    const int largest = gl_largest_texture();
+    if (atlas.width > largest || atlas.height > largest) {
+        fail(error, ERROR_ENVIRONMENT, "the fonts need a texture of %d × %d, this OpenGL driver takes %d",
+             atlas.width, atlas.height, largest);
+        atlas_free(&atlas);
+        return false;
+    }
     atlas_free(&draw->atlas);
     draw->atlas = atlas;
     if (!draw->atlas_texture) glGenTextures(1, &draw->atlas_texture);
@@ -171,6 +179,11 @@ void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_c
     double compared = timer_now_us() - start;
     if (draw->damage.count > 0) draw_damage(draw, input, stage.viewport, cost);
     cost->draw_us += compared;
+}
+
+bool draw_can_move(const struct figure *figure, struct error *error)
+{
+    return stage_morph_fits(figure, gl_largest_texture(), error);
 }
 
 void draw_read(int width, int height, unsigned char *rgba)

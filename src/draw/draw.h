@@ -38,6 +38,10 @@ struct draw_cost {
 
 void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_cost *cost);
 
+/// Whether a character's figure can be moved here; false with a sentence about what the driver is too small for. It is then
+/// drawn at rest.
+bool draw_can_move(const struct figure *figure, struct error *error);
+
 /// Reads the framebuffer back: width·height·4 bytes, top row first, alpha 255.
 void draw_read(int width, int height, unsigned char *rgba);
 

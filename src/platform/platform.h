@@ -7,6 +7,11 @@
 
 struct platform;
 
+/// Call this first to have each of the OpenGL driver's messages, but mere notifications, printed once to stderr. How many
+/// there were that should not be: errors, and whatever is undefined, deprecated or not portable; not those about speed.
+void platform_debug_gl(void);
+int platform_gl_complaints(void);
+
 /// A window (GLX under X11) with a current 3.3 core context. Swap interval `vsync` 0 or 1.
 /// NULL with a sentence: no display, no GLX, version.
 struct platform *platform_window(int width, int height, const char *title, int vsync, struct error *error);

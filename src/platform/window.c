@@ -1,4 +1,5 @@
 #include "base/clock.h"
+#include "platform/gl_debug.h"
 #include "platform/keys.h"
 #include "platform/surface.h"
 #include "platform/wayland.h"
@@ -203,6 +204,7 @@ static GLFWwindow *open_handle(int width, int height, const char *title)
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_NATIVE_CONTEXT_API);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, gl_debug_wanted());
     glfwWindowHint(GLFW_SAMPLES, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
