@@ -165,6 +165,8 @@ void editor_set_path(struct editor *editor, const char *path)
     snprintf(editor->title, sizeof editor->title, "%s", path[0] ? (slash ? slash + 1 : path) : "untitled");
 }
 
+void editor_set_stage_scale(struct editor *editor, float scale) { editor->stage_scale = scale; }
+
 void editor_set_stats(struct editor *editor, double fps, double solve_us)
 {
     editor->fps = fps;
