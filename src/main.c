@@ -21,6 +21,7 @@ static const struct command {
      "shakes a closed mesh as a soft body; its vertices in every frame"},
     {"analyze", command_analyze, "up.npy --rest mesh.obj --fps N -o creature.glb",
      "finds how a motion oscillates; a character for a spline to drive"},
+    {"log", command_log, "FILE.csv [-o FILE.svg]", "how a timing log's frame times are distributed"},
     {"bench", command_bench, "[--json FILE]", "the solver against LAPACKE"},
 };
 

@@ -13,7 +13,7 @@ CC=${CC:-gcc}
 sanitizers=""
 [ -n "${SANITIZE:-}" ] && sanitizers="-fsanitize=address,undefined"
 documents="README.md docs/*.md"
-commands="live solve check simulate analyze bench"
+commands="live solve check simulate analyze log bench"
 unset DISPLAY WAYLAND_DISPLAY
 
 # --- what a command line finds, and how it is cut short where it would last

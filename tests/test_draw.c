@@ -3,6 +3,7 @@
 #include "near.h"
 
 #include "draw/draw.h"
+#include "draw/timer.h"
 #include "platform/platform.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -16,6 +17,7 @@ static const uint32_t WHITE = 0xFFFFFFFFu, BLACK = 0x000000FFu;
 static struct platform *platform;
 static struct draw *draw;
 static struct drawlist list;
+static float stage_scale = 1.0f;
 static unsigned char pixels[WIDTH * HEIGHT * 4], expected[WIDTH * HEIGHT * 4];
 
 static int set_up(void **state)
@@ -51,7 +53,7 @@ static void begin(void)
 /// Draws `list` and the stage and reads the picture.
 static struct draw_cost show_on(const struct stage_view *stage, bool keeps, unsigned char *out)
 {
-    struct draw_input input = {WIDTH, HEIGHT, 1.0f, keeps, &list, stage};
+    struct draw_input input = {WIDTH, HEIGHT, 1.0f, keeps, &list, stage, 0, stage_scale};
     struct draw_cost cost;
     draw_frame(draw, &input, &cost);
     platform_swap(platform);
@@ -320,6 +322,33 @@ static void test_partial_redraw_equals_full_redraw(void **state)
     assert_true(partial < (long)FRAMES * WIDTH * HEIGHT * 3 / 4);
 }
 
+// While the stage is drawn smaller, what lies over it and beside it is as sharp as ever; afterwards every pixel is exact again.
+static void test_only_the_stage_loses_resolution(void **state)
+{
+    (void)state;
+    static unsigned char reduced[sizeof pixels];
+    struct stage_view stage = some_stage(0.0f);
+    for (int pass = 0; pass < 3; pass++) {
+        begin();
+        drawlist_rect(&list, (struct rect){20.0f, 20.0f, 90.0f, 60.0f}, theme()->panel);
+        drawlist_line(&list, (const float[]){30.0f, 70.0f, 100.0f, 40.0f}, 2, 2.5f, theme()->accent);
+        drawlist_text(&list, 30.0f, 50.0f, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text, "sharp");
+        drawlist_text(&list, 210.0f, 60.0f, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text, "beside it");
+        stage_scale = pass == 1 ? 0.5f : 1.0f;
+        show_on(&stage, pass > 0, pass == 0 ? expected : pass == 1 ? reduced : pixels);
+    }
+    assert_memory_equal(pixels, expected, sizeof pixels);
+    int coarse = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        int x = i % WIDTH, y = i / WIDTH;
+        bool bare_stage = x < 200 && y < 120 && (x < 20 || x >= 110 || y < 20 || y >= 80);
+        bool same = memcmp(reduced + 4 * (size_t)i, expected + 4 * (size_t)i, 4) == 0;
+        if (!bare_stage && !same) fail_msg("pixel %d, %d lost resolution", x, y);
+        if (!same) coarse++;
+    }
+    assert_true(coarse > 1000);
+}
+
 static void record_panel(float playhead)
 {
     begin();
@@ -384,9 +413,34 @@ static void test_reference_frame_does_not_depend_on_the_scene(void **state)
     assert_memory_equal(pixels, expected, sizeof pixels);
 }
 
+static void test_gpu_times_come_back_with_their_frames(void **state)
+{
+    (void)state;
+    begin();
+    struct gpu_timer timer;
+    long frame = 0;
+    gpu_timer_create(&timer, false); // software renderers have the queries, too; only their numbers mislead
+    if (!timer.usable) skip();
+    for (long n = 7; n < 14; n += 2) {
+        gpu_timer_begin(&timer, n);
+        glClear(GL_COLOR_BUFFER_BIT);
+        gpu_timer_end(&timer);
+    }
+    gpu_timer_begin(&timer, 99); // all queries are out: this frame is not timed
+    gpu_timer_end(&timer);
+    glFinish();
+    for (long n = 7; n < 14; n += 2) {
+        assert_true(gpu_timer_take(&timer, &frame) >= 0);
+        assert_int_equal(frame, n);
+    }
+    assert_true(gpu_timer_take(&timer, &frame) < 0);
+    gpu_timer_destroy(&timer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_gpu_times_come_back_with_their_frames),
         cmocka_unit_test(test_rect_has_its_color_and_exact_edges),
         cmocka_unit_test(test_later_commands_cover_earlier_ones),
         cmocka_unit_test(test_line_has_its_width_at_every_slope),
@@ -397,6 +451,7 @@ int main(void)
         cmocka_unit_test(test_nothing_shows_outside_its_clip),
         cmocka_unit_test(test_text_is_where_layout_says),
         cmocka_unit_test(test_partial_redraw_equals_full_redraw),
+        cmocka_unit_test(test_only_the_stage_loses_resolution),
         cmocka_unit_test(test_moving_playhead_redraws_narrow_strips),
         cmocka_unit_test(test_very_long_line_is_drawn_whole),
         cmocka_unit_test(test_reference_frame_does_not_depend_on_the_scene),

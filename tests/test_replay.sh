@@ -7,7 +7,7 @@ scene=tests/replays/session.json
 replay=tests/replays/session.replay
 
 # Rows without times: what was solved, keyed and edited in each frame.
-counters() { grep -v '^#' "$1" | cut -d, -f1,13-16; }
+counters() { grep -v '^#' "$1" | cut -d, -f1,14-17; }
 
 play() { # <replay> <scene> <name> [option]...
     local file=$1 start=$2 name=$3
@@ -23,7 +23,7 @@ ok "each frame solves what it solved when it was committed" $?
 [ "$(grep -vc '^[#f]' "$scratch/first.csv")" -eq 1200 ]
 ok "it has 1,200 frames" $?
 # Frames that allocate though nothing is edited in them.
-wasteful() { grep -v '^[#f]' "$1" | awk -F, '$1 > 0 && $16 == 0 && $18 > 0' | wc -l; } # <log>
+wasteful() { grep -v '^[#f]' "$1" | awk -F, '$1 > 0 && $17 == 0 && $19 > 0' | wc -l; } # <log>
 [ "$(wasteful "$scratch/first.csv")" -eq 0 ]
 ok "no frame without an edit allocates" $?
 

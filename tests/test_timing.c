@@ -24,6 +24,7 @@ static struct frame_row row(long frame, double ms)
     return (struct frame_row){.frame = frame,
                               .t_s = 0.02 * (double)frame,
                               .frame_ms = ms,
+                              .frame_interval_ms = ms + 5,
                               .wait_us = 10,
                               .solve_us = 100 * ms,
                               .gpu_us = NAN,
@@ -67,7 +68,7 @@ static void test_what_is_written_reads_back(void **state)
     assert_near(last[COLUMN_FRAME_MS], 10.09, 1e-4);
     assert_near(last[COLUMN_SOLVE_US], 1009, 0.1);
     assert_true(isnan(last[COLUMN_EVENT_TO_SWAP_US]));
-    assert_true(isnan(last[17])); // allocations that were not measured are not 0
+    assert_true(isnan(last[18])); // allocations that were not measured are not 0
     timing_log_free(&log);
 }
 
@@ -96,7 +97,7 @@ static void test_header_says_where_it_was_measured(void **state)
         if (!strstr(file_text, keys[i])) fail_msg("the header lacks %s:\n%s", keys[i], file_text);
     }
     assert_non_null(
-        strstr(file_text, "\n2,0.040000,10.0200,10.0,0.0,0.0,1002.0,0.0,0.0,0.0,NA,0.0,0,121,5,0,NA,NA,0\n"));
+        strstr(file_text, "\n2,0.040000,10.0200,15.0200,10.0,0.0,0.0,1002.0,0.0,0.0,0.0,NA,0.0,0,121,5,0,NA,NA,0\n"));
 }
 
 static void test_summary(void **state)
@@ -108,13 +109,14 @@ static void test_summary(void **state)
     assert_non_null(strstr(text, "498 in 9.95 s, 50.0 fps on average, the first 2 left out"));
     assert_non_null(strstr(text, "frame          p50   10.050 ms"));
     assert_non_null(strstr(text, "solve          p50    1.005 ms"));
-    assert_non_null(strstr(text, "over 33.3 ms   0 of 498 frames"));
+    assert_non_null(strstr(text, "interval       p50   15.050 ms"));
+    assert_non_null(strstr(text, "over 16.7 ms   0 of 498 frames\nover 33.3 ms   0 of 498 frames\n"));
     assert_null(strstr(text, "1 % low")); // too few frames for it
     assert_null(strstr(text, "event to swap"));
 
     write_log(NULL, 1002, 4096, 40, text, sizeof text);
-    assert_non_null(strstr(text, "over 33.3 ms   1000 of 1000 frames"));
-    assert_non_null(strstr(text, "1 % low        24.9 fps"));
+    assert_non_null(strstr(text, "over 33.3 ms   1000 of 1000 frames, up to 1000 in a row"));
+    assert_non_null(strstr(text, "1 % low        22.2 fps")); // of the intervals, which are 5 ms longer
 
     write_log(NULL, 2, 4096, 10, text, sizeof text);
     assert_non_null(strstr(text, "nothing to sum up"));
@@ -174,8 +176,12 @@ static void test_broken_logs_are_refused(void **state)
         const char *text, *says;
     } cases[] = {
         {"frame,t_s\n0,0\n", ":1: expected a timing log's '# schema:' line first"},
-        {"# schema: wiggly-frames 99\n", ":1: expected the schema wiggly-frames 1, got 'wiggly-frames 99'"},
-        {"# schema: wiggly-frames 1\nframe,t_s\n", ":2: expected the column names"},
+        {"# schema: wiggly-frames 99\n",
+         ":1: expected the schema wiggly-frames 2 or wiggly-frames 1, got 'wiggly-frames 99'"},
+        {"# schema: wiggly-frames 2\nframe,t_s\n", ":2: expected the column names"},
+        {"# schema: wiggly-frames 2\nframe,frame_ms,colour\n", ":2: expected the column names"},
+        {"# schema: wiggly-frames 2\nframe,frame_ms\n0,1,2\n", ":3: expected a number or NA for each column"},
+        {"# schema: wiggly-frames 2\nframe,frame_ms\n0\n", ":3: expected a number or NA for each column"},
         {"", "there are no frames"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -202,47 +208,106 @@ static void test_quantiles(void **state)
     assert_true(isnan(statistics_quantile(values, 0, 0.5)));
 }
 
+static void test_runs_of_frames_over_a_budget(void **state)
+{
+    (void)state;
+    const double ms[] = {20, 20, 10, 20, NAN, 20, 20, 20, 16};
+    struct over_budget over = statistics_over(ms, 9, 17);
+    assert_int_equal(over.frames, 6);
+    assert_int_equal(over.longest, 3); // what was not measured ends a run
+}
+
 enum { FRAMES = 600 };
 
-/// Frames of 10 ms ± 20 %, times `factor`, in stretches of 60.
-static struct observations noisy(struct observation *items, unsigned seed, double factor)
+/// Frames of 10 ms ± 20 %, times `factor`, in stretches of 60 that slow down from 1 to 1 + 9·drift; sorted.
+static void noisy(struct observation *items, unsigned seed, double factor, double drift)
 {
     srand(seed);
     for (int i = 0; i < FRAMES; i++) {
         double noise = (double)rand() / RAND_MAX - 0.5;
-        items[i] = (struct observation){factor * (10 + 4 * noise), i / 60};
+        items[i] = (struct observation){factor * (10 + 4 * noise) * (1 + drift * (i / 60)), i / 60};
     }
-    return (struct observations){items, FRAMES, FRAMES / 60};
+    statistics_sort_observations(items, FRAMES);
+}
+
+/// New over old, of the medians of two sets of FRAMES observations.
+static double median_ratio(const int *old_weight, const int *new_weight, const void *user)
+{
+    const struct observation *const *sets = user;
+    return statistics_weighted_quantile(sets[1], FRAMES, new_weight, 0.5) /
+           statistics_weighted_quantile(sets[0], FRAMES, old_weight, 0.5);
 }
 
 static void test_interval_covers_the_true_ratio(void **state)
 {
     (void)state;
-    static struct observation a[FRAMES], b[FRAMES];
-    struct observations old = noisy(a, 1, 1), new = noisy(b, 2, 1.2);
-    struct median_ratio first, again;
-    assert_true(statistics_median_ratio(&old, &new, false, &first));
-    assert_near(first.ratio, 1.2, 0.05);
+    static struct observation old[FRAMES], new[FRAMES];
+    const struct observation *sets[] = {old, new};
+    struct segments segments = {FRAMES / 60, FRAMES / 60, false};
+    struct estimate first, again;
+    noisy(old, 1, 1, 0);
+    noisy(new, 2, 1.2, 0);
+    assert_true(statistics_bootstrap(&segments, median_ratio, sets, &first));
+    assert_near(first.value, 1.2, 0.05);
     assert_true(first.low < 1.2 && 1.2 < first.high);
     assert_true(first.low > 1.1 && first.high < 1.3);
-    assert_true(statistics_median_ratio(&old, &new, false, &again));
+    assert_true(statistics_bootstrap(&segments, median_ratio, sets, &again));
     assert_memory_equal(&first, &again, sizeof first); // a fixed seed: the same logs, the same verdict
 }
 
 static void test_pairs_cancel_drift(void **state)
 {
     (void)state;
-    static struct observation a[FRAMES], b[FRAMES];
-    struct observations old = noisy(a, 1, 1), new = noisy(b, 2, 1.2);
-    for (int i = 0; i < FRAMES; i++) { // the machine slows down to half its speed over the ten pairs of runs
-        a[i].value *= 1 + 0.1 * a[i].segment;
-        b[i].value *= 1 + 0.1 * b[i].segment;
-    }
-    struct median_ratio alone, paired;
-    assert_true(statistics_median_ratio(&old, &new, false, &alone));
-    assert_true(statistics_median_ratio(&old, &new, true, &paired));
+    static struct observation old[FRAMES], new[FRAMES];
+    const struct observation *sets[] = {old, new};
+    struct segments alone = {FRAMES / 60, FRAMES / 60, false}, together = {FRAMES / 60, FRAMES / 60, true};
+    struct estimate unpaired, paired;
+    noisy(old, 1, 1, 0.1); // the machine slows down to half its speed over the ten pairs
+    noisy(new, 2, 1.2, 0.1);
+    assert_true(statistics_bootstrap(&alone, median_ratio, sets, &unpaired));
+    assert_true(statistics_bootstrap(&together, median_ratio, sets, &paired));
     assert_true(paired.low < 1.2 && 1.2 < paired.high);
-    assert_true(paired.high - paired.low < 0.5 * (alone.high - alone.low));
+    assert_true(paired.high - paired.low < 0.5 * (unpaired.high - unpaired.low));
+}
+
+static void test_gpu_time_is_in_the_row_of_its_frame(void **state)
+{
+    (void)state;
+    struct error error = {0};
+    struct framelog *log = framelog_open(path, &header, 256, &error);
+    assert_non_null(log);
+    for (int i = 0; i < 600; i++) { // comes back three frames late; the last three never do
+        if (i >= 3) framelog_gpu(log, i - 3, 1000 + (i - 3));
+        framelog_gpu(log, i - 30, 1); // too late
+        framelog_gpu(log, -1, 1);     // of no frame of the run
+        struct frame_row frame = row(i, 10);
+        framelog_push(log, &frame);
+    }
+    assert_true(framelog_close(log, NULL, &error));
+    struct timing_log read;
+    assert_true(timing_log_read(path, &read, &error));
+    for (int r = 0; r < read.rows; r++) {
+        const double *values = &read.values[(size_t)r * COLUMN_COUNT];
+        if (values[COLUMN_FRAME] < 597) assert_near(values[COLUMN_GPU_US], 1000 + values[COLUMN_FRAME], 0);
+        if (values[COLUMN_FRAME] >= 597) assert_true(isnan(values[COLUMN_GPU_US]));
+    }
+    timing_log_free(&read);
+}
+
+static void test_logs_of_the_schema_before_are_read(void **state)
+{
+    (void)state;
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("# schema: wiggly-frames 1\nframe,t_s,frame_ms,wait_us\n0,0.5,16.5,NA\n", file);
+    fclose(file);
+    struct timing_log log;
+    struct error error = {0};
+    assert_true(timing_log_read(path, &log, &error));
+    assert_near(log.values[COLUMN_FRAME_MS], 16.5, 0);
+    assert_true(isnan(log.values[COLUMN_FRAME_INTERVAL_MS]));
+    assert_true(isnan(log.values[COLUMN_SWAP_US]));
+    timing_log_free(&log);
 }
 
 /// The real program on the two logs; returns its exit status.
@@ -268,7 +333,8 @@ static void test_timing_diff_verdicts(void **state)
 {
     (void)state;
     assert_int_equal(diff_status_of(10, 10), 0);
-    assert_int_equal(diff_status_of(10, 10.9), 0); // surely slower, but by less than 10 %
+    assert_int_equal(diff_status_of(10, 10.1), 0); // surely slower, but by less than 1.5 %
+    assert_int_equal(diff_status_of(10, 10.3), 1);
     assert_int_equal(diff_status_of(10, 11.5), 1);
     assert_int_equal(diff_status_of(11.5, 10), 0); // faster is no failure
 }
@@ -324,8 +390,11 @@ int main(void)
         cmocka_unit_test(test_failures_name_the_path),
         cmocka_unit_test(test_broken_logs_are_refused),
         cmocka_unit_test(test_quantiles),
+        cmocka_unit_test(test_runs_of_frames_over_a_budget),
         cmocka_unit_test(test_interval_covers_the_true_ratio),
         cmocka_unit_test(test_pairs_cancel_drift),
+        cmocka_unit_test(test_gpu_time_is_in_the_row_of_its_frame),
+        cmocka_unit_test(test_logs_of_the_schema_before_are_read),
         cmocka_unit_test(test_timing_diff_verdicts),
         cmocka_unit_test(test_timing_diff_compares_counters_exactly),
     };

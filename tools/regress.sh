@@ -1,5 +1,7 @@
 #!/bin/sh
-# Frame times of two builds on the committed session: run in turn, so that the machine's drift hits both alike, then compared.
+# Frame times of two builds on the committed session, compared. Both play it at once and draw their frames in turn, so that
+# frame n of one is measured milliseconds from frame n of the other, and whatever else the machine does hits both. A build
+# that knows no --turns plays whole sessions in turn, which says far less.
 # Usage: tools/regress.sh <old wiggly> <new wiggly> <timing_diff> <output folder>   (PAIRS, at least 11, from the environment)
 set -eu
 old=$1 new=$2 timing_diff=$3 out=$4
@@ -9,20 +11,51 @@ pairs=${PAIRS:-11}
 [ -x "$old" ] || { echo "regress: $old is not a program" >&2; exit 2; }
 [ "$pairs" -ge 11 ] || { echo "regress: fewer than 11 pairs say too little; got PAIRS=$pairs" >&2; exit 2; }
 mkdir -p "$out"
-rm -f "$out"/*.csv
+rm -f "$out"/*.csv "$out"/to-old "$out"/to-new
+mkfifo "$out/to-old" "$out/to-new"
+trap 'rm -f "$out/to-old" "$out/to-new"' EXIT
 
-play() { # <program> <log>
-    "$1" live --headless --replay "$session" --log "$2" "$scene" >"$out/last-run.txt" 2>&1 || {
-        cat "$out/last-run.txt" >&2
-        echo "regress: $1 could not play $session" >&2
-        exit 3
-    }
+play() { # <program> <log> <what it says> [--turns WHICH]
+    program=$1 log=$2 said=$3
+    shift 3
+    "$program" live --headless --replay "$session" --log "$log" "$@" "$scene" >"$said" 2>&1
 }
+
+stop() { # <program> <what it said>
+    cat "$2" >&2
+    echo "regress: $1 could not play $session" >&2
+    exit 3
+}
+
+in_turn() { # <pair> <old's turn> <new's turn>; the pipes open in this order or not at all
+    play "$old" "$out/old-$1.csv" "$out/old.txt" --turns "$2" 3<"$out/to-old" 4>"$out/to-new" &
+    other=$!
+    new_failed=0
+    play "$new" "$out/new-$1.csv" "$out/new.txt" --turns "$3" 4>"$out/to-old" 3<"$out/to-new" || new_failed=1
+    wait "$other" || stop "$old" "$out/old.txt"
+    [ "$new_failed" -eq 0 ] || stop "$new" "$out/new.txt"
+}
+
+one_by_one() { # <pair>
+    play "$old" "$out/old-$1.csv" "$out/old.txt" || stop "$old" "$out/old.txt"
+    play "$new" "$out/new-$1.csv" "$out/new.txt" || stop "$new" "$out/new.txt"
+}
+
+takes_turns=1
+for program in "$old" "$new"; do
+    "$program" live --help | grep -q -e '--turns' || takes_turns=0
+done
+[ "$takes_turns" -eq 1 ] || echo "regress: a build without --turns: whole sessions are played in turn, a change of less than 10 % may be missed"
 
 pair=1
 while [ "$pair" -le "$pairs" ]; do
-    play "$old" "$out/old-$pair.csv"
-    play "$new" "$out/new-$pair.csv"
+    if [ "$takes_turns" -eq 0 ]; then
+        one_by_one "$pair"
+    elif [ $((pair % 2)) -eq 1 ]; then
+        in_turn "$pair" first second
+    else
+        in_turn "$pair" second first
+    fi
     cat "$out/old-$pair.csv" >>"$out/old.csv"
     cat "$out/new-$pair.csv" >>"$out/new.csv"
     echo "pair $pair of $pairs"

@@ -1,33 +1,13 @@
-/// timing_diff old.csv new.csv: what became slower or faster, column by column, and how sure that is.
+/// timing_diff old.csv new.csv: what became slower or faster, number by number, and how sure that is.
 ///
-/// Exit status 1 where a column's median grew by more than 10 % and the whole 95 % interval of the ratio lies past +5 %, or
-/// where a counter differs in any frame; 2 where the logs cannot be compared; else 0.
-#include "timing/readlog.h"
-#include "timing/statistics.h"
+/// Exit status 1 where something became worse by more than its limit (see timing/compare.c) or a counter differs in any
+/// frame; 2 where the logs cannot be compared; else 0.
+#include "timing/compare.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { STRETCH_FRAMES = 60, RUNS_ENOUGH = 5 };
-static const double MEDIAN_LIMIT = 1.10, INTERVAL_LIMIT = 1.05;
-
-/// Which frames the bootstrap keeps together: runs where there are enough of them, because the machine drifts between runs;
-/// else stretches of about a second.
-static int segment_of(const struct timing_log *log, int row)
-{
-    return log->runs >= RUNS_ENOUGH ? log->run[row] : row / STRETCH_FRAMES;
-}
-
-/// The measured values of a column; `items` has room for all rows.
-static struct observations observe(const struct timing_log *log, int column, struct observation *items)
-{
-    struct observations set = {.items = items, .segments = segment_of(log, log->rows - 1) + 1};
-    for (int row = 0; row < log->rows; row++) {
-        double value = log->values[(size_t)row * COLUMN_COUNT + (size_t)column];
-        if (!isnan(value)) items[set.count++] = (struct observation){value, segment_of(log, row)};
-    }
-    return set;
-}
+enum { OUT_OF_MEMORY = 3 };
 
 /// Compares a counter frame by frame; true where it is the same.
 static bool compare_counter(const struct timing_log *old, const struct timing_log *new, int column)
@@ -45,40 +25,56 @@ static bool compare_counter(const struct timing_log *old, const struct timing_lo
     return true;
 }
 
-/// Compares a time; true where it did not become slower. `old_items` and `new_items` have room for all rows.
-static bool compare_times(const struct timing_log *old, const struct timing_log *new, int column,
-                          struct observation *old_items, struct observation *new_items)
+static bool compare_column(struct comparison *comparison, int column)
 {
-    const struct column *about = &timing_columns[column];
-    struct observations before = observe(old, column, old_items), after = observe(new, column, new_items);
-    if (before.count == 0 || after.count == 0) {
-        printf("%-18s %12s %12s\n", about->name, before.count ? "measured" : "NA", after.count ? "measured" : "NA");
-        return true;
+    struct change changes[QUANTILE_COUNT];
+    bool good = true;
+    if (!compare_times(comparison, column, changes)) return true;
+    for (int i = 0; i < QUANTILE_COUNT; i++) {
+        const struct change *c = &changes[i];
+        printf("%-18s p%-3.0f %12.4g %12.4g %+8.1f %%  [%+.1f, %+.1f]%s\n", timing_columns[column].name,
+               100 * compared_quantiles[i], c->old, c->new, 100 * c->change.value, 100 * c->change.low,
+               100 * c->change.high, c->worse ? "  SLOWER" : "");
+        good &= !c->worse;
     }
-    struct median_ratio m;
-    bool paired = old->runs == new->runs && old->runs >= RUNS_ENOUGH; // runs taken in turn, as make regress does
-    if (!statistics_median_ratio(&before, &after, paired, &m)) {
-        fprintf(stderr, "timing_diff: out of memory\n");
-        exit(3);
-    }
-    bool grew = m.ratio > MEDIAN_LIMIT && m.low > INTERVAL_LIMIT && m.new_median - m.old_median > about->grain;
-    bool slower = grew && about->use == COLUMN_COST;
-    printf("%-18s %12.4g %12.4g %8.3f   [%.3f, %.3f]%s\n", about->name, m.old_median, m.new_median, m.ratio, m.low,
-           m.high, slower ? "  SLOWER" : "");
-    return !slower;
+    return good;
 }
 
-static bool compare(const struct timing_log *old, const struct timing_log *new, struct observation *old_items,
-                    struct observation *new_items)
+static bool compare_budgets(struct comparison *comparison)
 {
     bool good = true;
-    printf("%-18s %12s %12s %8s   95 %% interval\n", "median of", "old", "new", "ratio");
+    for (int b = 0; b < BUDGET_COUNT; b++) {
+        struct change share, longest;
+        if (!compare_budget(comparison, frame_budgets_ms[b], &share, &longest)) {
+            fprintf(stderr, "timing_diff: out of memory\n");
+            exit(OUT_OF_MEMORY);
+        }
+        char name[32];
+        snprintf(name, sizeof name, "over %.1f ms", frame_budgets_ms[b]);
+        printf("%-18s share   %7.1f %% %10.1f %% %+8.1f    [%+.1f, %+.1f]%s\n", name, 100 * share.old,
+               100 * share.new, 100 * share.change.value, 100 * share.change.low, 100 * share.change.high,
+               share.worse ? "  SLOWER" : "");
+        printf("%-18s longest %9.1f %12.1f %+8.1f", name, longest.old, longest.new, longest.change.value);
+        if (!isnan(longest.change.low)) printf("    [%+.1f, %+.1f]", longest.change.low, longest.change.high);
+        printf("%s\n", longest.worse ? "  SLOWER" : "");
+        good &= !share.worse && !longest.worse;
+    }
+    return good;
+}
+
+static bool compare(struct comparison *comparison)
+{
+    const struct timing_log *old = comparison->old, *new = comparison->new;
+    bool good = true;
+    printf("%-18s %4s %12s %12s %10s  99 %% interval\n", "", "", "old", "new", "change");
     for (int c = 0; c < COLUMN_COUNT; c++) {
         enum column_use use = timing_columns[c].use;
-        if (use == COLUMN_COST || use == COLUMN_WAIT) good &= compare_times(old, new, c, old_items, new_items);
+        if (use == COLUMN_COST || use == COLUMN_WAIT) good &= compare_column(comparison, c);
     }
-    if (old->rows != new->rows) {
-        printf("counters           NOT COMPARED over all frames: %d frames, now %d\n", old->rows, new->rows);
+    good &= compare_budgets(comparison);
+    if (!comparison->same_shape) {
+        printf("counters           NOT COMPARED over all frames: %d frames of %d runs, now %d of %d\n", old->rows,
+               old->runs, new->rows, new->runs);
         good = false;
     }
     for (int c = 0; c < COLUMN_COUNT; c++) {
@@ -94,22 +90,17 @@ int main(int argc, char **argv)
         return 2;
     }
     struct timing_log old = {0}, new = {0};
+    struct comparison comparison = {0};
     struct error error = {0};
-    if (!timing_log_read(argv[1], &old, &error) || !timing_log_read(argv[2], &new, &error)) {
-        fprintf(stderr, "timing_diff: %s\n", error.text);
-        timing_log_free(&old);
-        return 2;
-    }
-    struct observation *old_items = calloc((size_t)old.rows, sizeof *old_items);
-    struct observation *new_items = calloc((size_t) new.rows, sizeof *new_items);
-    int status = 3;
-    if (old_items && new_items) {
-        status = compare(&old, &new, old_items, new_items) ? 0 : 1;
+    int status = 2;
+    if (timing_log_read(argv[1], &old, &error) && timing_log_read(argv[2], &new, &error) &&
+        comparison_open(&comparison, &old, &new, &error)) {
+        status = compare(&comparison) ? 0 : 1;
     } else {
-        fprintf(stderr, "timing_diff: out of memory\n");
+        fprintf(stderr, "timing_diff: %s\n", error.text);
+        if (error.kind == ERROR_ENVIRONMENT) status = OUT_OF_MEMORY;
     }
-    free(old_items);
-    free(new_items);
+    comparison_close(&comparison);
     timing_log_free(&old);
     timing_log_free(&new);
     return status;

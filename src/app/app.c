@@ -2,12 +2,14 @@
 #include "app/state.h"
 #include "base/clock.h"
 #include "platform/process.h"
+#include "platform/turns.h"
 #include "scene/load.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 
 enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, HEADLESS_FRAMES = 1200, WARM_UP = 10, REFERENCE_FRAMES = 21 };
@@ -26,7 +28,8 @@ static bool open_platform(struct app *app, struct error *error)
         int vsync = app->replay || o->frames ? 0 : 1;
         app->platform = platform_window(width, height, "wiggly", vsync, &refused);
         if (app->platform) return true;
-        fprintf(stderr, "wiggly: %s; running headless (see wiggly live --help for what it can write)\n", refused.text);
+        fprintf(stderr, "wiggly: %s; running headless (see wiggly live --help for what it can write)\n",
+                refused.text);
     }
     app->platform = platform_offscreen((int)lround(width * scale), (int)lround(height * scale), (float)scale, error);
     return app->platform != NULL;
@@ -48,6 +51,7 @@ static bool open_log(struct app *app, struct error *error)
     if (o->log && !header.vsync) {
         header.reference_ms = draw_reference_ms(app->draw, header.width, header.height, REFERENCE_FRAMES);
         app->lost = true;
+        app->last_swap = NAN;
     }
     app->log = framelog_open(o->log, &header, LOG_ROWS, error);
     if (!app->log) return false;
@@ -59,8 +63,13 @@ static bool open_log(struct app *app, struct error *error)
 static bool run_frames(struct app *app, long frames, bool timed, struct error *error)
 {
     while (!app->quit && !app->failed && !process_was_told_to_end() && (frames == 0 || app->frame < frames)) {
+        if (app->options->turns) {
+            turns_take();
+            app->last_swap = NAN; // the other program's frame was in between
+        }
         app_frame(app);
         if (app->frame == 1 && timed && !app->log && !open_log(app, error)) return false;
+        if (app->options->turns) turns_give();
     }
     if (app->failed) *error = app->error;
     return !app->failed;
@@ -116,12 +125,21 @@ static void on_lost(void *user)
     fprintf(stderr, "wiggly live: %s\n", error.text);
 }
 
+static bool set_resolution(struct app *app, struct error *error)
+{
+    const struct app_options *o = app->options;
+    bool live = platform_is_window(app->platform) && !o->replay && !o->record;
+    const char *scale = o->stage_scale ? o->stage_scale : live ? "auto" : "1";
+    return resolution_parse(&app->resolution, scale) ||
+           fail(error, ERROR_USAGE, "--stage-scale: expected auto or a number from 0.25 to 1, got '%s'", scale);
+}
+
 static bool start(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
     if (o->replay && !(app->replay = replay_load(o->replay, error))) return false;
     if (o->theme) theme_use((enum theme_kind)theme_find(o->theme));
-    if (!font_init(error) || !open_platform(app, error)) return false;
+    if (!font_init(error) || !open_platform(app, error) || !set_resolution(app, error)) return false;
     int width, height;
     float scale;
     platform_size(app->platform, &width, &height, &scale);
@@ -172,9 +190,14 @@ void app_free(struct app *app)
 
 int app_run(const struct app_options *options, struct error *error)
 {
-    struct app app = {.options = options};
+    struct app app = {.options = options, .last_swap = NAN};
+    if (options->turns && !turns_open(strcmp(options->turns, "first") == 0)) {
+        fail(error, ERROR_USAGE, "--turns: descriptors 3 and 4 must be pipes to and from the other program");
+        return ERROR_USAGE;
+    }
     double age = process_age();
     app.process_start = clock_now() - (isnan(age) ? 0 : age);
+    if (options->gl_debug) platform_debug_gl();
     bool good = start(&app, error);
     if (good) {
         long frames = options->frames                    ? options->frames
@@ -187,5 +210,8 @@ int app_run(const struct app_options *options, struct error *error)
     if (!finish(&app, good ? error : &late)) good = false;
     personal_end(&app, !good);
     app_free(&app);
+    int complaints = platform_gl_complaints();
+    if (good && complaints > 0)
+        good = fail(error, ERROR_ENVIRONMENT, "--gl-debug: the OpenGL driver complained %d times", complaints);
     return good ? 0 : error->kind == ERROR_NONE ? ERROR_ENVIRONMENT : (int)error->kind;
 }

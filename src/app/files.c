@@ -134,6 +134,7 @@ bool app_screenshot(struct app *app, const char *path, struct error *error)
     platform_size(app->platform, &width, &height, &scale);
     unsigned char *pixels = malloc(4 * (size_t)width * (size_t)height);
     if (!pixels) return fail(error, ERROR_ENVIRONMENT, "out of memory for a picture of %d × %d", width, height);
+    app_draw_exactly(app);
     draw_read(width, height, pixels);
     bool done = png_write(path, width, height, pixels, error);
     free(pixels);

@@ -6,6 +6,7 @@
 int command_live(int argc, char **argv);
 int command_solve(int argc, char **argv);
 int command_check(int argc, char **argv);
+int command_log(int argc, char **argv);
 int command_bench(int argc, char **argv);
 int command_simulate(int argc, char **argv);
 int command_analyze(int argc, char **argv);

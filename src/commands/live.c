@@ -4,6 +4,7 @@
 #include "commands/options.h"
 #include "ui/theme.h"
 #include <stdio.h>
+#include <string.h>
 
 int command_live(int argc, char **argv)
 {
@@ -15,15 +16,21 @@ int command_live(int argc, char **argv)
          &options.frames, 1, 10000000},
         {"--size", NULL, "WxH", "logical pixels (1280x720)", OPTION_SIZE, size, 320, 8192},
         {"--scale", NULL, "S", "device pixels a logical pixel, headless", OPTION_REAL, &options.scale, 0.5, 4},
+        {"--stage-scale", NULL, "S", "of the stage while it moves: auto, or 0.25 to 1 (a window auto, else 1)",
+         OPTION_TEXT, &options.stage_scale, 0, 0},
         {"--theme", NULL, "NAME", "dark or light (a window's own choice, F10; else dark)", OPTION_TEXT,
          &options.theme, 0, 0},
         {"--welcome", NULL, NULL, "what to try first, as at the first start in a window", OPTION_FLAG,
          &options.welcome, 0, 0},
+        {"--gl-debug", NULL, NULL, "the OpenGL driver's messages on stderr; a complaint is a failure", OPTION_FLAG,
+         &options.gl_debug, 0, 0},
         {"--log", NULL, "FILE.csv", "timing log, one row a frame", OPTION_TEXT, &options.log, 0, 0},
         {"--screenshot", NULL, "FILE.png", "picture of the last frame", OPTION_TEXT, &options.screenshot, 0, 0},
         {"--frames-dir", NULL, "DIR", "a PNG for each frame", OPTION_TEXT, &options.frames_dir, 0, 0},
         {"--replay", NULL, "FILE", "play recorded events; its clock is its own", OPTION_TEXT, &options.replay, 0, 0},
         {"--record", NULL, "FILE", "record events", OPTION_TEXT, &options.record, 0, 0},
+        {"--turns", NULL, "WHICH", "first or second: frames in turn with another program (docs/measuring.md)",
+         OPTION_TEXT, &options.turns, 0, 0},
         {"--result", NULL, "FILE.json", "the document at the end", OPTION_TEXT, &options.result, 0, 0},
     };
     const struct usage usage = {
@@ -38,6 +45,10 @@ int command_live(int argc, char **argv)
     if (result != OPTIONS_RUN) return (int)result;
     if (options.theme && theme_find(options.theme) < 0) {
         fprintf(stderr, "wiggly live: --theme: expected dark or light, got '%s'\n", options.theme);
+        return OPTIONS_WRONG;
+    }
+    if (options.turns && strcmp(options.turns, "first") != 0 && strcmp(options.turns, "second") != 0) {
+        fprintf(stderr, "wiggly live: --turns: expected first or second, got '%s'\n", options.turns);
         return OPTIONS_WRONG;
     }
     options.width = size[0];

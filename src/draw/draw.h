@@ -23,18 +23,26 @@ struct draw_input {
     bool keeps;        ///< the framebuffer still holds the last frame; false forces everything
     const struct drawlist *list;
     const struct stage_view *stage; ///< drawn below the list, in its viewport; NULL where there is none
+    long frame;                     ///< its number, which the GPU's time comes back with
+    /// The stage's pixels a device pixel, a side: below 1 it is drawn smaller and enlarged; 0 means 1.
+    float stage_scale;
 };
 
 /// What drawing cost. Times in microseconds.
 struct draw_cost {
     double upload_us, draw_us;
-    double gpu_us; ///< of an earlier frame, where the driver has timer queries; else negative
+    double gpu_us;  ///< of an earlier frame, where the driver has timer queries; else negative
+    long gpu_frame; ///< the number of that frame
     long uploaded_bytes;
     int rectangles; ///< that were redrawn
     long pixels;    ///< inside them
 };
 
 void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_cost *cost);
+
+/// Whether a character's figure can be moved here; false with a sentence about what the driver is too small for. It is then
+/// drawn at rest.
+bool draw_can_move(const struct figure *figure, struct error *error);
 
 /// Reads the framebuffer back: width·height·4 bytes, top row first, alpha 255.
 void draw_read(int width, int height, unsigned char *rgba);

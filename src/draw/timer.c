@@ -18,10 +18,12 @@ void gpu_timer_destroy(struct gpu_timer *timer)
     *timer = (struct gpu_timer){0};
 }
 
-void gpu_timer_begin(struct gpu_timer *timer)
+void gpu_timer_begin(struct gpu_timer *timer, long frame)
 {
     if (!timer->usable || timer->pending == TIMER_QUERIES) return;
-    glBeginQuery(GL_TIME_ELAPSED, timer->queries[(timer->oldest + timer->pending) % TIMER_QUERIES]);
+    int next = (timer->oldest + timer->pending) % TIMER_QUERIES;
+    timer->frames[next] = frame;
+    glBeginQuery(GL_TIME_ELAPSED, timer->queries[next]);
     timer->running = true;
 }
 
@@ -33,7 +35,7 @@ void gpu_timer_end(struct gpu_timer *timer)
     timer->pending++;
 }
 
-double gpu_timer_take(struct gpu_timer *timer)
+double gpu_timer_take(struct gpu_timer *timer, long *frame)
 {
     if (timer->pending == 0) return -1.0;
     GLuint query = timer->queries[timer->oldest];
@@ -42,6 +44,7 @@ double gpu_timer_take(struct gpu_timer *timer)
     if (!available) return -1.0;
     GLuint64 nanoseconds = 0;
     glGetQueryObjectui64v(query, GL_QUERY_RESULT, &nanoseconds);
+    *frame = timer->frames[timer->oldest];
     timer->oldest = (timer->oldest + 1) % TIMER_QUERIES;
     timer->pending--;
     return (double)nanoseconds * 1.0e-3;

@@ -13,6 +13,7 @@ enum { TIMER_QUERIES = 4 };
 /// GL_TIME_ELAPSED of the last frames: a result is read only once it is there, some frames late, and never waited for.
 struct gpu_timer {
     GLuint queries[TIMER_QUERIES];
+    long frames[TIMER_QUERIES]; ///< that the queries belong to
     int oldest, pending;
     bool usable, running;
 };
@@ -20,10 +21,12 @@ struct gpu_timer {
 /// Software renderers draw at the flush, not between the queries: their numbers would mislead, so they have no timer.
 void gpu_timer_create(struct gpu_timer *timer, bool is_software);
 void gpu_timer_destroy(struct gpu_timer *timer);
-void gpu_timer_begin(struct gpu_timer *timer);
+
+/// Starts to time a frame, unless the results of four earlier ones are still out.
+void gpu_timer_begin(struct gpu_timer *timer, long frame);
 void gpu_timer_end(struct gpu_timer *timer);
 
-/// Microseconds of the oldest frame that has come back since the last call; negative where there is none.
-double gpu_timer_take(struct gpu_timer *timer);
+/// Microseconds of the oldest frame that has come back since the last call, and its number; negative where there is none.
+double gpu_timer_take(struct gpu_timer *timer, long *frame);
 
 #endif

@@ -166,6 +166,8 @@ void editor_set_path(struct editor *editor, const char *path)
     dialog_done(editor);
 }
 
+void editor_set_stage_scale(struct editor *editor, float scale) { editor->stage_scale = scale; }
+
 void editor_set_stats(struct editor *editor, double fps, double solve_us)
 {
     editor->fps = fps;

@@ -115,6 +115,9 @@ void editor_message(struct editor *editor, bool is_error, const char *text);
 /// Frames a second and microseconds of solving, for the status line; shown as told, so tell it seldom.
 void editor_set_stats(struct editor *editor, double fps, double solve_us);
 
+/// The stage's pixels a device pixel, a side, in this frame: the status line says where it is below 1.
+void editor_set_stage_scale(struct editor *editor, float scale);
+
 /// How the knots are shown (V); the app solves as cubic for LOOK_CUBIC.
 enum look editor_look(const struct editor *editor);
 bool editor_is_playing(const struct editor *editor);

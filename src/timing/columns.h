@@ -5,7 +5,8 @@
 #include "timing/framelog.h"
 #include <stddef.h>
 
-#define TIMING_SCHEMA "wiggly-frames 1"
+#define TIMING_SCHEMA "wiggly-frames 2"
+#define TIMING_SCHEMA_BEFORE "wiggly-frames 1" ///< without frame_interval_ms; still read
 
 enum column_use {
     COLUMN_LABEL,   ///< identifies the frame; never compared
@@ -17,19 +18,24 @@ enum column_use {
 struct column {
     const char *name;
     enum column_use use;
-    bool is_count; ///< a long in struct frame_row, else a double
-    int decimals;  ///< of a double, in the file
-    size_t offset; ///< in struct frame_row
-    double grain;  ///< COLUMN_COST: smaller differences are the clock's, not the program's
+    bool is_count;     ///< a long in struct frame_row, else a double
+    int decimals;      ///< of a double, in the file
+    size_t offset;     ///< in struct frame_row
+    double grain;      ///< COLUMN_COST: smaller differences are the clock's, not the program's
+    double tail_grain; ///< COLUMN_COST: smaller ones at p95 and p99 are the scheduler's, and nobody sees them
 };
 
 enum {
     COLUMN_FRAME,
     COLUMN_TIME,
     COLUMN_FRAME_MS,
-    COLUMN_SOLVE_US = 6,
-    COLUMN_EVENT_TO_SWAP_US = 16,
-    COLUMN_COUNT = 19
+    COLUMN_FRAME_INTERVAL_MS,
+    COLUMN_INPUT_US = 5,
+    COLUMN_SOLVE_US = 7,
+    COLUMN_GPU_US = 11,
+    COLUMN_SWAP_US = 12,
+    COLUMN_EVENT_TO_SWAP_US = 17,
+    COLUMN_COUNT = 20
 };
 
 extern const struct column timing_columns[COLUMN_COUNT];

@@ -8,8 +8,7 @@
 #include <sys/utsname.h>
 #include <wiggly/wiggly.h>
 
-enum { BLOCK_ROWS = 256 };
-static const double SLOW_FRAME_MS = 1000.0 / 30;
+enum { BLOCK_ROWS = 256, LATE_ROWS = 16 }; ///< the last rows wait for what the GPU took
 static const int LOW_NEEDS_FRAMES = 1000;
 
 struct framelog {
@@ -89,9 +88,9 @@ static void check_written(struct framelog *log)
     log->file = NULL;
 }
 
-static void write_block(struct framelog *log)
+static void write_rows(struct framelog *log, long end)
 {
-    for (; log->file && log->written < log->pushed; log->written++) {
+    for (; log->file && log->written < end; log->written++) {
         write_row(log->file, &log->rows[log->written % log->capacity]);
     }
     if (log->file) check_written(log);
@@ -136,11 +135,19 @@ struct framelog *framelog_open(const char *path, const struct frame_header *head
 void framelog_push(struct framelog *log, const struct frame_row *row)
 {
     log->rows[log->pushed++ % log->capacity] = *row;
-    if (log->pushed - log->written >= BLOCK_ROWS) write_block(log);
-    if (!log->file) log->written = log->pushed;
+    if (log->pushed - log->written >= BLOCK_ROWS) write_rows(log, log->pushed - LATE_ROWS);
 }
 
-/// Collects the measured values of a column over the frames from `first` on, sorted, in the log's scratch.
+void framelog_gpu(struct framelog *log, long frame, double gpu_us)
+{
+    long oldest = log->pushed > LATE_ROWS ? log->pushed - LATE_ROWS : 0;
+    for (long n = log->pushed - 1; n >= oldest; n--) {
+        struct frame_row *row = &log->rows[n % log->capacity];
+        if (row->frame == frame) row->gpu_us = gpu_us;
+    }
+}
+
+/// Collects the measured values of a column over the frames from `first` on in the log's scratch.
 static int collect(const struct framelog *log, long first, int column)
 {
     int count = 0;
@@ -148,7 +155,6 @@ static int collect(const struct framelog *log, long first, int column)
         double value = column_value(&timing_columns[column], &log->rows[n % log->capacity]);
         if (!isnan(value)) log->scratch[count++] = value;
     }
-    statistics_sort(log->scratch, count);
     return count;
 }
 
@@ -157,6 +163,7 @@ static void print_percentiles(const struct framelog *log, long first, int column
 {
     int count = collect(log, first, column);
     if (count == 0) return;
+    statistics_sort(log->scratch, count);
     fprintf(out, "%-14s p50 %8.3f ms   p95 %8.3f ms   p99 %8.3f ms\n", what,
             to_ms * statistics_quantile(log->scratch, count, 0.5),
             to_ms * statistics_quantile(log->scratch, count, 0.95),
@@ -166,10 +173,15 @@ static void print_percentiles(const struct framelog *log, long first, int column
 static void print_slow_frames(const struct framelog *log, long first, FILE *out)
 {
     int count = collect(log, first, COLUMN_FRAME_MS);
-    int slow = 0;
-    while (slow < count && log->scratch[count - 1 - slow] > SLOW_FRAME_MS) slow++;
-    fprintf(out, "over 33.3 ms   %d of %d frames\n", slow, count);
+    for (int b = 0; b < BUDGET_COUNT; b++) {
+        struct over_budget over = statistics_over(log->scratch, count, frame_budgets_ms[b]);
+        fprintf(out, "over %.1f ms   %d of %d frames", frame_budgets_ms[b], over.frames, count);
+        if (over.longest > 1) fprintf(out, ", up to %d in a row", over.longest);
+        fputc('\n', out);
+    }
+    count = collect(log, first, COLUMN_FRAME_INTERVAL_MS);
     if (count < LOW_NEEDS_FRAMES) return;
+    statistics_sort(log->scratch, count);
     fprintf(out, "1 %% low        %.1f fps\n", 1000 / statistics_quantile(log->scratch, count, 0.99));
 }
 
@@ -188,6 +200,7 @@ static void print_summary(const struct framelog *log, FILE *out)
     fprintf(out, "frames         %ld in %.2f s, %.1f fps on average", frames, elapsed, (double)frames / elapsed);
     fprintf(out, ", the first %ld left out\n", first);
     print_percentiles(log, first, COLUMN_FRAME_MS, 1, "frame", out);
+    print_percentiles(log, first, COLUMN_FRAME_INTERVAL_MS, 1, "interval", out);
     print_percentiles(log, first, COLUMN_SOLVE_US, 1e-3, "solve", out);
     print_percentiles(log, first, COLUMN_EVENT_TO_SWAP_US, 1e-3, "event to swap", out);
     print_slow_frames(log, first, out);
@@ -195,7 +208,7 @@ static void print_summary(const struct framelog *log, FILE *out)
 
 bool framelog_close(struct framelog *log, FILE *summary, struct error *error)
 {
-    if (log->file) write_block(log);
+    if (log->file) write_rows(log, log->pushed);
     if (log->file && fclose(log->file) != 0) log->write_errno = errno;
     log->file = NULL;
     if (summary) print_summary(log, summary);

@@ -9,7 +9,11 @@
 struct frame_row {
     long frame; ///< from 0 in every run
     double t_s; ///< seconds since the start of the process, when the timed part (input to the end of the swap) began
-    double frame_ms, wait_us, input_us, edit_us, solve_us, pose_us, upload_us, draw_us, gpu_us, swap_us;
+    double frame_ms;
+    double frame_interval_ms; ///< from the end of the last frame's swap to the end of this one's; NAN after a rest
+    double wait_us, input_us, edit_us, solve_us, pose_us, upload_us, draw_us;
+    double gpu_us; ///< of this frame, though it comes back some frames later: see framelog_gpu()
+    double swap_us;
     long splines_solved, samples, knots; ///< solved in this frame: splines, their samples, their knots
     long edited;                         ///< 1 where the document is not what the frame before it showed
     double event_to_swap_us;             ///< oldest event of the frame to the end of the swap; NAN where none came
@@ -38,7 +42,12 @@ struct framelog *framelog_open(const char *path, const struct frame_header *head
 /// After a failed write the file is left alone; framelog_close() says so once.
 void framelog_push(struct framelog *log, const struct frame_row *row);
 
-/// Writes what is left, checks every call; with `summary` prints frames, fps, percentiles, frames over 33.3 ms. Frees the log.
+/// Enters what the GPU took for an earlier frame of this run, which must be among the last 16; an older one's, or that of a
+/// frame below 0, is dropped.
+void framelog_gpu(struct framelog *log, long frame, double gpu_us);
+
+/// Writes what is left, checks every call; with `summary` prints frames, fps, percentiles, frames over budget and the 1 %
+/// low. Frees the log.
 bool framelog_close(struct framelog *log, FILE *summary, struct error *error);
 
 /// Allocations by our own objects since the start of the process (-Wl,--wrap=malloc, calloc, realloc).

@@ -9,10 +9,11 @@
 struct cursor {
     const char *path;
     int line;
-    int warm_up;  ///< of this run
-    int seen;     ///< frames of this run, warm-up included
-    bool named;   ///< this run's column names were read
-    int capacity; ///< rows that there is room for
+    int warm_up;                      ///< of this run
+    int seen;                         ///< frames of this run, warm-up included
+    bool named;                       ///< this run's column names were read
+    int column[COLUMN_COUNT], fields; ///< the column of each field of a line
+    int capacity;                     ///< rows that there is room for
     struct timing_log *log;
     struct error *error;
 };
@@ -26,8 +27,9 @@ static bool read_comment(struct cursor *at, const char *text)
 {
     static const char schema[] = "# schema: ", warm_up[] = "# warm_up_frames: ";
     if (strncmp(text, schema, sizeof schema - 1) == 0) {
-        if (strcmp(text + sizeof schema - 1, TIMING_SCHEMA) != 0) {
-            return bad(at, "the schema " TIMING_SCHEMA, text + sizeof schema - 1);
+        const char *name = text + sizeof schema - 1;
+        if (strcmp(name, TIMING_SCHEMA) != 0 && strcmp(name, TIMING_SCHEMA_BEFORE) != 0) {
+            return bad(at, "the schema " TIMING_SCHEMA " or " TIMING_SCHEMA_BEFORE, name);
         }
         at->log->runs++;
         at->warm_up = at->seen = 0;
@@ -38,16 +40,28 @@ static bool read_comment(struct cursor *at, const char *text)
     return true;
 }
 
+static int find_column(const char *name, size_t length)
+{
+    for (int c = 0; c < COLUMN_COUNT; c++) {
+        if (strlen(timing_columns[c].name) == length && strncmp(timing_columns[c].name, name, length) == 0) return c;
+    }
+    return -1;
+}
+
+/// Columns are found by name, so that a log from before a column was added can be read, too.
 static bool read_names(struct cursor *at, const char *text)
 {
-    char expected[512];
-    size_t length = 0;
-    for (int c = 0; c < COLUMN_COUNT; c++) {
-        length += (size_t)snprintf(expected + length, sizeof expected - length, "%s%s", c ? "," : "",
-                                   timing_columns[c].name);
-    }
     if (at->log->runs == 0) return bad(at, "a timing log's '# schema:' line first", text);
-    if (strcmp(text, expected) != 0) return bad(at, "the column names of " TIMING_SCHEMA, text);
+    bool has_frame = false, has_time = false;
+    at->fields = 0;
+    for (const char *name = text; name; name = strchr(name, ',') ? strchr(name, ',') + 1 : NULL) {
+        int column = find_column(name, strcspn(name, ","));
+        if (column < 0 || at->fields == COLUMN_COUNT) return bad(at, "the column names of " TIMING_SCHEMA, text);
+        has_frame |= column == COLUMN_FRAME;
+        has_time |= column == COLUMN_FRAME_MS;
+        at->column[at->fields++] = column;
+    }
+    if (!has_frame || !has_time) return bad(at, "the column names of " TIMING_SCHEMA, text);
     at->named = true;
     return true;
 }
@@ -75,13 +89,15 @@ static bool read_row(struct cursor *at, const char *text)
     struct timing_log *log = at->log;
     double *row = &log->values[(size_t)log->rows * COLUMN_COUNT];
     const char *rest = text;
-    for (int c = 0; c < COLUMN_COUNT; c++) {
+    for (int c = 0; c < COLUMN_COUNT; c++) row[c] = NAN;
+    for (int i = 0; i < at->fields; i++) {
         char *end;
         bool missing = strncmp(rest, "NA", 2) == 0;
-        row[c] = missing ? NAN : strtod(rest, &end);
+        double value = missing ? NAN : strtod(rest, &end);
+        row[at->column[i]] = value;
         if (missing) end = (char *)rest + 2;
-        if (end == rest || *end != (c + 1 < COLUMN_COUNT ? ',' : 0) || (!missing && !isfinite(row[c]))) {
-            return bad(at, "19 numbers or NA, separated by commas", text);
+        if (end == rest || *end != (i + 1 < at->fields ? ',' : 0) || (!missing && !isfinite(value))) {
+            return bad(at, "a number or NA for each column, separated by commas", text);
         }
         rest = end + 1;
     }
