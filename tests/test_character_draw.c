@@ -1,11 +1,13 @@
 /// The character's vertex shader, by what a person sees: the same picture as of a figure that already has the shape, the place
 /// or the colours that the shader should give it.
+#include "draw/stage_morph.h"
 #include "model/painted.h"
 #include "offscreen.h"
 #include "puppet.h"
 #include "rig/camera.h"
 #include "ui/phase_color.h"
 #include "ui/theme.h"
+#include <stdio.h>
 
 enum { WIDTH = 500, HEIGHT = 300 };
 
@@ -215,6 +217,28 @@ static void a_line_divides_eighths_of_a_turn(void **state)
     }
 }
 
+/// The texture has a row for 128 vertices of a coordinate, and a last one that stays empty.
+static void what_is_too_large_says_so(void **state)
+{
+    (void)state;
+    struct character character = puppet_character(0.03f, 3);
+    struct figure figure = puppet_figure(&character);
+    struct error error = {0};
+    const int rows = 3 * ((figure.character.vertex_count + 127) / 128) + 1, large = rows > 640 ? rows : 640;
+    char needed[64];
+    assert_true(stage_morph_fits(&figure, large, &error));
+    assert_true(rows > 9);
+    assert_false(stage_morph_fits(&figure, 639, &error));
+    snprintf(needed, sizeof needed, "640 × %d, this OpenGL driver takes 639", rows);
+    assert_non_null(strstr(error.text, needed));
+    const int vertices = figure.character.vertex_count;
+    figure.character.vertex_count = 128 * 333; // 1,000 rows
+    assert_true(stage_morph_fits(&figure, 1000, &error));
+    assert_false(stage_morph_fits(&figure, 999, &error));
+    figure.character.vertex_count = vertices;
+    figure_free(&figure);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -223,6 +247,7 @@ int main(void)
         cmocka_unit_test(paint_shows_on_the_stage),
         cmocka_unit_test(phases_are_the_legends_colours),
         cmocka_unit_test(a_line_divides_eighths_of_a_turn),
+        cmocka_unit_test(what_is_too_large_says_so),
     };
     return cmocka_run_group_tests(tests, set_up, offscreen_close);
 }

@@ -17,6 +17,7 @@ static const uint32_t WHITE = 0xFFFFFFFFu, BLACK = 0x000000FFu;
 static struct platform *platform;
 static struct draw *draw;
 static struct drawlist list;
+static float stage_scale = 1.0f;
 static unsigned char pixels[WIDTH * HEIGHT * 4], expected[WIDTH * HEIGHT * 4];
 
 static int set_up(void **state)
@@ -52,7 +53,7 @@ static void begin(void)
 /// Draws `list` and the stage and reads the picture.
 static struct draw_cost show_on(const struct stage_view *stage, bool keeps, unsigned char *out)
 {
-    struct draw_input input = {WIDTH, HEIGHT, 1.0f, keeps, &list, stage, 0};
+    struct draw_input input = {WIDTH, HEIGHT, 1.0f, keeps, &list, stage, 0, stage_scale};
     struct draw_cost cost;
     draw_frame(draw, &input, &cost);
     platform_swap(platform);
@@ -321,6 +322,33 @@ static void test_partial_redraw_equals_full_redraw(void **state)
     assert_true(partial < (long)FRAMES * WIDTH * HEIGHT * 3 / 4);
 }
 
+// While the stage is drawn smaller, what lies over it and beside it is as sharp as ever; afterwards every pixel is exact again.
+static void test_only_the_stage_loses_resolution(void **state)
+{
+    (void)state;
+    static unsigned char reduced[sizeof pixels];
+    struct stage_view stage = some_stage(0.0f);
+    for (int pass = 0; pass < 3; pass++) {
+        begin();
+        drawlist_rect(&list, (struct rect){20.0f, 20.0f, 90.0f, 60.0f}, theme()->panel);
+        drawlist_line(&list, (const float[]){30.0f, 70.0f, 100.0f, 40.0f}, 2, 2.5f, theme()->accent);
+        drawlist_text(&list, 30.0f, 50.0f, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text, "sharp");
+        drawlist_text(&list, 210.0f, 60.0f, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text, "beside it");
+        stage_scale = pass == 1 ? 0.5f : 1.0f;
+        show_on(&stage, pass > 0, pass == 0 ? expected : pass == 1 ? reduced : pixels);
+    }
+    assert_memory_equal(pixels, expected, sizeof pixels);
+    int coarse = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        int x = i % WIDTH, y = i / WIDTH;
+        bool bare_stage = x < 200 && y < 120 && (x < 20 || x >= 110 || y < 20 || y >= 80);
+        bool same = memcmp(reduced + 4 * (size_t)i, expected + 4 * (size_t)i, 4) == 0;
+        if (!bare_stage && !same) fail_msg("pixel %d, %d lost resolution", x, y);
+        if (!same) coarse++;
+    }
+    assert_true(coarse > 1000);
+}
+
 static void record_panel(float playhead)
 {
     begin();
@@ -423,6 +451,7 @@ int main(void)
         cmocka_unit_test(test_nothing_shows_outside_its_clip),
         cmocka_unit_test(test_text_is_where_layout_says),
         cmocka_unit_test(test_partial_redraw_equals_full_redraw),
+        cmocka_unit_test(test_only_the_stage_loses_resolution),
         cmocka_unit_test(test_moving_playhead_redraws_narrow_strips),
         cmocka_unit_test(test_very_long_line_is_drawn_whole),
         cmocka_unit_test(test_reference_frame_does_not_depend_on_the_scene),

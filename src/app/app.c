@@ -28,7 +28,8 @@ static bool open_platform(struct app *app, struct error *error)
         int vsync = app->replay || o->frames ? 0 : 1;
         app->platform = platform_window(width, height, "wiggly", vsync, &refused);
         if (app->platform) return true;
-        fprintf(stderr, "wiggly: %s; running headless (see wiggly live --help for what it can write)\n", refused.text);
+        fprintf(stderr, "wiggly: %s; running headless (see wiggly live --help for what it can write)\n",
+                refused.text);
     }
     app->platform = platform_offscreen((int)lround(width * scale), (int)lround(height * scale), (float)scale, error);
     return app->platform != NULL;
@@ -124,12 +125,21 @@ static void on_lost(void *user)
     fprintf(stderr, "wiggly live: %s\n", error.text);
 }
 
+static bool set_resolution(struct app *app, struct error *error)
+{
+    const struct app_options *o = app->options;
+    bool live = platform_is_window(app->platform) && !o->replay && !o->record;
+    const char *scale = o->stage_scale ? o->stage_scale : live ? "auto" : "1";
+    return resolution_parse(&app->resolution, scale) ||
+           fail(error, ERROR_USAGE, "--stage-scale: expected auto or a number from 0.25 to 1, got '%s'", scale);
+}
+
 static bool start(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
     if (o->replay && !(app->replay = replay_load(o->replay, error))) return false;
     if (o->theme) theme_use((enum theme_kind)theme_find(o->theme));
-    if (!font_init(error) || !open_platform(app, error)) return false;
+    if (!font_init(error) || !open_platform(app, error) || !set_resolution(app, error)) return false;
     int width, height;
     float scale;
     platform_size(app->platform, &width, &height, &scale);
@@ -187,6 +197,7 @@ int app_run(const struct app_options *options, struct error *error)
     }
     double age = process_age();
     app.process_start = clock_now() - (isnan(age) ? 0 : age);
+    if (options->gl_debug) platform_debug_gl();
     bool good = start(&app, error);
     if (good) {
         long frames = options->frames                    ? options->frames
@@ -199,5 +210,8 @@ int app_run(const struct app_options *options, struct error *error)
     if (!finish(&app, good ? error : &late)) good = false;
     personal_end(&app, !good);
     app_free(&app);
+    int complaints = platform_gl_complaints();
+    if (good && complaints > 0)
+        good = fail(error, ERROR_ENVIRONMENT, "--gl-debug: the OpenGL driver complained %d times", complaints);
     return good ? 0 : error->kind == ERROR_NONE ? ERROR_ENVIRONMENT : (int)error->kind;
 }

@@ -7,20 +7,22 @@
 
 /// Zero means default throughout.
 struct app_options {
-    const char *scene;      ///< path, or NULL: the built-in tail
-    bool headless;          ///< offscreen instead of a window
-    int frames;             ///< stop after so many; 0: the replay's length, else (headless) 1200, else never
-    int width, height;      ///< logical pixels; 0: the replay's, else 1280 × 720
-    double scale;           ///< device pixels a logical pixel; 0: the replay's, else the display's (headless 1)
-    const char *theme;      ///< a theme's name, or NULL: the user's own in a window, else dark
-    bool welcome;           ///< shows what to try first
-    const char *log;        ///< timing log, CSV
-    const char *screenshot; ///< PNG of the last frame
-    const char *frames_dir; ///< a PNG for each frame
-    const char *replay;     ///< events from this file; its clock is its own
-    const char *record;     ///< events to this file
-    const char *result;     ///< the document at the end
-    const char *turns;      ///< "first" or "second": draws frames in turn with another program (platform/turns.h)
+    const char *scene;       ///< path, or NULL: the built-in tail
+    bool headless;           ///< offscreen instead of a window
+    int frames;              ///< stop after so many; 0: the replay's length, else (headless) 1200, else never
+    int width, height;       ///< logical pixels; 0: the replay's, else 1280 × 720
+    double scale;            ///< device pixels a logical pixel; 0: the replay's, else the display's (headless 1)
+    const char *stage_scale; ///< of the stage while it moves: "auto" or a number; NULL: auto in a window, else 1
+    const char *theme;       ///< a theme's name, or NULL: the user's own in a window, else dark
+    bool gl_debug;           ///< prints the OpenGL driver's messages; a complaint among them is a failure
+    bool welcome;            ///< shows what to try first
+    const char *log;         ///< timing log, CSV
+    const char *screenshot;  ///< PNG of the last frame
+    const char *frames_dir;  ///< a PNG for each frame
+    const char *replay;      ///< events from this file; its clock is its own
+    const char *record;      ///< events to this file
+    const char *result;      ///< the document at the end
+    const char *turns;       ///< "first" or "second": draws frames in turn with another program (platform/turns.h)
 };
 
 /// Runs until the user quits or the frames are done; prints the timing summary where frames were counted. Unless headless,

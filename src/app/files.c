@@ -134,6 +134,7 @@ bool app_screenshot(struct app *app, const char *path, struct error *error)
     platform_size(app->platform, &width, &height, &scale);
     unsigned char *pixels = malloc(4 * (size_t)width * (size_t)height);
     if (!pixels) return fail(error, ERROR_ENVIRONMENT, "out of memory for a picture of %d × %d", width, height);
+    app_draw_exactly(app);
     draw_read(width, height, pixels);
     bool done = png_write(path, width, height, pixels, error);
     free(pixels);
@@ -212,7 +213,8 @@ void app_requests(struct app *app)
         struct request request = editor_take_request(app->editor);
         if (request.kind == REQUEST_NONE) break;
         struct error error = {0};
-        if (!carry_out(app, &request, &error)) editor_message(app->editor, true, error.text);
+        bool done = carry_out(app, &request, &error);
+        editor_answer(app->editor, &request, done, error.text);
     }
     if (history_is_saved(app->history) != app->shown_saved) show_title(app);
 }

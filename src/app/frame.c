@@ -9,7 +9,6 @@
 #include <stdlib.h>
 
 static const double replay_dt = 1.0 / 60;
-static const double frame_time = 1.0 / 60; ///< the limiter's: a swap interval of 1 does not hold everywhere
 static const double idle_wait = 0.5;
 static const float smallest_width = 320, smallest_height = 240; ///< of the layout; less shows a part of it
 static const double longest_step = 1; ///< after a longer stall playback goes on from where it was
@@ -57,6 +56,13 @@ static void paste(struct app *app)
     if (text) handle_event(app, &(struct event){.kind = EVENT_PASTE, .text = text});
 }
 
+/// The stage's movement is timed by the frames where they keep time themselves, so that their pictures do not depend on the
+/// machine.
+static double resolution_now(const struct app *app)
+{
+    return app->fixed_clock ? (double)app->frame * replay_dt : app->frame_start;
+}
+
 /// How long the next frame may wait for input: to its turn (an event brings it forward), or for a while where nothing moves by
 /// itself. The frames of a live recording all come in their turn, because its clock counts frames.
 static double waiting_time(const struct app *app, bool wanted)
@@ -64,7 +70,7 @@ static double waiting_time(const struct app *app, bool wanted)
     double left = fmax(0, app->next_time - clock_now());
     if (app->recording && !app->replay) process_sleep(left);
     if (app->fixed_clock) return 0;
-    return wanted ? left : idle_wait;
+    return wanted ? left : fmin(idle_wait, resolution_wait(&app->resolution, clock_now()));
 }
 
 /// Waits, then takes the frame's events. false where nothing happened that would need a frame.
@@ -76,10 +82,11 @@ static bool take_input(struct app *app)
     app->was_idle = !wanted;
     int count = 0;
     const struct event *events = platform_events(app->platform, waiting_time(app, wanted), &count);
+    bool exact_due = !app->fixed_clock && resolution_wait(&app->resolution, clock_now()) == 0;
     app->frame_start = clock_now();
-    bool rested = !wanted && (count == 0 || app->frame_start - wait_start > frame_time);
+    bool rested = !wanted && (count == 0 || app->frame_start - wait_start > replay_dt);
     if (rested) app->last_swap = NAN; // the frame after a rest is not late
-    if (!wanted && count == 0) return false;
+    if (!wanted && count == 0 && !exact_due) return false;
     app->oldest_event = NAN;
     app->row = (struct frame_row){.frame = app->frame, .wait_us = microseconds(wait_start, app->frame_start)};
     app->row.allocations = allocation_count();
@@ -94,13 +101,20 @@ static bool take_input(struct app *app)
     return true;
 }
 
+/// The clock of a recording counts frames of one length, whatever the display.
+static double next_time(const struct app *app)
+{
+    if (app->fixed_clock) return fmax(app->next_time + replay_dt, app->frame_start);
+    return pace_next(&app->pace, app->next_time, app->frame_start);
+}
+
 static void edit(struct app *app)
 {
     double start = clock_now();
     double dt = app->fixed_clock ? replay_dt : fmin(fmax(app->frame_start - app->last_time, 0), longest_step);
     if (app->frame == 0 || (app->was_idle && !app->fixed_clock)) dt = 0; // what starts now has not waited since then
     app->last_time = app->frame_start;
-    app->next_time = fmax(app->next_time + frame_time, app->frame_start);
+    app->next_time = next_time(app);
     struct editor_world world = app_world(app);
     editor_advance(app->editor, &world, dt);
     app_requests(app);
@@ -120,6 +134,19 @@ static bool fit_evaluation(struct app *app, bool resized)
     return true;
 }
 
+/// Says which characters are too large for the graphics driver.
+static void check_sizes(struct app *app)
+{
+    struct error error, full;
+    for (int c = 0; app->draw && c < app->document->character_count; c++) {
+        const struct figure *figure = cast_figure(app->cast, c);
+        if (!figure || draw_can_move(figure, &error)) continue;
+        const struct character_rig *rig = &app->document->characters[c];
+        fail(&full, error.kind, "%s: %s", rig->name ? rig->name : rig->model, error.text);
+        editor_message(app->editor, true, full.text);
+    }
+}
+
 /// The models of a document that has come to the table, or come back by undo.
 static void recast(struct app *app)
 {
@@ -128,6 +155,7 @@ static void recast(struct app *app)
     app->cast_serial = app->document->serial;
     if (!scene_read_paint(app->document, &error)) editor_message(app->editor, true, error.text);
     if (!cast_update(app->cast, app->document, &error)) editor_message(app->editor, true, error.text);
+    check_sizes(app);
 }
 
 static void solve(struct app *app)
@@ -170,25 +198,48 @@ static void pose(struct app *app)
     struct editor_world world = app_world(app);
     cast_paint(app->cast, app->document);
     editor_pose(app->editor, &world);
+    float scale = resolution_choose(&app->resolution, editor_stage(app->editor)->hash, resolution_now(app));
+    editor_set_stage_scale(app->editor, scale);
     editor_show(app->editor, &world);
     app->row.pose_us = microseconds(start, clock_now());
 }
 
-static void draw(struct app *app)
+static struct draw_input draw_input(const struct app *app, float stage_scale)
 {
     struct draw_input input = {
         .keeps = !app->lost && platform_keeps(app->platform),
         .list = editor_drawlist(app->editor),
         .stage = editor_stage(app->editor),
         .frame = app->frame,
+        .stage_scale = stage_scale,
     };
     platform_size(app->platform, &input.width, &input.height, &input.scale);
+    return input;
+}
+
+/// A swap that waits for the display is no work: where the graphics card has a clock, that one counts.
+static void measure(struct app *app)
+{
+    const struct frame_row *row = &app->row;
+    double draw_ms = 1e-3 * (row->upload_us + row->draw_us);
+    double before_ms = row->frame_ms - draw_ms - 1e-3 * row->swap_us;
+    if (isnan(row->gpu_us))
+        draw_ms += 1e-3 * row->swap_us;
+    else
+        draw_ms = fmax(draw_ms, 1e-3 * row->gpu_us);
+    resolution_measure(&app->resolution, before_ms + draw_ms, draw_ms);
+}
+
+static void draw(struct app *app)
+{
+    struct draw_input input = draw_input(app, app->resolution.shown);
     struct draw_cost cost = {0};
     draw_frame(app->draw, &input, &cost);
     app->lost = false;
     double swap_start = clock_now();
     platform_swap(app->platform);
     double end = clock_now();
+    pace_swapped(&app->pace, end, !app->was_idle && cost.rectangles > 0);
     app->row.upload_us = cost.upload_us;
     app->row.draw_us = cost.draw_us;
     app->row.gpu_us = NAN;
@@ -201,7 +252,16 @@ static void draw(struct app *app)
     app->last_swap = end;
     app->row.event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
     app->row.allocations = allocation_count() - app->row.allocations;
+    if (app->resolution.changed == resolution_now(app)) measure(app);
     platform_cursor(app->platform, editor_cursor(app->editor));
+}
+
+void app_draw_exactly(struct app *app)
+{
+    if (!app->draw || resolution_is_exact(&app->resolution)) return;
+    struct draw_input input = draw_input(app, 1);
+    struct draw_cost cost;
+    draw_frame(app->draw, &input, &cost);
 }
 
 static void log_frame(struct app *app)
@@ -214,6 +274,7 @@ static void log_frame(struct app *app)
         editor_set_stats(app->editor, fps, app->row.solve_us);
         app->stats_time = now;
         app->stats_frame = app->frame;
+        pace_set_rate(&app->pace, platform_refresh_rate(app->platform));
     }
     if (!app->options->frames_dir) return;
     char path[PATH_MAX + 32]; // what is cut off here is longer than the system takes

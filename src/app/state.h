@@ -3,8 +3,10 @@
 #define APP_STATE_H
 
 #include "app/app.h"
+#include "app/pace.h"
 #include "app/personal.h"
 #include "app/replay.h"
+#include "app/resolution.h"
 #include "draw/draw.h"
 #include "editor/editor.h"
 #include "platform/platform.h"
@@ -38,10 +40,12 @@ struct app {
     struct framelog *log;
     struct frame_row row; ///< of the frame in progress
     double frame_start, oldest_event;
-    double last_swap;     ///< when the last frame's swap ended; NAN where the next one's interval means nothing
-    bool fixed_clock;     ///< every frame is 1/60 s (headless, replays, recordings)
-    bool was_idle;        ///< nothing moved by itself before this frame
-    bool lost;            ///< the framebuffer does not hold the last frame
+    double last_swap; ///< when the last frame's swap ended; NAN where the next one's interval means nothing
+    bool fixed_clock; ///< every frame is 1/60 s (headless, replays, recordings)
+    bool was_idle;    ///< nothing moved by itself before this frame
+    bool lost;        ///< the framebuffer does not hold the last frame
+    struct pace pace;
+    struct resolution resolution;
     double process_start; ///< on the clock
     double last_time, next_time, stats_time;
     long frame, stats_frame;
@@ -91,7 +95,10 @@ void app_copy(struct app *app);
 /// What is on the clipboard, or NULL with a sentence to the user where it is no text or too much.
 const char *app_clipboard_text(struct app *app);
 
-/// The framebuffer's content as PNG.
+/// Draws what the last frame showed again where its stage was of a lower resolution.
+void app_draw_exactly(struct app *app);
+
+/// The picture of the last frame as PNG, always an exact one.
 bool app_screenshot(struct app *app, const char *path, struct error *error);
 
 #endif

@@ -56,12 +56,13 @@ static void mark(struct damage *damage, uint64_t *cells, struct area area, uint6
     }
 }
 
-static void hash_cells(struct damage *damage, float scale, const struct drawlist *list, struct area viewport,
-                       uint64_t stage_hash)
+static void hash_cells(struct damage *damage, float scale, const struct drawlist *list,
+                       const struct damage_stage *stage)
 {
     uint64_t *cells = damage->hashes[damage->current];
     for (int i = 0; i < damage->columns.count * damage->rows.count; i++) cells[i] = HASH_START;
-    mark(damage, cells, viewport, stage_hash);
+    mark(damage, cells, stage->viewport, stage->hash);
+    mark(damage, cells, stage->moving, stage->moving_hash);
     for (int i = 0; i < list->count; i++) {
         mark(damage, cells, area_outer(list->commands[i].bounds, scale), list->commands[i].hash);
     }
@@ -180,13 +181,14 @@ static void reduce(struct pile *pile, struct area viewport)
 }
 
 void damage_update(struct damage *damage, int width, int height, float scale, const struct drawlist *list,
-                   struct area viewport, uint64_t stage_hash)
+                   const struct damage_stage *stage)
 {
+    const struct area viewport = stage->viewport;
     bool new_columns = set_axis(&damage->columns, width, viewport.x0, viewport.x1);
     bool new_rows = set_axis(&damage->rows, height, viewport.y0, viewport.y1);
     if (new_columns || new_rows) damage->known = false;
     damage->current = 1 - damage->current;
-    hash_cells(damage, scale, list, viewport, stage_hash);
+    hash_cells(damage, scale, list, stage);
     struct area whole = {0, 0, width, height};
     struct pile pile = {.count = 0};
     if (damage->known) {

@@ -1,7 +1,7 @@
 /// What changed since the last frame, as a few rectangles. Private to draw/.
 ///
 /// The framebuffer is divided into cells, with the stage's viewport on their borders. A cell's hash combines, in painter's
-/// order, the hashes of the commands that touch it, and the stage's inside its viewport. Cells whose hash is not the last
+/// order, the hashes of what is on the stage there and of the commands that touch it. Cells whose hash is not the last
 /// frame's are gathered into rectangles.
 #ifndef DRAW_DAMAGE_H
 #define DRAW_DAMAGE_H
@@ -28,13 +28,19 @@ struct damage {
     int count;
 };
 
+/// The stage below the list: its viewport, and what moves inside it.
+struct damage_stage {
+    struct area viewport, moving;
+    uint64_t hash, moving_hash; ///< of everything outside `moving`; of all
+};
+
 /// The framebuffer's content is no longer that of the last damage_update().
 void damage_forget(struct damage *damage);
 
 /// Compares a frame of width × height device pixels with the last one and fills `rectangles`; all of it where nothing is
-/// known of the last one. At most one rectangle touches `viewport` (the stage's), because drawing it costs the same
+/// known of the last one. At most one rectangle touches the stage's viewport, because drawing it costs the same
 /// however little of it shows.
 void damage_update(struct damage *damage, int width, int height, float scale, const struct drawlist *list,
-                   struct area viewport, uint64_t stage_hash);
+                   const struct damage_stage *stage);
 
 #endif

@@ -1,9 +1,13 @@
 #include "draw/draw.h"
+#include "base/hash.h"
 #include "draw/batch.h"
 #include "draw/damage.h"
 #include "draw/paint.h"
 #include "draw/reference.h"
 #include "draw/stage.h"
+#include "draw/stage_extent.h"
+#include "draw/stage_morph.h"
+#include "draw/stage_target.h"
 #include "draw/timer.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -14,6 +18,7 @@
 struct draw {
     struct batch batch;
     struct stage_renderer *stage;
+    struct stage_target stage_target;
     struct atlas atlas;
     GLuint atlas_texture;
     struct line_scratch scratch;
@@ -27,11 +32,20 @@ static bool is_software(const char *renderer)
     return strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") || strstr(renderer, "Software");
 }
 
+static bool is_reduced(float stage_scale) { return stage_scale > 0.0f && stage_scale < 1.0f; }
+
 /// Rasterises the fonts for `scale` and puts them into the texture; the old ones stay where that fails.
 static bool load_atlas(struct draw *draw, float scale, struct error *error)
 {
     struct atlas atlas;
     if (!atlas_build(scale, &atlas, error)) return false;
+    const int largest = gl_largest_texture();
+    if (atlas.width > largest || atlas.height > largest) {
+        fail(error, ERROR_ENVIRONMENT, "the fonts need a texture of %d × %d, this OpenGL driver takes %d",
+             atlas.width, atlas.height, largest);
+        atlas_free(&atlas);
+        return false;
+    }
     atlas_free(&draw->atlas);
     draw->atlas = atlas;
     if (!draw->atlas_texture) glGenTextures(1, &draw->atlas_texture);
@@ -69,11 +83,23 @@ void draw_destroy(struct draw *draw)
     if (!draw) return;
     gpu_timer_destroy(&draw->timer);
     reference_destroy(&draw->reference);
+    stage_target_destroy(&draw->stage_target);
     if (draw->stage) stage_renderer_destroy(draw->stage);
     if (draw->atlas_texture) glDeleteTextures(1, &draw->atlas_texture);
     atlas_free(&draw->atlas);
     batch_destroy(&draw->batch);
     free(draw);
+}
+
+/// The part of the stage that shows in `visible`.
+static void draw_stage(struct draw *draw, const struct draw_input *input, struct area viewport, struct area visible)
+{
+    const struct stage_place place = {viewport, visible, input->height};
+    const float scale = input->stage_scale;
+    if (is_reduced(scale) && stage_target_draw(&draw->stage_target, draw->stage, input->stage, place, scale)) return;
+    int width = viewport.x1 - viewport.x0, height = viewport.y1 - viewport.y0;
+    batch_apply_scissor(visible, input->height);
+    stage_draw(draw->stage, input->stage, viewport.x0, input->height - viewport.y1, width, height);
 }
 
 /// The bottom layer of one rectangle: panel colour, and the stage where its viewport is touched.
@@ -89,9 +115,21 @@ static void draw_below(struct draw *draw, const struct draw_input *input, struct
         glClear(GL_COLOR_BUFFER_BIT);
     }
     if (area_empty(on_stage)) return;
-    int width = viewport.x1 - viewport.x0, height = viewport.y1 - viewport.y0;
-    batch_apply_scissor(on_stage, input->height);
-    stage_draw(draw->stage, input->stage, viewport.x0, input->height - viewport.y1, width, height);
+    draw_stage(draw, input, viewport, on_stage);
+}
+
+/// At a lower resolution every pixel of the stage is another one, and what moves reaches as much farther as it is enlarged.
+static struct damage_stage describe_stage(const struct draw_input *input)
+{
+    static const float seam = 3.0f; ///< pixels that the soft silhouette sticks out, and a little
+    if (!input->stage) return (struct damage_stage){0};
+    struct damage_stage stage = {.viewport = area_rounded(input->stage->viewport, input->scale),
+                                 .hash = stage_backdrop_hash(input->stage),
+                                 .moving_hash = input->stage->hash};
+    const float scale = is_reduced(input->stage_scale) ? input->stage_scale : 1.0f;
+    stage.moving = stage_extent(input->stage, stage.viewport, (int)ceilf(seam / scale));
+    stage.hash = hash_bytes(stage.hash, &scale, sizeof scale);
+    return stage;
 }
 
 static bool any_touches(const struct damage *damage, struct area viewport)
@@ -137,13 +175,16 @@ void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_c
     // Without memory for the new size the old glyphs serve, if not as sharply.
     if (input->scale != draw->atlas.scale) load_atlas(draw, input->scale, NULL);
     if (!input->keeps) damage_forget(&draw->damage);
-    struct area viewport = {0};
-    if (input->stage) viewport = area_rounded(input->stage->viewport, input->scale);
-    damage_update(&draw->damage, input->width, input->height, input->scale, input->list, viewport,
-                  input->stage ? input->stage->hash : 0);
+    const struct damage_stage stage = describe_stage(input);
+    damage_update(&draw->damage, input->width, input->height, input->scale, input->list, &stage);
     double compared = timer_now_us() - start;
-    if (draw->damage.count > 0) draw_damage(draw, input, viewport, cost);
+    if (draw->damage.count > 0) draw_damage(draw, input, stage.viewport, cost);
     cost->draw_us += compared;
+}
+
+bool draw_can_move(const struct figure *figure, struct error *error)
+{
+    return stage_morph_fits(figure, gl_largest_texture(), error);
 }
 
 void draw_read(int width, int height, unsigned char *rgba)
@@ -166,7 +207,7 @@ double draw_reference_ms(struct draw *draw, int width, int height, int count)
 {
     const float scale = draw->atlas.scale;
     reference_arrange(&draw->reference, (float)width / scale, (float)height / scale);
-    struct draw_input input = {width, height, scale, false, &draw->reference.list, &draw->reference.stage, -1};
+    struct draw_input input = {width, height, scale, false, &draw->reference.list, &draw->reference.stage, -1, 1.0f};
     for (int i = 0; i < count && i < REFERENCE_RUNS_MAX; i++) {
         struct draw_cost cost;
         double start = timer_now_us();

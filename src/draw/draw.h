@@ -24,6 +24,8 @@ struct draw_input {
     const struct drawlist *list;
     const struct stage_view *stage; ///< drawn below the list, in its viewport; NULL where there is none
     long frame;                     ///< its number, which the GPU's time comes back with
+    /// The stage's pixels a device pixel, a side: below 1 it is drawn smaller and enlarged; 0 means 1.
+    float stage_scale;
 };
 
 /// What drawing cost. Times in microseconds.
@@ -37,6 +39,10 @@ struct draw_cost {
 };
 
 void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_cost *cost);
+
+/// Whether a character's figure can be moved here; false with a sentence about what the driver is too small for. It is then
+/// drawn at rest.
+bool draw_can_move(const struct figure *figure, struct error *error);
 
 /// Reads the framebuffer back: width·height·4 bytes, top row first, alpha 255.
 void draw_read(int width, int height, unsigned char *rgba);

@@ -72,3 +72,10 @@ void gl_uniform_linear(GLint location, uint32_t color)
     }
     glUniform3fv(location, 1, linear);
 }
+
+int gl_largest_texture(void)
+{
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    return largest;
+}

@@ -10,6 +10,9 @@
 /// first complaint as a sentence where that fails.
 GLuint gl_program(const char *vertex_name, const char *fragment_name, struct error *error);
 
+/// Texels a side of the largest texture.
+int gl_largest_texture(void);
+
 /// Sets a vec3 of the program in use to a colour 0xRRGGBBAA (sRGB), made linear.
 void gl_uniform_linear(GLint location, uint32_t color);
 

@@ -1,5 +1,6 @@
 #include "draw/stage_flat.h"
 #include "draw/gl.h"
+#include "draw/stage_extent.h"
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -106,18 +107,9 @@ static void add_disc(struct stage_flat *flat, const float clip_from_world[16], f
     flat->quads++;
 }
 
-/// Height of the ground that the lowest rig stands on.
-static float lowest_ground(const struct stage_view *view)
-{
-    float lowest = INFINITY;
-    for (int t = 0; t < view->tail_count; t++) lowest = fminf(lowest, view->tails[t].pose.ground);
-    for (int c = 0; c < view->character_count; c++) lowest = fminf(lowest, view->characters[c].position[1]);
-    return lowest < INFINITY ? lowest : 0.0f;
-}
-
 long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view)
 {
-    const float ground = lowest_ground(view);
+    const float ground = stage_lowest_ground(view);
     float clip_from_world[16];
     stage_clip_from_world(view, clip_from_world);
     flat->quads = 0;

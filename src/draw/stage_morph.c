@@ -103,17 +103,26 @@ static void pack_row(const struct figure *figure, int coordinate, int row, float
     memset(texels + 4 * TEXELS * count, 0, (size_t)(ROW_VERTICES - count) * 4 * TEXELS * sizeof *texels);
 }
 
+bool stage_morph_fits(const struct figure *figure, int largest, struct error *error)
+{
+    const struct character *c = &figure->character;
+    const int rows = figure_blocks(figure) * c->coordinate_count + 1;
+    if (rows <= largest && TEXELS * ROW_VERTICES <= largest) return true;
+    return fail(
+        error, ERROR_ENVIRONMENT,
+        "%d vertices with %d coordinates need a texture of %d × %d, this OpenGL driver takes %d: it stands still",
+        c->vertex_count, c->coordinate_count, TEXELS * ROW_VERTICES, rows, largest);
+}
+
 static long upload_coordinates(struct model *model, const struct figure *figure)
 {
     const struct character *c = &figure->character;
     const int width = TEXELS * ROW_VERTICES;
-    GLint largest = 0;
     model->rows = figure_blocks(figure);
     const int height = model->rows * c->coordinate_count;
     const size_t bytes = (size_t)width * (size_t)(height + 1) * 4 * sizeof(float);
     float *texels = calloc(1, bytes);
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-    if (!texels || height > largest) { // it stands still
+    if (!texels || !stage_morph_fits(figure, gl_largest_texture(), NULL)) { // it stands still
         free(texels);
         return 0;
     }
@@ -161,11 +170,14 @@ static long upload_vertices(struct model *model, const struct figure *figure)
     const size_t bytes = 3 * sizeof(float) * (size_t)c->vertex_count;
     const void *const arrays[] = {c->position, c->normal, figure->tangent, c->color};
     model->vertices = upload_buffer(GL_ARRAY_BUFFER, 4 * bytes, NULL);
+    char *out = glMapBufferRange(GL_ARRAY_BUFFER, 0, (GLsizeiptr)(4 * bytes),
+                                 GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
     for (GLuint a = 0; a < 4; a++) {
-        glBufferSubData(GL_ARRAY_BUFFER, (GLintptr)(a * bytes), (GLsizeiptr)bytes, arrays[a]);
+        if (out) memcpy(out + a * bytes, arrays[a], bytes);
         glEnableVertexAttribArray(a);
         glVertexAttribPointer(a, 3, GL_FLOAT, GL_FALSE, 0, (const void *)(a * bytes));
     }
+    glUnmapBuffer(GL_ARRAY_BUFFER);
     return (long)(4 * bytes);
 }
 

@@ -1,7 +1,7 @@
 #include "platform/platform.h"
 #include "platform/surface.h"
-#include <dlfcn.h>
-#include <string.h>
+#include "platform/symbol.h"
+#include "platform/wayland.h"
 #include <unistd.h>
 
 enum { EXIT_LOST = 3 };
@@ -38,19 +38,11 @@ static int on_error(void *display, void *event)
     return 0;
 }
 
-/// GLFW has loaded Xlib where it uses it, which saves the program a dependency of its own.
-static bool find(const char *name, void *function)
-{
-    void *symbol = dlsym(RTLD_DEFAULT, name);
-    if (symbol) memcpy(function, &symbol, sizeof symbol);
-    return symbol != NULL;
-}
-
 /// GLFW takes the handler of errors away whenever it expects one itself.
 static bool handle_errors(void)
 {
     static x_error_handler *(*set)(x_error_handler *);
-    if (!set && !find("XSetErrorHandler", &set)) return false;
+    if (!set && !symbol_find("XSetErrorHandler", &set)) return false;
     set(on_error);
     return true;
 }
@@ -60,12 +52,13 @@ void platform_on_lost(platform_rescue *function, void *user)
     x_handler *(*set)(x_handler *);
     rescue = function;
     rescue_user = user;
-    if (find("XSetIOErrorHandler", &set)) set(on_io_error);
+    if (symbol_find("XSetIOErrorHandler", &set)) set(on_io_error);
     handle_errors();
 }
 
 void window_check(const struct window *window, bool idle)
 {
+    if (rescue && wayland_is_lost()) end();
     if (!rescue || !handle_errors() || !(error_seen || idle)) return;
     error_seen = false;
     window_ask_place(window);

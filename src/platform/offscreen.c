@@ -1,3 +1,4 @@
+#include "platform/gl_debug.h"
 #include "platform/surface.h"
 #include <dlfcn.h>
 #include <epoxy/egl.h>
@@ -45,9 +46,15 @@ static bool open_display(struct offscreen *offscreen, EGLDisplay display)
 {
     static const EGLint config_wishes[] = {EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
                                            EGL_NONE};
-    static const EGLint context_wishes[] = {
-        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    const EGLint context_wishes[] = {EGL_CONTEXT_FLAGS_KHR,
+                                     gl_debug_wanted() ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0,
+                                     EGL_CONTEXT_MAJOR_VERSION,
+                                     3,
+                                     EGL_CONTEXT_MINOR_VERSION,
+                                     3,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                     EGL_NONE};
     EGLint major = 0, minor = 0, count = 0;
     EGLConfig config = EGL_NO_CONFIG_KHR;
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, &major, &minor)) return false;

@@ -1,4 +1,5 @@
 #include "platform/platform.h"
+#include "platform/gl_debug.h"
 #include "platform/process.h"
 #include "platform/surface.h"
 #include <epoxy/gl.h>
@@ -23,6 +24,10 @@ struct platform *platform_window(int width, int height, const char *title, int v
         return NULL;
     }
     keep_driver_loaded();
+    if (!gl_debug_start(error)) {
+        platform_destroy(platform);
+        return NULL;
+    }
     platform->keeps = probe_keeps(platform->window);
     return platform;
 }
@@ -37,7 +42,9 @@ struct platform *platform_offscreen(int width, int height, float scale, struct e
         return NULL;
     }
     platform->keeps = true;
-    return platform;
+    if (gl_debug_start(error)) return platform;
+    platform_destroy(platform);
+    return NULL;
 }
 
 void platform_destroy(struct platform *platform)
@@ -79,6 +86,11 @@ void platform_swap(struct platform *platform)
     } else {
         glFinish();
     }
+}
+
+double platform_refresh_rate(struct platform *platform)
+{
+    return platform->window ? window_refresh_rate(platform->window) : 0;
 }
 
 bool platform_is_window(const struct platform *platform) { return platform->window != NULL; }

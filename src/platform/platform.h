@@ -8,6 +8,11 @@
 
 struct platform;
 
+/// Call this first to have each of the OpenGL driver's messages, but mere notifications, printed once to stderr. How many
+/// there were that should not be: errors, and whatever is undefined, deprecated or not portable; not those about speed.
+void platform_debug_gl(void);
+int platform_gl_complaints(void);
+
 /// A window (GLX under X11) with a current 3.3 core context. Swap interval `vsync` 0 or 1.
 /// NULL with a sentence: no display answers or takes us in, no GLX, version.
 struct platform *platform_window(int width, int height, const char *title, int vsync, struct error *error);
@@ -29,6 +34,9 @@ bool platform_keeps(const struct platform *platform);
 
 /// Shows the frame; offscreen: glFinish.
 void platform_swap(struct platform *platform);
+
+/// Pictures a second of the monitor that shows most of the window; 0 where that is not known. Asks the display.
+double platform_refresh_rate(struct platform *platform);
 
 bool platform_is_window(const struct platform *platform);
 void platform_title(struct platform *platform, const char *title);

@@ -33,6 +33,7 @@ void window_destroy(struct window *window);
 struct surface_size window_size(const struct window *window);
 void window_wait(struct window *window, double seconds);
 void window_swap(struct window *window);
+double window_refresh_rate(struct window *window);
 /// Asks the display where the window is: an error where it does not exist any more.
 void window_ask_place(const struct window *window);
 /// Ends the process as platform_on_lost() says where somebody else has destroyed the window, which an error of the display

@@ -1,6 +1,8 @@
 #include "base/clock.h"
+#include "platform/gl_debug.h"
 #include "platform/keys.h"
 #include "platform/surface.h"
+#include "platform/wayland.h"
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -202,6 +204,7 @@ static GLFWwindow *open_handle(int width, int height, const char *title)
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_NATIVE_CONTEXT_API);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, gl_debug_wanted());
     glfwWindowHint(GLFW_SAMPLES, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
@@ -224,6 +227,7 @@ static void create_cursors(struct window *window)
         [CURSOR_HORIZONTAL] = GLFW_HRESIZE_CURSOR, [CURSOR_VERTICAL] = GLFW_VRESIZE_CURSOR,
         [CURSOR_MOVE] = GLFW_CROSSHAIR_CURSOR,     [CURSOR_TEXT] = GLFW_IBEAM_CURSOR,
     };
+    if (!wayland_allows_cursors()) return;
     for (int i = 0; i < CURSOR_KINDS; i++) window->cursors[i] = glfwCreateStandardCursor(shapes[i]);
 }
 
@@ -318,6 +322,13 @@ static GLFWmonitor *nearest_monitor(struct window *window)
     return best;
 }
 
+double window_refresh_rate(struct window *window)
+{
+    GLFWmonitor *monitor = nearest_monitor(window);
+    const GLFWvidmode *mode = monitor ? glfwGetVideoMode(monitor) : NULL;
+    return mode ? mode->refreshRate : 0.0;
+}
+
 void window_fullscreen(struct window *window, bool on)
 {
     if (on == window->is_fullscreen) return;
@@ -341,5 +352,5 @@ void window_cursor(struct window *window, enum cursor cursor)
 {
     if (cursor == window->cursor) return;
     window->cursor = cursor;
-    glfwSetCursor(window->handle, window->cursors[cursor]);
+    if (window->cursors[cursor]) glfwSetCursor(window->handle, window->cursors[cursor]);
 }

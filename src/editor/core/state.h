@@ -333,6 +333,7 @@ struct editor {
     char path[1024]; ///< of the document's own file, or ""
     struct message message;
     double fps, solve_us; ///< from editor_set_stats()
+    float stage_scale;    ///< from editor_set_stage_scale(); 0 means 1
 
     char *clipboard; ///< knots that were copied, as text; NULL at first
     struct request requests[EDITOR_MAX_REQUESTS];

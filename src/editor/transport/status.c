@@ -90,7 +90,7 @@ static float show_title(struct editor *editor, const struct editor_world *world,
 static void figures_text(const struct editor *editor, const struct editor_world *world, char *text, size_t size)
 {
     const struct status *status = &editor->status;
-    char fps[64] = "", solve[32] = "";
+    char stage[32] = "", fps[64] = "", solve[32] = "";
     if (editor->playback.playing && status->fps > 0) {
         snprintf(fps, sizeof fps, "%.0f fps  %ld dropped", status->fps, status->dropped);
     }
@@ -99,7 +99,11 @@ static void figures_text(const struct editor *editor, const struct editor_world 
     } else if (status->solve_us >= SOLVED) {
         snprintf(solve, sizeof solve, "solve %.0f µs", status->solve_us);
     }
-    snprintf(text, size, "%s%s%s", fps, fps[0] && solve[0] ? "  " : "", solve);
+    if (editor->stage_scale > 0 && editor->stage_scale < 1) {
+        snprintf(stage, sizeof stage, "stage at %.0f %%", 100 * (double)editor->stage_scale);
+    }
+    snprintf(text, size, "%s%s%s%s%s", stage, stage[0] && (fps[0] || solve[0]) ? "  " : "", fps,
+             fps[0] && solve[0] ? "  " : "", solve);
 }
 
 void status_show(struct editor *editor, const struct editor_world *world)

@@ -1,0 +1,81 @@
+#include "app/resolution.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const float levels[] = {1.0f, 0.5f, 0.375f, 0.25f};
+enum { LEVELS = sizeof levels / sizeof *levels };
+enum { SLOW_FRAMES = 4, PATIENCE = 60, LONGEST_PATIENCE = 32 * PATIENCE };
+static const double too_long = 31; ///< ms: 30 frames a second, and a little for the system
+static const double short_again = 25;
+static const double still = 0.15; ///< seconds without a change; a mouse that is being dragged pauses for less
+
+bool resolution_parse(struct resolution *resolution, const char *text)
+{
+    char *end;
+    *resolution = (struct resolution){.adapts = strcmp(text, "auto") == 0};
+    if (resolution->adapts) return true;
+    resolution->moving = strtof(text, &end);
+    return end != text && *end == '\0' && resolution->moving >= levels[LEVELS - 1] && resolution->moving <= 1;
+}
+
+static float scale_of(float stored) { return stored > 0 ? stored : 1; }
+
+float resolution_choose(struct resolution *resolution, uint64_t hash, double now)
+{
+    const bool again = resolution->hash && now - resolution->changed < still;
+    if (hash != resolution->hash) {
+        // A single change is no movement: it is drawn exactly at once.
+        resolution->shown = again ? scale_of(resolution->moving) : 1;
+        resolution->hash = hash;
+        resolution->changed = now;
+    } else if (!again) {
+        resolution->shown = 1;
+    }
+    return scale_of(resolution->shown);
+}
+
+bool resolution_is_exact(const struct resolution *resolution) { return scale_of(resolution->shown) == 1; }
+
+double resolution_wait(const struct resolution *resolution, double now)
+{
+    if (resolution_is_exact(resolution)) return INFINITY;
+    return fmax(0, resolution->changed + still - now);
+}
+
+static int level_of(float scale)
+{
+    int level = 0;
+    while (level + 1 < LEVELS && levels[level] > scale) level++;
+    return level;
+}
+
+/// A leaky count of the frames for which something holds.
+static int count(int before, bool holds) { return holds ? before + 1 : before > 0 ? before - 1 : 0; }
+
+static void step(struct resolution *resolution, int level, bool down)
+{
+    const bool failed = down && resolution->tried && resolution->since < PATIENCE;
+    if (failed && resolution->patience < LONGEST_PATIENCE) resolution->patience *= 2;
+    resolution->tried = !down;
+    resolution->moving = levels[level];
+    resolution->slow = resolution->quick = resolution->since = 0;
+}
+
+void resolution_measure(struct resolution *resolution, double frame_ms, double draw_ms)
+{
+    if (!resolution->adapts) return;
+    const int level = level_of(scale_of(resolution->moving));
+    // Fewer pixels help only where drawing is what takes the time.
+    const bool slow = frame_ms > too_long && draw_ms > frame_ms / 2;
+    resolution->slow = count(resolution->slow, slow);
+    resolution->quick = count(resolution->quick, frame_ms < short_again);
+    resolution->since++;
+    if (resolution->patience == 0 || (resolution->tried && resolution->since > PATIENCE))
+        resolution->patience = PATIENCE;
+    if (resolution->slow >= SLOW_FRAMES && level + 1 < LEVELS) {
+        step(resolution, level + 1, true);
+    } else if (level > 0 && resolution->quick >= resolution->patience) {
+        step(resolution, level - 1, false);
+    }
+}

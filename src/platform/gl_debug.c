@@ -1,0 +1,80 @@
+#include "platform/gl_debug.h"
+#include "base/hash.h"
+#include "platform/platform.h"
+#include <epoxy/gl.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { SEEN_MAX = 64 };
+
+/// A driver's callback has nowhere else to keep this: it may come at any call, in one context that is current as long as the
+/// process lives.
+static struct {
+    uint64_t seen[SEEN_MAX];
+    int seen_count, complaints;
+    bool wanted;
+} messages;
+
+static const char *kind_of(GLenum type)
+{
+    switch (type) {
+    case GL_DEBUG_TYPE_ERROR:
+        return "error";
+    case GL_DEBUG_TYPE_DEPRECATED_BEHAVIOR:
+        return "deprecated";
+    case GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR:
+        return "undefined";
+    case GL_DEBUG_TYPE_PORTABILITY:
+        return "portability";
+    case GL_DEBUG_TYPE_PERFORMANCE:
+        return "performance";
+    default:
+        return "other";
+    }
+}
+
+/// Words about speed, and of low severity about other things, are for reading only.
+static bool is_complaint(GLenum type, GLenum severity)
+{
+    if (type == GL_DEBUG_TYPE_PERFORMANCE) return false;
+    return type != GL_DEBUG_TYPE_OTHER || severity != GL_DEBUG_SEVERITY_LOW;
+}
+
+static bool is_new(const char *text, size_t length)
+{
+    const uint64_t hash = hash_bytes(HASH_START, text, length);
+    for (int i = 0; i < messages.seen_count; i++) {
+        if (messages.seen[i] == hash) return false;
+    }
+    if (messages.seen_count < SEEN_MAX) messages.seen[messages.seen_count++] = hash;
+    return true;
+}
+
+static void APIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                                const GLchar *text, const void *user)
+{
+    (void)source;
+    (void)user;
+    if (severity == GL_DEBUG_SEVERITY_NOTIFICATION) return;
+    const size_t size = length < 0 ? strlen(text) : (size_t)length;
+    messages.complaints += is_complaint(type, severity);
+    if (is_new(text, size)) fprintf(stderr, "OpenGL, %s %u: %.*s\n", kind_of(type), id, (int)size, text);
+}
+
+void platform_debug_gl(void) { messages.wanted = true; }
+
+bool gl_debug_wanted(void) { return messages.wanted; }
+
+bool gl_debug_start(struct error *error)
+{
+    if (!messages.wanted) return true;
+    if (epoxy_gl_version() < 43 && !epoxy_has_gl_extension("GL_KHR_debug"))
+        return fail(error, ERROR_ENVIRONMENT, "--gl-debug: this OpenGL driver has no GL_KHR_debug");
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS); // where a debugger stops is then the call that it is about
+    glDebugMessageCallback(on_message, NULL);
+    glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, NULL, GL_TRUE);
+    return true;
+}
+
+int platform_gl_complaints(void) { return messages.complaints; }

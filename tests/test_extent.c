@@ -1,0 +1,96 @@
+// Of the stage only what moves is drawn again: every frame of every scene is the picture that drawing all of it gives.
+#include "blind.h"
+
+#include "draw/draw.h"
+#include "temporary.h"
+#include <dirent.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { WIDTH = 480, HEIGHT = 360, FRAMES = 9, STRIDE = 11 };
+static unsigned char partial[WIDTH * HEIGHT * 4], whole[WIDTH * HEIGHT * 4];
+
+static bool open_picture(struct app *app)
+{
+    struct error error;
+    free(app->platform);
+    app->platform = platform_offscreen(WIDTH, HEIGHT, 1, &error);
+    app->draw = app->platform ? draw_create(1, &error) : NULL;
+    if (!app->draw) print_message("skipped: %s\n", error.text);
+    app_resize(app, WIDTH, HEIGHT, 1);
+    return app->draw != NULL;
+}
+
+static void draw_whole(struct app *app)
+{
+    struct draw_cost cost;
+    const struct draw_input input = {.width = WIDTH,
+                                     .height = HEIGHT,
+                                     .scale = 1,
+                                     .list = editor_drawlist(app->editor),
+                                     .stage = editor_stage(app->editor)};
+    draw_frame(app->draw, &input, &cost);
+    draw_read(WIDTH, HEIGHT, whole);
+}
+
+/// Plays a scene, from some time on with onion skins.
+static void compare_frames(const char *scene)
+{
+    struct blind blind;
+    blind_open(&blind, scene);
+    struct app *app = &blind.app;
+    if (!open_picture(app)) {
+        app->platform = app->platform ? app->platform : calloc(1, sizeof *app->platform);
+        blind_close(&blind);
+        skip();
+    }
+    for (int frame = 0; frame < FRAMES * STRIDE; frame++) {
+        if (frame == FRAMES)
+            blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = 'O', .action = ACTION_PRESS});
+        blind_frame(&blind);
+        if (frame % STRIDE) continue;
+        draw_read(WIDTH, HEIGHT, partial);
+        draw_whole(app);
+        if (memcmp(partial, whole, sizeof whole) != 0) fail_msg("%s: frame %d differs", scene, frame);
+    }
+    blind_close(&blind);
+}
+
+static void each_scene(void **state)
+{
+    (void)state;
+    DIR *folder = opendir("assets/scenes");
+    assert_non_null(folder);
+    int count = 0;
+    for (struct dirent *entry; (entry = readdir(folder));) {
+        char path[300];
+        if (!strstr(entry->d_name, ".json")) continue;
+        snprintf(path, sizeof path, "assets/scenes/%s", entry->d_name);
+        compare_frames(path);
+        count++;
+    }
+    closedir(folder);
+    assert_true(count > 8);
+}
+
+/// Few joints bend the most: the skin between them is farthest from where they are.
+static void tails_of_few_joints(void **state)
+{
+    (void)state;
+    static const char text[] = "{\"wiggly\": 1, \"frames\": [0, 60], \"loop\": true, \"splines\": [{\"name\": \"s\", "
+                               "\"frequency\": 1, \"knots\": "
+                               "[{\"frame\": 0, \"value\": 3}, {\"frame\": 30, \"value\": -3}]}], \"tails\": "
+                               "[{\"name\": \"t\", \"joints\": %d, "
+                               "\"channels\": [{\"spline\": \"s\", \"axis\": \"side\", \"gain\": 50, \"lag\": 9}]}]}";
+    for (int joints = 1; joints <= 5; joints++) {
+        char scene[700];
+        int length = snprintf(scene, sizeof scene, text, joints);
+        compare_frames(temporary_file("extent.json", scene, (size_t)length));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(each_scene), cmocka_unit_test(tails_of_few_joints)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

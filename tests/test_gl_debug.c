@@ -1,0 +1,30 @@
+// What --gl-debug counts: a wrong call is a complaint, good ones are none.
+#include "near.h"
+
+#include "platform/platform.h"
+#include <epoxy/gl.h>
+
+static void wrong_calls_are_counted(void **state)
+{
+    (void)state;
+    struct error error = {0};
+    platform_debug_gl();
+    struct platform *platform = platform_offscreen(64, 64, 1, &error);
+    if (!platform) {
+        print_message("skipped: %s\n", error.text);
+        skip();
+    }
+    glClear(GL_COLOR_BUFFER_BIT);
+    assert_int_equal(platform_gl_complaints(), 0);
+    for (int i = 1; i <= 3; i++) {
+        glEnable(0xDEAD);
+        assert_int_equal(platform_gl_complaints(), i);
+    }
+    platform_destroy(platform);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_calls_are_counted)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

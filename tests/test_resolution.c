@@ -1,0 +1,110 @@
+// When the stage is drawn at a lower resolution, and when exactly again.
+#include "near.h"
+
+#include "app/resolution.h"
+
+static const double frame = 1.0 / 60;
+
+/// Moves for that many frames of so long, of which drawing takes all but `other`; returns the scale at the end.
+static float move(struct resolution *r, double *now, int frames, double ms, double other)
+{
+    float scale = 1;
+    for (int i = 0; i < frames; i++, *now += frame) {
+        scale = resolution_choose(r, r->hash + 1, *now);
+        resolution_measure(r, ms, ms - other);
+    }
+    return scale;
+}
+
+static struct resolution adapting(void)
+{
+    struct resolution r;
+    assert_true(resolution_parse(&r, "auto"));
+    return r;
+}
+
+static void slow_frames_lower_it_and_stillness_restores_it(void **state)
+{
+    (void)state;
+    struct resolution r = adapting();
+    double now = 10;
+    assert_near(move(&r, &now, 30, 20, 1), 1, 0);
+    assert_near(move(&r, &now, 10, 45, 1), 0.5, 0.13);
+    assert_false(resolution_is_exact(&r));
+    assert_true(resolution_wait(&r, now) > 0);
+    now += 0.2;
+    assert_near(resolution_wait(&r, now), 0, 0);
+    assert_near(resolution_choose(&r, r.hash, now), 1, 0);
+    assert_true(resolution_is_exact(&r) && isinf(resolution_wait(&r, now)));
+    assert_near(resolution_choose(&r, r.hash + 1, now + 5), 1, 0); // one change is no movement
+    assert_true(resolution_choose(&r, r.hash + 1, now + 5 + frame) < 1);
+}
+
+static void it_does_not_flicker(void **state)
+{
+    (void)state;
+    struct resolution r = adapting();
+    double now = 10;
+    int changes = 0;
+    float before = 1;
+    // 40 ms at full resolution, 20 ms below: quick enough to try again and again.
+    for (int i = 0; i < 3600; i++) {
+        float scale = move(&r, &now, 1, r.moving == 1 || r.moving == 0 ? 40 : 20, 1);
+        if (scale != before) changes++;
+        before = scale;
+    }
+    assert_in_range(changes, 3, 15);
+}
+
+static void one_slow_frame_now_and_then_changes_nothing(void **state)
+{
+    (void)state;
+    struct resolution r = adapting();
+    double now = 10;
+    for (int i = 0; i < 50; i++) {
+        assert_near(move(&r, &now, 1, 80, 1), 1, 0);
+        assert_near(move(&r, &now, 5, 10, 1), 1, 0);
+    }
+}
+
+static void a_slow_solver_does_not_blur_the_stage(void **state)
+{
+    (void)state;
+    struct resolution r = adapting();
+    double now = 10;
+    assert_near(move(&r, &now, 100, 60, 50), 1, 0);
+}
+
+static void a_busy_moment_is_forgotten(void **state)
+{
+    (void)state;
+    struct resolution r = adapting();
+    double now = 10;
+    assert_true(move(&r, &now, 20, 80, 1) < 1);
+    assert_near(move(&r, &now, 400, 12, 1), 1, 0);
+}
+
+static void words_of_the_command_line(void **state)
+{
+    (void)state;
+    struct resolution r;
+    assert_true(resolution_parse(&r, "0.5") && !r.adapts);
+    double now = 0;
+    assert_near(move(&r, &now, 100, 80, 1), 0.5, 0);
+    assert_true(resolution_parse(&r, "1") && resolution_is_exact(&r));
+    const char *const bad[] = {"", "0", "0.2", "1.5", "half", "0.5x", "nan"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) assert_false(resolution_parse(&r, bad[i]));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(slow_frames_lower_it_and_stillness_restores_it),
+        cmocka_unit_test(it_does_not_flicker),
+        cmocka_unit_test(one_slow_frame_now_and_then_changes_nothing),
+        cmocka_unit_test(a_slow_solver_does_not_blur_the_stage),
+        cmocka_unit_test(a_busy_moment_is_forgotten),
+        cmocka_unit_test(words_of_the_command_line),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
