@@ -28,7 +28,9 @@ static bool check_track(struct document *document, const struct edit *edit, stru
     struct spline *spline = &document->splines[edit->spline];
     struct order_cycle cycle;
     int track = edit->param.track;
-    if (edit->parameter == PARAMETER_CALM) return fail(error, ERROR_INPUT, "%s: calm is a number only", spline->name);
+    const struct parameter_row *row = &parameter_rows[edit->parameter];
+    if (row->kind != PARAMETER_TRACK)
+        return fail(error, ERROR_INPUT, "%s: %s is a number only", spline->name, row->name);
     if (track >= document->spline_count) {
         return fail(error, ERROR_INPUT, "%s: there is no spline to follow", spline->name);
     }
@@ -44,22 +46,12 @@ static bool check_track(struct document *document, const struct edit *edit, stru
 
 static bool check_constant(const struct spline *spline, enum parameter parameter, double value, struct error *error)
 {
-    double low = parameter_minimum(parameter, spline->mode), high = parameter_maximum(parameter, spline->mode);
-    const char *name = parameter_name(parameter);
+    double low = parameter_rows[parameter].minimum, high = parameter_maximum(parameter, spline->mode);
+    const char *name = parameter_rows[parameter].name;
     if (!isfinite(value)) return fail(error, ERROR_INPUT, "%s: %s must be finite", spline->name, name);
     if (value >= low && value <= high) return true;
     if (value < low) return fail(error, ERROR_INPUT, "%s: %s must be at least %g", spline->name, name, low);
     return fail(error, ERROR_INPUT, "%s: %s must be at most %g", spline->name, name, high);
-}
-
-static bool is_ratio(enum parameter parameter)
-{
-    return parameter == PARAMETER_FREQUENCY || parameter == PARAMETER_DAMPING;
-}
-
-static bool is_spring(enum parameter parameter)
-{
-    return parameter == PARAMETER_SPRING || parameter == PARAMETER_FRICTION;
 }
 
 bool plan_parameter(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
@@ -67,8 +59,8 @@ bool plan_parameter(struct document *document, const struct edit *edit, struct c
     const struct spline *spline = &document->splines[edit->spline];
     struct settings settings = settings_of(spline);
     if ((unsigned)edit->parameter >= PARAMETER_COUNT) return fail(error, ERROR_INPUT, "there is no such parameter");
-    if (spline->spring_friction ? is_ratio(edit->parameter) : is_spring(edit->parameter)) {
-        return fail(error, ERROR_INPUT, "%s: %s is not in use", spline->name, parameter_name(edit->parameter));
+    if (!spline_has(spline, edit->parameter)) {
+        return fail(error, ERROR_INPUT, "%s: %s is not in use", spline->name, parameter_rows[edit->parameter].name);
     }
     struct param *param = &settings.parameter[edit->parameter];
     if (edit->param.track >= 0) {
@@ -92,9 +84,9 @@ static bool convert_spring(const struct spline *spline, struct settings *setting
         number[i] = settings->parameter[source].value;
         if (settings->parameter[source].track >= 0) {
             return fail(error, ERROR_INPUT, "%s: %s follows a spline and cannot be converted; make it a number first",
-                        spline->name, parameter_name(source));
+                        spline->name, parameter_rows[source].name);
         }
-        settings->parameter[source].value = parameter_default(source);
+        settings->parameter[source].value = parameter_rows[source].standard;
     }
     double omega = to_spring ? TWO_PI * number[0] : sqrt(number[0]);
     result[0] = to_spring ? omega * omega : omega / TWO_PI;

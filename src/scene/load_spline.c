@@ -4,9 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const spline_keys[] = {"name",   "mode",     "frequency", "damping",     "bandwidth",
-                                          "spring", "friction", "calm",      "equilibrium", "start",
-                                          "knots",  "color",    NULL};
+/// Beside the parameters.
+static const char *const spline_keys[] = {"name", "mode", "start", "knots", "color", NULL};
 static const char *const knot_keys[] = {"frame", "value", "slope", "stiffness", NULL};
 static const char *const modes[] = {"complex", "real", "cubic", NULL};
 static const char *const starts[] = {"free", "rest", "loop", NULL};
@@ -22,11 +21,11 @@ static void load_parameter(struct reader *reader, const struct part *part, enum 
 {
     struct where at;
     struct param *param = &part->spline->parameter[parameter];
-    json_t *value = reader_member(part->at, part->object, parameter_name(parameter), &at);
-    enum wiggly_mode mode = part->spline->mode;
-    struct range range = {parameter_minimum(parameter, mode), parameter_maximum(parameter, mode), false};
+    const struct parameter_row *row = &parameter_rows[parameter];
+    json_t *value = reader_member(part->at, part->object, row->name, &at);
+    struct range range = {row->minimum, parameter_maximum(parameter, part->spline->mode), false};
     if (!value) return;
-    if (parameter == PARAMETER_CALM) {
+    if (row->kind == PARAMETER_NUMBER) {
         reader_number(reader, &at, value, true, range, &param->value);
     } else {
         reader_param(reader, &at, value, range, at.key, param, extra);
@@ -36,16 +35,16 @@ static void load_parameter(struct reader *reader, const struct part *part, enum 
 /// The paper's pair stands in place of frequency and damping, outside complex mode.
 static void load_spring(struct reader *reader, const struct part *part)
 {
-    static const char *const pair[] = {"spring", "friction"};
     bool ratios = json_object_get(part->object, "frequency") || json_object_get(part->object, "damping");
-    for (int i = 0; i < 2; i++) {
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         struct where at;
-        if (!reader_member(part->at, part->object, pair[i], &at)) continue;
+        const char *name = parameter_rows[p].name;
+        if (parameter_rows[p].pair != PAIR_SPRING || !reader_member(part->at, part->object, name, &at)) continue;
         part->spline->spring_friction = true;
         if (ratios) {
             reader_fail(reader, &at, "expected either spring and friction or frequency and damping, got both");
         } else if (part->spline->mode == WIGGLY_COMPLEX) {
-            reader_fail(reader, &at, "expected frequency and damping in complex mode, got %s", pair[i]);
+            reader_fail(reader, &at, "expected frequency and damping in complex mode, got %s", name);
         }
     }
 }
@@ -178,6 +177,14 @@ static void load_color(struct reader *reader, const struct part *part)
     }
 }
 
+static json_t *load_extra(struct reader *reader, const struct part *part)
+{
+    const char *known[PARAMETER_COUNT + sizeof spline_keys / sizeof *spline_keys];
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) known[p] = parameter_rows[p].name;
+    memcpy(known + PARAMETER_COUNT, spline_keys, sizeof spline_keys);
+    return reader_extra(reader, part->at, part->object, known);
+}
+
 static void load_spline(struct reader *reader, const struct where *at, json_t *object, struct spline *spline)
 {
     struct part part = {at, object, spline};
@@ -188,8 +195,8 @@ static void load_spline(struct reader *reader, const struct where *at, json_t *o
         spline->mode = (enum wiggly_mode)word;
         load_spring(reader, &part);
     }
-    json_t *extra = reader_extra(reader, at, object, spline_keys);
-    for (int i = 0; i < PARAMETER_COUNT; i++) load_parameter(reader, &part, (enum parameter)i, &extra);
+    json_t *extra = load_extra(reader, &part);
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) load_parameter(reader, &part, p, &extra);
     spline->extra = reader_keep(reader, extra);
     load_color(reader, &part);
     load_start(reader, &part);

@@ -15,7 +15,7 @@ static void check_cycles(struct reader *reader, const struct where *splines_at)
     }
     const struct spline *spline = &document->splines[cycle.spline];
     struct where spline_at = {.parent = splines_at, .index = (size_t)cycle.spline};
-    struct where at = {.parent = &spline_at, .key = parameter_name(cycle.parameter)};
+    struct where at = {.parent = &spline_at, .key = parameter_rows[cycle.parameter].name};
     int leader = spline->parameter[cycle.parameter].track;
     reader_fail(reader, &at, "expected tracks without a cycle, got \"%s\", which follows \"%s\" itself",
                 document->splines[leader].name, spline->name);
@@ -42,7 +42,7 @@ static void check_aliasing(struct reader *reader, const struct where *splines_at
         double highest = highest_frequency(&document->splines[i], &parameter);
         if (highest <= limit) continue;
         struct where spline_at = {.parent = splines_at, .index = (size_t)i};
-        struct where at = {.parent = &spline_at, .key = parameter_name(parameter)};
+        struct where at = {.parent = &spline_at, .key = parameter_rows[parameter].name};
         reader_warn(reader, &at, "%.4g Hz is above half the sample rate, %.4g Hz: it aliases", highest, limit);
     }
 }

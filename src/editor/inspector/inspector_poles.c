@@ -17,7 +17,7 @@ static double value_now(const struct inspection *in, const struct spline *spline
         if (sample < 0 || sample >= evaluation->samples) return 0;
         value = evaluation->curves[param->track].total[sample];
     }
-    return fmax(parameter_minimum(parameter, spline->mode), fmin(parameter_maximum(parameter, spline->mode), value));
+    return parameter_clamped(parameter, spline->mode, value);
 }
 
 static struct pole_setting setting_of(const struct inspection *in, const struct spline *spline)

@@ -1,53 +1,23 @@
 /// The active spline's mode, parameters and start.
+#include "editor/core/actions.h"
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/settle.h"
+#include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
-
-/// How each parameter is shown. `maximum` of the bar for all modes; frequency and damping have their own rule.
-struct parameter_row {
-    const char *label, *unit, *hint, *undo;
-    double maximum, fallback, step;
-    int decimals;
-};
-
-static const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
-    [PARAMETER_FREQUENCY] = {"frequency", "Hz", "How fast it swings, in swings a second (hold F, arrows)",
-                             "Set frequency", 12, 1, 0.05, 2},
-    [PARAMETER_DAMPING] = {"damping", NULL, "0 rings for ever, 1 is critical (hold Z, arrows)", "Set damping", 1, 0.1,
-                           0.01, 2},
-    [PARAMETER_BANDWIDTH] = {"bandwidth", NULL,
-                             "How freely the swing may change its pace between knots (hold B, arrows)",
-                             "Set bandwidth", 1, 0.1, 0.01, 2},
-    [PARAMETER_SPRING] = {"spring", "1/s²", "Spring constant k of the paper's equation 12", "Set spring", 2000, 40, 1,
-                          1},
-    [PARAMETER_FRICTION] = {"friction", "1/s", "Friction gamma of the paper's equation 12", "Set friction", 50, 1,
-                            0.1, 2},
-    [PARAMETER_CALM] = {"calm", NULL, "What swing at the start costs; 0 is the paper's formula (hold C, arrows)",
-                        "Set calm", 1, 1, 0.01, 2},
-    [PARAMETER_EQUILIBRIUM] = {"equilibrium", NULL, "Where it comes to rest", "Set equilibrium", 0, 0, 0.01, 2},
-};
-
-/// The right end of a parameter's bar; 0 where it has none.
-static double bar_maximum(const struct document *document, const struct spline *spline, enum parameter parameter)
-{
-    if (parameter == PARAMETER_FREQUENCY) return fmin(12, document->fps * document->substeps / 2);
-    if (parameter == PARAMETER_DAMPING && spline->mode == WIGGLY_REAL) return 3;
-    return parameter_rows[parameter].maximum;
-}
 
 static void build_slider(struct inspection *in, const struct spline *spline, enum parameter parameter, struct rect r)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
     struct ui_number number = {
-        .name = parameter_name(parameter),
-        .label = row->label,
+        .name = row->name,
+        .label = row->name,
         .unit = row->unit,
         .hint = row->hint,
-        .maximum = bar_maximum(in->document, spline, parameter),
-        .lowest = parameter_minimum(parameter, spline->mode),
+        .maximum = slider_end(in->document, spline, parameter),
+        .lowest = row->minimum,
         .highest = parameter_maximum(parameter, spline->mode),
-        .fallback = row->fallback,
+        .fallback = row->fresh,
         .step = row->step,
         .decimals = row->decimals,
     };
@@ -62,12 +32,12 @@ static void build_slider(struct inspection *in, const struct spline *spline, enu
 static void build_parameter(struct inspection *in, const struct spline *spline, enum parameter parameter)
 {
     struct rect r = ui_row(in->ui, UI_ROW);
-    bool may_follow = parameter != PARAMETER_CALM;
+    bool may_follow = parameter_rows[parameter].kind == PARAMETER_TRACK;
     if (may_follow) r.w -= UI_ROW + 2;
     if (spline->parameter[parameter].track < 0) {
         build_slider(in, spline, parameter, r);
     } else {
-        inspector_track(in, parameter, parameter_rows[parameter].label, r);
+        inspector_track(in, parameter, parameter_rows[parameter].name, r);
     }
     struct rect button = {r.x + r.w + 2, r.y, UI_ROW, UI_ROW};
     if (may_follow) inspector_follow_button(in, parameter, button);
@@ -166,18 +136,15 @@ void inspector_spline(struct inspection *in)
     struct spline *spline = editor_active_spline(in->editor, in->world);
     build_mode(in, spline);
     ui_space(ui, 4);
-    bool pair = spline->mode == WIGGLY_REAL && spline->spring_friction;
-    if (spline->mode == WIGGLY_CUBIC) {
+    if (spline->mode == WIGGLY_CUBIC)
         ui_paragraph(ui, "The classical spline: smooth through the knots, without swing.", theme()->text_dim);
-    } else {
-        build_parameter(in, spline, pair ? PARAMETER_SPRING : PARAMETER_FREQUENCY);
-        build_parameter(in, spline, pair ? PARAMETER_FRICTION : PARAMETER_DAMPING);
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        if (!spline_uses(spline, p, false)) continue;
+        build_parameter(in, spline, p);
+        if (p != PARAMETER_DAMPING && p != PARAMETER_FRICTION) continue;
         build_settling(in, spline);
-        if (spline->mode == WIGGLY_COMPLEX) build_parameter(in, spline, PARAMETER_BANDWIDTH);
         if (spline->mode == WIGGLY_REAL) build_spring_toggle(in, spline);
-        build_parameter(in, spline, PARAMETER_CALM);
     }
-    build_parameter(in, spline, PARAMETER_EQUILIBRIUM);
     build_start(in, spline);
     build_warnings(in, spline);
 }

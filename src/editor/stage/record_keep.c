@@ -8,6 +8,7 @@
 #include "editor/stage/body.h"
 #include "editor/stage/follow.h"
 #include "editor/stage/record.h"
+#include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -160,12 +161,10 @@ static int add_follower(struct editor *editor, const struct editor_world *world,
     spring.flag = copied.spring_friction;
     editor_edit(editor, world, &mode);
     if (spring.flag) editor_edit(editor, world, &spring);
-    for (int p = 0; p < PARAMETER_EQUILIBRIUM; p++) {
-        bool ratio = p == PARAMETER_FREQUENCY || p == PARAMETER_DAMPING;
-        bool pair = p == PARAMETER_SPRING || p == PARAMETER_FRICTION;
-        if (copied.spring_friction ? ratio : pair) continue;
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        if (p == PARAMETER_EQUILIBRIUM || !spline_has(&copied, p)) continue;
         struct edit edit = editor_edit_of(EDIT_PARAMETER, spline);
-        edit.parameter = (enum parameter)p;
+        edit.parameter = p;
         edit.param = copied.parameter[p];
         editor_edit(editor, world, &edit);
     }
