@@ -1,4 +1,4 @@
-// The rules around the minimisation (spec: "Energy", "Constraints"): where the domain starts, what is fixed, what is implied,
+// The rules around the minimisation (docs/mathematics.md, Constraints): where the domain starts, what is fixed, what is implied,
 // and what to do where the problem has no single answer.
 #include "spline/problem.h"
 #include <limits.h>
@@ -214,7 +214,7 @@ static void join_knots(wiggly_solver *solver, const problem *p)
     for (int i = before + 1; before >= 0 && i < rows->count; i++) rows->x[width * i] = rows->x[width * before];
 }
 
-/// Solves, and where the problem is singular as asked, solves the nearest one that is not (spec: last rule of "Constraints").
+/// Solves, and where the problem is singular as asked, solves the nearest one that is not (docs/mathematics.md, last rule of Constraints).
 static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
 {
     wiggly_status status = WIGGLY_OK;
