@@ -14,8 +14,6 @@ const char *coordinate_name(int index)
 
 void spline_reset(struct spline *spline)
 {
-    spline->mode = WIGGLY_COMPLEX;
-    spline->start = WIGGLY_FREE;
     spline->spring_friction = false;
     spline->color = -1;
     for (int i = 0; i < PARAMETER_COUNT; i++) {
@@ -143,7 +141,7 @@ double document_frame(const struct document *document, int sample)
 
 int document_last_knot_sample(const struct document *document, const struct spline *spline)
 {
-    return document_samples(document) - (spline->start == WIGGLY_LOOP ? 2 : 1);
+    return document_samples(document) - (spline_start(spline) == WIGGLY_LOOP ? 2 : 1);
 }
 
 int document_find_spline(const struct document *document, const char *name)

@@ -35,8 +35,6 @@ struct knot {
 
 struct spline {
     char *name;
-    enum wiggly_mode mode;
-    enum wiggly_start start;
     bool spring_friction; ///< real mode with the paper's own pair of parameters
     struct param parameter[PARAMETER_COUNT];
     struct knot *knots; ///< by sample
@@ -45,6 +43,16 @@ struct spline {
     unsigned id; ///< unique among the splines, kept through edits and undo; not saved
     const void *extra;
 };
+
+static inline enum wiggly_mode spline_mode(const struct spline *spline)
+{
+    return (enum wiggly_mode)spline->parameter[PARAMETER_MODE].value;
+}
+
+static inline enum wiggly_start spline_start(const struct spline *spline)
+{
+    return (enum wiggly_start)spline->parameter[PARAMETER_START].value;
+}
 
 /// One angle for all joints, or one for each (degrees).
 struct angles {

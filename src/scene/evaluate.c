@@ -181,14 +181,13 @@ wiggly_desc storage_describe(const struct evaluation *evaluation, const struct d
     wiggly_desc desc = wiggly_default_desc();
     desc.samples = document_samples(document);
     desc.step = document_step(document);
-    desc.mode = cubic ? WIGGLY_CUBIC : spline->mode;
-    desc.start = spline->start;
-    desc.spring_friction = spline->spring_friction && desc.mode == WIGGLY_REAL;
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         int track = spline->parameter[p].track;
         const double *total = track >= 0 ? evaluation->curves[track].total : NULL;
         parameter_describe(p, spline->parameter[p].value, total, &desc);
     }
+    if (cubic) desc.mode = WIGGLY_CUBIC;
+    desc.spring_friction = spline->spring_friction && desc.mode == WIGGLY_REAL;
     return desc;
 }
 

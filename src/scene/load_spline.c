@@ -5,10 +5,8 @@
 #include <string.h>
 
 /// Beside the parameters.
-static const char *const spline_keys[] = {"name", "mode", "start", "knots", "color", NULL};
+static const char *const spline_keys[] = {"name", "knots", "color", NULL};
 static const char *const knot_keys[] = {"frame", "value", "slope", "stiffness", NULL};
-static const char *const modes[] = {"complex", "real", "cubic", NULL};
-static const char *const starts[] = {"free", "rest", "loop", NULL};
 
 /// One spline of the file while it is read.
 struct part {
@@ -17,19 +15,26 @@ struct part {
     struct spline *spline;
 };
 
-static void load_parameter(struct reader *reader, const struct part *part, enum parameter parameter, json_t **extra)
+/// false where a word is none of those it may be.
+static bool load_parameter(struct reader *reader, const struct part *part, enum parameter parameter, json_t **extra)
 {
     struct where at;
     struct param *param = &part->spline->parameter[parameter];
     const struct parameter_row *row = &parameter_rows[parameter];
     json_t *value = reader_member(part->at, part->object, row->name, &at);
-    struct range range = {row->minimum, parameter_maximum(parameter, part->spline->mode), false};
-    if (!value) return;
-    if (row->kind == PARAMETER_NUMBER) {
-        reader_number(reader, &at, value, true, range, &param->value);
-    } else {
-        reader_param(reader, &at, value, range, at.key, param, extra);
+    struct range range = {row->minimum, parameter_maximum(parameter, spline_mode(part->spline)), false};
+    if (!value) return true;
+    if (row->kind == PARAMETER_CHOICE) {
+        int word = reader_word(reader, &at, value, row->words, -1);
+        if (word >= 0) param->value = word;
+        return word >= 0;
     }
+    if (row->kind == PARAMETER_TRACK) {
+        reader_param(reader, &at, value, range, at.key, param, extra);
+    } else {
+        reader_number(reader, &at, value, true, range, &param->value);
+    }
+    return true;
 }
 
 /// The paper's pair stands in place of frequency and damping, outside complex mode.
@@ -43,7 +48,7 @@ static void load_spring(struct reader *reader, const struct part *part)
         part->spline->spring_friction = true;
         if (ratios) {
             reader_fail(reader, &at, "expected either spring and friction or frequency and damping, got both");
-        } else if (part->spline->mode == WIGGLY_COMPLEX) {
+        } else if (spline_mode(part->spline) == WIGGLY_COMPLEX) {
             reader_fail(reader, &at, "expected frequency and damping in complex mode, got %s", name);
         }
     }
@@ -95,7 +100,7 @@ static bool slope_is_fixed(const struct document *document, const struct spline 
 {
     int sample = document_sample(document, spline->knots[at].frame), samples = document_samples(document);
     int other = sample + 1;
-    if (spline->start == WIGGLY_LOOP) {
+    if (spline_start(spline) == WIGGLY_LOOP) {
         other %= samples > 1 ? samples - 1 : 1;
     } else if (other == samples) {
         other = sample - 1;
@@ -152,14 +157,10 @@ static void load_knots(struct reader *reader, const struct part *part)
     if (good && reader->has_domain) check_knots(reader, &at, spline, first_id);
 }
 
-static void load_start(struct reader *reader, const struct part *part)
+static void check_loop(struct reader *reader, const struct part *part)
 {
-    struct where at;
-    const json_t *value = reader_member(part->at, part->object, "start", &at);
-    int start = reader_word(reader, &at, value, starts, "\"free\", \"rest\" or \"loop\"", WIGGLY_FREE);
-    if (start < 0) return;
-    part->spline->start = (enum wiggly_start)start;
-    if (start == WIGGLY_LOOP && reader->has_domain && document_samples(reader->document) == 1) {
+    struct where at = {.parent = part->at, .key = "start"};
+    if (spline_start(part->spline) == WIGGLY_LOOP && reader->has_domain && document_samples(reader->document) == 1) {
         reader_fail(reader, &at, "expected more than one frame for a loop, got one");
     }
 }
@@ -188,18 +189,12 @@ static json_t *load_extra(struct reader *reader, const struct part *part)
 static void load_spline(struct reader *reader, const struct where *at, json_t *object, struct spline *spline)
 {
     struct part part = {at, object, spline};
-    struct where mode_at;
-    const json_t *mode = reader_member(at, object, "mode", &mode_at);
-    int word = reader_word(reader, &mode_at, mode, modes, "\"complex\", \"real\" or \"cubic\"", WIGGLY_COMPLEX);
-    if (word >= 0) {
-        spline->mode = (enum wiggly_mode)word;
-        load_spring(reader, &part);
-    }
+    if (load_parameter(reader, &part, PARAMETER_MODE, NULL)) load_spring(reader, &part); // limits go by the mode
     json_t *extra = load_extra(reader, &part);
-    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) load_parameter(reader, &part, p, &extra);
+    for (enum parameter p = PARAMETER_MODE + 1; p < PARAMETER_COUNT; p++) load_parameter(reader, &part, p, &extra);
     spline->extra = reader_keep(reader, extra);
     load_color(reader, &part);
-    load_start(reader, &part);
+    check_loop(reader, &part);
     load_knots(reader, &part);
 }
 

@@ -12,7 +12,7 @@ bool spline_has(const struct spline *spline, enum parameter parameter)
 
 bool spline_uses(const struct spline *spline, enum parameter parameter, bool cubic)
 {
-    enum wiggly_mode mode = cubic ? WIGGLY_CUBIC : spline->mode;
+    enum wiggly_mode mode = cubic ? WIGGLY_CUBIC : spline_mode(spline);
     return parameter_rows[parameter].modes >> mode & 1 && spline_has(spline, parameter);
 }
 

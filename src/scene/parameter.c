@@ -5,6 +5,15 @@
 #define PLACE(member) offsetof(wiggly_desc, member)
 
 const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
+    [PARAMETER_MODE] = {.name = "mode",
+                        .hint = "Complex: free to shift in phase. Real: a damped spring. Cubic: no swing (M)",
+                        .undo = "Change mode",
+                        .kind = PARAMETER_CHOICE,
+                        .modes = IN_ALL,
+                        .place = PLACE(mode),
+                        .maximum = WIGGLY_CUBIC,
+                        .words = {"complex", "real", "cubic"},
+                        .labels = {"Complex", "Real", "Cubic"}},
     [PARAMETER_FREQUENCY] = {.name = "frequency",
                              .unit = "Hz",
                              .hint = "How fast it swings, in swings a second (hold F, arrows)",
@@ -84,12 +93,21 @@ const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
     [PARAMETER_EQUILIBRIUM] = {.name = "equilibrium",
                                .hint = "Where it comes to rest",
                                .undo = "Set equilibrium",
-                               .modes = IN_COMPLEX | IN_REAL | IN_CUBIC,
+                               .modes = IN_ALL,
                                .place = PLACE(equilibrium),
                                .minimum = -INFINITY,
                                .maximum = INFINITY,
                                .step = 0.01,
                                .decimals = 2},
+    [PARAMETER_START] = {.name = "start",
+                         .hint = "Free: already swinging. Rest: from standstill. Loop: the end meets the start",
+                         .undo = "Change start",
+                         .kind = PARAMETER_CHOICE,
+                         .modes = IN_ALL,
+                         .place = PLACE(start),
+                         .maximum = WIGGLY_LOOP,
+                         .words = {"free", "rest", "loop"},
+                         .labels = {"Free", "Rest", "Loop"}},
 };
 
 double parameter_maximum(enum parameter parameter, enum wiggly_mode mode)
@@ -122,7 +140,9 @@ void parameter_describe(enum parameter parameter, double value, const double *tr
     void *at = (char *)desc + parameter_rows[parameter].place;
     if (parameter_rows[parameter].kind == PARAMETER_TRACK) {
         *(wiggly_param *)at = (wiggly_param){value, track};
-    } else {
+    } else if (parameter_rows[parameter].kind == PARAMETER_NUMBER) {
         *(double *)at = value;
+    } else {
+        *(unsigned *)at = (unsigned)value;
     }
 }

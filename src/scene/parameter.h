@@ -9,6 +9,7 @@
 
 /// In the order in which they are saved and shown.
 enum parameter {
+    PARAMETER_MODE,
     PARAMETER_FREQUENCY,
     PARAMETER_DAMPING,
     PARAMETER_BANDWIDTH,
@@ -16,18 +17,20 @@ enum parameter {
     PARAMETER_FRICTION,
     PARAMETER_CALM,
     PARAMETER_EQUILIBRIUM,
+    PARAMETER_START,
     PARAMETER_COUNT
 };
 
-/// A number, or the total of another spline.
+/// A number, the total of another spline, or one of several words.
 struct param {
-    double value; ///< used where track < 0
+    double value; ///< used where track < 0; of words: which
     int track;    ///< index of the spline that is followed, or -1
 };
 
 enum parameter_kind {
     PARAMETER_TRACK,  ///< a number or a track: a wiggly_param of the description
     PARAMETER_NUMBER, ///< a number only: a double
+    PARAMETER_CHOICE, ///< one of several words: an enum
 };
 
 /// Of two pairs that say the same a spline has one.
@@ -37,7 +40,10 @@ enum {
     IN_COMPLEX = 1 << WIGGLY_COMPLEX,
     IN_REAL = 1 << WIGGLY_REAL,
     IN_CUBIC = 1 << WIGGLY_CUBIC,
+    IN_ALL = IN_COMPLEX | IN_REAL | IN_CUBIC,
 };
+
+enum { PARAMETER_MAX_WORDS = 3 };
 
 struct parameter_row {
     const char *name; ///< in the file and on screen
@@ -56,6 +62,8 @@ struct parameter_row {
     double fresh;    ///< of a new spline
     double step;     ///< of arrow keys
     int decimals;
+    const char *words[PARAMETER_MAX_WORDS + 1]; ///< of a choice, in the file
+    const char *labels[PARAMETER_MAX_WORDS];    ///< on screen
 };
 
 extern const struct parameter_row parameter_rows[PARAMETER_COUNT];

@@ -6,9 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const mode_names[] = {
-    [WIGGLY_COMPLEX] = "complex", [WIGGLY_REAL] = "real", [WIGGLY_CUBIC] = "cubic"};
-static const char *const start_names[] = {[WIGGLY_FREE] = "free", [WIGGLY_REST] = "rest", [WIGGLY_LOOP] = "loop"};
 static const char *const part_names[] = {[PART_TOTAL] = "total", [PART_DISPLACEMENT] = "displacement"};
 static const char *const axis_names[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up"};
 
@@ -60,14 +57,16 @@ static void print_spline(struct text *text, const struct document *document, con
         color_print(spline->color, color);
         member_string(&members, "color", color);
     }
-    member_string(&members, "mode", mode_names[spline->mode]);
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         const char *name = parameter_rows[p].name;
         if (!is_printed(spline, p)) continue;
+        if (parameter_rows[p].kind == PARAMETER_CHOICE) {
+            member_string(&members, name, parameter_rows[p].words[(int)spline->parameter[p].value]);
+            continue;
+        }
         member(&members, name);
         print_param(text, document, &spline->parameter[p], extra_of(spline->extra), name);
     }
-    member_string(&members, "start", start_names[spline->start]);
     member(&members, "knots");
     for (int i = 0; i < spline->knot_count; i++) {
         text_string(text, i > 0 ? ",\n        " : "[\n        ");

@@ -27,9 +27,9 @@ static double highest_frequency(const struct spline *spline, enum parameter *par
     const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
     const struct param *bandwidth = &spline->parameter[PARAMETER_BANDWIDTH];
     *parameter = spline->spring_friction ? PARAMETER_SPRING : PARAMETER_FREQUENCY;
-    if (spline->mode == WIGGLY_CUBIC || spline->parameter[*parameter].track >= 0) return 0;
+    if (spline_mode(spline) == WIGGLY_CUBIC || spline->parameter[*parameter].track >= 0) return 0;
     if (spline->spring_friction) return sqrt(spline->parameter[PARAMETER_SPRING].value) / TWO_PI;
-    double widening = spline->mode == WIGGLY_COMPLEX && bandwidth->track < 0 ? bandwidth->value : 0;
+    double widening = spline_mode(spline) == WIGGLY_COMPLEX && bandwidth->track < 0 ? bandwidth->value : 0;
     return frequency->value * (1 + widening);
 }
 

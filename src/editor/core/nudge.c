@@ -113,7 +113,7 @@ static void step_spring(const struct spline *spline, struct edit *edit, double s
 double slider_end(const struct document *document, const struct spline *spline, enum parameter parameter)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
-    double most = fmin(row->usual, parameter_maximum(parameter, spline->mode));
+    double most = fmin(row->usual, parameter_maximum(parameter, spline_mode(spline)));
     return row->is_frequency ? fmin(most, document->fps * document->substeps / 2) : most;
 }
 
@@ -122,8 +122,8 @@ static bool say_idle(struct editor *editor, const struct spline *spline, enum pa
 {
     const struct parameter_row *row = &parameter_rows[parameter];
     char text[160];
-    if (parameter == PARAMETER_CALM || row->modes >> spline->mode & 1) return false;
-    if (spline->mode == WIGGLY_CUBIC) {
+    if (parameter == PARAMETER_CALM || row->modes >> spline_mode(spline) & 1) return false;
+    if (spline_mode(spline) == WIGGLY_CUBIC) {
         snprintf(text, sizeof text, "A cubic neither swings nor rings; M changes the mode.");
     } else {
         snprintf(text, sizeof text, "Only the %s mode has a %s; M changes the mode.",
@@ -152,7 +152,7 @@ static void nudge_one(struct editor *editor, const struct editor_world *world, c
     if (!pair)
         edit.param.value =
             round((edit.param.value + step) * 1e6) / 1e6; /* 0.30000000000000004 is no number to save */
-    double most = parameter_maximum(edit.parameter, spline->mode);
+    double most = parameter_maximum(edit.parameter, spline_mode(spline));
     if (!pair && parameter_rows[parameter].usual > 0)
         most = fmax(slider_end(world->document, spline, parameter), spline->parameter[parameter].value);
     edit.param.value = fmin(fmax(edit.param.value, parameter_rows[edit.parameter].minimum), most);
@@ -173,9 +173,8 @@ void cycle_mode(struct editor *editor, const struct editor_world *world)
 {
     const struct spline *spline = editor_active_spline(editor, world);
     if (!spline) return;
-    struct edit edit = editor_edit_of(EDIT_MODE, editor->active);
-    edit.mode = spline->mode == WIGGLY_COMPLEX ? WIGGLY_REAL
-                : spline->mode == WIGGLY_REAL  ? WIGGLY_CUBIC
-                                               : WIGGLY_COMPLEX;
-    editor_step(editor, world, "Change mode", 0, &edit);
+    struct edit edit = editor_edit_of(EDIT_PARAMETER, editor->active);
+    edit.parameter = PARAMETER_MODE;
+    edit.param = (struct param){(spline_mode(spline) + 1) % 3, -1};
+    editor_step(editor, world, parameter_rows[PARAMETER_MODE].undo, 0, &edit);
 }

@@ -16,7 +16,7 @@ static void build_slider(struct inspection *in, const struct spline *spline, enu
         .hint = row->hint,
         .maximum = slider_end(in->document, spline, parameter),
         .lowest = row->minimum,
-        .highest = parameter_maximum(parameter, spline->mode),
+        .highest = parameter_maximum(parameter, spline_mode(spline)),
         .fallback = row->fresh,
         .step = row->step,
         .decimals = row->decimals,
@@ -29,7 +29,7 @@ static void build_slider(struct inspection *in, const struct spline *spline, enu
     inspector_change(in, change, row->undo, number.name, &edit);
 }
 
-static void build_parameter(struct inspection *in, const struct spline *spline, enum parameter parameter)
+static void build_number(struct inspection *in, const struct spline *spline, enum parameter parameter)
 {
     struct rect r = ui_row(in->ui, UI_ROW);
     bool may_follow = parameter_rows[parameter].kind == PARAMETER_TRACK;
@@ -43,33 +43,28 @@ static void build_parameter(struct inspection *in, const struct spline *spline, 
     if (may_follow) inspector_follow_button(in, parameter, button);
 }
 
-static void build_mode(struct inspection *in, const struct spline *spline)
+static void build_choice(struct inspection *in, const struct spline *spline, enum parameter parameter)
 {
-    static const struct ui_choice modes[] = {[WIGGLY_COMPLEX] = {"complex", "Complex"},
-                                             [WIGGLY_REAL] = {"real", "Real"},
-                                             [WIGGLY_CUBIC] = {"cubic", "Cubic"}};
-    int mode = (int)spline->mode;
-    struct rect r = ui_row(in->ui, UI_ROW);
-    if (ui_hovered(in->ui, r))
-        in->ui->hint = "Complex: free to shift in phase. Real: a damped spring. Cubic: no swing (M)";
-    if (!ui_segments(in->ui, r, "mode", modes, 3, &mode)) return;
-    struct edit edit = editor_edit_of(EDIT_MODE, in->editor->active);
-    edit.mode = (enum wiggly_mode)mode;
-    editor_step(in->editor, in->world, "Change mode", 0, &edit);
+    const struct parameter_row *row = &parameter_rows[parameter];
+    struct ui_choice choices[PARAMETER_MAX_WORDS];
+    int chosen = (int)spline->parameter[parameter].value, count = 0;
+    for (; row->words[count]; count++) choices[count] = (struct ui_choice){row->words[count], row->labels[count]};
+    struct rect r = parameter == PARAMETER_MODE ? ui_row(in->ui, UI_ROW) : inspector_labelled(in, row->name);
+    if (ui_hovered(in->ui, r)) in->ui->hint = row->hint;
+    if (!ui_segments(in->ui, r, row->name, choices, count, &chosen)) return;
+    struct edit edit = editor_edit_of(EDIT_PARAMETER, in->editor->active);
+    edit.parameter = parameter;
+    edit.param = (struct param){chosen, -1};
+    editor_step(in->editor, in->world, row->undo, 0, &edit);
 }
 
-static void build_start(struct inspection *in, const struct spline *spline)
+static void build_parameter(struct inspection *in, const struct spline *spline, enum parameter parameter)
 {
-    static const struct ui_choice starts[] = {
-        [WIGGLY_FREE] = {"free", "Free"}, [WIGGLY_REST] = {"rest", "Rest"}, [WIGGLY_LOOP] = {"loop", "Loop"}};
-    int start = (int)spline->start;
-    struct rect r = inspector_labelled(in, "start");
-    if (ui_hovered(in->ui, r))
-        in->ui->hint = "Free: already swinging. Rest: from standstill. Loop: the end meets the start";
-    if (!ui_segments(in->ui, r, "start", starts, 3, &start)) return;
-    struct edit edit = editor_edit_of(EDIT_START, in->editor->active);
-    edit.start = (enum wiggly_start)start;
-    editor_step(in->editor, in->world, "Change start", 0, &edit);
+    if (parameter_rows[parameter].kind == PARAMETER_CHOICE) {
+        build_choice(in, spline, parameter);
+    } else {
+        build_number(in, spline, parameter);
+    }
 }
 
 static void build_spring_toggle(struct inspection *in, const struct spline *spline)
@@ -118,10 +113,10 @@ static void build_warnings(struct inspection *in, const struct spline *spline)
         ui_paragraph(in->ui, wiggly_status_text(evaluation->status[active]), theme()->warning);
     }
     const struct param *p = spline->parameter;
-    double beta = spline->mode == WIGGLY_COMPLEX ? p[PARAMETER_BANDWIDTH].value : 0;
+    double beta = spline_mode(spline) == WIGGLY_COMPLEX ? p[PARAMETER_BANDWIDTH].value : 0;
     double highest = p[PARAMETER_FREQUENCY].value * (1 + beta);
     double limit = in->document->fps * in->document->substeps / 2;
-    bool poles = spline->mode != WIGGLY_CUBIC && !spline->spring_friction && p[PARAMETER_FREQUENCY].track < 0;
+    bool poles = spline_mode(spline) != WIGGLY_CUBIC && !spline->spring_friction && p[PARAMETER_FREQUENCY].track < 0;
     if (poles && highest > limit) {
         char text[128];
         snprintf(text, sizeof text, "Faster than half the sample rate (%g Hz): the swing is not seen as it is.",
@@ -130,21 +125,23 @@ static void build_warnings(struct inspection *in, const struct spline *spline)
     }
 }
 
+/// Below frequency and damping, or what stands for them.
+static void build_pair(struct inspection *in, const struct spline *spline)
+{
+    build_settling(in, spline);
+    if (spline_mode(spline) == WIGGLY_REAL) build_spring_toggle(in, spline);
+}
+
 void inspector_spline(struct inspection *in)
 {
-    struct ui *ui = in->ui;
     struct spline *spline = editor_active_spline(in->editor, in->world);
-    build_mode(in, spline);
-    ui_space(ui, 4);
-    if (spline->mode == WIGGLY_CUBIC)
-        ui_paragraph(ui, "The classical spline: smooth through the knots, without swing.", theme()->text_dim);
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         if (!spline_uses(spline, p, false)) continue;
         build_parameter(in, spline, p);
-        if (p != PARAMETER_DAMPING && p != PARAMETER_FRICTION) continue;
-        build_settling(in, spline);
-        if (spline->mode == WIGGLY_REAL) build_spring_toggle(in, spline);
+        if (p == PARAMETER_MODE) ui_space(in->ui, 4);
+        if (p == PARAMETER_MODE && spline_mode(spline) == WIGGLY_CUBIC)
+            ui_paragraph(in->ui, "The classical spline: smooth through the knots, without swing.", theme()->text_dim);
+        if (p == PARAMETER_DAMPING || p == PARAMETER_FRICTION) build_pair(in, spline);
     }
-    build_start(in, spline);
     build_warnings(in, spline);
 }
