@@ -5,28 +5,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const mode_names[] = {
-    [WIGGLY_COMPLEX] = "complex", [WIGGLY_REAL] = "real", [WIGGLY_CUBIC] = "cubic"};
-static const char *const start_names[] = {[WIGGLY_FREE] = "free", [WIGGLY_REST] = "rest", [WIGGLY_LOOP] = "loop"};
-
-static bool is_parameter(const char *key)
-{
-    for (int i = 0; i < PARAMETER_COUNT; i++) {
-        if (strcmp(key, parameter_name((enum parameter)i)) == 0) return true;
-    }
-    return false;
-}
+static bool is_parameter(const char *key) { return parameter_find(key) != PARAMETER_COUNT; }
 
 /// A parameter that the mode does not use is written where it differs from the default: another mode may want it
 /// again. Of the two pairs (frequency, damping and spring, friction) a file has one.
 static bool is_printed(const struct spline *spline, enum parameter parameter)
 {
     const struct param *param = &spline->parameter[parameter];
-    bool is_ratio = parameter == PARAMETER_FREQUENCY || parameter == PARAMETER_DAMPING;
-    bool is_spring = parameter == PARAMETER_SPRING || parameter == PARAMETER_FRICTION;
-    if (is_ratio && spline->spring_friction) return false;
-    if (is_spring) return spline->spring_friction;
-    if (param->track >= 0 || param->value != parameter_default(parameter)) return true;
+    const struct parameter_row *row = &parameter_rows[parameter];
+    if (!spline_has(spline, parameter)) return false;
+    if (row->pair == PAIR_SPRING || param->track >= 0 || param->value != row->standard) return true;
     return spline_uses(spline, parameter, false);
 }
 
@@ -39,14 +27,16 @@ static void print_spline(struct text *text, const struct document *document, con
         color_print(spline->color, color);
         member_string(&members, "color", color);
     }
-    member_string(&members, "mode", mode_names[spline->mode]);
-    for (int i = 0; i < PARAMETER_COUNT; i++) {
-        const char *name = parameter_name((enum parameter)i);
-        if (!is_printed(spline, (enum parameter)i)) continue;
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        const char *name = parameter_rows[p].name;
+        if (!is_printed(spline, p)) continue;
+        if (parameter_rows[p].kind == PARAMETER_CHOICE) {
+            member_string(&members, name, parameter_rows[p].words[(int)spline->parameter[p].value]);
+            continue;
+        }
         member(&members, name);
-        print_param(text, document, &spline->parameter[i], extra_of(spline->extra), name);
+        print_param(text, document, &spline->parameter[p], extra_of(spline->extra), name);
     }
-    member_string(&members, "start", start_names[spline->start]);
     member(&members, "knots");
     for (int i = 0; i < spline->knot_count; i++) {
         text_string(text, i > 0 ? ",\n        " : "[\n        ");

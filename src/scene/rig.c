@@ -1,7 +1,6 @@
 /// The rigs of a scene, in the order of the file, whatever kinds they are.
 #include "scene/rig.h"
 #include "scene/rig_kind.h"
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -72,16 +71,10 @@ static void check_name(struct reader *reader, const struct where *rig_at, int in
 static int load_kind(struct reader *reader, const struct where *at, const json_t *object)
 {
     const char *words[RIG_KINDS + 1] = {NULL};
-    char expected[32 * RIG_KINDS] = "";
     struct where type_at;
     const json_t *type = reader_member(at, object, "type", &type_at);
-    for (int k = 0; k < RIG_KINDS; k++) {
-        const char *joint = k == 0 ? "" : k == RIG_KINDS - 1 ? " or " : ", ";
-        size_t length = strlen(expected);
-        words[k] = kinds[k]->word;
-        snprintf(expected + length, sizeof expected - length, "%s\"%s\"", joint, words[k]);
-    }
-    return reader_word(reader, &type_at, type, words, expected, -1);
+    for (int k = 0; k < RIG_KINDS; k++) words[k] = kinds[k]->word;
+    return reader_word(reader, &type_at, type, words, -1);
 }
 
 void load_rigs(struct reader *reader, const struct where *scene_at, const json_t *scene)
