@@ -252,7 +252,7 @@ static void test_tail_array_scales_as_a_whole(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
-    const struct tail *tail = &f.document->tails[0];
+    const struct tail *tail = document_tail(f.document, 0);
     panel_drag(&f, "gain", 18);
     assert_near(tail->channels[0].gain.value[0], 6, 1e-12);
     assert_near(tail->channels[0].gain.value[2], 18, 0);

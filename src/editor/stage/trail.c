@@ -115,7 +115,7 @@ void trail_show(struct editor *editor, const struct editor_world *world)
     double now = editor->playback.position / document->substeps;
     double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
     int first = (int)ceil(now - reach), last = (int)floor(now + reach);
-    if (!tail_loops(document, &document->tails[tail])) {
+    if (!tail_loops(document, document_tail(document, tail))) {
         first = first < 0 ? 0 : first;
         last =
             last < document->last_frame - document->first_frame ? last : document->last_frame - document->first_frame;
