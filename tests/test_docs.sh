@@ -18,9 +18,9 @@ unset DISPLAY WAYLAND_DISPLAY
 # --- what a command line finds, and how it is cut short where it would last
 
 mkdir "$scratch/bin" "$scratch/work" "$scratch/work/build"
-make B="$B" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
+make BORROWED=yes B="$B" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
 ok "make install" $?
-export PKG_CONFIG_PATH=$scratch/stage/opt/wiggly/lib/pkgconfig PKG_CONFIG_SYSROOT_DIR=$scratch/stage
+export PKG_CONFIG_PATH=$scratch/stage/opt/wiggly/lib/pkgconfig
 
 cat >"$scratch/bin/wiggly" <<END
 #!/bin/bash
