@@ -100,4 +100,10 @@ static inline void panel_drag(struct session *session, const char *name, double 
 
 static inline void panel_release(struct session *session) { session_release(session, BUTTON_LEFT); }
 
+/// What the app says to the oldest request of a kind.
+static inline void panel_answer(struct session *session, enum request_kind kind, bool ok, const char *text)
+{
+    editor_answer(session->editor, &(struct request){.kind = kind}, ok, text);
+}
+
 #endif

@@ -115,6 +115,7 @@ static void test_mouse_in_the_list(void **state)
     click(&s, "two.json", 2);
     expect_request(&s, REQUEST_OPEN, "two.json");
     editor_open(s.editor, &s.world);
+    panel_answer(&s, REQUEST_OPEN, true, "");
     session_key(&s, 'O', MOD_CTRL);
     session_frame(&s);
     click(&s, "walk.json", 1); // one click opens a recent file
@@ -141,11 +142,16 @@ static void test_recover(void **state)
     assert_int_equal(s.document->splines[0].knot_count, 2);
     session_key(&s, KEY_ENTER, 0);
     expect_request(&s, REQUEST_RECOVER, "");
-    editor_message(s.editor, true, "recovery-1:3: expected a number"); // it is broken: the choice is open again
+    panel_answer(&s, REQUEST_RECOVER, false, "recovery-1:3: expected a number"); // it is broken: the choice is open again
     assert_int_equal(s.editor->dialog.kind, DIALOG_RECOVER);
     session_key(&s, 'R', 0);
     expect_request(&s, REQUEST_RECOVER, "");
+    editor_message(s.editor, true, "Unsaved work cannot be kept."); // no answer to it
+    assert_int_equal(s.editor->dialog.kind, DIALOG_RECOVER);
+    panel_answer(&s, REQUEST_SCREENSHOT, true, ""); // nor is this one
+    assert_int_equal(s.editor->dialog.kind, DIALOG_RECOVER);
     editor_open(s.editor, &s.world);
+    panel_answer(&s, REQUEST_RECOVER, true, "");
     assert_int_equal(s.editor->dialog.kind, DIALOG_NONE);
     session_close(&s);
 }
@@ -158,9 +164,17 @@ static void test_discard_and_later(void **state)
     click(&s, "Discard", 1);
     expect_request(&s, REQUEST_FORGET, "");
     editor_offer_recovery(s.editor, &offer); // there is another one
+    panel_answer(&s, REQUEST_FORGET, true, "");
+    assert_int_equal(s.editor->dialog.kind, DIALOG_RECOVER);
     session_key(&s, KEY_ESCAPE, 0);
     assert_int_equal(s.editor->dialog.kind, DIALOG_NONE);
     expect_request(&s, REQUEST_NONE, "");
+    editor_offer_recovery(s.editor, &offer);
+    session_frame(&s);
+    click(&s, "Discard", 1);
+    expect_request(&s, REQUEST_FORGET, "");
+    panel_answer(&s, REQUEST_FORGET, true, ""); // that was the last one
+    assert_int_equal(s.editor->dialog.kind, DIALOG_NONE);
     editor_offer_recovery(s.editor, &offer);
     session_send(&s, (struct event){.kind = EVENT_CLOSE}); // closing the window decides it later
     expect_request(&s, REQUEST_QUIT, "");

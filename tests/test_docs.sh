@@ -3,7 +3,8 @@
 # name is there, and every option there is, is named.
 #
 # Blocks of code are fenced, with a language and, for a file, its name: sh, c NAME, json NAME, json or csv (the clipboard), text (what
-# the commands above put out). They are taken in order, in a folder that looks like the root of a tree that was built.
+# the commands above put out); math and mermaid are for the renderer. They are taken in order, in a folder that looks like the root of
+# a tree that was built. A function named in the text, `like_this()`, is one of src or of the library.
 . tests/check.sh
 root=$PWD
 B=${B:-build}
@@ -12,7 +13,7 @@ CC=${CC:-gcc}
 sanitizers=""
 [ -n "${SANITIZE:-}" ] && sanitizers="-fsanitize=address,undefined"
 documents="README.md docs/*.md"
-commands="live solve check simulate analyze log bench"
+commands=$("$build/wiggly" --help | sed -nE 's/^  ([a-z]+) .*/\1/p' | tr '\n' ' ')
 unset DISPLAY WAYLAND_DISPLAY
 
 # --- what a command line finds, and how it is cut short where it would last
@@ -105,6 +106,7 @@ block() { # <where> <language> <name> <text>
         ;;
     "json " | "csv ") paste "$1" "$4" ;;
     "text ") shown "$1" "$4" ;;
+    "math " | "mermaid ") ;;
     *) ok "$1: a block of a language that is tested ($2 $3)" 1 ;;
     esac
 }
@@ -148,6 +150,11 @@ unknown=$(grep -ohE '`[^`]*`' $documents | grep -oE -- '--[a-z][a-z-]*' | sort -
 [ -z "$unknown" ]
 ok "every option that is named is there" $?
 
+missing=$(for command in $commands; do [[ $all =~ \`wiggly\ \[?$command[^a-z] ]] || echo "$command"; done)
+[ -z "$missing" ] || echo "  not in README or docs: $missing"
+[ -n "$commands" ] && [ -z "$missing" ]
+ok "every command is named" $?
+
 # shellcheck disable=SC2086
 unknown=$(grep -ohE '`wiggly [a-z]+' $documents | cut -d' ' -f2 | sort -u | grep -vxFf <(tr ' ' '\n' <<<"$commands"))
 [ -z "$unknown" ] || echo "  there is no command $unknown"
@@ -169,6 +176,8 @@ for document in $documents; do
         grep -oE '`(assets|docs|examples|include|src|shaders|tests|tools)/[^` *]*`' "$document" | tr -d '`' |
             while read -r path; do [ -e "$path" ] || echo "$path"; done
         grep -oE '`test_[a-z0-9_]+`' "$document" | tr -d '`' | while read -r test; do [ -e "tests/$test.c" ] || echo "$test"; done
+        grep -oE '[a-z_]+[a-z0-9_]*\(\)' "$document" | sort -u | tr -d '()' |
+            while read -r name; do grep -qrE "\b$name\(" src include || echo "$name()"; done
     )
     [ -z "$missing" ] || echo "  not there:" $missing
     [ -z "$missing" ]

@@ -1,9 +1,7 @@
 /// The paper's Figure 7 and the scenes with the character: what the committed model shows, and that every scene finds it.
 #include "near.h"
 
-#include "rig/cast.h"
-#include "rig/morph.h"
-#include "scene/evaluate.h"
+#include "rig/posing.h"
 #include "scene/load.h"
 #include <complex.h>
 #include <math.h>
@@ -109,17 +107,13 @@ static void it_stands_on_its_feet(void **state)
         struct scene scene = open_scene(paths[s]);
         struct evaluation evaluation = {0};
         struct error error = {0};
-        const struct character_rig *rig = &scene.document->characters[0];
+        const struct posing posing = {scene.document, &evaluation, scene.cast, LOOK_WIGGLY};
         assert_true(evaluation_resize(&evaluation, scene.document, &error));
         evaluation_update(&evaluation, scene.document, NULL, false);
         for (int i = 0; i < evaluation.samples; i++) {
-            wiggly_value values[CHARACTER_MAX_DRIVES] = {{0}};
             struct morph morph;
             float lo[3], hi[3];
-            for (int k = 0; k < rig->drive_count; k++) {
-                values[k] = wiggly_evaluate(&evaluation.curves[rig->drives[k].spline], i);
-            }
-            pose_character(rig, scene.figure, values, LOOK_WIGGLY, &morph);
+            assert_true(posing_character(&posing, 0, i, &morph));
             morph_bounds(scene.figure, &morph, lo, hi);
             assert_near((double)lo[1], (double)scene.figure->lo[1], 0.02);
             assert_true(hi[1] < 2.0f && hi[1] > 1.1f && hi[0] < 1.4f && lo[0] > -1.4f);

@@ -1,8 +1,7 @@
 /// The paper's figures as scenes: each shows what the paper says it shows.
 #include "near.h"
 
-#include "rig/pose.h"
-#include "scene/evaluate.h"
+#include "rig/posing.h"
 #include "scene/load.h"
 #include <complex.h>
 #include <stdlib.h>
@@ -176,13 +175,13 @@ static void test_figure6(void **state)
     enum { BASE = 0, LATE = 18 };
     open_figure("assets/scenes/figure6.json");
     const struct tail *tail = &document->tails[0];
+    const struct posing posing = {document, &evaluation, NULL, LOOK_WIGGLY};
     double bend[2][128], best = -INFINITY;
     int lag = 0, count = evaluation.samples;
     assert_in_range(count, 100, 128);
     for (int i = 0; i < count; i++) {
         struct pose pose;
-        wiggly_value value = wiggly_evaluate(curve("sway"), i);
-        pose_tail(tail, &value, LOOK_WIGGLY, &pose);
+        posing_tail(&posing, 0, i, NULL, &pose);
         bend[0][i] = heading(&pose, BASE);
         bend[1][i] = heading(&pose, LATE) - heading(&pose, LATE - 1);
     }

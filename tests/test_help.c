@@ -147,7 +147,8 @@ static int key_of(const char *name)
         int key;
     } names[] = {{"Del", KEY_DELETE}, {"Esc", KEY_ESCAPE}, {"PgUp", KEY_PAGE_UP}, {"PgDn", KEY_PAGE_DOWN},
                  {"Home", KEY_HOME},  {"End", KEY_END},    {"Enter", KEY_ENTER},  {"Space", KEY_SPACE},
-                 {"←", KEY_LEFT},     {"→", KEY_RIGHT},    {"Tab", KEY_TAB},      {"Backspace", KEY_BACKSPACE}};
+                 {"←", KEY_LEFT},     {"→", KEY_RIGHT},    {"Tab", KEY_TAB},      {"Backspace", KEY_BACKSPACE},
+                 {"↑", KEY_UP},       {"↓", KEY_DOWN}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (strcmp(names[i].name, name) == 0) return names[i].key;
     }
@@ -210,7 +211,7 @@ static void read_row(const char *text, struct chords *chords)
     }
 }
 
-/// What is said in words only, or elsewhere.
+/// What the help says in words only, or elsewhere.
 static void add_words(struct chords *chords)
 {
     add(chords, 'Z', MOD_CTRL | MOD_SHIFT);
@@ -239,6 +240,19 @@ static bool is_bound(int key, unsigned mods)
     return bound;
 }
 
+static void assert_has_every_key(const struct chords *chords, const char *where)
+{
+    int bound = 0;
+    for (int key = KEY_SPACE; key < KEY_COUNT; key++) {
+        for (unsigned mods = 0; mods < 8; mods++) {
+            if (!is_bound(key, mods)) continue;
+            bound++;
+            if (!has(chords, key, mods)) fail_msg("%s lacks %s with modifiers %u", where, key_name(key), mods);
+        }
+    }
+    assert_true(bound > 80);
+}
+
 static void test_every_key_is_in_the_help(void **state)
 {
     (void)state;
@@ -249,35 +263,86 @@ static void test_every_key_is_in_the_help(void **state)
         }
     }
     add_words(&chords);
-    int bound = 0;
-    for (int key = KEY_SPACE; key < KEY_COUNT; key++) {
-        for (unsigned mods = 0; mods < 8; mods++) {
-            if (!is_bound(key, mods)) continue;
-            bound++;
-            if (!has(&chords, key, mods)) fail_msg("%s with modifiers %u is not in the help", key_name(key), mods);
-        }
+    assert_has_every_key(&chords, "the help");
+}
+
+/// Keys that somebody else than keys.c answers: the inspector, a drag, a held letter.
+static bool is_answered_elsewhere(int key)
+{
+    static const int elsewhere[] = {KEY_F1, 'F', 'Z', 'B', 'C', 'L', 'X', 'Y', 'R', KEY_TAB, KEY_ENTER};
+    for (size_t e = 0; e < sizeof elsewhere / sizeof *elsewhere; e++) {
+        if (elsewhere[e] == key) return true;
     }
-    assert_true(bound > 80);
+    return false;
+}
+
+static void assert_does_something(const char *keys)
+{
+    struct chords chords = {.count = 0};
+    bool any = false;
+    read_row(keys, &chords);
+    for (int k = 0; k < chords.count; k++) {
+        any |= is_bound(chords.list[k].key, chords.list[k].mods) || is_answered_elsewhere(chords.list[k].key);
+    }
+    if (chords.count > 0 && !any) fail_msg("%s does nothing", keys);
 }
 
 static void test_the_help_names_no_other_keys(void **state)
 {
     (void)state;
-    static const int elsewhere[] = {KEY_F1, 'F', 'Z', 'B', 'C', 'L', 'X', 'Y', 'R', KEY_TAB, KEY_ENTER};
     for (int g = 0; g < HELP_GROUPS; g++) {
         for (int i = 0; i < HELP_MAX_ROWS && help_groups[g].rows[i].keys; i++) {
-            struct chords chords = {.count = 0};
-            bool any = false, other = false;
-            read_row(help_groups[g].rows[i].keys, &chords);
-            for (int k = 0; k < chords.count; k++) {
-                any |= is_bound(chords.list[k].key, chords.list[k].mods);
-                for (size_t e = 0; e < sizeof elsewhere / sizeof *elsewhere; e++) {
-                    other |= chords.list[k].key == elsewhere[e];
-                }
-            }
-            if (chords.count > 0 && !any && !other) fail_msg("%s does nothing", help_groups[g].rows[i].keys);
+            assert_does_something(help_groups[g].rows[i].keys);
         }
     }
+}
+
+// --- docs/keys.md against the keys ----------------------------------------------------------------------------------------
+
+/// The page names several keys in one cell as the help does, signs in backticks.
+static void page_cell(const char *line, char *cell, size_t size)
+{
+    size_t length = 0;
+    for (const char *c = line + 2; *c && strncmp(c, " |", 2) != 0 && length + 1 < size; c++) {
+        if (*c != '`') cell[length++] = *c;
+    }
+    cell[length] = '\0';
+}
+
+static bool next_page_row(FILE *page, char *cell, size_t size)
+{
+    char line[1024];
+    while (fgets(line, sizeof line, page)) {
+        if (strncmp(line, "| ", 2) != 0) continue;
+        page_cell(line, cell, size);
+        return true;
+    }
+    return false;
+}
+
+static void test_every_key_is_in_the_page_of_keys(void **state)
+{
+    (void)state;
+    FILE *page = fopen("docs/keys.md", "r");
+    assert_non_null(page);
+    struct chords chords = {.count = 0};
+    char cell[256];
+    while (next_page_row(page, cell, sizeof cell)) read_row(cell, &chords);
+    fclose(page);
+    for (int k = KEY_LEFT; k <= KEY_DOWN; k++) add(&chords, k, MOD_CTRL | MOD_SHIFT | MOD_ALT); // Shift wins
+    assert_has_every_key(&chords, "docs/keys.md");
+}
+
+static void test_the_page_of_keys_names_no_others(void **state)
+{
+    (void)state;
+    FILE *page = fopen("docs/keys.md", "r");
+    assert_non_null(page);
+    char cell[256];
+    int rows = 0;
+    for (; next_page_row(page, cell, sizeof cell); rows++) assert_does_something(cell);
+    fclose(page);
+    assert_true(rows > 60);
 }
 
 int main(void)
@@ -289,6 +354,8 @@ int main(void)
         cmocka_unit_test(test_any_key_closes_the_help_and_does_nothing_else),
         cmocka_unit_test(test_every_key_is_in_the_help),
         cmocka_unit_test(test_the_help_names_no_other_keys),
+        cmocka_unit_test(test_every_key_is_in_the_page_of_keys),
+        cmocka_unit_test(test_the_page_of_keys_names_no_others),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

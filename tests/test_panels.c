@@ -117,9 +117,9 @@ static void check_dialogs(struct session *f)
             show(f);
             dialog_show(f->editor, &f->world);
             assert_true(assert_texts_apart(&f->editor->list, 0, f->editor->layout.window) >= 4);
-            f->editor->dialog.waiting = true;
-            editor_message(
-                f->editor, true,
+            f->editor->dialog.awaited = REQUEST_SAVE;
+            panel_answer(
+                f, REQUEST_SAVE, false,
                 "/a/long/path/to/a/folder/that/is/not/there/at/all/scene.json: expected a folder that exists, got "
                 "one that does not; and the disk is full besides, so that this needs a good many lines to be told");
         }
@@ -172,6 +172,12 @@ static void expect_request(struct session *f, enum request_kind kind, const char
     assert_string_equal(request.path, path);
 }
 
+static void answer_saved(struct session *f, enum request_kind kind, const char *path)
+{
+    editor_set_path(f->editor, path);
+    panel_answer(f, kind, true, "");
+}
+
 static void test_save_as_stays_until_it_succeeds(void **state)
 {
     (void)state;
@@ -184,7 +190,7 @@ static void test_save_as_stays_until_it_succeeds(void **state)
     panel_type(&f, "no/such/dog");
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_SAVE_AS, "no/such/dog.json");
-    editor_message(f.editor, true, "no/such/dog.json: there is no such folder");
+    panel_answer(&f, REQUEST_SAVE_AS, false, "no/such/dog.json: there is no such folder");
     assert_int_equal(f.editor->dialog.kind, DIALOG_SAVE_AS);
     assert_non_null(strstr(f.editor->dialog.error, "no such folder"));
     assert_string_equal(f.editor->message.text, "");
@@ -194,7 +200,7 @@ static void test_save_as_stays_until_it_succeeds(void **state)
     panel_type(&f, "untitled.json");
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_SAVE_AS, "untitled.json");
-    editor_set_path(f.editor, "pets/dog.json");
+    answer_saved(&f, REQUEST_SAVE_AS, "pets/dog.json");
     assert_int_equal(f.editor->dialog.kind, DIALOG_NONE);
     session_key(&f, 'S', MOD_CTRL);
     expect_request(&f, REQUEST_SAVE, "");
@@ -246,13 +252,13 @@ static void test_quit_waits_for_the_save(void **state)
     panel_type(&f, "s");
     expect_request(&f, REQUEST_SAVE, "");
     expect_request(&f, REQUEST_NONE, "");
-    editor_message(f.editor, true, "dog.json: the disk is full");
+    panel_answer(&f, REQUEST_SAVE, false, "dog.json: the disk is full");
     expect_request(&f, REQUEST_NONE, ""); // the work in memory stays
     assert_int_equal(f.editor->dialog.kind, DIALOG_UNSAVED);
     panel_type(&f, "s");
     expect_request(&f, REQUEST_SAVE, "");
     history_mark_saved(f.history);
-    editor_set_path(f.editor, "pets/dog.json");
+    answer_saved(&f, REQUEST_SAVE, "pets/dog.json");
     expect_request(&f, REQUEST_QUIT, "");
     session_close(&f);
 
@@ -262,7 +268,7 @@ static void test_quit_waits_for_the_save(void **state)
     assert_string_equal(f.editor->dialog.ui.text.bytes, "untitled.json"); // and the S is no part of the name
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_SAVE_AS, "untitled.json");
-    editor_set_path(f.editor, "pets/dog.json");
+    answer_saved(&f, REQUEST_SAVE_AS, "pets/dog.json");
     expect_request(&f, REQUEST_QUIT, "");
     session_close(&f);
 }
@@ -277,7 +283,7 @@ static void test_cancelled_save_as_forgets_what_was_to_follow(void **state)
     session_key(&f, 'S', MOD_CTRL | MOD_SHIFT);
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_SAVE_AS, "untitled.json");
-    editor_set_path(f.editor, "pets/dog.json");
+    answer_saved(&f, REQUEST_SAVE_AS, "pets/dog.json");
     expect_request(&f, REQUEST_NONE, ""); // does not quit after all
     session_close(&f);
 }
@@ -306,11 +312,12 @@ static void test_open_completes_paths(void **state)
     session_key(&f, KEY_DOWN, 0);
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_OPEN, "figures/two.json");
-    editor_message(f.editor, true, "figures/two.json:3: expected a number");
+    panel_answer(&f, REQUEST_OPEN, false, "figures/two.json:3: expected a number");
     assert_int_equal(dialog->kind, DIALOG_OPEN);
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_OPEN, "figures/two.json");
     editor_open(f.editor, &f.world);
+    panel_answer(&f, REQUEST_OPEN, true, "");
     assert_int_equal(dialog->kind, DIALOG_NONE);
     session_key(&f, 'O', MOD_CTRL);
     panel_type(&f, "figures/t");

@@ -1,9 +1,8 @@
 /// The tail's pose: directions and units of the file format, lag (paper, section 7.1), and the default scene's
 /// motion.
 #include "near.h"
-#include "rig/pose.h"
+#include "rig/posing.h"
 #include "rig/shadow.h"
-#include "scene/evaluate.h"
 #include "scene/load.h"
 #include <math.h>
 #include <string.h>
@@ -206,13 +205,8 @@ static int close_scene(void **state)
 
 static void pose_at(const struct scene *scene, double frame, struct pose *pose)
 {
-    const struct tail *tail = &scene->document->tails[0];
-    wiggly_value values[8];
-    assert_true(tail->channel_count <= 8);
-    for (int c = 0; c < tail->channel_count; c++) {
-        values[c] = wiggly_evaluate(&scene->evaluation.curves[tail->channels[c].spline], fmod(frame, LOOP_FRAMES));
-    }
-    pose_tail(tail, values, LOOK_WIGGLY, pose);
+    const struct posing posing = {scene->document, &scene->evaluation, NULL, LOOK_WIGGLY};
+    posing_tail(&posing, 0, frame, NULL, pose);
 }
 
 static double distance(const float a[3], const float b[3])
@@ -253,10 +247,7 @@ static void the_default_scene_loops_without_a_pop(void **state)
     assert_true(step_at_seam <= step_elsewhere);
     assert_true(jerk_at_seam <= jerk_elsewhere);
     static struct pose last;
-    const struct scene *scene = *state;
-    wiggly_value end[2] = {wiggly_evaluate(&scene->evaluation.curves[0], LOOP_FRAMES),
-                           wiggly_evaluate(&scene->evaluation.curves[1], LOOP_FRAMES)};
-    pose_tail(&scene->document->tails[0], end, LOOK_WIGGLY, &last);
+    pose_at(*state, LOOP_FRAMES, &last);
     assert_near(distance(last.matrix[JOINTS] + 12, poses[0].matrix[JOINTS] + 12), 0.0, 1e-5);
 }
 

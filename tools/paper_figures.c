@@ -3,8 +3,7 @@
 #include "base/error.h"
 #include "editor/inspector/response.h"
 #include "model/character.h"
-#include "rig/pose.h"
-#include "scene/evaluate.h"
+#include "rig/posing.h"
 #include "scene/load.h"
 #include "ui/phase_color.h"
 #include <errno.h>
@@ -30,13 +29,13 @@ struct plot {
     bool knots;
 };
 
-struct figure {
+struct chart {
     const char *scene;
     int rows;
     struct plot plot[MAX_ROWS]; ///< top to bottom, as the paper has them
 };
 
-static const struct figure curves[] = {
+static const struct chart curves[] = {
     {"figure1", 2, {{"resonance", "resonance (Hz)", ROW_TOTAL, false}, {"curve", "curve", ROW_TOTAL, true}}},
     {"figure3", 2, {{"curve", "imaginary part", ROW_IM, false}, {"curve", "real part", ROW_RE, true}}},
     {"figure4", 2, {{"moved", "third knot moved", ROW_TOTAL, true}, {"before", "before", ROW_TOTAL, true}}},
@@ -190,7 +189,7 @@ static void svg_row(FILE *svg, const struct solved *s, const struct plot *plot, 
     if (plot->knots) svg_knots(svg, &f, s->document, plot->spline);
 }
 
-static void write_curves(const char *folder, const struct figure *figure)
+static void write_curves(const char *folder, const struct chart *figure)
 {
     struct solved s = solve(figure->scene);
     int count = s.evaluation.samples;
@@ -273,28 +272,18 @@ static void write_responses(const char *folder)
     finish(csv, "figure2");
 }
 
-/// Poses the scene's first tail at a sample.
-static void pose_at(const struct solved *s, int sample, struct pose *pose)
-{
-    const struct tail *tail = &s->document->tails[0];
-    wiggly_value values[SCENE_MAX_CHANNELS];
-    for (int c = 0; c < tail->channel_count; c++) {
-        values[c] = wiggly_evaluate(&s->evaluation.curves[tail->channels[c].spline], sample);
-    }
-    pose_tail(tail, values, LOOK_WIGGLY, pose);
-}
-
 /// Figure 6: the tail from above, every few frames, and all joints in the table.
 static void write_tail(const char *folder)
 {
     enum { POSES = 9, EVERY = 6, PER_ROW = 3 };
     struct solved s = solve("figure6");
+    const struct posing posing = {s.document, &s.evaluation, NULL, LOOK_WIGGLY};
     struct pose pose;
     FILE *svg = svg_begin(folder, "figure6", TOP + POSES / PER_ROW * (ROW + GAP));
     FILE *csv = create(folder, "figure6", "csv");
     fputs("frame,joint,x,y,z\n", csv);
     for (int sample = 0; sample < s.evaluation.samples; sample++) {
-        pose_at(&s, sample, &pose);
+        posing_tail(&posing, 0, sample, NULL, &pose);
         for (int j = 0; j < pose.count; j++) {
             const float *at = &pose.matrix[j][12];
             fprintf(csv, "%g,%d,%.9g,%.9g,%.9g\n", document_frame(s.document, sample), j, at[0], at[1], at[2]);
@@ -305,7 +294,7 @@ static void write_tail(const char *folder)
         struct frame f = {
             wide * (i % PER_ROW) + 30, TOP + i / PER_ROW * (ROW + GAP), wide - 60, ROW, -0.35, 2.15, -1.1, 1.1};
         char text[32];
-        pose_at(&s, 24 + i * EVERY, &pose);
+        posing_tail(&posing, 0, 24 + i * EVERY, NULL, &pose);
         for (int j = 0; j < pose.count; j++) {
             x[j] = pose.matrix[j][14];
             z[j] = pose.matrix[j][12];

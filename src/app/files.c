@@ -213,7 +213,8 @@ void app_requests(struct app *app)
         struct request request = editor_take_request(app->editor);
         if (request.kind == REQUEST_NONE) break;
         struct error error = {0};
-        if (!carry_out(app, &request, &error)) editor_message(app->editor, true, error.text);
+        bool done = carry_out(app, &request, &error);
+        editor_answer(app->editor, &request, done, error.text);
     }
     if (history_is_saved(app->history) != app->shown_saved) show_title(app);
 }

@@ -224,7 +224,7 @@ bool personal_forget(struct app *app, struct error *error)
     if (!personal || !personal->is_offered) return true;
     recovery_remove(&personal->offered.slot);
     recovery_release(&personal->offered.slot);
-    if (!offer(app)) editor_recovery_done(app->editor);
+    offer(app);
     return true;
 }
 

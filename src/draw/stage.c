@@ -9,7 +9,7 @@
 
 enum {
     JOINT_BINDING = 0,
-    MAX_SLOTS = TAIL_MAX_JOINTS + 1,  ///< slot 0 does not bend, slot n + 1 follows joint n (see stage_mesh.vert)
+    MAX_SLOTS = POSE_MAX_JOINTS + 1,  ///< slot 0 does not bend, slot n + 1 follows joint n (see stage_mesh.vert)
     BLOCK_BYTES = MAX_SLOTS * 3 * 16, ///< what the shader's block holds: three rows a slot
     BLOCK_STRIDE = (BLOCK_BYTES + 255) / 256 * 256, ///< 256: the largest offset alignment a driver may ask for
 };

@@ -231,14 +231,14 @@ static void draw_character(const struct stage_morph *morph, const struct model *
 {
     const struct figure *figure = shown->figure;
     const float *p = shown->position;
-    GLint first_row[CHARACTER_MAX_DRIVES] = {0};
+    GLint first_row[MORPH_MAX_COORDINATES] = {0};
     float axis[3] = {0};
     for (int k = 0; k < shown->morph.count; k++) first_row[k] = model->rows * shown->morph.coordinate[k];
     glUniform3f(morph->at.place, p[0], p[1] - figure->lo[1], p[2]);
     glUniform2f(morph->at.shade, p[1], 0.3f * (figure->hi[1] - figure->lo[1]));
     glUniform1i(morph->at.count, model->coordinates ? shown->morph.count : 0);
-    glUniform1iv(morph->at.first_row, CHARACTER_MAX_DRIVES, first_row);
-    glUniform2fv(morph->at.weight, CHARACTER_MAX_DRIVES, shown->morph.weight[0]);
+    glUniform1iv(morph->at.first_row, MORPH_MAX_COORDINATES, first_row);
+    glUniform2fv(morph->at.weight, MORPH_MAX_COORDINATES, shown->morph.weight[0]);
     const bool mapped = shown->map_coordinate >= 0 && model->coordinates;
     const float largest = mapped ? figure->largest[shown->map_coordinate][shown->map_axis] : 0.0f;
     axis[shown->map_axis] = largest > 0.0f ? 1.0f / largest : 0.0f;

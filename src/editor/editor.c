@@ -163,7 +163,6 @@ void editor_set_path(struct editor *editor, const char *path)
     const char *slash = strrchr(path, '/');
     snprintf(editor->path, sizeof editor->path, "%s", path);
     snprintf(editor->title, sizeof editor->title, "%s", path[0] ? (slash ? slash + 1 : path) : "untitled");
-    dialog_done(editor);
 }
 
 void editor_set_stage_scale(struct editor *editor, float scale) { editor->stage_scale = scale; }
@@ -259,9 +258,13 @@ struct request editor_take_request(struct editor *editor)
     return taken;
 }
 
+void editor_answer(struct editor *editor, const struct request *request, bool ok, const char *text)
+{
+    if (!dialog_answer(editor, request, ok, text) && !ok) editor_message(editor, true, text);
+}
+
 void editor_message(struct editor *editor, bool is_error, const char *text)
 {
-    if (is_error && dialog_failed(editor, text)) return;
     snprintf(editor->message.text, sizeof editor->message.text, "%s", text);
     editor->message.is_error = is_error;
     editor->message.seconds_left = is_error ? 0 : MESSAGE_SECONDS;

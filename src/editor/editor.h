@@ -70,10 +70,8 @@ struct recovery_offer {
     int others;     ///< older ones there are besides
 };
 
-/// Asks what to do with it: REQUEST_RECOVER, REQUEST_FORGET, or nothing yet. Answer the request with editor_open() and
-/// editor_set_path(), editor_offer_recovery() of the next one, editor_recovery_done(), or an error message.
+/// Asks what to do with it: REQUEST_RECOVER, REQUEST_FORGET, or nothing yet.
 void editor_offer_recovery(struct editor *editor, const struct recovery_offer *offer);
-void editor_recovery_done(struct editor *editor);
 
 /// Shows what to try first, to somebody who is new; and whether that is still to be seen.
 void editor_welcome(struct editor *editor);
@@ -106,6 +104,10 @@ const struct stage_view *editor_stage(const struct editor *editor);
 /// Takes the oldest request; REQUEST_NONE where there is none.
 struct request editor_take_request(struct editor *editor);
 
+/// Says how a request went: every one gets an answer, once all that it brings (editor_open(), editor_set_path()) is done.
+/// `text` says why where it is not `ok`. The dialog that asked closes, or shows the sentence and lets one try again.
+void editor_answer(struct editor *editor, const struct request *request, bool ok, const char *text);
+
 /// The text that was copied last; "" where nothing was.
 const char *editor_clipboard(const struct editor *editor);
 
@@ -128,7 +130,7 @@ enum cursor editor_cursor(const struct editor *editor);
 
 /// Where a replay's target is on the screen now: "knot(sway,2)", "curve(sway,36,1)", "slider(frequency)",
 /// "stage(0.5,0.5)", "tail(tail,0.9)", "warning(0)". false where there is no such thing (with a sentence).
-bool editor_target(const struct editor *editor, const struct editor_world *world, const char *target, float *x,
+bool editor_target(struct editor *editor, const struct editor_world *world, const char *target, float *x,
                    float *y, struct error *error);
 
 #endif

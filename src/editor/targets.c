@@ -17,7 +17,7 @@ struct target {
 };
 
 struct place {
-    const struct editor *editor;
+    struct editor *editor; ///< as it was after all: inspector_target() lays its widgets out to find one
     const struct editor_world *world;
     const struct target *target;
     float x, y;
@@ -179,9 +179,7 @@ static bool find_divider(struct place *place, struct error *error)
 
 static bool find_widget(struct place *place, struct error *error)
 {
-    /* inspector_target() lays its widgets out to find one, and leaves the editor as it was */
-    struct editor *editor = (struct editor *)place->editor;
-    return inspector_target(editor, place->world, place->target->name, &place->x, &place->y) ||
+    return inspector_target(place->editor, place->world, place->target->name, &place->x, &place->y) ||
            fail(error, ERROR_INPUT, "the inspector does not show \"%s\"", place->target->name);
 }
 
@@ -237,7 +235,7 @@ static const struct target_kind *parse(const char *text, struct target *target)
     return NULL;
 }
 
-bool editor_target(const struct editor *editor, const struct editor_world *world, const char *target, float *x,
+bool editor_target(struct editor *editor, const struct editor_world *world, const char *target, float *x,
                    float *y, struct error *error)
 {
     struct target parts;

@@ -2,8 +2,8 @@
 #ifndef RIG_PICK_H
 #define RIG_PICK_H
 
+#include "model/morph.h"
 #include "model/reach.h"
-#include "rig/morph.h"
 
 /// Positions of all vertices in the world: the posed figure standing on the ground at `position`, as the stage draws it.
 void pick_pose(const struct figure *figure, const struct morph *morph, const float position[3], float (*posed)[3]);

@@ -281,6 +281,12 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     storage->is_new = evaluation->stale = false;
 }
 
+wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, double position)
+{
+    bool solved = evaluation && spline >= 0 && spline < evaluation->count && evaluation->samples > 0;
+    return solved ? wiggly_evaluate(&evaluation->curves[spline], position) : (wiggly_value){0};
+}
+
 int evaluation_extreme(const struct evaluation *evaluation, int spline, int first, int last, bool highest)
 {
     const struct storage *storage = evaluation->storage;

@@ -30,6 +30,9 @@ void evaluation_free(struct evaluation *evaluation);
 /// solves all.
 void evaluation_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic);
 
+/// A spline's value at a position in samples, which may lie between two; nothing where there is no such spline, or `evaluation` is NULL.
+wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, double position);
+
 /// The sample of the lowest (or highest) total of a solved spline from `first` to `last`, the earliest of equal ones; fast at any
 /// length.
 int evaluation_extreme(const struct evaluation *evaluation, int spline, int first, int last, bool highest);

@@ -2,8 +2,8 @@
 #ifndef UI_STAGE_H
 #define UI_STAGE_H
 
-#include "rig/morph.h"
-#include "rig/pose.h"
+#include "model/morph.h"
+#include "model/pose.h"
 #include "ui/drawlist.h"
 #include "ui/stage_colors.h"
 

@@ -4,6 +4,7 @@
 
 #include "editor/core/playback.h"
 #include "editor/core/state.h"
+#include "rig/posing.h"
 
 /// Whether knots go to whole frames: Ctrl turns around what the panel is set to.
 bool drag_snaps(const struct editor *editor, unsigned mods);
@@ -66,7 +67,7 @@ void toggle_slope(struct editor *editor, const struct editor_world *world);
 /// Slopes of the selected knots: level, or towards the neighbours' as Catmull and Rom have it.
 void flatten_slopes(struct editor *editor, const struct editor_world *world);
 void smooth_slopes(struct editor *editor, const struct editor_world *world);
-/// Changes the parameter that a held letter stands for (F Z B C L), in steps of design.
+/// Changes the parameter that a held letter stands for (F Z B C L) by one step.
 void nudge_parameter(struct editor *editor, const struct editor_world *world, int letter, int direction);
 /// The channel that the active spline moves, the first of all where it moves none; NULL where there is none at all.
 const struct channel *active_channel(const struct editor *editor, const struct document *document, int *tail,
@@ -104,17 +105,16 @@ void stage_pose(struct editor *editor, const struct editor_world *world);
 void stage_show(struct editor *editor, const struct editor_world *world);
 /// Where a point of the last pose is on the screen: `fraction` 0 … 1 of the way from joint to joint + 1.
 bool stage_project(const struct editor *editor, int tail, int joint, double fraction, float xy[2]);
-/// A change of one spline's x at the time shown, to see what would happen.
+/// A change of one spline's x, to see what would happen.
 struct what_if {
     int spline;
     double re, im;
 };
-/// Poses one tail at the time shown; `change` may be NULL.
-void stage_pose_tail(const struct editor *editor, const struct editor_world *world, int tail,
+/// What rigs are posed from: the world, in the editor's look.
+struct posing stage_posing(const struct editor *editor, const struct editor_world *world);
+/// Poses one tail with what is moved by hand; `change` may be NULL.
+void stage_pose_tail(const struct editor *editor, const struct editor_world *world, int tail, double position,
                      const struct what_if *change, struct pose *pose);
-/// Poses one tail as the document has it at a position in samples, without what is moved by hand.
-void stage_pose_at(const struct editor *editor, const struct editor_world *world, int tail, double position,
-                   struct pose *pose);
 /// The same as stage_project() of any pose.
 bool stage_project_pose(const struct editor *editor, const struct pose *pose, int joint, double fraction,
                         float xy[2]);

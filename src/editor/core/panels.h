@@ -113,7 +113,7 @@ struct dialog {
     struct ask ask;              ///< of DIALOG_ASK, and its question
     struct question question;
     struct request after; ///< what to do once the work is saved or discarded; REQUEST_NONE: nothing
-    bool waiting;         ///< a save or open was requested; its outcome is not known yet
+    enum request_kind awaited; ///< what was requested and is not answered yet; REQUEST_NONE: nothing
     bool skip_text;       ///< a letter has answered: the character that comes with it is no part of a path
     char error[DIALOG_ERROR_SIZE];
     char listed[UI_TEXT_SIZE]; ///< folder whose names are in `names`
@@ -134,10 +134,9 @@ void dialog_ask(struct editor *editor, const struct editor_world *world, const s
 /// Does `after` (REQUEST_NEW, REQUEST_OPEN with a path, or without: asks for one, REQUEST_QUIT), but asks first where work
 /// would be lost: Save, Discard, Cancel. `after` then follows only when the save has succeeded.
 void dialog_leave(struct editor *editor, const struct editor_world *world, const struct request *after);
-/// The outcome of a request. editor_set_path() and editor_open() call dialog_done(): closes, goes on with `after`.
-/// editor_message() calls dialog_failed() for errors: the dialog stays and says why; true where it took the message.
-void dialog_done(struct editor *editor);
-bool dialog_failed(struct editor *editor, const char *sentence);
+/// The app's answer to what the dialog has asked for: it closes and goes on with `after`, or stays and says why not. false
+/// where it waits for no such answer.
+bool dialog_answer(struct editor *editor, const struct request *request, bool ok, const char *text);
 
 /// true for every event while a dialog is open, but for EVENT_SIZE and EVENT_EXPOSE.
 bool dialog_event(struct editor *editor, const struct editor_world *world, const struct event *event);

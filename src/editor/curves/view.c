@@ -59,11 +59,7 @@ double curves_position(const struct document *document, double frame)
 
 wiggly_value curves_solved(const struct editor_world *world, int spline, double position)
 {
-    const struct evaluation *evaluation = world->evaluation;
-    if (!evaluation || spline < 0 || spline >= evaluation->count || evaluation->samples < 1) {
-        return (wiggly_value){0};
-    }
-    return wiggly_evaluate(&evaluation->curves[spline], position);
+    return evaluation_at(world->evaluation, spline, position);
 }
 
 struct focus editor_focus(const struct editor *editor, const struct document *document)

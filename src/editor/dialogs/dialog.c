@@ -21,7 +21,7 @@ static void open_dialog(struct editor *editor, enum dialog_kind kind, const char
 {
     struct dialog *dialog = &editor->dialog;
     dialog->kind = kind;
-    dialog->waiting = false;
+    dialog->awaited = REQUEST_NONE;
     dialog->error[0] = '\0';
     dialog->name_count = -1;
     dialog->choice = 0;
@@ -40,7 +40,7 @@ void dialog_close(struct editor *editor)
 {
     struct dialog *dialog = &editor->dialog;
     dialog->kind = DIALOG_NONE;
-    dialog->waiting = false;
+    dialog->awaited = REQUEST_NONE;
     dialog->after.kind = REQUEST_NONE;
 }
 
@@ -74,20 +74,25 @@ void dialog_leave(struct editor *editor, const struct editor_world *world, const
     editor->dialog.after = *after;
 }
 
-void dialog_done(struct editor *editor)
+void dialog_await(struct editor *editor, enum request_kind kind, const char *path)
 {
-    if (!editor->dialog.waiting) return;
-    struct request after = editor->dialog.after;
-    dialog_close(editor);
-    go_on(editor, &after);
+    editor->dialog.error[0] = '\0';
+    editor->dialog.awaited = kind;
+    editor_request(editor, kind, path);
 }
 
-bool dialog_failed(struct editor *editor, const char *sentence)
+bool dialog_answer(struct editor *editor, const struct request *request, bool ok, const char *text)
 {
     struct dialog *dialog = &editor->dialog;
-    if (!dialog->waiting) return false;
-    dialog->waiting = false;
-    snprintf(dialog->error, sizeof dialog->error, "%s", sentence);
+    if (dialog->awaited == REQUEST_NONE || dialog->awaited != request->kind) return false;
+    dialog->awaited = REQUEST_NONE;
+    if (ok) {
+        struct request after = dialog->after;
+        dialog_close(editor);
+        go_on(editor, &after);
+    } else {
+        snprintf(dialog->error, sizeof dialog->error, "%s", text);
+    }
     return true;
 }
 
@@ -96,8 +101,7 @@ static void decide(struct editor *editor, int choice)
     struct dialog *dialog = &editor->dialog;
     struct request after = dialog->after;
     if (choice == ANSWER_SAVE && editor->path[0]) {
-        dialog->waiting = true;
-        editor_request(editor, REQUEST_SAVE, NULL);
+        dialog_await(editor, REQUEST_SAVE, NULL);
     } else if (choice == ANSWER_SAVE) {
         dialog_ask_save_as(editor);
     } else {
@@ -129,9 +133,7 @@ static void confirm(struct editor *editor)
         snprintf(dialog->error, sizeof dialog->error, "The path is too long.");
         return;
     }
-    dialog->error[0] = '\0';
-    dialog->waiting = true;
-    editor_request(editor, saving ? REQUEST_SAVE_AS : REQUEST_OPEN, path);
+    dialog_await(editor, saving ? REQUEST_SAVE_AS : REQUEST_OPEN, path);
 }
 
 static void unsaved_question(const struct editor *editor, struct question *question)
@@ -305,7 +307,7 @@ bool dialog_event(struct editor *editor, const struct editor_world *world, const
 {
     struct dialog *dialog = &editor->dialog;
     if (dialog->kind == DIALOG_NONE || event->kind == EVENT_SIZE || event->kind == EVENT_EXPOSE) return false;
-    if (dialog->kind == DIALOG_RECOVER && event->kind == EVENT_CLOSE && !dialog->waiting) {
+    if (dialog->kind == DIALOG_RECOVER && event->kind == EVENT_CLOSE && dialog->awaited == REQUEST_NONE) {
         dialog_close(editor);
         return false;
     }
@@ -313,7 +315,7 @@ bool dialog_event(struct editor *editor, const struct editor_world *world, const
     if (key && event->action == ACTION_RELEASE) return false; // of a key that was pressed before the dialog came
     bool typed_by_answer = dialog->skip_text && event->kind == EVENT_TEXT;
     dialog->skip_text = false;
-    if (dialog->waiting || typed_by_answer) return true;
+    if (dialog->awaited != REQUEST_NONE || typed_by_answer) return true;
     bool chord = event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER);
     if (key && !chord) {
         bool done = is_question(dialog) ? question_event(editor, world, event->key) : path_key(editor, event->key);

@@ -20,6 +20,8 @@ bool dialog_exists(const struct dialog *dialog);
 /// Shows a dialog that has no text, and closes whichever is shown.
 void dialog_open(struct editor *editor, enum dialog_kind kind);
 void dialog_close(struct editor *editor);
+/// Asks something of the app; the dialog takes nothing until dialog_answer().
+void dialog_await(struct editor *editor, enum request_kind kind, const char *path);
 
 /// DIALOG_RECOVER: its question, and what an answer (enum recover_answer) does.
 enum recover_answer { RECOVER_RECOVER, RECOVER_DISCARD, RECOVER_LATER };

@@ -15,11 +15,6 @@ void editor_offer_recovery(struct editor *editor, const struct recovery_offer *o
     dialog_open(editor, DIALOG_RECOVER);
 }
 
-void editor_recovery_done(struct editor *editor)
-{
-    if (editor->dialog.kind == DIALOG_RECOVER) dialog_close(editor);
-}
-
 void dialog_recover_question(const struct editor *editor, struct question *question)
 {
     const struct recovery_offer *offer = &editor->dialog.offer;
@@ -36,12 +31,9 @@ void dialog_recover_question(const struct editor *editor, struct question *quest
 
 void dialog_recover_answer(struct editor *editor, int answer)
 {
-    struct dialog *dialog = &editor->dialog;
     if (answer == RECOVER_LATER) {
         dialog_close(editor);
-        return;
+    } else {
+        dialog_await(editor, answer == RECOVER_RECOVER ? REQUEST_RECOVER : REQUEST_FORGET, NULL);
     }
-    dialog->error[0] = '\0';
-    dialog->waiting = true;
-    editor_request(editor, answer == RECOVER_RECOVER ? REQUEST_RECOVER : REQUEST_FORGET, NULL);
 }

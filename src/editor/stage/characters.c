@@ -1,9 +1,8 @@
 /// Poses soft characters and their stiff twins on the stage.
 #include "editor/stage/characters.h"
+#include "editor/core/actions.h"
 #include "editor/core/state.h"
-#include "editor/curves/curves.h"
-#include "rig/cast.h"
-#include "rig/morph.h"
+#include "rig/posing.h"
 #include "ui/font.h"
 #include "ui/phase_color.h"
 #include "ui/theme.h"
@@ -36,14 +35,6 @@ void characters_open(struct editor *editor, const struct document *document)
     const int phases = document->character_count > 0 ? document->characters[0].phases : -1;
     editor->brush.on = false;
     editor->characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
-}
-
-static void pose_at(const struct editor_world *world, const struct character_rig *rig, const struct figure *figure,
-                    double position, enum look look, struct morph *morph)
-{
-    wiggly_value values[CHARACTER_MAX_DRIVES] = {{0}};
-    for (int k = 0; k < rig->drive_count; k++) values[k] = curves_solved(world, rig->drives[k].spline, position);
-    pose_character(rig, figure, values, look, morph);
 }
 
 /// How far each of a pair stands from the middle.
@@ -83,7 +74,8 @@ static void add_character(struct editor *editor, const struct editor_world *worl
                                       .map_coordinate = -1,
                                       .map_axis = how->axis};
     for (int k = 0; k < 3; k++) shown->position[k] = (float)rig->position[k] + (k == 0 ? aside : 0.0f);
-    pose_at(world, rig, shown->figure, editor->playback.position, look, &shown->morph);
+    const struct posing posing = {world->document, world->evaluation, world->cast, look};
+    posing_character(&posing, index, editor->playback.position, &shown->morph);
     const int drive = how->drive < rig->drive_count ? how->drive : 0;
     const bool is_painted = editor->brush.on && index == how->character;
     if ((how->mapped || is_painted) && rig->drive_count > 0)
@@ -108,6 +100,7 @@ void characters_pose(struct editor *editor, const struct editor_world *world)
 
 bool characters_bounds(const struct editor *editor, const struct editor_world *world, float lo[3], float hi[3])
 {
+    const struct posing posing = stage_posing(editor, world);
     const double last = document_samples(world->document) - 1;
     bool any = false;
     for (int i = 0; i < world->document->character_count; i++) {
@@ -118,7 +111,7 @@ bool characters_bounds(const struct editor *editor, const struct editor_world *w
         for (int step = 0; step <= BOUND_STEPS; step++) {
             struct morph morph;
             float low[3], high[3];
-            pose_at(world, rig, figure, last * step / BOUND_STEPS, editor->look, &morph);
+            posing_character(&posing, i, last * step / BOUND_STEPS, &morph);
             morph_bounds(figure, &morph, low, high);
             for (int k = 0; k < 3; k++) {
                 const float at = (float)rig->position[k] - (k == 1 ? figure->lo[1] : 0.0f);

@@ -74,7 +74,7 @@ void grab_begin(struct editor *editor, const struct editor_world *world, const s
     grab->start[0] = hover->x;
     grab->start[1] = hover->y;
     struct pose pose;
-    stage_pose_tail(editor, world, grab->tail, NULL, &pose);
+    stage_pose_tail(editor, world, grab->tail, editor->playback.position, NULL, &pose);
     stage_project_pose(editor, &pose, grab->joint, grab->fraction, grab->start);
 }
 
@@ -99,7 +99,8 @@ static void derivative(const struct editor *editor, const struct editor_world *w
     struct pose pose;
     float moved[2] = {at[0], at[1]};
     double change = PROBE * axis->values_per_radian;
-    stage_pose_tail(editor, world, grab->tail, &(struct what_if){axis->spline, change, change * axis->turn}, &pose);
+    const struct what_if what_if = {axis->spline, change, change * axis->turn};
+    stage_pose_tail(editor, world, grab->tail, editor->playback.position, &what_if, &pose);
     stage_project_pose(editor, &pose, grab->joint, grab->fraction, moved);
     response[0] = (moved[0] - at[0]) / PROBE;
     response[1] = (moved[1] - at[1]) / PROBE;
@@ -163,7 +164,7 @@ void grab_apply(struct editor *editor, const struct editor_world *world)
     if (!grab->axis[AXIS_SIDE].active && !grab->axis[AXIS_UP].active) return;
     struct pose pose;
     float at[2];
-    stage_pose_tail(editor, world, grab->tail, NULL, &pose);
+    stage_pose_tail(editor, world, grab->tail, editor->playback.position, NULL, &pose);
     if (!stage_project_pose(editor, &pose, grab->joint, grab->fraction, at)) return;
     double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
     if (grab->applied && hypot(miss[0], miss[1]) < CLOSE) return;

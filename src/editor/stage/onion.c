@@ -101,10 +101,11 @@ void onion_show(struct editor *editor, const struct editor_world *world)
     if (!editor->overlays.onion || !spline || tail < 0) return;
     int count = nearest_knots(document, spline, editor->playback.position, samples);
     uint32_t color = arrange_color(document, editor->active);
+    const struct posing posing = stage_posing(editor, world);
     for (int i = count - 1; i >= 0; i--) {
         struct pose pose;
         float points[OUTLINE][2];
-        stage_pose_at(editor, world, tail, samples[i], &pose);
+        posing_tail(&posing, tail, samples[i], NULL, &pose);
         if (!outline(editor, &pose, points)) continue;
         float share = count > 1 ? (float)i / (float)(count - 1) : 0;
         drawlist_line(&editor->list, points[0], OUTLINE, 1.25f,

@@ -18,50 +18,32 @@ static const float GRAB_REACH = 16; ///< pixels from the tail's centre line
 static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f;
 static const double ZOOM_STEP = 0.12; ///< of a wheel's notch, as a power of e
 
-/// Where the coordinates of a tail's position that follow splines are; 0 for the others.
-static void tail_base(const struct editor_world *world, const struct tail *tail, double position, double moved[3])
+struct posing stage_posing(const struct editor *editor, const struct editor_world *world)
 {
-    for (int k = 0; k < 3; k++) {
-        wiggly_value value = {0};
-        if (tail->position[k].track >= 0) value = curves_solved(world, tail->position[k].track, position);
-        moved[k] = value.y + value.re;
+    return (struct posing){world->document, world->evaluation, world->cast, editor->look};
+}
+
+/// What moves a tail besides the document: its body in the hand, what swings after it, and `change` (may be NULL).
+static struct by_hand by_hand(const struct editor *editor, const struct tail *shown, int tail,
+                              const struct what_if *change)
+{
+    struct by_hand hand = {0};
+    for (int c = 0; c < shown->channel_count; c++) {
+        hand.channel[c] = follow_value(editor, tail, c);
+        if (!change || change->spline != shown->channels[c].spline) continue;
+        hand.channel[c].re += change->re;
+        hand.channel[c].im += change->im;
     }
+    body_offset(editor, tail, hand.base);
+    return hand;
 }
 
-void stage_pose_at(const struct editor *editor, const struct editor_world *world, int tail, double position,
-                   struct pose *pose)
-{
-    const struct tail *shown = &world->document->tails[tail];
-    wiggly_value values[SCENE_MAX_CHANNELS];
-    for (int c = 0; c < shown->channel_count; c++)
-        values[c] = curves_solved(world, shown->channels[c].spline, position);
-    pose_tail(shown, values, editor->look, pose);
-    double moved[3];
-    tail_base(world, shown, position, moved);
-    pose_move(pose, moved);
-}
-
-void stage_pose_tail(const struct editor *editor, const struct editor_world *world, int tail,
+void stage_pose_tail(const struct editor *editor, const struct editor_world *world, int tail, double position,
                      const struct what_if *change, struct pose *pose)
 {
-    const struct tail *shown = &world->document->tails[tail];
-    wiggly_value values[SCENE_MAX_CHANNELS];
-    for (int c = 0; c < shown->channel_count; c++) {
-        int spline = shown->channels[c].spline;
-        wiggly_value swing = follow_value(editor, tail, c);
-        values[c] = curves_solved(world, spline, editor->playback.position);
-        values[c].re += swing.re;
-        values[c].im += swing.im;
-        if (!change || change->spline != spline) continue;
-        values[c].re += change->re;
-        values[c].im += change->im;
-    }
-    pose_tail(shown, values, editor->look, pose);
-    double moved[3], offset[3];
-    tail_base(world, shown, editor->playback.position, moved);
-    body_offset(editor, tail, offset);
-    for (int k = 0; k < 3; k++) moved[k] += offset[k];
-    pose_move(pose, moved);
+    const struct posing posing = stage_posing(editor, world);
+    const struct by_hand hand = by_hand(editor, &world->document->tails[tail], tail, change);
+    posing_tail(&posing, tail, position, &hand, pose);
 }
 
 static void add_blobs(struct stage_view *view, const struct pose *pose)
@@ -78,14 +60,12 @@ static void add_blobs(struct stage_view *view, const struct pose *pose)
 void stage_fit(struct editor *editor, const struct editor_world *world)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
-    double shown = editor->playback.position;
     double last = document_samples(world->document) - 1;
     for (int i = 0; i <= FIT_STEPS; i++) {
-        editor->playback.position = last * i / FIT_STEPS;
         for (int t = 0; t < world->document->tail_count && t < STAGE_MAX_TAILS; t++) {
             struct pose pose;
             float low[3], high[3];
-            stage_pose_tail(editor, world, t, NULL, &pose);
+            stage_pose_tail(editor, world, t, last * i / FIT_STEPS, NULL, &pose);
             pose_bounds(&pose, low, high);
             for (int axis = 0; axis < 3; axis++) {
                 lo[axis] = fminf(lo[axis], low[axis]);
@@ -93,7 +73,6 @@ void stage_fit(struct editor *editor, const struct editor_world *world)
             }
         }
     }
-    editor->playback.position = shown;
     editor->camera = camera_default();
     bool any = characters_bounds(editor, world, lo, hi);
     if (any && world->document->tail_count == 0)
@@ -149,7 +128,7 @@ void stage_pose(struct editor *editor, const struct editor_world *world)
         struct stage_tail *shown = &view->tails[t];
         shown->joints = tail->joints;
         shown->length = (float)tail->length;
-        stage_pose_tail(editor, world, t, NULL, &shown->pose);
+        stage_pose_tail(editor, world, t, editor->playback.position, NULL, &shown->pose);
         add_blobs(view, &shown->pose);
     }
     characters_pose(editor, world);

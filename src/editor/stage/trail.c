@@ -37,7 +37,8 @@ static const float *tip_at(struct editor *editor, const struct editor_world *wor
     struct trail_point *point = &editor->overlays.trail_point[(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
     if (point->known && point->key == key && point->frame == frame) return point->tip;
     struct pose pose;
-    stage_pose_at(editor, world, tail, (double)frame * world->document->substeps, &pose);
+    const struct posing posing = stage_posing(editor, world);
+    posing_tail(&posing, tail, (double)frame * world->document->substeps, NULL, &pose);
     *point = (struct trail_point){.known = true, .key = key, .frame = frame};
     for (int k = 0; k < 3; k++) point->tip[k] = pose.matrix[pose.count - 1][12 + k];
     return point->tip;

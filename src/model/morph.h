@@ -1,0 +1,25 @@
+/// A soft character in motion: the sum of its complex normal coordinates, each turned and scaled by a weight.
+///
+///     D(j) = Re(Σ_k z_k Ñ_{k,j})
+#ifndef MODEL_MORPH_H
+#define MODEL_MORPH_H
+
+#include "model/figure.h"
+
+enum { MORPH_MAX_COORDINATES = 4 };
+
+/// What moves a figure at one time.
+struct morph {
+    int count;
+    int coordinate[MORPH_MAX_COORDINATES];  ///< index in the figure
+    float weight[MORPH_MAX_COORDINATES][2]; ///< z: real and imaginary part
+};
+
+/// Where a vertex and its unit normal are now: what the stage's vertex shader computes. `normal` may be NULL.
+void morph_vertex(const struct figure *figure, const struct morph *morph, int vertex, float position[3],
+                  float normal[3]);
+
+/// The box around the posed figure, relative to the rig's position.
+void morph_bounds(const struct figure *figure, const struct morph *morph, float lo[3], float hi[3]);
+
+#endif

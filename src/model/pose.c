@@ -1,0 +1,34 @@
+#include "model/pose.h"
+#include "model/creature.h"
+#include <math.h>
+
+void pose_move(struct pose *pose, const double by[3])
+{
+    for (int n = 0; n < pose->count; n++) {
+        for (int k = 0; k < 3; k++) pose->matrix[n][12 + k] += (float)by[k];
+    }
+}
+
+float pose_length(const struct pose *pose)
+{
+    const float *a = pose->matrix[0] + 12, *b = pose->matrix[1] + 12;
+    const float d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    return sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) * (float)(pose->count - 1);
+}
+
+void pose_bounds(const struct pose *pose, float lo[3], float hi[3])
+{
+    const float scale = pose_length(pose) / CREATURE_TAIL_LENGTH;
+    for (int k = 0; k < 3; k++) {
+        lo[k] = pose->matrix[0][12 + k] + scale * creature_body_lo[k];
+        hi[k] = pose->matrix[0][12 + k] + scale * creature_body_hi[k];
+    }
+    for (int n = 0; n < pose->count; n++) {
+        const float along = CREATURE_TAIL_LENGTH * (float)n / (float)(pose->count - 1);
+        const float radius = scale * creature_tail_radius(along);
+        for (int k = 0; k < 3; k++) {
+            lo[k] = fminf(lo[k], pose->matrix[n][12 + k] - radius);
+            hi[k] = fmaxf(hi[k], pose->matrix[n][12 + k] + radius);
+        }
+    }
+}
