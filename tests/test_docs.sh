@@ -12,7 +12,7 @@ build=$(realpath "$B")
 CC=${CC:-gcc}
 sanitizers=""
 [ -n "${SANITIZE:-}" ] && sanitizers="-fsanitize=address,undefined"
-documents="README.md docs/*.md"
+documents="README.md CONTRIBUTING.md docs/*.md"
 commands=$("$build/wiggly" --help | sed -nE 's/^  ([a-z]+) .*/\1/p' | tr '\n' ' ')
 unset DISPLAY WAYLAND_DISPLAY
 
