@@ -13,7 +13,7 @@ CC=${CC:-gcc}
 sanitizers=""
 [ -n "${SANITIZE:-}" ] && sanitizers="-fsanitize=address,undefined"
 documents="README.md docs/*.md"
-commands="live solve check simulate analyze log bench"
+commands=$("$build/wiggly" --help | sed -nE 's/^  ([a-z]+) .*/\1/p' | tr '\n' ' ')
 unset DISPLAY WAYLAND_DISPLAY
 
 # --- what a command line finds, and how it is cut short where it would last
@@ -149,6 +149,11 @@ unknown=$(grep -ohE '`[^`]*`' $documents | grep -oE -- '--[a-z][a-z-]*' | sort -
 [ -z "$unknown" ] || echo "  there is no option $unknown"
 [ -z "$unknown" ]
 ok "every option that is named is there" $?
+
+missing=$(for command in $commands; do [[ $all =~ \`wiggly\ \[?$command[^a-z] ]] || echo "$command"; done)
+[ -z "$missing" ] || echo "  not in README or docs: $missing"
+[ -n "$commands" ] && [ -z "$missing" ]
+ok "every command is named" $?
 
 # shellcheck disable=SC2086
 unknown=$(grep -ohE '`wiggly [a-z]+' $documents | cut -d' ' -f2 | sort -u | grep -vxFf <(tr ' ' '\n' <<<"$commands"))

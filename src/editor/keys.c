@@ -1,4 +1,4 @@
-/// The keyboard: one table of what a key does and one of what a typed character does (design: "The live app").
+/// The keyboard: one table of what a key does, one of what a typed character does. docs/keys.md lists them.
 #include "editor/keys.h"
 #include "editor/core/actions.h"
 #include "editor/curves/curves.h"

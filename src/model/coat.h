@@ -1,4 +1,4 @@
-/// What the animal's skin is coloured with (look.md's palette). Linear RGB.
+/// The colours of the animal's coat. Linear RGB.
 #ifndef MODEL_COAT_H
 #define MODEL_COAT_H
 

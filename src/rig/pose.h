@@ -1,4 +1,4 @@
-/// Samples → pose: a tail's joint matrices from its channels' spline values (spec: "Scene file", paper section 7.1).
+/// Samples → pose: a tail's joint matrices from its channels' spline values (docs/mathematics.md, Poses; section 7.1 of the paper).
 #ifndef RIG_POSE_H
 #define RIG_POSE_H
 

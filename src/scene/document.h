@@ -1,4 +1,4 @@
-/// The document: what a scene file says (spec: "Scene file"), in memory. Everything on screen is a function of it.
+/// The document: a scene file (docs/scene-format.md) in memory. Everything on screen is a function of it.
 ///
 /// Only edit.h changes one; load.h makes one from a file. Knots are kept by sample, at most one on each.
 #ifndef SCENE_DOCUMENT_H

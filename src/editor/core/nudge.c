@@ -94,7 +94,7 @@ static void nudge_lag(struct editor *editor, const struct editor_world *world, d
     editor_step(editor, world, "Change lag", merge_key(editor, world, kind), &edit);
 }
 
-/// What a held letter stands for, and its step (design: "mode; f, ζ, β, calm, lag").
+/// What a held letter stands for, and its step.
 static const struct parameter_key {
     int letter;
     enum parameter parameter;

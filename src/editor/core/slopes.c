@@ -6,7 +6,7 @@
 /// Kinds of nudges for merge_key(), apart from those of nudge.c.
 enum nudge_kind { NUDGE_SLOPE = 50, NUDGE_STIFFNESS };
 
-static const double FIRM = 1000;             ///< stiffness where a knot has none yet, 1/s (spec: default)
+static const double FIRM = 1000;             ///< stiffness where a knot has none yet, 1/s (the default)
 static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
 
 /// The curve's slope around a knot, in values a second, for a slope that changes as little as possible.

@@ -5,7 +5,7 @@
 static const double LEFT = 0.05; ///< of the displacement that it was let go from
 enum { MAX_SAMPLES = 100000 };
 
-/// ω_n and ζ of a spline (spec: "Parameters"); false where a track drives one.
+/// ω_n and ζ of a spline (docs/mathematics.md, Poles); false where a track drives one.
 static bool swing_of(const struct spline *spline, double *omega, double *zeta)
 {
     const struct param *p = spline->parameter;
