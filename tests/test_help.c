@@ -49,7 +49,7 @@ static void test_all_of_it_fits(void **state)
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         struct session s;
         open_help(&s, sizes[i][0], sizes[i][1]);
-        assert_non_null(shown(&s, "Any key closes this"));
+        assert_non_null(shown(&s, "Press any key to close"));
         assert_whole(&s);
         session_close(&s);
     }

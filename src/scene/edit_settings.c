@@ -28,7 +28,7 @@ static bool check_track(struct document *document, const struct edit *edit, stru
     struct spline *spline = &document->splines[edit->spline];
     struct order_cycle cycle;
     int track = edit->param.track;
-    if (edit->parameter == PARAMETER_CALM) return fail(error, ERROR_INPUT, "%s: calm is a number only", spline->name);
+    if (edit->parameter == PARAMETER_CALM) return fail(error, ERROR_INPUT, "%s: calm must be a number", spline->name);
     if (track >= document->spline_count) {
         return fail(error, ERROR_INPUT, "%s: there is no spline to follow", spline->name);
     }
@@ -38,7 +38,7 @@ static bool check_track(struct document *document, const struct edit *edit, stru
     spline->parameter[edit->parameter] = old;
     if (good) return true;
     if (cycle.spline < 0) return plan_no_memory(error);
-    return fail(error, ERROR_INPUT, "%s cannot follow %s, which follows it already", spline->name,
+    return fail(error, ERROR_INPUT, "%s cannot follow %s, which already follows it", spline->name,
                 document->splines[track].name);
 }
 
@@ -91,7 +91,7 @@ static bool convert_spring(const struct spline *spline, struct settings *setting
         enum parameter source = to_spring ? from[i] : to[i];
         number[i] = settings->parameter[source].value;
         if (settings->parameter[source].track >= 0) {
-            return fail(error, ERROR_INPUT, "%s: %s follows a spline and cannot be converted; make it a number first",
+            return fail(error, ERROR_INPUT, "%s: %s follows a spline: make it a number before converting",
                         spline->name, parameter_name(source));
         }
         settings->parameter[source].value = parameter_default(source);
@@ -100,7 +100,7 @@ static bool convert_spring(const struct spline *spline, struct settings *setting
     result[0] = to_spring ? omega * omega : omega / TWO_PI;
     result[1] = to_spring ? 2 * number[1] * omega : omega > 0 ? number[1] / (2 * omega) : 0;
     if (!isfinite(result[0]) || !isfinite(result[1])) {
-        return fail(error, ERROR_INPUT, "%s: the numbers are too large to be converted", spline->name);
+        return fail(error, ERROR_INPUT, "%s: the numbers are too large to convert", spline->name);
     }
     for (int i = 0; i < 2; i++) settings->parameter[to_spring ? to[i] : from[i]].value = result[i];
     settings->spring_friction = to_spring;
@@ -133,7 +133,8 @@ bool plan_start(struct document *document, const struct edit *edit, struct chang
     }
     if (edit->start == WIGGLY_LOOP && spline_find_knot(document, spline, last) >= 0) {
         return fail(error, ERROR_INPUT,
-                    "%s: the knot at the last frame must go first, where a loop is at its first again", spline->name);
+                    "%s: delete the knot at the last frame first; in a loop that frame repeats the first",
+                    spline->name);
     }
     settings.start = edit->start;
     return add_settings(document, edit, &settings, list, error);

@@ -79,7 +79,7 @@ static void nudge_lag(struct editor *editor, const struct editor_world *world, d
     int tail = -1, channel = -1;
     const struct channel *active = active_channel(editor, world->document, &tail, &channel);
     if (!active) {
-        editor_message(editor, false, "Nothing lags here: the scene has no tail.");
+        editor_message(editor, false, "This scene has no tail to lag.");
         return;
     }
     struct angles lag = active->lag;
@@ -133,9 +133,9 @@ static double slider_maximum(const struct document *document, enum parameter par
 static const char *why_idle(const struct spline *spline, enum parameter parameter)
 {
     if (parameter == PARAMETER_CALM) return NULL;
-    if (spline->mode == WIGGLY_CUBIC) return "A cubic neither swings nor rings; M changes the mode.";
+    if (spline->mode == WIGGLY_CUBIC) return "A cubic does not swing; press M to change the mode.";
     if (parameter == PARAMETER_BANDWIDTH && spline->mode == WIGGLY_REAL) {
-        return "Only the complex mode has a bandwidth; M changes the mode.";
+        return "Only complex mode has a bandwidth; press M to change the mode.";
     }
     return NULL;
 }

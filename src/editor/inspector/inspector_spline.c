@@ -12,20 +12,21 @@ struct parameter_row {
 };
 
 static const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
-    [PARAMETER_FREQUENCY] = {"frequency", "Hz", "How fast it swings, in swings a second (hold F, arrows)",
-                             "Set frequency", 12, 1, 0.05, 2},
-    [PARAMETER_DAMPING] = {"damping", NULL, "0 rings for ever, 1 is critical (hold Z, arrows)", "Set damping", 1, 0.1,
-                           0.01, 2},
+    [PARAMETER_FREQUENCY] = {"frequency", "Hz", "Swings per second (hold F and press ↑ ↓)", "Set frequency", 12, 1,
+                             0.05, 2},
+    [PARAMETER_DAMPING] = {"damping", NULL, "0 rings forever, 1 is critical (hold Z and press ↑ ↓)", "Set damping", 1,
+                           0.1, 0.01, 2},
     [PARAMETER_BANDWIDTH] = {"bandwidth", NULL,
-                             "How freely the swing may change its pace between knots (hold B, arrows)",
+                             "How freely the swing may change its pace between knots (hold B and press ↑ ↓)",
                              "Set bandwidth", 1, 0.1, 0.01, 2},
-    [PARAMETER_SPRING] = {"spring", "1/s²", "Spring constant k of the paper's equation 12", "Set spring", 2000, 40, 1,
+    [PARAMETER_SPRING] = {"spring", "1/s²", "Spring constant k (equation 12 of the paper)", "Set spring", 2000, 40, 1,
                           1},
-    [PARAMETER_FRICTION] = {"friction", "1/s", "Friction gamma of the paper's equation 12", "Set friction", 50, 1,
+    [PARAMETER_FRICTION] = {"friction", "1/s", "Friction gamma (equation 12 of the paper)", "Set friction", 50, 1,
                             0.1, 2},
-    [PARAMETER_CALM] = {"calm", NULL, "What swing at the start costs; 0 is the paper's formula (hold C, arrows)",
+    [PARAMETER_CALM] = {"calm", NULL,
+                        "How much swing at the start costs; 0 is the paper's formula (hold C and press ↑ ↓)",
                         "Set calm", 1, 1, 0.01, 2},
-    [PARAMETER_EQUILIBRIUM] = {"equilibrium", NULL, "Where it comes to rest", "Set equilibrium", 0, 0, 0.01, 2},
+    [PARAMETER_EQUILIBRIUM] = {"equilibrium", NULL, "The value it settles at", "Set equilibrium", 0, 0, 0.01, 2},
 };
 
 /// The right end of a parameter's bar; 0 where it has none.
@@ -80,8 +81,7 @@ static void build_mode(struct inspection *in, const struct spline *spline)
                                              [WIGGLY_CUBIC] = {"cubic", "Cubic"}};
     int mode = (int)spline->mode;
     struct rect r = ui_row(in->ui, UI_ROW);
-    if (ui_hovered(in->ui, r))
-        in->ui->hint = "Complex: free to shift in phase. Real: a damped spring. Cubic: no swing (M)";
+    if (ui_hovered(in->ui, r)) in->ui->hint = "Complex: phase is free. Real: a damped spring. Cubic: no swing (M)";
     if (!ui_segments(in->ui, r, "mode", modes, 3, &mode)) return;
     struct edit edit = editor_edit_of(EDIT_MODE, in->editor->active);
     edit.mode = (enum wiggly_mode)mode;
@@ -95,7 +95,7 @@ static void build_start(struct inspection *in, const struct spline *spline)
     int start = (int)spline->start;
     struct rect r = inspector_labelled(in, "start");
     if (ui_hovered(in->ui, r))
-        in->ui->hint = "Free: already swinging. Rest: from standstill. Loop: the end meets the start";
+        in->ui->hint = "Free: starts mid-swing. Rest: starts still. Loop: the end meets the start";
     if (!ui_segments(in->ui, r, "start", starts, 3, &start)) return;
     struct edit edit = editor_edit_of(EDIT_START, in->editor->active);
     edit.start = (enum wiggly_start)start;
@@ -107,7 +107,7 @@ static void build_spring_toggle(struct inspection *in, const struct spline *spli
     bool on = spline->spring_friction;
     struct rect r = ui_row(in->ui, UI_ROW);
     ui_label(in->ui, (struct rect){r.x, r.y, r.w - 40, r.h}, "spring and friction", theme()->text_dim);
-    if (ui_hovered(in->ui, r)) in->ui->hint = "Spring constant and friction in place of frequency and damping";
+    if (ui_hovered(in->ui, r)) in->ui->hint = "Use spring constant and friction instead of frequency and damping";
     r = (struct rect){r.x + r.w - 28, r.y, 28, r.h};
     if (!ui_toggle(in->ui, r, "spring_friction", &on)) return;
     struct edit edit = editor_edit_of(EDIT_SPRING, in->editor->active);
@@ -125,13 +125,13 @@ static void build_settling(struct inspection *in, const struct spline *spline)
     case SETTLE_UNKNOWN:
         return;
     case SETTLE_NEVER:
-        snprintf(text, sizeof text, "Rings for ever.");
+        snprintf(text, sizeof text, "Rings forever.");
         break;
     case SETTLE_CUBIC:
-        snprintf(text, sizeof text, "Frequency 0: a plain cubic.");
+        snprintf(text, sizeof text, "Frequency 0 makes it a plain cubic.");
         break;
     case SETTLE_LATE:
-        snprintf(text, sizeof text, "Settles to 5 %% in more than %d s.", SETTLE_LIMIT);
+        snprintf(text, sizeof text, "Takes more than %d s to settle to 5 %%.", SETTLE_LIMIT);
         break;
     case SETTLE_MEASURED:
         snprintf(text, sizeof text, "Settles to 5 %% in %.2f s (%.0f frames).", settling.seconds, frames);
@@ -154,8 +154,7 @@ static void build_warnings(struct inspection *in, const struct spline *spline)
     bool poles = spline->mode != WIGGLY_CUBIC && !spline->spring_friction && p[PARAMETER_FREQUENCY].track < 0;
     if (poles && highest > limit) {
         char text[128];
-        snprintf(text, sizeof text, "Faster than half the sample rate (%g Hz): the swing is not seen as it is.",
-                 limit);
+        snprintf(text, sizeof text, "Faster than half the sample rate (%g Hz): the swing aliases.", limit);
         ui_paragraph(in->ui, text, theme()->warning);
     }
 }
@@ -168,7 +167,7 @@ void inspector_spline(struct inspection *in)
     ui_space(ui, 4);
     bool pair = spline->mode == WIGGLY_REAL && spline->spring_friction;
     if (spline->mode == WIGGLY_CUBIC) {
-        ui_paragraph(ui, "The classical spline: smooth through the knots, without swing.", theme()->text_dim);
+        ui_paragraph(ui, "The classical spline: smooth through the knots, with no swing.", theme()->text_dim);
     } else {
         build_parameter(in, spline, pair ? PARAMETER_SPRING : PARAMETER_FREQUENCY);
         build_parameter(in, spline, pair ? PARAMETER_FRICTION : PARAMETER_DAMPING);
