@@ -1,6 +1,9 @@
-/// Vectors of three floats, as vertices have them.
+/// Vectors and matrices of floats are cglm's. Its functions on arrays take no const ones, so that vectors go by value.
 #ifndef MODEL_VECTOR_H
 #define MODEL_VECTOR_H
+
+#define CGLM_ALL_UNALIGNED // ours lie in arrays of vertices and on the heap
+#include <cglm/struct.h>
 
 static inline float vector_dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 

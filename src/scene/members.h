@@ -4,6 +4,7 @@
 
 #include "scene/document.h"
 #include "scene/text.h"
+#include <jansson.h>
 
 /// An object being written: members are set apart by `separator`, which opens the object before the first.
 struct members {

@@ -1,0 +1,67 @@
+#include "spline/desc.h"
+#include <string.h>
+
+/// X(name, kind, filters), in the order of wiggly_desc.
+#define SETTINGS(X)                                                                                                  \
+    X(samples, COUNT, false)                                                                                         \
+    X(step, NUMBER, true)                                                                                            \
+    X(mode, CHOICE, true)                                                                                            \
+    X(start, CHOICE, false)                                                                                          \
+    X(frequency, PARAM, true)                                                                                        \
+    X(damping, PARAM, true)                                                                                          \
+    X(bandwidth, PARAM, true)                                                                                        \
+    X(spring_friction, CHOICE, true)                                                                                 \
+    X(spring, PARAM, true)                                                                                           \
+    X(friction, PARAM, true)                                                                                         \
+    X(equilibrium, PARAM, false)                                                                                     \
+    X(calm, NUMBER, false)
+
+#define ROW(member, kind, filters)                                                                                   \
+    {#member, DESC_##kind, filters, offsetof(wiggly_desc, member), sizeof(((wiggly_desc *)0)->member)},
+#define VALUE(member, kind, filters) desc->member,
+
+const desc_member desc_members[] = {SETTINGS(ROW){0}};
+
+/// By position: a member of wiggly_desc that the list lacks is a warning here (-Wmissing-field-initializers).
+wiggly_desc desc_settings(const wiggly_desc *desc) { return (wiggly_desc){SETTINGS(VALUE) NULL, 0}; }
+
+static bool same_member(const wiggly_desc *a, const wiggly_desc *b, const desc_member *member)
+{
+    const void *left = (const char *)a + member->offset, *right = (const char *)b + member->offset;
+    if (member->kind == DESC_NUMBER) return *(const double *)left == *(const double *)right;
+    if (member->kind != DESC_PARAM) return memcmp(left, right, member->size) == 0;
+    const wiggly_param *p = left, *q = right;
+    return p->value == q->value && p->track == q->track;
+}
+
+bool desc_same_settings(const wiggly_desc *a, const wiggly_desc *b)
+{
+    for (const desc_member *m = desc_members; m->name; m++) {
+        if (!same_member(a, b, m)) return false;
+    }
+    return true;
+}
+
+bool desc_same_filter(const wiggly_desc *a, const wiggly_desc *b)
+{
+    for (const desc_member *m = desc_members; m->name; m++) {
+        if (m->filters && !same_member(a, b, m)) return false;
+    }
+    return true;
+}
+
+bool desc_has_track(const wiggly_desc *desc)
+{
+    for (const desc_member *m = desc_members; m->name; m++) {
+        if (m->kind == DESC_PARAM && desc_param(desc, m)->track) return true;
+    }
+    return false;
+}
+
+bool desc_reads(const wiggly_desc *desc, const double *track)
+{
+    for (const desc_member *m = desc_members; m->name; m++) {
+        if (m->kind == DESC_PARAM && desc_param(desc, m)->track == track) return true;
+    }
+    return false;
+}
