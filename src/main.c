@@ -21,7 +21,7 @@ static const struct command {
      "shakes a closed mesh as a soft body and records its motion"},
     {"analyze", command_analyze, "up.npy --rest mesh.obj --fps N -o creature.glb",
      "turns motions into a character that splines can drive"},
-    {"log", command_log, "FILE.csv [-o FILE.svg]", "how a timing log's frame times are distributed"},
+    {"log", command_log, "FILE.csv [-o FILE.svg]", "summarises the frame times in a timing log"},
     {"bench", command_bench, "[--json FILE]", "times the solver against LAPACKE"},
 };
 
@@ -36,10 +36,10 @@ static int print_help(void)
         if (length > SUMMARY_AT - 2) length = printf("\n") - 1;
         printf("%*s%s\n", SUMMARY_AT - length, "", commands[i].summary);
     }
-    printf("\n  --version                      version and commit\n"
-           "  --licenses                     licences of wiggly and of the parts built into it\n"
-           "  <command> --help               a command's options\n\n"
-           "Exit status: 0 done, 1 the input was bad, 2 wrong usage, 3 the environment failed.\n");
+    printf("\n  --version                      print version and commit\n"
+           "  --licenses                     print the licences of wiggly and its built-in parts\n"
+           "  <command> --help               print a command's options\n\n"
+           "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 the environment failed.\n");
     return 0;
 }
 

@@ -215,7 +215,7 @@ static void read_row(const char *text, struct chords *chords)
 static void add_words(struct chords *chords)
 {
     add(chords, 'Z', MOD_CTRL | MOD_SHIFT);
-    add(chords, KEY_UP, 0); // "Hold, and press ↑ ↓"
+    add(chords, KEY_UP, 0); // "Hold and press ↑ ↓"
     add(chords, KEY_DOWN, 0);
     add(chords, '=', 0); // "(also =)"
     for (unsigned shift = 0; shift <= MOD_SHIFT; shift += MOD_SHIFT) {
