@@ -5,6 +5,7 @@
 #define SCENE_DOCUMENT_H
 
 #include "base/error.h"
+#include "scene/param.h"
 #include "scene/parameter.h"
 #include "scene/rig.h"
 #include <stdbool.h>

@@ -2,7 +2,7 @@
 #ifndef SCENE_TAIL_H
 #define SCENE_TAIL_H
 
-#include "scene/parameter.h"
+#include "scene/param.h"
 #include <stdbool.h>
 
 enum {
