@@ -138,11 +138,12 @@ static bool fit_evaluation(struct app *app, bool resized)
 static void check_sizes(struct app *app)
 {
     struct error error, full;
-    for (int c = 0; app->draw && c < app->document->character_count; c++) {
+    int r = document_next_rig(app->document, RIG_CHARACTER, 0);
+    for (int c = 0; app->draw && r >= 0; c++, r = document_next_rig(app->document, RIG_CHARACTER, r + 1)) {
         const struct figure *figure = cast_figure(app->cast, c);
         if (!figure || draw_can_move(figure, &error)) continue;
-        const struct character_rig *rig = &app->document->characters[c];
-        fail(&full, error.kind, "%s: %s", rig->name ? rig->name : rig->model, error.text);
+        const struct rig *rig = &app->document->rigs[r];
+        fail(&full, error.kind, "%s: %s", rig->name ? rig->name : rig->character.model, error.text);
         editor_message(app->editor, true, full.text);
     }
 }
