@@ -90,7 +90,6 @@ static void studio_open(struct studio *s)
 static void studio_close(struct studio *s)
 {
     session_close(&s->session);
-    cast_destroy(s->cast);
 }
 
 /// The middle of the front of a finger, 3/4 up.

@@ -50,7 +50,6 @@ static void open_puppet(struct puppetry *p)
 static void close_puppet(struct puppetry *p)
 {
     session_close(&p->session);
-    cast_destroy(p->cast);
 }
 
 static const struct stage_character *on_stage(const struct puppetry *p, int index)

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+_Static_assert((int)SCENE_MAX_CHANNELS <= (int)RIG_MAX_INPUTS, "a channel is an input");
+
 static const char *const tail_keys[] = {"type",   "name", "joints", "length", "position", "rest", "channels",
                                         "spline", "axis", "of",     "lag",    "gain",     NULL};
 static const char *const channel_keys[] = {"spline", "axis", "of", "lag", "gain", NULL};

@@ -109,7 +109,7 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
     }
 }
 
-void inspector_place_list(struct inspection *in)
+static void place_popup(struct inspection *in)
 {
     const struct inspector *inspector = &in->editor->inspector;
     const struct tail *tail = document_tail(in->document, inspector->tail);
@@ -128,6 +128,12 @@ void inspector_place_list(struct inspection *in)
     edit.coordinate = k;
     edit.param = (struct param){0, picked};
     editor_step(in->editor, in->world, "Follow spline", 0, &edit);
+}
+
+void inspector_tail_lists(struct inspection *in)
+{
+    inspector_feed_list(in);
+    place_popup(in);
 }
 
 static void build_size(struct inspection *in, const struct tail *tail)
