@@ -256,11 +256,10 @@ static void draw_character(const struct stage_morph *morph, const struct model *
 static void draw(const void *state, const struct stage_view *view, float scale, float seam)
 {
     const struct stage_morph *morph = state;
-    float clip_from_world[16];
     if (view->character_count == 0) return;
-    stage_clip_from_world(view, clip_from_world);
+    mat4s clip_from_world = stage_clip_from_world(view);
     glUseProgram(morph->program);
-    glUniformMatrix4fv(morph->at.clip_from_world, 1, GL_FALSE, clip_from_world);
+    glUniformMatrix4fv(morph->at.clip_from_world, 1, GL_FALSE, clip_from_world.raw[0]);
     glUniform3fv(morph->at.eye, 1, view->eye);
     glUniform3fv(morph->at.key_from, 1, view->key_from);
     gl_uniform_linear(morph->at.earth, view->colors.bounce);

@@ -112,22 +112,21 @@ static void *create(struct error *error)
 
 /// matrix · translation by −along on z, as three rows: what takes a point of the straight tail to where its joint is
 /// now.
-static void slot_rows(const float matrix[16], float along, float rows[3][4])
+static void slot_rows(mat4s matrix, float along, float rows[3][4])
 {
-    for (int r = 0; r < 3; r++) {
-        for (int c = 0; c < 4; c++) rows[r][c] = matrix[4 * c + r];
-        rows[r][3] -= along * rows[r][2];
-    }
+    glm_translate_z(matrix.raw, -along);
+    glm_mat4_transpose(matrix.raw);
+    memcpy(rows, matrix.raw, 3 * sizeof *rows);
 }
 
 static int upload_joints(struct animals *painter, const struct stage_tail *tail, int block)
 {
     const int joints = tail->pose.count - 1;
     const float segment = pose_length(&tail->pose) / (float)joints;
-    float root[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    memcpy(root + 12, tail->pose.matrix[0] + 12, 3 * sizeof *root);
+    const mat4s root = glms_translate_make(vec3_from(tail->pose.matrix[0] + 12));
     slot_rows(root, 0.0f, painter->rows[0]);
-    for (int n = 0; n < joints; n++) slot_rows(tail->pose.matrix[n], (float)n * segment, painter->rows[n + 1]);
+    for (int n = 0; n < joints; n++)
+        slot_rows(mat4_from(tail->pose.matrix[n]), (float)n * segment, painter->rows[n + 1]);
     const int bytes = (joints + 1) * (int)sizeof *painter->rows;
     glBufferSubData(GL_UNIFORM_BUFFER, block * BLOCK_STRIDE, bytes, painter->rows);
     return bytes;
@@ -156,11 +155,10 @@ static void draw(const void *state, const struct stage_view *view, float scale, 
     const struct animals *painter = state;
     (void)scale;
     const struct model *model = &painter->models[creature_level(view->tail_count)];
-    float clip_from_world[16];
     if (view->tail_count == 0) return;
-    stage_clip_from_world(view, clip_from_world);
+    mat4s clip_from_world = stage_clip_from_world(view);
     glUseProgram(painter->program);
-    glUniformMatrix4fv(painter->clip_from_world, 1, GL_FALSE, clip_from_world);
+    glUniformMatrix4fv(painter->clip_from_world, 1, GL_FALSE, clip_from_world.raw[0]);
     glUniform3fv(painter->eye, 1, view->eye);
     glUniform3fv(painter->key_from, 1, view->key_from);
     gl_uniform_linear(painter->earth, view->colors.bounce);
