@@ -49,7 +49,7 @@ static void test_all_of_it_fits(void **state)
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         struct session s;
         open_help(&s, sizes[i][0], sizes[i][1]);
-        assert_non_null(shown(&s, "Any key closes this"));
+        assert_non_null(shown(&s, "Press any key to close"));
         assert_whole(&s);
         session_close(&s);
     }
@@ -215,7 +215,7 @@ static void read_row(const char *text, struct chords *chords)
 static void add_words(struct chords *chords)
 {
     add(chords, 'Z', MOD_CTRL | MOD_SHIFT);
-    add(chords, KEY_UP, 0); // "Hold, and press ↑ ↓"
+    add(chords, KEY_UP, 0); // "Hold and press ↑ ↓"
     add(chords, KEY_DOWN, 0);
     add(chords, '=', 0); // "(also =)"
     for (unsigned shift = 0; shift <= MOD_SHIFT; shift += MOD_SHIFT) {

@@ -81,7 +81,7 @@ static void load_channels(struct reader *reader, const struct where *tail_at, co
     bool is_short = false;
     for (int i = 0; channel_keys[i]; i++) is_short |= json_object_get(object, channel_keys[i]) != NULL;
     if (is_short && channels) {
-        reader_fail(reader, &at, "expected either channels or one channel's keys beside the type, got both");
+        reader_fail(reader, &at, "expected either channels or one channel's keys, got both");
         return;
     }
     int count = is_short ? 1 : reader_objects(reader, &at, channels, SCENE_MAX_CHANNELS);

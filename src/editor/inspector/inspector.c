@@ -67,7 +67,7 @@ static void build_look(struct inspection *in, struct rect footer)
         drawlist_rect(ui->list, footer, theme()->panel);
         drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
     }
-    if (ui_hovered(ui, footer)) ui->hint = "The same knots: wiggly, without lag, or as a classical cubic (V)";
+    if (ui_hovered(ui, footer)) ui->hint = "Compare the same knots: wiggly, without lag, or as a cubic (V)";
     int look = (int)in->editor->look;
     if (ui_segments(ui, r, "look", looks, 3, &look)) editor_set_look(in->editor, (enum look)look);
 }

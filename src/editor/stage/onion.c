@@ -118,6 +118,6 @@ void onion_toggle(struct editor *editor)
 {
     editor->overlays.onion = !editor->overlays.onion;
     editor_message(editor, false,
-                   editor->overlays.onion ? "Onion skin: the tail at the knots around the playhead (O)."
-                                          : "No onion skin.");
+                   editor->overlays.onion ? "Onion skin on: the tail at the knots around the playhead (O)."
+                                          : "Onion skin off.");
 }

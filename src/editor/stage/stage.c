@@ -104,8 +104,8 @@ static const char *empty_text(const struct editor *editor, const struct editor_w
     const struct stage_view *view = &editor->stage;
     if (view->tail_count > 0 || view->character_count > 0) return NULL;
     if (document_character(world->document, 0))
-        return "This scene's character could not be read: its curves are below.";
-    return editor->active < 0 ? "This scene is empty." : "This scene moves no tail: its curves are below.";
+        return "wiggly could not read this scene's character. Its curves are below.";
+    return editor->active < 0 ? "This scene is empty." : "This scene has no tail. Its curves are below.";
 }
 
 void stage_show(struct editor *editor, const struct editor_world *world)

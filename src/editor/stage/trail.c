@@ -136,5 +136,6 @@ void trail_toggle(struct editor *editor)
 {
     editor->overlays.trail = !editor->overlays.trail;
     editor_message(editor, false,
-                   editor->overlays.trail ? "Motion arc: the way of the tip, a mark a frame (P)." : "No motion arc.");
+                   editor->overlays.trail ? "Motion arc on: the path of the tip, one mark per frame (P)."
+                                          : "Motion arc off.");
 }
