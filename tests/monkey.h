@@ -4,8 +4,8 @@
 #define TESTS_MONKEY_H
 
 #include "blind.h"
+#include "inside.h"
 
-#include "editor/core/state.h"
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -78,7 +78,7 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
     struct app *app = &m->blind->app;
     const struct document *d = app->document;
     struct editor_world world = app_world(app);
-    const struct spline *spline = editor_active_spline(app->editor, &world);
+    const struct spline *spline = core_active_spline(&app->editor->core, &world);
     const char *tail = d->tail_count > 0 ? d->tails[below(m, d->tail_count)].name : NULL;
     char target[512] = "";
     int which = below(m, 9);
@@ -104,7 +104,8 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
 static inline bool find_widget(struct monkey *m, float *x, float *y)
 {
     const struct editor *editor = m->blind->app.editor;
-    const struct ui *ui = editor->dialog.kind != DIALOG_NONE ? &editor->dialog.ui : &editor->inspector.ui;
+    const struct ui *ui =
+        editor->dialogs->dialog.kind != DIALOG_NONE ? &editor->dialogs->dialog.ui : &editor->inspector->ui;
     if (ui->stop_count == 0) return false;
     const struct rect r = ui->stop[below(m, ui->stop_count)].rect;
     *x = r.x + r.w * (float)below(m, 101) / 100;
@@ -114,7 +115,7 @@ static inline bool find_widget(struct monkey *m, float *x, float *y)
 
 static inline void monkey_point(struct monkey *m)
 {
-    const struct rect window = m->blind->app.editor->layout.window;
+    const struct rect window = m->blind->app.editor->core.layout.window;
     float x = window.w * (float)(below(m, 1100) - 50) / 1000, y = window.h * (float)(below(m, 1100) - 50) / 1000;
     const int what = below(m, 5);
     if (what < 2) find_thing(m, &x, &y);

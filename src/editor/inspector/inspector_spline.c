@@ -1,5 +1,6 @@
 /// The active spline's mode, parameters and start.
-#include "editor/inspector/inspector.h"
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
 #include "editor/inspector/settle.h"
 #include <math.h>
 #include <stdio.h>
@@ -51,7 +52,7 @@ static void build_slider(struct inspection *in, const struct spline *spline, enu
         .step = row->step,
         .decimals = row->decimals,
     };
-    struct edit edit = editor_edit_of(EDIT_PARAMETER, in->editor->active);
+    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
     double value = spline->parameter[parameter].value;
     enum ui_change change = ui_value(in->ui, r, &number, &value);
     edit.parameter = parameter;
@@ -83,9 +84,9 @@ static void build_mode(struct inspection *in, const struct spline *spline)
     if (ui_hovered(in->ui, r))
         in->ui->hint = "Complex: free to shift in phase. Real: a damped spring. Cubic: no swing (M)";
     if (!ui_segments(in->ui, r, "mode", modes, 3, &mode)) return;
-    struct edit edit = editor_edit_of(EDIT_MODE, in->editor->active);
+    struct edit edit = core_edit_of(EDIT_MODE, in->core->active);
     edit.mode = (enum wiggly_mode)mode;
-    editor_step(in->editor, in->world, "Change mode", 0, &edit);
+    core_step(in->core, in->world, "Change mode", 0, &edit);
 }
 
 static void build_start(struct inspection *in, const struct spline *spline)
@@ -97,9 +98,9 @@ static void build_start(struct inspection *in, const struct spline *spline)
     if (ui_hovered(in->ui, r))
         in->ui->hint = "Free: already swinging. Rest: from standstill. Loop: the end meets the start";
     if (!ui_segments(in->ui, r, "start", starts, 3, &start)) return;
-    struct edit edit = editor_edit_of(EDIT_START, in->editor->active);
+    struct edit edit = core_edit_of(EDIT_START, in->core->active);
     edit.start = (enum wiggly_start)start;
-    editor_step(in->editor, in->world, "Change start", 0, &edit);
+    core_step(in->core, in->world, "Change start", 0, &edit);
 }
 
 static void build_spring_toggle(struct inspection *in, const struct spline *spline)
@@ -110,9 +111,9 @@ static void build_spring_toggle(struct inspection *in, const struct spline *spli
     if (ui_hovered(in->ui, r)) in->ui->hint = "Spring constant and friction in place of frequency and damping";
     r = (struct rect){r.x + r.w - 28, r.y, 28, r.h};
     if (!ui_toggle(in->ui, r, "spring_friction", &on)) return;
-    struct edit edit = editor_edit_of(EDIT_SPRING, in->editor->active);
+    struct edit edit = core_edit_of(EDIT_SPRING, in->core->active);
     edit.flag = on;
-    editor_step(in->editor, in->world, on ? "Use spring and friction" : "Use frequency and damping", 0, &edit);
+    core_step(in->core, in->world, on ? "Use spring and friction" : "Use frequency and damping", 0, &edit);
 }
 
 /// What the parameters mean, in one plain sentence.
@@ -143,7 +144,7 @@ static void build_settling(struct inspection *in, const struct spline *spline)
 static void build_warnings(struct inspection *in, const struct spline *spline)
 {
     const struct evaluation *evaluation = in->world->evaluation;
-    int active = in->editor->active;
+    int active = in->core->active;
     if (evaluation && active < evaluation->count && evaluation->status[active] != WIGGLY_OK) {
         ui_paragraph(in->ui, wiggly_status_text(evaluation->status[active]), theme()->warning);
     }
@@ -163,7 +164,7 @@ static void build_warnings(struct inspection *in, const struct spline *spline)
 void inspector_spline(struct inspection *in)
 {
     struct ui *ui = in->ui;
-    struct spline *spline = editor_active_spline(in->editor, in->world);
+    struct spline *spline = core_active_spline(in->core, in->world);
     build_mode(in, spline);
     ui_space(ui, 4);
     bool pair = spline->mode == WIGGLY_REAL && spline->spring_friction;

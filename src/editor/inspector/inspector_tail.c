@@ -1,7 +1,9 @@
 /// The inspector's section on tails: which there are, where they stand, how they are built, and what is shown of their motion.
 #include "editor/inspector/inspector_tail.h"
 #include "editor/core/arrange.h"
-#include "editor/curves/curves.h"
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
+#include "editor/inspector/state.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -11,15 +13,15 @@ static const char rename_line[] = "tail.rename", place_list[] = "place";
 
 static struct edit tail_edit(const struct inspection *in, enum edit_kind kind)
 {
-    struct edit edit = editor_edit_of(kind, in->editor->active);
-    edit.tail = in->editor->inspector.tail;
+    struct edit edit = core_edit_of(kind, in->core->active);
+    edit.tail = in->inspector->tail;
     return edit;
 }
 
 /// The tail that is shown, and below it a row for each where there is a choice.
 static void build_tails(struct inspection *in)
 {
-    struct inspector *inspector = &in->editor->inspector;
+    struct inspector *inspector = in->inspector;
     for (int t = 0; in->document->tail_count > 1 && t < in->document->tail_count; t++) {
         char name[32];
         snprintf(name, sizeof name, "tail.%d", t);
@@ -40,19 +42,19 @@ static void build_name(struct inspection *in, const struct tail *tail)
     } else if (ui_line(in->ui, r, rename_line) == UI_LINE_DONE) {
         struct edit edit = tail_edit(in, EDIT_TAIL_NAME);
         edit.text = in->ui->text.bytes;
-        editor_step(in->editor, in->world, "Rename tail", 0, &edit);
+        core_step(in->core, in->world, "Rename tail", 0, &edit);
     }
 }
 
 static void build_buttons(struct inspection *in)
 {
-    struct inspector *inspector = &in->editor->inspector;
+    struct inspector *inspector = in->inspector;
     struct rect r = inspector_labelled(in, "tail"), icon = {r.x - 2, r.y, ICON, r.h};
     bool any = in->document->tail_count > 0;
     const char *hint = any ? "Another tail like this one, beside it" : "A tail, bent by the active spline";
     if (ui_icon_button(in->ui, icon, "tail.add", UI_ICON_ADD, false, hint)) {
         struct edit edit = tail_edit(in, EDIT_TAIL_ADD);
-        if (!editor_step(in->editor, in->world, "Add tail", 0, &edit)) return;
+        if (!core_step(in->core, in->world, "Add tail", 0, &edit)) return;
         inspector->tail = in->document->tail_count - 1;
         inspector->channel = 0;
         return;
@@ -60,7 +62,7 @@ static void build_buttons(struct inspection *in)
     icon.x += ICON + 6;
     if (!any || !ui_icon_button(in->ui, icon, "tail.delete", UI_ICON_DELETE, false, "Takes this tail away")) return;
     struct edit edit = tail_edit(in, EDIT_TAIL_REMOVE);
-    editor_step(in->editor, in->world, "Delete tail", 0, &edit);
+    core_step(in->core, in->world, "Delete tail", 0, &edit);
 }
 
 /// A coordinate: a number, or the spline that it follows, and the button from one to the other.
@@ -79,10 +81,10 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
         ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, coordinate_name(k), theme()->text_dim);
         ui_dropdown(in->ui, field, place_list, k, in->document->splines[param->track].name,
                     arrange_color(in->document, param->track));
-        wiggly_value now = curves_solved(in->world, param->track, in->editor->playback.position);
+        wiggly_value now = evaluation_at(in->world->evaluation, param->track, in->core->playback.position);
         if (!ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false, "Stays where it is now")) return;
         edit.param = (struct param){round_value(now.y + now.re, 1e-3), -1};
-        editor_step(in->editor, in->world, "Stop following", 0, &edit);
+        core_step(in->core, in->world, "Stop following", 0, &edit);
         return;
     }
     const char *names[] = {"position.x", "position.y", "position.z"};
@@ -107,7 +109,7 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
 
 void inspector_place_list(struct inspection *in)
 {
-    const struct inspector *inspector = &in->editor->inspector;
+    const struct inspector *inspector = in->inspector;
     if (!ui_popup_is_open(in->ui, place_list) || inspector->tail >= in->document->tail_count) return;
     int k = in->ui->popup.which, count = in->document->spline_count;
     struct ui_item items[MAX_SPLINES];
@@ -122,7 +124,7 @@ void inspector_place_list(struct inspection *in)
     struct edit edit = tail_edit(in, EDIT_POSITION);
     edit.coordinate = k;
     edit.param = (struct param){0, picked};
-    editor_step(in->editor, in->world, "Follow spline", 0, &edit);
+    core_step(in->core, in->world, "Follow spline", 0, &edit);
 }
 
 static void build_size(struct inspection *in, const struct tail *tail)
@@ -154,7 +156,7 @@ static void build_size(struct inspection *in, const struct tail *tail)
         struct edit edit = tail_edit(in, EDIT_JOINTS);
         edit.to = (int)lround(value);
         inspector_change(in, change, "Set joints", "joints", &edit);
-        tail = &in->document->tails[in->editor->inspector.tail];
+        tail = &in->document->tails[in->inspector->tail];
     }
     struct edit edit = tail_edit(in, EDIT_LENGTH);
     edit.number = tail->length;
@@ -165,15 +167,15 @@ static void build_size(struct inspection *in, const struct tail *tail)
 /// What belongs to the view: the overlays, and whether the next drag of the body is recorded.
 static void build_view(struct inspection *in)
 {
-    struct editor *editor = in->editor;
+    struct core *core = in->core;
     const struct {
         const char *name, *label, *hint;
         bool *on;
     } toggles[] = {
         {"record", "record", "The next drag of the body becomes knots that its position follows (R while dragging)",
-         &editor->record.armed},
-        {"onion", "onion skin", "The tail at the knots around the playhead (O)", &editor->overlays.onion},
-        {"trail", "motion arc", "The way of the tip, a mark a frame (P)", &editor->overlays.trail},
+         &core->record_armed},
+        {"onion", "onion skin", "The tail at the knots around the playhead (O)", &core->overlays.onion},
+        {"trail", "motion arc", "The way of the tip, a mark a frame (P)", &core->overlays.trail},
     };
     for (size_t i = 0; i < sizeof toggles / sizeof toggles[0]; i++) {
         struct rect r = inspector_labelled(in, toggles[i].label);
@@ -185,7 +187,7 @@ static void build_view(struct inspection *in)
 /// Buttons among these rows may make another list of tails: each looks its tail up anew.
 static void build_tail(struct inspection *in)
 {
-    struct inspector *inspector = &in->editor->inspector;
+    struct inspector *inspector = in->inspector;
     struct tail *const *tails = &in->document->tails;
     if (inspector->channel >= (*tails)[inspector->tail].channel_count) inspector->channel = 0;
     inspector_channels(in, &(*tails)[inspector->tail]);
@@ -199,7 +201,7 @@ static void build_tail(struct inspection *in)
 
 void inspector_tail(struct inspection *in)
 {
-    struct inspector *inspector = &in->editor->inspector;
+    struct inspector *inspector = in->inspector;
     if (inspector->tail >= in->document->tail_count) inspector->tail = 0;
     build_tails(in);
     if (in->document->tail_count > 0) build_tail(in);

@@ -1,7 +1,8 @@
 /// Poses soft characters and their stiff twins on the stage.
 #include "editor/stage/characters.h"
-#include "editor/core/actions.h"
-#include "editor/core/state.h"
+#include "editor/stage/stage.h"
+#include "editor/stage/stage_pose.h"
+#include "editor/stage/state.h"
 #include "rig/posing.h"
 #include "ui/font.h"
 #include "ui/phase_color.h"
@@ -14,28 +15,6 @@ enum { BOUND_STEPS = 30 };
 static const float FRONT_SHARE = 0.1f; ///< of a point's depth, in what decides between front and back
 
 #define PAIR_GAP 0.58f /* from the middle to each of a pair, in widths of the character */
-
-const struct character_rig *characters_selected(const struct editor *editor, const struct editor_world *world)
-{
-    const int index = editor->characters.character;
-    return index < world->document->character_count ? &world->document->characters[index] : NULL;
-}
-
-const struct coordinate *characters_coordinate(const struct editor *editor, const struct editor_world *world)
-{
-    const struct character_rig *rig = characters_selected(editor, world);
-    const struct figure *figure = cast_figure(world->cast, editor->characters.character);
-    if (!rig || !figure || editor->characters.drive >= rig->drive_count) return NULL;
-    const int at = figure_find(figure, rig->drives[editor->characters.drive].name);
-    return at >= 0 ? &figure->character.coordinates[at] : NULL;
-}
-
-void characters_open(struct editor *editor, const struct document *document)
-{
-    const int phases = document->character_count > 0 ? document->characters[0].phases : -1;
-    editor->brush.on = false;
-    editor->characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
-}
 
 /// How far each of a pair stands from the middle.
 static float pair_offset(const struct figure *figure) { return PAIR_GAP * (figure->hi[0] - figure->lo[0]); }
@@ -59,11 +38,11 @@ static void add_soles(struct stage_view *view, const struct stage_character *sho
 }
 
 /// One figure on the stage, `aside` metres from where its rig stands.
-static void add_character(struct editor *editor, const struct editor_world *world, int index, enum look look,
-                          float aside)
+static void add_character(struct stage *stage, const struct core *core, const struct editor_world *world, int index,
+                          enum look look, float aside)
 {
-    struct stage_view *view = &editor->stage;
-    const struct character_view *how = &editor->characters;
+    struct stage_view *view = &stage->view;
+    const struct character_view *how = &core->characters;
     if (view->character_count == STAGE_MAX_CHARACTERS) return;
     const struct character_rig *rig = &world->document->characters[index];
     struct stage_character *shown = &view->characters[view->character_count++];
@@ -75,32 +54,32 @@ static void add_character(struct editor *editor, const struct editor_world *worl
                                       .map_axis = how->axis};
     for (int k = 0; k < 3; k++) shown->position[k] = (float)rig->position[k] + (k == 0 ? aside : 0.0f);
     const struct posing posing = {world->document, world->evaluation, world->cast, look};
-    posing_character(&posing, index, editor->playback.position, &shown->morph);
+    posing_character(&posing, index, core->playback.position, &shown->morph);
     const int drive = how->drive < rig->drive_count ? how->drive : 0;
-    const bool is_painted = editor->brush.on && index == how->character;
+    const bool is_painted = core->brush.on && index == how->character;
     if ((how->mapped || is_painted) && rig->drive_count > 0)
         shown->map_coordinate = figure_find(shown->figure, rig->drives[drive].name);
     add_soles(view, shown);
 }
 
-void characters_pose(struct editor *editor, const struct editor_world *world)
+void characters_pose(struct stage *stage, const struct core *core, const struct editor_world *world)
 {
-    editor->stage.character_count = 0;
+    stage->view.character_count = 0;
     for (int i = 0; i < world->document->character_count; i++) {
         const struct figure *figure = cast_figure(world->cast, i);
         if (!figure) continue;
-        if (!editor->characters.compare) {
-            add_character(editor, world, i, editor->look, 0.0f);
+        if (!core->characters.compare) {
+            add_character(stage, core, world, i, core->look, 0.0f);
         } else {
-            add_character(editor, world, i, editor->look, -pair_offset(figure));
-            add_character(editor, world, i, LOOK_STIFF, pair_offset(figure));
+            add_character(stage, core, world, i, core->look, -pair_offset(figure));
+            add_character(stage, core, world, i, LOOK_STIFF, pair_offset(figure));
         }
     }
 }
 
-bool characters_bounds(const struct editor *editor, const struct editor_world *world, float lo[3], float hi[3])
+bool characters_bounds(const struct core *core, const struct editor_world *world, float lo[3], float hi[3])
 {
-    const struct posing posing = stage_posing(editor, world);
+    const struct posing posing = stage_posing(core, world);
     const double last = document_samples(world->document) - 1;
     bool any = false;
     for (int i = 0; i < world->document->character_count; i++) {
@@ -115,7 +94,7 @@ bool characters_bounds(const struct editor *editor, const struct editor_world *w
             morph_bounds(figure, &morph, low, high);
             for (int k = 0; k < 3; k++) {
                 const float at = (float)rig->position[k] - (k == 1 ? figure->lo[1] : 0.0f);
-                const float aside = k == 0 && editor->characters.compare ? pair_offset(figure) : 0.0f;
+                const float aside = k == 0 && core->characters.compare ? pair_offset(figure) : 0.0f;
                 lo[k] = fminf(lo[k], low[k] + at - aside);
                 hi[k] = fmaxf(hi[k], high[k] + at + aside);
             }
@@ -141,9 +120,9 @@ static int front_vertex(const struct figure *figure, const double uv[2])
     return found;
 }
 
-bool characters_point(const struct editor *editor, int character, const double uv[2], float xy[2])
+bool characters_point(const struct stage *stage, int character, const double uv[2], float xy[2])
 {
-    const struct stage_view *view = &editor->stage;
+    const struct stage_view *view = &stage->view;
     const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
     for (int i = 0; i < view->character_count; i++) {
         const struct stage_character *shown = &view->characters[i];

@@ -1,10 +1,18 @@
 /// The stage: poses the tails, drives the camera, finds what the pointer is over.
+#include "editor/stage/stage_pose.h"
 #include "base/hash.h"
-#include "editor/core/actions.h"
-#include "editor/curves/curves.h"
+#include "editor/core/drag.h"
 #include "editor/stage/body.h"
+#include "editor/stage/brush.h"
+#include "editor/stage/brush_show.h"
+#include "editor/stage/characters.h"
+#include "editor/stage/characters_show.h"
 #include "editor/stage/follow.h"
-#include "editor/stage/overlays.h"
+#include "editor/stage/grab.h"
+#include "editor/stage/onion.h"
+#include "editor/stage/stage.h"
+#include "editor/stage/state.h"
+#include "editor/stage/trail.h"
 #include "rig/shadow.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -18,31 +26,31 @@ static const float GRAB_REACH = 16; ///< pixels from the tail's centre line
 static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f;
 static const double ZOOM_STEP = 0.12; ///< of a wheel's notch, as a power of e
 
-struct posing stage_posing(const struct editor *editor, const struct editor_world *world)
+struct posing stage_posing(const struct core *core, const struct editor_world *world)
 {
-    return (struct posing){world->document, world->evaluation, world->cast, editor->look};
+    return (struct posing){world->document, world->evaluation, world->cast, core->look};
 }
 
 /// What moves a tail besides the document: its body in the hand, what swings after it, and `change` (may be NULL).
-static struct by_hand by_hand(const struct editor *editor, const struct tail *shown, int tail,
+static struct by_hand by_hand(const struct stage *stage, const struct core *core, const struct tail *shown, int tail,
                               const struct what_if *change)
 {
     struct by_hand hand = {0};
     for (int c = 0; c < shown->channel_count; c++) {
-        hand.channel[c] = follow_value(editor, tail, c);
+        hand.channel[c] = follow_value(stage, tail, c);
         if (!change || change->spline != shown->channels[c].spline) continue;
         hand.channel[c].re += change->re;
         hand.channel[c].im += change->im;
     }
-    body_offset(editor, tail, hand.base);
+    body_offset(stage, core, tail, hand.base);
     return hand;
 }
 
-void stage_pose_tail(const struct editor *editor, const struct editor_world *world, int tail, double position,
-                     const struct what_if *change, struct pose *pose)
+void stage_pose_tail(const struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
+                     double position, const struct what_if *change, struct pose *pose)
 {
-    const struct posing posing = stage_posing(editor, world);
-    const struct by_hand hand = by_hand(editor, &world->document->tails[tail], tail, change);
+    const struct posing posing = stage_posing(core, world);
+    const struct by_hand hand = by_hand(stage, core, &world->document->tails[tail], tail, change);
     posing_tail(&posing, tail, position, &hand, pose);
 }
 
@@ -57,7 +65,7 @@ static void add_blobs(struct stage_view *view, const struct pose *pose)
     }
 }
 
-void stage_fit(struct editor *editor, const struct editor_world *world)
+void stage_fit(struct stage *stage, const struct core *core, const struct editor_world *world)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
     double last = document_samples(world->document) - 1;
@@ -65,7 +73,7 @@ void stage_fit(struct editor *editor, const struct editor_world *world)
         for (int t = 0; t < world->document->tail_count && t < STAGE_MAX_TAILS; t++) {
             struct pose pose;
             float low[3], high[3];
-            stage_pose_tail(editor, world, t, last * i / FIT_STEPS, NULL, &pose);
+            stage_pose_tail(stage, core, world, t, last * i / FIT_STEPS, NULL, &pose);
             pose_bounds(&pose, low, high);
             for (int axis = 0; axis < 3; axis++) {
                 lo[axis] = fminf(lo[axis], low[axis]);
@@ -73,14 +81,14 @@ void stage_fit(struct editor *editor, const struct editor_world *world)
             }
         }
     }
-    editor->camera = camera_default();
-    bool any = characters_bounds(editor, world, lo, hi);
+    stage->camera = camera_default();
+    bool any = characters_bounds(core, world, lo, hi);
     if (any && world->document->tail_count == 0)
-        editor->camera.azimuth = editor->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
-    camera_lamp(&editor->camera, editor->stage.key_from); // it stays there while the camera goes round
+        stage->camera.azimuth = core->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
+    camera_lamp(&stage->camera, stage->view.key_from); // it stays there while the camera goes round
     if (!any && world->document->tail_count == 0) return;
-    for (int k = 0; k < 2; k++) editor->stage.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
-    camera_fit(&editor->camera, lo, hi, editor->layout.stage.w / editor->layout.stage.h);
+    for (int k = 0; k < 2; k++) stage->view.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
+    camera_fit(&stage->camera, lo, hi, core->layout.stage.w / core->layout.stage.h);
 }
 
 static uint64_t characters_hash(uint64_t hash, const struct stage_view *view)
@@ -117,9 +125,15 @@ static uint64_t view_hash(const struct stage_view *view)
     return hash_bytes(hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
 }
 
-void stage_pose(struct editor *editor, const struct editor_world *world)
+void stage_orbit(struct stage *stage, float across, float up) { camera_orbit(&stage->camera, across, up); }
+
+void stage_approach(struct stage *stage, float factor) { camera_zoom(&stage->camera, factor); }
+
+void stage_pose(struct stage *stage, struct core *core, const struct editor_world *world, bool covered)
 {
-    struct stage_view *view = &editor->stage;
+    if (core->refit_stage) stage_fit(stage, core, world);
+    core->refit_stage = false;
+    struct stage_view *view = &stage->view;
     const struct document *document = world->document;
     view->tail_count = document->tail_count < STAGE_MAX_TAILS ? document->tail_count : STAGE_MAX_TAILS;
     view->blob_count = 0;
@@ -128,62 +142,64 @@ void stage_pose(struct editor *editor, const struct editor_world *world)
         struct stage_tail *shown = &view->tails[t];
         shown->joints = tail->joints;
         shown->length = (float)tail->length;
-        stage_pose_tail(editor, world, t, editor->playback.position, NULL, &shown->pose);
+        stage_pose_tail(stage, core, world, t, core->playback.position, NULL, &shown->pose);
         add_blobs(view, &shown->pose);
     }
-    characters_pose(editor, world);
-    view->viewport = editor->layout.stage;
+    characters_pose(stage, core, world);
+    view->viewport = core->layout.stage;
     view->colors = theme()->stage;
-    camera_matrices(&editor->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
+    camera_matrices(&stage->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
     view->hash = view_hash(view);
+    brush_pose(stage, core, world, covered);
 }
 
 /// A ring where the tail can be taken hold of.
-static void show_hold(struct editor *editor)
+static void show_hold(struct stage *stage, struct core *core)
 {
-    float xy[2] = {editor->hover.x, editor->hover.y};
-    if (editor->drag.kind == DRAG_GRAB) {
-        if (!stage_project(editor, editor->grab.tail, editor->grab.joint, editor->grab.fraction, xy)) return;
-    } else if (editor->hover.kind != HOVER_JOINT) {
+    float xy[2] = {core->hover.x, core->hover.y};
+    if (core->drag.kind == DRAG_GRAB) {
+        if (!stage_project(stage, core, stage->grab.tail, stage->grab.joint, stage->grab.fraction, xy)) return;
+    } else if (core->hover.kind != HOVER_JOINT) {
         return;
     }
     struct rect ring = {xy[0] - RING_SIZE / 2.0f, xy[1] - RING_SIZE / 2.0f, RING_SIZE, RING_SIZE};
-    drawlist_rounded_line(&editor->list, ring, RING_SIZE / 2.0f, 1.5f, theme()->playhead);
+    drawlist_rounded_line(&core->list, ring, RING_SIZE / 2.0f, 1.5f, theme()->playhead);
 }
 
 /// What an empty stage says, or NULL.
-static const char *empty_text(const struct editor *editor, const struct editor_world *world)
+static const char *empty_text(const struct stage *stage, const struct core *core, const struct editor_world *world)
 {
-    const struct stage_view *view = &editor->stage;
+    const struct stage_view *view = &stage->view;
     if (view->tail_count > 0 || view->character_count > 0) return NULL;
     if (world->document->character_count > 0)
         return "This scene's character could not be read: its curves are below.";
-    return editor->active < 0 ? "This scene is empty." : "This scene moves no tail: its curves are below.";
+    return core->active < 0 ? "This scene is empty." : "This scene moves no tail: its curves are below.";
 }
 
-void stage_show(struct editor *editor, const struct editor_world *world)
+void stage_show(struct stage *stage, struct core *core, const struct editor_world *world)
 {
-    const struct stage_view *view = &editor->stage;
-    struct rect clip = drawlist_push_clip(&editor->list, view->viewport);
-    const char *text = empty_text(editor, world);
+    const struct stage_view *view = &stage->view;
+    struct rect clip = drawlist_push_clip(&core->list, view->viewport);
+    const char *text = empty_text(stage, core, world);
     if (text) {
         float room = view->viewport.w - 16, width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, text);
         float x = view->viewport.x + 8 + fmaxf(room - width, 0) / 2;
-        drawlist_text_fit(&editor->list, x, view->viewport.y + view->viewport.h / 2, room, FONT_LABEL,
+        drawlist_text_fit(&core->list, x, view->viewport.y + view->viewport.h / 2, room, FONT_LABEL,
                           THEME_TEXT_NORMAL, theme()->text_dim, text);
     }
-    onion_show(editor, world);
-    trail_show(editor, world);
-    characters_show(editor, world);
-    brush_show(editor, world);
-    body_show(editor);
-    show_hold(editor);
-    drawlist_set_clip(&editor->list, clip);
+    onion_show(stage, core, world);
+    trail_show(stage, core, world);
+    characters_show(stage, core, world);
+    brush_show(stage, core, world);
+    body_show(stage, core);
+    show_hold(stage, core);
+    drawlist_set_clip(&core->list, clip);
 }
 
-bool stage_project_pose(const struct editor *editor, const struct pose *pose, int joint, double fraction, float xy[2])
+bool stage_project_pose(const struct stage *stage, const struct core *core, const struct pose *pose, int joint,
+                        double fraction, float xy[2])
 {
-    const struct rect *r = &editor->layout.stage;
+    const struct rect *r = &core->layout.stage;
     const float viewport[4] = {r->x, r->y, r->w, r->h};
     float world[3];
     assert(joint >= 0 && joint < pose->count);
@@ -192,13 +208,14 @@ bool stage_project_pose(const struct editor *editor, const struct pose *pose, in
         float from = pose->matrix[joint][12 + i], to = pose->matrix[next][12 + i];
         world[i] = from + (to - from) * (float)fraction;
     }
-    return camera_project(editor->stage.view, editor->stage.projection, viewport, world, xy);
+    return camera_project(stage->view.view, stage->view.projection, viewport, world, xy);
 }
 
-bool stage_project(const struct editor *editor, int tail, int joint, double fraction, float xy[2])
+bool stage_project(const struct stage *stage, const struct core *core, int tail, int joint, double fraction,
+                   float xy[2])
 {
-    if (tail >= editor->stage.tail_count || joint >= editor->stage.tails[tail].pose.count) return false;
-    return stage_project_pose(editor, &editor->stage.tails[tail].pose, joint, fraction, xy);
+    if (tail >= stage->view.tail_count || joint >= stage->view.tails[tail].pose.count) return false;
+    return stage_project_pose(stage, core, &stage->view.tails[tail].pose, joint, fraction, xy);
 }
 
 /// How far along the segment a … b the point nearest to p is, 0 … 1.
@@ -210,15 +227,15 @@ static float nearest_on_segment(const float a[2], const float b[2], const float 
     return square > 0 ? fmaxf(0, fminf(1, along / square)) : 0;
 }
 
-struct hover stage_hover(const struct editor *editor, float x, float y)
+struct hover stage_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
     struct hover hover = {.kind = HOVER_NONE};
     const float p[2] = {x, y};
     float best = GRAB_REACH;
-    for (int t = 0; t < editor->stage.tail_count; t++) {
-        for (int n = 0; n + 1 < editor->stage.tails[t].pose.count; n++) {
+    for (int t = 0; t < stage->view.tail_count; t++) {
+        for (int n = 0; n + 1 < stage->view.tails[t].pose.count; n++) {
             float a[2], b[2];
-            if (!stage_project(editor, t, n, 0, a) || !stage_project(editor, t, n, 1, b)) continue;
+            if (!stage_project(stage, core, t, n, 0, a) || !stage_project(stage, core, t, n, 1, b)) continue;
             float fraction = nearest_on_segment(a, b, p);
             float at[2] = {a[0] + (b[0] - a[0]) * fraction, a[1] + (b[1] - a[1]) * fraction};
             float distance = hypotf(x - at[0], y - at[1]);
@@ -228,32 +245,32 @@ struct hover stage_hover(const struct editor *editor, float x, float y)
                 .kind = HOVER_JOINT, .tail = t, .joint = n, .fraction = fraction, .x = at[0], .y = at[1]};
         }
     }
-    return hover.kind == HOVER_NONE ? body_hover(editor, x, y) : hover;
+    return hover.kind == HOVER_NONE ? body_hover(stage, x, y) : hover;
 }
 
-void stage_press(struct editor *editor, const struct editor_world *world, const struct event *event)
+void stage_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event)
 {
-    bool pan = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && editor->space_down);
+    bool pan = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
     if (pan) {
-        editor->space_used = editor->space_down;
-        drag_begin(editor, DRAG_STAGE_PAN, event);
+        core->space_used = core->space_down;
+        drag_begin(core, DRAG_STAGE_PAN, NULL, event);
         return;
     }
-    if (brush_press(editor, world, event)) return;
-    struct hover hover = stage_hover(editor, event->x, event->y);
+    if (brush_press(stage, core, world, event)) return;
+    struct hover hover = stage_hover(stage, core, event->x, event->y);
     if (event->button == BUTTON_LEFT && hover.kind == HOVER_BODY) {
-        drag_begin(editor, DRAG_BODY, event);
-        body_begin(editor, hover.tail);
+        drag_begin(core, DRAG_BODY, "Move body", event);
+        body_begin(stage, core, hover.tail);
     } else if (event->button == BUTTON_LEFT && hover.kind == HOVER_JOINT) {
-        drag_begin(editor, DRAG_GRAB, event);
-        grab_begin(editor, world, &hover);
+        drag_begin(core, DRAG_GRAB, "Pull tail", event);
+        grab_begin(stage, core, world, &hover);
     } else {
-        drag_begin(editor, DRAG_ORBIT, event);
+        drag_begin(core, DRAG_ORBIT, NULL, event);
     }
 }
 
-void stage_wheel(struct editor *editor, const struct event *event)
+void stage_wheel(struct stage *stage, struct core *core, const struct event *event)
 {
-    if (brush_wheel(editor, event)) return;
-    camera_zoom(&editor->camera, (float)exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
+    if (brush_wheel(core, event)) return;
+    camera_zoom(&stage->camera, (float)exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
 }
