@@ -1,4 +1,4 @@
-/// The spline in quadruple precision, for long domains: rows of the energy as the specification has them, normal equations in
+/// The spline in quadruple precision, for long domains: rows of the energy as docs/mathematics.md has them, normal equations in
 /// a band, L D Lᵀ. Written for clarity; constant parameters, no equilibrium, start free.
 #ifndef TESTS_QUAD_H
 #define TESTS_QUAD_H

@@ -3,14 +3,28 @@
 
 expect 0 "the tree itself follows the arrows" tools/check-arrows.sh
 
-refuses() { # <file of src> <include line> <what it must say>
-    local tree=$scratch/tree
+tree=$scratch/tree
+plant() { # <file of src> <its only line>... into an empty tree
     rm -rf "$tree"
-    mkdir -p "$tree/include/wiggly" "$tree/src/$(dirname "$1")"
+    mkdir -p "$tree/include/wiggly"
     echo '#include <stddef.h>' >"$tree/include/wiggly/wiggly.h"
-    echo "$2" >"$tree/src/$1"
+    while [ $# -gt 0 ]; do
+        mkdir -p "$tree/src/$(dirname "$1")"
+        echo "$2" >"$tree/src/$1"
+        shift 2
+    done
+}
+
+refuses() { # <file of src> <include line> <what it must say>
+    plant "$1" "$2"
     expect 1 "$1 must not have $2" tools/check-arrows.sh "$tree"
     says "and the reason names the file" "src/$1:1: $3" "$out"
+}
+
+refuses_through() { # <file of src> <header of src> <include line of that header> <what it must say>
+    plant "$1" "#include \"$2\"" "$2" "$3"
+    expect 1 "$1 must not get $3 through $2" tools/check-arrows.sh "$tree"
+    says "and the reason names the header" "src/$1:1: $4 (through $2)" "$out"
 }
 
 refuses spline/a.c '#include "scene/document.h"' "spline must not include scene/document.h"
@@ -21,6 +35,29 @@ refuses draw/a.c '#include <epoxy/gl.h>' "src/draw reaches GL through draw/gl.h 
 refuses editor/a.c '#include <GLFW/glfw3.h>' "GLFW/glfw3.h belongs in src/draw and src/platform alone"
 refuses model/a.c '#include <jansson.h>' "jansson.h belongs in src/scene and the .glb files of src/model alone"
 refuses base/a.c '#include "error.h"' '"error.h" must be written with its folder'
+refuses rig/a.c '#include <cglm/vec3.h>' "cglm comes through model/vector.h"
+refuses_through draw/a.c ui/stage.h '#include "rig/pose.h"' "draw must not include rig/pose.h"
+refuses_through commands/a.c model/glb.h '#include <jansson.h>' "jansson.h belongs in src/scene and the .glb files of src/model alone"
+refuses_through model/a.c model/glb.h '#include <jansson.h>' "jansson.h belongs in src/scene and the .glb files of src/model alone"
+refuses_through app/a.c draw/gl.h '#include <epoxy/gl.h>' "epoxy/gl.h belongs in src/draw and src/platform alone"
+refuses_through model/a.c base/status.h '#include <wiggly/wiggly.h>' "model must not include wiggly/wiggly.h"
+plant draw/a.c '#include "ui/stage.h"' ui/stage.h '#include "model/pose.h"' model/pose.h '#include "base/error.h"'
+expect 0 "what follows the arrows through three headers is fine" tools/check-arrows.sh "$tree"
+
+# The editor's walls: a panel sees core and itself, core no panel, the editor's own files the panels' doors alone.
+refuses editor/curves/a.c '#include "editor/stage/stage.h"' "editor/curves must not include editor/stage/stage.h"
+refuses editor/core/a.c '#include "editor/curves/curves.h"' "editor/core must not include editor/curves/curves.h"
+refuses editor/stage/a.c '#include "editor/state.h"' "editor/stage must not include editor/state.h"
+refuses editor/a.c '#include "editor/curves/state.h"' "editor/curves/state.h is private to editor/curves: the way in is editor/curves/curves.h"
+refuses app/a.c '#include "editor/core/state.h"' "app must not include editor/core/state.h"
+plant editor/a.c '#include "editor/curves/curves.h"' editor/curves/b.c '#include "editor/core/state.h"' editor/stage/c.c '#include "editor/stage/state.h"'
+expect 0 "doors, core and one's own room are open" tools/check-arrows.sh "$tree"
+plant base/a.c '#include "base/b.h"' base/b.c '#include "base/c.h"' base/c.c '#include "base/a.h"'
+expect 0 "three files may include each other" tools/check-arrows.sh "$tree"
+plant base/a.c '#include "base/b.h"' base/b.c '#include "base/c.h"' base/c.c '#include "base/d.h"' base/d.h '#include "base/a.h"'
+expect 1 "four may not" tools/check-arrows.sh "$tree"
+says "and all four are named" "4 files include each other in a circle: base/d base/c base/b base/a" "$out"
+
 refuses misc/a.c '#include "base/error.h"' "src/misc is not a room of the house"
 
 {

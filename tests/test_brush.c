@@ -58,7 +58,7 @@ struct studio {
     const struct figure *plain;
 };
 
-static struct character_rig *rig_of(const struct studio *s) { return &s->session.document->characters[0]; }
+static struct character_rig *rig_of(const struct studio *s) { return document_character(s->session.document, 0); }
 
 static void frame(struct studio *s)
 {
@@ -90,7 +90,6 @@ static void studio_open(struct studio *s)
 static void studio_close(struct studio *s)
 {
     session_close(&s->session);
-    cast_destroy(s->cast);
 }
 
 /// The middle of the front of a finger, 3/4 up.
@@ -238,7 +237,7 @@ static void modes_and_modifiers_do_what_they_say(void **state)
     hold(&s, left_finger, 0, 600);
     panel_click(&s.session, "paint.clean");
     assert_true(paint_is_plain(rig_of(&s)->painted));
-    assert_string_equal(history_undo_label(s.session.history), "Take paint off");
+    assert_string_equal(history_undo_label(s.session.history), "Remove paint");
     session_key(&s.session, 'Z', MOD_CTRL);
     assert_false(paint_is_plain(rig_of(&s)->painted));
     studio_close(&s);

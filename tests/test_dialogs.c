@@ -73,12 +73,12 @@ static void test_recent_files(void **state)
     session_key(&s, 'O', MOD_CTRL);
     assert_int_equal(s.editor->dialogs->dialog.match_count, 5);
     assert_non_null(shown(&s, "/home/me/scenes"));
-    assert_non_null(shown(&s, "not there any more"));
+    assert_non_null(shown(&s, "no longer exists"));
     session_key(&s, KEY_DOWN, 0);
     session_key(&s, KEY_DOWN, 0);
     session_key(&s, KEY_ENTER, 0);
     expect_request(&s, REQUEST_NONE, "");
-    assert_non_null(strstr(s.editor->dialogs->dialog.error, "/home/me/gone.json is not there any more"));
+    assert_non_null(strstr(s.editor->dialogs->dialog.error, "/home/me/gone.json no longer exists"));
     session_key(&s, KEY_UP, 0);
     session_key(&s, KEY_ENTER, 0);
     expect_request(&s, REQUEST_OPEN, "/home/me/scenes/walk.json");
@@ -131,7 +131,7 @@ static void open_offer(struct session *session)
     open_session(session);
     editor_offer_recovery(session->editor, &offer);
     session_frame(session);
-    assert_non_null(shown(session, "Unsaved work on walk.json was left behind"));
+    assert_non_null(shown(session, "Recover unsaved work on walk.json?"));
 }
 
 static void test_recover(void **state)

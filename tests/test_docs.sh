@@ -12,16 +12,16 @@ build=$(realpath "$B")
 CC=${CC:-gcc}
 sanitizers=""
 [ -n "${SANITIZE:-}" ] && sanitizers="-fsanitize=address,undefined"
-documents="README.md docs/*.md"
-commands="live solve check simulate analyze log bench"
+documents="README.md CONTRIBUTING.md docs/*.md"
+commands=$("$build/wiggly" --help | sed -nE 's/^  ([a-z]+) .*/\1/p' | tr '\n' ' ')
 unset DISPLAY WAYLAND_DISPLAY
 
 # --- what a command line finds, and how it is cut short where it would last
 
 mkdir "$scratch/bin" "$scratch/work" "$scratch/work/build"
-make B="$B" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
+make BORROWED=yes B="$B" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
 ok "make install" $?
-export PKG_CONFIG_PATH=$scratch/stage/opt/wiggly/lib/pkgconfig PKG_CONFIG_SYSROOT_DIR=$scratch/stage
+export PKG_CONFIG_PATH=$scratch/stage/opt/wiggly/lib/pkgconfig
 
 cat >"$scratch/bin/wiggly" <<END
 #!/bin/bash
@@ -146,13 +146,18 @@ done
 # shellcheck disable=SC2086
 unknown=$(grep -ohE '`[^`]*`' $documents | grep -oE -- '--[a-z][a-z-]*' | sort -u |
     grep -vxFf <(cut -d' ' -f1 "$scratch"/*.options; printf '%s\n' --help --version --cflags --libs))
-[ -z "$unknown" ] || echo "  there is no option $unknown"
+[ -z "$unknown" ] || echo "  unknown option $unknown"
 [ -z "$unknown" ]
 ok "every option that is named is there" $?
 
+missing=$(for command in $commands; do [[ $all =~ \`wiggly\ \[?$command[^a-z] ]] || echo "$command"; done)
+[ -z "$missing" ] || echo "  not in README or docs: $missing"
+[ -n "$commands" ] && [ -z "$missing" ]
+ok "every command is named" $?
+
 # shellcheck disable=SC2086
 unknown=$(grep -ohE '`wiggly [a-z]+' $documents | cut -d' ' -f2 | sort -u | grep -vxFf <(tr ' ' '\n' <<<"$commands"))
-[ -z "$unknown" ] || echo "  there is no command $unknown"
+[ -z "$unknown" ] || echo "  unknown command $unknown"
 [ -z "$unknown" ]
 ok "every command that is named is there" $?
 

@@ -100,7 +100,7 @@ static void test_a_pull_out_of_reach_stays_calm(void **state)
     session_press(&s, BUTTON_LEFT, 1);
     session_drag(&s, -5000, 3000, 5);
     for (int i = 0; i < 100; i++) session_frame(&s);
-    for (int i = 0; i < s.evaluation.samples; i++) assert_true(fabs(s.evaluation.curves[0].total[i]) < 100);
+    for (int i = 0; i < s.table.evaluation.samples; i++) assert_true(fabs(s.table.evaluation.curves[0].total[i]) < 100);
     session_key(&s, KEY_ESCAPE, 0);
     assert_int_equal(s.document->splines[0].knot_count, 3);
     session_close(&s);
@@ -441,7 +441,8 @@ static void set(struct session *s, enum parameter parameter, double value)
 /// Sets every slider to one of its ends, as the bits of `ends` say, and looks at the curve.
 static void assert_finite_at(struct session *s, enum wiggly_mode mode, enum wiggly_start start, int ends)
 {
-    const struct edit edits[] = {{.kind = EDIT_MODE, .mode = mode}, {.kind = EDIT_START, .start = start}};
+    const struct edit edits[] = {{.kind = EDIT_PARAMETER, .parameter = PARAMETER_MODE, .param = {mode, -1}},
+                                 {.kind = EDIT_PARAMETER, .parameter = PARAMETER_START, .param = {start, -1}}};
     history_begin(s->history, "extremes", 1);
     assert_true(history_apply(s->history, s->document, &edits[0], NULL));
     assert_true(history_apply(s->history, s->document, &edits[1], NULL));
@@ -451,7 +452,7 @@ static void assert_finite_at(struct session *s, enum wiggly_mode mode, enum wigg
     set(s, PARAMETER_CALM, ends & 8 ? 1 : 0);
     history_end(s->history);
     session_frame(s);
-    for (int i = 0; i < s->evaluation.samples; i++) assert_true(isfinite(s->evaluation.curves[0].total[i]));
+    for (int i = 0; i < s->table.evaluation.samples; i++) assert_true(isfinite(s->table.evaluation.curves[0].total[i]));
     int count = 0;
     assert_non_null(active_line(s, &count));
     assert_true(count > 100);

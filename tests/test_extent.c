@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { WIDTH = 480, HEIGHT = 360, FRAMES = 9, STRIDE = 11 };
+enum { WIDTH = 480, HEIGHT = 360, FRAMES = 5, STRIDE = 9 };
 static unsigned char partial[WIDTH * HEIGHT * 4], whole[WIDTH * HEIGHT * 4];
 
 static bool open_picture(struct app *app)
@@ -27,8 +27,8 @@ static void draw_whole(struct app *app)
     const struct draw_input input = {.width = WIDTH,
                                      .height = HEIGHT,
                                      .scale = 1,
-                                     .list = editor_drawlist(app->editor),
-                                     .stage = editor_stage(app->editor)};
+                                     .list = editor_drawlist(app->table.editor),
+                                     .stage = editor_stage(app->table.editor)};
     draw_frame(app->draw, &input, &cost);
     draw_read(WIDTH, HEIGHT, whole);
 }

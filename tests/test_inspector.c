@@ -89,7 +89,7 @@ static void test_typing_keeps_keys_from_the_editor(void **state)
     session_key(&f, KEY_DELETE, 0);
     session_key(&f, KEY_SPACE, 0);
     assert_int_equal(f.editor->core.look, LOOK_WIGGLY);
-    assert_int_equal(f.document->splines[0].mode, WIGGLY_COMPLEX);
+    assert_int_equal(spline_mode(&f.document->splines[0]), WIGGLY_COMPLEX);
     assert_int_equal(f.document->splines[0].knot_count, 3);
     assert_false(f.editor->core.playback.playing);
     session_key(&f, KEY_F1, 0);
@@ -128,7 +128,7 @@ static void test_only_what_counts_is_shown(void **state)
     panel_open(&f, scene, 1280, 720);
     assert_true(panel_shows(&f, "bandwidth"));
     panel_click(&f, "mode.real");
-    assert_int_equal(f.document->splines[0].mode, WIGGLY_REAL);
+    assert_int_equal(spline_mode(&f.document->splines[0]), WIGGLY_REAL);
     assert_false(panel_shows(&f, "bandwidth"));
     panel_click(&f, "spring_friction");
     assert_true(panel_shows(&f, "spring"));
@@ -140,7 +140,7 @@ static void test_only_what_counts_is_shown(void **state)
     assert_false(panel_shows(&f, "frequency")); // a track drives it
     assert_true(panel_shows(&f, "damping"));
     panel_click(&f, "start.loop");
-    assert_int_equal(f.document->splines[2].start, WIGGLY_LOOP);
+    assert_int_equal(spline_start(&f.document->splines[2]), WIGGLY_LOOP);
     panel_click(&f, "look.cubic");
     assert_int_equal(f.editor->core.look, LOOK_CUBIC);
     session_close(&f);
@@ -253,7 +253,7 @@ static void test_tail_array_scales_as_a_whole(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
-    const struct tail *tail = &f.document->tails[0];
+    const struct tail *tail = document_tail(f.document, 0);
     panel_drag(&f, "gain", 18);
     assert_near(tail->channels[0].gain.value[0], 6, 1e-12);
     assert_near(tail->channels[0].gain.value[2], 18, 0);
@@ -299,11 +299,11 @@ static void test_says_what_the_solver_and_the_poles_mean(void **state)
         "1}]}]}",
         1280, 720);
     char words[24];
-    assert_int_equal(f.evaluation.status[0], WIGGLY_OK);
-    f.evaluation.status[0] = WIGGLY_CALMED;
-    snprintf(words, sizeof words, "%s", wiggly_status_text(f.evaluation.status[0]));
+    assert_int_equal(f.table.evaluation.status[0], WIGGLY_OK);
+    f.table.evaluation.status[0] = WIGGLY_CALMED;
+    snprintf(words, sizeof words, "%s", wiggly_status_text(f.table.evaluation.status[0]));
     assert_true(shows_text(&f, words));
-    assert_true(shows_text(&f, "Rings for ever"));
+    assert_true(shows_text(&f, "Rings forever"));
     panel_drag(&f, "damping", 0.5);
     panel_release(&f);
     session_frame(&f);
@@ -320,9 +320,10 @@ static void test_says_what_the_solver_and_the_poles_mean(void **state)
 static void assert_finite_and_loadable(struct session *f)
 {
     session_frame(f);
-    for (int s = 0; s < f->evaluation.count; s++) {
-        for (int i = 0; i < f->evaluation.samples; i++) {
-            assert_true(isfinite(f->evaluation.curves[s].total[i]) && isfinite(f->evaluation.curves[s].im[i]));
+    for (int s = 0; s < f->table.evaluation.count; s++) {
+        for (int i = 0; i < f->table.evaluation.samples; i++) {
+            assert_true(isfinite(f->table.evaluation.curves[s].total[i]) &&
+                        isfinite(f->table.evaluation.curves[s].im[i]));
         }
     }
     size_t size;
@@ -411,7 +412,7 @@ static void test_the_hint_of_a_position_outlives_the_panel(void **state)
     assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, "position.y", &x, &y));
     session_move(&s, x, y);
     session_frame(&s);
-    assert_string_equal(inspector_hint(s.editor->inspector), "Where the body stands along y");
+    assert_string_equal(inspector_hint(s.editor->inspector), "Position of the body along y");
     session_close(&s);
 }
 

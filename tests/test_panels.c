@@ -106,8 +106,9 @@ static void check_status(struct session *f)
 static void check_dialogs(struct session *f)
 {
     const struct request quit = {.kind = REQUEST_QUIT};
-    struct edit edit = core_edit_of(EDIT_START, 0);
-    edit.start = WIGGLY_REST;
+    struct edit edit = core_edit_of(EDIT_PARAMETER, 0);
+    edit.parameter = PARAMETER_START;
+    edit.param = (struct param){WIGGLY_REST, -1};
     assert_true(core_step(&f->editor->core, &f->world, "Change start", 0, &edit));
     for (int kind = 0; kind < 4; kind++) {
         if (kind == 0) dialog_ask_open(f->editor->dialogs);

@@ -178,7 +178,7 @@ static void test_moving_bases_are_kept(void **state)
         "\"name\": \"t\", \"frequency\": 1, \"position\": [{\"by\": \"me\", \"spline\": \"walk\"}, 0.26, "
         "{\"spline\": "
         "\"walk\"}], \"spline\": \"walk\", \"of\": \"displacement\"}]}");
-    const struct tail *tail = &document->tails[0];
+    const struct tail *tail = document_tail(document, 0);
     assert_int_equal(tail->position[0].track, 0);
     assert_int_equal(tail->position[1].track, -1);
     assert_near(tail->position[1].value, 0.26, 0);
@@ -282,12 +282,11 @@ static void test_warnings(void **state)
 {
     (void)state;
     assert_heard("{\"frames\": [0, 9],\n\"hey\": 1,\n\"splines\": [{\"name\": \"x\",\n\"hey\": 2}]}",
-                 "s.json:4: splines[0].hey: unknown key, kept but without effect\n");
+                 "s.json:4: splines[0].hey: unknown key: kept, but it has no effect\n");
     assert_heard("{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"frequency\":\n11, \"bandwidth\": 0.2}]}",
                  "s.json:2: splines[0].frequency: 13.2 Hz is above half the sample rate, 12 Hz: it aliases\n");
-    const char *slope =
-        "s.json:%d: splines[0].knots[%d].slope: slope without effect: the sample that it leads to is a "
-        "knot too\n";
+    const char *slope = "s.json:%d: splines[0].knots[%d].slope: slope has no effect: the next sample is a "
+                        "knot too\n";
     char expected[HEARD_SIZE];
     snprintf(expected, sizeof expected, slope, 3, 1);
     assert_heard("{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"knots\": [\n{\"frame\": 5, \"value\": 0},\n"

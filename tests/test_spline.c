@@ -1,4 +1,4 @@
-// The public library as a user meets it: the rules of the specification's corner cases, every status, values between samples,
+// The public library as a user meets it: the corner cases of docs/mathematics.md, every status, values between samples,
 // and finite answers whatever is asked.
 #include "near.h"
 
@@ -313,7 +313,7 @@ static void what_is_kept_changes_no_bit(void **state)
     curve_destroy(&other);
 }
 
-/// Twice the frequency, sample rate and stiffness on the same samples is the same curve (spec, section 2).
+/// Twice the frequency, sample rate and stiffness on the same samples is the same curve (docs/mathematics.md, Poles).
 static void the_whole_curve_scales(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 // Every scene of tests/vectors against its exact answers (60-digit arithmetic), through the same path as the app:
-// scene file → document → solver. The tolerances are the specification's: 1e-9 of the range for cubic splines, else 1e-8.
+// scene file → document → solver. The tolerances are those of docs/mathematics.md: 1e-9 of the range for cubic splines, else 1e-8.
 #include "near.h"
 
 #include "base/file.h"
@@ -61,7 +61,7 @@ static void check_scene(const char *name)
     double *expected = read_numbers(path, columns, document_samples(document));
     for (int s = 0; s < document->spline_count; s++) {
         double worst = relative_error(&evaluation.curves[s], expected, columns, s);
-        double tolerance = document->splines[s].mode == WIGGLY_CUBIC ? 1e-9 : 1e-8;
+        double tolerance = spline_mode(&document->splines[s]) == WIGGLY_CUBIC ? 1e-9 : 1e-8;
         if (!(worst <= tolerance)) fail_msg("%s, %s: off by %g of its range", name, document->splines[s].name, worst);
         assert_int_equal(evaluation.status[s], WIGGLY_OK);
     }

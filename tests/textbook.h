@@ -1,4 +1,4 @@
-/// The spline as a textbook would solve it: every row of the energy written out from the specification, squared into a dense
+/// The spline as a textbook would solve it: every row of the energy written out from docs/mathematics.md, squared into a dense
 /// matrix in extended precision, plain Cholesky. Slow, and as independent of src/spline as can be.
 #ifndef TESTS_TEXTBOOK_H
 #define TESTS_TEXTBOOK_H

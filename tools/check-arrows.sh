@@ -1,52 +1,147 @@
 #!/bin/sh
-# Proves that includes follow the arrows of the house: each folder of src/ sees only the folders listed here, GL stays in
-# draw and platform, JSON in scene and the glTF files of model, and the spline core does no I/O. Usage: tools/check-arrows.sh [root of the tree]
+# Proves that includes follow the arrows of the house, headers' own includes among them: no file reaches a folder that is not
+# listed here for its own. GL stays in draw and platform, JSON in scene and the glTF files of model, cglm comes through
+# model/vector.h, and the spline core does no I/O. Between the rooms of the editor are walls: a panel sees core and itself, core
+# sees no panel, the editor's own files see the panels' doors (curves/curves.h) alone; and no include circle, a header and the .c
+# file of its name taken as one, holds more than 3. Usage: tools/check-arrows.sh [root of the tree]
 set -eu
 cd "${1:-.}"
 grep -rnE '^[[:space:]]*#[[:space:]]*include' --include='*.[ch]' src include | awk '
 BEGIN {
-    sees["base"]     = "base"
-    sees["spline"]   = "spline"
+    sees["include"]  = "include"
+    sees["base"]     = "base include"
+    sees["spline"]   = "spline include"
     sees["model"]    = "model base"
     sees["simulation"] = "simulation model base"
-    sees["scene"]    = "scene spline base"
-    sees["rig"]      = "rig scene model spline base"
-    sees["ui"]       = "ui rig scene model spline base"
-    sees["editor"]   = "editor ui rig scene model spline base"
+    sees["scene"]    = "scene spline base include"
+    sees["rig"]      = "rig scene model spline base include"
+    sees["ui"]       = "ui model base"
+    sees["editor"]   = "editor ui rig scene model spline base include"
     sees["draw"]     = "draw ui model base"
-    sees["platform"] = "platform ui rig scene model spline base"
-    sees["timing"]   = "timing ui rig scene model spline base"
+    sees["platform"] = "platform ui model base"
+    sees["timing"]   = "timing spline base include"
     sees["analysis"] = "analysis model base"
-    sees["app"]      = "app editor draw platform timing ui rig scene model spline base"
+    sees["app"]      = "app draw platform timing " sees["editor"]
     sees["commands"] = "commands simulation analysis " sees["app"]
-    sees["main"]     = "commands base"
-    sees["include"]  = ""
+    sees["main"]     = "commands base include"
 }
+function room_of(file,    folder) {
+    split(file, folder, "/")
+    return file == "src/main.c" ? "main" : folder[1] == "include" ? "include" : folder[2]
+}
+function short(header) { return substr(header, index(header, "/") + 1) }
 function complain(what) {
     printf "%s:%s: %s\n", file, line, what
     bad = 1
 }
+# Why a file must have nothing to do with a header, whichever way it comes; empty where it may.
+function reason(file, header,    room) {
+    room = room_of(file)
+    if (header ~ /^(src|include)\//)
+        return index(" " sees[room] " ", " " room_of(header) " ") ? "" : room " must not include " short(header)
+    if (header ~ /^(epoxy|GL|GLES[0-9]*|EGL|GLFW)\// && room != "draw" && room != "platform")
+        return header " belongs in src/draw and src/platform alone"
+    if (header ~ /^jansson/ && room != "scene" && file !~ /^src\/model\/glb/)
+        return header " belongs in src/scene and the .glb files of src/model alone"
+    if (header ~ /^(stdio|unistd|fcntl)\.h$/ && room == "spline") return "the spline core does no I/O: " header
+    return ""
+}
+# The part of the editor that a file is in: core, a panel, or "" for the editor itself.
+function part_of(file,    folder, depth) {
+    depth = split(file, folder, "/")
+    return file ~ /^src\/editor\// && depth > 3 ? folder[3] : ""
+}
+# Why a wall of the editor is between a file and what it includes.
+function wall(file, header,    from, to) {
+    if (header !~ /^src\/editor\//) return ""
+    from = part_of(file)
+    to = part_of(header)
+    if (header == "src/editor/editor.h" || header == "src/editor/dialogs/dialog_files.h") return ""
+    if (file !~ /^src\/editor\//) return room_of(file) " must not include " short(header) ": the editor is reached through editor/editor.h"
+    if (from != "" && to != from && to != "core") return "editor/" from " must not include " short(header)
+    if (from == "" && to != "" && to != "core" && header != "src/editor/" to "/" to ".h")
+        return short(header) " is private to editor/" to ": the way in is editor/" to "/" to ".h"
+    return ""
+}
+function unit_of(file) {
+    sub(/\.[ch]$/, "", file)
+    return file
+}
+# Finds circles (Tarjan): units that reach each other are popped together.
+function visit(unit,    i, other, size, names) {
+    index_of[unit] = low[unit] = ++visited
+    stack[++depth_of_stack] = unit
+    on_stack[unit] = 1
+    for (i = 1; i <= arrows[unit]; i++) {
+        other = arrow[unit, i]
+        if (!(other in index_of)) {
+            visit(other)
+            if (low[other] < low[unit]) low[unit] = low[other]
+        } else if (on_stack[other] && index_of[other] < low[unit]) low[unit] = index_of[other]
+    }
+    if (low[unit] != index_of[unit]) return
+    do {
+        other = stack[depth_of_stack--]
+        on_stack[other] = 0
+        size++
+        names = names " " short(other)
+    } while (other != unit)
+    if (size <= (names ~ / scene\// ? 9 : 3)) return # scene has two that are larger, and may get no larger one
+    printf "%d files include each other in a circle:%s\n", size, names
+    bad = 1
+}
+# What is wrong with all that a header includes, unless its own folder is told so already.
+function reason_through(file, header,    queue, count, next_one, seen, i, why) {
+    queue[count = 1] = header
+    for (next_one = 1; next_one <= count; next_one++) {
+        for (i = 1; i <= includes[queue[next_one]]; i++) {
+            found = included[queue[next_one], i]
+            if (found in seen) continue
+            seen[found] = 1
+            queue[++count] = found
+            why = reason(file, found)
+            if (why != "" && (room_of(header) != room_of(file) || reason(header, found) == "")) return why
+        }
+    }
+    return ""
+}
 {
     split($0, part, ":")
     file = part[1]; line = part[2]
-    split(file, folder, "/")
-    room = file == "src/main.c" ? "main" : folder[1] == "include" ? "include" : folder[2]
     header = $0
     sub(/^[^"<]*["<]/, "", header)
     sub(/[">].*$/, "", header)
-    if (!(room in sees)) {
-        complain("src/" room " is not a room of the house (tools/check-arrows.sh lists them)")
-    } else if ($0 ~ /include[[:space:]]*"/) {
-        if (header !~ /\//) complain("\"" header "\" must be written with its folder")
-        split(header, target, "/")
-        if (index(" " sees[room] " ", " " target[1] " ") == 0) complain(room " must not include " header)
+    if (!(room_of(file) in sees)) {
+        complain("src/" room_of(file) " is not a room of the house (tools/check-arrows.sh lists them)")
+        next
     }
-    if (header ~ /^(epoxy|GL|GLES[0-9]*|EGL|GLFW)\// && room != "draw" && room != "platform")
-        complain(header " belongs in src/draw and src/platform alone")
-    if (header ~ /^(epoxy|GL)\// && room == "draw" && file != "src/draw/gl.h")
+    own = $0 ~ /include[[:space:]]*"/
+    if (own && header !~ /\//) complain("\"" header "\" must be written with its folder")
+    if (header ~ /^(epoxy|GL)\// && room_of(file) == "draw" && file != "src/draw/gl.h")
         complain("src/draw reaches GL through draw/gl.h alone")
-    if (header ~ /^jansson/ && room != "scene" && file !~ /^src\/model\/glb/)
-        complain(header " belongs in src/scene and the .glb files of src/model alone")
-    if (header ~ /^(stdio|unistd|fcntl)\.h$/ && room == "spline") complain("the spline core does no I/O: " header)
+    if (header ~ /^cglm\// && file != "src/model/vector.h") complain("cglm comes through model/vector.h")
+    if (own) header = "src/" header
+    if (header ~ /^wiggly\//) header = "include/" header
+    if (!(file in includes)) files[++file_count] = file
+    included[file, ++includes[file]] = header
+    place[file, includes[file]] = line
 }
-END { exit bad }'
+END {
+    for (f = 1; f <= file_count; f++) {
+        file = files[f]
+        for (n = 1; n <= includes[file]; n++) {
+            line = place[file, n]
+            header = included[file, n]
+            why = reason(file, header)
+            if (why == "") why = wall(file, header)
+            if (why != "") complain(why)
+            else if ((why = reason_through(file, header)) != "") complain(why " (through " short(header) ")")
+            if (header ~ /^src\// && unit_of(header) != unit_of(file))
+                arrow[unit_of(file), ++arrows[unit_of(file)]] = unit_of(header)
+        }
+    }
+    for (f = 1; f <= file_count; f++) {
+        if (!(unit_of(files[f]) in index_of)) visit(unit_of(files[f]))
+    }
+    exit bad
+}'

@@ -1,4 +1,4 @@
-/// Replays: recorded events as text, one a line, by frame (design: "Replays").
+/// Replays: recorded events as text, one per line, by frame (docs/measuring.md).
 ///
 ///     wiggly-replay 1
 ///     version 0.1.0

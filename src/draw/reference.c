@@ -1,6 +1,6 @@
 #include "draw/reference.h"
+#include "model/vector.h"
 #include "ui/theme.h"
-#include <cglm/cglm.h>
 #include <stdlib.h>
 #include <string.h>
 

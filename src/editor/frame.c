@@ -6,6 +6,7 @@
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/drags.h"
+#include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "editor/keys.h"
 #include "editor/stage/stage.h"

@@ -1,6 +1,7 @@
 #include "editor/keyboard.h"
 #include "editor/core/knots.h"
 #include "editor/curves/curves.h"
+#include "editor/editor.h"
 #include "editor/stage/stage.h"
 #include "editor/state.h"
 

@@ -1,4 +1,4 @@
-/// The keyboard: one table of what a key does and one of what a typed character does (design: "The live app").
+/// The keyboard: one table of what a key does, one of what a typed character does. docs/keys.md lists them.
 #include "editor/keys.h"
 #include "editor/core/characters.h"
 #include "editor/core/clipboard.h"
@@ -173,8 +173,8 @@ static void run_snap(struct editor *e, const struct editor_world *w, int argumen
     (void)argument;
     e->core.no_snap = !e->core.no_snap;
     core_message(&e->core, false,
-                 e->core.no_snap ? "Knots go between the frames, onto them with Ctrl."
-                                 : "Knots go to whole frames, between them with Ctrl.");
+                 e->core.no_snap ? "Snapping off: hold Ctrl to snap to frames."
+                                 : "Snapping on: hold Ctrl to place knots between frames.");
 }
 
 static void run_scale(struct editor *e, const struct editor_world *w, int argument)
@@ -384,7 +384,7 @@ static void space_event(struct editor *editor, const struct editor_world *world,
     }
 }
 
-static bool is_held_letter(int key) { return key == 'F' || key == 'Z' || key == 'B' || key == 'C' || key == 'L'; }
+static bool is_held_letter(int key) { return key == 'L' || parameter_of_letter(key) != PARAMETER_COUNT; }
 
 /// Does what is bound, unless the key is kept down or a drag is on and it is not for that; true where anything is bound.
 static bool run(struct editor *editor, const struct editor_world *world, const struct binding *list, int key,

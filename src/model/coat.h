@@ -1,4 +1,4 @@
-/// What the animal's skin is coloured with (look.md's palette). Linear RGB.
+/// The colours of the animal's coat. Linear RGB.
 #ifndef MODEL_COAT_H
 #define MODEL_COAT_H
 
@@ -15,9 +15,6 @@ void coat_linear(uint32_t srgb, float rgb[3]);
 
 /// rgb = rgb + (to − rgb)·amount.
 void coat_mix(float rgb[3], uint32_t to, float amount);
-
-/// 0 at `from`, 1 at `to`, smooth between and level beyond; `from` may be the larger.
-float coat_step(float from, float to, float x);
 
 /// Colour of the tail `z` metres from its base where its skin faces `up` (the y of the direction from its axis, −1 …
 /// 1).

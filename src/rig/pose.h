@@ -1,13 +1,10 @@
-/// Samples → pose: a tail's joint matrices from its channels' spline values (spec: "Scene file", paper section 7.1).
+/// Samples → pose: a tail's joint matrices from its channels' spline values (docs/mathematics.md, Poses; section 7.1 of the paper).
 #ifndef RIG_POSE_H
 #define RIG_POSE_H
 
 #include "model/pose.h"
+#include "rig/look.h"
 #include "scene/document.h"
-
-/// How the same knots are shown: the paper's method, without lag, or as classical cubics (the splines are then solved
-/// so).
-enum look { LOOK_WIGGLY, LOOK_STIFF, LOOK_CUBIC };
 
 /// Poses a tail at its position, coordinates that follow a spline being 0 (see pose_move()). `values[c]` is the spline value of
 /// channel c at the time shown. Joint n bends by gain·(y + Re(e^{−j·n·lag} x)) about each channel's axis, without y for

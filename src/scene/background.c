@@ -1,6 +1,7 @@
 #include "scene/background.h"
 #include "scene/window.h"
 #include "scene/worker.h"
+#include "spline/desc.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,7 +45,7 @@ static bool uses_band(const struct spline *spline)
     for (int p = 0; p < PARAMETER_COUNT; p++) {
         if (spline->parameter[p].track >= 0 && spline_uses(spline, (enum parameter)p, false)) return true;
     }
-    return spline->start == WIGGLY_LOOP;
+    return spline_start(spline) == WIGGLY_LOOP;
 }
 
 bool background_serves(const struct document *document)
@@ -190,7 +191,7 @@ static void give(struct evaluation *evaluation, const struct document *document,
     if (kind == WORK_SOLVE) {
         job.curve = b->spare;
         job.extremes = b->spare_extremes;
-        b->knots_alone = window_same_settings(&b->desc, &desc);
+        b->knots_alone = desc_same_settings(&b->desc, &desc);
         b->pending[spline] = false;
         b->solving = spline;
     } else {
@@ -253,13 +254,7 @@ static bool is_stale(const struct background *b, int count)
 /// Whether the thread reads the rows of that spline, as a track.
 static bool is_read(const struct evaluation *evaluation, const struct background *b, int spline)
 {
-    const wiggly_param params[] = {b->desc.frequency, b->desc.damping,  b->desc.bandwidth,
-                                   b->desc.spring,    b->desc.friction, b->desc.equilibrium};
-    if (b->solving < 0) return false;
-    for (size_t p = 0; p < sizeof params / sizeof *params; p++) {
-        if (params[p].track && params[p].track == evaluation->curves[spline].total) return true;
-    }
-    return false;
+    return b->solving >= 0 && desc_reads(&b->desc, evaluation->curves[spline].total);
 }
 
 /// Reads from the take what is looked at, where the rows are older. false where there is no take for it.

@@ -1,5 +1,6 @@
 /// Edits of the list of splines: which there are, in which order, under which names and colours.
 #include "scene/edit_plan.h"
+#include "scene/order.h"
 #include "scene/reference.h"
 #include <ctype.h>
 #include <math.h>
@@ -7,18 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double NEW_FREQUENCY = 1, NEW_DAMPING = 0.1; ///< of an added spline, Hz and ratio
-
 /// Room for one spline more in the document, and whether its samples and knots are not too many.
 static bool reserve_spline(struct document *document, int knots, struct error *error)
 {
     long long total = knots, samples = (long long)document_samples(document) * (document->spline_count + 1);
     for (int i = 0; i < document->spline_count; i++) total += document->splines[i].knot_count;
     if (samples > SCENE_MAX_SAMPLES) {
-        return fail(error, ERROR_INPUT, "that would be more than %d samples over all splines", SCENE_MAX_SAMPLES);
+        return fail(error, ERROR_INPUT, "the limit is %d samples over all splines", SCENE_MAX_SAMPLES);
     }
     if (total > SCENE_MAX_KNOTS) {
-        return fail(error, ERROR_INPUT, "that would be more than %d knots over all splines", SCENE_MAX_KNOTS);
+        return fail(error, ERROR_INPUT, "the limit is %d knots over all splines", SCENE_MAX_KNOTS);
     }
     if (document->spline_count < document->spline_capacity) return true;
     int capacity = document->spline_capacity > 0 ? 2 * document->spline_capacity : 8;
@@ -51,7 +50,7 @@ static bool check_name(const struct document *document, const char *name, int ow
     int other = document_find_spline(document, name);
     if (!name[0]) return fail(error, ERROR_INPUT, "a spline needs a name");
     if (other < 0 || other == own) return true;
-    return fail(error, ERROR_INPUT, "there is a spline called %s already", name);
+    return fail(error, ERROR_INPUT, "a spline called %s already exists", name);
 }
 
 /// Puts a spline into the plan, with the ids of a new one. It is the plan's even where this fails.
@@ -105,8 +104,9 @@ bool plan_spline_add(struct document *document, const struct edit *edit, struct 
     struct spline *held = hold_spline(free_name(document, edit->text ? edit->text : "spline"), 1);
     if (!held) return plan_no_memory(error);
     spline_reset(held);
-    held->parameter[PARAMETER_FREQUENCY].value = NEW_FREQUENCY;
-    held->parameter[PARAMETER_DAMPING].value = NEW_DAMPING;
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        if (spline_has(held, p)) held->parameter[p].value = parameter_rows[p].fresh;
+    }
     if (edit->flag) {
         held->knot_count = 1;
         held->knots[0] = (struct knot){
@@ -138,7 +138,7 @@ bool plan_spline_remove(struct document *document, const struct edit *edit, stru
     struct change change = {.kind = CHANGE_SPLINE_IN, .spline = edit->spline};
     int followers = reference_count(document, edit->spline);
     if (followers > 0) {
-        return fail(error, ERROR_INPUT, "%s: followed in %d place%s, which must let go of it first",
+        return fail(error, ERROR_INPUT, "%s: still used in %d place%s; remove those first",
                     document->splines[edit->spline].name, followers, followers == 1 ? "" : "s");
     }
     change.held = calloc(1, sizeof *change.held);

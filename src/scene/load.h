@@ -1,4 +1,4 @@
-/// Scene files: read, check, write (spec: "Scene file").
+/// Scene files: read, check, write (docs/scene-format.md).
 #ifndef SCENE_LOAD_H
 #define SCENE_LOAD_H
 

@@ -1,6 +1,7 @@
 #include "scene/text.h"
 #include "base/checked.h"
 #include "scene/number.h"
+#include <jansson.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,9 +2,10 @@
 #ifndef SCENE_TEXT_H
 #define SCENE_TEXT_H
 
-#include <jansson.h>
 #include <stdbool.h>
 #include <stddef.h>
+
+struct json_t;
 
 /// Starts as zeros. Once memory was short nothing more is added.
 struct text {
@@ -20,6 +21,6 @@ void text_number(struct text *text, double value);
 /// A string in quotes with what must be escaped.
 void text_quoted(struct text *text, const char *string);
 /// Any value on one line: { "a": [1, 2] }.
-void text_json(struct text *text, const json_t *value);
+void text_json(struct text *text, const struct json_t *value);
 
 #endif

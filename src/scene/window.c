@@ -1,28 +1,10 @@
 #include "scene/window.h"
+#include "spline/desc.h"
 #include "spline/take.h"
 
 enum { MOST_MOVED = 64 }; ///< knots in one frame: 2 µs each
 
-bool window_serves(const wiggly_desc *desc)
-{
-    const wiggly_param *params[] = {&desc->frequency, &desc->damping,  &desc->bandwidth,
-                                    &desc->spring,    &desc->friction, &desc->equilibrium};
-    for (size_t p = 0; p < sizeof params / sizeof *params; p++) {
-        if (params[p]->track) return false;
-    }
-    return desc->start != WIGGLY_LOOP;
-}
-
-static bool same_param(wiggly_param a, wiggly_param b) { return a.value == b.value && a.track == b.track; }
-
-bool window_same_settings(const wiggly_desc *a, const wiggly_desc *b)
-{
-    return a->samples == b->samples && a->step == b->step && a->mode == b->mode && a->start == b->start &&
-           a->spring_friction == b->spring_friction && a->calm == b->calm && same_param(a->frequency, b->frequency) &&
-           same_param(a->damping, b->damping) && same_param(a->bandwidth, b->bandwidth) &&
-           same_param(a->spring, b->spring) && same_param(a->friction, b->friction) &&
-           same_param(a->equilibrium, b->equilibrium);
-}
+bool window_serves(const wiggly_desc *desc) { return !desc_has_track(desc) && desc->start != WIGGLY_LOOP; }
 
 static bool same_knot(const wiggly_knot *a, const wiggly_knot *b)
 {
@@ -68,7 +50,7 @@ void window_follow(struct window *window, const struct document *document, const
     const wiggly_desc *old = take_desc(window->take);
     int moved[MOST_MOVED];
     window->is_current = false;
-    if (spline->knot_count != old->knot_count || !window_same_settings(old, desc)) return;
+    if (spline->knot_count != old->knot_count || !desc_same_settings(old, desc)) return;
     int count = find_moved(old, document, spline, moved);
     if (count <= MOST_MOVED) window->is_current = move(window, document, spline, moved, count);
 }

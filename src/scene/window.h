@@ -14,9 +14,6 @@ struct window {
 /// Whether a spline can be a take at all, as far as its description tells.
 bool window_serves(const wiggly_desc *desc);
 
-/// Whether two descriptions differ in nothing but their knots.
-bool window_same_settings(const wiggly_desc *a, const wiggly_desc *b);
-
 /// Moves the take's knots to where the document has them; is_current tells whether that could be done, by a few that moved in
 /// their places. `desc` is the spline's description.
 void window_follow(struct window *window, const struct document *document, const wiggly_desc *desc);

@@ -1,4 +1,4 @@
-/// Where the animator's parameters put the two poles, and the filter's coefficients (spec: "Parameters"; paper, section 4, 5).
+/// Where the animator's parameters put the two poles, and the filter's coefficients (docs/mathematics.md, Poles).
 #ifndef SPLINE_POLES_H
 #define SPLINE_POLES_H
 

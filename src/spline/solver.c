@@ -116,20 +116,12 @@ void wiggly_destroy(wiggly_solver *solver)
 const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc)
 {
     constant_filter *f = &solver->filter;
-    const double parameter[5] = {desc->frequency.value, desc->damping.value, desc->bandwidth.value,
-                                 desc->spring.value, desc->friction.value};
-    bool same =
-        f->known && f->mode == desc->mode && f->spring_friction == desc->spring_friction && f->step == desc->step;
-    for (int i = 0; i < 5; i++) same = same && f->parameter[i] == parameter[i];
-    if (same) return f;
+    if (f->known && desc_same_filter(&f->desc, desc)) return f;
     poles damped = poles_at(desc, 0, LEAST_DAMPING);
     *f = (constant_filter){.known = true,
-                           .mode = desc->mode,
-                           .spring_friction = desc->spring_friction,
-                           .step = desc->step,
+                           .desc = desc_settings(desc),
                            .at = poles_at(desc, 0, 0),
                            .start = poles_start_cost(&damped, desc->step)};
-    memcpy(f->parameter, parameter, sizeof parameter);
     poles_mean(&f->at, desc->step, &f->lambda, &f->delta2);
     return f;
 }

@@ -3,6 +3,7 @@
 #define SPLINE_SOLVER_H
 
 #include "spline/chain.h"
+#include "spline/desc.h"
 #include "spline/stop.h"
 #include "spline/system.h"
 
@@ -12,9 +13,7 @@
 /// What constant parameters come to; computed anew only when they change.
 typedef struct constant_filter {
     bool known;
-    wiggly_mode mode;
-    bool spring_friction;
-    double parameter[5], step; ///< frequency, damping, bandwidth, spring, friction
+    wiggly_desc desc; ///< that it is of, without knots
     poles at;
     start_cost start; ///< at calm 1
     cplx lambda, delta2;

@@ -1,4 +1,4 @@
-// The rules around the minimisation (spec: "Energy", "Constraints"): where the domain starts, what is fixed, what is implied,
+// The rules around the minimisation (docs/mathematics.md, Constraints): where the domain starts, what is fixed, what is implied,
 // and what to do where the problem has no single answer.
 #include "spline/problem.h"
 #include <limits.h>
@@ -34,10 +34,9 @@ static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *
     if (desc->start == WIGGLY_LOOP && desc->samples < 2) return WIGGLY_ERROR_LOOP;
     if (!(desc->step > 0 && desc->step < INFINITY) || !(desc->calm >= 0 && desc->calm <= 1))
         return WIGGLY_ERROR_NUMBER;
-    const wiggly_param *params[] = {&desc->frequency, &desc->damping,  &desc->bandwidth,
-                                    &desc->spring,    &desc->friction, &desc->equilibrium};
-    for (size_t p = 0; p < sizeof params / sizeof *params; p++) {
-        if (!param_is_finite(*params[p], desc->samples)) return WIGGLY_ERROR_NUMBER;
+    for (const desc_member *m = desc_members; m->name; m++) {
+        if (m->kind == DESC_PARAM && !param_is_finite(*desc_param(desc, m), desc->samples))
+            return WIGGLY_ERROR_NUMBER;
     }
     for (int i = 0; desc->equilibrium.track && i < desc->samples; i++) {
         if (!(fabs(desc->equilibrium.track[i]) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;
@@ -215,7 +214,7 @@ static void join_knots(wiggly_solver *solver, const problem *p)
     for (int i = before + 1; before >= 0 && i < rows->count; i++) rows->x[width * i] = rows->x[width * before];
 }
 
-/// Solves, and where the problem is singular as asked, solves the nearest one that is not (spec: last rule of "Constraints").
+/// Solves, and where the problem is singular as asked, solves the nearest one that is not (docs/mathematics.md, last rule of Constraints).
 static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
 {
     wiggly_status status = WIGGLY_OK;

@@ -1,4 +1,4 @@
-/// The least-squares problem of one spline: its rows, before anything is squared (spec: "Energy", times h³).
+/// The least-squares problem of one spline: its rows, before anything is squared (docs/mathematics.md, Energy, times h³).
 ///
 /// Unknowns are x_0 … x_{M−1}, M = `count`, sample k of the system being sample first + k of the spline; in a loop indices
 /// are taken modulo M. Rows, each with the weight by which its square enters E·h³:

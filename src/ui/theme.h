@@ -1,4 +1,4 @@
-/// Colours and sizes of the whole screen (look.md's palette), in one place. Sizes in logical pixels, colours 0xRRGGBBAA.
+/// Colours and sizes of the whole screen, in one place. Sizes in logical pixels, colours 0xRRGGBBAA.
 ///
 /// There are two themes; one of them is in use, for the whole process. What is drawn asks for it each time:
 ///

@@ -98,9 +98,8 @@ double arrange_present(const struct core *core, const struct editor_world *world
 {
     const struct spline *follower = &world->document->splines[spline];
     wiggly_value v = evaluation_at(world->evaluation, follower->parameter[parameter].track, core->playback.position);
-    double value = isfinite(v.y + v.re) ? v.y + v.re : parameter_default(parameter);
-    return fmax(parameter_minimum(parameter, follower->mode),
-                fmin(parameter_maximum(parameter, follower->mode), value));
+    double value = isfinite(v.y + v.re) ? v.y + v.re : parameter_rows[parameter].standard;
+    return parameter_clamped(parameter, spline_mode(follower), value);
 }
 
 /// Finds the last place that follows a spline, so that letting go of it moves no other place.
@@ -124,7 +123,7 @@ static struct edit release_edit(const struct core *core, const struct editor_wor
 {
     struct edit edit = core_edit_of(EDIT_PARAMETER, reference->owner);
     wiggly_value v = evaluation_at(world->evaluation, core->active, core->playback.position);
-    edit.tail = edit.character = reference->owner;
+    edit.rig = reference->owner;
     switch (reference->kind) {
     case REFERENCE_TRACK:
         edit.parameter = (enum parameter)reference->which;

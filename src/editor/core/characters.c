@@ -6,8 +6,7 @@
 
 const struct character_rig *characters_selected(const struct core *core, const struct editor_world *world)
 {
-    const int index = core->characters.character;
-    return index < world->document->character_count ? &world->document->characters[index] : NULL;
+    return document_character(world->document, core->characters.character);
 }
 
 const struct coordinate *characters_coordinate(const struct core *core, const struct editor_world *world)
@@ -21,7 +20,8 @@ const struct coordinate *characters_coordinate(const struct core *core, const st
 
 void characters_open(struct core *core, const struct document *document)
 {
-    const int phases = document->character_count > 0 ? document->characters[0].phases : -1;
+    const struct character_rig *first = document_character(document, 0);
+    const int phases = first ? first->phases : -1;
     core->brush.on = false;
     core->characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
 }
@@ -54,24 +54,24 @@ void brush_set(struct core *core, const struct editor_world *world, bool on)
     core->brush.on = figure != NULL;
     if (!on) return;
     if (!figure) {
-        core_message(core, false, "There is no character here to paint on.");
+        core_message(core, false, "This scene has no character to paint.");
         return;
     }
     choose_axis(core, figure, coordinate);
-    core_message(core, false, "Drag over the character. Ctrl: the other way, Shift: smooth, Esc: done.");
+    core_message(core, false, "Drag over the character to paint. Ctrl reverses, Shift smooths, Esc ends.");
 }
 
-struct edit paint_edit(const struct core *core, enum edit_kind kind)
+struct edit paint_edit(const struct core *core, const struct editor_world *world, enum edit_kind kind)
 {
     struct edit edit = core_edit_of(kind, 0);
-    edit.character = core->characters.character;
+    edit.rig = document_find_rig(world->document, RIG_CHARACTER, core->characters.character);
     return edit;
 }
 
 /// Blank paint of the figure's shape.
-struct edit paint_blank(const struct core *core, const struct figure *figure)
+struct edit paint_blank(const struct core *core, const struct editor_world *world, const struct figure *figure)
 {
-    struct edit edit = paint_edit(core, EDIT_PAINT_NEW);
+    struct edit edit = paint_edit(core, world, EDIT_PAINT_NEW);
     edit.coordinates = figure->character.coordinate_count;
     edit.vertices = figure->character.vertex_count;
     return edit;
@@ -82,6 +82,6 @@ void brush_clean(struct core *core, const struct editor_world *world)
     int coordinate;
     const struct figure *figure = brush_figure(core, world, &coordinate);
     if (!figure || history_is_open(world->history)) return;
-    const struct edit blank = paint_blank(core, figure);
-    core_step(core, world, "Take paint off", 0, &blank);
+    const struct edit blank = paint_blank(core, world, figure);
+    core_step(core, world, "Remove paint", 0, &blank);
 }

@@ -16,9 +16,9 @@ const struct figure *brush_figure(const struct core *core, const struct editor_w
 /// Takes the brush up or puts it away. It cannot be taken up where no character with a coordinate is selected.
 void brush_set(struct core *core, const struct editor_world *world, bool on);
 /// An edit of the selected character's paint.
-struct edit paint_edit(const struct core *core, enum edit_kind kind);
+struct edit paint_edit(const struct core *core, const struct editor_world *world, enum edit_kind kind);
 /// Blank paint of the figure's shape.
-struct edit paint_blank(const struct core *core, const struct figure *figure);
+struct edit paint_blank(const struct core *core, const struct editor_world *world, const struct figure *figure);
 /// Takes all paint off the selected character, as a step of the history.
 void brush_clean(struct core *core, const struct editor_world *world);
 

@@ -73,7 +73,7 @@ void paste_knots(struct core *core, const struct editor_world *world, const char
     struct error error;
     if (!core_active_spline(core, world) || history_is_open(world->history)) return;
     if (!text || !text[strspn(text, " \t\r\n")]) {
-        core_message(core, false, "There is no text on the clipboard.");
+        core_message(core, false, "The clipboard has no text.");
         return;
     }
     if (!knots_parse("clipboard", text, &list, &error)) {
@@ -113,7 +113,7 @@ void duplicate_knots(struct core *core, const struct editor_world *world)
     double shift = round(last->frame - originals->knot[0].frame + fmax(step, 1));
     while (last->frame + shift <= end && !has_room(core, document, spline, shift)) shift++;
     if (last->frame + shift > end) {
-        core_message(core, false, "There is no room for copies between these knots and the end of the range.");
+        core_message(core, false, "No room for copies before the end of the range.");
     } else if (insert_all(core, world, count == 1 ? "Duplicate knot" : "Duplicate knots", originals->knot, count,
                           shift)) {
         say_count(core, "Duplicated", count);

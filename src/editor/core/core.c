@@ -126,9 +126,9 @@ void core_activate(struct core *core, const struct editor_world *world, int spli
 void core_set_look(struct core *core, enum look look)
 {
     static const char *const texts[] = {
-        [LOOK_WIGGLY] = "Wiggly: one spline, every joint in its own phase",
+        [LOOK_WIGGLY] = "Wiggly: one spline, each joint with its own phase",
         [LOOK_STIFF] = "Stiff: the same spline without lag",
-        [LOOK_CUBIC] = "Cubic: the same knots with a classical spline",
+        [LOOK_CUBIC] = "Cubic: the same knots as a classical spline",
     };
     core->look = look;
     core_message(core, false, texts[look]);
@@ -183,6 +183,6 @@ void core_reserve(struct core *core, const struct document *document)
     enough &= selection_reserve(&core->hidden, document->next_spline_id);
     enough &= selection_reserve(&core->solo, document->next_spline_id);
     if (!reserve_originals(&core->originals, most) || !enough) {
-        core_message(core, true, "Out of memory: not all knots can be selected.");
+        core_message(core, true, "Out of memory: some knots cannot be selected.");
     }
 }

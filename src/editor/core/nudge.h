@@ -9,7 +9,9 @@ void nudge_knots(struct core *core, const struct editor_world *world, double fra
 /// The channel that the active spline moves, the first of all where it moves none; NULL where there is none at all.
 const struct channel *active_channel(const struct core *core, const struct document *document, int *tail,
                                      int *channel);
-/// Changes the parameter that a held letter stands for (F Z B C L), in steps of design.
+/// Where a parameter's slider ends; 0: it has none.
+double slider_end(const struct document *document, const struct spline *spline, enum parameter parameter);
+/// Changes the parameter that a held letter stands for, or with L the lag, by its step.
 void nudge_parameter(struct core *core, const struct editor_world *world, int letter, int direction);
 /// The next of complex, real and cubic.
 void cycle_mode(struct core *core, const struct editor_world *world);

@@ -41,7 +41,8 @@ void playback_say_range(struct core *core, const struct document *document)
     double range[2];
     playback_range(core, document, range);
     bool part = playback_is_part(core, document);
-    snprintf(text, sizeof text, part ? "Plays frames %.0f to %.0f." : "Plays the whole scene.", range[0], range[1]);
+    snprintf(text, sizeof text, part ? "Playing frames %.0f to %.0f." : "Playing the whole scene.", range[0],
+             range[1]);
     core_message(core, false, text);
 }
 

@@ -9,7 +9,7 @@
 /// Kinds of nudges for merge_key(), apart from those of nudge.c.
 enum nudge_kind { NUDGE_SLOPE = 50, NUDGE_STIFFNESS };
 
-static const double FIRM = 1000;             ///< stiffness where a knot has none yet, 1/s (spec: default)
+static const double FIRM = 1000;             ///< stiffness where a knot has none yet, 1/s (the default)
 static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
 
 /// The curve's slope around a knot, in values a second, for a slope that changes as little as possible.
@@ -39,7 +39,7 @@ static double catmull_rom(const struct document *document, const struct spline *
 {
     const struct knot *knots = spline->knots;
     int count = spline->knot_count;
-    bool loop = spline->start == WIGGLY_LOOP && count > 1;
+    bool loop = spline_start(spline) == WIGGLY_LOOP && count > 1;
     double period = document->last_frame - document->first_frame;
     int before = k > 0 ? k - 1 : loop ? count - 1 : 0, after = k + 1 < count ? k + 1 : loop ? 0 : count - 1;
     double frames = knots[after].frame - knots[before].frame;

@@ -4,7 +4,7 @@
 #ifndef EDITOR_CORE_STATE_H
 #define EDITOR_CORE_STATE_H
 
-#include "editor/editor.h"
+#include "editor/core/world.h"
 #include <stdint.h>
 
 enum { EDITOR_MAX_REQUESTS = 8 };

@@ -116,7 +116,7 @@ struct rect ruler_corner(const struct core *core)
 void ruler_toggle(struct curves *curves, struct core *core)
 {
     curves->options.seconds = !curves->options.seconds;
-    core_message(core, false, curves->options.seconds ? "The ruler counts seconds." : "The ruler counts frames.");
+    core_message(core, false, curves->options.seconds ? "The ruler shows seconds." : "The ruler shows frames.");
 }
 
 static void show_units(const struct curves *curves, struct core *core)

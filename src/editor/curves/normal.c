@@ -50,10 +50,11 @@ void normal_toggle(struct curves *curves, struct core *core, const struct editor
     curves->options.normalise = !curves->options.normalise;
     normal_update(curves, core, world);
     view_frame_all(curves, core, world);
-    core_message(core, false,
-                 curves->options.normalise
-                     ? "Normalised: every curve as high as the active one, whose values the axis shows."
-                     : "All curves on the same axis.");
+    core_message(
+        core, false,
+        curves->options.normalise
+            ? "Normalised: every curve is as high as the active one. The axis shows the active curve's values."
+            : "All curves share one axis again.");
 }
 
 void normal_activate(struct curves *curves, struct core *core, int spline)

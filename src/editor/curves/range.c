@@ -34,7 +34,7 @@ void range_end(struct core *core, bool keep)
         playback->range[1] = playback->old_range[1];
     } else if (!core->drag.moved) {
         playback->has_range = false;
-        core_message(core, false, "Plays the whole scene.");
+        core_message(core, false, "Playing the whole scene.");
     }
 }
 

@@ -58,7 +58,7 @@ static bool lower_frequency(const struct core *core, const struct editor_world *
         value = round_value(value * LOWER, 0.01);
         struct edit edit = parameter_edit(core, PARAMETER_FREQUENCY, value);
         if (!helps(core, world, &edit, before)) continue;
-        snprintf(text, 96, "%.3g Hz keeps the swing down.", value);
+        snprintf(text, 96, "Lowered the frequency to %.3g Hz to tame the swing.", value);
         return true;
     }
     return false;
@@ -76,11 +76,11 @@ static bool tame(const struct curves *curves, const struct core *core, const str
                               .value = round_value(warning->remedy, resolution),
                               .stiffness = KNOT_DEFAULT_STIFFNESS};
     if (spline->parameter[PARAMETER_CALM].value < 1 && helps(core, world, &calm, before)) {
-        snprintf(text, 96, "Calm 1 keeps the swing down.");
+        snprintf(text, 96, "Raised calm to 1 to tame the swing.");
         return true;
     }
     if (helps(core, world, &hold, before)) {
-        snprintf(text, 96, "A knot at frame %.6g keeps the swing down.", warning->frame);
+        snprintf(text, 96, "Added a knot at frame %.6g to tame the swing.", warning->frame);
         return true;
     }
     return lower_frequency(core, world, spline, before, text);
@@ -109,7 +109,7 @@ void curves_remedy_first(struct curves *curves, struct core *core, const struct 
     if (curves->warnings.count > 0) {
         warning_remedy(curves, core, world, &curves->warnings.list[0]);
     } else {
-        core_message(core, false, "There is no warning about this spline.");
+        core_message(core, false, "This spline has no warnings.");
     }
 }
 
@@ -135,6 +135,6 @@ void warning_remedy(const struct curves *curves, struct core *core, const struct
     if (good) {
         core_message(core, false, text);
     } else if (chosen.kind == WARNING_SWING) {
-        core_message(core, false, "Neither calm nor a knot nor a lower frequency helps here: move the knots.");
+        core_message(core, false, "Calm, a knot or a lower frequency would not help here. Move the knots.");
     }
 }

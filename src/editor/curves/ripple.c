@@ -22,8 +22,8 @@ void ripple_toggle(struct curves *curves, struct core *core, const struct editor
     core->drag.stale = true;
     drag_collect(curves, core, spline);
     core_message(core, false,
-                 drag->ripple ? "Ripple: the later knots move along in time (R: they stay)."
-                              : "The later knots stay.");
+                 drag->ripple ? "Ripple on: later knots move too (R turns it off)."
+                              : "Ripple off: later knots stay.");
 }
 
 double ripple_least(const struct curves *curves, const struct core *core, const struct document *document,
@@ -39,5 +39,5 @@ double ripple_least(const struct curves *curves, const struct core *core, const 
 
 void ripple_stopped(struct core *core)
 {
-    core_message(core, false, "The last knot is at the end of the range: a longer range makes room to retime.");
+    core_message(core, false, "The last knot has reached the end of the range. Extend the range to make room.");
 }

@@ -13,7 +13,7 @@ static const char feed_list[] = "feed";
 static struct edit channel_edit(const struct inspection *in, enum edit_kind kind)
 {
     struct edit edit = core_edit_of(kind, in->core->active);
-    edit.tail = in->inspector->tail;
+    edit.rig = document_find_rig(in->document, RIG_TAIL, in->inspector->tail);
     edit.channel = in->inspector->channel;
     return edit;
 }
@@ -28,7 +28,7 @@ static void build_list(struct inspection *in, const struct tail *tail)
         const char *axis = channel->axis == AXIS_SIDE ? "sideways" : "up and down";
         snprintf(text, sizeof text, "%s, %s", in->document->splines[channel->spline].name, axis);
         struct rect r = ui_row(ui, UI_ROW);
-        if (ui_hovered(ui, r)) ui->hint = "A spline that bends this tail";
+        if (ui_hovered(ui, r)) ui->hint = "One of the splines that bend this tail";
         uint32_t color = arrange_color(in->document, channel->spline);
         if (ui_list_row(ui, r, name, text, color, c == in->inspector->channel)) {
             in->inspector->channel = c;
@@ -39,17 +39,16 @@ static void build_list(struct inspection *in, const struct tail *tail)
 static void build_buttons(struct inspection *in, const struct tail *tail)
 {
     struct rect r = inspector_labelled(in, "channel"), icon = {r.x - 2, r.y, ICON, r.h};
-    if (ui_icon_button(in->ui, icon, "channel.add", UI_ICON_ADD, false,
-                       "The active spline bends this tail as well")) {
+    if (ui_icon_button(in->ui, icon, "channel.add", UI_ICON_ADD, false, "Bend this tail by the active spline too")) {
         struct edit edit = channel_edit(in, EDIT_CHANNEL_ADD);
         if (core_step(in->core, in->world, "Add channel", 0, &edit)) {
-            in->inspector->channel = in->document->tails[edit.tail].channel_count - 1;
+            in->inspector->channel = in->document->rigs[edit.rig].tail.channel_count - 1;
         }
         return;
     }
     icon.x += ICON + 6;
     if (tail->channel_count == 0) return;
-    if (ui_icon_button(in->ui, icon, "channel.delete", UI_ICON_DELETE, false, "Takes this channel away")) {
+    if (ui_icon_button(in->ui, icon, "channel.delete", UI_ICON_DELETE, false, "Delete this channel")) {
         struct edit edit = channel_edit(in, EDIT_CHANNEL_REMOVE);
         core_step(in->core, in->world, "Delete channel", 0, &edit);
     }
@@ -68,7 +67,7 @@ static void build_choices(struct inspection *in, const struct channel *channel)
         core_step(in->core, in->world, "Set axis", 0, &edit);
     }
     struct rect r = inspector_labelled(in, "bends by");
-    if (ui_hovered(ui, r)) ui->hint = "The whole value, or x without the equilibrium: for a tail whose base moves";
+    if (ui_hovered(ui, r)) ui->hint = "Total, or displacement only: use that for a tail on a moving base";
     if (ui_segments(ui, r, "part", parts, 2, &part)) {
         struct edit edit = channel_edit(in, EDIT_PART);
         edit.of = (enum channel_part)part;
@@ -79,10 +78,10 @@ static void build_choices(struct inspection *in, const struct channel *channel)
 void inspector_feed_list(struct inspection *in)
 {
     const struct inspector *inspector = in->inspector;
-    if (!ui_popup_is_open(in->ui, feed_list) || inspector->tail >= in->document->tail_count) return;
+    const struct tail *tail = document_tail(in->document, inspector->tail);
+    if (!ui_popup_is_open(in->ui, feed_list) || !tail) return;
     struct ui_item items[MAX_SPLINES];
     int count = in->document->spline_count < MAX_SPLINES ? in->document->spline_count : MAX_SPLINES;
-    const struct tail *tail = &in->document->tails[inspector->tail];
     if (inspector->channel >= tail->channel_count) return;
     for (int s = 0; s < count; s++) {
         const char *name = in->document->splines[s].name;
@@ -109,7 +108,7 @@ void inspector_channel(struct inspection *in, const struct tail *tail)
 {
     const struct inspector *inspector = in->inspector;
     build_buttons(in, tail);
-    tail = &in->document->tails[inspector->tail]; // a button may have made another list of tails
+    tail = document_tail(in->document, inspector->tail); // a button may have made another list of channels
     if (inspector->channel >= tail->channel_count) return;
     const struct channel *channel = &tail->channels[inspector->channel];
     const char *spline = in->document->splines[channel->spline].name;

@@ -13,26 +13,27 @@ static bool has_spline(const struct inspection *in) { return core_active_spline(
 
 static bool has_tail(const struct inspection *in)
 {
-    return in->document->tail_count > 0 || in->document->character_count == 0;
+    return document_tail(in->document, 0) || !document_character(in->document, 0);
 }
 
-static bool has_character(const struct inspection *in) { return in->document->character_count > 0; }
+static bool has_character(const struct inspection *in) { return document_character(in->document, 0) != NULL; }
 
 /// From the top down; `name` is what replays call the header.
 static const struct section {
     const char *name, *title;
     void (*build)(struct inspection *in);
+    void (*lists)(struct inspection *in);       ///< that it has opened over the panel; NULL: none
     bool (*shown)(const struct inspection *in); ///< NULL: always
     bool closed;                                ///< at first
 } sections[] = {
-    {"section.scene", "Scene", inspector_scene, NULL, true},
-    {"section.splines", "Splines", inspector_splines, NULL, false},
-    {"section.spline", "Spline", inspector_spline, has_spline, false},
-    {"section.poles", "Poles and response", inspector_poles, has_spline, true},
-    {"section.knot", "Knot", inspector_knot, has_spline, false},
-    {"section.tail", "Tail", inspector_tail, has_tail, false},
-    {"section.character", "Character", inspector_character, has_character, false},
-    {"section.history", "History", inspector_history, NULL, true}, // the last one: see there
+    {"section.scene", "Scene", inspector_scene, NULL, NULL, true},
+    {"section.splines", "Splines", inspector_splines, inspector_palette, NULL, false},
+    {"section.spline", "Spline", inspector_spline, inspector_follow_list, has_spline, false},
+    {"section.poles", "Poles and response", inspector_poles, NULL, has_spline, true},
+    {"section.knot", "Knot", inspector_knot, NULL, has_spline, false},
+    {"section.tail", "Tail", inspector_tail, inspector_tail_lists, has_tail, false},
+    {"section.character", "Character", inspector_character, inspector_character_lists, has_character, false},
+    {"section.history", "History", inspector_history, NULL, NULL, true}, // the last one: see there
 };
 
 _Static_assert(sizeof sections / sizeof sections[0] <= INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
@@ -69,7 +70,7 @@ static void build_look(struct inspection *in, struct rect footer)
         drawlist_rect(ui->list, footer, theme()->panel);
         drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
     }
-    if (ui_hovered(ui, footer)) ui->hint = "The same knots: wiggly, without lag, or as a classical cubic (V)";
+    if (ui_hovered(ui, footer)) ui->hint = "Compare the same knots: wiggly, without lag, or as a cubic (V)";
     int look = (int)in->core->look;
     if (ui_segments(ui, r, "look", looks, 3, &look)) core_set_look(in->core, (enum look)look);
 }
@@ -83,11 +84,9 @@ static void build(struct inspection *in, struct rect area)
     ui_space(ui, 4);
     ui_scroll_end(ui);
     build_look(in, (struct rect){area.x, area.y + view.h, area.w, FOOTER});
-    inspector_palette(in);
-    inspector_follow_list(in);
-    inspector_character_lists(in);
-    inspector_feed_list(in);
-    inspector_place_list(in);
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+        if (sections[i].lists) sections[i].lists(in);
+    }
 }
 
 static struct inspection inspection_of(struct inspector *inspector, struct core *core,
@@ -224,57 +223,4 @@ bool inspector_target(struct inspector *inspector, struct core *core, const stru
     *x = in.ui->found_x;
     *y = in.ui->found_y;
     return found;
-}
-
-void inspector_take_back(struct inspection *in, enum ui_change change)
-{
-    struct history *history = in->world->history;
-    if (change != UI_DRAG || !history_is_open(history)) return;
-    history_restart(history, in->document);
-    core_follow(in->core, in->world);
-}
-
-void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
-                      const struct edit *edit)
-{
-    inspector_change_all(in, change, label, what, edit, 1);
-}
-
-void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
-                          const struct edit *edits, int count)
-{
-    struct history *history = in->world->history;
-    uint64_t merge = 0;
-    switch (change) {
-    case UI_NONE:
-        return;
-    case UI_DRAG:
-        inspector_take_back(in, change);
-        if (!history_is_open(history)) history_begin(history, label, 0);
-        for (int i = 0; i < count; i++) core_edit(in->core, in->world, &edits[i]);
-        return;
-    case UI_CANCEL:
-    case UI_DROP:
-        if (!history_is_open(history)) return; // nothing was moved by this drag
-        if (change == UI_CANCEL) history_restart(history, in->document);
-        history_end(history);
-        core_follow(in->core, in->world);
-        return;
-    case UI_NUDGE:
-        merge = (uint64_t)ui_id(what) << 32 | (uint32_t)(in->core->active + 1);
-        break;
-    case UI_SET:
-        break;
-    }
-    if (history_is_open(history)) return; // as core_step()
-    history_begin(history, label, merge);
-    for (int i = 0; i < count; i++) core_edit(in->core, in->world, &edits[i]);
-    history_end(history);
-}
-
-struct rect inspector_labelled(struct inspection *in, const char *label)
-{
-    struct rect r = ui_row(in->ui, UI_ROW);
-    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
-    return (struct rect){r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
 }

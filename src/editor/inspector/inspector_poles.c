@@ -19,15 +19,15 @@ static double value_now(const struct inspection *in, const struct spline *spline
         if (sample < 0 || sample >= evaluation->samples) return 0;
         value = evaluation->curves[param->track].total[sample];
     }
-    return fmax(parameter_minimum(parameter, spline->mode), fmin(parameter_maximum(parameter, spline->mode), value));
+    return parameter_clamped(parameter, spline_mode(spline), value);
 }
 
 static struct pole_setting setting_of(const struct inspection *in, const struct spline *spline)
 {
-    struct pole_setting setting = {.kind = spline->mode == WIGGLY_REAL ? FILTER_TWO_REAL : FILTER_TWO_COMPLEX,
+    struct pole_setting setting = {.kind = spline_mode(spline) == WIGGLY_REAL ? FILTER_TWO_REAL : FILTER_TWO_COMPLEX,
                                    .bandwidth = value_now(in, spline, PARAMETER_BANDWIDTH),
                                    .step = document_step(in->document)};
-    if (spline->spring_friction && spline->mode == WIGGLY_REAL) {
+    if (spline->spring_friction && spline_mode(spline) == WIGGLY_REAL) {
         double omega = sqrt(value_now(in, spline, PARAMETER_SPRING));
         setting.hz = omega / (2 * M_PI);
         setting.damping = omega > 0 ? value_now(in, spline, PARAMETER_FRICTION) / (2 * omega) : 0;
@@ -57,7 +57,7 @@ static int edits_of(const struct inspection *in, const struct spline *spline, co
 {
     const struct param *p = spline->parameter;
     int count = 0;
-    if (spline->spring_friction && spline->mode == WIGGLY_REAL) {
+    if (spline->spring_friction && spline_mode(spline) == WIGGLY_REAL) {
         double omega = 2 * M_PI * setting->hz;
         if (p[PARAMETER_SPRING].track < 0)
             edits[count++] = parameter_edit(in, PARAMETER_SPRING, rounded(omega * omega, 100));
@@ -109,11 +109,11 @@ static void build_inset(struct inspection *in, const struct spline *spline, cons
     float y = poles_y(view, inset, setting->damping);
     double spread = setting->hz * setting->bandwidth;
     struct ui_handle handles[HANDLES] = {
-        [HANDLE_CENTRE] = {"pole.centre", "Frequency across, damping up (Shift: fine)",
+        [HANDLE_CENTRE] = {"pole.centre", "Drag sideways for frequency, up for damping (Shift: fine)",
                            poles_x(view, inset, setting->hz), y, 0, 0},
-        [HANDLE_LOWER] = {"pole.lower", "A pole: across opens the band, up is damping",
+        [HANDLE_LOWER] = {"pole.lower", "Pole: drag sideways for bandwidth, up for damping",
                           poles_x(view, inset, setting->hz - spread), y, 0, 0},
-        [HANDLE_UPPER] = {"pole.upper", "A pole: across opens the band, up is damping",
+        [HANDLE_UPPER] = {"pole.upper", "Pole: drag sideways for bandwidth, up for damping",
                           poles_x(view, inset, setting->hz + spread), y, 0, 0}};
     int which = 0, count = setting->kind == FILTER_TWO_COMPLEX ? HANDLES : 1;
     if (in->ui->pass == UI_PASS_DRAW) poles_draw_inset(view, setting, inset, in->ui->list);
@@ -140,8 +140,8 @@ void inspector_poles(struct inspection *in)
     struct poles_view *view = &in->inspector->poles;
     struct spline *spline = core_active_spline(in->core, in->world);
     struct pole_setting setting = setting_of(in, spline);
-    if (spline->mode == WIGGLY_CUBIC || !(setting.hz > 0)) {
-        ui_paragraph(ui, "Both poles at 1, at frequency 0: a cubic has no swing of its own.", theme()->text_dim);
+    if (spline_mode(spline) == WIGGLY_CUBIC || !(setting.hz > 0)) {
+        ui_paragraph(ui, "Both poles are at 1 (frequency 0): a cubic does not swing by itself.", theme()->text_dim);
         return;
     }
     if (!is_held(ui)) poles_fit(view, &setting);
@@ -150,7 +150,7 @@ void inspector_poles(struct inspection *in)
     struct rect top = ui_row(ui, CIRCLE);
     struct rect circle = {top.x, top.y, CIRCLE, CIRCLE};
     if (ui_hovered(ui, circle))
-        ui->hint = "The unit circle: poles inside it are stable; angle is frequency, depth damping";
+        ui->hint = "Unit circle: poles inside are stable; angle is frequency, distance from the rim damping";
     if (ui->pass == UI_PASS_DRAW) {
         struct rect legend = {top.x + CIRCLE + UI_GAP, top.y, top.w - CIRCLE - UI_GAP, CIRCLE};
         poles_draw_circle(&setting, circle, ui->list);
@@ -160,7 +160,7 @@ void inspector_poles(struct inspection *in)
     build_inset(in, spline, &setting);
     ui_space(ui, 4);
     struct rect response = ui_row(ui, RESPONSE);
-    if (ui_hovered(ui, response)) ui->hint = "Response in dB over Hz: the complex filter keeps out what is slow";
+    if (ui_hovered(ui, response)) ui->hint = "Response in dB over Hz: the complex filter rejects low frequencies";
     if (ui->pass == UI_PASS_DRAW) poles_draw_response(view, response, ui->list);
     ui_space(ui, 4);
 }

@@ -14,7 +14,7 @@ static const char rename_line[] = "tail.rename", place_list[] = "place";
 static struct edit tail_edit(const struct inspection *in, enum edit_kind kind)
 {
     struct edit edit = core_edit_of(kind, in->core->active);
-    edit.tail = in->inspector->tail;
+    edit.rig = document_find_rig(in->document, RIG_TAIL, in->inspector->tail);
     return edit;
 }
 
@@ -22,23 +22,26 @@ static struct edit tail_edit(const struct inspection *in, enum edit_kind kind)
 static void build_tails(struct inspection *in)
 {
     struct inspector *inspector = in->inspector;
-    for (int t = 0; in->document->tail_count > 1 && t < in->document->tail_count; t++) {
+    int rig = document_count_rigs(in->document, RIG_TAIL) > 1 ? document_next_rig(in->document, RIG_TAIL, 0) : -1;
+    for (int t = 0; rig >= 0; t++, rig = document_next_rig(in->document, RIG_TAIL, rig + 1)) {
         char name[32];
         snprintf(name, sizeof name, "tail.%d", t);
-        if (ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, in->document->tails[t].name, 0, t == inspector->tail)) {
+        if (ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, in->document->rigs[rig].name, 0,
+                        t == inspector->tail)) {
             inspector->tail = t;
             inspector->channel = 0;
         }
     }
 }
 
-static void build_name(struct inspection *in, const struct tail *tail)
+static void build_name(struct inspection *in)
 {
+    const struct rig *rig = &in->document->rigs[document_find_rig(in->document, RIG_TAIL, in->inspector->tail)];
     struct rect r = inspector_labelled(in, "name");
     if (!ui_line_is_open(in->ui, rename_line)) {
         struct rect field = {r.x, r.y + 2, r.w, r.h - 4};
-        if (ui_hovered(in->ui, field)) in->ui->hint = "Click to type another name";
-        if (ui_button(in->ui, field, "tail.name", tail->name, false)) ui_line_begin(in->ui, rename_line, tail->name);
+        if (ui_hovered(in->ui, field)) in->ui->hint = "Click to rename";
+        if (ui_button(in->ui, field, "tail.name", rig->name, false)) ui_line_begin(in->ui, rename_line, rig->name);
     } else if (ui_line(in->ui, r, rename_line) == UI_LINE_DONE) {
         struct edit edit = tail_edit(in, EDIT_TAIL_NAME);
         edit.text = in->ui->text.bytes;
@@ -50,17 +53,17 @@ static void build_buttons(struct inspection *in)
 {
     struct inspector *inspector = in->inspector;
     struct rect r = inspector_labelled(in, "tail"), icon = {r.x - 2, r.y, ICON, r.h};
-    bool any = in->document->tail_count > 0;
-    const char *hint = any ? "Another tail like this one, beside it" : "A tail, bent by the active spline";
+    bool any = document_tail(in->document, 0) != NULL;
+    const char *hint = any ? "Duplicate this tail" : "Add a tail bent by the active spline";
     if (ui_icon_button(in->ui, icon, "tail.add", UI_ICON_ADD, false, hint)) {
         struct edit edit = tail_edit(in, EDIT_TAIL_ADD);
         if (!core_step(in->core, in->world, "Add tail", 0, &edit)) return;
-        inspector->tail = in->document->tail_count - 1;
+        inspector->tail = document_count_rigs(in->document, RIG_TAIL) - 1;
         inspector->channel = 0;
         return;
     }
     icon.x += ICON + 6;
-    if (!any || !ui_icon_button(in->ui, icon, "tail.delete", UI_ICON_DELETE, false, "Takes this tail away")) return;
+    if (!any || !ui_icon_button(in->ui, icon, "tail.delete", UI_ICON_DELETE, false, "Delete this tail")) return;
     struct edit edit = tail_edit(in, EDIT_TAIL_REMOVE);
     core_step(in->core, in->world, "Delete tail", 0, &edit);
 }
@@ -82,14 +85,16 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
         ui_dropdown(in->ui, field, place_list, k, in->document->splines[param->track].name,
                     arrange_color(in->document, param->track));
         wiggly_value now = evaluation_at(in->world->evaluation, param->track, in->core->playback.position);
-        if (!ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false, "Stays where it is now")) return;
+        if (!ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false,
+                            "Stop following; stay at the current position"))
+            return;
         edit.param = (struct param){round_value(now.y + now.re, 1e-3), -1};
         core_step(in->core, in->world, "Stop following", 0, &edit);
         return;
     }
     const char *names[] = {"position.x", "position.y", "position.z"};
-    const char *hints[] = {"Where the body stands along x", "Where the body stands along y",
-                           "Where the body stands along z"};
+    const char *hints[] = {"Position of the body along x", "Position of the body along y",
+                           "Position of the body along z"};
     const struct ui_number number = {.name = names[k],
                                      .label = coordinate_name(k),
                                      .unit = "m",
@@ -102,15 +107,16 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
     enum ui_change change = ui_value(in->ui, r, &number, &edit.param.value);
     if (change != UI_NONE) inspector_change(in, change, "Move body", names[k], &edit);
     if (in->document->spline_count == 0) return;
-    if (ui_icon_button(in->ui, icon, button, UI_ICON_FOLLOW, false, "Follows a spline, in metres")) {
+    if (ui_icon_button(in->ui, icon, button, UI_ICON_FOLLOW, false, "Follow a spline (in metres)")) {
         ui_popup_open(in->ui, place_list, k, field);
     }
 }
 
-void inspector_place_list(struct inspection *in)
+static void place_popup(struct inspection *in)
 {
     const struct inspector *inspector = in->inspector;
-    if (!ui_popup_is_open(in->ui, place_list) || inspector->tail >= in->document->tail_count) return;
+    const struct tail *tail = document_tail(in->document, inspector->tail);
+    if (!ui_popup_is_open(in->ui, place_list) || !tail) return;
     int k = in->ui->popup.which, count = in->document->spline_count;
     struct ui_item items[MAX_SPLINES];
     if (count > MAX_SPLINES) count = MAX_SPLINES;
@@ -118,7 +124,7 @@ void inspector_place_list(struct inspection *in)
         const char *name = in->document->splines[s].name;
         items[s] = (struct ui_item){name, name, arrange_color(in->document, s)};
     }
-    int chosen = in->document->tails[inspector->tail].position[k].track;
+    int chosen = tail->position[k].track;
     int picked = ui_popup_list(in->ui, place_list, items, count, chosen);
     if (picked < 0) return;
     struct edit edit = tail_edit(in, EDIT_POSITION);
@@ -127,11 +133,17 @@ void inspector_place_list(struct inspection *in)
     core_step(in->core, in->world, "Follow spline", 0, &edit);
 }
 
+void inspector_tail_lists(struct inspection *in)
+{
+    inspector_feed_list(in);
+    place_popup(in);
+}
+
 static void build_size(struct inspection *in, const struct tail *tail)
 {
     static const struct ui_number joints = {.name = "joints",
                                             .label = "joints",
-                                            .hint = "More joints bend finer; the tail keeps its shape and its swing",
+                                            .hint = "More joints bend more smoothly; shape and swing stay the same",
                                             .minimum = 1,
                                             .maximum = 64,
                                             .lowest = 1,
@@ -141,7 +153,7 @@ static void build_size(struct inspection *in, const struct tail *tail)
     static const struct ui_number length = {.name = "length",
                                             .label = "length",
                                             .unit = "m",
-                                            .hint = "Length of the tail; the body goes with it",
+                                            .hint = "Length of the tail; the body scales with it",
                                             .minimum = 0.2,
                                             .maximum = 4,
                                             .lowest = 1e-3,
@@ -156,7 +168,7 @@ static void build_size(struct inspection *in, const struct tail *tail)
         struct edit edit = tail_edit(in, EDIT_JOINTS);
         edit.to = (int)lround(value);
         inspector_change(in, change, "Set joints", "joints", &edit);
-        tail = &in->document->tails[in->inspector->tail];
+        tail = document_tail(in->document, in->inspector->tail);
     }
     struct edit edit = tail_edit(in, EDIT_LENGTH);
     edit.number = tail->length;
@@ -172,10 +184,10 @@ static void build_view(struct inspection *in)
         const char *name, *label, *hint;
         bool *on;
     } toggles[] = {
-        {"record", "record", "The next drag of the body becomes knots that its position follows (R while dragging)",
+        {"record", "record", "Record the next drag of the body as knots (or press R while dragging)",
          &core->record_armed},
-        {"onion", "onion skin", "The tail at the knots around the playhead (O)", &core->overlays.onion},
-        {"trail", "motion arc", "The way of the tip, a mark a frame (P)", &core->overlays.trail},
+        {"onion", "onion skin", "Show the tail at the knots around the playhead (O)", &core->overlays.onion},
+        {"trail", "motion arc", "Show the path of the tip, one mark per frame (P)", &core->overlays.trail},
     };
     for (size_t i = 0; i < sizeof toggles / sizeof toggles[0]; i++) {
         struct rect r = inspector_labelled(in, toggles[i].label);
@@ -184,27 +196,27 @@ static void build_view(struct inspection *in)
     }
 }
 
-/// Buttons among these rows may make another list of tails: each looks its tail up anew.
+/// Buttons among these rows may make another list of channels, and more rigs: each looks its tail up anew.
 static void build_tail(struct inspection *in)
 {
     struct inspector *inspector = in->inspector;
-    struct tail *const *tails = &in->document->tails;
-    if (inspector->channel >= (*tails)[inspector->tail].channel_count) inspector->channel = 0;
-    inspector_channels(in, &(*tails)[inspector->tail]);
-    inspector_angles(in, &angle_row_rest, &(*tails)[inspector->tail].rest);
-    inspector_channel(in, &(*tails)[inspector->tail]);
+    const struct document *document = in->document;
+    if (inspector->channel >= document_tail(document, inspector->tail)->channel_count) inspector->channel = 0;
+    inspector_channels(in, document_tail(document, inspector->tail));
+    inspector_angles(in, &angle_row_rest, &document_tail(document, inspector->tail)->rest);
+    inspector_channel(in, document_tail(document, inspector->tail));
     ui_space(in->ui, 4);
-    build_name(in, &(*tails)[inspector->tail]);
-    build_size(in, &(*tails)[inspector->tail]);
-    for (int k = 0; k < 3; k++) build_coordinate(in, &(*tails)[inspector->tail], k);
+    build_name(in);
+    build_size(in, document_tail(document, inspector->tail));
+    for (int k = 0; k < 3; k++) build_coordinate(in, document_tail(document, inspector->tail), k);
 }
 
 void inspector_tail(struct inspection *in)
 {
     struct inspector *inspector = in->inspector;
-    if (inspector->tail >= in->document->tail_count) inspector->tail = 0;
+    if (!document_tail(in->document, inspector->tail)) inspector->tail = 0;
     build_tails(in);
-    if (in->document->tail_count > 0) build_tail(in);
+    if (document_tail(in->document, 0)) build_tail(in);
     build_buttons(in);
     build_view(in);
 }

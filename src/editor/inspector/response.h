@@ -18,7 +18,7 @@ struct filter {
 enum filter_kind { FILTER_TWO_REAL, FILTER_FOUR_REAL, FILTER_TWO_COMPLEX, FILTER_KINDS };
 
 /// A filter of a kind around the pole −ζω + jω√(1−ζ²), ω = 2π·hz: real ones have the conjugate poles too, all but the
-/// two-pole real one are opened by ±jβω (spec: "Parameters"). `damping` above 1 gives the two-pole real filter two real
+/// two-pole real one are opened by ±jβω (docs/mathematics.md, Poles). `damping` above 1 gives the two-pole real filter two real
 /// poles and counts as 1 for the others.
 struct filter filter_of(enum filter_kind kind, double hz, double damping, double bandwidth, double step);
 

@@ -1,6 +1,7 @@
 /// Moving the body: where the pointer takes it, and what the document makes of it.
 #include "editor/stage/body.h"
 #include "editor/core/core.h"
+#include "editor/stage/body_offset.h"
 #include "editor/stage/follow.h"
 #include "editor/stage/record.h"
 #include "editor/stage/record_keep.h"
@@ -14,7 +15,6 @@ enum { TRACE_STEPS = 64, RING_POINTS = 64 };
 
 static const float TRACE_NEAR = 0.004f; ///< metres from the skin that count as touching it, bind size
 static const double LEAST_PITCH = 0.35; ///< sine of the camera's elevation below which depth follows the pointer less
-static const double LEAST_AXIS = 0.3;   ///< pixels of an axis in a pixel across, below which it is as slow as that
 static const double RESOLUTION = 1e-3;  ///< metres that the document gets
 static const float ring_middle[2] = {0, -0.25f}; ///< x and z in bind size, metres
 static const float RING_RADIUS = 0.6f;
@@ -104,34 +104,6 @@ void body_begin(struct stage *stage, const struct core *core, int tail)
     body->right[1] = -cos((double)camera->azimuth);
 }
 
-/// Along one axis of the ground, so that the body stays under the pointer: the axis' own direction on the screen counts.
-static double along_axis(const struct body *body, const double axis[2], double dx, double dy)
-{
-    double across = axis[0] * body->right[0] + axis[1] * body->right[1];
-    double away = (axis[0] * body->right[1] - axis[1] * body->right[0]) * body->pitch;
-    double square = fmax(across * across + away * away, LEAST_AXIS * LEAST_AXIS);
-    return (dx * across - dy * away) / square / body->pixels_per_metre;
-}
-
-void body_offset(const struct stage *stage, const struct core *core, int tail, double offset[3])
-{
-    const struct drag *drag = &core->drag;
-    const struct body *body = &stage->body;
-    offset[0] = offset[1] = offset[2] = 0;
-    if (drag->kind != DRAG_BODY || !drag->moved || body->tail != tail) return;
-    const double x_axis[2] = {1, 0}, z_axis[2] = {0, 1};
-    if (drag->lock_x) {
-        offset[0] = along_axis(body, x_axis, drag->moved_x, drag->moved_y);
-    } else if (drag->lock_y) {
-        offset[2] = along_axis(body, z_axis, drag->moved_x, drag->moved_y);
-    } else {
-        double across = drag->moved_x / body->pixels_per_metre;
-        double away = -drag->moved_y / body->pixels_per_metre / body->pitch;
-        offset[0] = across * body->right[0] + away * body->right[1];
-        offset[2] = across * body->right[1] - away * body->right[0];
-    }
-}
-
 /// A knot at the playhead of the spline that a coordinate follows.
 static void key_position(struct core *core, const struct editor_world *world, int track, double by)
 {
@@ -152,14 +124,14 @@ static void key_position(struct core *core, const struct editor_world *world, in
 static void key_offset(struct core *core, const struct editor_world *world, int tail, const double offset[3])
 {
     for (int k = 0; k < 3; k++) {
-        const struct param *param = &world->document->tails[tail].position[k];
+        const struct param *param = &document_tail(world->document, tail)->position[k];
         if (offset[k] == 0) continue;
         if (param->track >= 0) {
             key_position(core, world, param->track, offset[k]);
             continue;
         }
         struct edit edit = core_edit_of(EDIT_POSITION, 0);
-        edit.tail = tail;
+        edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
         edit.coordinate = k;
         edit.param.value = round_value(param->value + offset[k], RESOLUTION);
         core_edit(core, world, &edit);

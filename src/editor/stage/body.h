@@ -8,8 +8,6 @@
 struct hover body_hover(const struct stage *stage, float x, float y);
 /// Takes hold of a body: the drag is to begin.
 void body_begin(struct stage *stage, const struct core *core, int tail);
-/// How far the running drag has moved a tail's base from where the document has it, metres; 0 for all others.
-void body_offset(const struct stage *stage, const struct core *core, int tail, double offset[3]);
 /// The end of a drag, inside its step of the history: where `keep`, the document gets the new place (a number, or a knot at
 /// the playhead where a spline is followed).
 void body_release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep);

@@ -132,7 +132,7 @@ bool brush_press(struct stage *stage, struct core *core, const struct editor_wor
     if (!figure || !find_spot(stage, figure, event->x, event->y, &painting->spot)) return false;
     const struct paint *paint = characters_selected(core, world)->painted;
     if (paint && !cast_fits(paint, figure)) {
-        core_message(core, true, "The paint in this scene is for another model: take it off first.");
+        core_message(core, true, "The paint in this scene belongs to another model. Remove it first.");
         return true;
     }
     drag_begin(core, DRAG_PAINT, NULL, event);
@@ -141,7 +141,7 @@ bool brush_press(struct stage *stage, struct core *core, const struct editor_wor
     painting->y = event->y;
     painting->has_dabbed = false;
     history_begin(world->history, brush_label(painting->stroke), 0);
-    const struct edit blank = paint_blank(core, figure);
+    const struct edit blank = paint_blank(core, world, figure);
     if (!paint) core_edit(core, world, &blank);
     return true;
 }
@@ -181,7 +181,7 @@ void brush_advance(struct stage *stage, struct core *core, const struct editor_w
     reach_find(&painting->work.reach, figure, spots, count, brush_radius_of(brush, figure));
     const struct dab dab =
         brush_dab(painting, paint, figure, coordinate, brush_radius_of(brush, figure), brush->strength * dt);
-    struct edit edit = paint_edit(core, EDIT_PAINT);
+    struct edit edit = paint_edit(core, world, EDIT_PAINT);
     edit.dab = &dab;
     core_edit(core, world, &edit);
 }
@@ -217,7 +217,7 @@ static bool reserve_figure(struct stage *stage, struct core *core, const struct 
     const struct figure *figure = brush_figure(core, world, &coordinate);
     if (!figure || reserve(&stage->painting.work, figure->character.vertex_count)) return true;
     core->brush.on = false;
-    core_message(core, true, "There is not enough memory to paint.");
+    core_message(core, true, "Not enough memory to paint.");
     return false;
 }
 

@@ -76,7 +76,7 @@ static void show_legend(struct core *core, const struct coordinate *coordinate)
 /// A line under the feet of each of the pair.
 static void show_pair(const struct stage *stage, struct core *core)
 {
-    static const char *const names[] = {"with their phases", "real parts alone"};
+    static const char *const names[] = {"with their phases", "real parts only"};
     const struct stage_view *view = &stage->view;
     const struct rect r = core->layout.stage;
     const float viewport[4] = {r.x, r.y, r.w, r.h};

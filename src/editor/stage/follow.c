@@ -1,6 +1,6 @@
 /// Tails that follow through while their body is moved by hand, outside of the document's solve and on top of it.
 #include "editor/stage/follow.h"
-#include "editor/stage/body.h"
+#include "editor/stage/body_offset.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include <math.h>
@@ -25,7 +25,7 @@ static bool filter_now(const struct core *core, const struct editor_world *world
 static bool drive(struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
                   const double kick[3], double dt)
 {
-    const struct tail *driven = &world->document->tails[tail];
+    const struct tail *driven = document_tail(world->document, tail);
     struct follow *follow = &stage->follow[tail];
     bool swings = false;
     for (int c = 0; c < driven->channel_count; c++) {
@@ -68,7 +68,8 @@ static void advance_tail(struct stage *stage, const struct core *core, const str
 void follow_advance(struct stage *stage, const struct core *core, const struct editor_world *world, double dt)
 {
     if (!(dt > 0)) return;
-    for (int t = 0; t < world->document->tail_count && t < STAGE_MAX_TAILS; t++) {
+    const int count = document_count_rigs(world->document, RIG_TAIL);
+    for (int t = 0; t < count && t < STAGE_MAX_TAILS; t++) {
         if (core->look == LOOK_CUBIC) {
             follow_stop(stage, t); // nothing pulls a cubic back
         } else {

@@ -10,8 +10,9 @@
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/stage/follow.h"
-#include "editor/stage/stage_pose.h"
+#include "editor/stage/project.h"
 #include "editor/stage/state.h"
+#include "editor/stage/tails.h"
 #include <math.h>
 
 static const double DAMPING = 12; ///< √λ, pixels a radian: below this a channel moves the point too little to be used
@@ -62,7 +63,7 @@ static int sample_for(const struct stage *stage, const struct core *core, const 
 
 void grab_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover)
 {
-    const struct tail *tail = &world->document->tails[hover->tail];
+    const struct tail *tail = document_tail(world->document, hover->tail);
     struct grab *grab = &stage->grab;
     *grab = (struct grab){.tail = hover->tail, .joint = hover->joint, .fraction = hover->fraction};
     grab->axis[AXIS_SIDE] = axis_for(core, tail, grab->joint, AXIS_SIDE);
@@ -76,9 +77,9 @@ void grab_begin(struct stage *stage, struct core *core, const struct editor_worl
     core->playback.position = grab->sample;
     grab->start[0] = hover->x;
     grab->start[1] = hover->y;
-    struct pose pose;
+    struct rig_pose pose;
     stage_pose_tail(stage, core, world, grab->tail, core->playback.position, NULL, &pose);
-    stage_project_pose(stage, core, &pose, grab->joint, grab->fraction, grab->start);
+    stage_project_pose(stage, core, &pose.tail, grab->joint, grab->fraction, grab->start);
 }
 
 /// Takes the present value over and learns from the last step how Im x follows it.
@@ -99,12 +100,12 @@ static void derivative(const struct stage *stage, const struct core *core, const
                        const struct grab_axis *axis, const float at[2], double response[2])
 {
     const struct grab *grab = &stage->grab;
-    struct pose pose;
+    struct rig_pose pose;
     float moved[2] = {at[0], at[1]};
     double change = PROBE * axis->values_per_radian;
     const struct what_if what_if = {axis->spline, change, change * axis->turn};
     stage_pose_tail(stage, core, world, grab->tail, core->playback.position, &what_if, &pose);
-    stage_project_pose(stage, core, &pose, grab->joint, grab->fraction, moved);
+    stage_project_pose(stage, core, &pose.tail, grab->joint, grab->fraction, moved);
     response[0] = (moved[0] - at[0]) / PROBE;
     response[1] = (moved[1] - at[1]) / PROBE;
 }
@@ -165,10 +166,10 @@ void grab_apply(struct stage *stage, struct core *core, const struct editor_worl
     const struct drag *drag = &core->drag;
     if (drag->kind != DRAG_GRAB || !drag->moved) return;
     if (!grab->axis[AXIS_SIDE].active && !grab->axis[AXIS_UP].active) return;
-    struct pose pose;
+    struct rig_pose pose;
     float at[2];
     stage_pose_tail(stage, core, world, grab->tail, core->playback.position, NULL, &pose);
-    if (!stage_project_pose(stage, core, &pose, grab->joint, grab->fraction, at)) return;
+    if (!stage_project_pose(stage, core, &pose.tail, grab->joint, grab->fraction, at)) return;
     double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
     if (grab->applied && hypot(miss[0], miss[1]) < CLOSE) return;
     double column[2][2] = {{0}}, step[2];

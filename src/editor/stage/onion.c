@@ -3,8 +3,8 @@
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/nudge.h"
+#include "editor/stage/project.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/stage_pose.h"
 #include "editor/stage/state.h"
 #include "model/creature.h"
 #include "ui/theme.h"
@@ -25,7 +25,7 @@ static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first 
 int overlay_tail(const struct stage *stage, const struct core *core, const struct document *document)
 {
     int tail, channel;
-    if (!active_channel(core, document, &tail, &channel)) tail = document->tail_count > 0 ? 0 : -1;
+    if (!active_channel(core, document, &tail, &channel)) tail = document_tail(document, 0) ? 0 : -1;
     return tail < stage->view.tail_count ? tail : -1;
 }
 
@@ -108,11 +108,12 @@ void onion_show(const struct stage *stage, struct core *core, const struct edito
     int count = nearest_knots(document, spline, core->playback.position, samples);
     uint32_t color = arrange_color(document, core->active);
     const struct posing posing = stage_posing(core, world);
+    const int rig = document_find_rig(document, RIG_TAIL, tail);
     for (int i = count - 1; i >= 0; i--) {
-        struct pose pose;
+        struct rig_pose pose;
         float points[OUTLINE][2];
-        posing_tail(&posing, tail, samples[i], NULL, &pose);
-        if (!outline(stage, core, &pose, points)) continue;
+        rig_pose(&posing, rig, samples[i], NULL, &pose);
+        if (!outline(stage, core, &pose.tail, points)) continue;
         float share = count > 1 ? (float)i / (float)(count - 1) : 0;
         drawlist_line(&core->list, points[0], OUTLINE, 1.25f,
                       theme_fade(color, NEAREST + (FARTHEST - NEAREST) * share));
@@ -123,6 +124,6 @@ void onion_toggle(struct core *core)
 {
     core->overlays.onion = !core->overlays.onion;
     core_message(core, false,
-                 core->overlays.onion ? "Onion skin: the tail at the knots around the playhead (O)."
-                                      : "No onion skin.");
+                 core->overlays.onion ? "Onion skin on: the tail at the knots around the playhead (O)."
+                                      : "Onion skin off.");
 }

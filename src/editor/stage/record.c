@@ -1,7 +1,7 @@
 /// The motion of a body that is dragged while it is recorded: one place for each sample that the playhead passes.
 #include "editor/stage/record.h"
 #include "editor/core/core.h"
-#include "editor/stage/body.h"
+#include "editor/stage/body_offset.h"
 #include "editor/stage/state.h"
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@ void record_begin(struct stage *stage, struct core *core)
     if (record->running) return;
     *record = (struct record){.running = true, .first = (int)ceil(core->playback.position)};
     core->playback.playing = true;
-    core_message(core, false, "Recording the body's way: let go to keep it.");
+    core_message(core, false, "Recording the body: release to keep it.");
 }
 
 void record_advance(struct stage *stage, const struct core *core, const struct editor_world *world)

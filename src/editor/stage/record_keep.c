@@ -7,6 +7,7 @@
 #include "editor/core/core.h"
 #include "editor/stage/record.h"
 #include "editor/stage/state.h"
+#include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -44,8 +45,9 @@ static int add_spline(struct core *core, const struct editor_world *world, const
 
 static void set_start(struct core *core, const struct editor_world *world, int spline, enum wiggly_start start)
 {
-    struct edit edit = core_edit_of(EDIT_START, spline);
-    edit.start = start;
+    struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
+    edit.parameter = PARAMETER_START;
+    edit.param = (struct param){start, -1};
     core_edit(core, world, &edit);
 }
 
@@ -80,14 +82,17 @@ static void clear_knots(struct core *core, const struct editor_world *world, int
 /// The spline that a coordinate follows, made where it is a number yet; -1 on failure.
 static int base_spline(struct core *core, const struct editor_world *world, int tail, int coordinate, bool loop)
 {
-    const struct tail *moved = &world->document->tails[tail];
+    const struct tail *moved = document_tail(world->document, tail);
     char name[NAME_SIZE];
     if (moved->position[coordinate].track >= 0) return moved->position[coordinate].track;
-    snprintf(name, sizeof name, "%.250s %s", moved->name, coordinate_name(coordinate));
+    snprintf(name, sizeof name, "%.250s %s",
+             world->document->rigs[document_find_rig(world->document, RIG_TAIL, tail)].name,
+             coordinate_name(coordinate));
     int spline = add_spline(core, world, name);
     if (spline < 0) return -1;
-    struct edit mode = core_edit_of(EDIT_MODE, spline);
-    mode.mode = WIGGLY_CUBIC;
+    struct edit mode = core_edit_of(EDIT_PARAMETER, spline);
+    mode.parameter = PARAMETER_MODE;
+    mode.param = (struct param){WIGGLY_CUBIC, -1};
     core_edit(core, world, &mode);
     if (loop) set_start(core, world, spline, WIGGLY_LOOP);
     return spline;
@@ -100,7 +105,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
 {
     const struct record *record = &stage->record;
     const struct document *document = world->document;
-    const struct param before = document->tails[stage->body.tail].position[coordinate];
+    const struct param before = document_tail(document, stage->body.tail)->position[coordinate];
     double from[RECORD_SAMPLES];
     int knots[MAX_KNOTS], last = document_samples(document) - 1;
     int spline = base_spline(core, world, stage->body.tail, coordinate, loop);
@@ -121,7 +126,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     if (!loop && record->first > 1) put_knot(core, world, spline, 0, from[0], true);
     if (!loop && record->first + count < last) put_knot(core, world, spline, last, from[count - 1], true);
     struct edit edit = core_edit_of(EDIT_POSITION, 0);
-    edit.tail = stage->body.tail;
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body.tail);
     edit.coordinate = coordinate;
     edit.param.track = spline;
     core_edit(core, world, &edit);
@@ -140,7 +145,7 @@ static void set_angles(const struct stage *stage, struct core *core, const struc
                        enum angle_kind kind, const struct angles *angles)
 {
     struct edit edit = core_edit_of(EDIT_ANGLES, 0);
-    edit.tail = stage->body.tail;
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body.tail);
     edit.channel = channel;
     edit.angle = kind;
     edit.angles = angles;
@@ -155,21 +160,20 @@ static int add_follower(struct core *core, const struct editor_world *world, int
     int spline = add_spline(core, world, name);
     if (spline < 0) return -1;
     const struct spline copied = world->document->splines[model];
-    struct edit mode = core_edit_of(EDIT_MODE, spline), spring = core_edit_of(EDIT_SPRING, spline);
-    mode.mode = copied.mode;
+    struct edit mode = core_edit_of(EDIT_PARAMETER, spline), spring = core_edit_of(EDIT_SPRING, spline);
+    mode.parameter = PARAMETER_MODE;
+    mode.param = copied.parameter[PARAMETER_MODE];
     spring.flag = copied.spring_friction;
     core_edit(core, world, &mode);
     if (spring.flag) core_edit(core, world, &spring);
-    for (int p = 0; p < PARAMETER_EQUILIBRIUM; p++) {
-        bool ratio = p == PARAMETER_FREQUENCY || p == PARAMETER_DAMPING;
-        bool pair = p == PARAMETER_SPRING || p == PARAMETER_FRICTION;
-        if (copied.spring_friction ? ratio : pair) continue;
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        if (p == PARAMETER_EQUILIBRIUM || p == PARAMETER_START || !spline_has(&copied, p)) continue;
         struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
-        edit.parameter = (enum parameter)p;
+        edit.parameter = p;
         edit.param = copied.parameter[p];
         core_edit(core, world, &edit);
     }
-    set_start(core, world, spline, copied.start == WIGGLY_LOOP ? WIGGLY_LOOP : WIGGLY_REST);
+    set_start(core, world, spline, spline_start(&copied) == WIGGLY_LOOP ? WIGGLY_LOOP : WIGGLY_REST);
     follow_base(core, world, spline, base);
     return spline;
 }
@@ -182,14 +186,14 @@ static void add_channel(const struct stage *stage, struct core *core, const stru
     struct edit edit = core_edit_of(EDIT_CHANNEL_ADD, add_follower(core, world, model->spline, base));
     struct angles gain = model->gain;
     const struct angles lag = model->lag;
-    edit.tail = stage->body.tail;
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body.tail);
     edit.axis = model->axis;
     edit.of = PART_DISPLACEMENT;
     if (edit.spline < 0) return;
     for (int n = 0; n < (gain.each ? TAIL_MAX_JOINTS : 1); n++)
         gain.value[n] = round(gain.value[n] * scale * 1e4) / 1e4;
     if (!core_edit(core, world, &edit)) return;
-    int added = document->tails[stage->body.tail].channel_count - 1;
+    int added = document_tail(document, stage->body.tail)->channel_count - 1;
     set_angles(stage, core, world, added, ANGLE_LAG, &lag);
     set_angles(stage, core, world, added, ANGLE_GAIN, &gain);
 }
@@ -198,9 +202,9 @@ static void add_channel(const struct stage *stage, struct core *core, const stru
 static void hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world,
                           int coordinate, int base)
 {
-    int index = stage->body.tail, count = world->document->tails[index].channel_count;
+    int index = stage->body.tail, count = document_tail(world->document, index)->channel_count;
     for (int c = 0; c < count; c++) {
-        const struct tail *tail = &world->document->tails[index];
+        const struct tail *tail = document_tail(world->document, index);
         const struct channel channel = tail->channels[c];
         const struct param *equilibrium = &world->document->splines[channel.spline].parameter[PARAMETER_EQUILIBRIUM];
         double direction[3], scale = stage->follow[index].scale[c];
@@ -218,11 +222,11 @@ static void hang_channels(const struct stage *stage, struct core *core, const st
 void record_keep(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     struct record *record = &stage->record;
-    const struct tail *tail = &world->document->tails[stage->body.tail];
+    const struct tail *tail = document_tail(world->document, stage->body.tail);
     bool loop = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
         record->hangs[c] = follow_hangs(tail, &tail->channels[c]);
-        loop &= world->document->splines[tail->channels[c].spline].start == WIGGLY_LOOP;
+        loop &= spline_start(&world->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
     }
     for (int k = 0; k < 3; k++) {
         if (largest(record->way[k], record->count) < STILL) continue;

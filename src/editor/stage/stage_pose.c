@@ -1,109 +1,58 @@
-/// The stage: poses the tails, drives the camera, finds what the pointer is over.
-#include "editor/stage/stage_pose.h"
+/// The stage: poses the rigs, drives the camera, finds what the pointer is over.
 #include "base/hash.h"
 #include "editor/core/drag.h"
 #include "editor/stage/body.h"
 #include "editor/stage/brush.h"
 #include "editor/stage/brush_show.h"
-#include "editor/stage/characters.h"
 #include "editor/stage/characters_show.h"
-#include "editor/stage/follow.h"
 #include "editor/stage/grab.h"
+#include "editor/stage/kinds.h"
 #include "editor/stage/onion.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "editor/stage/trail.h"
-#include "rig/shadow.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <assert.h>
 #include <math.h>
 
-enum { FIT_STEPS = 120, BLOBS_OF_ONE_TAIL = 16, RING_SIZE = 13 };
+enum { RING_SIZE = 13 };
 
-static const float GRAB_REACH = 16; ///< pixels from the tail's centre line
 /// Radians. Characters look towards +z; one is met from a bit aside, a pair from the front.
 static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f;
-static const double ZOOM_STEP = 0.12; ///< of a wheel's notch, as a power of e
 
-struct posing stage_posing(const struct core *core, const struct editor_world *world)
-{
-    return (struct posing){world->document, world->evaluation, world->cast, core->look};
-}
+/// In this order they are posed, hashed and drawn.
+static const struct stage_kind *const kinds[RIG_KINDS] = {
+    [RIG_TAIL] = &stage_tails, [RIG_CHARACTER] = &stage_characters};
 
-/// What moves a tail besides the document: its body in the hand, what swings after it, and `change` (may be NULL).
-static struct by_hand by_hand(const struct stage *stage, const struct core *core, const struct tail *shown, int tail,
-                              const struct what_if *change)
+/// Adds all motion of a kind to the box lo … hi; false where nothing of it is to be seen.
+static bool add_bounds(const struct stage *stage, const struct core *core, const struct editor_world *world,
+                       enum rig_kind kind, float lo[3], float hi[3])
 {
-    struct by_hand hand = {0};
-    for (int c = 0; c < shown->channel_count; c++) {
-        hand.channel[c] = follow_value(stage, tail, c);
-        if (!change || change->spline != shown->channels[c].spline) continue;
-        hand.channel[c].re += change->re;
-        hand.channel[c].im += change->im;
+    const struct document *document = world->document;
+    bool any = false;
+    int rig = document_next_rig(document, kind, 0);
+    for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, kind, rig + 1)) {
+        any |= kinds[kind]->bounds(stage, core, world, rig, n, lo, hi);
     }
-    body_offset(stage, core, tail, hand.base);
-    return hand;
-}
-
-void stage_pose_tail(const struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
-                     double position, const struct what_if *change, struct pose *pose)
-{
-    const struct posing posing = stage_posing(core, world);
-    const struct by_hand hand = by_hand(stage, core, &world->document->tails[tail], tail, change);
-    posing_tail(&posing, tail, position, &hand, pose);
-}
-
-static void add_blobs(struct stage_view *view, const struct pose *pose)
-{
-    struct shadow_blob blobs[BLOBS_OF_ONE_TAIL];
-    int room = STAGE_MAX_BLOBS - view->blob_count;
-    int count = pose_blobs(pose, blobs, room < BLOBS_OF_ONE_TAIL ? room : BLOBS_OF_ONE_TAIL);
-    for (int i = 0; i < count; i++) {
-        view->blobs[view->blob_count++] =
-            (struct stage_blob){blobs[i].x, blobs[i].z, blobs[i].radius, blobs[i].strength};
-    }
+    return any;
 }
 
 void stage_fit(struct stage *stage, const struct core *core, const struct editor_world *world)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
-    double last = document_samples(world->document) - 1;
-    for (int i = 0; i <= FIT_STEPS; i++) {
-        for (int t = 0; t < world->document->tail_count && t < STAGE_MAX_TAILS; t++) {
-            struct pose pose;
-            float low[3], high[3];
-            stage_pose_tail(stage, core, world, t, last * i / FIT_STEPS, NULL, &pose);
-            pose_bounds(&pose, low, high);
-            for (int axis = 0; axis < 3; axis++) {
-                lo[axis] = fminf(lo[axis], low[axis]);
-                hi[axis] = fmaxf(hi[axis], high[axis]);
-            }
-        }
+    bool seen[RIG_KINDS], any = false;
+    for (int kind = 0; kind < RIG_KINDS; kind++) {
+        seen[kind] = add_bounds(stage, core, world, (enum rig_kind)kind, lo, hi);
+        any |= seen[kind];
     }
     stage->camera = camera_default();
-    bool any = characters_bounds(core, world, lo, hi);
-    if (any && world->document->tail_count == 0)
+    if (seen[RIG_CHARACTER] && !seen[RIG_TAIL])
         stage->camera.azimuth = core->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
     camera_lamp(&stage->camera, stage->view.key_from); // it stays there while the camera goes round
-    if (!any && world->document->tail_count == 0) return;
+    if (!any) return;
     for (int k = 0; k < 2; k++) stage->view.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
     camera_fit(&stage->camera, lo, hi, core->layout.stage.w / core->layout.stage.h);
-}
-
-static uint64_t characters_hash(uint64_t hash, const struct stage_view *view)
-{
-    for (int c = 0; c < view->character_count; c++) {
-        const struct stage_character *shown = &view->characters[c];
-        const struct morph *morph = &shown->morph;
-        const int looks[] = {shown->coarse, shown->map_coordinate, shown->map_axis};
-        hash = hash_word(hash_word(hash, shown->figure->id), shown->figure->version);
-        hash = hash_bytes(hash, shown->position, sizeof shown->position);
-        hash = hash_bytes(hash, looks, sizeof looks);
-        hash = hash_bytes(hash, morph->coordinate, (size_t)morph->count * sizeof *morph->coordinate);
-        hash = hash_bytes(hash, morph->weight, (size_t)morph->count * sizeof *morph->weight);
-    }
-    return hash;
 }
 
 static uint64_t view_hash(const struct stage_view *view)
@@ -114,14 +63,7 @@ static uint64_t view_hash(const struct stage_view *view)
     hash = hash_bytes(hash, view->middle, sizeof view->middle);
     hash = hash_bytes(hash, view->key_from, sizeof view->key_from);
     hash = hash_bytes(hash, &view->colors, sizeof view->colors);
-    for (int t = 0; t < view->tail_count; t++) {
-        const struct stage_tail *tail = &view->tails[t];
-        hash = hash_bytes(hash, &tail->joints, sizeof tail->joints);
-        hash = hash_bytes(hash, &tail->length, sizeof tail->length);
-        hash = hash_bytes(hash, &tail->pose.ground, sizeof tail->pose.ground);
-        hash = hash_bytes(hash, tail->pose.matrix, (size_t)tail->pose.count * sizeof tail->pose.matrix[0]);
-    }
-    hash = characters_hash(hash, view);
+    for (int kind = 0; kind < RIG_KINDS; kind++) hash = kinds[kind]->hash(hash, view);
     return hash_bytes(hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
 }
 
@@ -135,17 +77,13 @@ void stage_pose(struct stage *stage, struct core *core, const struct editor_worl
     core->refit_stage = false;
     struct stage_view *view = &stage->view;
     const struct document *document = world->document;
-    view->tail_count = document->tail_count < STAGE_MAX_TAILS ? document->tail_count : STAGE_MAX_TAILS;
-    view->blob_count = 0;
-    for (int t = 0; t < view->tail_count; t++) {
-        const struct tail *tail = &document->tails[t];
-        struct stage_tail *shown = &view->tails[t];
-        shown->joints = tail->joints;
-        shown->length = (float)tail->length;
-        stage_pose_tail(stage, core, world, t, core->playback.position, NULL, &shown->pose);
-        add_blobs(view, &shown->pose);
+    view->tail_count = view->character_count = view->blob_count = 0;
+    for (int kind = 0; kind < RIG_KINDS; kind++) {
+        int rig = document_next_rig(document, (enum rig_kind)kind, 0);
+        for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, (enum rig_kind)kind, rig + 1)) {
+            kinds[kind]->pose(stage, core, world, rig, n);
+        }
     }
-    characters_pose(stage, core, world);
     view->viewport = core->layout.stage;
     view->colors = theme()->stage;
     camera_matrices(&stage->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
@@ -171,9 +109,9 @@ static const char *empty_text(const struct stage *stage, const struct core *core
 {
     const struct stage_view *view = &stage->view;
     if (view->tail_count > 0 || view->character_count > 0) return NULL;
-    if (world->document->character_count > 0)
-        return "This scene's character could not be read: its curves are below.";
-    return core->active < 0 ? "This scene is empty." : "This scene moves no tail: its curves are below.";
+    if (document_character(world->document, 0))
+        return "wiggly could not read this scene's character. Its curves are below.";
+    return core->active < 0 ? "This scene is empty." : "This scene has no tail. Its curves are below.";
 }
 
 void stage_show(struct stage *stage, struct core *core, const struct editor_world *world)
@@ -194,83 +132,4 @@ void stage_show(struct stage *stage, struct core *core, const struct editor_worl
     body_show(stage, core);
     show_hold(stage, core);
     drawlist_set_clip(&core->list, clip);
-}
-
-bool stage_project_pose(const struct stage *stage, const struct core *core, const struct pose *pose, int joint,
-                        double fraction, float xy[2])
-{
-    const struct rect *r = &core->layout.stage;
-    const float viewport[4] = {r->x, r->y, r->w, r->h};
-    float world[3];
-    assert(joint >= 0 && joint < pose->count);
-    int next = joint + 1 < pose->count ? joint + 1 : joint;
-    for (int i = 0; i < 3; i++) {
-        float from = pose->matrix[joint][12 + i], to = pose->matrix[next][12 + i];
-        world[i] = from + (to - from) * (float)fraction;
-    }
-    return camera_project(stage->view.view, stage->view.projection, viewport, world, xy);
-}
-
-bool stage_project(const struct stage *stage, const struct core *core, int tail, int joint, double fraction,
-                   float xy[2])
-{
-    if (tail >= stage->view.tail_count || joint >= stage->view.tails[tail].pose.count) return false;
-    return stage_project_pose(stage, core, &stage->view.tails[tail].pose, joint, fraction, xy);
-}
-
-/// How far along the segment a … b the point nearest to p is, 0 … 1.
-static float nearest_on_segment(const float a[2], const float b[2], const float p[2])
-{
-    float dx = b[0] - a[0], dy = b[1] - a[1];
-    float square = dx * dx + dy * dy;
-    float along = (p[0] - a[0]) * dx + (p[1] - a[1]) * dy;
-    return square > 0 ? fmaxf(0, fminf(1, along / square)) : 0;
-}
-
-struct hover stage_hover(const struct stage *stage, const struct core *core, float x, float y)
-{
-    struct hover hover = {.kind = HOVER_NONE};
-    const float p[2] = {x, y};
-    float best = GRAB_REACH;
-    for (int t = 0; t < stage->view.tail_count; t++) {
-        for (int n = 0; n + 1 < stage->view.tails[t].pose.count; n++) {
-            float a[2], b[2];
-            if (!stage_project(stage, core, t, n, 0, a) || !stage_project(stage, core, t, n, 1, b)) continue;
-            float fraction = nearest_on_segment(a, b, p);
-            float at[2] = {a[0] + (b[0] - a[0]) * fraction, a[1] + (b[1] - a[1]) * fraction};
-            float distance = hypotf(x - at[0], y - at[1]);
-            if (distance >= best) continue;
-            best = distance;
-            hover = (struct hover){
-                .kind = HOVER_JOINT, .tail = t, .joint = n, .fraction = fraction, .x = at[0], .y = at[1]};
-        }
-    }
-    return hover.kind == HOVER_NONE ? body_hover(stage, x, y) : hover;
-}
-
-void stage_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event)
-{
-    bool pan = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
-    if (pan) {
-        core->space_used = core->space_down;
-        drag_begin(core, DRAG_STAGE_PAN, NULL, event);
-        return;
-    }
-    if (brush_press(stage, core, world, event)) return;
-    struct hover hover = stage_hover(stage, core, event->x, event->y);
-    if (event->button == BUTTON_LEFT && hover.kind == HOVER_BODY) {
-        drag_begin(core, DRAG_BODY, "Move body", event);
-        body_begin(stage, core, hover.tail);
-    } else if (event->button == BUTTON_LEFT && hover.kind == HOVER_JOINT) {
-        drag_begin(core, DRAG_GRAB, "Pull tail", event);
-        grab_begin(stage, core, world, &hover);
-    } else {
-        drag_begin(core, DRAG_ORBIT, NULL, event);
-    }
-}
-
-void stage_wheel(struct stage *stage, struct core *core, const struct event *event)
-{
-    if (brush_wheel(core, event)) return;
-    camera_zoom(&stage->camera, (float)exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
 }

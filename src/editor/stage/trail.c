@@ -3,8 +3,8 @@
 #include "base/hash.h"
 #include "editor/core/core.h"
 #include "editor/stage/onion.h"
+#include "editor/stage/project.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/stage_pose.h"
 #include "editor/stage/state.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -23,11 +23,11 @@ static bool tail_loops(const struct document *document, const struct tail *tail)
 {
     bool loops = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
-        loops &= document->splines[tail->channels[c].spline].start == WIGGLY_LOOP;
+        loops &= spline_start(&document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
     }
     for (int k = 0; k < 3; k++) {
         int track = tail->position[k].track;
-        loops &= track < 0 || document->splines[track].start == WIGGLY_LOOP;
+        loops &= track < 0 || spline_start(&document->splines[track]) == WIGGLY_LOOP;
     }
     return loops;
 }
@@ -41,11 +41,12 @@ static const float *tip_at(struct stage *stage, const struct core *core, const s
     key = hash_word(key, (uint64_t)tail << 8 | (uint64_t)core->look);
     struct trail_point *point = &stage->trail[(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
     if (point->known && point->key == key && point->frame == frame) return point->tip;
-    struct pose pose;
+    struct rig_pose pose;
     const struct posing posing = stage_posing(core, world);
-    posing_tail(&posing, tail, (double)frame * world->document->substeps, NULL, &pose);
+    rig_pose(&posing, document_find_rig(world->document, RIG_TAIL, tail), (double)frame * world->document->substeps,
+             NULL, &pose);
     *point = (struct trail_point){.known = true, .key = key, .frame = frame};
-    for (int k = 0; k < 3; k++) point->tip[k] = pose.matrix[pose.count - 1][12 + k];
+    for (int k = 0; k < 3; k++) point->tip[k] = pose.tail.matrix[pose.tail.count - 1][12 + k];
     return point->tip;
 }
 
@@ -120,7 +121,7 @@ void trail_show(struct stage *stage, struct core *core, const struct editor_worl
     double now = core->playback.position / document->substeps;
     double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
     int first = (int)ceil(now - reach), last = (int)floor(now + reach);
-    if (!tail_loops(document, &document->tails[tail])) {
+    if (!tail_loops(document, document_tail(document, tail))) {
         first = first < 0 ? 0 : first;
         last =
             last < document->last_frame - document->first_frame ? last : document->last_frame - document->first_frame;
@@ -140,5 +141,6 @@ void trail_toggle(struct core *core)
 {
     core->overlays.trail = !core->overlays.trail;
     core_message(core, false,
-                 core->overlays.trail ? "Motion arc: the way of the tip, a mark a frame (P)." : "No motion arc.");
+                 core->overlays.trail ? "Motion arc on: the path of the tip, one mark per frame (P)."
+                                      : "Motion arc off.");
 }
