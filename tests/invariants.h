@@ -73,8 +73,8 @@ static inline void assert_splines(const struct document *d)
             const struct param *param = &spline->parameter[p];
             assert_param(d, param);
             if (param->track >= 0 || !spline_uses(spline, p, false)) continue;
-            assert_true(param->value >= parameter_minimum(p, spline->mode));
-            assert_true(param->value <= parameter_maximum(p, spline->mode));
+            assert_true(param->value >= parameter_rows[p].minimum);
+            assert_true(param->value <= parameter_maximum(p, spline_mode(spline)));
         }
     }
     struct order_cycle cycle;

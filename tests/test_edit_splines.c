@@ -73,7 +73,7 @@ static void test_a_copy(void **state)
     const struct spline *copy = &world.document->splines[LOOP + 1], *loop = &world.document->splines[LOOP];
     assert_string_equal(copy->name, "loop 2");
     assert_int_equal(copy->parameter[PARAMETER_EQUILIBRIUM].track, SWAY);
-    assert_int_equal(copy->start, WIGGLY_LOOP);
+    assert_int_equal(spline_start(copy), WIGGLY_LOOP);
     assert_true(copy->id != loop->id && copy->knots[0].id != loop->knots[0].id);
     world_must(&world, on(EDIT_SPLINE_COPY, LOOP + 1));
     assert_string_equal(world.document->splines[LOOP + 2].name, "loop 3");

@@ -141,7 +141,7 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     editor->message = (struct message){0};
     editor->playback = (struct playback){.looping = true, .speed = 1};
     for (int s = 0; s < document->spline_count; s++) {
-        editor->playback.playing |= document->splines[s].start == WIGGLY_LOOP;
+        editor->playback.playing |= spline_start(&document->splines[s]) == WIGGLY_LOOP;
     }
     editor->serial = document->serial;
     editor_reserve(editor, document);

@@ -83,7 +83,7 @@ static void swap_knot(struct change *change, const struct document *document, st
 
 struct settings settings_of(const struct spline *spline)
 {
-    struct settings settings = {spline->mode, spline->start, spline->spring_friction, {{0, 0}}};
+    struct settings settings = {.spring_friction = spline->spring_friction};
     memcpy(settings.parameter, spline->parameter, sizeof settings.parameter);
     return settings;
 }
@@ -91,8 +91,6 @@ struct settings settings_of(const struct spline *spline)
 static void swap_settings(struct spline *spline, struct settings *settings)
 {
     struct settings old = settings_of(spline);
-    spline->mode = settings->mode;
-    spline->start = settings->start;
     spline->spring_friction = settings->spring_friction;
     memcpy(spline->parameter, settings->parameter, sizeof spline->parameter);
     *settings = old;

@@ -29,10 +29,8 @@ enum change_kind {
     CHANGE_PAINT,       ///< a stroke on it
 };
 
-/// What EDIT_PARAMETER, EDIT_MODE, EDIT_START and EDIT_SPRING change.
+/// What EDIT_PARAMETER and EDIT_SPRING change.
 struct settings {
-    enum wiggly_mode mode;
-    enum wiggly_start start;
     bool spring_friction;
     struct param parameter[PARAMETER_COUNT];
 };

@@ -6,49 +6,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct {
-    const char *name;
-    double minimum, maximum, standard;
-} parameter_table[PARAMETER_COUNT] = {
-    [PARAMETER_FREQUENCY] = {"frequency", 0, INFINITY, 0},
-    [PARAMETER_DAMPING] = {"damping", 0, INFINITY, 0},
-    [PARAMETER_BANDWIDTH] = {"bandwidth", 0, 1, 0.1},
-    [PARAMETER_SPRING] = {"spring", 0, INFINITY, 0},
-    [PARAMETER_FRICTION] = {"friction", 0, INFINITY, 0},
-    [PARAMETER_CALM] = {"calm", 0, 1, 1},
-    [PARAMETER_EQUILIBRIUM] = {"equilibrium", -INFINITY, INFINITY, 0},
-};
-
-const char *parameter_name(enum parameter parameter) { return parameter_table[parameter].name; }
-
 const char *coordinate_name(int index)
 {
     static const char *const names[] = {"x", "y", "z"};
     return names[index];
 }
 
-double parameter_minimum(enum parameter parameter, enum wiggly_mode mode)
-{
-    (void)mode;
-    return parameter_table[parameter].minimum;
-}
-
-double parameter_maximum(enum parameter parameter, enum wiggly_mode mode)
-{
-    if (parameter == PARAMETER_DAMPING && mode == WIGGLY_COMPLEX) return 1;
-    return parameter_table[parameter].maximum;
-}
-
-double parameter_default(enum parameter parameter) { return parameter_table[parameter].standard; }
-
 void spline_reset(struct spline *spline)
 {
-    spline->mode = WIGGLY_COMPLEX;
-    spline->start = WIGGLY_FREE;
     spline->spring_friction = false;
     spline->color = -1;
     for (int i = 0; i < PARAMETER_COUNT; i++) {
-        spline->parameter[i] = (struct param){parameter_table[i].standard, -1};
+        spline->parameter[i] = (struct param){parameter_rows[i].standard, -1};
     }
 }
 
@@ -172,7 +141,7 @@ double document_frame(const struct document *document, int sample)
 
 int document_last_knot_sample(const struct document *document, const struct spline *spline)
 {
-    return document_samples(document) - (spline->start == WIGGLY_LOOP ? 2 : 1);
+    return document_samples(document) - (spline_start(spline) == WIGGLY_LOOP ? 2 : 1);
 }
 
 int document_find_spline(const struct document *document, const char *name)

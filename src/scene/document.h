@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "scene/paint.h"
+#include "scene/parameter.h"
 #include <stdbool.h>
 #include <stdint.h>
 #include <wiggly/wiggly.h>
@@ -22,24 +23,6 @@ enum {
     CHARACTER_MAX_DRIVES = 4,
 };
 
-/// The parameters of a spline, in the order in which they are saved.
-enum parameter {
-    PARAMETER_FREQUENCY,
-    PARAMETER_DAMPING,
-    PARAMETER_BANDWIDTH,
-    PARAMETER_SPRING,
-    PARAMETER_FRICTION,
-    PARAMETER_CALM,
-    PARAMETER_EQUILIBRIUM,
-    PARAMETER_COUNT
-};
-
-/// A number, or the total of another spline.
-struct param {
-    double value; ///< used where track < 0
-    int track;    ///< index of the spline that is followed, or -1
-};
-
 struct knot {
     double frame; ///< as written; may be fractional
     double value;
@@ -52,8 +35,6 @@ struct knot {
 
 struct spline {
     char *name;
-    enum wiggly_mode mode;
-    enum wiggly_start start;
     bool spring_friction; ///< real mode with the paper's own pair of parameters
     struct param parameter[PARAMETER_COUNT];
     struct knot *knots; ///< by sample
@@ -62,6 +43,16 @@ struct spline {
     unsigned id; ///< unique among the splines, kept through edits and undo; not saved
     const void *extra;
 };
+
+static inline enum wiggly_mode spline_mode(const struct spline *spline)
+{
+    return (enum wiggly_mode)spline->parameter[PARAMETER_MODE].value;
+}
+
+static inline enum wiggly_start spline_start(const struct spline *spline)
+{
+    return (enum wiggly_start)spline->parameter[PARAMETER_START].value;
+}
 
 /// One angle for all joints, or one for each (degrees).
 struct angles {
@@ -186,20 +177,12 @@ int spline_lower_bound(const struct document *document, const struct spline *spl
 /// Index of the knot with that id, or -1.
 int spline_find_id(const struct spline *spline, unsigned id);
 
-/// The file's key of a parameter: "frequency" …; and the range in which a constant may lie in that mode.
-const char *parameter_name(enum parameter parameter);
-double parameter_minimum(enum parameter parameter, enum wiggly_mode mode);
-double parameter_maximum(enum parameter parameter, enum wiggly_mode mode);
-
 /// "x", "y" or "z".
 const char *coordinate_name(int index);
 
 /// Gives a spline the file format's defaults (complex, free, calm 1, bandwidth 0.1, no colour of its own); name, knots
 /// and id are left alone.
 void spline_reset(struct spline *spline);
-
-/// The default of a parameter.
-double parameter_default(enum parameter parameter);
 
 #define KNOT_DEFAULT_STIFFNESS 1000.0 /* 1/s */
 #define TAIL_DEFAULT_JOINTS 24

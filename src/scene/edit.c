@@ -24,8 +24,6 @@ static const struct {
     [EDIT_KNOT_REMOVE] = {plan_knot_remove, TARGET_SPLINE},
     [EDIT_KNOT_SET] = {plan_knot_set, TARGET_SPLINE},
     [EDIT_PARAMETER] = {plan_parameter, TARGET_SPLINE},
-    [EDIT_MODE] = {plan_mode, TARGET_SPLINE},
-    [EDIT_START] = {plan_start, TARGET_SPLINE},
     [EDIT_SPRING] = {plan_spring, TARGET_SPLINE},
     [EDIT_SPLINE_ADD] = {plan_spline_add, TARGET_SCENE},
     [EDIT_SPLINE_COPY] = {plan_spline_copy, TARGET_SPLINE},

@@ -13,9 +13,7 @@ enum edit_kind {
     EDIT_KNOT_INSERT, ///< spline, knot (id 0: a new one is given)
     EDIT_KNOT_REMOVE, ///< spline, knot.id
     EDIT_KNOT_SET,    ///< spline, knot (found by id; frame, value, slope, has_slope, stiffness are replaced)
-    EDIT_PARAMETER,   ///< spline, parameter, param
-    EDIT_MODE,        ///< spline, mode: converts ω = √k, ζ = γ/2√k and clamps, so that what is saved loads
-    EDIT_START,       ///< spline, start
+    EDIT_PARAMETER, ///< spline, parameter, param. The mode converts ω = √k, ζ = γ/2√k and clamps, so that what is saved loads
     EDIT_SPRING,      ///< spline, flag: whether spring and friction are in use (real mode only)
     EDIT_SPLINE_ADD,  ///< spline: its place in the list, text (NULL: a free name), knot where `flag`: its first. f 1,
                       ///< ζ 0.1, β 0.1
@@ -61,8 +59,6 @@ struct edit {
     struct knot knot;
     enum parameter parameter;
     struct param param;
-    enum wiggly_mode mode;
-    enum wiggly_start start;
     bool flag;
     const char *text; ///< read during the call only
     int to, color;

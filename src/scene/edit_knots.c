@@ -35,7 +35,7 @@ static bool check_knot(const struct document *document, const struct spline *spl
     if (sample < 0 || sample > last) {
         return fail(error, ERROR_INPUT, "%s: frame %s is outside %d to %d%s", spline->name, frame,
                     document->first_frame, document->last_frame,
-                    spline->start == WIGGLY_LOOP ? "; the last frame of a loop repeats the first" : "");
+                    spline_start(spline) == WIGGLY_LOOP ? "; the last frame of a loop repeats the first" : "");
     }
     int there = spline_find_knot(document, spline, sample);
     if (there < 0 || spline->knots[there].id == id) return true;

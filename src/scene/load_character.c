@@ -47,7 +47,7 @@ void load_character(struct reader *reader, const struct where *at, json_t *objec
     rig->model = reader_name(reader, &model_at, model);
     if (paint) rig->paint = reader_name(reader, &paint_at, paint);
     load_position(reader, &position_at, position, rig->position);
-    rig->phases = phases ? reader_word(reader, &phases_at, phases, axes, "\"x\", \"y\" or \"z\"", -1) : -1;
+    rig->phases = phases ? reader_word(reader, &phases_at, phases, axes, -1) : -1;
     int count = reader_objects(reader, &coordinates_at, coordinates, CHARACTER_MAX_DRIVES);
     for (int i = 0; i < count; i++) {
         struct where drive_at = {.parent = &coordinates_at, .index = (size_t)i};

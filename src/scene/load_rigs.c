@@ -24,7 +24,7 @@ static const char *load_rig(struct reader *reader, const struct where *at, json_
     struct document *document = reader->document;
     struct where type_at;
     const json_t *type = reader_member(at, object, "type", &type_at);
-    int word = reader_word(reader, &type_at, type, types, "\"tail\" or \"character\"", -1);
+    int word = reader_word(reader, &type_at, type, types, -1);
     if (word == RIG_TAIL) {
         struct tail *tail = &document->tails[document->tail_count++];
         load_tail(reader, at, object, tail);

@@ -61,9 +61,9 @@ static void load_channel(struct reader *reader, const struct where *at, const js
     const json_t *lag = reader_member(at, object, "lag", &lag_at);
     const json_t *gain = reader_member(at, object, "gain", &gain_at);
     channel->spline = reader_spline_name(reader, &spline_at, spline);
-    int word = reader_word(reader, &axis_at, axis, axes, "\"side\" or \"up\"", AXIS_SIDE);
+    int word = reader_word(reader, &axis_at, axis, axes, AXIS_SIDE);
     channel->axis = word < 0 ? AXIS_SIDE : (enum axis)word;
-    word = reader_word(reader, &of_at, of, parts, "\"total\" or \"displacement\"", PART_TOTAL);
+    word = reader_word(reader, &of_at, of, parts, PART_TOTAL);
     channel->of = word < 0 ? PART_TOTAL : (enum channel_part)word;
     channel->lag.value[0] = CHANNEL_DEFAULT_LAG;
     channel->gain.value[0] = CHANNEL_DEFAULT_GAIN;

@@ -6,19 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const mode_names[] = {
-    [WIGGLY_COMPLEX] = "complex", [WIGGLY_REAL] = "real", [WIGGLY_CUBIC] = "cubic"};
-static const char *const start_names[] = {[WIGGLY_FREE] = "free", [WIGGLY_REST] = "rest", [WIGGLY_LOOP] = "loop"};
 static const char *const part_names[] = {[PART_TOTAL] = "total", [PART_DISPLACEMENT] = "displacement"};
 static const char *const axis_names[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up"};
 
-static bool is_parameter(const char *key)
-{
-    for (int i = 0; i < PARAMETER_COUNT; i++) {
-        if (strcmp(key, parameter_name((enum parameter)i)) == 0) return true;
-    }
-    return false;
-}
+static bool is_parameter(const char *key) { return parameter_find(key) != PARAMETER_COUNT; }
 
 static bool is_position(const char *key) { return strcmp(key, "position") == 0; }
 
@@ -37,11 +28,9 @@ static void print_angles(struct members *members, const char *key, const struct 
 static bool is_printed(const struct spline *spline, enum parameter parameter)
 {
     const struct param *param = &spline->parameter[parameter];
-    bool is_ratio = parameter == PARAMETER_FREQUENCY || parameter == PARAMETER_DAMPING;
-    bool is_spring = parameter == PARAMETER_SPRING || parameter == PARAMETER_FRICTION;
-    if (is_ratio && spline->spring_friction) return false;
-    if (is_spring) return spline->spring_friction;
-    if (param->track >= 0 || param->value != parameter_default(parameter)) return true;
+    const struct parameter_row *row = &parameter_rows[parameter];
+    if (!spline_has(spline, parameter)) return false;
+    if (row->pair == PAIR_SPRING || param->track >= 0 || param->value != row->standard) return true;
     return spline_uses(spline, parameter, false);
 }
 
@@ -68,14 +57,16 @@ static void print_spline(struct text *text, const struct document *document, con
         color_print(spline->color, color);
         member_string(&members, "color", color);
     }
-    member_string(&members, "mode", mode_names[spline->mode]);
-    for (int i = 0; i < PARAMETER_COUNT; i++) {
-        const char *name = parameter_name((enum parameter)i);
-        if (!is_printed(spline, (enum parameter)i)) continue;
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        const char *name = parameter_rows[p].name;
+        if (!is_printed(spline, p)) continue;
+        if (parameter_rows[p].kind == PARAMETER_CHOICE) {
+            member_string(&members, name, parameter_rows[p].words[(int)spline->parameter[p].value]);
+            continue;
+        }
         member(&members, name);
-        print_param(text, document, &spline->parameter[i], extra_of(spline->extra), name);
+        print_param(text, document, &spline->parameter[p], extra_of(spline->extra), name);
     }
-    member_string(&members, "start", start_names[spline->start]);
     member(&members, "knots");
     for (int i = 0; i < spline->knot_count; i++) {
         text_string(text, i > 0 ? ",\n        " : "[\n        ");

@@ -68,10 +68,9 @@ bool reader_number(struct reader *reader, const struct where *at, const json_t *
 bool reader_integer(struct reader *reader, const struct where *at, const json_t *value, int minimum, int maximum,
                     int *target);
 
-/// Index of a string among `words` (NULL at the end); `missing` where there is none, -1 after an error. `expected`
-/// lists them.
+/// Index of a string among `words` (NULL at the end); `missing` where there is none, -1 after an error.
 int reader_word(struct reader *reader, const struct where *at, const json_t *value, const char *const *words,
-                const char *expected, int missing);
+                int missing);
 
 /// The reader's text as JSON; NULL after an error (syntax, too deep, too much).
 json_t *reader_parse(struct reader *reader);

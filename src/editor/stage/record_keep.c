@@ -8,6 +8,7 @@
 #include "editor/stage/body.h"
 #include "editor/stage/follow.h"
 #include "editor/stage/record.h"
+#include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -45,8 +46,9 @@ static int add_spline(struct editor *editor, const struct editor_world *world, c
 
 static void set_start(struct editor *editor, const struct editor_world *world, int spline, enum wiggly_start start)
 {
-    struct edit edit = editor_edit_of(EDIT_START, spline);
-    edit.start = start;
+    struct edit edit = editor_edit_of(EDIT_PARAMETER, spline);
+    edit.parameter = PARAMETER_START;
+    edit.param = (struct param){start, -1};
     editor_edit(editor, world, &edit);
 }
 
@@ -87,8 +89,9 @@ static int base_spline(struct editor *editor, const struct editor_world *world, 
     snprintf(name, sizeof name, "%.250s %s", moved->name, coordinate_name(coordinate));
     int spline = add_spline(editor, world, name);
     if (spline < 0) return -1;
-    struct edit mode = editor_edit_of(EDIT_MODE, spline);
-    mode.mode = WIGGLY_CUBIC;
+    struct edit mode = editor_edit_of(EDIT_PARAMETER, spline);
+    mode.parameter = PARAMETER_MODE;
+    mode.param = (struct param){WIGGLY_CUBIC, -1};
     editor_edit(editor, world, &mode);
     if (loop) set_start(editor, world, spline, WIGGLY_LOOP);
     return spline;
@@ -155,21 +158,20 @@ static int add_follower(struct editor *editor, const struct editor_world *world,
     int spline = add_spline(editor, world, name);
     if (spline < 0) return -1;
     const struct spline copied = world->document->splines[model];
-    struct edit mode = editor_edit_of(EDIT_MODE, spline), spring = editor_edit_of(EDIT_SPRING, spline);
-    mode.mode = copied.mode;
+    struct edit mode = editor_edit_of(EDIT_PARAMETER, spline), spring = editor_edit_of(EDIT_SPRING, spline);
+    mode.parameter = PARAMETER_MODE;
+    mode.param = copied.parameter[PARAMETER_MODE];
     spring.flag = copied.spring_friction;
     editor_edit(editor, world, &mode);
     if (spring.flag) editor_edit(editor, world, &spring);
-    for (int p = 0; p < PARAMETER_EQUILIBRIUM; p++) {
-        bool ratio = p == PARAMETER_FREQUENCY || p == PARAMETER_DAMPING;
-        bool pair = p == PARAMETER_SPRING || p == PARAMETER_FRICTION;
-        if (copied.spring_friction ? ratio : pair) continue;
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        if (p == PARAMETER_EQUILIBRIUM || p == PARAMETER_START || !spline_has(&copied, p)) continue;
         struct edit edit = editor_edit_of(EDIT_PARAMETER, spline);
-        edit.parameter = (enum parameter)p;
+        edit.parameter = p;
         edit.param = copied.parameter[p];
         editor_edit(editor, world, &edit);
     }
-    set_start(editor, world, spline, copied.start == WIGGLY_LOOP ? WIGGLY_LOOP : WIGGLY_REST);
+    set_start(editor, world, spline, spline_start(&copied) == WIGGLY_LOOP ? WIGGLY_LOOP : WIGGLY_REST);
     follow_base(editor, world, spline, base);
     return spline;
 }
@@ -221,7 +223,7 @@ void record_keep(struct editor *editor, const struct editor_world *world)
     bool loop = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
         record->hangs[c] = follow_hangs(tail, &tail->channels[c]);
-        loop &= world->document->splines[tail->channels[c].spline].start == WIGGLY_LOOP;
+        loop &= spline_start(&world->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
     }
     for (int k = 0; k < 3; k++) {
         if (largest(record->way[k], record->count) < STILL) continue;

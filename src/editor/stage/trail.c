@@ -19,11 +19,11 @@ static bool tail_loops(const struct document *document, const struct tail *tail)
 {
     bool loops = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
-        loops &= document->splines[tail->channels[c].spline].start == WIGGLY_LOOP;
+        loops &= spline_start(&document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
     }
     for (int k = 0; k < 3; k++) {
         int track = tail->position[k].track;
-        loops &= track < 0 || document->splines[track].start == WIGGLY_LOOP;
+        loops &= track < 0 || spline_start(&document->splines[track]) == WIGGLY_LOOP;
     }
     return loops;
 }
