@@ -23,10 +23,10 @@ static inline void blind_open(struct blind *blind, const char *scene)
     app->options = &blind->options;
     app->fixed_clock = true;
     app->platform = calloc(1, sizeof *app->platform);
-    app->history = history_create();
-    app->cast = cast_create();
-    app->editor = font_init(&error) ? editor_create(&error) : NULL;
-    if (!app->editor) fail_msg("%s", error.text);
+    app->table.history = history_create();
+    app->table.cast = cast_create();
+    app->table.editor = font_init(&error) ? editor_create(&error) : NULL;
+    if (!app->table.editor) fail_msg("%s", error.text);
     app_connect_files(app);
     app_resize(app, 1280, 720, 1);
     if (!app_open(app, scene, &error)) fail_msg("%s", error.text);

@@ -76,10 +76,11 @@ static inline void monkey_button(struct monkey *m, enum event_button button, enu
 static inline bool find_thing(struct monkey *m, float *x, float *y)
 {
     struct app *app = &m->blind->app;
-    const struct document *d = app->document;
-    struct editor_world world = app_world(app);
-    const struct spline *spline = editor_active_spline(app->editor, &world);
-    const char *tail = d->tail_count > 0 ? d->tails[below(m, d->tail_count)].name : NULL;
+    const struct document *d = app->table.document;
+    struct editor_world world = table_world(&app->table);
+    const struct spline *spline = editor_active_spline(app->table.editor, &world);
+    const int tails = document_count_rigs(d, RIG_TAIL);
+    const char *tail = tails > 0 ? d->rigs[document_find_rig(d, RIG_TAIL, below(m, tails))].name : NULL;
     char target[512] = "";
     int which = below(m, 9);
     if (which < 3 && spline && spline->knot_count > 0) {
@@ -97,13 +98,13 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
     } else {
         snprintf(target, sizeof target, "ruler(%d)", d->first_frame + below(m, d->last_frame - d->first_frame + 1));
     }
-    return editor_target(app->editor, &world, target, x, y, NULL);
+    return editor_target(app->table.editor, &world, target, x, y, NULL);
 }
 
 /// A widget of the inspector or of the open dialog.
 static inline bool find_widget(struct monkey *m, float *x, float *y)
 {
-    const struct editor *editor = m->blind->app.editor;
+    const struct editor *editor = m->blind->app.table.editor;
     const struct ui *ui = editor->dialog.kind != DIALOG_NONE ? &editor->dialog.ui : &editor->inspector.ui;
     if (ui->stop_count == 0) return false;
     const struct rect r = ui->stop[below(m, ui->stop_count)].rect;
@@ -114,7 +115,7 @@ static inline bool find_widget(struct monkey *m, float *x, float *y)
 
 static inline void monkey_point(struct monkey *m)
 {
-    const struct rect window = m->blind->app.editor->layout.window;
+    const struct rect window = m->blind->app.table.editor->layout.window;
     float x = window.w * (float)(below(m, 1100) - 50) / 1000, y = window.h * (float)(below(m, 1100) - 50) / 1000;
     const int what = below(m, 5);
     if (what < 2) find_thing(m, &x, &y);

@@ -17,15 +17,15 @@ static inline void panel_open(struct session *session, const char *scene, float 
     session_frame(session);
 }
 
-/// The same with the models of its characters, in a window so high that no section has to be scrolled to. The cast is the
-/// caller's, to be destroyed after the session is closed.
+/// The same with the models of its characters, in a window so high that no section has to be scrolled to.
 static inline struct cast *panel_open_cast(struct session *session, const char *scene)
 {
     struct error error = {0};
     struct cast *cast = cast_create();
     panel_open(session, scene, 1280, 1400);
     if (!cast_update(cast, session->document, &error)) fail_msg("%s", error.text);
-    session->world.cast = cast;
+    session->table.cast = cast;
+    session->world = table_world(&session->table);
     editor_open(session->editor, &session->world);
     return cast;
 }

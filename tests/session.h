@@ -4,8 +4,8 @@
 
 #include "near.h"
 
+#include "app/table.h"
 #include "base/error.h"
-#include "editor/editor.h"
 #include "scene/load.h"
 #include "ui/font.h"
 #include <ctype.h>
@@ -13,15 +13,13 @@
 #include <string.h>
 
 struct session {
-    struct document *document;
-    struct history *history;
-    struct evaluation evaluation;
-    struct editor *editor;
+    struct table table;
     struct editor_world world;
-    bool cubic;
+    struct document *document; ///< the table's, as the next two
+    struct history *history;
+    struct editor *editor;
     float x, y;    ///< pointer
     unsigned mods; ///< of pointer and buttons
-    bool threaded; ///< long documents are solved in the background, as at a window
 };
 
 static inline void session_send(struct session *session, struct event event)
@@ -29,33 +27,15 @@ static inline void session_send(struct session *session, struct event event)
     editor_event(session->editor, &session->world, &event);
 }
 
-static inline void session_close(struct session *session)
-{
-    editor_destroy(session->editor);
-    evaluation_free(&session->evaluation);
-    history_destroy(session->history);
-    document_destroy(session->document);
-}
+static inline void session_close(struct session *session) { table_free(&session->table); }
 
-/// One frame of 1/60 s as the app runs it: advance, solve what changed, pose, show.
+/// A frame of 1/60 s, the editor's requests left to the test.
 static inline void session_frame(struct session *session)
 {
-    enum { MAX_SPLINES = 64 };
-    bool dirty[MAX_SPLINES];
-    assert_true(session->document->spline_count <= MAX_SPLINES);
-    editor_advance(session->editor, &session->world, 1.0 / 60);
-    bool cubic = editor_look(session->editor) == LOOK_CUBIC;
-    history_take_dirty(session->history, session->document, dirty, session->document->spline_count);
-    assert_true(evaluation_resize(&session->evaluation, session->document, NULL));
-    if (session->threaded && background_serves(session->document)) {
-        struct focus focus = editor_focus(session->editor, session->document);
-        background_update(&session->evaluation, session->document, dirty, cubic, &focus);
-    } else {
-        evaluation_update(&session->evaluation, session->document, cubic == session->cubic ? dirty : NULL, cubic);
-    }
-    session->cubic = cubic;
-    editor_pose(session->editor, &session->world);
-    editor_show(session->editor, &session->world);
+    const struct table_hooks none = {0};
+    struct frame_row row;
+    struct error error;
+    if (!table_frame(&session->table, 1.0 / 60, &none, &row, &error)) fail_msg("%s", error.text);
 }
 
 static inline void session_move(struct session *session, float x, float y)
@@ -200,11 +180,11 @@ static inline void session_open(struct session *session, const char *scene)
     if (!session->document) fail_msg("%s", error.text);
     session->history = history_create();
     assert_non_null(session->history);
-    if (!evaluation_resize(&session->evaluation, session->document, &error)) fail_msg("%s", error.text);
-    evaluation_update(&session->evaluation, session->document, NULL, false);
     session->editor = editor_create(&error);
     if (!session->editor) fail_msg("%s", error.text);
-    session->world = (struct editor_world){session->document, session->history, &session->evaluation, NULL};
+    session->table =
+        (struct table){.editor = session->editor, .document = session->document, .history = session->history};
+    session->world = table_world(&session->table);
     editor_open(session->editor, &session->world);
     if (editor_is_playing(session->editor)) session_key(session, KEY_SPACE, 0);
     session_frame(session);

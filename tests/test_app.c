@@ -40,21 +40,21 @@ static void a_figure_ends_a_drag_that_begins_in_its_frame(void **state)
     blind_open(&blind, scene_file());
     blind_frame(&blind);
     struct app *app = &blind.app;
-    struct editor_world world = app_world(app);
+    struct editor_world world = table_world(&app->table);
     float x, y;
-    assert_true(editor_target(app->editor, &world, "knot(s,1)", &x, &y, NULL));
+    assert_true(editor_target(app->table.editor, &world, "knot(s,1)", &x, &y, NULL));
     send_pointer(&blind, EVENT_POINTER, x, y);
     send_pointer(&blind, EVENT_BUTTON, x, y);
     send_key(&blind, '3', MOD_CTRL);
     send_pointer(&blind, EVENT_POINTER, x, y - 40);
     blind_frame(&blind);
-    assert_false(history_is_open(app->history));
-    assert_string_equal(history_undo_label(app->history), "Open a figure");
-    assert_int_equal(history_count(app->history), 2);
+    assert_false(history_is_open(app->table.history));
+    assert_string_equal(history_undo_label(app->table.history), "Open a figure");
+    assert_int_equal(history_count(app->table.history), 2);
     blind_frame(&blind);
     send_key(&blind, 'Z', MOD_CTRL);
     blind_frame(&blind);
-    assert_true(app->document->splines[0].knots[1].value > 1);
+    assert_true(app->table.document->splines[0].knots[1].value > 1);
     blind_close(&blind);
 }
 
@@ -73,7 +73,7 @@ static void open_edited(struct blind *blind, char folder[64], char path[96])
     blind_frame(blind);
     send_key(blind, 'I', 0);
     blind_frame(blind);
-    assert_false(history_is_saved(blind->app.history));
+    assert_false(history_is_saved(blind->app.table.history));
 }
 
 static void assert_knots_in_file(const char *path, int knots)
@@ -90,12 +90,12 @@ static void assert_save_fails(struct blind *blind, const char *folder, const cha
 {
     send_key(blind, 'S', MOD_CTRL);
     blind_frame(blind);
-    const struct message *message = &blind->app.editor->message;
+    const struct message *message = &blind->app.table.editor->message;
     assert_true(message->is_error);
     assert_non_null(strstr(message->text, path));
     assert_null(strchr(message->text, '\n'));
-    assert_false(history_is_saved(blind->app.history));
-    assert_int_equal(blind->app.document->splines[0].knot_count, 1);
+    assert_false(history_is_saved(blind->app.table.history));
+    assert_int_equal(blind->app.table.document->splines[0].knot_count, 1);
     assert_knots_in_file(path, 0);
     char command[128];
     snprintf(command, sizeof command, "[ \"$(ls -A %s)\" = scene.json ]", folder);
@@ -107,7 +107,7 @@ static void save_and_close(struct blind *blind, const char *folder, const char *
 {
     send_key(blind, 'S', MOD_CTRL);
     blind_frame(blind);
-    assert_true(history_is_saved(blind->app.history));
+    assert_true(history_is_saved(blind->app.table.history));
     assert_knots_in_file(path, 1);
     blind_close(blind);
     unlink(path);

@@ -57,7 +57,7 @@ static const char *const followed =
 static void open_threaded(struct session *s, const char *scene)
 {
     session_open(s, scene);
-    s->threaded = true;
+    s->table.threaded = true;
     assert_true(background_serves(s->document));
     session_frame(s);
 }
@@ -65,15 +65,15 @@ static void open_threaded(struct session *s, const char *scene)
 static void settle(struct session *s)
 {
     struct focus focus = editor_focus(s->editor, s->document);
-    background_settle(&s->evaluation, s->document, &focus);
-    assert_false(s->evaluation.stale);
+    background_settle(&s->table.evaluation, s->document, &focus);
+    assert_false(s->table.evaluation.stale);
 }
 
 static void solve_whole(const struct session *s, struct evaluation *whole)
 {
     memset(whole, 0, sizeof *whole);
     assert_true(evaluation_resize(whole, s->document, NULL));
-    evaluation_update(whole, s->document, NULL, s->cubic);
+    evaluation_update(whole, s->document, NULL, s->table.solved_cubic);
 }
 
 static void assert_same_bits(const struct session *s)
@@ -81,15 +81,15 @@ static void assert_same_bits(const struct session *s)
     struct evaluation whole;
     solve_whole(s, &whole);
     for (int i = 0; i < whole.count; i++) {
-        const wiggly_curve *a = &s->evaluation.curves[i], *b = &whole.curves[i];
+        const wiggly_curve *a = &s->table.evaluation.curves[i], *b = &whole.curves[i];
         const double *rows[ROWS_COMPARED][2] = {
             {a->total, b->total}, {a->y, b->y}, {a->re, b->re}, {a->im, b->im}, {a->omega, b->omega}};
         for (int r = 0; r < ROWS_COMPARED; r++) {
             assert_memory_equal(rows[r][0], rows[r][1], sizeof(double) * (size_t)whole.samples);
         }
-        assert_int_equal(s->evaluation.status[i], whole.status[i]);
+        assert_int_equal(s->table.evaluation.status[i], whole.status[i]);
         assert_int_equal(a->first, b->first);
-        assert_int_equal(evaluation_extreme(&s->evaluation, i, 5, whole.samples - 7, true),
+        assert_int_equal(evaluation_extreme(&s->table.evaluation, i, 5, whole.samples - 7, true),
                          evaluation_extreme(&whole, i, 5, whole.samples - 7, true));
     }
     evaluation_free(&whole);
@@ -100,9 +100,9 @@ static void assert_focus_exact(const struct session *s, const struct evaluation 
 {
     struct focus focus = editor_focus(s->editor, s->document);
     for (int i = focus.first; i < focus.first + focus.count; i++) {
-        assert_near(s->evaluation.curves[focus.spline].total[i], whole->curves[focus.spline].total[i], 1e-9);
-        assert_near(s->evaluation.curves[focus.spline].im[i], whole->curves[focus.spline].im[i], 1e-9);
-        assert_near(s->evaluation.curves[focus.spline].re[i], whole->curves[focus.spline].re[i], 1e-9);
+        assert_near(s->table.evaluation.curves[focus.spline].total[i], whole->curves[focus.spline].total[i], 1e-9);
+        assert_near(s->table.evaluation.curves[focus.spline].im[i], whole->curves[focus.spline].im[i], 1e-9);
+        assert_near(s->table.evaluation.curves[focus.spline].re[i], whole->curves[focus.spline].re[i], 1e-9);
     }
 }
 
@@ -138,16 +138,15 @@ static void a_dragged_knot_is_seen_at_once(void **state)
     session_press(&s, BUTTON_LEFT, 1);
     for (int step = 0; step < 8; step++) {
         session_drag(&s, 3, 7, 1);
-        assert_true(s.evaluation.stale);
+        assert_true(s.table.evaluation.stale);
         struct evaluation whole;
         solve_whole(&s, &whole);
         assert_focus_exact(&s, &whole);
         evaluation_free(&whole);
     }
     double value = s.document->splines[0].knots[KNOT_SHOWN].value;
-    assert_true(
-        s.evaluation.curves[0].total[document_sample(s.document, s.document->splines[0].knots[KNOT_SHOWN].frame)] ==
-        value);
+    assert_true(s.table.evaluation.curves[0]
+                    .total[document_sample(s.document, s.document->splines[0].knots[KNOT_SHOWN].frame)] == value);
     session_release(&s, BUTTON_LEFT);
     settle(&s);
     assert_same_bits(&s);

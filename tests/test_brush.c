@@ -58,7 +58,7 @@ struct studio {
     const struct figure *plain;
 };
 
-static struct character_rig *rig_of(const struct studio *s) { return &s->session.document->characters[0]; }
+static struct character_rig *rig_of(const struct studio *s) { return document_character(s->session.document, 0); }
 
 static void frame(struct studio *s)
 {
@@ -90,7 +90,6 @@ static void studio_open(struct studio *s)
 static void studio_close(struct studio *s)
 {
     session_close(&s->session);
-    cast_destroy(s->cast);
 }
 
 /// The middle of the front of a finger, 3/4 up.

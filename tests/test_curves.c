@@ -318,7 +318,7 @@ static void test_double_click_on_the_curve_keeps_it(void **state)
         double before[97];
         char target[64];
         int frame = mods ? 52 : 24, count = spline(&s, 0)->knot_count;
-        memcpy(before, s.evaluation.curves[0].total, sizeof before);
+        memcpy(before, s.table.evaluation.curves[0].total, sizeof before);
         snprintf(target, sizeof target, "curve(sway,%d,%.9g)", frame, before[frame]);
         s.mods = mods;
         session_click(&s, target);
@@ -328,7 +328,7 @@ static void test_double_click_on_the_curve_keeps_it(void **state)
         int k = selection_single(&s.editor->selection, spline(&s, 0));
         assert_near(spline(&s, 0)->knots[k].frame, frame, 0);
         assert_int_equal(spline(&s, 0)->knots[k].has_slope, mods != 0);
-        for (int i = 0; i < 97; i++) assert_near(s.evaluation.curves[0].total[i], before[i], 1e-6);
+        for (int i = 0; i < 97; i++) assert_near(s.table.evaluation.curves[0].total[i], before[i], 1e-6);
     }
     session_close(&s);
 }

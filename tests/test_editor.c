@@ -40,7 +40,7 @@ static void test_double_click_inserts_at_the_pointer(void **state)
     assert_int_equal(sway(&s)->knot_count, 5);
     assert_near(sway(&s)->knots[3].frame, 30, 0);
     assert_near(sway(&s)->knots[3].value, 1.1, 1e-5);
-    assert_near(s.evaluation.curves[0].total[30], sway(&s)->knots[3].value, 0); // hit exactly, in the same frame
+    assert_near(s.table.evaluation.curves[0].total[30], sway(&s)->knots[3].value, 0); // hit exactly, in the same frame
     session_key(&s, 'Z', MOD_CTRL);
     assert_int_equal(sway(&s)->knot_count, 4);
     session_close(&s);
@@ -52,12 +52,12 @@ static void test_insert_at_playhead_keeps_the_curve(void **state)
     struct session s;
     double before[49];
     session_open(&s, SWAY);
-    memcpy(before, s.evaluation.curves[0].total, sizeof before);
+    memcpy(before, s.table.evaluation.curves[0].total, sizeof before);
     session_click(&s, "ruler(30)");
     session_key(&s, 'I', 0);
     assert_int_equal(sway(&s)->knot_count, 5);
     assert_near(sway(&s)->knots[3].frame, 30, 0);
-    for (int i = 0; i < 49; i++) assert_near(s.evaluation.curves[0].total[i], before[i], 1e-7);
+    for (int i = 0; i < 49; i++) assert_near(s.table.evaluation.curves[0].total[i], before[i], 1e-7);
     session_close(&s);
 }
 
@@ -389,7 +389,7 @@ static void test_a_monkey_can_be_undone(void **state)
             session_release(&s, BUTTON_RIGHT);
         }
         assert_false(history_is_open(s.history));
-        for (int i = 0; i < s.evaluation.samples; i++) assert_true(isfinite(s.evaluation.curves[0].total[i]));
+        for (int i = 0; i < s.table.evaluation.samples; i++) assert_true(isfinite(s.table.evaluation.curves[0].total[i]));
         while (history_undo_label(s.history)) assert_true(history_undo(s.history, s.document));
         assert_saved(&s, original);
         free(original);

@@ -60,7 +60,7 @@ static void hands_follow_the_body(void **state)
     assert_true(fabs(body) < 20);
     assert_true(body - left > 35 && body - left < 120);
     assert_true(fabs(left - right) < 15);
-    assert_int_equal(scene.document->characters[0].phases, 1);
+    assert_int_equal(document_character(scene.document, 0)->phases, 1);
     close_scene(&scene);
 }
 
@@ -87,7 +87,7 @@ static void two_coordinates_follow_one_spline_of_nine_knots(void **state)
 {
     (void)state;
     struct scene scene = open_scene("assets/scenes/character.json");
-    const struct character_rig *rig = &scene.document->characters[0];
+    const struct character_rig *rig = document_character(scene.document, 0);
     assert_int_equal(scene.document->spline_count, 1);
     assert_int_equal(scene.document->splines[0].knot_count, 9);
     assert_int_equal(rig->drive_count, 2);
@@ -111,12 +111,13 @@ static void it_stands_on_its_feet(void **state)
         assert_true(evaluation_resize(&evaluation, scene.document, &error));
         evaluation_update(&evaluation, scene.document, NULL, false);
         for (int i = 0; i < evaluation.samples; i++) {
-            struct morph morph;
+            struct rig_pose pose;
             float lo[3], hi[3];
-            assert_true(posing_character(&posing, 0, i, &morph));
-            morph_bounds(scene.figure, &morph, lo, hi);
-            assert_near((double)lo[1], (double)scene.figure->lo[1], 0.02);
-            assert_true(hi[1] < 2.0f && hi[1] > 1.1f && hi[0] < 1.4f && lo[0] > -1.4f);
+            assert_true(rig_pose(&posing, 0, i, NULL, &pose));
+            rig_bounds(&pose, lo, hi);
+            const float x = pose.character.position[0], y = pose.character.position[1];
+            assert_near((double)lo[1], (double)y, 0.02);
+            assert_true(hi[1] < y + 2.0f && hi[1] > y + 1.1f && hi[0] < x + 1.4f && lo[0] > x - 1.4f);
         }
         evaluation_free(&evaluation);
         close_scene(&scene);

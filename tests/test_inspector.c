@@ -252,7 +252,7 @@ static void test_tail_array_scales_as_a_whole(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
-    const struct tail *tail = &f.document->tails[0];
+    const struct tail *tail = document_tail(f.document, 0);
     panel_drag(&f, "gain", 18);
     assert_near(tail->channels[0].gain.value[0], 6, 1e-12);
     assert_near(tail->channels[0].gain.value[2], 18, 0);
@@ -298,9 +298,9 @@ static void test_says_what_the_solver_and_the_poles_mean(void **state)
         "1}]}]}",
         1280, 720);
     char words[24];
-    assert_int_equal(f.evaluation.status[0], WIGGLY_OK);
-    f.evaluation.status[0] = WIGGLY_CALMED;
-    snprintf(words, sizeof words, "%s", wiggly_status_text(f.evaluation.status[0]));
+    assert_int_equal(f.table.evaluation.status[0], WIGGLY_OK);
+    f.table.evaluation.status[0] = WIGGLY_CALMED;
+    snprintf(words, sizeof words, "%s", wiggly_status_text(f.table.evaluation.status[0]));
     assert_true(shows_text(&f, words));
     assert_true(shows_text(&f, "Rings forever"));
     panel_drag(&f, "damping", 0.5);
@@ -319,9 +319,9 @@ static void test_says_what_the_solver_and_the_poles_mean(void **state)
 static void assert_finite_and_loadable(struct session *f)
 {
     session_frame(f);
-    for (int s = 0; s < f->evaluation.count; s++) {
-        for (int i = 0; i < f->evaluation.samples; i++) {
-            assert_true(isfinite(f->evaluation.curves[s].total[i]) && isfinite(f->evaluation.curves[s].im[i]));
+    for (int s = 0; s < f->table.evaluation.count; s++) {
+        for (int i = 0; i < f->table.evaluation.samples; i++) {
+            assert_true(isfinite(f->table.evaluation.curves[s].total[i]) && isfinite(f->table.evaluation.curves[s].im[i]));
         }
     }
     size_t size;

@@ -100,7 +100,8 @@ static char *printed(const struct document *document)
 /// What its first character's paint is saved in.
 static const char *paint_file(const struct document *document)
 {
-    const char *file = document->character_count > 0 ? document->characters[0].paint : NULL;
+    const struct character_rig *rig = document_character(document, 0);
+    const char *file = rig ? rig->paint : NULL;
     return file ? file : "";
 }
 
@@ -119,8 +120,8 @@ static void remember(struct origin *origin, const struct document *document)
 /// elsewhere calls its characters' files by other names, and has its paint in a file of its own.
 static void watch_origin(struct origin *origin, const struct app *app)
 {
-    const struct document *d = app->document;
-    bool fresh = history_count(app->history) == 0 && d->serial != origin->serial;
+    const struct document *d = app->table.document;
+    bool fresh = history_count(app->table.history) == 0 && d->serial != origin->serial;
     bool moved = d->serial == origin->serial && (strcmp(origin->folder, d->folder ? d->folder : "") != 0 ||
                                                  strcmp(origin->paint, paint_file(d)) != 0);
     if (!origin->text || fresh) remember(origin, d);
@@ -129,7 +130,7 @@ static void watch_origin(struct origin *origin, const struct app *app)
 
 static void assert_curves_are_finite(const struct app *app)
 {
-    const struct evaluation *e = &app->evaluation;
+    const struct evaluation *e = &app->table.evaluation;
     for (int s = 0; s < e->count; s++) {
         for (int i = 0; i < e->samples; i++) {
             if (!isfinite(e->curves[s].total[i])) fail_msg("spline %d is not finite at sample %d", s, i);
@@ -141,11 +142,11 @@ static void assert_curves_are_finite(const struct app *app)
 /// only such as undo can bring back: no knot to come is.
 static void assert_editor(const struct app *app)
 {
-    const struct editor *editor = app->editor;
-    const struct document *d = app->document;
+    const struct editor *editor = app->table.editor;
+    const struct document *d = app->table.document;
     bool dragging = editor->drag.kind != DRAG_NONE || inspector_is_dragging(editor);
     const struct ui *ui = &editor->inspector.ui;
-    if (history_is_open(app->history) && !dragging) {
+    if (history_is_open(app->table.history) && !dragging) {
         fail_msg("a step is open, and nothing is dragged: %d %d, %x %d, dialog %d", editor->drag.kind,
                  editor->drag.moved, ui->held, ui->moved, editor->dialog.kind);
     }
@@ -171,7 +172,7 @@ static void hands_off(struct monkey *m)
         for (int b = 0; b < 3; b++) monkey_button(m, (enum event_button)b, ACTION_RELEASE, 1);
         blind_frame(m->blind);
     }
-    assert_false(history_is_open(m->blind->app.history));
+    assert_false(history_is_open(m->blind->app.table.history));
 }
 
 /// Undoing everything gives the first document byte by byte, doing it all again the last one.
@@ -180,20 +181,21 @@ static void assert_undone(struct monkey *m, struct origin *origin)
     struct app *app = &m->blind->app;
     hands_off(m);
     watch_origin(origin, app);
-    struct editor_world world = app_world(app);
-    const size_t all = history_count(app->history), done = history_done(app->history);
-    editor_jump(app->editor, &world, all);
-    char *last = printed(app->document);
-    editor_jump(app->editor, &world, 0);
+    struct editor_world world = table_world(&app->table);
+    const size_t all = history_count(app->table.history), done = history_done(app->table.history);
+    editor_jump(app->table.editor, &world, all);
+    char *last = printed(app->table.document);
+    editor_jump(app->table.editor, &world, 0);
     blind_frame(m->blind);
-    if (history_dropped(app->history) > 0 || app->document->serial != origin->serial) remember(origin, app->document);
-    char *first = printed(app->document);
+    if (history_dropped(app->table.history) > 0 || app->table.document->serial != origin->serial)
+        remember(origin, app->table.document);
+    char *first = printed(app->table.document);
     assert_string_equal(first, origin->text);
-    editor_jump(app->editor, &world, all);
+    editor_jump(app->table.editor, &world, all);
     blind_frame(m->blind);
-    char *again = printed(app->document);
+    char *again = printed(app->table.document);
     assert_string_equal(again, last);
-    editor_jump(app->editor, &world, done);
+    editor_jump(app->table.editor, &world, done);
     free(first);
     free(last);
     free(again);
@@ -202,10 +204,10 @@ static void assert_undone(struct monkey *m, struct origin *origin)
 /// What takes long to solve is undone: the monkey has no patience.
 static void keep_small(struct app *app)
 {
-    while (document_samples(app->document) * (app->document->spline_count + 1) > MOST_SAMPLES) {
-        struct editor_world world = app_world(app);
-        editor_undo(app->editor, &world);
-        if (!history_redo_label(app->history)) return;
+    while (document_samples(app->table.document) * (app->table.document->spline_count + 1) > MOST_SAMPLES) {
+        struct editor_world world = table_world(&app->table);
+        editor_undo(app->table.editor, &world);
+        if (!history_redo_label(app->table.history)) return;
     }
 }
 
@@ -226,13 +228,13 @@ static void let_loose(struct monkey *m, int events)
         for (int i = one_in(m, 4) ? below(m, 4) : 0; i >= 0; i--) monkey_act(m); // mostly each in its own frame
         blind_frame(m->blind);
         watch_origin(&origin, app);
-        if (!history_is_open(app->history)) keep_small(app);
+        if (!history_is_open(app->table.history)) keep_small(app);
         assert_editor(app);
-        if (history_revision(app->history) == checked) continue;
-        checked = history_revision(app->history);
-        assert_invariants(app->document);
+        if (history_revision(app->table.history) == checked) continue;
+        checked = history_revision(app->table.history);
+        assert_invariants(app->table.document);
         if (app->row.splines_solved > 0) assert_curves_are_finite(app);
-        if (frame % RELOAD_EVERY == 0) assert_loads_again(app->document);
+        if (frame % RELOAD_EVERY == 0) assert_loads_again(app->table.document);
         if (m->sent < next_undo) continue;
         next_undo += UNDO_EVERY;
         assert_undone(m, &origin);
@@ -254,7 +256,8 @@ static void say_where(void)
 static void record(struct app *app, const char *path)
 {
     struct error error = {0};
-    struct replay_header header = {.width = 1280, .height = 720, .scale = 1, .scene_hash = scene_hash(app->document)};
+    struct replay_header header = {
+        .width = 1280, .height = 720, .scale = 1, .scene_hash = scene_hash(app->table.document)};
     app->recording = recording_open(path, &header, &error);
     if (!app->recording) fail_msg("%s", error.text);
 }

@@ -93,7 +93,7 @@ static void test_the_scenes_of_the_program_are_quiet(void **state)
         if (!file_read(paths[i], 1 << 20, &text, &size, &error)) fail_msg("%s", error.text);
         session_open(&s, text);
         for (int spline = 0; spline < s.document->spline_count; spline++) {
-            warnings_find(s.document, &s.evaluation, spline, &found);
+            warnings_find(s.document, &s.table.evaluation, spline, &found);
             assert_int_equal(found.count, 0);
         }
         session_close(&s);

@@ -84,7 +84,7 @@ static bool is_live(const struct app *app)
 /// Where the run ends without the user's own word on what is unsaved.
 static bool rescue(struct app *app, bool good, struct error *error)
 {
-    bool told = process_was_told_to_end(), unsaved = !history_is_saved(app->history);
+    bool told = process_was_told_to_end(), unsaved = !history_is_saved(app->table.history);
     if (!is_live(app) || !unsaved || (good && !told)) return good;
     if (good) fail(error, ERROR_ENVIRONMENT, "ended by a signal");
     app_rescue(app, error);
@@ -94,9 +94,9 @@ static bool rescue(struct app *app, bool good, struct error *error)
 /// What was asked for at the end: document, log, recording. Goes on past a failure and reports the first.
 static bool close_files(struct app *app, struct error *error)
 {
-    const char *result = app->document && app->frame > 0 ? app->options->result : NULL;
+    const char *result = app->table.document && app->frame > 0 ? app->options->result : NULL;
     struct error other = {0};
-    bool good = !result || scene_save(app->document, result, error);
+    bool good = !result || scene_save(app->table.document, result, error);
     if (app->log) {
         good = framelog_close(app->log, stdout, good ? error : &other) && good;
         printf("largest resident memory %.0f MB\n", process_peak_memory());
@@ -143,13 +143,13 @@ static bool start(struct app *app, struct error *error)
     int width, height;
     float scale;
     platform_size(app->platform, &width, &height, &scale);
-    if (!(app->draw = draw_create(scale, error)) || !(app->editor = editor_create(error))) return false;
-    if (!(app->history = history_create()) || !(app->cast = cast_create()))
+    if (!(app->draw = draw_create(scale, error)) || !(app->table.editor = editor_create(error))) return false;
+    if (!(app->table.history = history_create()) || !(app->table.cast = cast_create()))
         return fail(error, ERROR_ENVIRONMENT, "out of memory");
     app_connect_files(app);
     app_resize(app, (float)width / scale, (float)height / scale, scale);
     if (!app_open(app, o->scene, error)) return false;
-    uint64_t hash = scene_hash(app->document);
+    uint64_t hash = scene_hash(app->table.document);
     if (app->replay && replay_get_header(app->replay)->scene_hash != hash) {
         return fail(error, ERROR_INPUT, "%s: recorded on another scene: expected hash %016llx, got %016llx",
                     o->replay, (unsigned long long)replay_get_header(app->replay)->scene_hash,
@@ -165,24 +165,20 @@ static bool start(struct app *app, struct error *error)
     if (o->frames_dir) mkdir(o->frames_dir, 0777);
     bool window = platform_is_window(app->platform);
     app->fixed_clock = !window || app->replay || app->recording;
+    app->table.threaded = !app->fixed_clock;
     app->lost = true;
     if (window) {
         platform_on_lost(on_lost, app);
         if (!app->replay) process_catch_end();
     }
     personal_start(app);
-    if (o->welcome) editor_welcome(app->editor);
+    if (o->welcome) editor_welcome(app->table.editor);
     return true;
 }
 
 void app_free(struct app *app)
 {
-    evaluation_free(&app->evaluation);
-    free(app->dirty);
-    history_destroy(app->history);
-    document_destroy(app->document);
-    cast_destroy(app->cast);
-    editor_destroy(app->editor);
+    table_free(&app->table);
     draw_destroy(app->draw);
     platform_destroy(app->platform);
     replay_destroy(app->replay);

@@ -6,16 +6,16 @@ enum { MAX_CLIPBOARD = 16 << 20 }; ///< bytes
 
 void app_copy(struct app *app)
 {
-    if (!app->replay) platform_set_clipboard(app->platform, editor_clipboard(app->editor));
+    if (!app->replay) platform_set_clipboard(app->platform, editor_clipboard(app->table.editor));
 }
 
 const char *app_clipboard_text(struct app *app)
 {
     const char *text = platform_clipboard(app->platform);
     if (!text || !*text) {
-        editor_message(app->editor, false, "The clipboard has no text.");
+        editor_message(app->table.editor, false, "The clipboard has no text.");
     } else if (strlen(text) > MAX_CLIPBOARD) {
-        editor_message(app->editor, true, "The clipboard holds more than 16 MB, too much for knots.");
+        editor_message(app->table.editor, true, "The clipboard holds more than 16 MB, too much for knots.");
         text = NULL;
     }
     return text && *text ? text : NULL;

@@ -26,27 +26,27 @@ static const char *file_name(const char *path)
     return slash ? slash + 1 : path;
 }
 
-const char *app_path(const struct app *app) { return app->document->path ? app->document->path : ""; }
+const char *app_path(const struct app *app) { return app->table.document->path ? app->table.document->path : ""; }
 
 static void show_title(struct app *app)
 {
     const char *name = app_path(app)[0] ? file_name(app_path(app)) : "untitled";
     char title[512];
-    app->shown_saved = history_is_saved(app->history);
+    app->shown_saved = history_is_saved(app->table.history);
     snprintf(title, sizeof title, "%s%.400s — wiggly", app->shown_saved ? "" : "*", name);
     platform_title(app->platform, title);
 }
 
 void app_adopt(struct app *app, struct document *document)
 {
-    document_destroy(app->document);
-    app->document = document;
+    document_destroy(app->table.document);
+    app->table.document = document;
     document->serial = ++app->last_serial;
-    history_clear(app->history);
-    history_mark_saved(app->history);
-    app->solved_revision = 0;
-    struct editor_world world = app_world(app);
-    editor_open(app->editor, &world);
+    history_clear(app->table.history);
+    history_mark_saved(app->table.history);
+    app->table.solved_revision = 0;
+    struct editor_world world = table_world(&app->table);
+    editor_open(app->table.editor, &world);
     show_title(app);
 }
 
@@ -99,12 +99,12 @@ static bool open_figure(struct app *app, int number, struct error *error)
     struct edit edit = {.kind = EDIT_DOCUMENT, .document = parse_built_in(name, error)};
     if (!edit.document) return false;
     edit.document->serial = ++app->last_serial;
-    struct editor_world world = app_world(app);
-    editor_let_go(app->editor, &world); // a drag may have begun since the figure was asked for
-    history_begin(app->history, "Open a figure", 0);
-    bool done = history_apply(app->history, app->document, &edit, error);
-    history_end(app->history);
-    editor_follow(app->editor, &world);
+    struct editor_world world = table_world(&app->table);
+    editor_let_go(app->table.editor, &world); // a drag may have begun since the figure was asked for
+    history_begin(app->table.history, "Open a figure", 0);
+    bool done = history_apply(app->table.history, app->table.document, &edit, error);
+    history_end(app->table.history);
+    editor_follow(app->table.editor, &world);
     show_title(app);
     return done;
 }
@@ -112,18 +112,18 @@ static bool open_figure(struct app *app, int number, struct error *error)
 static bool save(struct app *app, const char *path, struct error *error)
 {
     char folder[PATH_LIMIT];
-    if (!scene_save(app->document, path, error)) return false;
-    if (!path_folder(path, folder) || !document_set_folder(app->document, folder)) {
+    if (!scene_save(app->table.document, path, error)) return false;
+    if (!path_folder(path, folder) || !document_set_folder(app->table.document, folder)) {
         return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to continue", path);
     }
-    if (path != app->document->path && !document_set_path(app->document, path)) {
+    if (path != app->table.document->path && !document_set_path(app->table.document, path)) {
         return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to continue", path);
     }
-    history_mark_saved(app->history);
-    editor_set_path(app->editor, app_path(app));
+    history_mark_saved(app->table.history);
+    editor_set_path(app->table.editor, app_path(app));
     show_title(app);
     personal_note_file(app, app_path(app));
-    editor_message(app->editor, false, "Saved.");
+    editor_message(app->table.editor, false, "Saved.");
     return true;
 }
 
@@ -153,7 +153,7 @@ static bool take_picture(struct app *app, struct error *error)
     } while (access(path, F_OK) == 0);
     if (!app_screenshot(app, path, error)) return false;
     snprintf(text, sizeof text, "Saved %s.", path);
-    editor_message(app->editor, false, text);
+    editor_message(app->table.editor, false, text);
     return true;
 }
 
@@ -210,13 +210,13 @@ static bool carry_out(struct app *app, const struct request *request, struct err
 void app_requests(struct app *app)
 {
     for (;;) {
-        struct request request = editor_take_request(app->editor);
+        struct request request = editor_take_request(app->table.editor);
         if (request.kind == REQUEST_NONE) break;
         struct error error = {0};
         bool done = carry_out(app, &request, &error);
-        editor_answer(app->editor, &request, done, error.text);
+        editor_answer(app->table.editor, &request, done, error.text);
     }
-    if (history_is_saved(app->history) != app->shown_saved) show_title(app);
+    if (history_is_saved(app->table.history) != app->shown_saved) show_title(app);
 }
 
 static bool is_scene_name(const char *name)
@@ -251,6 +251,6 @@ static int list_folder(void *user, const char *folder, char names[][256], int ma
 
 void app_connect_files(struct app *app)
 {
-    editor_set_files(app->editor,
+    editor_set_files(app->table.editor,
                      &(struct dialog_files){.list = list_folder, .recent = personal_recent, .user = app});
 }

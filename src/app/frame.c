@@ -1,12 +1,9 @@
 #include "app/state.h"
 #include "base/clock.h"
 #include "platform/process.h"
-#include "scene/background.h"
-#include "scene/load.h"
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 static const double replay_dt = 1.0 / 60;
 static const double idle_wait = 0.5;
@@ -18,13 +15,13 @@ static double microseconds(double from, double to) { return 1e6 * (to - from); }
 static bool locate(void *user, const char *target, float *x, float *y, struct error *error)
 {
     struct app *app = user;
-    struct editor_world world = app_world(app);
-    return editor_target(app->editor, &world, target, x, y, error);
+    struct editor_world world = table_world(&app->table);
+    return editor_target(app->table.editor, &world, target, x, y, error);
 }
 
 void app_resize(struct app *app, float width, float height, float scale)
 {
-    editor_resize(app->editor, fmaxf(width, smallest_width), fmaxf(height, smallest_height), scale);
+    editor_resize(app->table.editor, fmaxf(width, smallest_width), fmaxf(height, smallest_height), scale);
 }
 
 static void handle_event(struct app *app, const struct event *event)
@@ -32,8 +29,8 @@ static void handle_event(struct app *app, const struct event *event)
     if (app->recording) recording_event(app->recording, app->frame, event);
     if (event->kind == EVENT_EXPOSE) app->lost = true;
     if (event->kind == EVENT_SIZE) app_resize(app, event->x, event->y, event->scale);
-    struct editor_world world = app_world(app);
-    editor_event(app->editor, &world, event);
+    struct editor_world world = table_world(&app->table);
+    editor_event(app->table.editor, &world, event);
 }
 
 static void play_events(struct app *app)
@@ -77,8 +74,8 @@ static double waiting_time(const struct app *app, bool wanted)
 static bool take_input(struct app *app)
 {
     double wait_start = clock_now();
-    bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->editor) || app->paste ||
-                  app->evaluation.stale;
+    bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->table.editor) || app->paste ||
+                  app->table.evaluation.stale;
     app->was_idle = !wanted;
     int count = 0;
     const struct event *events = platform_events(app->platform, waiting_time(app, wanted), &count);
@@ -108,108 +105,54 @@ static double next_time(const struct app *app)
     return pace_next(&app->pace, app->next_time, app->frame_start);
 }
 
-static void edit(struct app *app)
+/// Seconds of playback since the last frame.
+static double step(struct app *app)
 {
-    double start = clock_now();
     double dt = app->fixed_clock ? replay_dt : fmin(fmax(app->frame_start - app->last_time, 0), longest_step);
-    if (app->frame == 0 || (app->was_idle && !app->fixed_clock)) dt = 0; // what starts now has not waited since then
+    bool starts =
+        app->frame == 0 || (app->was_idle && !app->fixed_clock); // what starts now has not waited since then
     app->last_time = app->frame_start;
     app->next_time = next_time(app);
-    struct editor_world world = app_world(app);
-    editor_advance(app->editor, &world, dt);
-    app_requests(app);
-    personal_update(app);
-    app->row.edit_us = microseconds(start, clock_now());
+    return starts ? 0 : dt;
 }
 
-/// Room for the document's splines and knots after an edit; `resized`: the number or length of splines has changed.
-static bool fit_evaluation(struct app *app, bool resized)
+static void on_advanced(void *user)
 {
-    if (!evaluation_resize(&app->evaluation, app->document, &app->error)) return false;
-    if (!resized) return true;
-    size_t count = app->document->spline_count > 0 ? (size_t)app->document->spline_count : 1;
-    bool *dirty = realloc(app->dirty, count * sizeof *dirty);
-    if (!dirty) return fail(&app->error, ERROR_ENVIRONMENT, "out of memory for %zu splines", count);
-    app->dirty = dirty;
-    return true;
+    struct app *app = user;
+    app_requests(app);
+    personal_update(app);
 }
 
 /// Says which characters are too large for the graphics driver.
 static void check_sizes(struct app *app)
 {
     struct error error, full;
-    for (int c = 0; app->draw && c < app->document->character_count; c++) {
-        const struct figure *figure = cast_figure(app->cast, c);
+    app->sized_serial = app->table.cast_serial;
+    int r = document_next_rig(app->table.document, RIG_CHARACTER, 0);
+    for (int c = 0; app->draw && r >= 0; c++, r = document_next_rig(app->table.document, RIG_CHARACTER, r + 1)) {
+        const struct figure *figure = cast_figure(app->table.cast, c);
         if (!figure || draw_can_move(figure, &error)) continue;
-        const struct character_rig *rig = &app->document->characters[c];
-        fail(&full, error.kind, "%s: %s", rig->name ? rig->name : rig->model, error.text);
-        editor_message(app->editor, true, full.text);
+        const struct rig *rig = &app->table.document->rigs[r];
+        fail(&full, error.kind, "%s: %s", rig->name ? rig->name : rig->character.model, error.text);
+        editor_message(app->table.editor, true, full.text);
     }
 }
 
-/// The models of a document that has come to the table, or come back by undo.
-static void recast(struct app *app)
+static void on_posed(void *user)
 {
-    struct error error;
-    if (app->cast_serial == app->document->serial) return;
-    app->cast_serial = app->document->serial;
-    if (!scene_read_paint(app->document, &error)) editor_message(app->editor, true, error.text);
-    if (!cast_update(app->cast, app->document, &error)) editor_message(app->editor, true, error.text);
-    check_sizes(app);
-}
-
-static void solve(struct app *app)
-{
-    double start = clock_now();
-    const struct document *document = app->document;
-    bool cubic = editor_look(app->editor) == LOOK_CUBIC;
-    bool resized = app->evaluation.count != document->spline_count ||
-                   app->evaluation.samples != document_samples(document) || app->solved_revision == 0;
-    uint64_t revision = history_revision(app->history);
-    if ((resized || revision != app->solved_revision) && !fit_evaluation(app, resized)) {
-        app->failed = true;
-        return;
-    }
-    app->row.edited = revision != app->solved_revision;
-    bool threaded = !app->fixed_clock && background_serves(document);
-    if (resized || revision != app->solved_revision || cubic != app->solved_cubic || threaded ||
-        app->evaluation.stale) {
-        history_take_dirty(app->history, document, app->dirty, document->spline_count);
-        bool *dirty = resized ? NULL : app->dirty;
-        if (threaded) {
-            struct focus focus = editor_focus(app->editor, document);
-            background_update(&app->evaluation, document, dirty, cubic, &focus);
-        } else {
-            evaluation_update(&app->evaluation, document, dirty, cubic);
-        }
-        app->row.splines_solved = app->evaluation.solved_splines;
-        app->row.samples = app->evaluation.solved_samples;
-        app->row.knots = app->evaluation.solved_knots;
-        app->solved_revision = revision;
-        app->solved_cubic = cubic;
-    }
-    app->row.solve_us = microseconds(start, clock_now());
-}
-
-static void pose(struct app *app)
-{
-    recast(app);
-    double start = clock_now();
-    struct editor_world world = app_world(app);
-    cast_paint(app->cast, app->document);
-    editor_pose(app->editor, &world);
-    float scale = resolution_choose(&app->resolution, editor_stage(app->editor)->hash, resolution_now(app));
-    editor_set_stage_scale(app->editor, scale);
-    editor_show(app->editor, &world);
-    app->row.pose_us = microseconds(start, clock_now());
+    struct app *app = user;
+    struct editor *editor = app->table.editor;
+    if (app->sized_serial != app->table.cast_serial) check_sizes(app);
+    float scale = resolution_choose(&app->resolution, editor_stage(editor)->hash, resolution_now(app));
+    editor_set_stage_scale(editor, scale);
 }
 
 static struct draw_input draw_input(const struct app *app, float stage_scale)
 {
     struct draw_input input = {
         .keeps = !app->lost && platform_keeps(app->platform),
-        .list = editor_drawlist(app->editor),
-        .stage = editor_stage(app->editor),
+        .list = editor_drawlist(app->table.editor),
+        .stage = editor_stage(app->table.editor),
         .frame = app->frame,
         .stage_scale = stage_scale,
     };
@@ -253,7 +196,7 @@ static void draw(struct app *app)
     app->row.event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
     app->row.allocations = allocation_count() - app->row.allocations;
     if (app->resolution.changed == resolution_now(app)) measure(app);
-    platform_cursor(app->platform, editor_cursor(app->editor));
+    platform_cursor(app->platform, editor_cursor(app->table.editor));
 }
 
 void app_draw_exactly(struct app *app)
@@ -271,7 +214,7 @@ static void log_frame(struct app *app)
     if (now - app->stats_time >= 0.5) {
         bool seen = app->stats_time > 0 && platform_is_window(app->platform); // offscreen nothing keeps time
         double fps = seen ? (double)(app->frame - app->stats_frame) / (now - app->stats_time) : 0;
-        editor_set_stats(app->editor, fps, app->row.solve_us);
+        editor_set_stats(app->table.editor, fps, app->row.solve_us);
         app->stats_time = now;
         app->stats_frame = app->frame;
         pace_set_rate(&app->pace, platform_refresh_rate(app->platform));
@@ -288,10 +231,9 @@ void app_frame(struct app *app)
         personal_update(app);
         return;
     }
-    edit(app);
-    solve(app);
+    const struct table_hooks hooks = {on_advanced, on_posed, app};
+    if (!table_frame(&app->table, step(app), &hooks, &app->row, &app->error)) app->failed = true;
     if (app->failed) return;
-    pose(app);
     if (app->draw) draw(app);
     log_frame(app);
     app->frame++;

@@ -26,7 +26,7 @@ struct personal {
 
 static void complain(struct app *app, const struct error *error)
 {
-    if (error->kind != ERROR_NONE) editor_message(app->editor, true, error->text);
+    if (error->kind != ERROR_NONE) editor_message(app->table.editor, true, error->text);
 }
 
 /// Another window may have changed the file since: it is read anew for every change.
@@ -59,14 +59,14 @@ static void start_settings(struct app *app)
         snprintf(personal->settings_path, sizeof personal->settings_path, "%s/%s", folder, settings_name);
     }
     struct settings *settings = load_settings(personal, &error);
-    editor_panels(app->editor, &personal->stage_share, &personal->panels_width);
+    editor_panels(app->table.editor, &personal->stage_share, &personal->panels_width);
     if (settings) {
         personal->stage_share = settings_number(settings, "stage_share", personal->stage_share);
         personal->panels_width = settings_number(settings, "inspector_width", personal->panels_width);
-        editor_set_panels(app->editor, personal->stage_share, personal->panels_width);
+        editor_set_panels(app->table.editor, personal->stage_share, personal->panels_width);
         start_theme(app, settings);
         personal->is_new = !settings_get(settings, "welcomed", 0);
-        if (personal->is_new) editor_welcome(app->editor);
+        if (personal->is_new) editor_welcome(app->table.editor);
     }
     settings_free(settings);
     complain(app, &error);
@@ -90,7 +90,7 @@ static void note_welcomed(struct app *app)
 {
     struct personal *personal = app->personal;
     struct error error = {0};
-    if (!personal->is_new || editor_is_welcoming(app->editor)) return;
+    if (!personal->is_new || editor_is_welcoming(app->table.editor)) return;
     personal->is_new = false;
     struct settings *settings = load_settings(personal, &error);
     if (!settings) return;
@@ -102,7 +102,7 @@ static void end_settings(struct app *app)
 {
     struct personal *personal = app->personal;
     double share, width;
-    editor_panels(app->editor, &share, &width);
+    editor_panels(app->table.editor, &share, &width);
     if (share == personal->stage_share && width == personal->panels_width) return;
     struct error error = {0};
     struct settings *settings = load_settings(personal, &error);
@@ -152,7 +152,7 @@ static bool offer(struct app *app)
         snprintf(shown.when, sizeof shown.when, "an unknown day");
     }
     shown.others = count - 1;
-    editor_offer_recovery(app->editor, &shown);
+    editor_offer_recovery(app->table.editor, &shown);
     return true;
 }
 
@@ -183,10 +183,10 @@ void personal_start(struct app *app)
 
 static struct autosave_work work_of(const struct app *app)
 {
-    return (struct autosave_work){.document = app->document,
+    return (struct autosave_work){.document = app->table.document,
                                   .path = app_path(app),
-                                  .revision = history_revision(app->history),
-                                  .saved = history_is_saved(app->history)};
+                                  .revision = history_revision(app->table.history),
+                                  .saved = history_is_saved(app->table.history)};
 }
 
 void personal_update(struct app *app)
@@ -211,7 +211,7 @@ bool personal_recover(struct app *app, struct error *error)
         return fail(error, ERROR_ENVIRONMENT, "not enough memory to recover");
     }
     app_adopt(app, document);
-    history_mark_unsaved(app->history);
+    history_mark_unsaved(app->table.history);
     autosave_move(personal->autosave, &personal->offered.slot);
     personal->is_offered = false;
     return true;
@@ -243,7 +243,7 @@ void personal_end(struct app *app, bool keep)
     if (!personal) return;
     end_settings(app);
     if (personal->is_offered) recovery_release(&personal->offered.slot);
-    autosave_close(personal->autosave, keep && !history_is_saved(app->history));
+    autosave_close(personal->autosave, keep && !history_is_saved(app->table.history));
     free(personal);
     app->personal = NULL;
 }

@@ -24,7 +24,7 @@ static bool write_to(const struct app *app, const struct place *place, char *pat
         int length = snprintf(path, size, "%s%s%.*s.recovered%s.json", place->folder, slash, place->name_length,
                               place->name, number);
         if (length >= (int)size) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", place->name);
-        if (access(path, F_OK) != 0) return scene_save(app->document, path, error);
+        if (access(path, F_OK) != 0) return scene_save(app->table.document, path, error);
     }
     return fail(error, ERROR_ENVIRONMENT, "%s: too many recovered scenes are there already", path);
 }
@@ -52,7 +52,7 @@ void app_rescue(struct app *app, struct error *error)
 {
     char path[4096];
     struct error trouble = {0}, why = *error;
-    if (!app->document || history_is_saved(app->history)) return;
+    if (!app->table.document || history_is_saved(app->table.history)) return;
     const char *kept = personal_rescue(app);
     if (kept) {
         fail(error, why.kind, "%s; the unsaved scene is safe in %s, and the next start offers to recover it",

@@ -7,31 +7,20 @@
 #include "app/personal.h"
 #include "app/replay.h"
 #include "app/resolution.h"
+#include "app/table.h"
 #include "draw/draw.h"
-#include "editor/editor.h"
 #include "platform/platform.h"
-#include "rig/cast.h"
 #include "scene/edit.h"
-#include "scene/evaluate.h"
-#include "timing/framelog.h"
 #include <stdint.h>
 
 struct app {
     const struct app_options *options;
     struct platform *platform;
     struct draw *draw; ///< NULL: frames run to the end, but for the picture
-    struct editor *editor;
-
-    struct document *document;
-    struct history *history;
-    struct evaluation evaluation;
-    struct cast *cast;
-    unsigned cast_serial;   ///< of the document that it was made for
-    bool *dirty;            ///< one a spline
+    struct table table;
     char replaceable[1024]; ///< "save as" was asked for this existing file once
     unsigned last_serial;   ///< of the documents that were on the table
-    uint64_t solved_revision;
-    bool solved_cubic;
+    unsigned sized_serial;  ///< of the document whose models were measured
 
     struct personal *personal; ///< NULL where nobody sits at a window
 
@@ -55,12 +44,6 @@ struct app {
     bool failed; ///< with `error`: the run ends
     struct error error;
 };
-
-static inline struct editor_world app_world(struct app *app)
-{
-    return (struct editor_world){
-        .document = app->document, .history = app->history, .cast = app->cast, .evaluation = &app->evaluation};
-}
 
 /// Frees all that the app holds; what was never made may be NULL.
 void app_free(struct app *app);

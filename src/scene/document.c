@@ -1,5 +1,4 @@
 #include "scene/document.h"
-#include "base/path.h"
 #include <jansson.h>
 #include <limits.h>
 #include <math.h>
@@ -39,36 +38,14 @@ void document_destroy(struct document *document)
         free(document->splines[i].name);
         free(document->splines[i].knots);
     }
-    for (int i = 0; i < document->tail_count; i++) {
-        free(document->tails[i].name);
-        free(document->tails[i].channels);
-    }
-    for (int i = 0; i < document->character_count; i++) {
-        free(document->characters[i].name);
-        free(document->characters[i].model);
-        free(document->characters[i].paint);
-        paint_destroy(document->characters[i].painted);
-    }
+    for (int i = 0; i < document->rig_count; i++) rig_release(&document->rigs[i]);
     free(document->path);
     free(document->about);
     free(document->splines);
-    free(document->tails);
-    free(document->characters);
+    free(document->rigs);
     free(document->folder);
     json_decref(document->owned);
     free(document);
-}
-
-/// Replaces a path by the one from the new folder.
-static bool move_path(char **path, const char *from, const char *to)
-{
-    char moved[PATH_LIMIT];
-    if (!*path || !path_rebase(*path, from, to, moved)) return true;
-    char *copy = strdup(moved);
-    if (!copy) return false;
-    free(*path);
-    *path = copy;
-    return true;
 }
 
 bool document_set_folder(struct document *document, const char *folder)
@@ -76,10 +53,7 @@ bool document_set_folder(struct document *document, const char *folder)
     char *copy = folder ? strdup(folder) : NULL;
     if (folder && !copy) return false;
     bool moved = true;
-    for (int i = 0; i < document->character_count; i++) {
-        moved &= move_path(&document->characters[i].model, document->folder, folder);
-        moved &= move_path(&document->characters[i].paint, document->folder, folder);
-    }
+    for (int i = 0; i < document->rig_count; i++) moved &= rig_rebase(&document->rigs[i], document->folder, folder);
     free(document->folder);
     document->folder = copy;
     return moved;
@@ -108,14 +82,7 @@ size_t document_bytes(const struct document *document)
         const struct spline *spline = &document->splines[i];
         bytes += sizeof *spline + (size_t)spline->knot_capacity * sizeof *spline->knots + strlen(spline->name) + 1;
     }
-    for (int i = 0; i < document->tail_count; i++) {
-        const struct tail *tail = &document->tails[i];
-        bytes += sizeof *tail + (size_t)tail->channel_count * sizeof *tail->channels + strlen(tail->name) + 1;
-    }
-    for (int i = 0; i < document->character_count; i++) {
-        const struct character_rig *rig = &document->characters[i];
-        bytes += sizeof *rig + strlen(rig->model) + 1 + paint_bytes(rig->painted);
-    }
+    for (int i = 0; i < document->rig_count; i++) bytes += rig_bytes(&document->rigs[i]);
     return bytes;
 }
 
@@ -158,6 +125,50 @@ int document_find_spline_id(const struct document *document, unsigned id)
         if (document->splines[i].id == id) return i;
     }
     return -1;
+}
+
+bool document_reserve_rigs(struct document *document, int count)
+{
+    if (count <= document->rig_capacity) return true;
+    struct rig *rigs = realloc(document->rigs, (size_t)count * sizeof *rigs);
+    if (!rigs) return false;
+    document->rigs = rigs;
+    document->rig_capacity = count;
+    return true;
+}
+
+int document_next_rig(const struct document *document, enum rig_kind kind, int from)
+{
+    for (int i = from; i < document->rig_count; i++) {
+        if (document->rigs[i].kind == kind) return i;
+    }
+    return -1;
+}
+
+int document_find_rig(const struct document *document, enum rig_kind kind, int n)
+{
+    int found = n < 0 ? -1 : document_next_rig(document, kind, 0);
+    for (; n > 0 && found >= 0; n--) found = document_next_rig(document, kind, found + 1);
+    return found;
+}
+
+int document_count_rigs(const struct document *document, enum rig_kind kind)
+{
+    int count = 0;
+    for (int i = 0; i < document->rig_count; i++) count += document->rigs[i].kind == kind;
+    return count;
+}
+
+struct tail *document_tail(const struct document *document, int n)
+{
+    int found = document_find_rig(document, RIG_TAIL, n);
+    return found >= 0 ? &document->rigs[found].tail : NULL;
+}
+
+struct character_rig *document_character(const struct document *document, int n)
+{
+    int found = document_find_rig(document, RIG_CHARACTER, n);
+    return found >= 0 ? &document->rigs[found].character : NULL;
 }
 
 int spline_find_knot(const struct document *document, const struct spline *spline, int sample)

@@ -26,23 +26,23 @@ enum edit_kind {
     EDIT_FPS, ///< number; flag: knots and range keep their seconds, not their frames. Slopes are per second anyway
     EDIT_SUBSTEPS, ///< substeps
     EDIT_RANGE,    ///< first, last: the scene's frames; fit: what becomes of knots that would lie outside
-    EDIT_ANGLES,   ///< tail, channel (-1: rest), angle: which, angles
-    EDIT_AXIS,     ///< tail, channel, axis
-    EDIT_PART,     ///< tail, channel, of
-    EDIT_FEED,     ///< tail, channel, spline: the spline that the channel bends by
-    EDIT_POSITION, ///< tail, coordinate, param: metres, or a spline to follow
-    EDIT_LENGTH,   ///< tail, number: metres, above 0
-    EDIT_JOINTS,   ///< tail, to: how many; the tail keeps its shape
-    EDIT_TAIL_ADD, ///< tail: a copy of it beside it; where there is none, a plain one bent by `spline` (-1: by nothing)
-    EDIT_TAIL_REMOVE,    ///< tail
-    EDIT_TAIL_NAME,      ///< tail, text: not empty, and no other rig's
-    EDIT_CHANNEL_ADD,    ///< tail, spline, axis, of: one more, the last
-    EDIT_CHANNEL_REMOVE, ///< tail, channel
-    EDIT_DRIVE,          ///< character, channel: which drive, drive: replaces spline, amplitude and lag
-    EDIT_DRIVE_ADD,      ///< character, drive (its name is copied)
-    EDIT_DRIVE_REMOVE,   ///< character, channel: which drive
-    EDIT_PAINT_NEW, ///< character, coordinates, vertices (of its model): paint that changes nothing in place of what is there
-    EDIT_PAINT, ///< character, dab. All dabs of a step on one coordinate make one change of what they touch
+    EDIT_ANGLES,   ///< rig, channel (-1: rest), angle: which, angles
+    EDIT_AXIS,     ///< rig, channel, axis
+    EDIT_PART,     ///< rig, channel, of
+    EDIT_FEED,     ///< rig, channel, spline: the spline that the channel bends by
+    EDIT_POSITION, ///< rig, coordinate, param: metres, or a spline to follow
+    EDIT_LENGTH,   ///< rig, number: metres, above 0
+    EDIT_JOINTS,   ///< rig, to: how many; the tail keeps its shape
+    EDIT_TAIL_ADD, ///< rig: a copy of it beside it; where that is no tail, a plain one bent by `spline` (-1: by nothing)
+    EDIT_TAIL_REMOVE,    ///< rig
+    EDIT_TAIL_NAME,      ///< rig, text: not empty, and no other rig's
+    EDIT_CHANNEL_ADD,    ///< rig, spline, axis, of: one more, the last
+    EDIT_CHANNEL_REMOVE, ///< rig, channel
+    EDIT_DRIVE,          ///< rig, channel: which drive, drive: replaces spline, amplitude and lag
+    EDIT_DRIVE_ADD,      ///< rig, drive (its name is copied)
+    EDIT_DRIVE_REMOVE,   ///< rig, channel: which drive
+    EDIT_PAINT_NEW, ///< rig, coordinates, vertices (of its model): paint that changes nothing in place of what is there
+    EDIT_PAINT,     ///< rig, dab. All dabs of a step on one coordinate make one change of what they touch
 };
 
 enum range_fit {
@@ -65,13 +65,13 @@ struct edit {
     struct document *document;
     int substeps, first, last;
     enum range_fit fit;
-    int tail, channel;
+    int rig; ///< index of a rig of the kind that the edit is of
+    int channel;
     enum angle_kind angle;
     enum axis axis;
     enum channel_part of;
     int coordinate; ///< 0 … 2: x, y, z
     double number;
-    int character;
     struct drive drive;
     int coordinates, vertices;
     const struct dab *dab;       ///< read during the call only

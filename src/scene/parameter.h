@@ -5,6 +5,7 @@
 #ifndef SCENE_PARAMETER_H
 #define SCENE_PARAMETER_H
 
+#include "scene/param.h"
 #include <wiggly/wiggly.h>
 
 /// In the order in which they are saved and shown.
@@ -19,12 +20,6 @@ enum parameter {
     PARAMETER_EQUILIBRIUM,
     PARAMETER_START,
     PARAMETER_COUNT
-};
-
-/// A number, the total of another spline, or one of several words.
-struct param {
-    double value; ///< used where track < 0; of words: which
-    int track;    ///< index of the spline that is followed, or -1
 };
 
 enum parameter_kind {

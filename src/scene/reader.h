@@ -106,8 +106,6 @@ const void *reader_keep(struct reader *reader, json_t *extra);
 /// The parts of a scene, each into reader->document. Splines come first: rigs name them.
 void load_splines(struct reader *reader, const struct where *scene_at, const json_t *scene);
 void load_rigs(struct reader *reader, const struct where *scene_at, const json_t *scene);
-void load_tail(struct reader *reader, const struct where *at, json_t *object, struct tail *tail);
-void load_character(struct reader *reader, const struct where *at, json_t *object, struct character_rig *rig);
 
 /// What is wrong or odd only in the whole: cycles of tracks, frequencies that alias.
 void validate_scene(struct reader *reader, const struct where *scene_at);

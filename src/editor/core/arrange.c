@@ -132,7 +132,7 @@ static struct edit release_edit(const struct editor *editor, const struct editor
 {
     struct edit edit = editor_edit_of(EDIT_PARAMETER, reference->owner);
     wiggly_value v = curves_solved(world, editor->active, editor->playback.position);
-    edit.tail = edit.character = reference->owner;
+    edit.rig = reference->owner;
     switch (reference->kind) {
     case REFERENCE_TRACK:
         edit.parameter = (enum parameter)reference->which;

@@ -63,9 +63,12 @@ const struct channel *active_channel(const struct editor *editor, const struct d
                                      int *channel)
 {
     const struct channel *first = NULL;
-    for (int t = document->tail_count - 1; t >= 0; t--) {
-        for (int c = document->tails[t].channel_count - 1; c >= 0; c--) {
-            const struct channel *candidate = &document->tails[t].channels[c];
+    for (int r = document->rig_count - 1, t = document_count_rigs(document, RIG_TAIL); r >= 0; r--) {
+        const struct rig *rig = &document->rigs[r];
+        if (rig->kind != RIG_TAIL) continue;
+        t--;
+        for (int c = rig->tail.channel_count - 1; c >= 0; c--) {
+            const struct channel *candidate = &rig->tail.channels[c];
             if (first && first->spline == editor->active && candidate->spline != editor->active) continue;
             first = candidate;
             *tail = t;
@@ -84,10 +87,10 @@ static void nudge_lag(struct editor *editor, const struct editor_world *world, d
         return;
     }
     struct angles lag = active->lag;
-    int count = lag.each ? world->document->tails[tail].joints : 1;
+    int count = lag.each ? document_tail(world->document, tail)->joints : 1;
     for (int n = 0; n < count; n++) lag.value[n] += lag.each ? n * degrees : degrees;
     struct edit edit = editor_edit_of(EDIT_ANGLES, editor->active);
-    edit.tail = tail;
+    edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
     edit.channel = channel;
     edit.angle = ANGLE_LAG;
     edit.angles = &lag;

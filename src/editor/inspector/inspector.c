@@ -10,26 +10,27 @@ static bool has_spline(const struct inspection *in) { return editor_active_splin
 
 static bool has_tail(const struct inspection *in)
 {
-    return in->document->tail_count > 0 || in->document->character_count == 0;
+    return document_tail(in->document, 0) || !document_character(in->document, 0);
 }
 
-static bool has_character(const struct inspection *in) { return in->document->character_count > 0; }
+static bool has_character(const struct inspection *in) { return document_character(in->document, 0) != NULL; }
 
 /// From the top down; `name` is what replays call the header.
 static const struct section {
     const char *name, *title;
     void (*build)(struct inspection *in);
+    void (*lists)(struct inspection *in);       ///< that it has opened over the panel; NULL: none
     bool (*shown)(const struct inspection *in); ///< NULL: always
     bool closed;                                ///< at first
 } sections[] = {
-    {"section.scene", "Scene", inspector_scene, NULL, true},
-    {"section.splines", "Splines", inspector_splines, NULL, false},
-    {"section.spline", "Spline", inspector_spline, has_spline, false},
-    {"section.poles", "Poles and response", inspector_poles, has_spline, true},
-    {"section.knot", "Knot", inspector_knot, has_spline, false},
-    {"section.tail", "Tail", inspector_tail, has_tail, false},
-    {"section.character", "Character", inspector_character, has_character, false},
-    {"section.history", "History", inspector_history, NULL, true}, // the last one: see there
+    {"section.scene", "Scene", inspector_scene, NULL, NULL, true},
+    {"section.splines", "Splines", inspector_splines, inspector_palette, NULL, false},
+    {"section.spline", "Spline", inspector_spline, inspector_follow_list, has_spline, false},
+    {"section.poles", "Poles and response", inspector_poles, NULL, has_spline, true},
+    {"section.knot", "Knot", inspector_knot, NULL, has_spline, false},
+    {"section.tail", "Tail", inspector_tail, inspector_tail_lists, has_tail, false},
+    {"section.character", "Character", inspector_character, inspector_character_lists, has_character, false},
+    {"section.history", "History", inspector_history, NULL, NULL, true}, // the last one: see there
 };
 
 _Static_assert(sizeof sections / sizeof sections[0] <= INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
@@ -80,11 +81,9 @@ static void build(struct inspection *in, struct rect area)
     ui_space(ui, 4);
     ui_scroll_end(ui);
     build_look(in, (struct rect){area.x, area.y + view.h, area.w, FOOTER});
-    inspector_palette(in);
-    inspector_follow_list(in);
-    inspector_character_lists(in);
-    inspector_feed_list(in);
-    inspector_place_list(in);
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+        if (sections[i].lists) sections[i].lists(in);
+    }
 }
 
 static struct inspection inspection_of(struct editor *editor, const struct editor_world *world)

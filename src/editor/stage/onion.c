@@ -21,7 +21,7 @@ static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first 
 int overlay_tail(const struct editor *editor, const struct document *document)
 {
     int tail, channel;
-    if (!active_channel(editor, document, &tail, &channel)) tail = document->tail_count > 0 ? 0 : -1;
+    if (!active_channel(editor, document, &tail, &channel)) tail = document_tail(document, 0) ? 0 : -1;
     return tail < editor->stage.tail_count ? tail : -1;
 }
 
@@ -102,11 +102,12 @@ void onion_show(struct editor *editor, const struct editor_world *world)
     int count = nearest_knots(document, spline, editor->playback.position, samples);
     uint32_t color = arrange_color(document, editor->active);
     const struct posing posing = stage_posing(editor, world);
+    const int rig = document_find_rig(document, RIG_TAIL, tail);
     for (int i = count - 1; i >= 0; i--) {
-        struct pose pose;
+        struct rig_pose pose;
         float points[OUTLINE][2];
-        posing_tail(&posing, tail, samples[i], NULL, &pose);
-        if (!outline(editor, &pose, points)) continue;
+        rig_pose(&posing, rig, samples[i], NULL, &pose);
+        if (!outline(editor, &pose.tail, points)) continue;
         float share = count > 1 ? (float)i / (float)(count - 1) : 0;
         drawlist_line(&editor->list, points[0], OUTLINE, 1.25f,
                       theme_fade(color, NEAREST + (FARTHEST - NEAREST) * share));

@@ -36,11 +36,12 @@ static const float *tip_at(struct editor *editor, const struct editor_world *wor
     key = hash_word(key, (uint64_t)tail << 8 | (uint64_t)editor->look);
     struct trail_point *point = &editor->overlays.trail_point[(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
     if (point->known && point->key == key && point->frame == frame) return point->tip;
-    struct pose pose;
+    struct rig_pose pose;
     const struct posing posing = stage_posing(editor, world);
-    posing_tail(&posing, tail, (double)frame * world->document->substeps, NULL, &pose);
+    rig_pose(&posing, document_find_rig(world->document, RIG_TAIL, tail), (double)frame * world->document->substeps,
+             NULL, &pose);
     *point = (struct trail_point){.known = true, .key = key, .frame = frame};
-    for (int k = 0; k < 3; k++) point->tip[k] = pose.matrix[pose.count - 1][12 + k];
+    for (int k = 0; k < 3; k++) point->tip[k] = pose.tail.matrix[pose.tail.count - 1][12 + k];
     return point->tip;
 }
 
@@ -115,7 +116,7 @@ void trail_show(struct editor *editor, const struct editor_world *world)
     double now = editor->playback.position / document->substeps;
     double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
     int first = (int)ceil(now - reach), last = (int)floor(now + reach);
-    if (!tail_loops(document, &document->tails[tail])) {
+    if (!tail_loops(document, document_tail(document, tail))) {
         first = first < 0 ? 0 : first;
         last =
             last < document->last_frame - document->first_frame ? last : document->last_frame - document->first_frame;

@@ -1,0 +1,105 @@
+#include "app/table.h"
+#include "base/clock.h"
+#include "scene/background.h"
+#include "scene/load.h"
+#include <stdlib.h>
+
+static double since(double start) { return 1e6 * (clock_now() - start); }
+
+static void advance(struct table *table, double dt, const struct table_hooks *hooks)
+{
+    struct editor_world world = table_world(table);
+    editor_advance(table->editor, &world, dt);
+    if (hooks->advanced) hooks->advanced(hooks->user);
+}
+
+/// Room for the document's splines and knots after an edit; `resized`: the number or length of splines has changed.
+static bool fit_evaluation(struct table *table, bool resized, struct error *error)
+{
+    if (!evaluation_resize(&table->evaluation, table->document, error)) return false;
+    if (!resized) return true;
+    size_t count = table->document->spline_count > 0 ? (size_t)table->document->spline_count : 1;
+    bool *dirty = realloc(table->dirty, count * sizeof *dirty);
+    if (!dirty) return fail(error, ERROR_ENVIRONMENT, "out of memory for %zu splines", count);
+    table->dirty = dirty;
+    return true;
+}
+
+static void evaluate(struct table *table, bool resized, bool cubic, bool threaded)
+{
+    const struct document *document = table->document;
+    history_take_dirty(table->history, document, table->dirty, document->spline_count);
+    bool *dirty = resized ? NULL : table->dirty;
+    if (threaded) {
+        struct focus focus = editor_focus(table->editor, document);
+        background_update(&table->evaluation, document, dirty, cubic, &focus);
+    } else {
+        evaluation_update(&table->evaluation, document, dirty, cubic);
+    }
+}
+
+static bool solve(struct table *table, struct frame_row *row, struct error *error)
+{
+    const struct document *document = table->document;
+    const struct evaluation *evaluation = &table->evaluation;
+    bool cubic = editor_look(table->editor) == LOOK_CUBIC;
+    bool resized = evaluation->count != document->spline_count || evaluation->samples != document_samples(document) ||
+                   table->solved_revision == 0;
+    uint64_t revision = history_revision(table->history);
+    row->edited = revision != table->solved_revision;
+    if ((resized || row->edited) && !fit_evaluation(table, resized, error)) return false;
+    bool threaded = table->threaded && background_serves(document);
+    if (!resized && !row->edited && cubic == table->solved_cubic && !threaded && !evaluation->stale) return true;
+    evaluate(table, resized, cubic, threaded);
+    row->splines_solved = evaluation->solved_splines;
+    row->samples = evaluation->solved_samples;
+    row->knots = evaluation->solved_knots;
+    table->solved_revision = revision;
+    table->solved_cubic = cubic;
+    return true;
+}
+
+/// The models of a document that has come to the table, or come back by undo.
+static void recast(struct table *table)
+{
+    struct error error;
+    if (!table->cast || table->cast_serial == table->document->serial) return;
+    table->cast_serial = table->document->serial;
+    if (!scene_read_paint(table->document, &error)) editor_message(table->editor, true, error.text);
+    if (!cast_update(table->cast, table->document, &error)) editor_message(table->editor, true, error.text);
+}
+
+static void show(struct table *table, const struct table_hooks *hooks)
+{
+    struct editor_world world = table_world(table);
+    if (table->cast) cast_paint(table->cast, table->document);
+    editor_pose(table->editor, &world);
+    if (hooks->posed) hooks->posed(hooks->user);
+    editor_show(table->editor, &world);
+}
+
+bool table_frame(struct table *table, double dt, const struct table_hooks *hooks, struct frame_row *row,
+                 struct error *error)
+{
+    double start = clock_now();
+    advance(table, dt, hooks);
+    row->edit_us = since(start);
+    start = clock_now();
+    if (!solve(table, row, error)) return false;
+    row->solve_us = since(start);
+    recast(table);
+    start = clock_now();
+    show(table, hooks);
+    row->pose_us = since(start);
+    return true;
+}
+
+void table_free(struct table *table)
+{
+    evaluation_free(&table->evaluation);
+    free(table->dirty);
+    history_destroy(table->history);
+    document_destroy(table->document);
+    cast_destroy(table->cast);
+    editor_destroy(table->editor);
+}
