@@ -1,6 +1,6 @@
-// Keyboards of other countries: every action has a key there, and what is typed is what counts, not the key that types it.
-#include "editor/keys.h"
+/// Keyboards of other countries: every action has a key there, and what is typed is what counts, not the key that types it.
 #include "editor/core/playback.h"
+#include "editor/keys.h"
 #include "panel_session.h"
 
 static const char scene[] =

@@ -1,4 +1,4 @@
-// Nothing needs a mouse: what it does to selection, views, panels and warnings, the keyboard does too.
+/// Nothing needs a mouse: what it does to selection, views, panels and warnings, the keyboard does too.
 #include "panel_session.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -1,3 +1,4 @@
+/// Orbits, pans, zooms and projects.
 #include "rig/camera.h"
 #include <math.h>
 #include <string.h>

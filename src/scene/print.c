@@ -1,10 +1,10 @@
+/// Writes a document as the text of a scene file.
 #include "scene/color.h"
 #include "scene/load.h"
 #include "scene/members.h"
 #include "scene/order.h"
 #include <stdlib.h>
 #include <string.h>
-
 
 static bool is_parameter(const char *key) { return parameter_find(key) != PARAMETER_COUNT; }
 

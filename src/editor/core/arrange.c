@@ -1,3 +1,4 @@
+/// Adds, removes, reorders and retimes splines.
 #include "editor/core/arrange.h"
 #include "editor/curves/curves.h"
 #include "scene/reference.h"

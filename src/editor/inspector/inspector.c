@@ -1,3 +1,4 @@
+/// Lays out the inspector: its sections, from top to bottom.
 #include "editor/inspector/inspector.h"
 #include <math.h>
 #include <stdio.h>

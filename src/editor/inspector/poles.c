@@ -1,3 +1,4 @@
+/// Where poles and response are drawn, and where dragging puts them.
 #include "editor/inspector/poles.h"
 #include "ui/font.h"
 #include "ui/theme.h"

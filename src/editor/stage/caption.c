@@ -1,3 +1,4 @@
+/// Shows the scene's description on the stage.
 #include "editor/core/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"
