@@ -8,6 +8,7 @@
 #include "model/obj.h"
 #include "model/parts.h"
 #include "model/refine.h"
+#include "model/vector.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,15 +58,15 @@ static float distance(const float p[3])
 
 static void paint(struct vertex *vertex)
 {
-    const float *p = vertex->position, *n = vertex->normal;
-    const float q[3] = {fabsf(p[0]) - blush[0], p[1] - blush[1], p[2] - blush[2]};
+    const float *p = vertex->position;
+    const vec3s cheek = {{fabsf(p[0]), p[1], p[2]}};
     parts_add(body, PART_COUNT, p, 1e3f, vertex->color);
     const float face = parts_add(body + FIRST_SHINING, PART_COUNT - FIRST_SHINING, p, 1e3f, NULL);
-    const float away = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
-    coat_mix(vertex->color, CHEEK, 0.75f * coat_step(0.085f, 0.025f, away));
+    const float away = glms_vec3_distance(cheek, vec3_from(blush));
+    coat_mix(vertex->color, CHEEK, 0.75f * glm_smoothstep(0.085f, 0.025f, away));
     // A dark lid hides the hard line where eyes and nose sink into the skin.
-    coat_mix(vertex->color, COAT_DARK, coat_step(0.014f, 0.004f, face));
-    const float shine = coat_step(0.92f, 0.95f, n[0] * glint[0] + n[1] * glint[1] + n[2] * glint[2]);
+    coat_mix(vertex->color, COAT_DARK, glm_smoothstep(0.014f, 0.004f, face));
+    const float shine = glm_smoothstep(0.92f, 0.95f, glms_vec3_dot(vec3_from(vertex->normal), vec3_from(glint)));
     if (face < 0.002f) coat_mix(vertex->color, COAT_TIP, shine);
 }
 

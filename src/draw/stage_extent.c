@@ -6,7 +6,7 @@
 
 /// A box on the screen that grows: −1 … 1 over the viewport.
 struct extent {
-    float clip_from_world[16];
+    mat4s clip_from_world;
     float lo[2], hi[2];
     bool is_everywhere; ///< something is too near to the camera to say where it is
 };
@@ -34,16 +34,15 @@ uint64_t stage_backdrop_hash(const struct stage_view *view)
 static void add_point(struct extent *extent, const float world[3])
 {
     static const float nearest = 1.0e-3f; ///< metres
-    const float *m = extent->clip_from_world;
-    float clip[4];
-    for (int r = 0; r < 4; r++) clip[r] = m[r] * world[0] + m[4 + r] * world[1] + m[8 + r] * world[2] + m[12 + r];
-    if (!(clip[3] > nearest)) {
+    const vec4s point = {{world[0], world[1], world[2], 1.0f}};
+    const vec4s clip = glms_mat4_mulv(extent->clip_from_world, point);
+    if (!(clip.w > nearest)) {
         extent->is_everywhere = true;
         return;
     }
     for (int k = 0; k < 2; k++) {
-        extent->lo[k] = fminf(extent->lo[k], clip[k] / clip[3]);
-        extent->hi[k] = fmaxf(extent->hi[k], clip[k] / clip[3]);
+        extent->lo[k] = fminf(extent->lo[k], clip.raw[k] / clip.w);
+        extent->hi[k] = fmaxf(extent->hi[k], clip.raw[k] / clip.w);
     }
 }
 
@@ -99,9 +98,9 @@ static void add_blob(struct extent *extent, const struct stage_blob *blob, float
 
 struct area stage_extent(const struct stage_view *view, struct area viewport, int margin)
 {
-    struct extent extent = {.lo = {INFINITY, INFINITY}, .hi = {-INFINITY, -INFINITY}};
+    struct extent extent = {
+        .clip_from_world = stage_clip_from_world(view), .lo = {INFINITY, INFINITY}, .hi = {-INFINITY, -INFINITY}};
     const float ground = stage_lowest_ground(view);
-    stage_clip_from_world(view, extent.clip_from_world);
     for (int t = 0; t < view->tail_count; t++) add_tail(&extent, &view->tails[t].pose);
     for (int c = 0; c < view->character_count; c++) add_character(&extent, &view->characters[c]);
     for (int b = 0; b < view->blob_count; b++) add_blob(&extent, &view->blobs[b], ground);

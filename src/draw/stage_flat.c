@@ -65,15 +65,9 @@ void stage_flat_destroy(struct stage_flat *flat)
     free(flat);
 }
 
-void stage_clip_from_world(const struct stage_view *view, float clip_from_world[16])
+mat4s stage_clip_from_world(const struct stage_view *view)
 {
-    for (int c = 0; c < 4; c++) {
-        for (int r = 0; r < 4; r++) {
-            float sum = 0.0f;
-            for (int k = 0; k < 4; k++) sum += view->projection[4 * k + r] * view->view[4 * c + k];
-            clip_from_world[4 * c + r] = sum;
-        }
-    }
+    return glms_mat4_mul(mat4_from(view->projection), mat4_from(view->view));
 }
 
 static void set_color(struct corner *corner, uint32_t color, float opacity)
@@ -93,16 +87,15 @@ static void add_background(struct stage_flat *flat, const struct stage_colors *c
 }
 
 /// A disc around (x, z) on the ground.
-static void add_disc(struct stage_flat *flat, const float clip_from_world[16], float x, float ground, float z,
-                     float radius, uint32_t color, float opacity)
+static void add_disc(struct stage_flat *flat, mat4s clip_from_world, float x, float ground, float z, float radius,
+                     uint32_t color, float opacity)
 {
     for (int c = 0; c < CORNERS; c++) {
         struct corner *corner = &flat->corners[flat->quads * CORNERS + c];
-        const float world[4] = {x + radius * square[c][0], ground, z + radius * square[c][1], 1.0f};
+        const vec4s world = {{x + radius * square[c][0], ground, z + radius * square[c][1], 1.0f}};
+        vec4s clip = glms_mat4_mulv(clip_from_world, world);
         *corner = (struct corner){.local = {square[c][0], square[c][1]}};
-        for (int r = 0; r < 4; r++) {
-            for (int k = 0; k < 4; k++) corner->clip[r] += clip_from_world[4 * k + r] * world[k];
-        }
+        glm_vec4_copy(clip.raw, corner->clip);
         set_color(corner, color, opacity);
     }
     flat->quads++;
@@ -111,8 +104,7 @@ static void add_disc(struct stage_flat *flat, const float clip_from_world[16], f
 long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view)
 {
     const float ground = stage_lowest_ground(view);
-    float clip_from_world[16];
-    stage_clip_from_world(view, clip_from_world);
+    const mat4s clip_from_world = stage_clip_from_world(view);
     flat->quads = 0;
     add_background(flat, &view->colors);
     add_disc(flat, clip_from_world, view->middle[0], ground, view->middle[1], GROUND_RADIUS, view->colors.ground,

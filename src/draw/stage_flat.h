@@ -4,6 +4,7 @@
 #define DRAW_STAGE_FLAT_H
 
 #include "base/error.h"
+#include "model/vector.h"
 #include "ui/stage.h"
 
 struct stage_flat;
@@ -18,6 +19,6 @@ long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view);
 void stage_flat_draw(const struct stage_flat *flat);
 
 /// projection · view, column-major.
-void stage_clip_from_world(const struct stage_view *view, float clip_from_world[16]);
+mat4s stage_clip_from_world(const struct stage_view *view);
 
 #endif

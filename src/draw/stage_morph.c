@@ -1,6 +1,7 @@
 /// Moves soft characters on the GPU, by complex morphs.
 #include "draw/stage_morph.h"
 #include "draw/gl.h"
+#include "draw/painter.h"
 #include "draw/stage_flat.h"
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +36,7 @@ struct stage_morph {
     long clock;
 };
 
-struct stage_morph *stage_morph_create(struct error *error)
+static void *create(struct error *error)
 {
     struct stage_morph *morph = calloc(1, sizeof *morph);
     if (!morph) {
@@ -81,9 +82,9 @@ static void model_free(struct model *model)
     *model = (struct model){0};
 }
 
-void stage_morph_destroy(struct stage_morph *morph)
+static void destroy(void *state)
 {
-    if (!morph) return;
+    struct stage_morph *morph = state;
     for (int i = 0; i < MAX_KEPT; i++) model_free(&morph->models[i]);
     glDeleteProgram(morph->program);
     free(morph);
@@ -212,8 +213,9 @@ static struct model *find_model(struct stage_morph *morph, const struct figure *
     return oldest;
 }
 
-void stage_morph_upload(struct stage_morph *morph, const struct stage_view *view, long *bytes)
+static void upload(void *state, const struct stage_view *view, long *bytes)
 {
+    struct stage_morph *morph = state;
     morph->clock++;
     for (int i = 0; i < view->character_count; i++) {
         const struct figure *figure = view->characters[i].figure;
@@ -252,13 +254,13 @@ static void draw_character(const struct stage_morph *morph, const struct model *
     glDrawElements(GL_TRIANGLES, shown->coarse ? model->coarse_count : model->fine_count, GL_UNSIGNED_INT, NULL);
 }
 
-void stage_morph_draw(const struct stage_morph *morph, const struct stage_view *view, float scale, float seam)
+static void draw(const void *state, const struct stage_view *view, float scale, float seam)
 {
-    float clip_from_world[16];
+    const struct stage_morph *morph = state;
     if (view->character_count == 0) return;
-    stage_clip_from_world(view, clip_from_world);
+    mat4s clip_from_world = stage_clip_from_world(view);
     glUseProgram(morph->program);
-    glUniformMatrix4fv(morph->at.clip_from_world, 1, GL_FALSE, clip_from_world);
+    glUniformMatrix4fv(morph->at.clip_from_world, 1, GL_FALSE, clip_from_world.raw[0]);
     glUniform3fv(morph->at.eye, 1, view->eye);
     glUniform3fv(morph->at.key_from, 1, view->key_from);
     gl_uniform_linear(morph->at.earth, view->colors.bounce);
@@ -271,3 +273,5 @@ void stage_morph_draw(const struct stage_morph *morph, const struct stage_view *
     }
     glBindVertexArray(0);
 }
+
+const struct painter character_painter = {create, destroy, upload, draw};

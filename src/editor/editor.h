@@ -130,7 +130,7 @@ enum cursor editor_cursor(const struct editor *editor);
 
 /// Where a replay's target is on the screen now: "knot(sway,2)", "curve(sway,36,1)", "slider(frequency)",
 /// "stage(0.5,0.5)", "tail(tail,0.9)", "warning(0)". false where there is no such thing (with a sentence).
-bool editor_target(struct editor *editor, const struct editor_world *world, const char *target, float *x,
-                   float *y, struct error *error);
+bool editor_target(struct editor *editor, const struct editor_world *world, const char *target, float *x, float *y,
+                   struct error *error);
 
 #endif

@@ -4,6 +4,7 @@
 #include "model/isosurface.h"
 #include "model/parts.h"
 #include "model/refine.h"
+#include "model/vector.h"
 #include <math.h>
 #include <stddef.h>
 
@@ -67,7 +68,7 @@ static void into_head(const float p[3], float q[3])
 static float stump_distance(const float p[3])
 {
     const float z = fminf(fmaxf(p[2], -0.14f), 0.25f);
-    const float radius = creature_tail_radius(z) + 0.0012f - 0.006f * coat_step(0.10f, 0.25f, z);
+    const float radius = creature_tail_radius(z) + 0.0012f - 0.006f * glm_smoothstep(0.10f, 0.25f, z);
     return sqrtf(p[0] * p[0] + p[1] * p[1] + (p[2] - z) * (p[2] - z)) - radius;
 }
 
@@ -80,8 +81,7 @@ static float body_distance_color(const float p[3], float rgb[3])
     if (rgb) coat_linear(COAT_FUR, fur);
     distance = parts_union(distance, stump_distance(p), STUMP_BLEND, rgb, fur);
     into_head(standing, in_head);
-    const float bound =
-        sqrtf(in_head[0] * in_head[0] + in_head[1] * in_head[1] + in_head[2] * in_head[2]) - HEAD_RADIUS;
+    const float bound = glm_vec3_norm(in_head) - HEAD_RADIUS;
     if (bound > distance + NECK_BLEND) return distance;
     const float head_distance = parts_add(head, sizeof head / sizeof *head, in_head, 1e3f, rgb ? head_rgb : NULL);
     return parts_union(distance, head_distance, NECK_BLEND, rgb, head_rgb);
@@ -103,22 +103,22 @@ static void body_paint(struct vertex *vertex)
     const float *p = vertex->position;
     body_distance_color(p, vertex->color);
     const float from_axis = hypotf(p[0], p[1]) / CREATURE_TAIL_RADIUS;
-    const float near = coat_step(2.4f, 1.3f, from_axis);
+    const float near = glm_smoothstep(2.4f, 1.3f, from_axis);
     float tail_rgb[3];
     coat_tail(fmaxf(p[2], 0.0f), p[1] / fmaxf(hypotf(p[0], p[1]), 1e-6f), tail_rgb);
-    const float share = near * coat_step(-0.10f, 0.05f, p[2]);
-    for (int k = 0; k < 3; k++) vertex->color[k] += (tail_rgb[k] - vertex->color[k]) * share;
+    const float share = near * glm_smoothstep(-0.10f, 0.05f, p[2]);
+    glm_vec3_lerp(vertex->color, tail_rgb, share, vertex->color);
     // A dark lid hides the hard line where eyes and nose sink into the fur.
-    coat_mix(vertex->color, COAT_DARK, coat_step(LID_WIDTH, 0.3f * LID_WIDTH, face_distance(p)));
-    vertex->bend = near * coat_step(-0.25f, -0.05f, p[2]);
+    coat_mix(vertex->color, COAT_DARK, glm_smoothstep(LID_WIDTH, 0.3f * LID_WIDTH, face_distance(p)));
+    vertex->bend = near * glm_smoothstep(-0.25f, -0.05f, p[2]);
 }
 
 /// Dark, with a glint where a window above would be mirrored.
 static void face_paint(struct vertex *vertex)
 {
-    const float *n = vertex->normal;
+    const float shine = glms_vec3_dot(vec3_from(vertex->normal), vec3_from(glint));
     coat_linear(COAT_DARK, vertex->color);
-    coat_mix(vertex->color, COAT_TIP, coat_step(0.87f, 0.95f, n[0] * glint[0] + n[1] * glint[1] + n[2] * glint[2]));
+    coat_mix(vertex->color, COAT_TIP, glm_smoothstep(0.87f, 0.95f, shine));
 }
 
 void mesh_body(float cell, float tolerance, struct mesh *mesh)

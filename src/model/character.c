@@ -11,9 +11,8 @@ static void compute_normals(struct character *c)
     memset(c->normal, 0, (size_t)c->vertex_count * sizeof *c->normal);
     for (int i = 0; i + 2 < c->index_count; i += 3) {
         const uint32_t *corner = c->indices + i;
-        float normal[3];
-        triangle_normal(c->position[corner[0]], c->position[corner[1]], c->position[corner[2]], normal);
-        for (int n = 0; n < 9; n++) c->normal[corner[n / 3]][n % 3] += normal[n % 3];
+        vec3s normal = triangle_normal(c->position[corner[0]], c->position[corner[1]], c->position[corner[2]]);
+        for (int k = 0; k < 3; k++) glm_vec3_add(c->normal[corner[k]], normal.raw, c->normal[corner[k]]);
     }
     for (int i = 0; i < c->vertex_count; i++) {
         float *n = c->normal[i];

@@ -16,9 +16,6 @@ void coat_linear(uint32_t srgb, float rgb[3]);
 /// rgb = rgb + (to − rgb)·amount.
 void coat_mix(float rgb[3], uint32_t to, float amount);
 
-/// 0 at `from`, 1 at `to`, smooth between and level beyond; `from` may be the larger.
-float coat_step(float from, float to, float x);
-
 /// Colour of the tail `z` metres from its base where its skin faces `up` (the y of the direction from its axis, −1 …
 /// 1).
 void coat_tail(float z, float up, float rgb[3]);

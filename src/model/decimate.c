@@ -66,14 +66,12 @@ static bool moved_triangle(const struct work *work, const uint32_t corner[3], ui
 {
     float(*const p)[3] = work->character->position;
     const float *moved[3];
-    float before[3], after[3];
     for (int k = 0; k < 3; k++) moved[k] = p[corner[k] == v ? to : corner[k]];
-    triangle_normal(p[corner[0]], p[corner[1]], p[corner[2]], before);
-    triangle_normal(moved[0], moved[1], moved[2], after);
-    const float area = sqrtf(vector_dot(after, after)), old = sqrtf(vector_dot(before, before));
-    if (!(vector_dot(before, after) > FLATTEST * area * old)) return false;
-    const float *q = moved[0];
-    *distance = fabsf((p[v][0] - q[0]) * after[0] + (p[v][1] - q[1]) * after[1] + (p[v][2] - q[2]) * after[2]) / area;
+    const vec3s before = triangle_normal(p[corner[0]], p[corner[1]], p[corner[2]]);
+    const vec3s after = triangle_normal(moved[0], moved[1], moved[2]);
+    const float area = glms_vec3_norm(after);
+    if (!(glms_vec3_dot(before, after) > FLATTEST * area * glms_vec3_norm(before))) return false;
+    *distance = fabsf(glms_vec3_dot(glms_vec3_sub(vec3_from(p[v]), vec3_from(moved[0])), after)) / area;
     return true;
 }
 
@@ -94,7 +92,7 @@ static float cost_of(const struct work *work, uint32_t v, uint32_t to, const uin
     uint32_t other[MAX_RING];
     const int other_count = ring_of(work, to, other);
     if (other_count == 0 || shared(ring, count, other, other_count) != 2) return INFINITY;
-    float largest = 0.0f, color = 0.0f, square = 0.0f;
+    float largest = 0.0f, color = 0.0f;
     for (int a = work->first[v]; a < work->first[v + 1]; a++) {
         const uint32_t *corner = work->indices + 3 * work->around[a];
         float distance;
@@ -102,12 +100,10 @@ static float cost_of(const struct work *work, uint32_t v, uint32_t to, const uin
         if (!moved_triangle(work, corner, v, to, &distance)) return INFINITY;
         largest = fmaxf(largest, distance);
     }
-    for (int k = 0; k < 3; k++) {
-        const float step = work->character->position[v][k] - work->character->position[to][k];
-        square += step * step;
+    for (int k = 0; k < 3; k++)
         color = fmaxf(color, fabsf(work->character->color[v][k] - work->character->color[to][k]));
-    }
-    return largest + COLOR_WEIGHT * color + 0.02f * sqrtf(square);
+    const vec3s from = vec3_from(work->character->position[v]), onto = vec3_from(work->character->position[to]);
+    return largest + COLOR_WEIGHT * color + 0.02f * glms_vec3_distance(from, onto);
 }
 
 static int compare_collapses(const void *a, const void *b)

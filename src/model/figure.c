@@ -18,25 +18,23 @@ static void tangent_of(const float n[3], float t[3])
     for (int k = 1; k < 3; k++) {
         if (fabsf(n[k]) < fabsf(n[least])) least = k;
     }
-    float axis[3] = {0};
-    axis[least] = 1.0f;
-    for (int k = 0; k < 3; k++) t[k] = axis[k] - n[least] * n[k];
-    const float length = sqrtf(vector_dot(t, t));
-    for (int k = 0; k < 3; k++) t[k] /= length;
+    vec3s axis = glms_vec3_zero();
+    axis.raw[least] = 1.0f;
+    vec3s across = glms_vec3_sub(axis, glms_vec3_scale(vec3_from(n), n[least]));
+    across = glms_vec3_divs(across, glms_vec3_norm(across));
+    glm_vec3_copy(across.raw, t);
 }
 
 /// An edge from vertex i, seen in its tangent plane and weighted so that short ones count no less than long ones.
 static bool edge_in_plane(const struct figure *figure, uint32_t i, uint32_t j, float uv[2], float *weight)
 {
     const struct character *c = &figure->character;
-    const float *p = c->position[i], *q = c->position[j], *t = figure->tangent[i];
-    const float edge[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
-    float across[3];
-    const float square = vector_dot(edge, edge);
+    const vec3s edge = glms_vec3_sub(vec3_from(c->position[j]), vec3_from(c->position[i]));
+    const vec3s tangent = vec3_from(figure->tangent[i]);
+    const float square = glms_vec3_norm2(edge);
     if (!(square > 0.0f)) return false;
-    vector_cross(c->normal[i], t, across);
-    uv[0] = vector_dot(edge, t);
-    uv[1] = vector_dot(edge, across);
+    uv[0] = glms_vec3_dot(edge, tangent);
+    uv[1] = glms_vec3_dot(edge, glms_vec3_cross(vec3_from(c->normal[i]), tangent));
     *weight = 1.0f / square;
     return true;
 }
@@ -104,16 +102,12 @@ void figure_measure(struct figure *figure, int coordinate)
 static void measure(struct figure *figure)
 {
     const struct character *c = &figure->character;
-    for (int k = 0; k < 3; k++) {
-        figure->lo[k] = INFINITY;
-        figure->hi[k] = -INFINITY;
-    }
+    glm_vec3_fill(figure->lo, INFINITY);
+    glm_vec3_fill(figure->hi, -INFINITY);
     for (int i = 0; i < c->vertex_count; i++) {
         tangent_of(c->normal[i], figure->tangent[i]);
-        for (int k = 0; k < 3; k++) {
-            figure->lo[k] = fminf(figure->lo[k], c->position[i][k]);
-            figure->hi[k] = fmaxf(figure->hi[k], c->position[i][k]);
-        }
+        glm_vec3_minv(c->position[i], figure->lo, figure->lo);
+        glm_vec3_maxv(c->position[i], figure->hi, figure->hi);
     }
 }
 

@@ -1,6 +1,7 @@
 /// Reads a character from a .glb file.
 #include "model/character.h"
 #include "model/glb.h"
+#include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -260,8 +261,8 @@ static void place(struct character *c, const double matrix[16])
     for (int i = 0; i < c->vertex_count; i++) {
         transform(matrix, 1, c->position[i]);
         transform(normal, 0, c->normal[i]);
-        float *n = c->normal[i], length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        for (int k = 0; k < 3 && length > 0; k++) n[k] /= mirrored ? -length : length;
+        float *n = c->normal[i], length = glm_vec3_norm(n);
+        if (length > 0) glm_vec3_divs(n, mirrored ? -length : length, n);
         for (int k = 0; k < c->coordinate_count; k++) {
             transform(matrix, 0, c->coordinates[k].re[i]);
             transform(matrix, 0, c->coordinates[k].im[i]);

@@ -1,5 +1,6 @@
 /// Surface nets: turns a distance function into triangles.
 #include "model/isosurface.h"
+#include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -54,15 +55,15 @@ static void sample(const struct solid *solid, struct grid *grid)
 }
 
 /// From four corners of a tetrahedron, which is the fewest that will do.
-static void gradient(const struct solid *solid, const float p[3], float step, float g[3])
+static vec3s gradient(const struct solid *solid, vec3s p, float step)
 {
-    static const float corner[4][3] = {{1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, 1, 1}};
-    g[0] = g[1] = g[2] = 0.0f;
+    static const vec3s corner[4] = {{{1, -1, -1}}, {{-1, 1, -1}}, {{-1, -1, 1}}, {{1, 1, 1}}};
+    vec3s g = glms_vec3_zero();
     for (int c = 0; c < 4; c++) {
-        const float q[3] = {p[0] + step * corner[c][0], p[1] + step * corner[c][1], p[2] + step * corner[c][2]};
-        const float d = solid->distance(q) / (4.0f * step);
-        for (int k = 0; k < 3; k++) g[k] += d * corner[c][k];
+        const vec3s q = glms_vec3_muladds(corner[c], step, p);
+        g = glms_vec3_muladds(corner[c], solid->distance(q.raw) / (4.0f * step), g);
     }
+    return g;
 }
 
 /// Mean of the points where the cell's twelve edges cross the surface, in cells from the cell's lowest corner.
@@ -72,7 +73,7 @@ static bool cell_crossing(const struct grid *grid, int x, int y, int z, float me
     for (int c = 0; c < 8; c++)
         d[c] = grid->distance[corner_index(grid, x + (c & 1), y + (c >> 1 & 1), z + (c >> 2))];
     int crossings = 0;
-    mean[0] = mean[1] = mean[2] = 0.0f;
+    glm_vec3_zero(mean);
     for (int axis = 0; axis < 3; axis++) {
         for (int c = 0; c < 8; c++) {
             const int other = c | 1 << axis;
@@ -83,23 +84,23 @@ static bool cell_crossing(const struct grid *grid, int x, int y, int z, float me
         }
     }
     if (crossings == 0) return false;
-    for (int k = 0; k < 3; k++) mean[k] /= (float)crossings;
+    glm_vec3_divs(mean, (float)crossings, mean);
     return true;
 }
 
 /// Newton steps along the gradient bring the point onto the surface.
 void surface_place(const struct solid *solid, float cell, struct vertex *vertex)
 {
-    float g[3];
+    vec3s position = vec3_from(vertex->position);
     for (int step = 0; step < 2; step++) {
-        gradient(solid, vertex->position, 0.05f * cell, g);
-        const float square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
-        const float by = solid->distance(vertex->position) / fmaxf(square, 1e-6f);
-        for (int k = 0; k < 3; k++) vertex->position[k] -= fminf(fmaxf(by * g[k], -cell), cell);
+        const vec3s g = gradient(solid, position, 0.05f * cell);
+        const float by = solid->distance(position.raw) / fmaxf(glms_vec3_norm2(g), 1e-6f);
+        position = glms_vec3_sub(position, glms_vec3_clamp(glms_vec3_scale(g, by), -cell, cell));
     }
-    gradient(solid, vertex->position, 0.25f * cell, g);
-    const float length = sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    for (int k = 0; k < 3; k++) vertex->normal[k] = g[k] / fmaxf(length, 1e-6f);
+    vec3s normal = gradient(solid, position, 0.25f * cell);
+    normal = glms_vec3_divs(normal, fmaxf(glms_vec3_norm(normal), 1e-6f));
+    glm_vec3_copy(position.raw, vertex->position);
+    glm_vec3_copy(normal.raw, vertex->normal);
     solid->paint(vertex);
 }
 

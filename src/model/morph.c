@@ -12,18 +12,15 @@ static void add_real_part(const float z[2], const float re[3], const float im[3]
 
 static void morph_normal(const struct figure *figure, const struct morph *morph, int vertex, float normal[3])
 {
-    const float *n = figure->character.normal[vertex];
-    float u[3], v[3];
-    memcpy(u, figure->tangent[vertex], sizeof u);
-    vector_cross(n, u, v);
+    vec3s u = vec3_from(figure->tangent[vertex]), v = glms_vec3_cross(vec3_from(figure->character.normal[vertex]), u);
     for (int k = 0; k < morph->count; k++) {
         const struct slope *s = &figure->slopes[morph->coordinate[k] * figure->character.vertex_count + vertex];
-        add_real_part(morph->weight[k], s->re_u, s->im_u, u);
-        add_real_part(morph->weight[k], s->re_v, s->im_v, v);
+        add_real_part(morph->weight[k], s->re_u, s->im_u, u.raw);
+        add_real_part(morph->weight[k], s->re_v, s->im_v, v.raw);
     }
-    vector_cross(u, v, normal);
-    const float length = sqrtf(vector_dot(normal, normal));
-    for (int k = 0; k < 3; k++) normal[k] /= fmaxf(length, 1e-9f); // squeezed flat: no direction, and not NaN
+    vec3s n = glms_vec3_cross(u, v);
+    n = glms_vec3_divs(n, fmaxf(glms_vec3_norm(n), 1e-9f)); // squeezed flat: no direction, and not NaN
+    glm_vec3_copy(n.raw, normal);
 }
 
 void morph_vertex(const struct figure *figure, const struct morph *morph, int vertex, float position[3],
@@ -39,16 +36,12 @@ void morph_vertex(const struct figure *figure, const struct morph *morph, int ve
 
 void morph_bounds(const struct figure *figure, const struct morph *morph, float lo[3], float hi[3])
 {
-    for (int k = 0; k < 3; k++) {
-        lo[k] = INFINITY;
-        hi[k] = -INFINITY;
-    }
+    glm_vec3_fill(lo, INFINITY);
+    glm_vec3_fill(hi, -INFINITY);
     for (int i = 0; i < figure->character.vertex_count; i++) {
         float p[3];
         morph_vertex(figure, morph, i, p, NULL);
-        for (int k = 0; k < 3; k++) {
-            lo[k] = fminf(lo[k], p[k]);
-            hi[k] = fmaxf(hi[k], p[k]);
-        }
+        glm_vec3_minv(p, lo, lo);
+        glm_vec3_maxv(p, hi, hi);
     }
 }

@@ -1,6 +1,7 @@
 /// Distance and colour of shapes made of round cones.
 #include "model/parts.h"
 #include "model/coat.h"
+#include "model/vector.h"
 #include <math.h>
 
 /// Distance to a round cone. Seen in the half plane through its axis (x along it, r from it), the ball that is
@@ -8,11 +9,10 @@
 /// axis.
 static float part_distance(const struct part *part, const float p[3])
 {
-    const float q[3] = {(part->mirror ? fabsf(p[0]) : p[0]) - part->a[0], p[1] - part->a[1], p[2] - part->a[2]};
-    const float axis[3] = {part->b[0] - part->a[0], part->b[1] - part->a[1], part->b[2] - part->a[2]};
-    const float length = sqrtf(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
-    const float x = (q[0] * axis[0] + q[1] * axis[1] + q[2] * axis[2]) / length;
-    const float r = sqrtf(fmaxf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] - x * x, 0.0f));
+    const vec3s from = vec3_from(part->a), axis = glms_vec3_sub(vec3_from(part->b), from);
+    const vec3s q = glms_vec3_sub((vec3s){{part->mirror ? fabsf(p[0]) : p[0], p[1], p[2]}}, from);
+    const float length = glms_vec3_norm(axis), x = glms_vec3_dot(q, axis) / length;
+    const float r = sqrtf(fmaxf(glms_vec3_norm2(q) - x * x, 0.0f));
     const float tilt = (part->radius_a - part->radius_b) / length;
     const float ball = fminf(fmaxf(x - r * tilt / sqrtf(1.0f - tilt * tilt), 0.0f), length);
     return sqrtf((x - ball) * (x - ball) + r * r) - part->radius_a -

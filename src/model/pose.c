@@ -1,6 +1,7 @@
 /// Moves and measures a posed tail.
 #include "model/pose.h"
 #include "model/creature.h"
+#include "model/vector.h"
 #include <math.h>
 
 void pose_move(struct pose *pose, const double by[3])
@@ -12,9 +13,8 @@ void pose_move(struct pose *pose, const double by[3])
 
 float pose_length(const struct pose *pose)
 {
-    const float *a = pose->matrix[0] + 12, *b = pose->matrix[1] + 12;
-    const float d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    return sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) * (float)(pose->count - 1);
+    const vec3s base = vec3_from(pose->matrix[0] + 12), next = vec3_from(pose->matrix[1] + 12);
+    return glms_vec3_distance(base, next) * (float)(pose->count - 1);
 }
 
 void pose_bounds(const struct pose *pose, float lo[3], float hi[3])

@@ -1,5 +1,6 @@
 /// Distances along a surface, by Dijkstra from a few starting points.
 #include "model/reach.h"
+#include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -83,18 +84,11 @@ static void offer(struct reach *reach, uint32_t vertex, float along)
     sift_up(reach, (int)vertex);
 }
 
-static float straight(const float a[3], const float b[3])
-{
-    const float d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    return sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-}
-
 void surface_position(const struct surface_spot *spot, const float (*positions)[3], float out[3])
 {
-    for (int k = 0; k < 3; k++) {
-        out[k] = 0;
-        for (int c = 0; c < 3; c++) out[k] += spot->weight[c] * positions[spot->corner[c]][k];
-    }
+    vec3s sum = glms_vec3_zero();
+    for (int c = 0; c < 3; c++) sum = glms_vec3_muladds(vec3_from(positions[spot->corner[c]]), spot->weight[c], sum);
+    glm_vec3_copy(sum.raw, out);
 }
 
 /// Forgets what was found before.
@@ -112,7 +106,7 @@ static float nearest_straight(const float (*positions)[3], const struct surface_
     for (int s = 0; s < count; s++) {
         float at[3];
         surface_position(&spots[s], positions, at);
-        least = fminf(least, straight(at, positions[vertex]));
+        least = fminf(least, glms_vec3_distance(vec3_from(at), vec3_from(positions[vertex])));
     }
     return least;
 }
@@ -125,7 +119,9 @@ void reach_find(struct reach *reach, const struct figure *figure, const struct s
     for (int s = 0; s < count; s++) {
         float at[3];
         surface_position(&spots[s], positions, at);
-        for (int c = 0; c < 3; c++) offer(reach, spots[s].corner[c], straight(at, positions[spots[s].corner[c]]));
+        for (int c = 0; c < 3; c++)
+            offer(reach, spots[s].corner[c],
+                  glms_vec3_distance(vec3_from(at), vec3_from(positions[spots[s].corner[c]])));
     }
     while (reach->heap_count > 0 && SHORTER * reach->along[reach->heap[0]] <= limit) {
         const int vertex = take_nearest(reach);
@@ -134,7 +130,8 @@ void reach_find(struct reach *reach, const struct figure *figure, const struct s
         reach->distance[vertex] = fmaxf(SHORTER * along, nearest_straight(positions, spots, count, vertex));
         for (int e = figure->edges.first[vertex]; e < figure->edges.first[vertex + 1]; e++) {
             const uint32_t other = figure->edges.other[e];
-            offer(reach, other, along + straight(positions[vertex], positions[other]));
+            offer(reach, other,
+                  along + glms_vec3_distance(vec3_from(positions[vertex]), vec3_from(positions[other])));
         }
     }
 }

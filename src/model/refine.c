@@ -1,5 +1,6 @@
 /// Splits triangles that are too flat or too large.
 #include "model/refine.h"
+#include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,20 +40,15 @@ static size_t collect_edges(const uint32_t *triangles, size_t count, struct edge
 /// How far a circular arc with the normals of both ends rises above the edge: length · angle/8.
 static float sagitta(const struct vertex *a, const struct vertex *b)
 {
-    float length = 0.0f, turn = 0.0f;
-    for (int k = 0; k < 3; k++) {
-        length += (a->position[k] - b->position[k]) * (a->position[k] - b->position[k]);
-        turn += (a->normal[k] - b->normal[k]) * (a->normal[k] - b->normal[k]);
-    }
+    const float length = glms_vec3_distance2(vec3_from(a->position), vec3_from(b->position));
+    const float turn = glms_vec3_distance2(vec3_from(a->normal), vec3_from(b->normal));
     return 0.125f * sqrtf(length * turn);
 }
 
 /// Whether the colours of both ends differ so much that the edge blurs what lies between.
 static bool blurs(const struct vertex *a, const struct vertex *b)
 {
-    float contrast = 0.0f;
-    for (int k = 0; k < 3; k++) contrast = fmaxf(contrast, fabsf(a->color[k] - b->color[k]));
-    return contrast > MAX_CONTRAST;
+    return glms_vec3_norm_inf(glms_vec3_sub(vec3_from(a->color), vec3_from(b->color))) > MAX_CONTRAST;
 }
 
 /// Gives every edge that is too flat a middle on the surface; returns whether there was one.
@@ -64,12 +60,9 @@ static bool halve_edges(const struct solid *solid, float tolerance, struct edge 
         const struct vertex a = mesh->vertices[edges[e].low], b = mesh->vertices[edges[e].high];
         if (sagitta(&a, &b) <= tolerance && !blurs(&a, &b)) continue;
         struct vertex middle = {0};
-        float square = 0.0f;
-        for (int k = 0; k < 3; k++) {
-            middle.position[k] = 0.5f * (a.position[k] + b.position[k]);
-            square += (a.position[k] - b.position[k]) * (a.position[k] - b.position[k]);
-        }
-        surface_place(solid, 0.5f * sqrtf(square), &middle);
+        vec3s from = vec3_from(a.position), to = vec3_from(b.position);
+        glm_vec3_center(from.raw, to.raw, middle.position);
+        surface_place(solid, 0.5f * glms_vec3_distance(from, to), &middle);
         edges[e].middle = mesh_vertex(mesh, &middle);
         any = true;
     }

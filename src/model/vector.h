@@ -4,22 +4,22 @@
 
 #define CGLM_ALL_UNALIGNED // ours lie in arrays of vertices and on the heap
 #include <cglm/struct.h>
+#include <string.h>
 
-static inline float vector_dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static inline vec3s vec3_from(const float v[3]) { return (vec3s){.raw = {v[0], v[1], v[2]}}; }
 
-/// out = a × b; out must be neither.
-static inline void vector_cross(const float a[3], const float b[3], float out[3])
+static inline mat4s mat4_from(const float m[16])
 {
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
+    mat4s matrix;
+    memcpy(matrix.raw, m, sizeof matrix);
+    return matrix;
 }
 
 /// (b − a) × (c − a): a triangle's normal, twice its area long.
-static inline void triangle_normal(const float a[3], const float b[3], const float c[3], float normal[3])
+static inline vec3s triangle_normal(const float a[3], const float b[3], const float c[3])
 {
-    const float u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    vector_cross(u, v, normal);
+    const vec3s from = vec3_from(a);
+    return glms_vec3_cross(glms_vec3_sub(vec3_from(b), from), glms_vec3_sub(vec3_from(c), from));
 }
 
 #endif

@@ -1,5 +1,6 @@
 /// Orbits, pans, zooms and projects.
 #include "rig/camera.h"
+#include "model/vector.h"
 #include <math.h>
 #include <string.h>
 
@@ -13,19 +14,21 @@ enum { EDGES = 12 }; ///< of a box
 
 /// The camera's axes in the world: to the right, up, and from the target to the eye.
 struct axes {
-    float right[3], up[3], back[3];
+    vec3s right, up, back;
 };
 
 static struct axes camera_axes(const struct camera *camera)
 {
     const float ca = cosf(camera->azimuth), sa = sinf(camera->azimuth);
     const float ce = cosf(camera->elevation), se = sinf(camera->elevation);
-    return (struct axes){{-sa, 0.0f, -ca}, {-ca * se, ce, sa * se}, {ca * ce, se, -sa * ce}};
+    return (struct axes){{{-sa, 0.0f, -ca}}, {{-ca * se, ce, sa * se}}, {{ca * ce, se, -sa * ce}}};
 }
 
-static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-static float clamp(float x, float lo, float hi) { return fminf(fmaxf(x, lo), hi); }
+/// The vector that has these components along the axes.
+static vec3s along(const struct axes *axes, float right, float up, float back)
+{
+    return glms_vec3_muladds(axes->back, back, glms_vec3_muladds(axes->up, up, glms_vec3_scale(axes->right, right)));
+}
 
 struct camera camera_default(void)
 {
@@ -35,25 +38,26 @@ struct camera camera_default(void)
 
 void camera_lamp(const struct camera *camera, float from[3])
 {
-    static const float lamp[3] = {-0.39955f, 0.79910f, 0.44949f}; // to the right, up, towards the eye
     const struct axes axes = camera_axes(camera);
-    for (int k = 0; k < 3; k++) from[k] = lamp[0] * axes.right[k] + lamp[1] * axes.up[k] + lamp[2] * axes.back[k];
+    vec3s lamp = along(&axes, -0.39955f, 0.79910f, 0.44949f);
+    glm_vec3_copy(lamp.raw, from);
 }
 
 /// near and far go with the distance, so that any size of scene keeps the same depth precision.
 void camera_matrices(const struct camera *camera, float aspect, float view[16], float projection[16], float eye[3])
 {
     const struct axes axes = camera_axes(camera);
+    vec3s from = glms_vec3_muladds(axes.back, camera->distance, vec3_from(camera->target));
+    glm_vec3_copy(from.raw, eye);
     for (int k = 0; k < 3; k++) {
-        eye[k] = camera->target[k] + camera->distance * axes.back[k];
-        view[4 * k] = axes.right[k];
-        view[4 * k + 1] = axes.up[k];
-        view[4 * k + 2] = axes.back[k];
+        view[4 * k] = axes.right.raw[k];
+        view[4 * k + 1] = axes.up.raw[k];
+        view[4 * k + 2] = axes.back.raw[k];
         view[4 * k + 3] = 0.0f;
     }
-    view[12] = -dot(axes.right, eye);
-    view[13] = -dot(axes.up, eye);
-    view[14] = -dot(axes.back, eye);
+    view[12] = -glms_vec3_dot(axes.right, from);
+    view[13] = -glms_vec3_dot(axes.up, from);
+    view[14] = -glms_vec3_dot(axes.back, from);
     view[15] = 1.0f;
     const float near = 0.05f * camera->distance, far = 20.0f * camera->distance + 10.0f;
     memset(projection, 0, 16 * sizeof *projection);
@@ -65,15 +69,17 @@ void camera_matrices(const struct camera *camera, float aspect, float view[16], 
 }
 
 /// Middle of one of the box's edges, relative to the middle of the box.
-static void edge_middle(int edge, const float lo[3], const float hi[3], float middle[3])
+static vec3s edge_middle(int edge, vec3s size)
 {
+    vec3s middle;
     const int axis = edge / 4;
     const float sign[2] = {edge & 1 ? 0.5f : -0.5f, edge & 2 ? 0.5f : -0.5f};
-    middle[axis] = 0.0f;
+    middle.raw[axis] = 0.0f;
     for (int k = 0; k < 2; k++) {
         const int other = (axis + 1 + k) % 3;
-        middle[other] = sign[k] * (hi[other] - lo[other]);
+        middle.raw[other] = sign[k] * size.raw[other];
     }
+    return middle;
 }
 
 /// Along one axis of the picture, with points at (across, depth towards the eye) from the target: how far away the
@@ -94,67 +100,66 @@ static float fit_axis(const float across[EDGES], const float depth[EDGES], float
 /// corners.
 void camera_fit(struct camera *camera, const float lo[3], const float hi[3], float aspect)
 {
+    const vec3s size = glms_vec3_sub(vec3_from(hi), vec3_from(lo));
     for (int k = 0; k < 3; k++) {
-        if (!(hi[k] - lo[k] > 0.0f && hi[k] - lo[k] < INFINITY)) return;
+        if (!(size.raw[k] > 0.0f && size.raw[k] < INFINITY)) return;
     }
     const struct axes axes = camera_axes(camera);
     float right[EDGES], up[EDGES], depth[EDGES], shift_right, shift_up;
     for (int e = 0; e < EDGES; e++) {
-        float middle[3];
-        edge_middle(e, lo, hi, middle);
-        right[e] = dot(axes.right, middle);
-        up[e] = dot(axes.up, middle);
-        depth[e] = dot(axes.back, middle);
+        const vec3s middle = edge_middle(e, size);
+        right[e] = glms_vec3_dot(axes.right, middle);
+        up[e] = glms_vec3_dot(axes.up, middle);
+        depth[e] = glms_vec3_dot(axes.back, middle);
     }
     const float wide = fit_axis(right, depth, HALF_FIELD * aspect / FIT_MARGIN, &shift_right);
     const float high = fit_axis(up, depth, HALF_FIELD / FIT_MARGIN, &shift_up);
-    camera->distance = clamp(fmaxf(wide, high), MIN_DISTANCE, MAX_DISTANCE);
-    for (int k = 0; k < 3; k++) {
-        camera->target[k] = 0.5f * (lo[k] + hi[k]) + shift_right * axes.right[k] + shift_up * axes.up[k];
-    }
+    camera->distance = glm_clamp(fmaxf(wide, high), MIN_DISTANCE, MAX_DISTANCE);
+    vec3s target = glms_vec3_center(vec3_from(lo), vec3_from(hi));
+    target = glms_vec3_muladds(axes.up, shift_up, glms_vec3_muladds(axes.right, shift_right, target));
+    glm_vec3_copy(target.raw, camera->target);
 }
 
-static void transform(const float m[16], const float v[4], float out[4])
-{
-    for (int r = 0; r < 4; r++) out[r] = m[r] * v[0] + m[4 + r] * v[1] + m[8 + r] * v[2] + m[12 + r] * v[3];
-}
-
+/// By vectors, not matrices: what is dragged on the screen ends in documents, and cglm's products of matrices round differently
+/// from one machine to the next.
 bool camera_project(const float view[16], const float projection[16], const float viewport[4], const float world[3],
                     float screen[2])
 {
-    const float point[4] = {world[0], world[1], world[2], 1.0f};
-    float eye[4], clip[4];
-    transform(view, point, eye);
-    transform(projection, eye, clip);
-    if (!(clip[3] > 1e-6f)) return false;
-    screen[0] = viewport[0] + viewport[2] * (0.5f + 0.5f * clip[0] / clip[3]);
-    screen[1] = viewport[1] + viewport[3] * (0.5f - 0.5f * clip[1] / clip[3]);
+    vec3s eye = glms_vec3_scale(vec3_from(view), world[0]);
+    eye = glms_vec3_muladds(vec3_from(view + 4), world[1], eye);
+    eye = glms_vec3_muladds(vec3_from(view + 8), world[2], eye);
+    eye = glms_vec3_add(eye, vec3_from(view + 12));
+    const float depth = -eye.z;
+    if (!(depth > 1e-6f)) return false;
+    screen[0] = viewport[0] + viewport[2] * (0.5f + 0.5f * projection[0] * eye.x / depth);
+    screen[1] = viewport[1] + viewport[3] * (0.5f - 0.5f * projection[5] * eye.y / depth);
     return true;
 }
 
 void camera_ray(const float view[16], const float projection[16], const float viewport[4], const float screen[2],
                 float direction[3])
 {
-    const float eye[3] = {(2.0f * (screen[0] - viewport[0]) / viewport[2] - 1.0f) / projection[0],
-                          (1.0f - 2.0f * (screen[1] - viewport[1]) / viewport[3]) / projection[5], -1.0f};
-    const float length = sqrtf(dot(eye, eye));
-    for (int k = 0; k < 3; k++) direction[k] = dot(view + 4 * k, eye) / length;
+    const vec3s eye = {{(2.0f * (screen[0] - viewport[0]) / viewport[2] - 1.0f) / projection[0],
+                        (1.0f - 2.0f * (screen[1] - viewport[1]) / viewport[3]) / projection[5], -1.0f}};
+    const float length = glms_vec3_norm(eye);
+    for (int k = 0; k < 3; k++) direction[k] = glms_vec3_dot(vec3_from(view + 4 * k), eye) / length;
 }
 
 void camera_orbit(struct camera *camera, float azimuth, float elevation)
 {
     camera->azimuth = remainderf(camera->azimuth + azimuth, 6.28318531f);
-    camera->elevation = clamp(camera->elevation + elevation, -CAMERA_MAX_ELEVATION, CAMERA_MAX_ELEVATION);
+    camera->elevation = glm_clamp(camera->elevation + elevation, -CAMERA_MAX_ELEVATION, CAMERA_MAX_ELEVATION);
 }
 
 void camera_pan(struct camera *camera, float dx, float dy, float height)
 {
     const struct axes axes = camera_axes(camera);
     const float metres = 2.0f * HALF_FIELD * camera->distance / fmaxf(height, 1.0f);
-    for (int k = 0; k < 3; k++) camera->target[k] += metres * (dy * axes.up[k] - dx * axes.right[k]);
+    vec3s target = glms_vec3_muladds(along(&axes, -dx, dy, 0.0f), metres, vec3_from(camera->target));
+    glm_vec3_copy(target.raw, camera->target);
 }
 
 void camera_zoom(struct camera *camera, float factor)
 {
-    camera->distance = clamp(camera->distance * factor, MIN_DISTANCE, MAX_DISTANCE);
+    camera->distance = glm_clamp(camera->distance * factor, MIN_DISTANCE, MAX_DISTANCE);
 }

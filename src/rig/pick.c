@@ -16,31 +16,25 @@ void pick_pose(const struct figure *figure, const struct morph *morph, const flo
 
 static const float SLACK = 1e-4f; ///< of a triangle: rounding must not leave gaps between neighbours
 
-static void subtract(const float a[3], const float b[3], float out[3])
-{
-    for (int k = 0; k < 3; k++) out[k] = a[k] - b[k];
-}
-
 /// Where along the ray it meets the front of a triangle (Möller and Trumbore 1997), or a negative number; `uv` are the weights of
 /// its second and third corner.
 static float meet(const float *const corner[3], const float eye[3], const float direction[3], float uv[2])
 {
-    float side[3], other[3], p[3], from[3], q[3];
-    subtract(corner[1], corner[0], side);
-    subtract(corner[2], corner[0], other);
-    vector_cross(direction, other, p);
-    const float determinant = vector_dot(side, p);
+    const vec3s first = vec3_from(corner[0]), along = vec3_from(direction);
+    const vec3s side = glms_vec3_sub(vec3_from(corner[1]), first), other = glms_vec3_sub(vec3_from(corner[2]), first);
+    const vec3s p = glms_vec3_cross(along, other);
+    const float determinant = glms_vec3_dot(side, p);
     if (!(determinant > 0.0f)) return -1; // edge on, or its back
-    subtract(eye, corner[0], from);
-    uv[0] = vector_dot(from, p);
+    const vec3s from = glms_vec3_sub(vec3_from(eye), first);
+    uv[0] = glms_vec3_dot(from, p);
     const float slack = SLACK * determinant;
     if (uv[0] < -slack || uv[0] > determinant + slack) return -1;
-    vector_cross(from, side, q);
-    uv[1] = vector_dot(direction, q);
+    const vec3s q = glms_vec3_cross(from, side);
+    uv[1] = glms_vec3_dot(along, q);
     if (uv[1] < -slack || uv[0] + uv[1] > determinant + slack) return -1;
     uv[0] /= determinant;
     uv[1] /= determinant;
-    return vector_dot(other, q) / determinant;
+    return glms_vec3_dot(other, q) / determinant;
 }
 
 bool pick_ray(const struct figure *figure, const float (*posed)[3], const float eye[3], const float direction[3],

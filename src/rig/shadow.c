@@ -1,6 +1,7 @@
 /// Finds where a posed tail and its body come near the ground.
 #include "rig/shadow.h"
 #include "model/creature.h"
+#include "model/vector.h"
 #include <math.h>
 
 /// Below this a blob changes no pixel.
@@ -20,11 +21,10 @@ static struct shadow_blob tail_blob(const struct pose *pose, float along, float 
     const float at = along * (float)(pose->count - 1);
     const int n = (int)fminf(at, (float)(pose->count - 2));
     const float part = at - (float)n;
-    float p[3];
-    for (int k = 0; k < 3; k++) p[k] = pose->matrix[n][12 + k] * (1.0f - part) + pose->matrix[n + 1][12 + k] * part;
+    const vec3s p = glms_vec3_lerp(vec3_from(pose->matrix[n] + 12), vec3_from(pose->matrix[n + 1] + 12), part);
     const float radius = scale * creature_tail_radius(along * CREATURE_TAIL_LENGTH);
-    const float height = fmaxf(p[1] - radius - ground, 0.0f) / (scale * FADE_HEIGHT);
-    return (struct shadow_blob){p[0], p[2], 1.6f * radius + 0.12f * scale * (1.0f + height), 0.45f * expf(-height)};
+    const float height = fmaxf(p.y - radius - ground, 0.0f) / (scale * FADE_HEIGHT);
+    return (struct shadow_blob){p.x, p.z, 1.6f * radius + 0.12f * scale * (1.0f + height), 0.45f * expf(-height)};
 }
 
 int pose_blobs(const struct pose *pose, struct shadow_blob *blobs, int capacity)

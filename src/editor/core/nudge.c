@@ -129,7 +129,7 @@ static bool say_idle(struct editor *editor, const struct spline *spline, enum pa
     if (spline_mode(spline) == WIGGLY_CUBIC) {
         snprintf(text, sizeof text, "A cubic does not swing; press M to change the mode.");
     } else {
-        snprintf(text, sizeof text, "Only the %s mode has a %s; M changes the mode.",
+        snprintf(text, sizeof text, "Only %s mode has a %s; press M to change the mode.",
                  row->modes & IN_COMPLEX ? "complex" : "real", row->name);
     }
     editor_message(editor, false, text);
