@@ -24,7 +24,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
       {"Esc", "cancel"}}},
     {"Slopes",
      {{"T; Shift+T; Ctrl+T", "on or off; flat; smooth"},
-      {"D, E", "steeper down, up"},
+      {"D, E", "turn it down, up"},
       {"Shift+D, Shift+E", "softer, firmer"}}},
     {"Inspector",
      {{"Tab, Shift+Tab", "next, previous field"},
