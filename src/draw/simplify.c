@@ -1,3 +1,4 @@
+/// Drops points of a polyline that nobody would see.
 #include "draw/simplify.h"
 
 /// Device pixels. Software rasterisers pay by the triangle; from a fifteenth of a pixel on steps in slow curves show.
