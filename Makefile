@@ -2,22 +2,28 @@
 #
 #   make [all]    the binary, the library and the tools
 #   make run      builds and starts the live app (ARGS="scene.json --size 960x600" for more)
-#   make test     builds and runs every test (TESTS="tests/test_timing.c tests/test_cli.sh" for some)
+#   make test     builds and runs every test (TESTS="tests/test_timing.c tests/test_cli.sh" for some; JOBS=1 for one at a time)
 #   make bench    the solver against LAPACKE
 #   make models   the generated character, build/models/creature.obj
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
 #   make regress BASE=path/to/other/wiggly    frame times of two builds on the committed session
+#   make compile_commands.json    for clangd and other tools that read C
 #   make install  PREFIX=/usr/local DESTDIR=
 #   make clean
+#   make help     this
 #
-# Variables: B (build folder), CC, SANITIZE=1 (ASan and UBSan, in build/sanitize), WERROR=1 (warnings fail), V=1 (show commands).
+# Variables: B (build folder), CC, DEBUG=1 (for a debugger, in build/debug), SANITIZE=1 (ASan and UBSan, in build/sanitize; with
+# DEBUG=1 in build/debug-sanitize), WERROR=1 (warnings fail), V=1 (show commands).
 # CPPFLAGS, CFLAGS, LDFLAGS and LDLIBS, from the command line or the environment, add to the project's own.
 
+DEBUG ?=
 SANITIZE ?=
 WERROR ?=
 V ?=
-B ?= $(if $(SANITIZE),build/sanitize,build)
+empty :=
+VARIANT := $(subst $(empty) ,-,$(strip $(if $(DEBUG),debug) $(if $(SANITIZE),sanitize)))
+B ?= build$(VARIANT:%=/%)
 PREFIX ?= /usr/local
 CC := $(if $(filter default,$(origin CC)),gcc,$(CC))
 Q := $(if $(V),,@)
@@ -27,7 +33,7 @@ ifneq ($(words $(B)),1)
 override B := $(shell tools/link-build.sh "$(B)")
 endif
 # Root that installs from somebody else's clone (sudo make install) leaves nothing there: what is built already is installed
-# as it stands, anything else is built elsewhere.
+# as it stands, anything else is built elsewhere. BORROWED=yes installs what is built, whoever runs it.
 ifneq ($(filter install,$(MAKECMDGOALS)),)
 INSTALL_FROM := $(shell tools/install-from.sh "$(B)")
 BORROWED := $(filter borrowed,$(INSTALL_FROM))
@@ -67,16 +73,16 @@ PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs glfw3 epoxy egl jansson)
 # No fused multiply-add and no -ffast-math anywhere: a scene gives the same bits at every optimisation level, number of threads
 # and width of lanes; only libm's exp, expm1, sin, cos and pow may differ from one machine to the next.
 comma := ,
-OPTIMISE := $(if $(SANITIZE),-O1 -fno-omit-frame-pointer,-O2)
+OPTIMISE := $(if $(DEBUG),-O0 -g3,$(if $(SANITIZE),-O1,-O2) -g) $(if $(SANITIZE),-fno-omit-frame-pointer)
 SANITIZERS := $(if $(SANITIZE),-fsanitize=address$(comma)undefined -fno-sanitize-recover=all)
 WARNINGS := -Wall -Wextra -Wshadow -Wconversion $(if $(WERROR),-Werror)
 ERRORS := -Werror=implicit-function-declaration -Werror=implicit-int -Werror=int-conversion \
     -Werror=incompatible-pointer-types
 OWN_CPPFLAGS := -Isrc -Iinclude -D_GNU_SOURCE
-OWN_CFLAGS := $(OPTIMISE) -g $(WARNINGS)
+OWN_CFLAGS := $(OPTIMISE) $(WARNINGS)
 # After the user's flags: what the code is written for, and what its results depend on.
 FIXED_CFLAGS := -std=c11 -fno-fast-math -ffp-contract=off $(ERRORS) $(SANITIZERS)
-SPLINE_CFLAGS := $(if $(SANITIZE),,-O3 -fno-math-errno -fno-trapping-math)
+SPLINE_CFLAGS := $(if $(VARIANT),,-O3 -fno-math-errno -fno-trapping-math)
 
 # src/timing/allocations.c counts what our own objects allocate.
 WRAPPED := malloc calloc realloc aligned_alloc posix_memalign strdup
@@ -92,7 +98,7 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all run test bench models check figures regress install clean packages FORCE
+.PHONY: all run test bench models check figures regress install clean help packages compile_commands.json FORCE
 
 all: $(B)/wiggly $(B)/libwiggly.a $(TOOLS:%=$(B)/%)
 
@@ -128,17 +134,28 @@ regress: $(B)/wiggly $(B)/timing_diff
 	$(Q)$(if $(BASE),,echo "make regress: BASE=path/to/other/wiggly is missing" >&2; exit 2;) \
 	tools/regress.sh "$(BASE)" $(B)/wiggly $(B)/timing_diff $(B)/regress
 
+# What make would run to compile everything anew.
+compile_commands.json: | packages
+	$(Q)$(MAKE) --no-print-directory --dry-run --always-make V=1 B=$(B) all $(TEST_PROGRAMS) | tools/compile-commands.sh > $@
+
+help:
+	@sed -n '1,/^$$/s/^# \{0,1\}//p' Makefile
+
 ROOT = $(DESTDIR)$(PREFIX)
 install: $(if $(BORROWED),,$(B)/wiggly $(B)/libwiggly.a)
 	install -d "$(ROOT)/bin" "$(ROOT)/lib/pkgconfig" "$(ROOT)/include/wiggly" "$(ROOT)/share/wiggly/scenes" \
-	    "$(ROOT)/share/wiggly/models" "$(ROOT)/share/doc/wiggly"
+	    "$(ROOT)/share/wiggly/models" "$(ROOT)/share/doc/wiggly" "$(ROOT)/share/man/man1" "$(ROOT)/share/applications" \
+	    "$(ROOT)/share/icons/hicolor/scalable/apps"
 	install -m 755 $(B)/wiggly "$(ROOT)/bin/wiggly"
 	install -m 644 $(B)/libwiggly.a "$(ROOT)/lib/libwiggly.a"
 	install -m 644 include/wiggly/wiggly.h "$(ROOT)/include/wiggly/wiggly.h"
 	install -m 644 $(wildcard assets/scenes/*.json) "$(ROOT)/share/wiggly/scenes"
 	install -m 644 $(wildcard assets/models/*.glb) "$(ROOT)/share/wiggly/models"
 	$(B)/wiggly --licenses > "$(ROOT)/share/doc/wiggly/copyright"
-	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' wiggly.pc.in > "$(ROOT)/lib/pkgconfig/wiggly.pc"
+	install -m 644 assets/desktop/wiggly.desktop "$(ROOT)/share/applications"
+	install -m 644 assets/desktop/wiggly.svg "$(ROOT)/share/icons/hicolor/scalable/apps"
+	tools/man-page.sh $(B)/wiggly > "$(ROOT)/share/man/man1/wiggly.1"
+	sed -e 's|@VERSION@|$(VERSION)|' wiggly.pc.in > "$(ROOT)/lib/pkgconfig/wiggly.pc"
 	$(Q)tools/install-from.sh --done $(B)
 
 clean:
@@ -147,7 +164,7 @@ clean:
 # --- what must be installed first --------------------------------------------------------------------------------------
 # Everything that is compiled waits for `packages` (order-only); it asks for no more than the goals at hand need.
 
-SETS := $(if $(filter-out check clean,$(or $(MAKECMDGOALS),all)),build)
+SETS := $(if $(filter-out check clean help,$(or $(MAKECMDGOALS),all)),build)
 SETS += $(if $(filter test $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check,$(MAKECMDGOALS))
 packages:
 	$(Q)tools/install-missing.sh $(SETS)
@@ -193,8 +210,8 @@ $(GENERATED)/embedded_data.S $(GENERATED)/embedded_table.c &: tools/embed.sh $(E
 	@mkdir -p $(@D)
 	$(Q)tools/embed.sh $(GENERATED) $(B)/parts.txt $(EMBEDDED)
 
-# Rewritten only when the text changes, so that what depends on it is rebuilt just then.
-replace = @mkdir -p $(@D); printf '%s\n' '$(1)' > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+# Rewritten only when the text changes, so that what depends on it is rebuilt just then. Tests that call make do it at the same time.
+replace = @mkdir -p $(@D); printf '%s\n' '$(1)' > $@.$$$$; cmp -s $@.$$$$ $@ && rm $@.$$$$ || mv $@.$$$$ $@
 $(B)/flags: FORCE
 	$(call replace,$(CC) $(OWN_CPPFLAGS) $(CPPFLAGS) $(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS) $(SPLINE_CFLAGS))
 $(B)/objects: FORCE
@@ -202,7 +219,7 @@ $(B)/objects: FORCE
 $(B)/embedded: FORCE
 	$(call replace,$(EMBEDDED))
 $(B)/parts.txt: FORCE | packages
-	@mkdir -p $(@D); tools/find-parts.sh > $@.new && { cmp -s $@.new $@ && rm $@.new || mv $@.new $@; }
+	@mkdir -p $(@D); tools/find-parts.sh > $@.$$$$ && { cmp -s $@.$$$$ $@ && rm $@.$$$$ || mv $@.$$$$ $@; }
 $(GENERATED)/build.c: FORCE | packages
 	@tools/build-info.sh $@ "$(CC)" "$(filter -O% -f% -m%,$(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS))$(if $(SPLINE_CFLAGS),; spline $(SPLINE_CFLAGS))"
 

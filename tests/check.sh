@@ -15,8 +15,8 @@ expect() { # <status> <what> <command>...
     local wanted=$1 what=$2 status=0
     shift 2
     "$@" >"$scratch/stdout" 2>"$scratch/stderr" || status=$?
-    out=$(cat "$scratch/stdout")
-    err=$(cat "$scratch/stderr")
+    out=$(<"$scratch/stdout")
+    err=$(<"$scratch/stderr")
     [ $status -eq "$wanted" ] || printf '  exit status %d, expected %d, from: %s\n%s\n' $status "$wanted" "$*" "$err"
     ok "$what" $((status != wanted))
 }

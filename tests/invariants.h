@@ -73,8 +73,8 @@ static inline void assert_splines(const struct document *d)
             const struct param *param = &spline->parameter[p];
             assert_param(d, param);
             if (param->track >= 0 || !spline_uses(spline, p, false)) continue;
-            assert_true(param->value >= parameter_minimum(p, spline->mode));
-            assert_true(param->value <= parameter_maximum(p, spline->mode));
+            assert_true(param->value >= parameter_rows[p].minimum);
+            assert_true(param->value <= parameter_maximum(p, spline_mode(spline)));
         }
     }
     struct order_cycle cycle;
@@ -88,11 +88,12 @@ static inline void assert_angles(const struct angles *angles, int joints)
 
 static inline void assert_tails(const struct document *d)
 {
-    assert_true(d->tail_count + d->character_count <= SCENE_MAX_RIGS);
-    for (int t = 0; t < d->tail_count; t++) {
-        const struct tail *tail = &d->tails[t];
-        assert_true(tail->name && tail->name[0]);
-        for (int u = 0; u < t; u++) assert_string_not_equal(tail->name, d->tails[u].name);
+    assert_true(d->rig_count <= SCENE_MAX_RIGS && d->rig_count <= d->rig_capacity);
+    for (int t = 0; t < document_count_rigs(d, RIG_TAIL); t++) {
+        const struct tail *tail = document_tail(d, t);
+        const char *name = d->rigs[document_find_rig(d, RIG_TAIL, t)].name;
+        assert_true(name && name[0]);
+        for (int u = 0; u < t; u++) assert_string_not_equal(name, d->rigs[document_find_rig(d, RIG_TAIL, u)].name);
         assert_in_range(tail->joints, 1, TAIL_MAX_JOINTS);
         assert_true(isfinite(tail->length) && tail->length > 0);
         for (int k = 0; k < 3; k++) assert_param(d, &tail->position[k]);
@@ -108,8 +109,8 @@ static inline void assert_tails(const struct document *d)
 
 static inline void assert_characters(const struct document *d)
 {
-    for (int c = 0; c < d->character_count; c++) {
-        const struct character_rig *rig = &d->characters[c];
+    for (int c = 0; c < document_count_rigs(d, RIG_CHARACTER); c++) {
+        const struct character_rig *rig = document_character(d, c);
         assert_true(rig->model && rig->model[0]);
         assert_in_range(rig->drive_count, 0, CHARACTER_MAX_DRIVES);
         for (int k = 0; k < rig->drive_count; k++) {

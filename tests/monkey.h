@@ -79,7 +79,8 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
     const struct document *d = app->table.document;
     struct editor_world world = table_world(&app->table);
     const struct spline *spline = editor_active_spline(app->table.editor, &world);
-    const char *tail = d->tail_count > 0 ? d->tails[below(m, d->tail_count)].name : NULL;
+    const int tails = document_count_rigs(d, RIG_TAIL);
+    const char *tail = tails > 0 ? d->rigs[document_find_rig(d, RIG_TAIL, below(m, tails))].name : NULL;
     char target[512] = "";
     int which = below(m, 9);
     if (which < 3 && spline && spline->knot_count > 0) {

@@ -9,7 +9,7 @@ static inline struct spline spline_of(enum wiggly_mode mode, double frequency, d
 {
     struct spline spline = {0};
     spline_reset(&spline);
-    spline.mode = mode;
+    spline.parameter[PARAMETER_MODE].value = mode;
     spline.parameter[PARAMETER_FREQUENCY].value = frequency;
     spline.parameter[PARAMETER_DAMPING].value = damping;
     spline.parameter[PARAMETER_BANDWIDTH].value = bandwidth;

@@ -37,7 +37,7 @@ static void test_tail_follows_through_and_settles(void **state)
     assert_saved(&s, before);       // the document waits
     session_release(&s, BUTTON_LEFT);
     assert_near(joint(&s, 0)[X], base, 1e-3);
-    assert_near(s.document->tails[0].position[0].value, base, 1e-3);
+    assert_near(document_tail(s.document, 0)->position[0].value, base, 1e-3);
     float overshoot = -1;
     for (int i = 0; i < 60; i++) {
         session_frame(&s);
@@ -129,7 +129,7 @@ static void test_a_tracked_body_gets_a_knot(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    s.document->tails[0].position[0] = (struct param){0, 1};
+    document_tail(s.document, 0)->position[0] = (struct param){0, 1};
     session_key(&s, KEY_RIGHT, 0);
     session_key(&s, KEY_RIGHT, 0);
     assert_near(joint(&s, 0)[X], 0.1, 1e-6);
@@ -143,7 +143,7 @@ static void test_a_tracked_body_gets_a_knot(void **state)
     assert_near(walk->knots[1].frame, 2, 0);
     assert_near(walk->knots[1].value, x, 1e-3);
     assert_near(joint(&s, 0)[X], x, 1e-3);
-    assert_near(s.document->tails[0].position[2].value, 0, 0);
+    assert_near(document_tail(s.document, 0)->position[2].value, 0, 0);
     session_key(&s, 'Z', MOD_CTRL);
     assert_saved(&s, before);
     free(before);

@@ -58,7 +58,7 @@ struct studio {
     const struct figure *plain;
 };
 
-static struct character_rig *rig_of(const struct studio *s) { return &s->session.document->characters[0]; }
+static struct character_rig *rig_of(const struct studio *s) { return document_character(s->session.document, 0); }
 
 static void frame(struct studio *s)
 {

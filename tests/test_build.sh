@@ -1,6 +1,7 @@
 # The Makefile in hands that its author does not know: flags of the user's, folders with spaces, root in somebody else's clone.
 . tests/check.sh
 B=${B:-build}
+unset MAKEFLAGS # how this very suite is built says nothing here
 
 compile_line() { # <make's arguments>...: how src/spline/batch.c would be compiled
     make --no-print-directory -n V=1 B="$scratch/none" "$@" 2>&1 | grep -- '-c src/spline/batch.c'

@@ -31,9 +31,9 @@ static void a_character_is_read(void **state)
 {
     (void)state;
     struct document *document = parse(whole);
-    assert_int_equal(document->character_count, 1);
-    assert_int_equal(document->tail_count, 1);
-    const struct character_rig *rig = &document->characters[0];
+    assert_int_equal(document_count_rigs(document, RIG_CHARACTER), 1);
+    assert_int_equal(document_count_rigs(document, RIG_TAIL), 1);
+    const struct character_rig *rig = document_character(document, 0);
     assert_string_equal(rig->model, "../models/a.glb");
     assert_string_equal(rig->paint, "a.npy");
     assert_int_equal(rig->drive_count, 2);
@@ -117,7 +117,7 @@ static void edits_are_undone_to_the_byte(void **state)
     apply(history, document,
           &(struct edit){.kind = EDIT_DRIVE_ADD, .drive = {.name = "twist", .spline = 0, .amplitude = 1}});
     apply(history, document, &(struct edit){.kind = EDIT_DRIVE_REMOVE, .channel = 0});
-    const struct character_rig *rig = &document->characters[0];
+    const struct character_rig *rig = document_character(document, 0);
     assert_int_equal(rig->drive_count, 2);
     assert_string_equal(rig->drives[0].name, "side");
     assert_string_equal(rig->drives[1].name, "twist");
@@ -136,6 +136,50 @@ static void edits_are_undone_to_the_byte(void **state)
     document_destroy(document);
 }
 
+/// Where the rigs' types begin in a scene's text, as "tct": tails and characters in their order.
+static void assert_order(const struct document *document, const char *order)
+{
+    size_t size;
+    char *text = scene_print(document, &size);
+    const char *at = text;
+    for (; *order; order++) {
+        at = strstr(at, "\"type\": ");
+        assert_non_null(at);
+        at += strlen("\"type\": \"");
+        assert_int_equal(*at, *order);
+    }
+    assert_null(strstr(at, "\"type\": "));
+    free(text);
+}
+
+/// Tails come and go before and behind a character, which keeps its place in the file and what moves it.
+static void rigs_keep_their_order(void **state)
+{
+    (void)state;
+    struct document *document =
+        parse(SCENE("{\"type\": \"tail\", \"name\": \"a\"}, {\"type\": \"character\", \"model\":"
+                    " \"a.glb\"}, {\"type\": \"tail\", \"name\": \"b\"}"));
+    struct history *history = history_create();
+    assert_order(document, "tct");
+    apply(history, document, &(struct edit){.kind = EDIT_TAIL_ADD, .rig = 2});
+    assert_order(document, "tctt");
+    apply(history, document, &(struct edit){.kind = EDIT_TAIL_REMOVE, .rig = 0});
+    assert_order(document, "ctt");
+    const struct drive drive = {.name = "up", .spline = 1, .amplitude = 1};
+    apply(history, document, &(struct edit){.kind = EDIT_DRIVE_ADD, .rig = 0, .drive = drive});
+    apply(history, document, &(struct edit){.kind = EDIT_TAIL_REMOVE, .rig = 1});
+    assert_order(document, "ct");
+    assert_string_equal(document->rigs[1].name, "tail");
+    while (history_undo(history, document)) continue;
+    assert_order(document, "tct");
+    assert_int_equal(document_character(document, 0)->drive_count, 0);
+    while (history_redo(history, document)) continue;
+    assert_order(document, "ct");
+    assert_int_equal(document_character(document, 0)->drive_count, 1);
+    history_destroy(history);
+    document_destroy(document);
+}
+
 static void impossible_edits_are_refused(void **state)
 {
     (void)state;
@@ -143,7 +187,7 @@ static void impossible_edits_are_refused(void **state)
         struct edit edit;
         const char *sentence;
     } cases[] = {
-        {{.kind = EDIT_DRIVE, .character = 1}, "there is no such character"},
+        {{.kind = EDIT_DRIVE, .rig = 1}, "there is no such character"},
         {{.kind = EDIT_DRIVE, .channel = 2}, "this character has no such coordinate"},
         {{.kind = EDIT_DRIVE, .drive = {.spline = 2}}, "there is no such spline"},
         {{.kind = EDIT_DRIVE, .drive = {.amplitude = (double)INFINITY}}, "amplitude and lag must be finite"},
@@ -171,8 +215,8 @@ static void drives_follow_their_splines(void **state)
     struct document *document = parse(whole);
     struct history *history = history_create();
     apply(history, document, &(struct edit){.kind = EDIT_SPLINE_MOVE, .spline = 0, .to = 1});
-    assert_int_equal(document->characters[0].drives[0].spline, 1);
-    assert_int_equal(document->characters[0].drives[1].spline, 0);
+    assert_int_equal(document_character(document, 0)->drives[0].spline, 1);
+    assert_int_equal(document_character(document, 0)->drives[1].spline, 0);
     struct error error = {0};
     history_begin(history, "Remove", 0);
     assert_false(history_apply(history, document, &(struct edit){.kind = EDIT_SPLINE_REMOVE, .spline = 0}, &error));
@@ -211,20 +255,20 @@ static void a_scene_saved_elsewhere_finds_its_model(void **state)
     assert_int_equal(mkdir(deeper, 0777), 0);
     struct document *document = parse(whole);
     assert_true(document_set_folder(document, folder));
-    free(document->characters[0].model);
-    document->characters[0].model = strdup("models/a.glb");
+    free(document_character(document, 0)->model);
+    document_character(document, 0)->model = strdup("models/a.glb");
     snprintf(path, sizeof path, "%s/scene.json", deeper);
     struct error error = {0};
     assert_true(scene_save(document, path, &error));
-    assert_string_equal(document->characters[0].model, "models/a.glb");
+    assert_string_equal(document_character(document, 0)->model, "models/a.glb");
     struct document *loaded = scene_load(path, NULL, &error);
     assert_non_null(loaded);
-    assert_string_equal(loaded->characters[0].model, "../models/a.glb");
+    assert_string_equal(document_character(loaded, 0)->model, "../models/a.glb");
     snprintf(path, sizeof path, "%s/models/a.glb", folder);
-    assert_true(path_resolve(loaded->folder, loaded->characters[0].model, absolute));
+    assert_true(path_resolve(loaded->folder, document_character(loaded, 0)->model, absolute));
     assert_string_equal(absolute, path);
     assert_true(document_set_folder(document, deeper));
-    assert_string_equal(document->characters[0].model, "../models/a.glb");
+    assert_string_equal(document_character(document, 0)->model, "../models/a.glb");
     document_destroy(document);
     document_destroy(loaded);
     snprintf(path, sizeof path, "%s/scene.json", deeper);
@@ -240,6 +284,7 @@ int main(void)
         cmocka_unit_test(it_is_printed_as_it_was_read),
         cmocka_unit_test(bad_characters_are_refused),
         cmocka_unit_test(edits_are_undone_to_the_byte),
+        cmocka_unit_test(rigs_keep_their_order),
         cmocka_unit_test(impossible_edits_are_refused),
         cmocka_unit_test(drives_follow_their_splines),
         cmocka_unit_test(paths_are_rebased),

@@ -12,16 +12,16 @@ build=$(realpath "$B")
 CC=${CC:-gcc}
 sanitizers=""
 [ -n "${SANITIZE:-}" ] && sanitizers="-fsanitize=address,undefined"
-documents="README.md docs/*.md"
+documents="README.md CONTRIBUTING.md docs/*.md"
 commands=$("$build/wiggly" --help | sed -nE 's/^  ([a-z]+) .*/\1/p' | tr '\n' ' ')
 unset DISPLAY WAYLAND_DISPLAY
 
 # --- what a command line finds, and how it is cut short where it would last
 
 mkdir "$scratch/bin" "$scratch/work" "$scratch/work/build"
-make B="$B" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
+make BORROWED=yes B="$B" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
 ok "make install" $?
-export PKG_CONFIG_PATH=$scratch/stage/opt/wiggly/lib/pkgconfig PKG_CONFIG_SYSROOT_DIR=$scratch/stage
+export PKG_CONFIG_PATH=$scratch/stage/opt/wiggly/lib/pkgconfig
 
 cat >"$scratch/bin/wiggly" <<END
 #!/bin/bash

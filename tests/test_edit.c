@@ -130,7 +130,7 @@ static void test_angles(void **state)
     struct world world;
     world_open(&world);
     char *before = world_print(&world);
-    const struct tail *tail = &world.document->tails[0];
+    const struct tail *tail = document_tail(world.document, 0);
     struct angles all = {.value = {4}}, each = {.each = true, .value = {1, 2, 9}}, wrong = {.value = {NAN}};
     struct edit edit = {.kind = EDIT_ANGLES, .channel = 1, .angle = ANGLE_GAIN, .angles = &all};
     world_must(&world, edit);
@@ -147,7 +147,7 @@ static void test_angles(void **state)
     assert_refused(&world, edit, "angles must be finite");
     edit.channel = 2;
     assert_refused(&world, edit, "there is no such channel");
-    edit.tail = 1;
+    edit.rig = 1;
     assert_refused(&world, edit, "there is no such tail");
     while (history_undo(world.history, world.document)) continue;
     assert_document(&world, before);

@@ -48,7 +48,8 @@ static void test_a_new_spline(void **state)
     assert_int_equal(added->knot_count, 1);
     assert_near(added->knots[0].frame, 7, 0);
     assert_int_equal(world.document->splines[3].parameter[PARAMETER_EQUILIBRIUM].track, 0);
-    assert_int_equal(world.document->tails[0].channels[1].spline, 3); // "loop" has moved on, and its channel with it
+    assert_int_equal(document_tail(world.document, 0)->channels[1].spline,
+                     3); // "loop" has moved on, and its channel with it
     add.spline = -1;
     world_must(&world, add);
     assert_string_equal(world.document->splines[4].name, "spline 2");
@@ -73,7 +74,7 @@ static void test_a_copy(void **state)
     const struct spline *copy = &world.document->splines[LOOP + 1], *loop = &world.document->splines[LOOP];
     assert_string_equal(copy->name, "loop 2");
     assert_int_equal(copy->parameter[PARAMETER_EQUILIBRIUM].track, SWAY);
-    assert_int_equal(copy->start, WIGGLY_LOOP);
+    assert_int_equal(spline_start(copy), WIGGLY_LOOP);
     assert_true(copy->id != loop->id && copy->knots[0].id != loop->knots[0].id);
     world_must(&world, on(EDIT_SPLINE_COPY, LOOP + 1));
     assert_string_equal(world.document->splines[LOOP + 2].name, "loop 3");
@@ -92,7 +93,7 @@ static void test_removal_needs_no_followers(void **state)
     unsigned id = world.document->splines[PLUCK].id;
     assert_reversible(&world, on(EDIT_SPLINE_REMOVE, PLUCK));
     assert_int_equal(document_find_spline_id(world.document, id), -1);
-    assert_int_equal(world.document->tails[0].channels[1].spline, 1);
+    assert_int_equal(document_tail(world.document, 0)->channels[1].spline, 1);
     assert_int_equal(world.document->splines[1].parameter[PARAMETER_EQUILIBRIUM].track, 0);
     assert_true(history_undo(world.history, world.document));
     assert_int_equal(document_find_spline_id(world.document, id), PLUCK);
@@ -108,8 +109,8 @@ static void test_order(void **state)
     assert_string_equal(world.document->splines[2].name, "sway");
     assert_string_equal(world.document->splines[1].name, "loop");
     assert_int_equal(world.document->splines[1].parameter[PARAMETER_EQUILIBRIUM].track, 2);
-    assert_int_equal(world.document->tails[0].channels[0].spline, 2);
-    assert_int_equal(world.document->tails[0].channels[1].spline, 1);
+    assert_int_equal(document_tail(world.document, 0)->channels[0].spline, 2);
+    assert_int_equal(document_tail(world.document, 0)->channels[1].spline, 1);
     assert_reversible(&world, edit_reorder(2, 0));
     assert_string_equal(world.document->splines[0].name, "sway");
     assert_refused(&world, edit_reorder(0, 3), "there is no such place in the list");

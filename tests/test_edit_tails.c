@@ -15,7 +15,7 @@ static void test_places(void **state)
     (void)state;
     struct world world;
     world_open(&world);
-    const struct tail *tail = &world.document->tails[0];
+    const struct tail *tail = document_tail(world.document, 0);
     assert_reversible(&world, edit_position(0, 0.5, -1));
     assert_reversible(&world, edit_position(2, 0, LOOP));
     assert_near(tail->position[0].value, 0.5, 0);
@@ -26,7 +26,7 @@ static void test_places(void **state)
     assert_refused(&world, edit_position(1, 0, 3), "t: there is no spline to follow");
     assert_refused(&world, edit_position(3, 0, -1), "there is no such coordinate");
     assert_refused(&world, (struct edit){.kind = EDIT_LENGTH}, "t: the length must be above 0");
-    assert_refused(&world, (struct edit){.kind = EDIT_LENGTH, .tail = 1, .number = 1}, "there is no such tail");
+    assert_refused(&world, (struct edit){.kind = EDIT_LENGTH, .rig = 1, .number = 1}, "there is no such tail");
     world_close(&world);
 }
 
@@ -35,7 +35,7 @@ static void test_channels(void **state)
     (void)state;
     struct world world;
     world_open(&world);
-    const struct channel *channel = &world.document->tails[0].channels[1];
+    const struct channel *channel = &document_tail(world.document, 0)->channels[1];
     assert_reversible(&world, (struct edit){.kind = EDIT_FEED, .channel = 1, .spline = PLUCK});
     assert_int_equal(channel->spline, PLUCK);
     assert_reversible(&world, (struct edit){.kind = EDIT_PART, .channel = 1, .of = PART_DISPLACEMENT});
@@ -55,25 +55,25 @@ static void test_which_tails_there_are(void **state)
     world_open(&world);
     char *before = world_print(&world);
     assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_ADD});
-    assert_int_equal(world.document->tail_count, 2);
-    const struct tail *copy = &world.document->tails[1];
-    assert_string_equal(copy->name, "tail");
+    assert_int_equal(document_count_rigs(world.document, RIG_TAIL), 2);
+    const struct tail *copy = document_tail(world.document, 1);
+    assert_string_equal(world.document->rigs[1].name, "tail");
     assert_int_equal(copy->channel_count, 2);
     assert_near(copy->channels[1].gain.value[2], 3, 0);
-    assert_true(copy->position[0].value > world.document->tails[0].position[0].value);
-    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_NAME, .tail = 1, .text = "other"});
-    assert_refused(&world, (struct edit){.kind = EDIT_TAIL_NAME, .tail = 1, .text = "t"},
+    assert_true(copy->position[0].value > document_tail(world.document, 0)->position[0].value);
+    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_NAME, .rig = 1, .text = "other"});
+    assert_refused(&world, (struct edit){.kind = EDIT_TAIL_NAME, .rig = 1, .text = "t"},
                    "there is a rig called t already");
-    assert_refused(&world, (struct edit){.kind = EDIT_TAIL_NAME, .tail = 1, .text = ""}, "a tail needs a name");
-    struct edit lag = {.kind = EDIT_ANGLES, .tail = 1, .channel = 1, .angle = ANGLE_LAG};
+    assert_refused(&world, (struct edit){.kind = EDIT_TAIL_NAME, .rig = 1, .text = ""}, "a tail needs a name");
+    struct edit lag = {.kind = EDIT_ANGLES, .rig = 1, .channel = 1, .angle = ANGLE_LAG};
     const struct angles angles = {.value = {9}};
     lag.angles = &angles;
     assert_reversible(&world, lag); // angles go by index: they find their place in a list that came back
-    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_REMOVE, .tail = 0});
-    assert_string_equal(world.document->tails[0].name, "other");
-    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_REMOVE, .tail = 0});
-    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_ADD, .tail = -1, .spline = PLUCK});
-    assert_int_equal(world.document->tails[0].channels[0].spline, PLUCK);
+    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_REMOVE, .rig = 0});
+    assert_string_equal(world.document->rigs[0].name, "other");
+    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_REMOVE, .rig = 0});
+    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_ADD, .rig = -1, .spline = PLUCK});
+    assert_int_equal(document_tail(world.document, 0)->channels[0].spline, PLUCK);
     world_undo_all(&world);
     assert_document(&world, before);
     free(before);
@@ -87,14 +87,14 @@ static void test_which_channels_there_are(void **state)
     world_open(&world);
     const struct edit add = {.kind = EDIT_CHANNEL_ADD, .spline = PLUCK, .axis = AXIS_UP, .of = PART_DISPLACEMENT};
     assert_reversible(&world, add);
-    const struct tail *tail = &world.document->tails[0];
+    const struct tail *tail = document_tail(world.document, 0);
     assert_int_equal(tail->channel_count, 3);
     assert_int_equal(tail->channels[2].spline, PLUCK);
     assert_int_equal(tail->channels[2].of, PART_DISPLACEMENT);
     assert_near(tail->channels[2].lag.value[0], CHANNEL_DEFAULT_LAG, 0);
     assert_reversible(&world, (struct edit){.kind = EDIT_CHANNEL_REMOVE, .channel = 0});
-    assert_int_equal(world.document->tails[0].channel_count, 2);
-    assert_int_equal(world.document->tails[0].channels[1].spline, PLUCK);
+    assert_int_equal(document_tail(world.document, 0)->channel_count, 2);
+    assert_int_equal(document_tail(world.document, 0)->channels[1].spline, PLUCK);
     assert_refused(&world, (struct edit){.kind = EDIT_CHANNEL_REMOVE, .channel = 2}, "there is no such channel");
     assert_refused(&world, (struct edit){.kind = EDIT_CHANNEL_ADD, .spline = -1}, "there is no such spline");
     for (int c = 2; c < SCENE_MAX_CHANNELS; c++) assert_true(world_step(&world, add));
@@ -109,7 +109,7 @@ static void test_joints_keep_the_shape(void **state)
     struct world world;
     world_open(&world);
     assert_reversible(&world, (struct edit){.kind = EDIT_JOINTS, .to = 5});
-    const struct tail *tail = &world.document->tails[0];
+    const struct tail *tail = document_tail(world.document, 0);
     assert_int_equal(tail->joints, 5);
     assert_near(tail->channels[0].gain.value[0], 5 * 3.0 / 5, 1e-6);
     assert_near(tail->channels[0].lag.value[0], 6.5 * 3.0 / 5, 1e-6);

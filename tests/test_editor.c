@@ -299,7 +299,7 @@ static void test_parameters_by_held_letters(void **state)
     session_key(&s, 'Z', MOD_CTRL);
     assert_near(sway(&s)->parameter[PARAMETER_FREQUENCY].value, 1, 0);
     session_key(&s, 'M', 0);
-    assert_int_equal(sway(&s)->mode, WIGGLY_REAL);
+    assert_int_equal(spline_mode(sway(&s)), WIGGLY_REAL);
     session_close(&s);
 }
 

@@ -441,7 +441,8 @@ static void set(struct session *s, enum parameter parameter, double value)
 /// Sets every slider to one of its ends, as the bits of `ends` say, and looks at the curve.
 static void assert_finite_at(struct session *s, enum wiggly_mode mode, enum wiggly_start start, int ends)
 {
-    const struct edit edits[] = {{.kind = EDIT_MODE, .mode = mode}, {.kind = EDIT_START, .start = start}};
+    const struct edit edits[] = {{.kind = EDIT_PARAMETER, .parameter = PARAMETER_MODE, .param = {mode, -1}},
+                                 {.kind = EDIT_PARAMETER, .parameter = PARAMETER_START, .param = {start, -1}}};
     history_begin(s->history, "extremes", 1);
     assert_true(history_apply(s->history, s->document, &edits[0], NULL));
     assert_true(history_apply(s->history, s->document, &edits[1], NULL));

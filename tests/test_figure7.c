@@ -60,7 +60,7 @@ static void hands_follow_the_body(void **state)
     assert_true(fabs(body) < 20);
     assert_true(body - left > 35 && body - left < 120);
     assert_true(fabs(left - right) < 15);
-    assert_int_equal(scene.document->characters[0].phases, 1);
+    assert_int_equal(document_character(scene.document, 0)->phases, 1);
     close_scene(&scene);
 }
 
@@ -87,7 +87,7 @@ static void two_coordinates_follow_one_spline_of_nine_knots(void **state)
 {
     (void)state;
     struct scene scene = open_scene("assets/scenes/character.json");
-    const struct character_rig *rig = &scene.document->characters[0];
+    const struct character_rig *rig = document_character(scene.document, 0);
     assert_int_equal(scene.document->spline_count, 1);
     assert_int_equal(scene.document->splines[0].knot_count, 9);
     assert_int_equal(rig->drive_count, 2);

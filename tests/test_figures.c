@@ -112,7 +112,8 @@ static void test_figure4(void **state)
     assert_int_equal(before, 5);
     assert_int_equal(moved, 5);
     assert_near(moved_smallest, 0.795, 0.0005);
-    for (int i = 0; i < document->spline_count; i++) document->splines[i].mode = WIGGLY_REAL;
+    for (int i = 0; i < document->spline_count; i++)
+        document->splines[i].parameter[PARAMETER_MODE].value = WIGGLY_REAL;
     evaluation_update(&evaluation, document, NULL, false);
     assert_int_equal(count_extrema(curve("moved")->total, 36 + 3, 115 - 3, &moved_smallest), 5);
     assert_near(moved_smallest, 0.598, 0.0005); // the sharp resonance cannot stretch, and finds another way
@@ -174,7 +175,7 @@ static void test_figure6(void **state)
     (void)state;
     enum { BASE = 0, LATE = 18 };
     open_figure("assets/scenes/figure6.json");
-    const struct tail *tail = &document->tails[0];
+    const struct tail *tail = document_tail(document, 0);
     const struct posing posing = {document, &evaluation, NULL, LOOK_WIGGLY};
     double bend[2][128], best = -INFINITY;
     int lag = 0, count = evaluation.samples;

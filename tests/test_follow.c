@@ -48,7 +48,7 @@ static wiggly_value solved(const struct spline *spline)
     for (int i = 0; i < SAMPLES; i++) track[i] = base_at((double)i / RATE);
     desc.samples = SAMPLES;
     desc.step = 1.0 / RATE;
-    desc.mode = spline->mode;
+    desc.mode = spline_mode(spline);
     desc.start = WIGGLY_REST;
     desc.frequency.value = spline->parameter[PARAMETER_FREQUENCY].value;
     desc.damping.value = spline->parameter[PARAMETER_DAMPING].value;
@@ -120,7 +120,7 @@ static void test_nothing_pulls_a_cubic_back(void **state)
     const double parameter[PARAMETER_COUNT] = {0};
     struct spline spline = spline_of(WIGGLY_CUBIC, 1, 0.1, 0.1);
     assert_false(follow_filter(&spline, parameter, &filter));
-    spline.mode = WIGGLY_COMPLEX;
+    spline.parameter[PARAMETER_MODE].value = WIGGLY_COMPLEX;
     assert_false(follow_filter(&spline, parameter, &filter));
 }
 

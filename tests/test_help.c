@@ -33,10 +33,10 @@ static bool is_seen(const struct draw_command *c) { return c && c->y > c->clip.y
 static void assert_whole(struct session *s)
 {
     for (int g = 0; g < HELP_GROUPS; g++) {
-        for (int i = 0; i < HELP_MAX_ROWS && help_groups[g].rows[i].keys; i++) {
-            const struct help_row *row = &help_groups[g].rows[i];
-            if (!is_seen(shown(s, row->keys)) || !is_seen(shown(s, row->what))) {
-                fail_msg("“%s, %s” is not to be seen", row->keys, row->what);
+        for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
+            const struct help_row row = help_row(&help_groups[g], i);
+            if (!is_seen(shown(s, row.keys)) || !is_seen(shown(s, row.what))) {
+                fail_msg("“%s, %s” is not to be seen", row.keys, row.what);
             }
         }
     }
@@ -64,14 +64,14 @@ static void test_all_of_it_is_reached_at_960_by_600(void **state)
     bool seen[HELP_GROUPS][HELP_MAX_ROWS] = {{false}};
     for (int page = 0; page < 6; page++) {
         for (int g = 0; g < HELP_GROUPS; g++) {
-            for (int i = 0; i < HELP_MAX_ROWS && help_groups[g].rows[i].keys; i++) {
-                seen[g][i] |= is_seen(shown(&s, help_groups[g].rows[i].what));
+            for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
+                seen[g][i] |= is_seen(shown(&s, help_row(&help_groups[g], i).what));
             }
         }
         session_wheel(&s, -1);
     }
     for (int g = 0; g < HELP_GROUPS; g++) {
-        for (int i = 0; i < HELP_MAX_ROWS && help_groups[g].rows[i].keys; i++) assert_true(seen[g][i]);
+        for (int i = 0; help_row(&help_groups[g], i).keys; i++) assert_true(seen[g][i]);
     }
     session_close(&s);
 }
@@ -258,8 +258,8 @@ static void test_every_key_is_in_the_help(void **state)
     (void)state;
     struct chords chords = {.count = 0};
     for (int g = 0; g < HELP_GROUPS; g++) {
-        for (int i = 0; i < HELP_MAX_ROWS && help_groups[g].rows[i].keys; i++) {
-            read_row(help_groups[g].rows[i].keys, &chords);
+        for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
+            read_row(help_row(&help_groups[g], i).keys, &chords);
         }
     }
     add_words(&chords);
@@ -291,8 +291,8 @@ static void test_the_help_names_no_other_keys(void **state)
 {
     (void)state;
     for (int g = 0; g < HELP_GROUPS; g++) {
-        for (int i = 0; i < HELP_MAX_ROWS && help_groups[g].rows[i].keys; i++) {
-            assert_does_something(help_groups[g].rows[i].keys);
+        for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
+            assert_does_something(help_row(&help_groups[g], i).keys);
         }
     }
 }

@@ -214,13 +214,15 @@ static struct edit random_knot_edit(const struct world *world)
 static struct edit random_setting_edit(struct angles *angles)
 {
     struct edit edit = {.spline = rand() % 3, .channel = rand() % 3 - 1, .angles = angles};
-    static const enum edit_kind kinds[] = {EDIT_PARAMETER, EDIT_PARAMETER, EDIT_MODE,   EDIT_START,
-                                           EDIT_SPRING,    EDIT_RANGE,     EDIT_ANGLES, EDIT_AXIS};
+    static const enum edit_kind kinds[] = {EDIT_PARAMETER, EDIT_PARAMETER, EDIT_PARAMETER, EDIT_PARAMETER,
+                                           EDIT_SPRING,    EDIT_RANGE,     EDIT_ANGLES,    EDIT_AXIS};
     edit.kind = kinds[rand() % 8];
     edit.parameter = (enum parameter)(rand() % PARAMETER_COUNT);
     edit.param = (struct param){rand() % 2 ? fabs(random_number()) : 0.5, rand() % 6 - 3};
-    edit.mode = (enum wiggly_mode)(rand() % 3);
-    edit.start = (enum wiggly_start)(rand() % 3);
+    if (rand() % 2) {
+        edit.parameter = rand() % 2 ? PARAMETER_MODE : PARAMETER_START;
+        edit.param = (struct param){rand() % 3, -1};
+    }
     edit.flag = rand() % 2;
     edit.first = -(rand() % 20);
     edit.last = 40 + rand() % 20;

@@ -88,7 +88,7 @@ static void test_typing_keeps_keys_from_the_editor(void **state)
     session_key(&f, KEY_DELETE, 0);
     session_key(&f, KEY_SPACE, 0);
     assert_int_equal(f.editor->look, LOOK_WIGGLY);
-    assert_int_equal(f.document->splines[0].mode, WIGGLY_COMPLEX);
+    assert_int_equal(spline_mode(&f.document->splines[0]), WIGGLY_COMPLEX);
     assert_int_equal(f.document->splines[0].knot_count, 3);
     assert_false(f.editor->playback.playing);
     session_key(&f, KEY_F1, 0);
@@ -127,7 +127,7 @@ static void test_only_what_counts_is_shown(void **state)
     panel_open(&f, scene, 1280, 720);
     assert_true(panel_shows(&f, "bandwidth"));
     panel_click(&f, "mode.real");
-    assert_int_equal(f.document->splines[0].mode, WIGGLY_REAL);
+    assert_int_equal(spline_mode(&f.document->splines[0]), WIGGLY_REAL);
     assert_false(panel_shows(&f, "bandwidth"));
     panel_click(&f, "spring_friction");
     assert_true(panel_shows(&f, "spring"));
@@ -139,7 +139,7 @@ static void test_only_what_counts_is_shown(void **state)
     assert_false(panel_shows(&f, "frequency")); // a track drives it
     assert_true(panel_shows(&f, "damping"));
     panel_click(&f, "start.loop");
-    assert_int_equal(f.document->splines[2].start, WIGGLY_LOOP);
+    assert_int_equal(spline_start(&f.document->splines[2]), WIGGLY_LOOP);
     panel_click(&f, "look.cubic");
     assert_int_equal(f.editor->look, LOOK_CUBIC);
     session_close(&f);
@@ -252,7 +252,7 @@ static void test_tail_array_scales_as_a_whole(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
-    const struct tail *tail = &f.document->tails[0];
+    const struct tail *tail = document_tail(f.document, 0);
     panel_drag(&f, "gain", 18);
     assert_near(tail->channels[0].gain.value[0], 6, 1e-12);
     assert_near(tail->channels[0].gain.value[2], 18, 0);

@@ -64,7 +64,7 @@ static void amplitude_and_lag_are_live_and_one_step_each(void **state)
     (void)state;
     struct puppetry p;
     open_puppet(&p);
-    const struct drive *drive = &p.session.document->characters[0].drives[0];
+    const struct drive *drive = &document_character(p.session.document, 0)->drives[0];
     const float before = on_stage(&p, 0)->morph.weight[0][0];
     panel_drag(&p.session, "amplitude", 1.5);
     assert_true(fabs(drive->amplitude - 1.5) < 0.05);
@@ -85,7 +85,7 @@ static void coordinates_come_and_go_and_change_their_spline(void **state)
     (void)state;
     struct puppetry p;
     open_puppet(&p);
-    const struct character_rig *rig = &p.session.document->characters[0];
+    const struct character_rig *rig = document_character(p.session.document, 0);
     panel_click(&p.session, "drive.add.0");
     panel_click(&p.session, "item.b");
     assert_int_equal(rig->drive_count, 2);

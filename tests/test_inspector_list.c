@@ -70,14 +70,14 @@ static void test_deleting_a_followed_spline_asks(void **state)
     assert_int_equal(f.document->spline_count, 2);
     assert_int_equal(f.document->splines[1].parameter[PARAMETER_FREQUENCY].track, -1);
     assert_near(f.document->splines[1].parameter[PARAMETER_FREQUENCY].value, 2, 1e-9);
-    assert_int_equal(f.document->tails[0].channels[1].spline, 1);
+    assert_int_equal(document_tail(f.document, 0)->channels[1].spline, 1);
     assert_one_step(&f, before);
     free(before);
     panel_click(&f, "spline.lift");
     before = session_saved(&f);
     panel_click(&f, "spline.delete");
     session_key(&f, KEY_ENTER, 0);
-    assert_int_equal(f.document->tails[0].channel_count, 1);
+    assert_int_equal(document_tail(f.document, 0)->channel_count, 1);
     assert_one_step(&f, before);
     free(before);
     session_close(&f);

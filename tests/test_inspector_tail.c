@@ -10,7 +10,7 @@ static const char scene[] =
     "\"joints\": 4, "
     "\"position\": [0, 0.26, 0], \"channels\": [{\"spline\": \"sway\", \"lag\": 6, \"gain\": 5}]}]}";
 
-static const struct tail *tail(const struct session *s) { return &s->document->tails[0]; }
+static const struct tail *tail(const struct session *s) { return document_tail(s->document, 0); }
 
 /// Everything is in reach on a tall screen.
 static char *open_tall(struct session *s)
@@ -119,17 +119,17 @@ static void test_tails(void **state)
     session_key(&s, 'A', MOD_CTRL);
     panel_type(&s, "brush");
     session_key(&s, KEY_ENTER, 0);
-    assert_string_equal(tail(&s)->name, "brush");
+    assert_string_equal(s.document->rigs[0].name, "brush");
     panel_click(&s, "tail.add");
-    assert_int_equal(s.document->tail_count, 2);
+    assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 2);
     assert_int_equal(editor_stage(s.editor)->tail_count, 2);
     assert_int_equal(s.editor->inspector.tail, 1);
     panel_click(&s, "tail.delete");
     panel_click(&s, "tail.delete");
-    assert_int_equal(s.document->tail_count, 0);
+    assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 0);
     assert_int_equal(editor_stage(s.editor)->tail_count, 0);
     panel_click(&s, "tail.add");
-    assert_int_equal(s.document->tail_count, 1);
+    assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 1);
     close_undone(&s, before);
 }
 

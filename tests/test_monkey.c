@@ -100,7 +100,8 @@ static char *printed(const struct document *document)
 /// What its first character's paint is saved in.
 static const char *paint_file(const struct document *document)
 {
-    const char *file = document->character_count > 0 ? document->characters[0].paint : NULL;
+    const struct character_rig *rig = document_character(document, 0);
+    const char *file = rig ? rig->paint : NULL;
     return file ? file : "";
 }
 

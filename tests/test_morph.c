@@ -233,7 +233,7 @@ static void a_model_that_is_missing_or_broken_is_said(void **state)
         assert_false(cast_update(cast, document, &error));
         assert_int_equal(strncmp(error.text, sentences[i], strlen(sentences[i])), 0);
         assert_null(cast_figure(cast, 0));
-        assert_string_equal(document->characters[0].model, models[i]);
+        assert_string_equal(document_character(document, 0)->model, models[i]);
         cast_destroy(cast);
         document_destroy(document);
     }

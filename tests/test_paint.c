@@ -21,7 +21,7 @@ struct studio {
     struct history *history;
 };
 
-static struct character_rig *rig_of(const struct studio *s) { return &s->document->characters[0]; }
+static struct character_rig *rig_of(const struct studio *s) { return document_character(s->document, 0); }
 
 static struct studio studio_open(const char *text)
 {
@@ -213,8 +213,8 @@ static struct document *load(const char *folder, const char *name)
 static void assert_loads(const struct studio *s, const char *folder, const char *name, const char *file)
 {
     struct document *document = load(folder, name);
-    const struct paint *paint = document->characters[0].painted;
-    assert_string_equal(document->characters[0].paint, file);
+    const struct paint *paint = document_character(document, 0)->painted;
+    assert_string_equal(document_character(document, 0)->paint, file);
     assert_non_null(paint);
     assert_int_equal(paint->coordinates, COORDINATES);
     assert_int_equal(paint->vertices, VERTICES);
@@ -246,12 +246,12 @@ static void paint_is_saved_beside_its_scene(void **state)
     save(&s, folder, "run.json");
     assert_loads(&s, folder, "run.json", "run-paint.npy");
     struct document *walk = load(folder, "walk.json");
-    assert_near((double)walk->characters[0].painted->values[VERTICES + 30][1], 3, 0);
+    assert_near((double)document_character(walk, 0)->painted->values[VERTICES + 30][1], 3, 0);
     document_destroy(walk);
     while (history_undo(s.history, s.document)) continue;
     save(&s, folder, "run.json"); // nothing is painted any more
     struct document *run = load(folder, "run.json");
-    assert_null(run->characters[0].paint);
+    assert_null(document_character(run, 0)->paint);
     document_destroy(run);
     while (history_redo(s.history, s.document)) continue;
     save(&s, folder, "run.json");
@@ -342,7 +342,7 @@ static void broken_paint_is_said_and_stays_named(void **state)
     assert_false(scene_read_paint(s.document, &error));
     save(&s, folder, "walk.json");
     struct document *again = scene_load(in(folder, "walk.json"), NULL, &error);
-    assert_string_equal(again->characters[0].paint, "missing.npy");
+    assert_string_equal(document_character(again, 0)->paint, "missing.npy");
     document_destroy(again);
     studio_close(&s);
     remove_folder(folder);

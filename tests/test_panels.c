@@ -104,8 +104,9 @@ static void check_status(struct session *f)
 static void check_dialogs(struct session *f)
 {
     const struct request quit = {.kind = REQUEST_QUIT};
-    struct edit edit = editor_edit_of(EDIT_START, 0);
-    edit.start = WIGGLY_REST;
+    struct edit edit = editor_edit_of(EDIT_PARAMETER, 0);
+    edit.parameter = PARAMETER_START;
+    edit.param = (struct param){WIGGLY_REST, -1};
     assert_true(editor_step(f->editor, &f->world, "Change start", 0, &edit));
     for (int kind = 0; kind < 4; kind++) {
         if (kind == 0) dialog_ask_open(f->editor);
@@ -130,8 +131,9 @@ static void check_dialogs(struct session *f)
 
 static int list_names(void *user, const char *folder, char names[][256], int max)
 {
-    static const char long_name[] = "a name so long that it does not fit into any dialog, however wide it was made, and "
-                                    "that goes on after that.json";
+    static const char long_name[] =
+        "a name so long that it does not fit into any dialog, however wide it was made, and "
+        "that goes on after that.json";
     static const char *const root[] = {"figures/", "figure1.json", "figure3.json", "tail.json", long_name};
     static const char *const figures[] = {"one.json", "two.json"};
     bool in_root = strcmp(folder, ".") == 0;

@@ -69,9 +69,9 @@ static void test_recorded_is_what_was_seen(void **state)
     perform(&s, true, base, tip);
     assert_int_equal(s.document->spline_count, 3);
     assert_string_equal(s.document->splines[1].name, "tail x");
-    assert_int_equal(s.document->splines[1].mode, WIGGLY_CUBIC);
+    assert_int_equal(spline_mode(&s.document->splines[1]), WIGGLY_CUBIC);
     assert_in_range(s.document->splines[1].knot_count, 3, 12);
-    const struct tail *tail = &s.document->tails[0];
+    const struct tail *tail = document_tail(s.document, 0);
     assert_int_equal(tail->position[0].track, 1);
     assert_int_equal(tail->position[2].track, -1);
     assert_int_equal(tail->channel_count, 2);
@@ -108,7 +108,7 @@ static void test_a_second_take_replaces_the_first(void **state)
     session_key(&s, KEY_LEFT, MOD_SHIFT);
     perform(&s, true, base, tip);
     assert_int_equal(s.document->spline_count, 3);
-    assert_int_equal(s.document->tails[0].channel_count, 2);
+    assert_int_equal(document_tail(s.document, 0)->channel_count, 2);
     assert_in_range(s.document->splines[1].knot_count, 3, 20);
     session_close(&s);
 }

@@ -178,7 +178,7 @@ static void test_moving_bases_are_kept(void **state)
         "\"name\": \"t\", \"frequency\": 1, \"position\": [{\"by\": \"me\", \"spline\": \"walk\"}, 0.26, "
         "{\"spline\": "
         "\"walk\"}], \"spline\": \"walk\", \"of\": \"displacement\"}]}");
-    const struct tail *tail = &document->tails[0];
+    const struct tail *tail = document_tail(document, 0);
     assert_int_equal(tail->position[0].track, 0);
     assert_int_equal(tail->position[1].track, -1);
     assert_near(tail->position[1].value, 0.26, 0);

@@ -118,8 +118,8 @@ static void open_recover(struct session *s)
 static void open_failed(struct session *s)
 {
     session_key(s, 'S', MOD_CTRL | MOD_SHIFT);
-    s->editor->dialog.waiting = true;
-    editor_message(s->editor, true, long_message);
+    s->editor->dialog.awaited = REQUEST_SAVE_AS;
+    panel_answer(s, REQUEST_SAVE_AS, false, long_message);
 }
 
 static void open_palette(struct session *s) { panel_click(s, "color.sway"); }

@@ -61,7 +61,7 @@ static void check_scene(const char *name)
     double *expected = read_numbers(path, columns, document_samples(document));
     for (int s = 0; s < document->spline_count; s++) {
         double worst = relative_error(&evaluation.curves[s], expected, columns, s);
-        double tolerance = document->splines[s].mode == WIGGLY_CUBIC ? 1e-9 : 1e-8;
+        double tolerance = spline_mode(&document->splines[s]) == WIGGLY_CUBIC ? 1e-9 : 1e-8;
         if (!(worst <= tolerance)) fail_msg("%s, %s: off by %g of its range", name, document->splines[s].name, worst);
         assert_int_equal(evaluation.status[s], WIGGLY_OK);
     }

@@ -18,6 +18,8 @@ cp assets/scenes/tail.json "$scratch/mine.json"
 before=$(grep -o '"frame":' "$scratch/mine.json" | wc -l)
 
 start_app mine.json "$scratch/mine.json"
+xdotool search --class '^wiggly$' >/dev/null
+ok "the window's class is the one in wiggly.desktop" $?
 keys space Home shift+Left Right Right Right i ctrl+s
 eventually "I inserts a knot at the playhead and Ctrl+S saves it" knots -eq $((before + 1))
 quit_app

@@ -114,12 +114,13 @@ struct edit edit_track(int spline, enum parameter parameter, int track)
 
 struct edit edit_mode(int spline, enum wiggly_mode mode)
 {
-    return (struct edit){.kind = EDIT_MODE, .spline = spline, .mode = mode};
+    return (struct edit){.kind = EDIT_PARAMETER, .spline = spline, .parameter = PARAMETER_MODE, .param = {mode, -1}};
 }
 
 struct edit edit_start(int spline, enum wiggly_start start)
 {
-    return (struct edit){.kind = EDIT_START, .spline = spline, .start = start};
+    return (struct edit){
+        .kind = EDIT_PARAMETER, .spline = spline, .parameter = PARAMETER_START, .param = {start, -1}};
 }
 
 struct edit edit_range(int first, int last)

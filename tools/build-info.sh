@@ -10,11 +10,12 @@ commit=$(git rev-parse --short=12 HEAD || echo unknown)
 # shellcheck disable=SC2086 # a compiler may come with a word before it (ccache gcc)
 compiler=$($2 --version | head -n 1 | tr -d '"\\')
 mkdir -p "$(dirname "$output")"
+new=$output.$$ # several may be at it at once
 {
     echo '#include "base/build.h"'
     echo
     echo "const char build_commit[] = \"$commit\";"
     echo "const char build_compiler[] = \"$compiler\";"
     echo "const char build_flags[] = \"$3\";"
-} >"$output.new"
-if cmp -s "$output.new" "$output"; then rm "$output.new"; else mv "$output.new" "$output"; fi
+} >"$new"
+if cmp -s "$new" "$output"; then rm "$new"; else mv "$new" "$output"; fi

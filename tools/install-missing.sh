@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that the named sets need and that are not there. Fast and silent when nothing is missing.
 # "a|b": a, or b where the system has no package a.
-# Usage: tools/install-missing.sh [build] [test] [bench] [check] [bare]
+# Usage: tools/install-missing.sh [build] [test] [bench] [check] [clang] [bare]
 set -eu
 
 packages_of() {
@@ -11,9 +11,10 @@ packages_of() {
     test) echo g++ liblapacke-dev libopenblas-dev libcmocka-dev xvfb x11-xkb-utils xdotool imagemagick ;;
     bench) echo liblapacke-dev libopenblas-dev ;;
     check) echo clang-format-14 cppcheck ;;
+    clang) echo clang ;;
     bare) echo debootstrap ;;
     *)
-        echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench, check and bare" >&2
+        echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench, check, clang and bare" >&2
         exit 2
         ;;
     esac
@@ -26,6 +27,7 @@ probes_of() {
     test) echo g++ Xvfb setxkbmap xdotool convert cmocka.pc lapacke.pc openblas.pc ;;
     bench) echo lapacke.pc openblas.pc ;;
     check) echo clang-format-14 cppcheck ;;
+    clang) echo clang ;;
     bare) echo debootstrap ;;
     esac
 }

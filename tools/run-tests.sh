@@ -1,36 +1,95 @@
 #!/bin/bash
-# Runs test programs (cmocka) and test scripts one after the other, from the root of the tree. Prints a line for each and, for
-# one that failed, the end of what it said; then "N passed, N failed" over all cases. Exit status 1 where any failed.
-# Scripts report their cases as lines "ok - what" and "not ok - what".
-# Environment: TEST_OUT, a folder for logs and for what tests write; TEST_TIMEOUT in seconds.
+# Runs test programs (cmocka) and test scripts, as many at once as there are processors, from the root of the tree. Prints a line
+# for each in the order given and, for one that failed, the end of what it said; then "N passed, N failed" over all cases. Exit
+# status 1 where any failed. Scripts report their cases as lines "ok - what" and "not ok - what".
+# Environment: JOBS, how many at once; TEST_OUT, a folder for logs, of which each test gets a folder of its own to write in;
+# TEST_TIMEOUT in seconds, for a test that hangs: a loaded machine makes tests ten times as slow.
 set -u
 TEST_OUT=${TEST_OUT:-build/test-out}
-mkdir -p "$TEST_OUT"
+JOBS=${JOBS:-$(nproc 2>/dev/null || echo 2)}
+times=$TEST_OUT/times # "milliseconds name" of every test's last run
 passed=0
 failed=0
+mkdir -p "$TEST_OUT"
+touch "$times"
+trap 'kill $(jobs -p) 2>/dev/null; wait; exit 130' INT TERM
 
-for test in "$@"; do
-    name=$(basename "$test")
+# Runs one test; what is known of it afterwards, in its .result file, is its exit status and its time.
+run() { # <test>
+    local name log started status
+    name=$(basename "$1")
     log=$TEST_OUT/$name.log
+    rm -rf "$TEST_OUT/$name"
+    mkdir "$TEST_OUT/$name"
     started=$(date +%s%N)
-    case $test in
-    *.sh) timeout "${TEST_TIMEOUT:-300}" bash "$test" >"$log" 2>&1 ;;
-    *) timeout "${TEST_TIMEOUT:-300}" "$test" >"$log" 2>&1 ;;
-    esac
+    case $1 in *.sh) set -- bash "$1" ;; esac
+    TEST_OUT=$TEST_OUT/$name timeout -k 10 "${TEST_TIMEOUT:-900}" "$@" >"$log" 2>&1 &
+    trap "kill $! 2>/dev/null" TERM
+    wait $!
     status=$?
-    took=$((($(date +%s%N) - started) / 1000000))
+    echo "$status $((($(date +%s%N) - started) / 1000000))" >"$TEST_OUT/$name.new"
+    mv "$TEST_OUT/$name.new" "$TEST_OUT/$name.result"
+}
+
+report() { # <test>
+    local name log status took good bad
+    name=$(basename "$1")
+    log=$TEST_OUT/$name.log
+    read -r status took <"$TEST_OUT/$name.result"
     good=$(grep -cE '^(\[       OK \]|ok - )' "$log")
     bad=$(grep -E '^(\[  FAILED  \] [a-z_0-9A-Z]+$|not ok - )' "$log" | sort -u | wc -l) # cmocka names a failed case twice
     # A crash, a time-out or a test without cases is a failure that no case reports.
-    if [ $status -ne 0 ] && [ "$bad" -eq 0 ] || [ $((good + bad)) -eq 0 ]; then bad=$((bad + 1)); fi
+    if [ "$status" -ne 0 ] && [ "$bad" -eq 0 ] || [ $((good + bad)) -eq 0 ]; then bad=$((bad + 1)); fi
     passed=$((passed + good))
     failed=$((failed + bad))
     if [ "$bad" -eq 0 ]; then
         printf 'ok    %-28s %4d cases %6d ms\n' "$name" "$good" "$took"
     else
-        printf 'FAIL  %-28s %4d of %d cases, exit status %d; the end of %s:\n' "$name" "$bad" $((good + bad)) $status "$log"
+        printf 'FAIL  %-28s %4d of %d cases, exit status %d; the end of %s:\n' "$name" "$bad" $((good + bad)) "$status" "$log"
         grep -vE '^\[( RUN      |       OK |  PASSED  |==========)\]|^ok - ' "$log" | tail -n 30 | sed 's/^/      /'
     fi
+}
+
+# Prints the tests that have ended, up to the first that has not.
+reported=0
+report_ended() {
+    while [ $reported -lt ${#tests[@]} ] && [ -e "$TEST_OUT/$(basename "${tests[reported]}").result" ]; do
+        report "${tests[reported]}"
+        reported=$((reported + 1))
+    done
+}
+
+# The longest first, so that none is left to run alone at the end; one that never ran may be long, a script above all.
+longest_first() { # <test>...
+    local test took
+    for test in "$@"; do
+        took=$(awk -v name="$(basename "$test")" '$2 == name { print $1 }' "$times")
+        case $test in *.sh) echo "${took:-2000000} $test" ;; *) echo "${took:-1000000} $test" ;; esac
+    done | sort -s -k1,1nr | cut -d' ' -f2-
+}
+
+tests=("$@")
+mapfile -t order < <(longest_first "$@")
+for test in "$@"; do rm -f "$TEST_OUT/$(basename "$test").result"; done
+running=0
+for test in "${order[@]}"; do
+    if [ $running -eq "$JOBS" ]; then
+        wait -n
+        running=$((running - 1))
+        report_ended
+    fi
+    run "$test" &
+    running=$((running + 1))
 done
+while [ $running -gt 0 ]; do
+    wait -n
+    running=$((running - 1))
+    report_ended
+done
+for test in "$@"; do
+    name=$(basename "$test")
+    awk -v name="$name" '{ print $2, name }' "$TEST_OUT/$name.result"
+done | cat - "$times" | awk '!seen[$2]++' >"$times.new"
+mv "$times.new" "$times"
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

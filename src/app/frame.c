@@ -128,11 +128,12 @@ static void check_sizes(struct app *app)
 {
     struct error error, full;
     app->sized_serial = app->table.cast_serial;
-    for (int c = 0; app->draw && c < app->table.document->character_count; c++) {
+    int r = document_next_rig(app->table.document, RIG_CHARACTER, 0);
+    for (int c = 0; app->draw && r >= 0; c++, r = document_next_rig(app->table.document, RIG_CHARACTER, r + 1)) {
         const struct figure *figure = cast_figure(app->table.cast, c);
         if (!figure || draw_can_move(figure, &error)) continue;
-        const struct character_rig *rig = &app->table.document->characters[c];
-        fail(&full, error.kind, "%s: %s", rig->name ? rig->name : rig->model, error.text);
+        const struct rig *rig = &app->table.document->rigs[r];
+        fail(&full, error.kind, "%s: %s", rig->name ? rig->name : rig->character.model, error.text);
         editor_message(app->table.editor, true, full.text);
     }
 }

@@ -27,7 +27,7 @@ static bool jumps(const struct document *document, const struct evaluation *eval
 {
     const struct spline *spline = &document->splines[index];
     int leader = spline->parameter[PARAMETER_EQUILIBRIUM].track;
-    if (spline->start != WIGGLY_LOOP || leader < 0) return false;
+    if (spline_start(spline) != WIGGLY_LOOP || leader < 0) return false;
     const double *y = evaluation->curves[leader].total;
     return y[0] != y[evaluation->samples - 1];
 }

@@ -107,11 +107,11 @@ void editor_reserve(struct editor *editor, const struct document *document)
 /// The spline to begin with: the first that moves something, else the first; -1 where there is none.
 static int first_spline(const struct document *document)
 {
-    for (int t = 0; t < document->tail_count; t++) {
-        if (document->tails[t].channel_count > 0) return document->tails[t].channels[0].spline;
-    }
-    for (int c = 0; c < document->character_count; c++) {
-        if (document->characters[c].drive_count > 0) return document->characters[c].drives[0].spline;
+    for (int kind = 0; kind < RIG_KINDS; kind++) {
+        int r = document_next_rig(document, (enum rig_kind)kind, 0);
+        for (; r >= 0; r = document_next_rig(document, (enum rig_kind)kind, r + 1)) {
+            if (rig_input_count(&document->rigs[r]) > 0) return rig_input(&document->rigs[r], 0);
+        }
     }
     return document->spline_count > 0 ? 0 : -1;
 }
@@ -141,7 +141,7 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     editor->message = (struct message){0};
     editor->playback = (struct playback){.looping = true, .speed = 1};
     for (int s = 0; s < document->spline_count; s++) {
-        editor->playback.playing |= document->splines[s].start == WIGGLY_LOOP;
+        editor->playback.playing |= spline_start(&document->splines[s]) == WIGGLY_LOOP;
     }
     editor->serial = document->serial;
     editor_reserve(editor, document);

@@ -344,7 +344,7 @@ static void space_event(struct editor *editor, const struct editor_world *world,
     }
 }
 
-static bool is_held_letter(int key) { return key == 'F' || key == 'Z' || key == 'B' || key == 'C' || key == 'L'; }
+static bool is_held_letter(int key) { return key == 'L' || parameter_of_letter(key) != PARAMETER_COUNT; }
 
 /// Does what is bound, unless the key is kept down or a drag is on and it is not for that; true where anything is bound.
 static bool run(struct editor *editor, const struct editor_world *world, const struct binding *list, int key,

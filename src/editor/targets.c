@@ -120,10 +120,12 @@ static bool find_tail(struct place *place, struct error *error)
 {
     const struct document *document = place->world->document;
     double share = fmin(fmax(place->target->number[0], 0), 1);
-    for (int t = 0; t < document->tail_count; t++) {
-        if (strcmp(document->tails[t].name, place->target->name) != 0) continue;
-        double along = share * document->tails[t].joints;
-        int joint = (int)fmin(floor(along), document->tails[t].joints - 1);
+    int rig = document_next_rig(document, RIG_TAIL, 0);
+    for (int t = 0; rig >= 0; rig = document_next_rig(document, RIG_TAIL, rig + 1), t++) {
+        if (strcmp(document->rigs[rig].name, place->target->name) != 0) continue;
+        int joints = document->rigs[rig].tail.joints;
+        double along = share * joints;
+        int joint = (int)fmin(floor(along), joints - 1);
         float xy[2];
         if (!stage_project(place->editor, t, joint, along - joint, xy)) break;
         place->x = xy[0];
@@ -136,9 +138,11 @@ static bool find_tail(struct place *place, struct error *error)
 static bool find_body(struct place *place, struct error *error)
 {
     const struct document *document = place->world->document;
-    for (int t = 0; t < place->editor->stage.tail_count && t < document->tail_count; t++) {
+    int rig = document_next_rig(document, RIG_TAIL, 0);
+    for (int t = 0; t < place->editor->stage.tail_count && rig >= 0;
+         t++, rig = document_next_rig(document, RIG_TAIL, rig + 1)) {
         float xy[2];
-        if (strcmp(document->tails[t].name, place->target->name) != 0) continue;
+        if (strcmp(document->rigs[rig].name, place->target->name) != 0) continue;
         if (!body_point(place->editor, t, xy)) break;
         place->x = xy[0];
         place->y = xy[1];
@@ -152,10 +156,11 @@ static bool find_body(struct place *place, struct error *error)
 static bool find_character(struct place *place, struct error *error)
 {
     const struct document *document = place->world->document;
-    for (int c = 0; c < document->character_count; c++) {
-        const struct character_rig *rig = &document->characters[c];
+    int r = document_next_rig(document, RIG_CHARACTER, 0);
+    for (int c = 0; r >= 0; c++, r = document_next_rig(document, RIG_CHARACTER, r + 1)) {
+        const struct rig *rig = &document->rigs[r];
         float xy[2];
-        if (strcmp(rig->name ? rig->name : rig->model, place->target->name) != 0) continue;
+        if (strcmp(rig->name ? rig->name : rig->character.model, place->target->name) != 0) continue;
         if (!characters_point(place->editor, c, place->target->number, xy)) break;
         place->x = xy[0];
         place->y = xy[1];
@@ -235,8 +240,8 @@ static const struct target_kind *parse(const char *text, struct target *target)
     return NULL;
 }
 
-bool editor_target(struct editor *editor, const struct editor_world *world, const char *target, float *x,
-                   float *y, struct error *error)
+bool editor_target(struct editor *editor, const struct editor_world *world, const char *target, float *x, float *y,
+                   struct error *error)
 {
     struct target parts;
     const struct target_kind *kind = parse(target, &parts);

@@ -208,6 +208,12 @@ static GLFWwindow *open_handle(int width, int height, const char *title)
     glfwWindowHint(GLFW_SAMPLES, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    // By these a desktop finds wiggly.desktop, and with it the icon.
+    glfwWindowHintString(GLFW_X11_CLASS_NAME, "wiggly");
+    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "wiggly");
+#ifdef GLFW_WAYLAND_APP_ID // GLFW 3.4
+    glfwWindowHintString(GLFW_WAYLAND_APP_ID, "wiggly");
+#endif
     return glfwCreateWindow(width, height, title, NULL, NULL);
 }
 

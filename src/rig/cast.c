@@ -161,15 +161,17 @@ bool cast_update(struct cast *cast, const struct document *document, struct erro
 {
     struct error first = {0};
     drop_roles(cast);
-    struct role *roles = realloc(cast->roles, ((size_t)document->character_count + 1) * sizeof *roles);
+    const int count = document_count_rigs(document, RIG_CHARACTER);
+    struct role *roles = realloc(cast->roles, ((size_t)count + 1) * sizeof *roles);
     if (!roles) return fail(error, ERROR_ENVIRONMENT, "not enough memory for the characters");
     cast->roles = roles;
-    for (int i = 0; i < document->character_count; i++) {
+    int rig = document_next_rig(document, RIG_CHARACTER, 0);
+    for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_CHARACTER, rig + 1)) {
         struct error trouble = {0};
-        roles[i] = (struct role){.plain = find_figure(cast, document, &document->characters[i], &trouble)};
+        roles[i] = (struct role){.plain = find_figure(cast, document, &document->rigs[rig].character, &trouble)};
         if (first.kind == ERROR_NONE) first = trouble;
     }
-    cast->role_count = document->character_count;
+    cast->role_count = count;
     cast_paint(cast, document);
     if (first.kind != ERROR_NONE && error) *error = first;
     return first.kind == ERROR_NONE;
@@ -177,8 +179,10 @@ bool cast_update(struct cast *cast, const struct document *document, struct erro
 
 void cast_paint(struct cast *cast, const struct document *document)
 {
-    for (int i = 0; i < cast->role_count && i < document->character_count; i++) {
-        const struct paint *paint = document->characters[i].painted;
+    int rig = document_next_rig(document, RIG_CHARACTER, 0);
+    for (int i = 0; i < cast->role_count && rig >= 0;
+         i++, rig = document_next_rig(document, RIG_CHARACTER, rig + 1)) {
+        const struct paint *paint = document->rigs[rig].character.painted;
         struct role *role = &cast->roles[i];
         if (paint && (!role->plain || !cast_fits(paint, role->plain))) paint = NULL;
         if (role->version == (paint ? paint->version : 0)) continue;

@@ -35,17 +35,13 @@ static double step_peak(const struct follow_filter *filter)
 bool follow_filter(const struct spline *spline, const double parameter[PARAMETER_COUNT], struct follow_filter *filter)
 {
     wiggly_desc desc = wiggly_default_desc();
-    desc.mode = spline->mode;
-    desc.spring_friction = spline->spring_friction && spline->mode == WIGGLY_REAL;
-    desc.frequency.value = parameter[PARAMETER_FREQUENCY];
-    desc.damping.value = parameter[PARAMETER_DAMPING];
-    desc.bandwidth.value = parameter[PARAMETER_BANDWIDTH];
-    desc.spring.value = parameter[PARAMETER_SPRING];
-    desc.friction.value = parameter[PARAMETER_FRICTION];
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) parameter_describe(p, parameter[p], NULL, &desc);
+    desc.mode = spline_mode(spline);
+    desc.spring_friction = spline->spring_friction && desc.mode == WIGGLY_REAL;
     const poles at = poles_at(&desc, 0, LEAST_DAMPING);
     *filter = (struct follow_filter){.s = {{at.s[0].re, at.s[0].im}, {at.s[1].re, at.s[1].im}},
                                      .natural = at.natural,
-                                     .is_complex = spline->mode == WIGGLY_COMPLEX};
+                                     .is_complex = spline_mode(spline) == WIGGLY_COMPLEX};
     if (!(at.natural > 0)) return false;
     filter->peak = step_peak(filter);
     return true;

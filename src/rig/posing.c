@@ -14,7 +14,7 @@ static void base_at(const struct posing *posing, const struct tail *tail, double
 void posing_tail(const struct posing *posing, int index, double position, const struct by_hand *by_hand,
                  struct pose *pose)
 {
-    const struct tail *tail = &posing->document->tails[index];
+    const struct tail *tail = document_tail(posing->document, index);
     wiggly_value values[SCENE_MAX_CHANNELS];
     double base[3];
     for (int c = 0; c < tail->channel_count; c++) {
@@ -31,7 +31,7 @@ void posing_tail(const struct posing *posing, int index, double position, const 
 
 bool posing_character(const struct posing *posing, int index, double position, struct morph *morph)
 {
-    const struct character_rig *rig = &posing->document->characters[index];
+    const struct character_rig *rig = document_character(posing->document, index);
     const struct figure *figure = cast_figure(posing->cast, index);
     wiggly_value values[CHARACTER_MAX_DRIVES] = {{0}};
     if (!figure) return false;

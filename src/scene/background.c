@@ -45,7 +45,7 @@ static bool uses_band(const struct spline *spline)
     for (int p = 0; p < PARAMETER_COUNT; p++) {
         if (spline->parameter[p].track >= 0 && spline_uses(spline, (enum parameter)p, false)) return true;
     }
-    return spline->start == WIGGLY_LOOP;
+    return spline_start(spline) == WIGGLY_LOOP;
 }
 
 bool background_serves(const struct document *document)

@@ -1,6 +1,5 @@
 #include "scene/change.h"
 #include "scene/reference.h"
-#include "scene/tail_list.h"
 #include <assert.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -39,8 +38,11 @@ size_t change_bytes(const struct change *change, const struct document *document
         return own + strlen(change->name) + 1;
     case CHANGE_DOCUMENT:
         return own + document_bytes(change->document);
-    case CHANGE_TAILS:
-        return own + tail_list_bytes(change->tails);
+    case CHANGE_RIG_IN:
+        return own + sizeof *change->rig.held;
+    case CHANGE_RIG:
+    case CHANGE_RIG_OUT:
+        return own + rig_bytes(change->rig.held);
     case CHANGE_SHEET:
         return own + paint_bytes(change->sheet.paint);
     case CHANGE_PAINT:
@@ -83,7 +85,7 @@ static void swap_knot(struct change *change, const struct document *document, st
 
 struct settings settings_of(const struct spline *spline)
 {
-    struct settings settings = {spline->mode, spline->start, spline->spring_friction, {{0, 0}}};
+    struct settings settings = {.spring_friction = spline->spring_friction};
     memcpy(settings.parameter, spline->parameter, sizeof settings.parameter);
     return settings;
 }
@@ -91,8 +93,6 @@ struct settings settings_of(const struct spline *spline)
 static void swap_settings(struct spline *spline, struct settings *settings)
 {
     struct settings old = settings_of(spline);
-    spline->mode = settings->mode;
-    spline->start = settings->start;
     spline->spring_friction = settings->spring_friction;
     memcpy(spline->parameter, settings->parameter, sizeof spline->parameter);
     *settings = old;
@@ -175,6 +175,24 @@ static void swap_spline(struct change *change, struct document *document)
     }
 }
 
+static void swap_rig(struct change *change, struct document *document)
+{
+    struct rig *place = &document->rigs[change->rig.at];
+    size_t after = (size_t)(document->rig_count - change->rig.at);
+    if (change->kind == CHANGE_RIG_IN) {
+        *change->rig.held = *place;
+        memmove(place, place + 1, (after - 1) * sizeof *place);
+        document->rig_count--;
+        change->kind = CHANGE_RIG_OUT;
+    } else {
+        assert(document->rig_count < document->rig_capacity);
+        memmove(place + 1, place, after * sizeof *place);
+        *place = *change->rig.held;
+        document->rig_count++;
+        change->kind = CHANGE_RIG_IN;
+    }
+}
+
 static void swap_place(struct change *change, struct document *document)
 {
     int from = change->spline, to = change->to;
@@ -205,7 +223,9 @@ void change_release(struct change *change)
     if (change->kind == CHANGE_SPLINE_OUT || change->kind == CHANGE_SPLINE_IN) free(change->held);
     if (change->kind == CHANGE_NAME) free(change->name);
     if (change->kind == CHANGE_DOCUMENT) document_destroy(change->document);
-    if (change->kind == CHANGE_TAILS) tail_list_free(change->tails);
+    if (change->kind == CHANGE_RIG || change->kind == CHANGE_RIG_OUT) rig_release(change->rig.held);
+    if (change->kind == CHANGE_RIG || change->kind == CHANGE_RIG_OUT || change->kind == CHANGE_RIG_IN)
+        free(change->rig.held);
     if (change->kind == CHANGE_SHEET) paint_destroy(change->sheet.paint);
     if (change->kind == CHANGE_PAINT) touched_destroy(change->stroke.touched);
     if (change->kind == CHANGE_TIMING) free(change->timing.frames);
@@ -226,7 +246,7 @@ bool change_concerns_all(const struct change *change)
 
 struct angles *angles_at(struct document *document, struct angles_place at)
 {
-    struct tail *tail = &document->tails[at.tail];
+    struct tail *tail = &document->rigs[at.rig].tail;
     if (at.kind == ANGLE_REST) return &tail->rest;
     struct channel *channel = &tail->channels[at.channel];
     return at.kind == ANGLE_LAG ? &channel->lag : &channel->gain;
@@ -234,7 +254,7 @@ struct angles *angles_at(struct document *document, struct angles_place at)
 
 static void swap_channel(struct change *change, struct document *document)
 {
-    struct channel *channel = &document->tails[change->channel.tail].channels[change->channel.channel];
+    struct channel *channel = &document->rigs[change->channel.rig].tail.channels[change->channel.channel];
     SWAP(int, channel->spline, change->channel.spline);
     SWAP(enum axis, channel->axis, change->channel.axis);
     SWAP(enum channel_part, channel->of, change->channel.of);
@@ -242,14 +262,14 @@ static void swap_channel(struct change *change, struct document *document)
 
 static void swap_tail_place(struct change *change, struct document *document)
 {
-    struct tail *tail = &document->tails[change->place.tail];
+    struct tail *tail = &document->rigs[change->place.rig].tail;
     SWAP(double, tail->length, change->place.length);
     for (int i = 0; i < 3; i++) SWAP(struct param, tail->position[i], change->place.position[i]);
 }
 
 static void swap_drives(struct change *change, struct document *document)
 {
-    struct character_rig *rig = &document->characters[change->drives.character];
+    struct character_rig *rig = &document->rigs[change->drives.rig].character;
     SWAP(int, rig->drive_count, change->drives.count);
     for (int i = 0; i < CHARACTER_MAX_DRIVES; i++) SWAP(struct drive, rig->drives[i], change->drives.drives[i]);
 }
@@ -291,8 +311,12 @@ void change_swap(struct change *change, struct document *document)
     case CHANGE_PLACE:
         swap_tail_place(change, document);
         break;
-    case CHANGE_TAILS:
-        tail_list_swap(change->tails, document);
+    case CHANGE_RIG:
+        SWAP(struct rig, document->rigs[change->rig.at], *change->rig.held);
+        break;
+    case CHANGE_RIG_IN:
+    case CHANGE_RIG_OUT:
+        swap_rig(change, document);
         break;
     case CHANGE_EACH:
         SWAP(bool, angles_at(document, change->each.at)->each, change->each.each);
@@ -304,10 +328,10 @@ void change_swap(struct change *change, struct document *document)
         swap_drives(change, document);
         break;
     case CHANGE_SHEET:
-        SWAP(struct paint *, document->characters[change->sheet.character].painted, change->sheet.paint);
+        SWAP(struct paint *, document->rigs[change->sheet.rig].character.painted, change->sheet.paint);
         break;
     case CHANGE_PAINT:
-        touched_swap(change->stroke.touched, document->characters[change->stroke.character].painted);
+        touched_swap(change->stroke.touched, document->rigs[change->stroke.rig].character.painted);
         break;
     }
 }

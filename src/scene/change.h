@@ -21,7 +21,9 @@ enum change_kind {
     CHANGE_TIMING,      ///< the scene's fps, substeps and frames, with them the frames of all knots
     CHANGE_CHANNEL,     ///< a channel's spline, axis and part
     CHANGE_PLACE,       ///< a tail's length and position
-    CHANGE_TAILS,       ///< which tails and channels there are, and with how many joints
+    CHANGE_RIG,         ///< all of a rig
+    CHANGE_RIG_IN,      ///< the rig is in the document, at `rig.at`
+    CHANGE_RIG_OUT,     ///< and the other way round
     CHANGE_EACH,        ///< whether angles are one for all joints or one for each
     CHANGE_ANGLE,       ///< one of them
     CHANGE_DRIVES,      ///< what moves a character's coordinates
@@ -29,17 +31,15 @@ enum change_kind {
     CHANGE_PAINT,       ///< a stroke on it
 };
 
-/// What EDIT_PARAMETER, EDIT_MODE, EDIT_START and EDIT_SPRING change.
+/// What EDIT_PARAMETER and EDIT_SPRING change.
 struct settings {
-    enum wiggly_mode mode;
-    enum wiggly_start start;
     bool spring_friction;
     struct param parameter[PARAMETER_COUNT];
 };
 
 /// Angles of a tail.
 struct angles_place {
-    int tail, channel; ///< the channel is not read for ANGLE_REST
+    int rig, channel; ///< the channel is not read for ANGLE_REST
     enum angle_kind kind;
 };
 
@@ -62,15 +62,18 @@ struct change {
         int to;                    ///< index in the list
         struct document *document; ///< owned
         struct timing timing;
-        struct tail_list *tails; ///< owned
         struct {
-            int tail, channel;
+            int at;           ///< index in the list
+            struct rig *held; ///< owned; what it holds only while the rig is out of the document
+        } rig;
+        struct {
+            int rig, channel;
             int spline;
             enum axis axis;
             enum channel_part of;
         } channel;
         struct {
-            int tail;
+            int rig;
             double length;
             struct param position[3];
         } place;
@@ -84,15 +87,15 @@ struct change {
             double value;
         } angle;
         struct {
-            int character, count;
+            int rig, count;
             struct drive drives[CHARACTER_MAX_DRIVES];
         } drives;
         struct {
-            int character;
+            int rig;
             struct paint *paint; ///< owned; may be NULL
         } sheet;
         struct {
-            int character;
+            int rig;
             struct touched *touched; ///< owned
         } stroke;
     };

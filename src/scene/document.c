@@ -1,25 +1,9 @@
 #include "scene/document.h"
-#include "base/path.h"
 #include <jansson.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const struct {
-    const char *name;
-    double minimum, maximum, standard;
-} parameter_table[PARAMETER_COUNT] = {
-    [PARAMETER_FREQUENCY] = {"frequency", 0, INFINITY, 0},
-    [PARAMETER_DAMPING] = {"damping", 0, INFINITY, 0},
-    [PARAMETER_BANDWIDTH] = {"bandwidth", 0, 1, 0.1},
-    [PARAMETER_SPRING] = {"spring", 0, INFINITY, 0},
-    [PARAMETER_FRICTION] = {"friction", 0, INFINITY, 0},
-    [PARAMETER_CALM] = {"calm", 0, 1, 1},
-    [PARAMETER_EQUILIBRIUM] = {"equilibrium", -INFINITY, INFINITY, 0},
-};
-
-const char *parameter_name(enum parameter parameter) { return parameter_table[parameter].name; }
 
 const char *coordinate_name(int index)
 {
@@ -27,28 +11,12 @@ const char *coordinate_name(int index)
     return names[index];
 }
 
-double parameter_minimum(enum parameter parameter, enum wiggly_mode mode)
-{
-    (void)mode;
-    return parameter_table[parameter].minimum;
-}
-
-double parameter_maximum(enum parameter parameter, enum wiggly_mode mode)
-{
-    if (parameter == PARAMETER_DAMPING && mode == WIGGLY_COMPLEX) return 1;
-    return parameter_table[parameter].maximum;
-}
-
-double parameter_default(enum parameter parameter) { return parameter_table[parameter].standard; }
-
 void spline_reset(struct spline *spline)
 {
-    spline->mode = WIGGLY_COMPLEX;
-    spline->start = WIGGLY_FREE;
     spline->spring_friction = false;
     spline->color = -1;
     for (int i = 0; i < PARAMETER_COUNT; i++) {
-        spline->parameter[i] = (struct param){parameter_table[i].standard, -1};
+        spline->parameter[i] = (struct param){parameter_rows[i].standard, -1};
     }
 }
 
@@ -70,36 +38,14 @@ void document_destroy(struct document *document)
         free(document->splines[i].name);
         free(document->splines[i].knots);
     }
-    for (int i = 0; i < document->tail_count; i++) {
-        free(document->tails[i].name);
-        free(document->tails[i].channels);
-    }
-    for (int i = 0; i < document->character_count; i++) {
-        free(document->characters[i].name);
-        free(document->characters[i].model);
-        free(document->characters[i].paint);
-        paint_destroy(document->characters[i].painted);
-    }
+    for (int i = 0; i < document->rig_count; i++) rig_release(&document->rigs[i]);
     free(document->path);
     free(document->about);
     free(document->splines);
-    free(document->tails);
-    free(document->characters);
+    free(document->rigs);
     free(document->folder);
     json_decref(document->owned);
     free(document);
-}
-
-/// Replaces a path by the one from the new folder.
-static bool move_path(char **path, const char *from, const char *to)
-{
-    char moved[PATH_LIMIT];
-    if (!*path || !path_rebase(*path, from, to, moved)) return true;
-    char *copy = strdup(moved);
-    if (!copy) return false;
-    free(*path);
-    *path = copy;
-    return true;
 }
 
 bool document_set_folder(struct document *document, const char *folder)
@@ -107,10 +53,7 @@ bool document_set_folder(struct document *document, const char *folder)
     char *copy = folder ? strdup(folder) : NULL;
     if (folder && !copy) return false;
     bool moved = true;
-    for (int i = 0; i < document->character_count; i++) {
-        moved &= move_path(&document->characters[i].model, document->folder, folder);
-        moved &= move_path(&document->characters[i].paint, document->folder, folder);
-    }
+    for (int i = 0; i < document->rig_count; i++) moved &= rig_rebase(&document->rigs[i], document->folder, folder);
     free(document->folder);
     document->folder = copy;
     return moved;
@@ -139,14 +82,7 @@ size_t document_bytes(const struct document *document)
         const struct spline *spline = &document->splines[i];
         bytes += sizeof *spline + (size_t)spline->knot_capacity * sizeof *spline->knots + strlen(spline->name) + 1;
     }
-    for (int i = 0; i < document->tail_count; i++) {
-        const struct tail *tail = &document->tails[i];
-        bytes += sizeof *tail + (size_t)tail->channel_count * sizeof *tail->channels + strlen(tail->name) + 1;
-    }
-    for (int i = 0; i < document->character_count; i++) {
-        const struct character_rig *rig = &document->characters[i];
-        bytes += sizeof *rig + strlen(rig->model) + 1 + paint_bytes(rig->painted);
-    }
+    for (int i = 0; i < document->rig_count; i++) bytes += rig_bytes(&document->rigs[i]);
     return bytes;
 }
 
@@ -172,7 +108,7 @@ double document_frame(const struct document *document, int sample)
 
 int document_last_knot_sample(const struct document *document, const struct spline *spline)
 {
-    return document_samples(document) - (spline->start == WIGGLY_LOOP ? 2 : 1);
+    return document_samples(document) - (spline_start(spline) == WIGGLY_LOOP ? 2 : 1);
 }
 
 int document_find_spline(const struct document *document, const char *name)
@@ -189,6 +125,50 @@ int document_find_spline_id(const struct document *document, unsigned id)
         if (document->splines[i].id == id) return i;
     }
     return -1;
+}
+
+bool document_reserve_rigs(struct document *document, int count)
+{
+    if (count <= document->rig_capacity) return true;
+    struct rig *rigs = realloc(document->rigs, (size_t)count * sizeof *rigs);
+    if (!rigs) return false;
+    document->rigs = rigs;
+    document->rig_capacity = count;
+    return true;
+}
+
+int document_next_rig(const struct document *document, enum rig_kind kind, int from)
+{
+    for (int i = from; i < document->rig_count; i++) {
+        if (document->rigs[i].kind == kind) return i;
+    }
+    return -1;
+}
+
+int document_find_rig(const struct document *document, enum rig_kind kind, int n)
+{
+    int found = n < 0 ? -1 : document_next_rig(document, kind, 0);
+    for (; n > 0 && found >= 0; n--) found = document_next_rig(document, kind, found + 1);
+    return found;
+}
+
+int document_count_rigs(const struct document *document, enum rig_kind kind)
+{
+    int count = 0;
+    for (int i = 0; i < document->rig_count; i++) count += document->rigs[i].kind == kind;
+    return count;
+}
+
+struct tail *document_tail(const struct document *document, int n)
+{
+    int found = document_find_rig(document, RIG_TAIL, n);
+    return found >= 0 ? &document->rigs[found].tail : NULL;
+}
+
+struct character_rig *document_character(const struct document *document, int n)
+{
+    int found = document_find_rig(document, RIG_CHARACTER, n);
+    return found >= 0 ? &document->rigs[found].character : NULL;
 }
 
 int spline_find_knot(const struct document *document, const struct spline *spline, int sample)

@@ -5,7 +5,9 @@
 #define SCENE_DOCUMENT_H
 
 #include "base/error.h"
-#include "scene/paint.h"
+#include "scene/param.h"
+#include "scene/parameter.h"
+#include "scene/rig.h"
 #include <stdbool.h>
 #include <stdint.h>
 #include <wiggly/wiggly.h>
@@ -17,27 +19,6 @@ enum {
     SCENE_MAX_FPS = 100000,
     SCENE_MAX_FRAME = 1000000000, ///< of first and last, to both sides
     SCENE_MAX_RIGS = 1024,
-    SCENE_MAX_CHANNELS = 64, ///< of one tail
-    TAIL_MAX_JOINTS = 256,
-    CHARACTER_MAX_DRIVES = 4,
-};
-
-/// The parameters of a spline, in the order in which they are saved.
-enum parameter {
-    PARAMETER_FREQUENCY,
-    PARAMETER_DAMPING,
-    PARAMETER_BANDWIDTH,
-    PARAMETER_SPRING,
-    PARAMETER_FRICTION,
-    PARAMETER_CALM,
-    PARAMETER_EQUILIBRIUM,
-    PARAMETER_COUNT
-};
-
-/// A number, or the total of another spline.
-struct param {
-    double value; ///< used where track < 0
-    int track;    ///< index of the spline that is followed, or -1
 };
 
 struct knot {
@@ -52,8 +33,6 @@ struct knot {
 
 struct spline {
     char *name;
-    enum wiggly_mode mode;
-    enum wiggly_start start;
     bool spring_friction; ///< real mode with the paper's own pair of parameters
     struct param parameter[PARAMETER_COUNT];
     struct knot *knots; ///< by sample
@@ -63,60 +42,15 @@ struct spline {
     const void *extra;
 };
 
-/// One angle for all joints, or one for each (degrees).
-struct angles {
-    bool each;
-    double value[TAIL_MAX_JOINTS]; ///< value[0] alone unless `each`
-};
+static inline enum wiggly_mode spline_mode(const struct spline *spline)
+{
+    return (enum wiggly_mode)spline->parameter[PARAMETER_MODE].value;
+}
 
-enum axis { AXIS_SIDE, AXIS_UP };
-
-/// What of its spline a channel bends by: y + Re(e^{−j·n·lag} x), or without the equilibrium y. The latter is for what hangs on
-/// something that moves: y is the base's motion, and x the motion relative to it.
-enum channel_part { PART_TOTAL, PART_DISPLACEMENT };
-
-struct channel {
-    int spline; ///< index
-    enum axis axis;
-    enum channel_part of;
-    struct angles lag;  ///< n·lag at joint n, or each joint's own lag
-    struct angles gain; ///< degrees per unit of the spline
-    const void *extra;
-};
-
-struct tail {
-    char *name;
-    int joints; ///< 1 … TAIL_MAX_JOINTS
-    double length;
-    struct param position[3]; ///< metres; a track is the spline's total
-    struct angles rest;
-    struct channel *channels;
-    int channel_count;
-    const void *extra;
-};
-
-/// What moves one complex normal coordinate of a character (eq. 30): A e^{−j·lag} x.
-struct drive {
-    const char *name; ///< of the coordinate in the model; the document owns it
-    int spline;       ///< index
-    double amplitude; ///< A
-    double lag;       ///< degrees
-    const void *extra;
-};
-
-/// A soft character. Its model is a file of its own, which is not read here and may be missing.
-struct character_rig {
-    char *name;            ///< NULL where the file has none
-    char *model, *paint;   ///< files, relative to the document's folder unless absolute; paint may be NULL
-    struct paint *painted; ///< NULL: none, or what the file `paint` holds could not be read
-    uint64_t filed;        ///< the version of `painted` that the file `paint` holds; 0: the file has other content
-    double position[3];    ///< metres
-    struct drive drives[CHARACTER_MAX_DRIVES];
-    int drive_count;
-    int phases; ///< shown at first: of movement along 0 … 2, x, y, z, of its first coordinate; −1: its own colours
-    int tails_before; ///< its place among the rigs of the file
-    const void *extra;
-};
+static inline enum wiggly_start spline_start(const struct spline *spline)
+{
+    return (enum wiggly_start)spline->parameter[PARAMETER_START].value;
+}
 
 struct document {
     char *path;      ///< of its own file, NULL for an untitled one; not saved
@@ -127,10 +61,8 @@ struct document {
     int first_frame, last_frame;
     struct spline *splines;
     int spline_count, spline_capacity;
-    struct tail *tails;
-    int tail_count;
-    struct character_rig *characters;
-    int character_count;
+    struct rig *rigs; ///< in the order of the file
+    int rig_count, rig_capacity;
     char *folder;            ///< that paths in it are relative to; NULL: the working folder
     unsigned next_id;        ///< of a knot
     unsigned next_spline_id; ///< of a spline
@@ -177,6 +109,20 @@ int document_find_spline(const struct document *document, const char *name);
 /// Index of the spline with that id, or -1.
 int document_find_spline_id(const struct document *document, unsigned id);
 
+/// Room for that many rigs; false where memory is short.
+bool document_reserve_rigs(struct document *document, int count);
+
+/// Index of the first rig of a kind from `from` on, or -1.
+int document_next_rig(const struct document *document, enum rig_kind kind, int from);
+
+/// Index of the n-th rig of a kind, from 0 on, or -1; and how many there are.
+int document_find_rig(const struct document *document, enum rig_kind kind, int n);
+int document_count_rigs(const struct document *document, enum rig_kind kind);
+
+/// The n-th tail or character, or NULL.
+struct tail *document_tail(const struct document *document, int n);
+struct character_rig *document_character(const struct document *document, int n);
+
 /// Index of the knot on that sample, or -1 (binary search).
 int spline_find_knot(const struct document *document, const struct spline *spline, int sample);
 
@@ -186,11 +132,6 @@ int spline_lower_bound(const struct document *document, const struct spline *spl
 /// Index of the knot with that id, or -1.
 int spline_find_id(const struct spline *spline, unsigned id);
 
-/// The file's key of a parameter: "frequency" …; and the range in which a constant may lie in that mode.
-const char *parameter_name(enum parameter parameter);
-double parameter_minimum(enum parameter parameter, enum wiggly_mode mode);
-double parameter_maximum(enum parameter parameter, enum wiggly_mode mode);
-
 /// "x", "y" or "z".
 const char *coordinate_name(int index);
 
@@ -198,14 +139,6 @@ const char *coordinate_name(int index);
 /// and id are left alone.
 void spline_reset(struct spline *spline);
 
-/// The default of a parameter.
-double parameter_default(enum parameter parameter);
-
 #define KNOT_DEFAULT_STIFFNESS 1000.0 /* 1/s */
-#define TAIL_DEFAULT_JOINTS 24
-#define TAIL_DEFAULT_LENGTH 1.6  /* m */
-#define CHANNEL_DEFAULT_LAG 6.5  /* degrees a joint */
-#define CHANNEL_DEFAULT_GAIN 5.0 /* degrees a unit of the spline */
-#define DRIVE_DEFAULT_AMPLITUDE 1.0
 
 #endif

@@ -13,9 +13,7 @@ enum edit_kind {
     EDIT_KNOT_INSERT, ///< spline, knot (id 0: a new one is given)
     EDIT_KNOT_REMOVE, ///< spline, knot.id
     EDIT_KNOT_SET,    ///< spline, knot (found by id; frame, value, slope, has_slope, stiffness are replaced)
-    EDIT_PARAMETER,   ///< spline, parameter, param
-    EDIT_MODE,        ///< spline, mode: converts ω = √k, ζ = γ/2√k and clamps, so that what is saved loads
-    EDIT_START,       ///< spline, start
+    EDIT_PARAMETER, ///< spline, parameter, param. The mode converts ω = √k, ζ = γ/2√k and clamps, so that what is saved loads
     EDIT_SPRING,      ///< spline, flag: whether spring and friction are in use (real mode only)
     EDIT_SPLINE_ADD,  ///< spline: its place in the list, text (NULL: a free name), knot where `flag`: its first. f 1,
                       ///< ζ 0.1, β 0.1
@@ -28,23 +26,23 @@ enum edit_kind {
     EDIT_FPS, ///< number; flag: knots and range keep their seconds, not their frames. Slopes are per second anyway
     EDIT_SUBSTEPS, ///< substeps
     EDIT_RANGE,    ///< first, last: the scene's frames; fit: what becomes of knots that would lie outside
-    EDIT_ANGLES,   ///< tail, channel (-1: rest), angle: which, angles
-    EDIT_AXIS,     ///< tail, channel, axis
-    EDIT_PART,     ///< tail, channel, of
-    EDIT_FEED,     ///< tail, channel, spline: the spline that the channel bends by
-    EDIT_POSITION, ///< tail, coordinate, param: metres, or a spline to follow
-    EDIT_LENGTH,   ///< tail, number: metres, above 0
-    EDIT_JOINTS,   ///< tail, to: how many; the tail keeps its shape
-    EDIT_TAIL_ADD, ///< tail: a copy of it beside it; where there is none, a plain one bent by `spline` (-1: by nothing)
-    EDIT_TAIL_REMOVE,    ///< tail
-    EDIT_TAIL_NAME,      ///< tail, text: not empty, and no other rig's
-    EDIT_CHANNEL_ADD,    ///< tail, spline, axis, of: one more, the last
-    EDIT_CHANNEL_REMOVE, ///< tail, channel
-    EDIT_DRIVE,          ///< character, channel: which drive, drive: replaces spline, amplitude and lag
-    EDIT_DRIVE_ADD,      ///< character, drive (its name is copied)
-    EDIT_DRIVE_REMOVE,   ///< character, channel: which drive
-    EDIT_PAINT_NEW, ///< character, coordinates, vertices (of its model): paint that changes nothing in place of what is there
-    EDIT_PAINT, ///< character, dab. All dabs of a step on one coordinate make one change of what they touch
+    EDIT_ANGLES,   ///< rig, channel (-1: rest), angle: which, angles
+    EDIT_AXIS,     ///< rig, channel, axis
+    EDIT_PART,     ///< rig, channel, of
+    EDIT_FEED,     ///< rig, channel, spline: the spline that the channel bends by
+    EDIT_POSITION, ///< rig, coordinate, param: metres, or a spline to follow
+    EDIT_LENGTH,   ///< rig, number: metres, above 0
+    EDIT_JOINTS,   ///< rig, to: how many; the tail keeps its shape
+    EDIT_TAIL_ADD, ///< rig: a copy of it beside it; where that is no tail, a plain one bent by `spline` (-1: by nothing)
+    EDIT_TAIL_REMOVE,    ///< rig
+    EDIT_TAIL_NAME,      ///< rig, text: not empty, and no other rig's
+    EDIT_CHANNEL_ADD,    ///< rig, spline, axis, of: one more, the last
+    EDIT_CHANNEL_REMOVE, ///< rig, channel
+    EDIT_DRIVE,          ///< rig, channel: which drive, drive: replaces spline, amplitude and lag
+    EDIT_DRIVE_ADD,      ///< rig, drive (its name is copied)
+    EDIT_DRIVE_REMOVE,   ///< rig, channel: which drive
+    EDIT_PAINT_NEW, ///< rig, coordinates, vertices (of its model): paint that changes nothing in place of what is there
+    EDIT_PAINT,     ///< rig, dab. All dabs of a step on one coordinate make one change of what they touch
 };
 
 enum range_fit {
@@ -61,21 +59,19 @@ struct edit {
     struct knot knot;
     enum parameter parameter;
     struct param param;
-    enum wiggly_mode mode;
-    enum wiggly_start start;
     bool flag;
     const char *text; ///< read during the call only
     int to, color;
     struct document *document;
     int substeps, first, last;
     enum range_fit fit;
-    int tail, channel;
+    int rig; ///< index of a rig of the kind that the edit is of
+    int channel;
     enum angle_kind angle;
     enum axis axis;
     enum channel_part of;
     int coordinate; ///< 0 … 2: x, y, z
     double number;
-    int character;
     struct drive drive;
     int coordinates, vertices;
     const struct dab *dab;       ///< read during the call only

@@ -5,7 +5,7 @@
 
 static const struct character_rig *rig_of(const struct document *document, const struct edit *edit)
 {
-    return &document->characters[edit->character];
+    return &document->rigs[edit->rig].character;
 }
 
 /// The change that leaves a character as it is, to be filled in.
@@ -13,7 +13,7 @@ static struct change unchanged(const struct document *document, const struct edi
 {
     const struct character_rig *rig = rig_of(document, edit);
     struct change change = {.kind = CHANGE_DRIVES, .spline = -1};
-    change.drives.character = edit->character;
+    change.drives.rig = edit->rig;
     change.drives.count = rig->drive_count;
     memcpy(change.drives.drives, rig->drives, sizeof rig->drives);
     return change;

@@ -36,7 +36,7 @@ static bool check_knot(const struct document *document, const struct spline *spl
     if (sample < 0 || sample > last) {
         return fail(error, ERROR_INPUT, "%s: frame %s is outside %d to %d%s", spline->name, frame,
                     document->first_frame, document->last_frame,
-                    spline->start == WIGGLY_LOOP ? ", whose last is the loop's first again" : "");
+                    spline_start(spline) == WIGGLY_LOOP ? ", whose last is the loop's first again" : "");
     }
     int there = spline_find_knot(document, spline, sample);
     if (there < 0 || spline->knots[there].id == id) return true;

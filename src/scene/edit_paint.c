@@ -5,7 +5,7 @@
 
 static struct paint *paint_of(const struct document *document, const struct edit *edit)
 {
-    return document->characters[edit->character].painted;
+    return document->rigs[edit->rig].character.painted;
 }
 
 bool plan_paint_new(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
@@ -15,7 +15,7 @@ bool plan_paint_new(struct document *document, const struct edit *edit, struct c
         return fail(error, ERROR_INPUT, "there is nothing to paint on this character");
     }
     struct change change = {.kind = CHANGE_SHEET, .spline = -1};
-    change.sheet.character = edit->character;
+    change.sheet.rig = edit->rig;
     change.sheet.paint = paint_create(edit->coordinates, edit->vertices);
     if (!change.sheet.paint) return plan_no_memory(error);
     return plan_add(list, &change, error);
@@ -43,7 +43,7 @@ static struct touched *find_stroke(const struct change_list *list, const struct 
     for (size_t i = list->count; i > 0; i--) {
         const struct change *change = &list->items[i - 1];
         if (change->kind == CHANGE_SHEET) return NULL; // what is before is on other paint
-        if (change->kind == CHANGE_PAINT && change->stroke.character == edit->character &&
+        if (change->kind == CHANGE_PAINT && change->stroke.rig == edit->rig &&
             change->stroke.touched->coordinate == edit->dab->coordinate && change->stroke.touched->place)
             return change->stroke.touched;
     }
@@ -63,7 +63,7 @@ bool plan_dab(struct document *document, const struct edit *edit, struct change_
         return true;
     }
     struct change change = {.kind = CHANGE_PAINT, .spline = -1};
-    change.stroke.character = edit->character;
+    change.stroke.rig = edit->rig;
     change.stroke.touched = touched_create(paint, edit->dab->coordinate);
     if (!change.stroke.touched) return plan_no_memory(error);
     touched_dab(change.stroke.touched, paint, edit->dab);

@@ -1,6 +1,5 @@
-/// Edits of which tails and channels there are, and of how many joints: each makes another list of tails, which is swapped.
+/// Edits of which tails and channels there are, of their names and of how many joints they have.
 #include "scene/edit_plan.h"
-#include "scene/tail_list.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,27 +12,34 @@ static const double NEW_HEIGHT = 0.26;      ///< metres at which the body of a t
 static const double ASIDE = 0.75;           ///< of its length, from one tail to the next
 static const double ANGLE_RESOLUTION = 1e6; ///< a degree's parts that resampled angles are rounded to
 
-/// The document's list to be changed; NULL with a sentence.
-static struct tail_list *begin(const struct document *document, struct error *error)
+/// A copy of the edit's rig to be changed; NULL with a sentence.
+static struct rig *begin(const struct document *document, const struct edit *edit, struct error *error)
 {
-    struct tail_list *tails = tail_list_copy(document, 1);
-    if (!tails) plan_no_memory(error);
-    return tails;
+    struct rig *rig = malloc(sizeof *rig);
+    if (rig && rig_copy(&document->rigs[edit->rig], rig)) return rig;
+    free(rig);
+    plan_no_memory(error);
+    return NULL;
 }
 
-/// Adds the swap with a list; the list is the change's from here on.
-static bool finish(struct tail_list *tails, struct change_list *list, struct error *error)
+/// Adds the swap with a copy, which is the change's from here on.
+static bool finish(const struct edit *edit, struct rig *rig, struct change_list *list, struct error *error)
 {
-    return plan_add(list, &(struct change){.kind = CHANGE_TAILS, .spline = -1, .tails = tails}, error);
+    return plan_add(list, &(struct change){.kind = CHANGE_RIG, .spline = -1, .rig = {edit->rig, rig}}, error);
+}
+
+static bool abandon(struct rig *rig, struct error *error)
+{
+    rig_release(rig);
+    free(rig);
+    return plan_no_memory(error);
 }
 
 static bool is_taken(const struct document *document, const char *name, int own)
 {
-    for (int t = 0; t < document->tail_count; t++) {
-        if (t != own && strcmp(document->tails[t].name, name) == 0) return true;
-    }
-    for (int c = 0; c < document->character_count; c++) {
-        if (document->characters[c].name && strcmp(document->characters[c].name, name) == 0) return true;
+    for (int r = 0; r < document->rig_count; r++) {
+        const char *other = document->rigs[r].name;
+        if (r != own && other && strcmp(other, name) == 0) return true;
     }
     return false;
 }
@@ -46,11 +52,13 @@ static char *free_name(const struct document *document)
 }
 
 /// A tail without channels, as the file format has it, but bent a little and on the ground.
-static struct tail plain_tail(void)
+static struct rig plain_tail(void)
 {
-    struct tail tail = {.joints = TAIL_DEFAULT_JOINTS, .length = TAIL_DEFAULT_LENGTH, .rest = {.value = {NEW_REST}}};
-    for (int k = 0; k < 3; k++) tail.position[k] = (struct param){k == 1 ? NEW_HEIGHT : 0, -1};
-    return tail;
+    struct rig rig = {
+        .kind = RIG_TAIL,
+        .tail = {.joints = TAIL_DEFAULT_JOINTS, .length = TAIL_DEFAULT_LENGTH, .rest = {.value = {NEW_REST}}}};
+    for (int k = 0; k < 3; k++) rig.tail.position[k] = (struct param){k == 1 ? NEW_HEIGHT : 0, -1};
+    return rig;
 }
 
 /// Appends a channel with the file format's defaults.
@@ -75,65 +83,66 @@ static bool has_spline(const struct document *document, const struct edit *edit)
     return edit->spline >= 0 && edit->spline < document->spline_count;
 }
 
-/// The last tail of a list, made a copy of `edit->tail` that stands beside it, or a plain one where there is none.
-static bool fill_new(const struct document *document, const struct edit *edit, struct tail_list *tails)
+static bool is_tail(const struct document *document, int rig)
 {
-    struct tail *added = &tails->tails[tails->count];
-    if (edit->tail >= 0 && edit->tail < document->tail_count) {
-        const struct tail *model = &document->tails[edit->tail];
-        if (!tail_copy(model, added)) return false;
+    return rig >= 0 && rig < document->rig_count && document->rigs[rig].kind == RIG_TAIL;
+}
+
+/// Makes a copy of `edit->rig` that stands beside it, or a plain tail where that is none. On failure it is to be released.
+static bool fill_new(const struct document *document, const struct edit *edit, struct rig *added)
+{
+    *added = plain_tail();
+    if (is_tail(document, edit->rig)) {
+        if (!rig_copy(&document->rigs[edit->rig], added)) {
+            *added = plain_tail();
+            return false;
+        }
         free(added->name);
         added->name = NULL;
         added->extra = NULL;
-        if (added->position[0].track < 0) added->position[0].value += ASIDE * added->length;
-    } else {
-        *added = plain_tail();
-        if (has_spline(document, edit) && !append_channel(added, edit)) return false;
+        struct tail *tail = &added->tail;
+        if (tail->position[0].track < 0) tail->position[0].value += ASIDE * tail->length;
+    } else if (has_spline(document, edit) && !append_channel(&added->tail, edit)) {
+        return false;
     }
-    tails->count++;
     added->name = free_name(document);
     return added->name != NULL;
 }
 
 bool plan_tail_add(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
-    if (document->tail_count + document->character_count >= SCENE_MAX_RIGS) {
+    const int count = document->rig_count;
+    if (count >= SCENE_MAX_RIGS) {
         return fail(error, ERROR_INPUT, "there are %d rigs, and no more fit", SCENE_MAX_RIGS);
     }
-    struct tail_list *tails = begin(document, error);
-    if (!tails) return false;
-    if (fill_new(document, edit, tails)) return finish(tails, list, error);
-    tail_list_free(tails);
-    return plan_no_memory(error);
+    struct rig *rig = malloc(sizeof *rig);
+    if (!rig) return plan_no_memory(error);
+    if (!fill_new(document, edit, rig) || !document_reserve_rigs(document, count + 1)) return abandon(rig, error);
+    return plan_add(list, &(struct change){.kind = CHANGE_RIG_OUT, .spline = -1, .rig = {count, rig}}, error);
 }
 
 bool plan_tail_remove(struct document *document, const struct edit *edit, struct change_list *list,
                       struct error *error)
 {
-    struct tail_list *tails = begin(document, error);
-    if (!tails) return false;
-    tail_list_remove(tails, edit->tail);
-    return finish(tails, list, error);
+    (void)document;
+    struct rig *room = malloc(sizeof *room);
+    if (!room) return plan_no_memory(error);
+    return plan_add(list, &(struct change){.kind = CHANGE_RIG_IN, .spline = -1, .rig = {edit->rig, room}}, error);
 }
 
 bool plan_tail_name(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
     const char *name = edit->text ? edit->text : "";
     if (!name[0]) return fail(error, ERROR_INPUT, "a tail needs a name");
-    if (is_taken(document, name, edit->tail)) {
+    if (is_taken(document, name, edit->rig)) {
         return fail(error, ERROR_INPUT, "there is a rig called %s already", name);
     }
-    if (strcmp(document->tails[edit->tail].name, name) == 0) return true;
-    struct tail_list *tails = begin(document, error);
-    if (!tails) return false;
-    char *copy = strdup(name);
-    if (!copy) {
-        tail_list_free(tails);
-        return plan_no_memory(error);
-    }
-    free(tails->tails[edit->tail].name);
-    tails->tails[edit->tail].name = copy;
-    return finish(tails, list, error);
+    if (strcmp(document->rigs[edit->rig].name, name) == 0) return true;
+    struct rig *rig = begin(document, edit, error);
+    if (!rig) return false;
+    free(rig->name);
+    rig->name = strdup(name);
+    return rig->name ? finish(edit, rig, list, error) : abandon(rig, error);
 }
 
 /// Angles of `from` joints as those of `to`, read at the same shares of the length and multiplied by `factor`.
@@ -152,15 +161,15 @@ static void resample(struct angles *angles, int from, int to, double factor)
 /// The tail keeps its shape and its swing: as many more joints bend as much less each and lag as much less behind one another.
 bool plan_joints(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
-    int from = document->tails[edit->tail].joints, to = edit->to;
+    const struct rig *old = &document->rigs[edit->rig];
+    int from = old->tail.joints, to = edit->to;
     if (to < 1 || to > TAIL_MAX_JOINTS) {
-        return fail(error, ERROR_INPUT, "%s: joints must be from 1 to %d", document->tails[edit->tail].name,
-                    TAIL_MAX_JOINTS);
+        return fail(error, ERROR_INPUT, "%s: joints must be from 1 to %d", old->name, TAIL_MAX_JOINTS);
     }
     if (from == to) return true;
-    struct tail_list *tails = begin(document, error);
-    if (!tails) return false;
-    struct tail *tail = &tails->tails[edit->tail];
+    struct rig *rig = begin(document, edit, error);
+    if (!rig) return false;
+    struct tail *tail = &rig->tail;
     const double factor = (double)from / to;
     tail->joints = to;
     resample(&tail->rest, from, to, factor);
@@ -169,36 +178,35 @@ bool plan_joints(struct document *document, const struct edit *edit, struct chan
         resample(&channel->gain, from, to, factor);
         resample(&channel->lag, from, to, channel->lag.each ? 1 : factor);
     }
-    return finish(tails, list, error);
+    return finish(edit, rig, list, error);
 }
 
 bool plan_channel_add(struct document *document, const struct edit *edit, struct change_list *list,
                       struct error *error)
 {
-    const struct tail *tail = &document->tails[edit->tail];
+    const struct rig *old = &document->rigs[edit->rig];
     if (!has_spline(document, edit)) return fail(error, ERROR_INPUT, "there is no such spline");
-    if (tail->channel_count >= SCENE_MAX_CHANNELS) {
-        return fail(error, ERROR_INPUT, "%s: there are %d channels, and no more fit", tail->name, SCENE_MAX_CHANNELS);
+    if (old->tail.channel_count >= SCENE_MAX_CHANNELS) {
+        return fail(error, ERROR_INPUT, "%s: there are %d channels, and no more fit", old->name, SCENE_MAX_CHANNELS);
     }
-    struct tail_list *tails = begin(document, error);
-    if (!tails) return false;
-    if (append_channel(&tails->tails[edit->tail], edit)) return finish(tails, list, error);
-    tail_list_free(tails);
-    return plan_no_memory(error);
+    struct rig *rig = begin(document, edit, error);
+    if (!rig) return false;
+    if (append_channel(&rig->tail, edit)) return finish(edit, rig, list, error);
+    return abandon(rig, error);
 }
 
 bool plan_channel_remove(struct document *document, const struct edit *edit, struct change_list *list,
                          struct error *error)
 {
-    const struct tail *old = &document->tails[edit->tail];
+    const struct tail *old = &document->rigs[edit->rig].tail;
     if (edit->channel < 0 || edit->channel >= old->channel_count) {
         return fail(error, ERROR_INPUT, "there is no such channel");
     }
-    struct tail_list *tails = begin(document, error);
-    if (!tails) return false;
-    struct tail *tail = &tails->tails[edit->tail];
+    struct rig *rig = begin(document, edit, error);
+    if (!rig) return false;
+    struct tail *tail = &rig->tail;
     struct channel *channel = &tail->channels[edit->channel];
     tail->channel_count--;
     memmove(channel, channel + 1, (size_t)(tail->channel_count - edit->channel) * sizeof *channel);
-    return finish(tails, list, error);
+    return finish(edit, rig, list, error);
 }

@@ -7,7 +7,7 @@ static bool check_loops(const struct document *document, struct error *error)
 {
     for (int i = 0; i < document->spline_count && document_samples(document) == 1; i++) {
         const struct spline *spline = &document->splines[i];
-        if (spline->start != WIGGLY_LOOP) continue;
+        if (spline_start(spline) != WIGGLY_LOOP) continue;
         return fail(error, ERROR_INPUT, "%s: a loop needs more than one frame", spline->name);
     }
     return true;

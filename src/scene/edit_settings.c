@@ -7,7 +7,7 @@ static const double TWO_PI = 6.283185307179586;
 
 static bool same_settings(const struct settings *a, const struct settings *b)
 {
-    bool same = a->mode == b->mode && a->start == b->start && a->spring_friction == b->spring_friction;
+    bool same = a->spring_friction == b->spring_friction;
     for (int i = 0; i < PARAMETER_COUNT; i++) {
         same &= a->parameter[i].value == b->parameter[i].value && a->parameter[i].track == b->parameter[i].track;
     }
@@ -28,7 +28,9 @@ static bool check_track(struct document *document, const struct edit *edit, stru
     struct spline *spline = &document->splines[edit->spline];
     struct order_cycle cycle;
     int track = edit->param.track;
-    if (edit->parameter == PARAMETER_CALM) return fail(error, ERROR_INPUT, "%s: calm is a number only", spline->name);
+    const struct parameter_row *row = &parameter_rows[edit->parameter];
+    if (row->kind != PARAMETER_TRACK)
+        return fail(error, ERROR_INPUT, "%s: %s is a number only", spline->name, row->name);
     if (track >= document->spline_count) {
         return fail(error, ERROR_INPUT, "%s: there is no spline to follow", spline->name);
     }
@@ -44,41 +46,12 @@ static bool check_track(struct document *document, const struct edit *edit, stru
 
 static bool check_constant(const struct spline *spline, enum parameter parameter, double value, struct error *error)
 {
-    double low = parameter_minimum(parameter, spline->mode), high = parameter_maximum(parameter, spline->mode);
-    const char *name = parameter_name(parameter);
+    double low = parameter_rows[parameter].minimum, high = parameter_maximum(parameter, spline_mode(spline));
+    const char *name = parameter_rows[parameter].name;
     if (!isfinite(value)) return fail(error, ERROR_INPUT, "%s: %s must be finite", spline->name, name);
     if (value >= low && value <= high) return true;
     if (value < low) return fail(error, ERROR_INPUT, "%s: %s must be at least %g", spline->name, name, low);
     return fail(error, ERROR_INPUT, "%s: %s must be at most %g", spline->name, name, high);
-}
-
-static bool is_ratio(enum parameter parameter)
-{
-    return parameter == PARAMETER_FREQUENCY || parameter == PARAMETER_DAMPING;
-}
-
-static bool is_spring(enum parameter parameter)
-{
-    return parameter == PARAMETER_SPRING || parameter == PARAMETER_FRICTION;
-}
-
-bool plan_parameter(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
-{
-    const struct spline *spline = &document->splines[edit->spline];
-    struct settings settings = settings_of(spline);
-    if ((unsigned)edit->parameter >= PARAMETER_COUNT) return fail(error, ERROR_INPUT, "there is no such parameter");
-    if (spline->spring_friction ? is_ratio(edit->parameter) : is_spring(edit->parameter)) {
-        return fail(error, ERROR_INPUT, "%s: %s is not in use", spline->name, parameter_name(edit->parameter));
-    }
-    struct param *param = &settings.parameter[edit->parameter];
-    if (edit->param.track >= 0) {
-        if (!check_track(document, edit, error)) return false;
-        *param = (struct param){0, edit->param.track};
-    } else {
-        if (!check_constant(spline, edit->parameter, edit->param.value, error)) return false;
-        *param = (struct param){edit->param.value + 0.0, -1};
-    }
-    return add_settings(document, edit, &settings, list, error);
 }
 
 /// ω = √k, ζ = γ/2√k, or back: k = ω², γ = 2ζω. What is not in use any more returns to its default.
@@ -92,9 +65,9 @@ static bool convert_spring(const struct spline *spline, struct settings *setting
         number[i] = settings->parameter[source].value;
         if (settings->parameter[source].track >= 0) {
             return fail(error, ERROR_INPUT, "%s: %s follows a spline and cannot be converted; make it a number first",
-                        spline->name, parameter_name(source));
+                        spline->name, parameter_rows[source].name);
         }
-        settings->parameter[source].value = parameter_default(source);
+        settings->parameter[source].value = parameter_rows[source].standard;
     }
     double omega = to_spring ? TWO_PI * number[0] : sqrt(number[0]);
     result[0] = to_spring ? omega * omega : omega / TWO_PI;
@@ -107,35 +80,57 @@ static bool convert_spring(const struct spline *spline, struct settings *setting
     return true;
 }
 
-bool plan_mode(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+/// Converts and clamps what another mode has no room for.
+static bool set_mode(const struct spline *spline, struct settings *settings, enum wiggly_mode mode,
+                     struct error *error)
 {
-    const struct spline *spline = &document->splines[edit->spline];
-    struct settings settings = settings_of(spline);
-    if ((unsigned)edit->mode > WIGGLY_CUBIC) return fail(error, ERROR_INPUT, "there is no such mode");
-    settings.mode = edit->mode;
-    bool converts = edit->mode == WIGGLY_COMPLEX && settings.spring_friction;
-    if (converts && !convert_spring(spline, &settings, false, error)) return false;
-    for (int i = 0; i < PARAMETER_COUNT; i++) {
-        double maximum = parameter_maximum((enum parameter)i, edit->mode);
-        if (settings.parameter[i].value > maximum) settings.parameter[i].value = maximum;
+    bool converts = mode == WIGGLY_COMPLEX && settings->spring_friction;
+    if (converts && !convert_spring(spline, settings, false, error)) return false;
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        double maximum = parameter_maximum(p, mode);
+        if (settings->parameter[p].value > maximum) settings->parameter[p].value = maximum;
     }
-    return add_settings(document, edit, &settings, list, error);
+    return true;
 }
 
-bool plan_start(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+static bool check_loop(const struct document *document, const struct spline *spline, struct error *error)
+{
+    int last = document_samples(document) - 1;
+    if (last == 0) return fail(error, ERROR_INPUT, "%s: a loop needs more than one frame", spline->name);
+    if (spline_find_knot(document, spline, last) < 0) return true;
+    return fail(error, ERROR_INPUT,
+                "%s: the knot at the last frame must go first, where a loop is at its first again", spline->name);
+}
+
+static bool set_choice(const struct document *document, const struct spline *spline, struct settings *settings,
+                       enum parameter parameter, double value, struct error *error)
+{
+    const struct parameter_row *row = &parameter_rows[parameter];
+    if (!(value >= 0 && value <= row->maximum && value == floor(value)))
+        return fail(error, ERROR_INPUT, "there is no such %s", row->name);
+    settings->parameter[parameter] = (struct param){value, -1};
+    if (parameter == PARAMETER_MODE) return set_mode(spline, settings, (enum wiggly_mode)value, error);
+    return parameter != PARAMETER_START || value != WIGGLY_LOOP || check_loop(document, spline, error);
+}
+
+bool plan_parameter(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
     const struct spline *spline = &document->splines[edit->spline];
     struct settings settings = settings_of(spline);
-    int last = document_samples(document) - 1;
-    if ((unsigned)edit->start > WIGGLY_LOOP) return fail(error, ERROR_INPUT, "there is no such start");
-    if (edit->start == WIGGLY_LOOP && last == 0) {
-        return fail(error, ERROR_INPUT, "%s: a loop needs more than one frame", spline->name);
+    if ((unsigned)edit->parameter >= PARAMETER_COUNT) return fail(error, ERROR_INPUT, "there is no such parameter");
+    if (!spline_has(spline, edit->parameter)) {
+        return fail(error, ERROR_INPUT, "%s: %s is not in use", spline->name, parameter_rows[edit->parameter].name);
     }
-    if (edit->start == WIGGLY_LOOP && spline_find_knot(document, spline, last) >= 0) {
-        return fail(error, ERROR_INPUT,
-                    "%s: the knot at the last frame must go first, where a loop is at its first again", spline->name);
+    struct param *param = &settings.parameter[edit->parameter];
+    if (parameter_rows[edit->parameter].kind == PARAMETER_CHOICE) {
+        if (!set_choice(document, spline, &settings, edit->parameter, edit->param.value, error)) return false;
+    } else if (edit->param.track >= 0) {
+        if (!check_track(document, edit, error)) return false;
+        *param = (struct param){0, edit->param.track};
+    } else {
+        if (!check_constant(spline, edit->parameter, edit->param.value, error)) return false;
+        *param = (struct param){edit->param.value + 0.0, -1};
     }
-    settings.start = edit->start;
     return add_settings(document, edit, &settings, list, error);
 }
 
@@ -143,7 +138,7 @@ bool plan_spring(struct document *document, const struct edit *edit, struct chan
 {
     const struct spline *spline = &document->splines[edit->spline];
     struct settings settings = settings_of(spline);
-    if (spline->mode != WIGGLY_REAL) {
+    if (spline_mode(spline) != WIGGLY_REAL) {
         return fail(error, ERROR_INPUT, "%s: spring and friction are for real mode only", spline->name);
     }
     if (edit->flag == settings.spring_friction) return true;

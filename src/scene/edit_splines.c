@@ -1,13 +1,12 @@
 /// Edits of the list of splines: which there are, in which order, under which names and colours.
 #include "scene/edit_plan.h"
+#include "scene/order.h"
 #include "scene/reference.h"
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double NEW_FREQUENCY = 1, NEW_DAMPING = 0.1; ///< of an added spline, Hz and ratio
 
 /// Room for one spline more in the document, and whether its samples and knots are not too many.
 static bool reserve_spline(struct document *document, int knots, struct error *error)
@@ -105,8 +104,9 @@ bool plan_spline_add(struct document *document, const struct edit *edit, struct 
     struct spline *held = hold_spline(free_name(document, edit->text ? edit->text : "spline"), 1);
     if (!held) return plan_no_memory(error);
     spline_reset(held);
-    held->parameter[PARAMETER_FREQUENCY].value = NEW_FREQUENCY;
-    held->parameter[PARAMETER_DAMPING].value = NEW_DAMPING;
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        if (spline_has(held, p)) held->parameter[p].value = parameter_rows[p].fresh;
+    }
     if (edit->flag) {
         held->knot_count = 1;
         held->knots[0] = (struct knot){

@@ -4,7 +4,7 @@
 
 static struct channel *find_channel(struct document *document, const struct edit *edit)
 {
-    struct tail *tail = &document->tails[edit->tail];
+    struct tail *tail = &document->rigs[edit->rig].tail;
     return edit->channel >= 0 && edit->channel < tail->channel_count ? &tail->channels[edit->channel] : NULL;
 }
 
@@ -13,9 +13,9 @@ static bool no_channel(struct error *error) { return fail(error, ERROR_INPUT, "t
 bool plan_angles(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
     if (edit->angle != ANGLE_REST && !find_channel(document, edit)) return no_channel(error);
-    const struct angles_place at = {edit->tail, edit->channel, edit->angle};
+    const struct angles_place at = {edit->rig, edit->channel, edit->angle};
     const struct angles *target = angles_at(document, at);
-    int count = edit->angles->each ? document->tails[edit->tail].joints : 1;
+    int count = edit->angles->each ? document->rigs[edit->rig].tail.joints : 1;
     for (int i = 0; i < count; i++) {
         if (!isfinite(edit->angles->value[i])) return fail(error, ERROR_INPUT, "angles must be finite");
     }
@@ -37,7 +37,7 @@ static struct change channel_change(const struct edit *edit, const struct channe
 {
     return (struct change){.kind = CHANGE_CHANNEL,
                            .spline = -1,
-                           .channel = {edit->tail, edit->channel, channel->spline, channel->axis, channel->of}};
+                           .channel = {edit->rig, edit->channel, channel->spline, channel->axis, channel->of}};
 }
 
 bool plan_axis(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
@@ -77,14 +77,14 @@ static struct change place_change(const struct edit *edit, const struct tail *ta
 {
     return (struct change){.kind = CHANGE_PLACE,
                            .spline = -1,
-                           .place = {.tail = edit->tail,
+                           .place = {.rig = edit->rig,
                                      .length = tail->length,
                                      .position = {tail->position[0], tail->position[1], tail->position[2]}}};
 }
 
 bool plan_position(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
-    const struct tail *tail = &document->tails[edit->tail];
+    const struct tail *tail = &document->rigs[edit->rig].tail;
     struct change change = place_change(edit, tail);
     if (edit->coordinate < 0 || edit->coordinate > 2) return fail(error, ERROR_INPUT, "there is no such coordinate");
     const struct param *old = &tail->position[edit->coordinate];
@@ -92,19 +92,20 @@ bool plan_position(struct document *document, const struct edit *edit, struct ch
     *param =
         edit->param.track >= 0 ? (struct param){0, edit->param.track} : (struct param){edit->param.value + 0.0, -1};
     if (param->track >= document->spline_count) {
-        return fail(error, ERROR_INPUT, "%s: there is no spline to follow", tail->name);
+        return fail(error, ERROR_INPUT, "%s: there is no spline to follow", document->rigs[edit->rig].name);
     }
-    if (!isfinite(param->value)) return fail(error, ERROR_INPUT, "%s: the position must be finite", tail->name);
+    if (!isfinite(param->value))
+        return fail(error, ERROR_INPUT, "%s: the position must be finite", document->rigs[edit->rig].name);
     bool same = old->track == param->track && old->value == param->value;
     return same || plan_add(list, &change, error);
 }
 
 bool plan_length(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
-    const struct tail *tail = &document->tails[edit->tail];
+    const struct tail *tail = &document->rigs[edit->rig].tail;
     struct change change = place_change(edit, tail);
     if (!isfinite(edit->number) || edit->number <= 0) {
-        return fail(error, ERROR_INPUT, "%s: the length must be above 0", tail->name);
+        return fail(error, ERROR_INPUT, "%s: the length must be above 0", document->rigs[edit->rig].name);
     }
     change.place.length = edit->number;
     return tail->length == edit->number || plan_add(list, &change, error);

@@ -174,13 +174,6 @@ void evaluation_free(struct evaluation *evaluation)
     *evaluation = (struct evaluation){0};
 }
 
-static wiggly_param solver_param(const struct evaluation *evaluation, const struct spline *spline,
-                                 enum parameter parameter)
-{
-    const struct param *param = &spline->parameter[parameter];
-    return (wiggly_param){param->value, param->track >= 0 ? evaluation->curves[param->track].total : NULL};
-}
-
 wiggly_desc storage_describe(const struct evaluation *evaluation, const struct document *document, int spline_index,
                              bool cubic)
 {
@@ -188,16 +181,13 @@ wiggly_desc storage_describe(const struct evaluation *evaluation, const struct d
     wiggly_desc desc = wiggly_default_desc();
     desc.samples = document_samples(document);
     desc.step = document_step(document);
-    desc.mode = cubic ? WIGGLY_CUBIC : spline->mode;
-    desc.start = spline->start;
-    desc.frequency = solver_param(evaluation, spline, PARAMETER_FREQUENCY);
-    desc.damping = solver_param(evaluation, spline, PARAMETER_DAMPING);
-    desc.bandwidth = solver_param(evaluation, spline, PARAMETER_BANDWIDTH);
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        int track = spline->parameter[p].track;
+        const double *total = track >= 0 ? evaluation->curves[track].total : NULL;
+        parameter_describe(p, spline->parameter[p].value, total, &desc);
+    }
+    if (cubic) desc.mode = WIGGLY_CUBIC;
     desc.spring_friction = spline->spring_friction && desc.mode == WIGGLY_REAL;
-    desc.spring = solver_param(evaluation, spline, PARAMETER_SPRING);
-    desc.friction = solver_param(evaluation, spline, PARAMETER_FRICTION);
-    desc.equilibrium = solver_param(evaluation, spline, PARAMETER_EQUILIBRIUM);
-    desc.calm = spline->parameter[PARAMETER_CALM].value;
     return desc;
 }
 

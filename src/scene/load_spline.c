@@ -4,12 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const spline_keys[] = {"name",   "mode",     "frequency", "damping",     "bandwidth",
-                                          "spring", "friction", "calm",      "equilibrium", "start",
-                                          "knots",  "color",    NULL};
+/// Beside the parameters.
+static const char *const spline_keys[] = {"name", "knots", "color", NULL};
 static const char *const knot_keys[] = {"frame", "value", "slope", "stiffness", NULL};
-static const char *const modes[] = {"complex", "real", "cubic", NULL};
-static const char *const starts[] = {"free", "rest", "loop", NULL};
 
 /// One spline of the file while it is read.
 struct part {
@@ -18,34 +15,41 @@ struct part {
     struct spline *spline;
 };
 
-static void load_parameter(struct reader *reader, const struct part *part, enum parameter parameter, json_t **extra)
+/// false where a word is none of those it may be.
+static bool load_parameter(struct reader *reader, const struct part *part, enum parameter parameter, json_t **extra)
 {
     struct where at;
     struct param *param = &part->spline->parameter[parameter];
-    json_t *value = reader_member(part->at, part->object, parameter_name(parameter), &at);
-    enum wiggly_mode mode = part->spline->mode;
-    struct range range = {parameter_minimum(parameter, mode), parameter_maximum(parameter, mode), false};
-    if (!value) return;
-    if (parameter == PARAMETER_CALM) {
-        reader_number(reader, &at, value, true, range, &param->value);
-    } else {
-        reader_param(reader, &at, value, range, at.key, param, extra);
+    const struct parameter_row *row = &parameter_rows[parameter];
+    json_t *value = reader_member(part->at, part->object, row->name, &at);
+    struct range range = {row->minimum, parameter_maximum(parameter, spline_mode(part->spline)), false};
+    if (!value) return true;
+    if (row->kind == PARAMETER_CHOICE) {
+        int word = reader_word(reader, &at, value, row->words, -1);
+        if (word >= 0) param->value = word;
+        return word >= 0;
     }
+    if (row->kind == PARAMETER_TRACK) {
+        reader_param(reader, &at, value, range, at.key, param, extra);
+    } else {
+        reader_number(reader, &at, value, true, range, &param->value);
+    }
+    return true;
 }
 
 /// The paper's pair stands in place of frequency and damping, outside complex mode.
 static void load_spring(struct reader *reader, const struct part *part)
 {
-    static const char *const pair[] = {"spring", "friction"};
     bool ratios = json_object_get(part->object, "frequency") || json_object_get(part->object, "damping");
-    for (int i = 0; i < 2; i++) {
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         struct where at;
-        if (!reader_member(part->at, part->object, pair[i], &at)) continue;
+        const char *name = parameter_rows[p].name;
+        if (parameter_rows[p].pair != PAIR_SPRING || !reader_member(part->at, part->object, name, &at)) continue;
         part->spline->spring_friction = true;
         if (ratios) {
             reader_fail(reader, &at, "expected either spring and friction or frequency and damping, got both");
-        } else if (part->spline->mode == WIGGLY_COMPLEX) {
-            reader_fail(reader, &at, "expected frequency and damping in complex mode, got %s", pair[i]);
+        } else if (spline_mode(part->spline) == WIGGLY_COMPLEX) {
+            reader_fail(reader, &at, "expected frequency and damping in complex mode, got %s", name);
         }
     }
 }
@@ -96,7 +100,7 @@ static bool slope_is_fixed(const struct document *document, const struct spline 
 {
     int sample = document_sample(document, spline->knots[at].frame), samples = document_samples(document);
     int other = sample + 1;
-    if (spline->start == WIGGLY_LOOP) {
+    if (spline_start(spline) == WIGGLY_LOOP) {
         other %= samples > 1 ? samples - 1 : 1;
     } else if (other == samples) {
         other = sample - 1;
@@ -153,14 +157,10 @@ static void load_knots(struct reader *reader, const struct part *part)
     if (good && reader->has_domain) check_knots(reader, &at, spline, first_id);
 }
 
-static void load_start(struct reader *reader, const struct part *part)
+static void check_loop(struct reader *reader, const struct part *part)
 {
-    struct where at;
-    const json_t *value = reader_member(part->at, part->object, "start", &at);
-    int start = reader_word(reader, &at, value, starts, "\"free\", \"rest\" or \"loop\"", WIGGLY_FREE);
-    if (start < 0) return;
-    part->spline->start = (enum wiggly_start)start;
-    if (start == WIGGLY_LOOP && reader->has_domain && document_samples(reader->document) == 1) {
+    struct where at = {.parent = part->at, .key = "start"};
+    if (spline_start(part->spline) == WIGGLY_LOOP && reader->has_domain && document_samples(reader->document) == 1) {
         reader_fail(reader, &at, "expected more than one frame for a loop, got one");
     }
 }
@@ -178,21 +178,23 @@ static void load_color(struct reader *reader, const struct part *part)
     }
 }
 
+static json_t *load_extra(struct reader *reader, const struct part *part)
+{
+    const char *known[PARAMETER_COUNT + sizeof spline_keys / sizeof *spline_keys];
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) known[p] = parameter_rows[p].name;
+    memcpy(known + PARAMETER_COUNT, spline_keys, sizeof spline_keys);
+    return reader_extra(reader, part->at, part->object, known);
+}
+
 static void load_spline(struct reader *reader, const struct where *at, json_t *object, struct spline *spline)
 {
     struct part part = {at, object, spline};
-    struct where mode_at;
-    const json_t *mode = reader_member(at, object, "mode", &mode_at);
-    int word = reader_word(reader, &mode_at, mode, modes, "\"complex\", \"real\" or \"cubic\"", WIGGLY_COMPLEX);
-    if (word >= 0) {
-        spline->mode = (enum wiggly_mode)word;
-        load_spring(reader, &part);
-    }
-    json_t *extra = reader_extra(reader, at, object, spline_keys);
-    for (int i = 0; i < PARAMETER_COUNT; i++) load_parameter(reader, &part, (enum parameter)i, &extra);
+    if (load_parameter(reader, &part, PARAMETER_MODE, NULL)) load_spring(reader, &part); // limits go by the mode
+    json_t *extra = load_extra(reader, &part);
+    for (enum parameter p = PARAMETER_MODE + 1; p < PARAMETER_COUNT; p++) load_parameter(reader, &part, p, &extra);
     spline->extra = reader_keep(reader, extra);
     load_color(reader, &part);
-    load_start(reader, &part);
+    check_loop(reader, &part);
     load_knots(reader, &part);
 }
 

@@ -44,3 +44,16 @@ void text_numbers(struct text *text, const double *values, int count)
     }
     text_string(text, "]");
 }
+
+void print_param(struct text *text, const struct document *document, const struct param *param, json_t *extras,
+                 const char *key)
+{
+    if (param->track < 0) {
+        text_number(text, param->value);
+        return;
+    }
+    struct members track = {text, "{ ", ", ", false};
+    member_string(&track, "spline", document->splines[param->track].name);
+    members_extra(&track, json_object_get(extras, key), NULL);
+    text_string(text, " }");
+}

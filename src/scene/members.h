@@ -30,6 +30,13 @@ void members_extra(struct members *members, const void *extra, holds_tracks *ski
 /// A knot on one line.
 void print_knot(struct text *text, const struct knot *knot);
 
+/// A number or a track; `extras` holds the unknown keys of tracks, by `key`.
+void print_param(struct text *text, const struct document *document, const struct param *param, json_t *extras,
+                 const char *key);
+
+/// The rigs as an array. `folder` is that of the file that the text is for: paths in it are relative to it.
+void print_rigs(struct text *text, const struct document *document, const char *folder);
+
 /// [1, 2, 3]
 void text_numbers(struct text *text, const double *values, int count);
 

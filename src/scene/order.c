@@ -4,22 +4,16 @@
 
 enum { UNSEEN = 0, DONE = PARAMETER_COUNT + 2 }; ///< of order_space.next; between them 1 + the next parameter
 
+bool spline_has(const struct spline *spline, enum parameter parameter)
+{
+    enum parameter_pair pair = parameter_rows[parameter].pair;
+    return pair == PAIR_NONE || (pair == PAIR_SPRING) == spline->spring_friction;
+}
+
 bool spline_uses(const struct spline *spline, enum parameter parameter, bool cubic)
 {
-    if (parameter == PARAMETER_EQUILIBRIUM) return true;
-    if (cubic || spline->mode == WIGGLY_CUBIC) return false;
-    switch (parameter) {
-    case PARAMETER_FREQUENCY:
-    case PARAMETER_DAMPING:
-        return !spline->spring_friction;
-    case PARAMETER_SPRING:
-    case PARAMETER_FRICTION:
-        return spline->spring_friction;
-    case PARAMETER_BANDWIDTH:
-        return spline->mode == WIGGLY_COMPLEX;
-    default:
-        return true;
-    }
+    enum wiggly_mode mode = cubic ? WIGGLY_CUBIC : spline_mode(spline);
+    return parameter_rows[parameter].modes >> mode & 1 && spline_has(spline, parameter);
 }
 
 /// Depth first from one spline, without recursion: a chain of tracks may be as long as the scene.

@@ -24,6 +24,9 @@ bool scene_order(const struct document *document, struct order_space space, int 
 /// The same with memory of its own and no result but the answer; `cycle->spline` is -1 where memory was short.
 bool scene_has_order(const struct document *document, struct order_cycle *cycle);
 
+/// Whether a spline has that parameter: of frequency, damping and spring, friction it has one pair.
+bool spline_has(const struct spline *spline, enum parameter parameter);
+
 /// Whether the solution of a spline depends on that parameter, as its mode is (or as a cubic).
 bool spline_uses(const struct spline *spline, enum parameter parameter, bool cubic);
 

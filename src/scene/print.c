@@ -2,61 +2,21 @@
 #include "scene/load.h"
 #include "scene/members.h"
 #include "scene/order.h"
-#include "scene/print_character.h"
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const mode_names[] = {
-    [WIGGLY_COMPLEX] = "complex", [WIGGLY_REAL] = "real", [WIGGLY_CUBIC] = "cubic"};
-static const char *const start_names[] = {[WIGGLY_FREE] = "free", [WIGGLY_REST] = "rest", [WIGGLY_LOOP] = "loop"};
-static const char *const part_names[] = {[PART_TOTAL] = "total", [PART_DISPLACEMENT] = "displacement"};
-static const char *const axis_names[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up"};
 
-static bool is_parameter(const char *key)
-{
-    for (int i = 0; i < PARAMETER_COUNT; i++) {
-        if (strcmp(key, parameter_name((enum parameter)i)) == 0) return true;
-    }
-    return false;
-}
-
-static bool is_position(const char *key) { return strcmp(key, "position") == 0; }
-
-static void print_angles(struct members *members, const char *key, const struct angles *angles, int joints)
-{
-    member(members, key);
-    if (angles->each) {
-        text_numbers(members->text, angles->value, joints);
-    } else {
-        text_number(members->text, angles->value[0]);
-    }
-}
+static bool is_parameter(const char *key) { return parameter_find(key) != PARAMETER_COUNT; }
 
 /// A parameter that the mode does not use is written where it differs from the default: another mode may want it
 /// again. Of the two pairs (frequency, damping and spring, friction) a file has one.
 static bool is_printed(const struct spline *spline, enum parameter parameter)
 {
     const struct param *param = &spline->parameter[parameter];
-    bool is_ratio = parameter == PARAMETER_FREQUENCY || parameter == PARAMETER_DAMPING;
-    bool is_spring = parameter == PARAMETER_SPRING || parameter == PARAMETER_FRICTION;
-    if (is_ratio && spline->spring_friction) return false;
-    if (is_spring) return spline->spring_friction;
-    if (param->track >= 0 || param->value != parameter_default(parameter)) return true;
+    const struct parameter_row *row = &parameter_rows[parameter];
+    if (!spline_has(spline, parameter)) return false;
+    if (row->pair == PAIR_SPRING || param->track >= 0 || param->value != row->standard) return true;
     return spline_uses(spline, parameter, false);
-}
-
-/// A number or a track; `extras` holds the unknown keys of tracks, by `key`.
-static void print_param(struct text *text, const struct document *document, const struct param *param, json_t *extras,
-                        const char *key)
-{
-    if (param->track < 0) {
-        text_number(text, param->value);
-        return;
-    }
-    struct members track = {text, "{ ", ", ", false};
-    member_string(&track, "spline", document->splines[param->track].name);
-    members_extra(&track, json_object_get(extras, key), NULL);
-    text_string(text, " }");
 }
 
 static void print_spline(struct text *text, const struct document *document, const struct spline *spline)
@@ -68,14 +28,16 @@ static void print_spline(struct text *text, const struct document *document, con
         color_print(spline->color, color);
         member_string(&members, "color", color);
     }
-    member_string(&members, "mode", mode_names[spline->mode]);
-    for (int i = 0; i < PARAMETER_COUNT; i++) {
-        const char *name = parameter_name((enum parameter)i);
-        if (!is_printed(spline, (enum parameter)i)) continue;
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        const char *name = parameter_rows[p].name;
+        if (!is_printed(spline, p)) continue;
+        if (parameter_rows[p].kind == PARAMETER_CHOICE) {
+            member_string(&members, name, parameter_rows[p].words[(int)spline->parameter[p].value]);
+            continue;
+        }
         member(&members, name);
-        print_param(text, document, &spline->parameter[i], extra_of(spline->extra), name);
+        print_param(text, document, &spline->parameter[p], extra_of(spline->extra), name);
     }
-    member_string(&members, "start", start_names[spline->start]);
     member(&members, "knots");
     for (int i = 0; i < spline->knot_count; i++) {
         text_string(text, i > 0 ? ",\n        " : "[\n        ");
@@ -84,65 +46,6 @@ static void print_spline(struct text *text, const struct document *document, con
     text_string(text, spline->knot_count > 0 ? "\n      ]" : "[]");
     members_extra(&members, spline->extra, is_parameter);
     text_string(text, "\n    }");
-}
-
-static void print_channel(struct text *text, const struct document *document, const struct tail *tail,
-                          const struct channel *channel)
-{
-    struct members members = {text, "{ ", ", ", false};
-    member_string(&members, "spline", document->splines[channel->spline].name);
-    member_string(&members, "axis", axis_names[channel->axis]);
-    if (channel->of != PART_TOTAL) member_string(&members, "of", part_names[channel->of]);
-    print_angles(&members, "lag", &channel->lag, tail->joints);
-    print_angles(&members, "gain", &channel->gain, tail->joints);
-    members_extra(&members, channel->extra, NULL);
-    text_string(text, " }");
-}
-
-static void print_position(struct text *text, const struct document *document, const struct tail *tail)
-{
-    json_t *extras = json_object_get(extra_of(tail->extra), "position");
-    for (int i = 0; i < 3; i++) {
-        text_string(text, i > 0 ? ", " : "[");
-        print_param(text, document, &tail->position[i], extras, coordinate_name(i));
-    }
-    text_string(text, "]");
-}
-
-static void print_tail(struct text *text, const struct document *document, const struct tail *tail)
-{
-    struct members members = {text, "    {\n      ", ",\n      ", false};
-    member_string(&members, "type", "tail");
-    member_string(&members, "name", tail->name);
-    member_number(&members, "joints", tail->joints);
-    member_number(&members, "length", tail->length);
-    member(&members, "position");
-    print_position(text, document, tail);
-    print_angles(&members, "rest", &tail->rest, tail->joints);
-    member(&members, "channels");
-    for (int i = 0; i < tail->channel_count; i++) {
-        text_string(text, i > 0 ? ",\n        " : "[\n        ");
-        print_channel(text, document, tail, &tail->channels[i]);
-    }
-    text_string(text, tail->channel_count > 0 ? "\n      ]" : "[]");
-    members_extra(&members, tail->extra, is_position);
-    text_string(text, "\n    }");
-}
-
-/// Tails and characters in the order of the file.
-static void print_rigs(struct text *text, const struct document *document, const char *folder)
-{
-    int tail = 0, character = 0, count = document->tail_count + document->character_count;
-    while (tail + character < count) {
-        text_string(text, tail + character > 0 ? ",\n" : "[\n");
-        bool is_next = character < document->character_count && document->characters[character].tails_before <= tail;
-        if (is_next || tail == document->tail_count) {
-            print_character(text, document, &document->characters[character++], folder);
-        } else {
-            print_tail(text, document, &document->tails[tail++]);
-        }
-    }
-    text_string(text, count > 0 ? "\n  ]" : "[]");
 }
 
 /// `folder` is that of the file that the text is for: paths in it are relative to it.

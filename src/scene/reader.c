@@ -137,19 +137,32 @@ bool reader_integer(struct reader *reader, const struct where *at, const json_t 
     return reader_fail(reader, at, "expected a whole number from %d to %d, got %s", minimum, maximum, got);
 }
 
-int reader_word(struct reader *reader, const struct where *at, const json_t *value, const char *const *words,
-                const char *expected, int missing)
+/// "a", "b" or "c"
+static const char *list_words(const char *const *words, char *text, size_t size)
 {
-    if (!value && missing >= 0) return missing;
-    if (!json_is_string(value)) {
-        reader_unexpected(reader, at, expected, value);
-        return -1;
+    size_t length = 0;
+    for (int i = 0; words[i] && length < size; i++) {
+        const char *before = i == 0 ? "" : words[i + 1] ? ", " : " or ";
+        length += (size_t)snprintf(text + length, size - length, "%s\"%s\"", before, words[i]);
     }
+    return text;
+}
+
+int reader_word(struct reader *reader, const struct where *at, const json_t *value, const char *const *words,
+                int missing)
+{
+    char expected[128];
     const char *word = json_string_value(value);
-    for (int i = 0; words[i]; i++) {
+    if (!value && missing >= 0) return missing;
+    for (int i = 0; word && words[i]; i++) {
         if (strcmp(words[i], word) == 0) return i;
     }
-    reader_fail(reader, at, "expected %s, got \"%s\"", expected, word);
+    list_words(words, expected, sizeof expected);
+    if (!word) {
+        reader_unexpected(reader, at, expected, value);
+    } else {
+        reader_fail(reader, at, "expected %s, got \"%s\"", expected, word);
+    }
     return -1;
 }
 

@@ -68,10 +68,9 @@ bool reader_number(struct reader *reader, const struct where *at, const json_t *
 bool reader_integer(struct reader *reader, const struct where *at, const json_t *value, int minimum, int maximum,
                     int *target);
 
-/// Index of a string among `words` (NULL at the end); `missing` where there is none, -1 after an error. `expected`
-/// lists them.
+/// Index of a string among `words` (NULL at the end); `missing` where there is none, -1 after an error.
 int reader_word(struct reader *reader, const struct where *at, const json_t *value, const char *const *words,
-                const char *expected, int missing);
+                int missing);
 
 /// The reader's text as JSON; NULL after an error (syntax, too deep, too much).
 json_t *reader_parse(struct reader *reader);
@@ -107,8 +106,6 @@ const void *reader_keep(struct reader *reader, json_t *extra);
 /// The parts of a scene, each into reader->document. Splines come first: rigs name them.
 void load_splines(struct reader *reader, const struct where *scene_at, const json_t *scene);
 void load_rigs(struct reader *reader, const struct where *scene_at, const json_t *scene);
-void load_tail(struct reader *reader, const struct where *at, json_t *object, struct tail *tail);
-void load_character(struct reader *reader, const struct where *at, json_t *object, struct character_rig *rig);
 
 /// What is wrong or odd only in the whole: cycles of tracks, frequencies that alias.
 void validate_scene(struct reader *reader, const struct where *scene_at);

@@ -13,7 +13,7 @@ enum reference_kind {
 
 struct reference {
     enum reference_kind kind;
-    int owner;   ///< index of the spline, tail or character
+    int owner;   ///< index of the spline or rig
     int which;   ///< enum parameter, coordinate 0 … 2, channel, or drive
     int *spline; ///< the index itself, which a visitor may change
 };
@@ -22,6 +22,9 @@ typedef void reference_visitor(const struct reference *reference, void *context)
 
 /// Visits all references; numbers that follow no spline are none.
 void reference_each(struct document *document, reference_visitor *visit, void *context);
+
+/// The same of one rig, at `index` in the list.
+void rig_references(struct rig *rig, int index, reference_visitor *visit, void *context);
 
 /// How many references there are to a spline.
 int reference_count(const struct document *document, int spline);

@@ -34,23 +34,24 @@ static bool new_file(const char *scene, char file[PATH_LIMIT])
 }
 
 /// Whether a rig before this one has its paint in the same file.
-static bool is_shared(const struct document *document, int character)
+static bool is_shared(const struct document *document, int index)
 {
-    const char *path = document->characters[character].paint;
-    for (int i = 0; i < character; i++) {
-        const char *other = document->characters[i].paint;
-        if (other && document->characters[i].painted && strcmp(other, path) == 0) return true;
+    const char *path = document->rigs[index].character.paint;
+    int i = document_next_rig(document, RIG_CHARACTER, 0);
+    for (; i < index; i = document_next_rig(document, RIG_CHARACTER, i + 1)) {
+        const struct character_rig *other = &document->rigs[i].character;
+        if (other->paint && other->painted && strcmp(other->paint, path) == 0) return true;
     }
     return false;
 }
 
 /// The file for a rig's paint: its own one where the scene stays where it is, else a new one.
-static bool choose_file(const struct document *document, int character, const char *scene, struct sheet *sheet,
+static bool choose_file(const struct document *document, int index, const char *scene, struct sheet *sheet,
                         struct error *error)
 {
-    const struct character_rig *rig = &document->characters[character];
+    const struct character_rig *rig = &document->rigs[index].character;
     const bool stays = document->path && strcmp(document->path, scene) == 0;
-    if (stays && rig->paint && rig->filed != 0 && !is_shared(document, character))
+    if (stays && rig->paint && rig->filed != 0 && !is_shared(document, index))
         return path_resolve(document->folder, rig->paint, sheet->file) ||
                fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", rig->paint);
     sheet->is_new = true;
@@ -72,12 +73,13 @@ static bool name_file(struct document *document, struct character_rig *rig, stru
     return true;
 }
 
-static bool save_sheet(struct document *document, int character, const char *scene, struct sheet *sheet,
+static bool save_sheet(struct document *document, int index, const char *scene, struct sheet *sheet,
                        struct error *error)
 {
-    struct character_rig *rig = &document->characters[character];
+    struct character_rig *rig = &document->rigs[index].character;
+    if (document->rigs[index].kind != RIG_CHARACTER) return true;
     if (!rig->painted || paint_is_plain(rig->painted)) return true;
-    if (!choose_file(document, character, scene, sheet, error)) return false;
+    if (!choose_file(document, index, scene, sheet, error)) return false;
     if (!sheet->is_new && rig->filed == rig->painted->version) return true;
     if (!paint_write(rig->painted, sheet->file, error)) return false;
     if (sheet->is_new && !name_file(document, rig, sheet, error)) {
@@ -92,7 +94,7 @@ static bool save_sheet(struct document *document, int character, const char *sce
 static void finish(struct document *document, struct sheet *sheets, int count, bool saved)
 {
     for (int i = 0; i < count; i++) {
-        struct character_rig *rig = &document->characters[i];
+        struct character_rig *rig = &document->rigs[i].character;
         struct sheet *sheet = &sheets[i];
         if (!sheet->written) continue;
         if (saved || !sheet->is_new) {
@@ -120,7 +122,7 @@ static bool save_scene(const struct document *document, const char *path, struct
 
 bool scene_save(struct document *document, const char *path, struct error *error)
 {
-    const int count = document->character_count;
+    const int count = document->rig_count;
     struct sheet *sheets = calloc((size_t)count + 1, sizeof *sheets);
     if (!sheets) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
     bool saved = true;
@@ -134,8 +136,9 @@ bool scene_save(struct document *document, const char *path, struct error *error
 bool scene_read_paint(struct document *document, struct error *error)
 {
     struct error first = {0};
-    for (int i = 0; i < document->character_count; i++) {
-        struct character_rig *rig = &document->characters[i];
+    int i = document_next_rig(document, RIG_CHARACTER, 0);
+    for (; i >= 0; i = document_next_rig(document, RIG_CHARACTER, i + 1)) {
+        struct character_rig *rig = &document->rigs[i].character;
         struct error trouble = {0};
         char path[PATH_LIMIT];
         if (!rig->paint || rig->painted || rig->filed != 0) continue;
@@ -154,12 +157,13 @@ bool scene_read_paint(struct document *document, struct error *error)
 bool scene_print_paint(const struct document *document, char **buffer, size_t *capacity, size_t *size)
 {
     struct text text = {.data = *buffer, .size = *size, .capacity = *capacity};
-    for (int i = 0; i < document->character_count; i++) {
-        const struct character_rig *rig = &document->characters[i];
+    int i = document_next_rig(document, RIG_CHARACTER, 0);
+    for (int character = 0; i >= 0; i = document_next_rig(document, RIG_CHARACTER, i + 1), character++) {
+        const struct character_rig *rig = &document->rigs[i].character;
         char line[96];
         if (!rig->painted) continue;
         if (text.size == *size) text_bytes(&text, "", 1);
-        snprintf(line, sizeof line, "paint %d %zu %d\n", i, paint_file_size(rig->painted), rig->filed != 0);
+        snprintf(line, sizeof line, "paint %d %zu %d\n", character, paint_file_size(rig->painted), rig->filed != 0);
         text_string(&text, line);
         paint_print(&text, rig->painted);
     }
@@ -177,13 +181,12 @@ bool scene_parse_paint(struct document *document, const char *name, const char *
         size_t bytes;
         const char *line_end = memchr(text, '\n', size);
         const bool good = line_end && sscanf(text, "paint %d %zu %d\n", &character, &bytes, &has_file) == 3;
-        if (!good || character < 0 || character >= document->character_count)
-            return fail(error, ERROR_INPUT, "%s: expected the paint of a character, got something else", name);
+        struct character_rig *rig = good ? document_character(document, character) : NULL;
+        if (!rig) return fail(error, ERROR_INPUT, "%s: expected the paint of a character, got something else", name);
         size -= (size_t)(line_end + 1 - text);
         text = line_end + 1;
         if (bytes > size)
             return fail(error, ERROR_INPUT, "%s: expected %zu bytes of paint, got %zu", name, bytes, size);
-        struct character_rig *rig = &document->characters[character];
         paint_destroy(rig->painted);
         rig->painted = paint_parse(name, text, bytes, error);
         if (!rig->painted) return false;

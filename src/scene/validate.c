@@ -15,7 +15,7 @@ static void check_cycles(struct reader *reader, const struct where *splines_at)
     }
     const struct spline *spline = &document->splines[cycle.spline];
     struct where spline_at = {.parent = splines_at, .index = (size_t)cycle.spline};
-    struct where at = {.parent = &spline_at, .key = parameter_name(cycle.parameter)};
+    struct where at = {.parent = &spline_at, .key = parameter_rows[cycle.parameter].name};
     int leader = spline->parameter[cycle.parameter].track;
     reader_fail(reader, &at, "expected tracks without a cycle, got \"%s\", which follows \"%s\" itself",
                 document->splines[leader].name, spline->name);
@@ -27,9 +27,9 @@ static double highest_frequency(const struct spline *spline, enum parameter *par
     const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
     const struct param *bandwidth = &spline->parameter[PARAMETER_BANDWIDTH];
     *parameter = spline->spring_friction ? PARAMETER_SPRING : PARAMETER_FREQUENCY;
-    if (spline->mode == WIGGLY_CUBIC || spline->parameter[*parameter].track >= 0) return 0;
+    if (spline_mode(spline) == WIGGLY_CUBIC || spline->parameter[*parameter].track >= 0) return 0;
     if (spline->spring_friction) return sqrt(spline->parameter[PARAMETER_SPRING].value) / TWO_PI;
-    double widening = spline->mode == WIGGLY_COMPLEX && bandwidth->track < 0 ? bandwidth->value : 0;
+    double widening = spline_mode(spline) == WIGGLY_COMPLEX && bandwidth->track < 0 ? bandwidth->value : 0;
     return frequency->value * (1 + widening);
 }
 
@@ -42,7 +42,7 @@ static void check_aliasing(struct reader *reader, const struct where *splines_at
         double highest = highest_frequency(&document->splines[i], &parameter);
         if (highest <= limit) continue;
         struct where spline_at = {.parent = splines_at, .index = (size_t)i};
-        struct where at = {.parent = &spline_at, .key = parameter_name(parameter)};
+        struct where at = {.parent = &spline_at, .key = parameter_rows[parameter].name};
         reader_warn(reader, &at, "%.4g Hz is above half the sample rate, %.4g Hz: it aliases", highest, limit);
     }
 }

@@ -67,7 +67,9 @@ void toggle_slope(struct editor *editor, const struct editor_world *world);
 /// Slopes of the selected knots: level, or towards the neighbours' as Catmull and Rom have it.
 void flatten_slopes(struct editor *editor, const struct editor_world *world);
 void smooth_slopes(struct editor *editor, const struct editor_world *world);
-/// Changes the parameter that a held letter stands for (F Z B C L) by one step.
+/// Where a parameter's slider ends; 0: it has none.
+double slider_end(const struct document *document, const struct spline *spline, enum parameter parameter);
+/// Changes the parameter that a held letter stands for, or with L the lag, by its step.
 void nudge_parameter(struct editor *editor, const struct editor_world *world, int letter, int direction);
 /// The channel that the active spline moves, the first of all where it moves none; NULL where there is none at all.
 const struct channel *active_channel(const struct editor *editor, const struct document *document, int *tail,

@@ -107,9 +107,8 @@ double arrange_present(const struct editor *editor, const struct editor_world *w
 {
     const struct spline *follower = &world->document->splines[spline];
     wiggly_value v = curves_solved(world, follower->parameter[parameter].track, editor->playback.position);
-    double value = isfinite(v.y + v.re) ? v.y + v.re : parameter_default(parameter);
-    return fmax(parameter_minimum(parameter, follower->mode),
-                fmin(parameter_maximum(parameter, follower->mode), value));
+    double value = isfinite(v.y + v.re) ? v.y + v.re : parameter_rows[parameter].standard;
+    return parameter_clamped(parameter, spline_mode(follower), value);
 }
 
 /// Finds the last place that follows a spline, so that letting go of it moves no other place.
@@ -133,7 +132,7 @@ static struct edit release_edit(const struct editor *editor, const struct editor
 {
     struct edit edit = editor_edit_of(EDIT_PARAMETER, reference->owner);
     wiggly_value v = curves_solved(world, editor->active, editor->playback.position);
-    edit.tail = edit.character = reference->owner;
+    edit.rig = reference->owner;
     switch (reference->kind) {
     case REFERENCE_TRACK:
         edit.parameter = (enum parameter)reference->which;

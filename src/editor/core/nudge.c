@@ -1,6 +1,7 @@
 /// Changes by key: knots and parameters in small steps. Equal nudges of the same knots are one undo step.
 #include "editor/core/actions.h"
 #include "editor/curves/curves.h"
+#include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -62,9 +63,12 @@ const struct channel *active_channel(const struct editor *editor, const struct d
                                      int *channel)
 {
     const struct channel *first = NULL;
-    for (int t = document->tail_count - 1; t >= 0; t--) {
-        for (int c = document->tails[t].channel_count - 1; c >= 0; c--) {
-            const struct channel *candidate = &document->tails[t].channels[c];
+    for (int r = document->rig_count - 1, t = document_count_rigs(document, RIG_TAIL); r >= 0; r--) {
+        const struct rig *rig = &document->rigs[r];
+        if (rig->kind != RIG_TAIL) continue;
+        t--;
+        for (int c = rig->tail.channel_count - 1; c >= 0; c--) {
+            const struct channel *candidate = &rig->tail.channels[c];
             if (first && first->spline == editor->active && candidate->spline != editor->active) continue;
             first = candidate;
             *tail = t;
@@ -83,28 +87,16 @@ static void nudge_lag(struct editor *editor, const struct editor_world *world, d
         return;
     }
     struct angles lag = active->lag;
-    int count = lag.each ? world->document->tails[tail].joints : 1;
+    int count = lag.each ? document_tail(world->document, tail)->joints : 1;
     for (int n = 0; n < count; n++) lag.value[n] += lag.each ? n * degrees : degrees;
     struct edit edit = editor_edit_of(EDIT_ANGLES, editor->active);
-    edit.tail = tail;
+    edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
     edit.channel = channel;
     edit.angle = ANGLE_LAG;
     edit.angles = &lag;
     uint64_t kind = NUDGE_PARAMETER + PARAMETER_COUNT + (uint64_t)(tail * 4096 + channel);
     editor_step(editor, world, "Change lag", merge_key(editor, world, kind), &edit);
 }
-
-/// What a held letter stands for, and its step.
-static const struct parameter_key {
-    int letter;
-    enum parameter parameter;
-    double step;
-} parameter_keys[] = {
-    {.letter = 'F', .parameter = PARAMETER_FREQUENCY, .step = 0.05},
-    {.letter = 'Z', .parameter = PARAMETER_DAMPING, .step = 0.01},
-    {.letter = 'B', .parameter = PARAMETER_BANDWIDTH, .step = 0.01},
-    {.letter = 'C', .parameter = PARAMETER_CALM, .step = 0.01},
-};
 
 /// The same step where the spline has spring and friction instead: f = √k/2π, ζ = γ/2√k.
 static void step_spring(const struct spline *spline, struct edit *edit, double step)
@@ -121,41 +113,41 @@ static void step_spring(const struct spline *spline, struct edit *edit, double s
     edit->param.track = spline->parameter[edit->parameter].track;
 }
 
-static double slider_maximum(const struct document *document, enum parameter parameter, enum wiggly_mode mode)
+double slider_end(const struct document *document, const struct spline *spline, enum parameter parameter)
 {
-    double most = parameter_maximum(parameter, mode);
-    if (parameter == PARAMETER_FREQUENCY) most = fmin(most, fmin(12, document->fps * document->substeps / 2));
-    if (parameter == PARAMETER_DAMPING) most = fmin(most, mode == WIGGLY_REAL ? 3 : 1);
-    return most;
+    const struct parameter_row *row = &parameter_rows[parameter];
+    double most = fmin(row->usual, parameter_maximum(parameter, spline_mode(spline)));
+    return row->is_frequency ? fmin(most, document->fps * document->substeps / 2) : most;
 }
 
-/// Why a parameter does nothing now, or NULL.
-static const char *why_idle(const struct spline *spline, enum parameter parameter)
+/// Says why a parameter does nothing now; false where it does something.
+static bool say_idle(struct editor *editor, const struct spline *spline, enum parameter parameter)
 {
-    if (parameter == PARAMETER_CALM) return NULL;
-    if (spline->mode == WIGGLY_CUBIC) return "A cubic neither swings nor rings; M changes the mode.";
-    if (parameter == PARAMETER_BANDWIDTH && spline->mode == WIGGLY_REAL) {
-        return "Only the complex mode has a bandwidth; M changes the mode.";
+    const struct parameter_row *row = &parameter_rows[parameter];
+    char text[160];
+    if (parameter == PARAMETER_CALM || row->modes >> spline_mode(spline) & 1) return false;
+    if (spline_mode(spline) == WIGGLY_CUBIC) {
+        snprintf(text, sizeof text, "A cubic neither swings nor rings; M changes the mode.");
+    } else {
+        snprintf(text, sizeof text, "Only the %s mode has a %s; M changes the mode.",
+                 row->modes & IN_COMPLEX ? "complex" : "real", row->name);
     }
-    return NULL;
+    editor_message(editor, false, text);
+    return true;
 }
 
 static void nudge_one(struct editor *editor, const struct editor_world *world, const struct spline *spline,
                       enum parameter parameter, double step)
 {
-    const char *idle = why_idle(spline, parameter);
-    if (idle) {
-        editor_message(editor, false, idle);
-        return;
-    }
+    if (say_idle(editor, spline, parameter)) return;
     struct edit edit = editor_edit_of(EDIT_PARAMETER, editor->active);
     edit.parameter = parameter;
     edit.param = spline->parameter[parameter];
-    bool pair = spline->spring_friction && (parameter == PARAMETER_FREQUENCY || parameter == PARAMETER_DAMPING);
+    bool pair = !spline_has(spline, parameter);
     if (pair) step_spring(spline, &edit, step);
     if (edit.param.track >= 0) {
         char text[160];
-        snprintf(text, sizeof text, "The %s follows the spline \"%.60s\".", parameter_name(edit.parameter),
+        snprintf(text, sizeof text, "The %s follows the spline \"%.60s\".", parameter_rows[edit.parameter].name,
                  world->document->splines[edit.param.track].name);
         editor_message(editor, false, text);
         return;
@@ -163,9 +155,10 @@ static void nudge_one(struct editor *editor, const struct editor_world *world, c
     if (!pair)
         edit.param.value =
             round((edit.param.value + step) * 1e6) / 1e6; /* 0.30000000000000004 is no number to save */
-    double most =
-        fmax(slider_maximum(world->document, edit.parameter, spline->mode), spline->parameter[edit.parameter].value);
-    edit.param.value = fmin(fmax(edit.param.value, parameter_minimum(edit.parameter, spline->mode)), most);
+    double most = parameter_maximum(edit.parameter, spline_mode(spline));
+    if (!pair && parameter_rows[parameter].usual > 0)
+        most = fmax(slider_end(world->document, spline, parameter), spline->parameter[parameter].value);
+    edit.param.value = fmin(fmax(edit.param.value, parameter_rows[edit.parameter].minimum), most);
     if (edit.param.value == spline->parameter[edit.parameter].value) return;
     editor_step(editor, world, "Change parameter", merge_key(editor, world, NUDGE_PARAMETER + edit.parameter), &edit);
 }
@@ -174,19 +167,17 @@ void nudge_parameter(struct editor *editor, const struct editor_world *world, in
 {
     const struct spline *spline = editor_active_spline(editor, world);
     if (letter == 'L') nudge_lag(editor, world, 0.5 * direction);
-    for (size_t i = 0; spline && i < sizeof parameter_keys / sizeof parameter_keys[0]; i++) {
-        if (parameter_keys[i].letter != letter) continue;
-        nudge_one(editor, world, spline, parameter_keys[i].parameter, parameter_keys[i].step * direction);
-    }
+    enum parameter parameter = parameter_of_letter(letter);
+    if (!spline || parameter == PARAMETER_COUNT) return;
+    nudge_one(editor, world, spline, parameter, parameter_rows[parameter].step * direction);
 }
 
 void cycle_mode(struct editor *editor, const struct editor_world *world)
 {
     const struct spline *spline = editor_active_spline(editor, world);
     if (!spline) return;
-    struct edit edit = editor_edit_of(EDIT_MODE, editor->active);
-    edit.mode = spline->mode == WIGGLY_COMPLEX ? WIGGLY_REAL
-                : spline->mode == WIGGLY_REAL  ? WIGGLY_CUBIC
-                                               : WIGGLY_COMPLEX;
-    editor_step(editor, world, "Change mode", 0, &edit);
+    struct edit edit = editor_edit_of(EDIT_PARAMETER, editor->active);
+    edit.parameter = PARAMETER_MODE;
+    edit.param = (struct param){(spline_mode(spline) + 1) % 3, -1};
+    editor_step(editor, world, parameter_rows[PARAMETER_MODE].undo, 0, &edit);
 }

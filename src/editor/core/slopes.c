@@ -36,7 +36,7 @@ static double catmull_rom(const struct document *document, const struct spline *
 {
     const struct knot *knots = spline->knots;
     int count = spline->knot_count;
-    bool loop = spline->start == WIGGLY_LOOP && count > 1;
+    bool loop = spline_start(spline) == WIGGLY_LOOP && count > 1;
     double period = document->last_frame - document->first_frame;
     int before = k > 0 ? k - 1 : loop ? count - 1 : 0, after = k + 1 < count ? k + 1 : loop ? 0 : count - 1;
     double frames = knots[after].frame - knots[before].frame;

@@ -44,7 +44,7 @@ static void show_ghost(struct editor *editor)
 
 static bool shows_imaginary(const struct editor *editor, const struct spline *spline)
 {
-    return spline->mode == WIGGLY_COMPLEX && editor->look != LOOK_CUBIC;
+    return spline_mode(spline) == WIGGLY_COMPLEX && editor->look != LOOK_CUBIC;
 }
 
 /// Lines in painter's order, the active one last.

@@ -70,8 +70,9 @@ static double frame_of(const struct document *document, double position)
 /// Lags (radians) that the fan shows: evenly along the tail that the active spline moves. How many there are.
 static int fan_lags(const struct editor *editor, const struct document *document, double lags[CURVES_FAN])
 {
-    for (int t = 0; t < document->tail_count; t++) {
-        const struct tail *tail = &document->tails[t];
+    int rig = document_next_rig(document, RIG_TAIL, 0);
+    for (; rig >= 0; rig = document_next_rig(document, RIG_TAIL, rig + 1)) {
+        const struct tail *tail = &document->rigs[rig].tail;
         for (int c = 0; c < tail->channel_count; c++) {
             const struct channel *channel = &tail->channels[c];
             if (channel->spline != editor->active) continue;

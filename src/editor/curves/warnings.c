@@ -35,7 +35,7 @@ static double frequency_of(const struct evaluation *evaluation, const struct spl
 static double bandwidth_of(const struct spline *spline)
 {
     const struct param *bandwidth = &spline->parameter[PARAMETER_BANDWIDTH];
-    return spline->mode == WIGGLY_COMPLEX && bandwidth->track < 0 ? bandwidth->value : 0;
+    return spline_mode(spline) == WIGGLY_COMPLEX && bandwidth->track < 0 ? bandwidth->value : 0;
 }
 
 static void find_rate(const struct document *document, const struct evaluation *evaluation,
@@ -58,7 +58,7 @@ struct span {
 
 static bool take_span(const struct document *document, const struct spline *spline, int k, struct span *span)
 {
-    bool loop = spline->start == WIGGLY_LOOP;
+    bool loop = spline_start(spline) == WIGGLY_LOOP;
     int next = k + 1;
     if (next == spline->knot_count && (!loop || next < 2)) return false;
     next %= spline->knot_count;
@@ -127,7 +127,7 @@ static void begin(const struct document *document, const struct evaluation *eval
     struct warning_search *search = &found->search;
     found->count = 0;
     *search = (struct warning_search){0};
-    if (of >= evaluation->count || spline->mode == WIGGLY_CUBIC || evaluation->cubic) return;
+    if (of >= evaluation->count || spline_mode(spline) == WIGGLY_CUBIC || evaluation->cubic) return;
     search->running = true;
     search->frequency = frequency_of(evaluation, spline);
     search->bandwidth = bandwidth_of(spline);

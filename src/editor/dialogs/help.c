@@ -29,7 +29,7 @@ struct flow {
 static int row_count(const struct help_group *group)
 {
     int count = 0;
-    while (count < HELP_MAX_ROWS && group->rows[count].keys) count++;
+    while (help_row(group, count).keys) count++;
     return count;
 }
 
@@ -150,9 +150,10 @@ static float show_group(struct drawlist *list, struct rect r, float keys, const 
     paint_line(list, (struct rect){r.x, r.y, r.w, HEADER}, FONT_LABEL_BOLD, theme()->accent, group->title);
     float y = r.y + HEADER;
     for (int i = 0; i < row_count(group); i++, y += r.h) {
-        paint_line(list, (struct rect){r.x, y, keys - KEYS_GAP, r.h}, FONT_LABEL, theme()->text, group->rows[i].keys);
+        struct help_row row = help_row(group, i);
+        paint_line(list, (struct rect){r.x, y, keys - KEYS_GAP, r.h}, FONT_LABEL, theme()->text, row.keys);
         struct rect what = {r.x + keys, y, r.w - keys, r.h};
-        paint_line(list, what, FONT_LABEL, theme()->text_dim, group->rows[i].what);
+        paint_line(list, what, FONT_LABEL, theme()->text_dim, row.what);
     }
     return y + GROUP_GAP - r.y;
 }
@@ -177,7 +178,7 @@ static float keys_width(const struct flow *flow, int column)
     float widest = 0;
     for (int g = flow->first[column]; g < flow->first[column + 1]; g++) {
         for (int i = 0; i < row_count(&help_groups[g]); i++) {
-            widest = fmaxf(widest, font_width(FONT_LABEL, THEME_TEXT_NORMAL, help_groups[g].rows[i].keys));
+            widest = fmaxf(widest, font_width(FONT_LABEL, THEME_TEXT_NORMAL, help_row(&help_groups[g], i).keys));
         }
     }
     return ceilf(widest) + KEYS_GAP;

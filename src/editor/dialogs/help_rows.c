@@ -1,4 +1,5 @@
 #include "editor/dialogs/help_rows.h"
+#include "scene/parameter.h"
 
 const struct help_group help_groups[HELP_GROUPS] = {
     {"Knots",
@@ -35,8 +36,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
       {"M", "complex, real, cubic"},
       {"V", "wiggly, stiff, cubic look"},
       {"W", "do away with a warning"}}},
-    {"Hold, and press ↑ ↓",
-     {{"F", "frequency"}, {"Z", "damping"}, {"B", "bandwidth"}, {"C", "calm"}, {"L", "lag of the tail"}}},
+    [HELP_HELD] = {"Hold, and press ↑ ↓", {{"L", "lag of the tail"}}},
     {"Playback",
      {{"Space", "play, pause"},
       {"←  →", "step a frame"},
@@ -76,3 +76,12 @@ const struct help_group help_groups[HELP_GROUPS] = {
       {"F11, F12", "full screen, screenshot"},
       {"Ctrl+Q", "quit"}}},
 };
+
+struct help_row help_row(const struct help_group *group, int index)
+{
+    for (enum parameter p = 0; group == &help_groups[HELP_HELD] && p < PARAMETER_COUNT; p++) {
+        const struct parameter_row *row = &parameter_rows[p];
+        if (row->letter && index-- == 0) return (struct help_row){row->letter, row->name};
+    }
+    return index < HELP_MAX_ROWS ? group->rows[index] : (struct help_row){0};
+}

@@ -10,10 +10,10 @@ static bool has_spline(const struct inspection *in) { return editor_active_splin
 
 static bool has_tail(const struct inspection *in)
 {
-    return in->document->tail_count > 0 || in->document->character_count == 0;
+    return document_tail(in->document, 0) || !document_character(in->document, 0);
 }
 
-static bool has_character(const struct inspection *in) { return in->document->character_count > 0; }
+static bool has_character(const struct inspection *in) { return document_character(in->document, 0) != NULL; }
 
 /// From the top down; `name` is what replays call the header.
 static const struct section {

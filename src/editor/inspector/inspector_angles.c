@@ -41,7 +41,7 @@ static void scale_angles(struct angles *angles, int joints, double value)
 static struct edit angles_edit(const struct inspection *in, const struct angle_row *row, const struct angles *angles)
 {
     struct edit edit = editor_edit_of(EDIT_ANGLES, 0);
-    edit.tail = in->editor->inspector.tail;
+    edit.rig = document_find_rig(in->document, RIG_TAIL, in->editor->inspector.tail);
     edit.channel = row->kind == ANGLE_REST ? -1 : in->editor->inspector.channel;
     edit.angle = row->kind;
     edit.angles = angles;
@@ -170,7 +170,7 @@ static void build_list(struct inspection *in, const struct angle_row *row, const
 void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
 {
     struct ui *ui = in->ui;
-    int joints = in->document->tails[in->editor->inspector.tail].joints;
+    int joints = document_tail(in->document, in->editor->inspector.tail)->joints;
     struct rect r = ui_row(ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y + 2, SWITCH, r.h - 4};
     char name[32];
     build_slider(in, row, angles, joints, (struct rect){r.x, r.y, r.w - SWITCH - 4, r.h});

@@ -10,7 +10,7 @@ static const char feed_list[] = "feed";
 static struct edit channel_edit(const struct inspection *in, enum edit_kind kind)
 {
     struct edit edit = editor_edit_of(kind, in->editor->active);
-    edit.tail = in->editor->inspector.tail;
+    edit.rig = document_find_rig(in->document, RIG_TAIL, in->editor->inspector.tail);
     edit.channel = in->editor->inspector.channel;
     return edit;
 }
@@ -40,7 +40,7 @@ static void build_buttons(struct inspection *in, const struct tail *tail)
                        "The active spline bends this tail as well")) {
         struct edit edit = channel_edit(in, EDIT_CHANNEL_ADD);
         if (editor_step(in->editor, in->world, "Add channel", 0, &edit)) {
-            in->editor->inspector.channel = in->document->tails[edit.tail].channel_count - 1;
+            in->editor->inspector.channel = in->document->rigs[edit.rig].tail.channel_count - 1;
         }
         return;
     }
@@ -76,10 +76,10 @@ static void build_choices(struct inspection *in, const struct channel *channel)
 void inspector_feed_list(struct inspection *in)
 {
     const struct inspector *inspector = &in->editor->inspector;
-    if (!ui_popup_is_open(in->ui, feed_list) || inspector->tail >= in->document->tail_count) return;
+    const struct tail *tail = document_tail(in->document, inspector->tail);
+    if (!ui_popup_is_open(in->ui, feed_list) || !tail) return;
     struct ui_item items[MAX_SPLINES];
     int count = in->document->spline_count < MAX_SPLINES ? in->document->spline_count : MAX_SPLINES;
-    const struct tail *tail = &in->document->tails[inspector->tail];
     if (inspector->channel >= tail->channel_count) return;
     for (int s = 0; s < count; s++) {
         const char *name = in->document->splines[s].name;
@@ -106,7 +106,7 @@ void inspector_channel(struct inspection *in, const struct tail *tail)
 {
     const struct inspector *inspector = &in->editor->inspector;
     build_buttons(in, tail);
-    tail = &in->document->tails[inspector->tail]; // a button may have made another list of tails
+    tail = document_tail(in->document, inspector->tail); // a button may have made another list of channels
     if (inspector->channel >= tail->channel_count) return;
     const struct channel *channel = &tail->channels[inspector->channel];
     const char *spline = in->document->splines[channel->spline].name;

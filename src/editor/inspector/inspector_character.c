@@ -13,7 +13,7 @@ static const char spline_list[] = "drive.splines", add_list[] = "drive.add";
 static struct edit drive_edit(const struct inspection *in, enum edit_kind kind, const struct drive *drive)
 {
     struct edit edit = editor_edit_of(kind, 0);
-    edit.character = in->editor->characters.character;
+    edit.rig = document_find_rig(in->document, RIG_CHARACTER, in->editor->characters.character);
     edit.channel = in->editor->characters.drive;
     edit.drive = *drive;
     return edit;
@@ -22,12 +22,14 @@ static struct edit drive_edit(const struct inspection *in, enum edit_kind kind, 
 /// A row for each character where there is a choice.
 static void build_characters(struct inspection *in)
 {
-    for (int c = 0; in->document->character_count > 1 && c < in->document->character_count; c++) {
-        const struct character_rig *rig = &in->document->characters[c];
+    const struct document *document = in->document;
+    int r = document_count_rigs(document, RIG_CHARACTER) > 1 ? document_next_rig(document, RIG_CHARACTER, 0) : -1;
+    for (int c = 0; r >= 0; c++, r = document_next_rig(document, RIG_CHARACTER, r + 1)) {
+        const struct rig *rig = &document->rigs[r];
         struct character_view *view = &in->editor->characters;
         char name[32];
         snprintf(name, sizeof name, "character.%d", c);
-        const char *text = rig->name ? rig->name : rig->model;
+        const char *text = rig->name ? rig->name : rig->character.model;
         if (!ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, text, 0, c == view->character)) continue;
         view->character = c;
         view->drive = 0;
@@ -162,8 +164,8 @@ static void build_facts(struct inspection *in)
 void inspector_character(struct inspection *in)
 {
     struct character_view *view = &in->editor->characters;
-    if (view->character >= in->document->character_count) view->character = 0;
-    const struct character_rig *rig = &in->document->characters[view->character];
+    if (!document_character(in->document, view->character)) view->character = 0;
+    const struct character_rig *rig = document_character(in->document, view->character);
     struct ui_item items[MAX_ITEMS];
     if (view->drive >= rig->drive_count) view->drive = 0;
     build_characters(in);
@@ -199,8 +201,8 @@ static void spline_popup(struct inspection *in, const struct drive *drive)
 void inspector_character_lists(struct inspection *in)
 {
     const struct character_view *view = &in->editor->characters;
-    if (view->character >= in->document->character_count) return;
-    const struct character_rig *rig = &in->document->characters[view->character];
+    const struct character_rig *rig = document_character(in->document, view->character);
+    if (!rig) return;
     if (ui_popup_is_open(in->ui, spline_list) && view->drive < rig->drive_count) {
         spline_popup(in, &rig->drives[view->drive]);
     } else if (ui_popup_is_open(in->ui, add_list)) {

@@ -61,7 +61,7 @@ void inspector_follow_button(struct inspection *in, enum parameter parameter, st
     enum ui_icon icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW;
     const char *hint = follows ? "Stops following; keeps the value at the playhead" : "Follows another spline";
     char name[64];
-    snprintf(name, sizeof name, "follow.%s", parameter_name(parameter));
+    snprintf(name, sizeof name, "follow.%s", parameter_rows[parameter].name);
     if (!ui_icon_button(in->ui, r, name, icon, false, hint)) return;
     if (follows) {
         double value = arrange_present(in->editor, in->world, active, parameter);

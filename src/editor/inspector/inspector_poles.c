@@ -17,15 +17,15 @@ static double value_now(const struct inspection *in, const struct spline *spline
         if (sample < 0 || sample >= evaluation->samples) return 0;
         value = evaluation->curves[param->track].total[sample];
     }
-    return fmax(parameter_minimum(parameter, spline->mode), fmin(parameter_maximum(parameter, spline->mode), value));
+    return parameter_clamped(parameter, spline_mode(spline), value);
 }
 
 static struct pole_setting setting_of(const struct inspection *in, const struct spline *spline)
 {
-    struct pole_setting setting = {.kind = spline->mode == WIGGLY_REAL ? FILTER_TWO_REAL : FILTER_TWO_COMPLEX,
+    struct pole_setting setting = {.kind = spline_mode(spline) == WIGGLY_REAL ? FILTER_TWO_REAL : FILTER_TWO_COMPLEX,
                                    .bandwidth = value_now(in, spline, PARAMETER_BANDWIDTH),
                                    .step = document_step(in->document)};
-    if (spline->spring_friction && spline->mode == WIGGLY_REAL) {
+    if (spline->spring_friction && spline_mode(spline) == WIGGLY_REAL) {
         double omega = sqrt(value_now(in, spline, PARAMETER_SPRING));
         setting.hz = omega / (2 * M_PI);
         setting.damping = omega > 0 ? value_now(in, spline, PARAMETER_FRICTION) / (2 * omega) : 0;
@@ -55,7 +55,7 @@ static int edits_of(const struct inspection *in, const struct spline *spline, co
 {
     const struct param *p = spline->parameter;
     int count = 0;
-    if (spline->spring_friction && spline->mode == WIGGLY_REAL) {
+    if (spline->spring_friction && spline_mode(spline) == WIGGLY_REAL) {
         double omega = 2 * M_PI * setting->hz;
         if (p[PARAMETER_SPRING].track < 0)
             edits[count++] = parameter_edit(in, PARAMETER_SPRING, rounded(omega * omega, 100));
@@ -138,7 +138,7 @@ void inspector_poles(struct inspection *in)
     struct poles_view *view = &in->editor->inspector.poles;
     struct spline *spline = editor_active_spline(in->editor, in->world);
     struct pole_setting setting = setting_of(in, spline);
-    if (spline->mode == WIGGLY_CUBIC || !(setting.hz > 0)) {
+    if (spline_mode(spline) == WIGGLY_CUBIC || !(setting.hz > 0)) {
         ui_paragraph(ui, "Both poles at 1, at frequency 0: a cubic has no swing of its own.", theme()->text_dim);
         return;
     }

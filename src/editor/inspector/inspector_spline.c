@@ -1,53 +1,23 @@
 /// The active spline's mode, parameters and start.
+#include "editor/core/actions.h"
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/settle.h"
+#include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
-
-/// How each parameter is shown. `maximum` of the bar for all modes; frequency and damping have their own rule.
-struct parameter_row {
-    const char *label, *unit, *hint, *undo;
-    double maximum, fallback, step;
-    int decimals;
-};
-
-static const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
-    [PARAMETER_FREQUENCY] = {"frequency", "Hz", "How fast it swings, in swings a second (hold F, arrows)",
-                             "Set frequency", 12, 1, 0.05, 2},
-    [PARAMETER_DAMPING] = {"damping", NULL, "0 rings for ever, 1 is critical (hold Z, arrows)", "Set damping", 1, 0.1,
-                           0.01, 2},
-    [PARAMETER_BANDWIDTH] = {"bandwidth", NULL,
-                             "How freely the swing may change its pace between knots (hold B, arrows)",
-                             "Set bandwidth", 1, 0.1, 0.01, 2},
-    [PARAMETER_SPRING] = {"spring", "1/s²", "Spring constant k of the paper's equation 12", "Set spring", 2000, 40, 1,
-                          1},
-    [PARAMETER_FRICTION] = {"friction", "1/s", "Friction gamma of the paper's equation 12", "Set friction", 50, 1,
-                            0.1, 2},
-    [PARAMETER_CALM] = {"calm", NULL, "What swing at the start costs; 0 is the paper's formula (hold C, arrows)",
-                        "Set calm", 1, 1, 0.01, 2},
-    [PARAMETER_EQUILIBRIUM] = {"equilibrium", NULL, "Where it comes to rest", "Set equilibrium", 0, 0, 0.01, 2},
-};
-
-/// The right end of a parameter's bar; 0 where it has none.
-static double bar_maximum(const struct document *document, const struct spline *spline, enum parameter parameter)
-{
-    if (parameter == PARAMETER_FREQUENCY) return fmin(12, document->fps * document->substeps / 2);
-    if (parameter == PARAMETER_DAMPING && spline->mode == WIGGLY_REAL) return 3;
-    return parameter_rows[parameter].maximum;
-}
 
 static void build_slider(struct inspection *in, const struct spline *spline, enum parameter parameter, struct rect r)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
     struct ui_number number = {
-        .name = parameter_name(parameter),
-        .label = row->label,
+        .name = row->name,
+        .label = row->name,
         .unit = row->unit,
         .hint = row->hint,
-        .maximum = bar_maximum(in->document, spline, parameter),
-        .lowest = parameter_minimum(parameter, spline->mode),
-        .highest = parameter_maximum(parameter, spline->mode),
-        .fallback = row->fallback,
+        .maximum = slider_end(in->document, spline, parameter),
+        .lowest = row->minimum,
+        .highest = parameter_maximum(parameter, spline_mode(spline)),
+        .fallback = row->fresh,
         .step = row->step,
         .decimals = row->decimals,
     };
@@ -59,47 +29,42 @@ static void build_slider(struct inspection *in, const struct spline *spline, enu
     inspector_change(in, change, row->undo, number.name, &edit);
 }
 
-static void build_parameter(struct inspection *in, const struct spline *spline, enum parameter parameter)
+static void build_number(struct inspection *in, const struct spline *spline, enum parameter parameter)
 {
     struct rect r = ui_row(in->ui, UI_ROW);
-    bool may_follow = parameter != PARAMETER_CALM;
+    bool may_follow = parameter_rows[parameter].kind == PARAMETER_TRACK;
     if (may_follow) r.w -= UI_ROW + 2;
     if (spline->parameter[parameter].track < 0) {
         build_slider(in, spline, parameter, r);
     } else {
-        inspector_track(in, parameter, parameter_rows[parameter].label, r);
+        inspector_track(in, parameter, parameter_rows[parameter].name, r);
     }
     struct rect button = {r.x + r.w + 2, r.y, UI_ROW, UI_ROW};
     if (may_follow) inspector_follow_button(in, parameter, button);
 }
 
-static void build_mode(struct inspection *in, const struct spline *spline)
+static void build_choice(struct inspection *in, const struct spline *spline, enum parameter parameter)
 {
-    static const struct ui_choice modes[] = {[WIGGLY_COMPLEX] = {"complex", "Complex"},
-                                             [WIGGLY_REAL] = {"real", "Real"},
-                                             [WIGGLY_CUBIC] = {"cubic", "Cubic"}};
-    int mode = (int)spline->mode;
-    struct rect r = ui_row(in->ui, UI_ROW);
-    if (ui_hovered(in->ui, r))
-        in->ui->hint = "Complex: free to shift in phase. Real: a damped spring. Cubic: no swing (M)";
-    if (!ui_segments(in->ui, r, "mode", modes, 3, &mode)) return;
-    struct edit edit = editor_edit_of(EDIT_MODE, in->editor->active);
-    edit.mode = (enum wiggly_mode)mode;
-    editor_step(in->editor, in->world, "Change mode", 0, &edit);
+    const struct parameter_row *row = &parameter_rows[parameter];
+    struct ui_choice choices[PARAMETER_MAX_WORDS];
+    int chosen = (int)spline->parameter[parameter].value, count = 0;
+    for (; row->words[count]; count++) choices[count] = (struct ui_choice){row->words[count], row->labels[count]};
+    struct rect r = parameter == PARAMETER_MODE ? ui_row(in->ui, UI_ROW) : inspector_labelled(in, row->name);
+    if (ui_hovered(in->ui, r)) in->ui->hint = row->hint;
+    if (!ui_segments(in->ui, r, row->name, choices, count, &chosen)) return;
+    struct edit edit = editor_edit_of(EDIT_PARAMETER, in->editor->active);
+    edit.parameter = parameter;
+    edit.param = (struct param){chosen, -1};
+    editor_step(in->editor, in->world, row->undo, 0, &edit);
 }
 
-static void build_start(struct inspection *in, const struct spline *spline)
+static void build_parameter(struct inspection *in, const struct spline *spline, enum parameter parameter)
 {
-    static const struct ui_choice starts[] = {
-        [WIGGLY_FREE] = {"free", "Free"}, [WIGGLY_REST] = {"rest", "Rest"}, [WIGGLY_LOOP] = {"loop", "Loop"}};
-    int start = (int)spline->start;
-    struct rect r = inspector_labelled(in, "start");
-    if (ui_hovered(in->ui, r))
-        in->ui->hint = "Free: already swinging. Rest: from standstill. Loop: the end meets the start";
-    if (!ui_segments(in->ui, r, "start", starts, 3, &start)) return;
-    struct edit edit = editor_edit_of(EDIT_START, in->editor->active);
-    edit.start = (enum wiggly_start)start;
-    editor_step(in->editor, in->world, "Change start", 0, &edit);
+    if (parameter_rows[parameter].kind == PARAMETER_CHOICE) {
+        build_choice(in, spline, parameter);
+    } else {
+        build_number(in, spline, parameter);
+    }
 }
 
 static void build_spring_toggle(struct inspection *in, const struct spline *spline)
@@ -148,10 +113,10 @@ static void build_warnings(struct inspection *in, const struct spline *spline)
         ui_paragraph(in->ui, wiggly_status_text(evaluation->status[active]), theme()->warning);
     }
     const struct param *p = spline->parameter;
-    double beta = spline->mode == WIGGLY_COMPLEX ? p[PARAMETER_BANDWIDTH].value : 0;
+    double beta = spline_mode(spline) == WIGGLY_COMPLEX ? p[PARAMETER_BANDWIDTH].value : 0;
     double highest = p[PARAMETER_FREQUENCY].value * (1 + beta);
     double limit = in->document->fps * in->document->substeps / 2;
-    bool poles = spline->mode != WIGGLY_CUBIC && !spline->spring_friction && p[PARAMETER_FREQUENCY].track < 0;
+    bool poles = spline_mode(spline) != WIGGLY_CUBIC && !spline->spring_friction && p[PARAMETER_FREQUENCY].track < 0;
     if (poles && highest > limit) {
         char text[128];
         snprintf(text, sizeof text, "Faster than half the sample rate (%g Hz): the swing is not seen as it is.",
@@ -160,24 +125,23 @@ static void build_warnings(struct inspection *in, const struct spline *spline)
     }
 }
 
+/// Below frequency and damping, or what stands for them.
+static void build_pair(struct inspection *in, const struct spline *spline)
+{
+    build_settling(in, spline);
+    if (spline_mode(spline) == WIGGLY_REAL) build_spring_toggle(in, spline);
+}
+
 void inspector_spline(struct inspection *in)
 {
-    struct ui *ui = in->ui;
     struct spline *spline = editor_active_spline(in->editor, in->world);
-    build_mode(in, spline);
-    ui_space(ui, 4);
-    bool pair = spline->mode == WIGGLY_REAL && spline->spring_friction;
-    if (spline->mode == WIGGLY_CUBIC) {
-        ui_paragraph(ui, "The classical spline: smooth through the knots, without swing.", theme()->text_dim);
-    } else {
-        build_parameter(in, spline, pair ? PARAMETER_SPRING : PARAMETER_FREQUENCY);
-        build_parameter(in, spline, pair ? PARAMETER_FRICTION : PARAMETER_DAMPING);
-        build_settling(in, spline);
-        if (spline->mode == WIGGLY_COMPLEX) build_parameter(in, spline, PARAMETER_BANDWIDTH);
-        if (spline->mode == WIGGLY_REAL) build_spring_toggle(in, spline);
-        build_parameter(in, spline, PARAMETER_CALM);
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        if (!spline_uses(spline, p, false)) continue;
+        build_parameter(in, spline, p);
+        if (p == PARAMETER_MODE) ui_space(in->ui, 4);
+        if (p == PARAMETER_MODE && spline_mode(spline) == WIGGLY_CUBIC)
+            ui_paragraph(in->ui, "The classical spline: smooth through the knots, without swing.", theme()->text_dim);
+        if (p == PARAMETER_DAMPING || p == PARAMETER_FRICTION) build_pair(in, spline);
     }
-    build_parameter(in, spline, PARAMETER_EQUILIBRIUM);
-    build_start(in, spline);
     build_warnings(in, spline);
 }

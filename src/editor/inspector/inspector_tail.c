@@ -12,7 +12,7 @@ static const char rename_line[] = "tail.rename", place_list[] = "place";
 static struct edit tail_edit(const struct inspection *in, enum edit_kind kind)
 {
     struct edit edit = editor_edit_of(kind, in->editor->active);
-    edit.tail = in->editor->inspector.tail;
+    edit.rig = document_find_rig(in->document, RIG_TAIL, in->editor->inspector.tail);
     return edit;
 }
 
@@ -20,23 +20,27 @@ static struct edit tail_edit(const struct inspection *in, enum edit_kind kind)
 static void build_tails(struct inspection *in)
 {
     struct inspector *inspector = &in->editor->inspector;
-    for (int t = 0; in->document->tail_count > 1 && t < in->document->tail_count; t++) {
+    int rig = document_count_rigs(in->document, RIG_TAIL) > 1 ? document_next_rig(in->document, RIG_TAIL, 0) : -1;
+    for (int t = 0; rig >= 0; t++, rig = document_next_rig(in->document, RIG_TAIL, rig + 1)) {
         char name[32];
         snprintf(name, sizeof name, "tail.%d", t);
-        if (ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, in->document->tails[t].name, 0, t == inspector->tail)) {
+        if (ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, in->document->rigs[rig].name, 0,
+                        t == inspector->tail)) {
             inspector->tail = t;
             inspector->channel = 0;
         }
     }
 }
 
-static void build_name(struct inspection *in, const struct tail *tail)
+static void build_name(struct inspection *in)
 {
+    const struct rig *rig =
+        &in->document->rigs[document_find_rig(in->document, RIG_TAIL, in->editor->inspector.tail)];
     struct rect r = inspector_labelled(in, "name");
     if (!ui_line_is_open(in->ui, rename_line)) {
         struct rect field = {r.x, r.y + 2, r.w, r.h - 4};
         if (ui_hovered(in->ui, field)) in->ui->hint = "Click to type another name";
-        if (ui_button(in->ui, field, "tail.name", tail->name, false)) ui_line_begin(in->ui, rename_line, tail->name);
+        if (ui_button(in->ui, field, "tail.name", rig->name, false)) ui_line_begin(in->ui, rename_line, rig->name);
     } else if (ui_line(in->ui, r, rename_line) == UI_LINE_DONE) {
         struct edit edit = tail_edit(in, EDIT_TAIL_NAME);
         edit.text = in->ui->text.bytes;
@@ -48,12 +52,12 @@ static void build_buttons(struct inspection *in)
 {
     struct inspector *inspector = &in->editor->inspector;
     struct rect r = inspector_labelled(in, "tail"), icon = {r.x - 2, r.y, ICON, r.h};
-    bool any = in->document->tail_count > 0;
+    bool any = document_tail(in->document, 0) != NULL;
     const char *hint = any ? "Another tail like this one, beside it" : "A tail, bent by the active spline";
     if (ui_icon_button(in->ui, icon, "tail.add", UI_ICON_ADD, false, hint)) {
         struct edit edit = tail_edit(in, EDIT_TAIL_ADD);
         if (!editor_step(in->editor, in->world, "Add tail", 0, &edit)) return;
-        inspector->tail = in->document->tail_count - 1;
+        inspector->tail = document_count_rigs(in->document, RIG_TAIL) - 1;
         inspector->channel = 0;
         return;
     }
@@ -108,7 +112,8 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
 void inspector_place_list(struct inspection *in)
 {
     const struct inspector *inspector = &in->editor->inspector;
-    if (!ui_popup_is_open(in->ui, place_list) || inspector->tail >= in->document->tail_count) return;
+    const struct tail *tail = document_tail(in->document, inspector->tail);
+    if (!ui_popup_is_open(in->ui, place_list) || !tail) return;
     int k = in->ui->popup.which, count = in->document->spline_count;
     struct ui_item items[MAX_SPLINES];
     if (count > MAX_SPLINES) count = MAX_SPLINES;
@@ -116,7 +121,7 @@ void inspector_place_list(struct inspection *in)
         const char *name = in->document->splines[s].name;
         items[s] = (struct ui_item){name, name, arrange_color(in->document, s)};
     }
-    int chosen = in->document->tails[inspector->tail].position[k].track;
+    int chosen = tail->position[k].track;
     int picked = ui_popup_list(in->ui, place_list, items, count, chosen);
     if (picked < 0) return;
     struct edit edit = tail_edit(in, EDIT_POSITION);
@@ -154,7 +159,7 @@ static void build_size(struct inspection *in, const struct tail *tail)
         struct edit edit = tail_edit(in, EDIT_JOINTS);
         edit.to = (int)lround(value);
         inspector_change(in, change, "Set joints", "joints", &edit);
-        tail = &in->document->tails[in->editor->inspector.tail];
+        tail = document_tail(in->document, in->editor->inspector.tail);
     }
     struct edit edit = tail_edit(in, EDIT_LENGTH);
     edit.number = tail->length;
@@ -182,27 +187,27 @@ static void build_view(struct inspection *in)
     }
 }
 
-/// Buttons among these rows may make another list of tails: each looks its tail up anew.
+/// Buttons among these rows may make another list of channels, and more rigs: each looks its tail up anew.
 static void build_tail(struct inspection *in)
 {
     struct inspector *inspector = &in->editor->inspector;
-    struct tail *const *tails = &in->document->tails;
-    if (inspector->channel >= (*tails)[inspector->tail].channel_count) inspector->channel = 0;
-    inspector_channels(in, &(*tails)[inspector->tail]);
-    inspector_angles(in, &angle_row_rest, &(*tails)[inspector->tail].rest);
-    inspector_channel(in, &(*tails)[inspector->tail]);
+    const struct document *document = in->document;
+    if (inspector->channel >= document_tail(document, inspector->tail)->channel_count) inspector->channel = 0;
+    inspector_channels(in, document_tail(document, inspector->tail));
+    inspector_angles(in, &angle_row_rest, &document_tail(document, inspector->tail)->rest);
+    inspector_channel(in, document_tail(document, inspector->tail));
     ui_space(in->ui, 4);
-    build_name(in, &(*tails)[inspector->tail]);
-    build_size(in, &(*tails)[inspector->tail]);
-    for (int k = 0; k < 3; k++) build_coordinate(in, &(*tails)[inspector->tail], k);
+    build_name(in);
+    build_size(in, document_tail(document, inspector->tail));
+    for (int k = 0; k < 3; k++) build_coordinate(in, document_tail(document, inspector->tail), k);
 }
 
 void inspector_tail(struct inspection *in)
 {
     struct inspector *inspector = &in->editor->inspector;
-    if (inspector->tail >= in->document->tail_count) inspector->tail = 0;
+    if (!document_tail(in->document, inspector->tail)) inspector->tail = 0;
     build_tails(in);
-    if (in->document->tail_count > 0) build_tail(in);
+    if (document_tail(in->document, 0)) build_tail(in);
     build_buttons(in);
     build_view(in);
 }

@@ -9,11 +9,11 @@ enum { MAX_SAMPLES = 100000 };
 static bool swing_of(const struct spline *spline, double *omega, double *zeta)
 {
     const struct param *p = spline->parameter;
-    bool pair = spline->mode == WIGGLY_REAL && spline->spring_friction;
+    bool pair = spline_mode(spline) == WIGGLY_REAL && spline->spring_friction;
     const struct param *first = &p[pair ? PARAMETER_SPRING : PARAMETER_FREQUENCY];
     const struct param *second = &p[pair ? PARAMETER_FRICTION : PARAMETER_DAMPING];
     if (first->track >= 0 || second->track >= 0) return false;
-    if (spline->mode == WIGGLY_COMPLEX && p[PARAMETER_BANDWIDTH].track >= 0) return false;
+    if (spline_mode(spline) == WIGGLY_COMPLEX && p[PARAMETER_BANDWIDTH].track >= 0) return false;
     *omega = pair ? sqrt(first->value) : 2 * acos(-1.0) * first->value;
     *zeta = !pair ? second->value : *omega > 0 ? second->value / (2 * *omega) : 0;
     return true;
@@ -26,7 +26,7 @@ static void poles_of(const struct spline *spline, double omega, double zeta, dou
     s[0] = -zeta * omega + omega * root;
     s[1] = -zeta * omega - omega * root;
     if (zeta > 1) s[0] = -omega / (zeta + creal(root)); // without the cancellation
-    if (spline->mode != WIGGLY_COMPLEX) return;
+    if (spline_mode(spline) != WIGGLY_COMPLEX) return;
     double turn = spline->parameter[PARAMETER_BANDWIDTH].value * omega;
     double complex centre = -zeta * omega + I * omega * sqrt(fmax(0, 1 - zeta * zeta));
     s[0] = centre + I * turn;
@@ -55,7 +55,7 @@ struct settling settle_measure(const struct spline *spline, double step)
 {
     double omega, zeta;
     double complex s[2];
-    if (spline->mode == WIGGLY_CUBIC) return (struct settling){SETTLE_CUBIC, 0};
+    if (spline_mode(spline) == WIGGLY_CUBIC) return (struct settling){SETTLE_CUBIC, 0};
     if (!swing_of(spline, &omega, &zeta)) return (struct settling){SETTLE_UNKNOWN, 0};
     if (omega == 0) return (struct settling){SETTLE_CUBIC, 0};
     if (zeta == 0) return (struct settling){SETTLE_NEVER, 0};
@@ -65,6 +65,6 @@ struct settling settle_measure(const struct spline *spline, double step)
     if (expected > SETTLE_LIMIT) return (struct settling){SETTLE_LATE, 0};
     double samples = 3 * expected / step + 8; // a double pole takes 1.6 times as long as its radius says
     if (samples > MAX_SAMPLES) return (struct settling){SETTLE_MEASURED, expected};
-    bool is_complex = spline->mode == WIGGLY_COMPLEX;
+    bool is_complex = spline_mode(spline) == WIGGLY_COMPLEX;
     return (struct settling){SETTLE_MEASURED, step * settled_sample(s, step, is_complex, (int)samples)};
 }

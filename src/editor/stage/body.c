@@ -151,14 +151,14 @@ static void key_position(struct editor *editor, const struct editor_world *world
 static void key_offset(struct editor *editor, const struct editor_world *world, int tail, const double offset[3])
 {
     for (int k = 0; k < 3; k++) {
-        const struct param *param = &world->document->tails[tail].position[k];
+        const struct param *param = &document_tail(world->document, tail)->position[k];
         if (offset[k] == 0) continue;
         if (param->track >= 0) {
             key_position(editor, world, param->track, offset[k]);
             continue;
         }
         struct edit edit = editor_edit_of(EDIT_POSITION, 0);
-        edit.tail = tail;
+        edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
         edit.coordinate = k;
         edit.param.value = round_value(param->value + offset[k], RESOLUTION);
         editor_edit(editor, world, &edit);

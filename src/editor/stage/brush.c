@@ -160,17 +160,18 @@ const char *brush_label(enum brush_mode stroke)
     return labels[stroke];
 }
 
-static struct edit paint_edit(const struct editor *editor, enum edit_kind kind)
+static struct edit paint_edit(const struct editor *editor, const struct editor_world *world, enum edit_kind kind)
 {
     struct edit edit = editor_edit_of(kind, 0);
-    edit.character = editor->characters.character;
+    edit.rig = document_find_rig(world->document, RIG_CHARACTER, editor->characters.character);
     return edit;
 }
 
 /// Blank paint of the figure's shape.
-static struct edit blank_edit(const struct editor *editor, const struct figure *figure)
+static struct edit blank_edit(const struct editor *editor, const struct editor_world *world,
+                              const struct figure *figure)
 {
-    struct edit edit = paint_edit(editor, EDIT_PAINT_NEW);
+    struct edit edit = paint_edit(editor, world, EDIT_PAINT_NEW);
     edit.coordinates = figure->character.coordinate_count;
     edit.vertices = figure->character.vertex_count;
     return edit;
@@ -194,7 +195,7 @@ bool brush_press(struct editor *editor, const struct editor_world *world, const 
     brush->y = event->y;
     brush->has_dabbed = false;
     history_begin(world->history, brush_label(brush->stroke), 0);
-    const struct edit blank = blank_edit(editor, figure);
+    const struct edit blank = blank_edit(editor, world, figure);
     if (!paint) editor_edit(editor, world, &blank);
     return true;
 }
@@ -232,7 +233,7 @@ void brush_advance(struct editor *editor, const struct editor_world *world, doub
     if (count == 0) return;
     reach_find(&brush->work.reach, figure, spots, count, brush_radius_of(brush, figure));
     const struct dab dab = brush_dab(brush, paint, figure, coordinate, brush->strength * dt);
-    struct edit edit = paint_edit(editor, EDIT_PAINT);
+    struct edit edit = paint_edit(editor, world, EDIT_PAINT);
     edit.dab = &dab;
     editor_edit(editor, world, &edit);
 }
@@ -280,6 +281,6 @@ void brush_clean(struct editor *editor, const struct editor_world *world)
     int coordinate;
     const struct figure *figure = brush_figure(editor, world, &coordinate);
     if (!figure || history_is_open(world->history)) return;
-    const struct edit blank = blank_edit(editor, figure);
+    const struct edit blank = blank_edit(editor, world, figure);
     editor_step(editor, world, "Take paint off", 0, &blank);
 }

@@ -17,8 +17,7 @@ static const float FRONT_SHARE = 0.1f; ///< of a point's depth, in what decides 
 
 const struct character_rig *characters_selected(const struct editor *editor, const struct editor_world *world)
 {
-    const int index = editor->characters.character;
-    return index < world->document->character_count ? &world->document->characters[index] : NULL;
+    return document_character(world->document, editor->characters.character);
 }
 
 const struct coordinate *characters_coordinate(const struct editor *editor, const struct editor_world *world)
@@ -32,7 +31,8 @@ const struct coordinate *characters_coordinate(const struct editor *editor, cons
 
 void characters_open(struct editor *editor, const struct document *document)
 {
-    const int phases = document->character_count > 0 ? document->characters[0].phases : -1;
+    const struct character_rig *first = document_character(document, 0);
+    const int phases = first ? first->phases : -1;
     editor->brush.on = false;
     editor->characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
 }
@@ -65,14 +65,15 @@ static void add_character(struct editor *editor, const struct editor_world *worl
     struct stage_view *view = &editor->stage;
     const struct character_view *how = &editor->characters;
     if (view->character_count == STAGE_MAX_CHARACTERS) return;
-    const struct character_rig *rig = &world->document->characters[index];
+    const struct character_rig *rig = document_character(world->document, index);
     struct stage_character *shown = &view->characters[view->character_count++];
-    *shown = (struct stage_character){.figure = cast_figure(world->cast, index),
-                                      .rig = index,
-                                      .is_twin = aside > 0,
-                                      .coarse = how->compare || world->document->character_count > 1,
-                                      .map_coordinate = -1,
-                                      .map_axis = how->axis};
+    *shown =
+        (struct stage_character){.figure = cast_figure(world->cast, index),
+                                 .rig = index,
+                                 .is_twin = aside > 0,
+                                 .coarse = how->compare || document_count_rigs(world->document, RIG_CHARACTER) > 1,
+                                 .map_coordinate = -1,
+                                 .map_axis = how->axis};
     for (int k = 0; k < 3; k++) shown->position[k] = (float)rig->position[k] + (k == 0 ? aside : 0.0f);
     const struct posing posing = {world->document, world->evaluation, world->cast, look};
     posing_character(&posing, index, editor->playback.position, &shown->morph);
@@ -85,8 +86,9 @@ static void add_character(struct editor *editor, const struct editor_world *worl
 
 void characters_pose(struct editor *editor, const struct editor_world *world)
 {
+    const int count = document_count_rigs(world->document, RIG_CHARACTER);
     editor->stage.character_count = 0;
-    for (int i = 0; i < world->document->character_count; i++) {
+    for (int i = 0; i < count; i++) {
         const struct figure *figure = cast_figure(world->cast, i);
         if (!figure) continue;
         if (!editor->characters.compare) {
@@ -102,10 +104,11 @@ bool characters_bounds(const struct editor *editor, const struct editor_world *w
 {
     const struct posing posing = stage_posing(editor, world);
     const double last = document_samples(world->document) - 1;
+    const int count = document_count_rigs(world->document, RIG_CHARACTER);
     bool any = false;
-    for (int i = 0; i < world->document->character_count; i++) {
+    for (int i = 0; i < count; i++) {
         const struct figure *figure = cast_figure(world->cast, i);
-        const struct character_rig *rig = &world->document->characters[i];
+        const struct character_rig *rig = document_character(world->document, i);
         if (!figure) continue;
         any = true;
         for (int step = 0; step <= BOUND_STEPS; step++) {

@@ -23,7 +23,7 @@ static bool filter_now(const struct editor *editor, const struct editor_world *w
 /// Drives one tail's channels by a change of its base's velocity; whether any of them still swings.
 static bool drive(struct editor *editor, const struct editor_world *world, int tail, const double kick[3], double dt)
 {
-    const struct tail *driven = &world->document->tails[tail];
+    const struct tail *driven = document_tail(world->document, tail);
     struct follow *follow = &editor->follow[tail];
     bool swings = false;
     for (int c = 0; c < driven->channel_count; c++) {
@@ -65,7 +65,8 @@ static void advance_tail(struct editor *editor, const struct editor_world *world
 void follow_advance(struct editor *editor, const struct editor_world *world, double dt)
 {
     if (!(dt > 0)) return;
-    for (int t = 0; t < world->document->tail_count && t < STAGE_MAX_TAILS; t++) {
+    const int count = document_count_rigs(world->document, RIG_TAIL);
+    for (int t = 0; t < count && t < STAGE_MAX_TAILS; t++) {
         if (editor->look == LOOK_CUBIC) {
             follow_stop(editor, t); // nothing pulls a cubic back
         } else {

@@ -59,7 +59,7 @@ static int sample_for(const struct editor *editor, const struct document *docume
 
 void grab_begin(struct editor *editor, const struct editor_world *world, const struct hover *hover)
 {
-    const struct tail *tail = &world->document->tails[hover->tail];
+    const struct tail *tail = document_tail(world->document, hover->tail);
     struct grab *grab = &editor->grab;
     *grab = (struct grab){.tail = hover->tail, .joint = hover->joint, .fraction = hover->fraction};
     grab->axis[AXIS_SIDE] = axis_for(editor, tail, grab->joint, AXIS_SIDE);

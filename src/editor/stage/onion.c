@@ -21,7 +21,7 @@ static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first 
 int overlay_tail(const struct editor *editor, const struct document *document)
 {
     int tail, channel;
-    if (!active_channel(editor, document, &tail, &channel)) tail = document->tail_count > 0 ? 0 : -1;
+    if (!active_channel(editor, document, &tail, &channel)) tail = document_tail(document, 0) ? 0 : -1;
     return tail < editor->stage.tail_count ? tail : -1;
 }
 

@@ -8,6 +8,7 @@
 #include "editor/stage/body.h"
 #include "editor/stage/follow.h"
 #include "editor/stage/record.h"
+#include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -45,8 +46,9 @@ static int add_spline(struct editor *editor, const struct editor_world *world, c
 
 static void set_start(struct editor *editor, const struct editor_world *world, int spline, enum wiggly_start start)
 {
-    struct edit edit = editor_edit_of(EDIT_START, spline);
-    edit.start = start;
+    struct edit edit = editor_edit_of(EDIT_PARAMETER, spline);
+    edit.parameter = PARAMETER_START;
+    edit.param = (struct param){start, -1};
     editor_edit(editor, world, &edit);
 }
 
@@ -81,14 +83,17 @@ static void clear_knots(struct editor *editor, const struct editor_world *world,
 /// The spline that a coordinate follows, made where it is a number yet; -1 on failure.
 static int base_spline(struct editor *editor, const struct editor_world *world, int tail, int coordinate, bool loop)
 {
-    const struct tail *moved = &world->document->tails[tail];
+    const struct tail *moved = document_tail(world->document, tail);
     char name[NAME_SIZE];
     if (moved->position[coordinate].track >= 0) return moved->position[coordinate].track;
-    snprintf(name, sizeof name, "%.250s %s", moved->name, coordinate_name(coordinate));
+    snprintf(name, sizeof name, "%.250s %s",
+             world->document->rigs[document_find_rig(world->document, RIG_TAIL, tail)].name,
+             coordinate_name(coordinate));
     int spline = add_spline(editor, world, name);
     if (spline < 0) return -1;
-    struct edit mode = editor_edit_of(EDIT_MODE, spline);
-    mode.mode = WIGGLY_CUBIC;
+    struct edit mode = editor_edit_of(EDIT_PARAMETER, spline);
+    mode.parameter = PARAMETER_MODE;
+    mode.param = (struct param){WIGGLY_CUBIC, -1};
     editor_edit(editor, world, &mode);
     if (loop) set_start(editor, world, spline, WIGGLY_LOOP);
     return spline;
@@ -100,7 +105,7 @@ static int key_coordinate(struct editor *editor, const struct editor_world *worl
 {
     const struct record *record = &editor->record;
     const struct document *document = world->document;
-    const struct param before = document->tails[editor->body.tail].position[coordinate];
+    const struct param before = document_tail(document, editor->body.tail)->position[coordinate];
     double from[RECORD_SAMPLES];
     int knots[MAX_KNOTS], last = document_samples(document) - 1;
     int spline = base_spline(editor, world, editor->body.tail, coordinate, loop);
@@ -121,7 +126,7 @@ static int key_coordinate(struct editor *editor, const struct editor_world *worl
     if (!loop && record->first > 1) put_knot(editor, world, spline, 0, from[0], true);
     if (!loop && record->first + count < last) put_knot(editor, world, spline, last, from[count - 1], true);
     struct edit edit = editor_edit_of(EDIT_POSITION, 0);
-    edit.tail = editor->body.tail;
+    edit.rig = document_find_rig(world->document, RIG_TAIL, editor->body.tail);
     edit.coordinate = coordinate;
     edit.param.track = spline;
     editor_edit(editor, world, &edit);
@@ -140,7 +145,7 @@ static void set_angles(struct editor *editor, const struct editor_world *world, 
                        const struct angles *angles)
 {
     struct edit edit = editor_edit_of(EDIT_ANGLES, 0);
-    edit.tail = editor->body.tail;
+    edit.rig = document_find_rig(world->document, RIG_TAIL, editor->body.tail);
     edit.channel = channel;
     edit.angle = kind;
     edit.angles = angles;
@@ -155,21 +160,20 @@ static int add_follower(struct editor *editor, const struct editor_world *world,
     int spline = add_spline(editor, world, name);
     if (spline < 0) return -1;
     const struct spline copied = world->document->splines[model];
-    struct edit mode = editor_edit_of(EDIT_MODE, spline), spring = editor_edit_of(EDIT_SPRING, spline);
-    mode.mode = copied.mode;
+    struct edit mode = editor_edit_of(EDIT_PARAMETER, spline), spring = editor_edit_of(EDIT_SPRING, spline);
+    mode.parameter = PARAMETER_MODE;
+    mode.param = copied.parameter[PARAMETER_MODE];
     spring.flag = copied.spring_friction;
     editor_edit(editor, world, &mode);
     if (spring.flag) editor_edit(editor, world, &spring);
-    for (int p = 0; p < PARAMETER_EQUILIBRIUM; p++) {
-        bool ratio = p == PARAMETER_FREQUENCY || p == PARAMETER_DAMPING;
-        bool pair = p == PARAMETER_SPRING || p == PARAMETER_FRICTION;
-        if (copied.spring_friction ? ratio : pair) continue;
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        if (p == PARAMETER_EQUILIBRIUM || p == PARAMETER_START || !spline_has(&copied, p)) continue;
         struct edit edit = editor_edit_of(EDIT_PARAMETER, spline);
-        edit.parameter = (enum parameter)p;
+        edit.parameter = p;
         edit.param = copied.parameter[p];
         editor_edit(editor, world, &edit);
     }
-    set_start(editor, world, spline, copied.start == WIGGLY_LOOP ? WIGGLY_LOOP : WIGGLY_REST);
+    set_start(editor, world, spline, spline_start(&copied) == WIGGLY_LOOP ? WIGGLY_LOOP : WIGGLY_REST);
     follow_base(editor, world, spline, base);
     return spline;
 }
@@ -182,14 +186,14 @@ static void add_channel(struct editor *editor, const struct editor_world *world,
     struct edit edit = editor_edit_of(EDIT_CHANNEL_ADD, add_follower(editor, world, model->spline, base));
     struct angles gain = model->gain;
     const struct angles lag = model->lag;
-    edit.tail = editor->body.tail;
+    edit.rig = document_find_rig(world->document, RIG_TAIL, editor->body.tail);
     edit.axis = model->axis;
     edit.of = PART_DISPLACEMENT;
     if (edit.spline < 0) return;
     for (int n = 0; n < (gain.each ? TAIL_MAX_JOINTS : 1); n++)
         gain.value[n] = round(gain.value[n] * scale * 1e4) / 1e4;
     if (!editor_edit(editor, world, &edit)) return;
-    int added = document->tails[editor->body.tail].channel_count - 1;
+    int added = document_tail(document, editor->body.tail)->channel_count - 1;
     set_angles(editor, world, added, ANGLE_LAG, &lag);
     set_angles(editor, world, added, ANGLE_GAIN, &gain);
 }
@@ -197,9 +201,9 @@ static void add_channel(struct editor *editor, const struct editor_world *world,
 /// Lets the channels that swung with a coordinate follow its spline.
 static void hang_channels(struct editor *editor, const struct editor_world *world, int coordinate, int base)
 {
-    int index = editor->body.tail, count = world->document->tails[index].channel_count;
+    int index = editor->body.tail, count = document_tail(world->document, index)->channel_count;
     for (int c = 0; c < count; c++) {
-        const struct tail *tail = &world->document->tails[index];
+        const struct tail *tail = document_tail(world->document, index);
         const struct channel channel = tail->channels[c];
         const struct param *equilibrium = &world->document->splines[channel.spline].parameter[PARAMETER_EQUILIBRIUM];
         double direction[3], scale = editor->follow[index].scale[c];
@@ -217,11 +221,11 @@ static void hang_channels(struct editor *editor, const struct editor_world *worl
 void record_keep(struct editor *editor, const struct editor_world *world)
 {
     struct record *record = &editor->record;
-    const struct tail *tail = &world->document->tails[editor->body.tail];
+    const struct tail *tail = document_tail(world->document, editor->body.tail);
     bool loop = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
         record->hangs[c] = follow_hangs(tail, &tail->channels[c]);
-        loop &= world->document->splines[tail->channels[c].spline].start == WIGGLY_LOOP;
+        loop &= spline_start(&world->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
     }
     for (int k = 0; k < 3; k++) {
         if (largest(record->way[k], record->count) < STILL) continue;

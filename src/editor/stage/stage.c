@@ -42,7 +42,7 @@ void stage_pose_tail(const struct editor *editor, const struct editor_world *wor
                      const struct what_if *change, struct pose *pose)
 {
     const struct posing posing = stage_posing(editor, world);
-    const struct by_hand hand = by_hand(editor, &world->document->tails[tail], tail, change);
+    const struct by_hand hand = by_hand(editor, document_tail(world->document, tail), tail, change);
     posing_tail(&posing, tail, position, &hand, pose);
 }
 
@@ -61,8 +61,9 @@ void stage_fit(struct editor *editor, const struct editor_world *world)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
     double last = document_samples(world->document) - 1;
+    const int tails = document_count_rigs(world->document, RIG_TAIL);
     for (int i = 0; i <= FIT_STEPS; i++) {
-        for (int t = 0; t < world->document->tail_count && t < STAGE_MAX_TAILS; t++) {
+        for (int t = 0; t < tails && t < STAGE_MAX_TAILS; t++) {
             struct pose pose;
             float low[3], high[3];
             stage_pose_tail(editor, world, t, last * i / FIT_STEPS, NULL, &pose);
@@ -75,10 +76,9 @@ void stage_fit(struct editor *editor, const struct editor_world *world)
     }
     editor->camera = camera_default();
     bool any = characters_bounds(editor, world, lo, hi);
-    if (any && world->document->tail_count == 0)
-        editor->camera.azimuth = editor->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
+    if (any && tails == 0) editor->camera.azimuth = editor->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
     camera_lamp(&editor->camera, editor->stage.key_from); // it stays there while the camera goes round
-    if (!any && world->document->tail_count == 0) return;
+    if (!any && tails == 0) return;
     for (int k = 0; k < 2; k++) editor->stage.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
     camera_fit(&editor->camera, lo, hi, editor->layout.stage.w / editor->layout.stage.h);
 }
@@ -121,10 +121,11 @@ void stage_pose(struct editor *editor, const struct editor_world *world)
 {
     struct stage_view *view = &editor->stage;
     const struct document *document = world->document;
-    view->tail_count = document->tail_count < STAGE_MAX_TAILS ? document->tail_count : STAGE_MAX_TAILS;
+    const int tails = document_count_rigs(document, RIG_TAIL);
+    view->tail_count = tails < STAGE_MAX_TAILS ? tails : STAGE_MAX_TAILS;
     view->blob_count = 0;
     for (int t = 0; t < view->tail_count; t++) {
-        const struct tail *tail = &document->tails[t];
+        const struct tail *tail = document_tail(document, t);
         struct stage_tail *shown = &view->tails[t];
         shown->joints = tail->joints;
         shown->length = (float)tail->length;
@@ -156,7 +157,7 @@ static const char *empty_text(const struct editor *editor, const struct editor_w
 {
     const struct stage_view *view = &editor->stage;
     if (view->tail_count > 0 || view->character_count > 0) return NULL;
-    if (world->document->character_count > 0)
+    if (document_character(world->document, 0))
         return "This scene's character could not be read: its curves are below.";
     return editor->active < 0 ? "This scene is empty." : "This scene moves no tail: its curves are below.";
 }

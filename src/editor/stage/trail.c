@@ -19,11 +19,11 @@ static bool tail_loops(const struct document *document, const struct tail *tail)
 {
     bool loops = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
-        loops &= document->splines[tail->channels[c].spline].start == WIGGLY_LOOP;
+        loops &= spline_start(&document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
     }
     for (int k = 0; k < 3; k++) {
         int track = tail->position[k].track;
-        loops &= track < 0 || document->splines[track].start == WIGGLY_LOOP;
+        loops &= track < 0 || spline_start(&document->splines[track]) == WIGGLY_LOOP;
     }
     return loops;
 }
@@ -115,7 +115,7 @@ void trail_show(struct editor *editor, const struct editor_world *world)
     double now = editor->playback.position / document->substeps;
     double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
     int first = (int)ceil(now - reach), last = (int)floor(now + reach);
-    if (!tail_loops(document, &document->tails[tail])) {
+    if (!tail_loops(document, document_tail(document, tail))) {
         first = first < 0 ? 0 : first;
         last =
             last < document->last_frame - document->first_frame ? last : document->last_frame - document->first_frame;

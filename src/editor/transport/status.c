@@ -52,7 +52,7 @@ static const char *hover_hint(const struct editor *editor, const struct document
         break;
     }
     if (document->spline_count == 0) return "Ctrl+O opens a scene.  F1 shows all keys";
-    if (document->tail_count == 0) return "Drag a knot.  Space plays, F1 shows all keys";
+    if (document_next_rig(document, RIG_TAIL, 0) < 0) return "Drag a knot.  Space plays, F1 shows all keys";
     return "Drag a knot, or pull the tail.  Space plays, F1 shows all keys";
 }
 

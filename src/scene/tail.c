@@ -1,4 +1,5 @@
-#include "scene/reader.h"
+/// Tails in the file, in memory and among the references to splines.
+#include "scene/rig_kind.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,8 +7,8 @@
 static const char *const tail_keys[] = {"type",   "name", "joints", "length", "position", "rest", "channels",
                                         "spline", "axis", "of",     "lag",    "gain",     NULL};
 static const char *const channel_keys[] = {"spline", "axis", "of", "lag", "gain", NULL};
-static const char *const axes[] = {"side", "up", NULL};
-static const char *const parts[] = {"total", "displacement", NULL};
+static const char *const axes[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up", NULL};
+static const char *const parts[] = {[PART_TOTAL] = "total", [PART_DISPLACEMENT] = "displacement", NULL};
 
 /// A number for all joints, or an array of one for each.
 static void load_angles(struct reader *reader, const struct where *at, const json_t *value, int joints,
@@ -61,9 +62,9 @@ static void load_channel(struct reader *reader, const struct where *at, const js
     const json_t *lag = reader_member(at, object, "lag", &lag_at);
     const json_t *gain = reader_member(at, object, "gain", &gain_at);
     channel->spline = reader_spline_name(reader, &spline_at, spline);
-    int word = reader_word(reader, &axis_at, axis, axes, "\"side\" or \"up\"", AXIS_SIDE);
+    int word = reader_word(reader, &axis_at, axis, axes, AXIS_SIDE);
     channel->axis = word < 0 ? AXIS_SIDE : (enum axis)word;
-    word = reader_word(reader, &of_at, of, parts, "\"total\" or \"displacement\"", PART_TOTAL);
+    word = reader_word(reader, &of_at, of, parts, PART_TOTAL);
     channel->of = word < 0 ? PART_TOTAL : (enum channel_part)word;
     channel->lag.value[0] = CHANNEL_DEFAULT_LAG;
     channel->gain.value[0] = CHANNEL_DEFAULT_GAIN;
@@ -98,8 +99,9 @@ static void load_channels(struct reader *reader, const struct where *tail_at, co
     }
 }
 
-void load_tail(struct reader *reader, const struct where *at, json_t *object, struct tail *tail)
+static void load(struct reader *reader, const struct where *at, json_t *object, struct rig *rig)
 {
+    struct tail *tail = &rig->tail;
     struct where name_at, joints_at, length_at, position_at, rest_at;
     const json_t *name = reader_member(at, object, "name", &name_at);
     const json_t *joints = reader_member(at, object, "joints", &joints_at);
@@ -111,12 +113,106 @@ void load_tail(struct reader *reader, const struct where *at, json_t *object, st
     tail->joints = TAIL_DEFAULT_JOINTS;
     tail->length = TAIL_DEFAULT_LENGTH;
     for (int i = 0; i < 3; i++) tail->position[i].track = -1;
-    tail->name = reader_name(reader, &name_at, name);
+    rig->name = reader_name(reader, &name_at, name);
     reader_number(reader, &length_at, length, false, positive, &tail->length);
     load_position(reader, &position_at, position, tail->position, &unknown);
     if (reader_integer(reader, &joints_at, joints, 1, TAIL_MAX_JOINTS, &tail->joints)) {
         load_angles(reader, &rest_at, rest, tail->joints, &tail->rest);
         load_channels(reader, at, object, tail);
     }
-    tail->extra = reader_keep(reader, unknown);
+    rig->extra = reader_keep(reader, unknown);
 }
+
+static void print_angles(struct members *members, const char *key, const struct angles *angles, int joints)
+{
+    member(members, key);
+    if (angles->each) {
+        text_numbers(members->text, angles->value, joints);
+    } else {
+        text_number(members->text, angles->value[0]);
+    }
+}
+
+static void print_channel(struct text *text, const struct document *document, const struct tail *tail,
+                          const struct channel *channel)
+{
+    struct members members = {text, "{ ", ", ", false};
+    member_string(&members, "spline", document->splines[channel->spline].name);
+    member_string(&members, "axis", axes[channel->axis]);
+    if (channel->of != PART_TOTAL) member_string(&members, "of", parts[channel->of]);
+    print_angles(&members, "lag", &channel->lag, tail->joints);
+    print_angles(&members, "gain", &channel->gain, tail->joints);
+    members_extra(&members, channel->extra, NULL);
+    text_string(text, " }");
+}
+
+static void print_position(struct text *text, const struct document *document, const struct rig *rig)
+{
+    json_t *extras = json_object_get(extra_of(rig->extra), "position");
+    for (int i = 0; i < 3; i++) {
+        text_string(text, i > 0 ? ", " : "[");
+        print_param(text, document, &rig->tail.position[i], extras, coordinate_name(i));
+    }
+    text_string(text, "]");
+}
+
+static void print(struct members *members, const struct document *document, const struct rig *rig, const char *folder)
+{
+    const struct tail *tail = &rig->tail;
+    struct text *text = members->text;
+    (void)folder;
+    member_number(members, "joints", tail->joints);
+    member_number(members, "length", tail->length);
+    member(members, "position");
+    print_position(text, document, rig);
+    print_angles(members, "rest", &tail->rest, tail->joints);
+    member(members, "channels");
+    for (int i = 0; i < tail->channel_count; i++) {
+        text_string(text, i > 0 ? ",\n        " : "[\n        ");
+        print_channel(text, document, tail, &tail->channels[i]);
+    }
+    text_string(text, tail->channel_count > 0 ? "\n      ]" : "[]");
+}
+
+static bool is_position(const char *key) { return strcmp(key, "position") == 0; }
+
+static int input_count(const struct rig *rig) { return rig->tail.channel_count; }
+
+static int *input(struct rig *rig, int input) { return &rig->tail.channels[input].spline; }
+
+static void references(struct rig *rig, struct reference reference, reference_visitor *visit, void *context)
+{
+    reference.kind = REFERENCE_POSITION;
+    for (int i = 0; i < 3; i++) {
+        struct param *param = &rig->tail.position[i];
+        reference.which = i;
+        reference.spline = &param->track;
+        if (param->track >= 0) visit(&reference, context);
+    }
+}
+
+static bool copy(struct rig *copy)
+{
+    const struct channel *channels = copy->tail.channels;
+    size_t count = (size_t)copy->tail.channel_count;
+    copy->tail.channels = malloc((count > 0 ? count : 1) * sizeof *channels);
+    if (!copy->tail.channels) return false;
+    if (count > 0) memcpy(copy->tail.channels, channels, count * sizeof *channels);
+    return true;
+}
+
+static void release(struct rig *rig) { free(rig->tail.channels); }
+
+static size_t bytes(const struct rig *rig) { return (size_t)rig->tail.channel_count * sizeof *rig->tail.channels; }
+
+const struct rig_functions tail_functions = {.word = "tail",
+                                             .load = load,
+                                             .print = print,
+                                             .has_tracks = is_position,
+                                             .input_count = input_count,
+                                             .input = input,
+                                             .input_reference = REFERENCE_CHANNEL,
+                                             .references = references,
+                                             .copy = copy,
+                                             .release = release,
+                                             .bytes = bytes};

@@ -1,0 +1,148 @@
+#include "scene/parameter.h"
+#include <math.h>
+#include <string.h>
+
+#define PLACE(member) offsetof(wiggly_desc, member)
+
+const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
+    [PARAMETER_MODE] = {.name = "mode",
+                        .hint = "Complex: free to shift in phase. Real: a damped spring. Cubic: no swing (M)",
+                        .undo = "Change mode",
+                        .kind = PARAMETER_CHOICE,
+                        .modes = IN_ALL,
+                        .place = PLACE(mode),
+                        .maximum = WIGGLY_CUBIC,
+                        .words = {"complex", "real", "cubic"},
+                        .labels = {"Complex", "Real", "Cubic"}},
+    [PARAMETER_FREQUENCY] = {.name = "frequency",
+                             .unit = "Hz",
+                             .hint = "How fast it swings, in swings a second (hold F, arrows)",
+                             .undo = "Set frequency",
+                             .letter = "F",
+                             .pair = PAIR_RATIO,
+                             .modes = IN_COMPLEX | IN_REAL,
+                             .place = PLACE(frequency),
+                             .maximum = INFINITY,
+                             .usual = 12,
+                             .is_frequency = true,
+                             .fresh = 1,
+                             .step = 0.05,
+                             .decimals = 2},
+    [PARAMETER_DAMPING] = {.name = "damping",
+                           .hint = "0 rings for ever, 1 is critical (hold Z, arrows)",
+                           .undo = "Set damping",
+                           .letter = "Z",
+                           .pair = PAIR_RATIO,
+                           .modes = IN_COMPLEX | IN_REAL,
+                           .place = PLACE(damping),
+                           .maximum = INFINITY,
+                           .complex_maximum = 1,
+                           .usual = 3,
+                           .fresh = 0.1,
+                           .step = 0.01,
+                           .decimals = 2},
+    [PARAMETER_BANDWIDTH] = {.name = "bandwidth",
+                             .hint = "How freely the swing may change its pace between knots (hold B, arrows)",
+                             .undo = "Set bandwidth",
+                             .letter = "B",
+                             .modes = IN_COMPLEX,
+                             .place = PLACE(bandwidth),
+                             .maximum = 1,
+                             .usual = 1,
+                             .standard = 0.1,
+                             .fresh = 0.1,
+                             .step = 0.01,
+                             .decimals = 2},
+    [PARAMETER_SPRING] = {.name = "spring",
+                          .unit = "1/s²",
+                          .hint = "Spring constant k of the paper's equation 12",
+                          .undo = "Set spring",
+                          .pair = PAIR_SPRING,
+                          .modes = IN_COMPLEX | IN_REAL,
+                          .place = PLACE(spring),
+                          .maximum = INFINITY,
+                          .usual = 2000,
+                          .fresh = 40,
+                          .step = 1,
+                          .decimals = 1},
+    [PARAMETER_FRICTION] = {.name = "friction",
+                            .unit = "1/s",
+                            .hint = "Friction gamma of the paper's equation 12",
+                            .undo = "Set friction",
+                            .pair = PAIR_SPRING,
+                            .modes = IN_COMPLEX | IN_REAL,
+                            .place = PLACE(friction),
+                            .maximum = INFINITY,
+                            .usual = 50,
+                            .fresh = 1,
+                            .step = 0.1,
+                            .decimals = 2},
+    [PARAMETER_CALM] = {.name = "calm",
+                        .hint = "What swing at the start costs; 0 is the paper's formula (hold C, arrows)",
+                        .undo = "Set calm",
+                        .letter = "C",
+                        .kind = PARAMETER_NUMBER,
+                        .modes = IN_COMPLEX | IN_REAL,
+                        .place = PLACE(calm),
+                        .maximum = 1,
+                        .usual = 1,
+                        .standard = 1,
+                        .fresh = 1,
+                        .step = 0.01,
+                        .decimals = 2},
+    [PARAMETER_EQUILIBRIUM] = {.name = "equilibrium",
+                               .hint = "Where it comes to rest",
+                               .undo = "Set equilibrium",
+                               .modes = IN_ALL,
+                               .place = PLACE(equilibrium),
+                               .minimum = -INFINITY,
+                               .maximum = INFINITY,
+                               .step = 0.01,
+                               .decimals = 2},
+    [PARAMETER_START] = {.name = "start",
+                         .hint = "Free: already swinging. Rest: from standstill. Loop: the end meets the start",
+                         .undo = "Change start",
+                         .kind = PARAMETER_CHOICE,
+                         .modes = IN_ALL,
+                         .place = PLACE(start),
+                         .maximum = WIGGLY_LOOP,
+                         .words = {"free", "rest", "loop"},
+                         .labels = {"Free", "Rest", "Loop"}},
+};
+
+double parameter_maximum(enum parameter parameter, enum wiggly_mode mode)
+{
+    const struct parameter_row *row = &parameter_rows[parameter];
+    return mode == WIGGLY_COMPLEX && row->complex_maximum > 0 ? row->complex_maximum : row->maximum;
+}
+
+double parameter_clamped(enum parameter parameter, enum wiggly_mode mode, double value)
+{
+    return fmax(parameter_rows[parameter].minimum, fmin(parameter_maximum(parameter, mode), value));
+}
+
+enum parameter parameter_find(const char *name)
+{
+    enum parameter p = 0;
+    while (p < PARAMETER_COUNT && strcmp(parameter_rows[p].name, name) != 0) p++;
+    return p;
+}
+
+enum parameter parameter_of_letter(int letter)
+{
+    enum parameter p = 0;
+    while (p < PARAMETER_COUNT && (!parameter_rows[p].letter || parameter_rows[p].letter[0] != letter)) p++;
+    return p;
+}
+
+void parameter_describe(enum parameter parameter, double value, const double *track, wiggly_desc *desc)
+{
+    void *at = (char *)desc + parameter_rows[parameter].place;
+    if (parameter_rows[parameter].kind == PARAMETER_TRACK) {
+        *(wiggly_param *)at = (wiggly_param){value, track};
+    } else if (parameter_rows[parameter].kind == PARAMETER_NUMBER) {
+        *(double *)at = value;
+    } else {
+        *(unsigned *)at = (unsigned)value;
+    }
+}

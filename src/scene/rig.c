@@ -1,0 +1,122 @@
+/// The rigs of a scene, in the order of the file, whatever kinds they are.
+#include "scene/rig.h"
+#include "scene/rig_kind.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct rig_functions *const kinds[RIG_KINDS] = {
+    [RIG_TAIL] = &tail_functions, [RIG_CHARACTER] = &character_functions};
+
+const char *rig_word(enum rig_kind kind) { return kinds[kind]->word; }
+
+int rig_input_count(const struct rig *rig) { return kinds[rig->kind]->input_count(rig); }
+
+static int *input_of(const struct rig *rig, int input)
+{
+    return kinds[rig->kind]->input((struct rig *)(uintptr_t)rig, input);
+}
+
+int rig_input(const struct rig *rig, int input) { return *input_of(rig, input); }
+
+void rig_references(struct rig *rig, int index, reference_visitor *visit, void *context)
+{
+    const struct rig_functions *kind = kinds[rig->kind];
+    if (kind->references) kind->references(rig, (struct reference){.owner = index}, visit, context);
+    for (int i = 0; i < kind->input_count(rig); i++) {
+        struct reference reference = {kind->input_reference, index, i, kind->input(rig, i)};
+        visit(&reference, context);
+    }
+}
+
+bool rig_copy(const struct rig *rig, struct rig *copy)
+{
+    *copy = *rig;
+    copy->name = rig->name ? strdup(rig->name) : NULL;
+    if (rig->name && !copy->name) return false;
+    if (kinds[rig->kind]->copy(copy)) return true;
+    free(copy->name);
+    return false;
+}
+
+void rig_release(struct rig *rig)
+{
+    kinds[rig->kind]->release(rig);
+    free(rig->name);
+}
+
+size_t rig_bytes(const struct rig *rig)
+{
+    return sizeof *rig + (rig->name ? strlen(rig->name) + 1 : 0) + kinds[rig->kind]->bytes(rig);
+}
+
+bool rig_rebase(struct rig *rig, const char *from, const char *to)
+{
+    const struct rig_functions *kind = kinds[rig->kind];
+    return !kind->rebase || kind->rebase(rig, from, to);
+}
+
+/// Complains where a rig before this one has the same name.
+static void check_name(struct reader *reader, const struct where *rig_at, int index)
+{
+    const struct rig *rigs = reader->document->rigs;
+    struct where at = {.parent = rig_at, .key = "name"};
+    for (int i = 0; i < index && rigs[index].name; i++) {
+        if (!rigs[i].name || strcmp(rigs[i].name, rigs[index].name) != 0) continue;
+        reader_fail(reader, &at, "expected a name of its own, got \"%s\" as rigs[%d] has", rigs[i].name, i);
+        return;
+    }
+}
+
+/// Which kind a rig is, -1 after an error.
+static int load_kind(struct reader *reader, const struct where *at, const json_t *object)
+{
+    const char *words[RIG_KINDS + 1] = {NULL};
+    struct where type_at;
+    const json_t *type = reader_member(at, object, "type", &type_at);
+    for (int k = 0; k < RIG_KINDS; k++) words[k] = kinds[k]->word;
+    return reader_word(reader, &type_at, type, words, -1);
+}
+
+void load_rigs(struct reader *reader, const struct where *scene_at, const json_t *scene)
+{
+    struct where rigs_at;
+    const json_t *rigs = reader_member(scene_at, scene, "rigs", &rigs_at);
+    int count = reader_objects(reader, &rigs_at, rigs, SCENE_MAX_RIGS);
+    struct document *document = reader->document;
+    if (count <= 0) return;
+    if (!document_reserve_rigs(document, count)) {
+        reader_no_memory(reader);
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        struct where at = {.parent = &rigs_at, .index = (size_t)i};
+        json_t *object = json_array_get(rigs, (size_t)i);
+        int kind = load_kind(reader, &at, object);
+        struct rig *rig = &document->rigs[document->rig_count++];
+        memset(rig, 0, sizeof *rig);
+        rig->kind = kind < 0 ? RIG_TAIL : (enum rig_kind)kind; // any kind will do for a scene that is refused
+        if (kind >= 0) kinds[kind]->load(reader, &at, object, rig);
+        check_name(reader, &at, i);
+    }
+}
+
+static void print_rig(struct text *text, const struct document *document, const struct rig *rig, const char *folder)
+{
+    const struct rig_functions *kind = kinds[rig->kind];
+    struct members members = {text, "    {\n      ", ",\n      ", false};
+    member_string(&members, "type", kind->word);
+    if (rig->name) member_string(&members, "name", rig->name);
+    kind->print(&members, document, rig, folder);
+    members_extra(&members, rig->extra, kind->has_tracks);
+    text_string(text, "\n    }");
+}
+
+void print_rigs(struct text *text, const struct document *document, const char *folder)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        text_string(text, r > 0 ? ",\n" : "[\n");
+        print_rig(text, document, &document->rigs[r], folder);
+    }
+    text_string(text, document->rig_count > 0 ? "\n  ]" : "[]");
+}

@@ -1,0 +1,30 @@
+/// What the scene layer knows of each kind of rigs. Private to src/scene.
+#ifndef SCENE_RIG_KIND_H
+#define SCENE_RIG_KIND_H
+
+#include "scene/members.h"
+#include "scene/reader.h"
+#include "scene/reference.h"
+
+struct rig_functions {
+    const char *word; ///< in the file
+    /// Reads all but the type.
+    void (*load)(struct reader *reader, const struct where *at, json_t *object, struct rig *rig);
+    /// Writes all but type, name and unknown keys. `folder` is that of the file that the text is for.
+    void (*print)(struct members *members, const struct document *document, const struct rig *rig,
+                  const char *folder);
+    holds_tracks *has_tracks; ///< which of its unknown keys are those of tracks inside of it; NULL: none
+    int (*input_count)(const struct rig *rig);
+    int *(*input)(struct rig *rig, int input);
+    enum reference_kind input_reference;
+    /// Visits the splines that it names besides its inputs; NULL: none.
+    void (*references)(struct rig *rig, struct reference reference, reference_visitor *visit, void *context);
+    bool (*copy)(struct rig *copy); ///< gives a shallow copy memory of its own; NULL: no edit needs one
+    void (*release)(struct rig *rig);
+    size_t (*bytes)(const struct rig *rig);                            ///< of what it holds
+    bool (*rebase)(struct rig *rig, const char *from, const char *to); ///< NULL: it names no files
+};
+
+extern const struct rig_functions tail_functions, character_functions;
+
+#endif

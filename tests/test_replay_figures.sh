@@ -1,0 +1,30 @@
+# Figures of the paper by their keys, in the app as a whole.
+. tests/check.sh
+WIGGLY=${WIGGLY:-build/wiggly}
+unset DISPLAY WAYLAND_DISPLAY
+scene=tests/replays/session.json
+replay=tests/replays/session.replay
+header=$(sed '/^frames/q' $replay)
+
+# A figure of the paper comes as one step of the history, as an untitled document; undo brings back the other one with its file.
+cp $scene "$scratch/own.json"
+figure() { # <frames> <line>...
+    frames=$1
+    shift
+    printf '%s\n' "$header" "$@" >"$scratch/figure.replay"
+    "$WIGGLY" live --headless --scale 0.5 --replay "$scratch/figure.replay" --frames "$frames" --result "$scratch/figure.json" "$scratch/own.json"
+}
+for n in 1 2 3 4 5 6; do
+    expect 0 "figure $n opens by its key" figure 20 "5 key $n ctrl"
+    cmp "$scratch/figure.json" <("$WIGGLY" live --headless --scale 0.5 --frames 1 --result /dev/stdout assets/scenes/figure$n.json | sed '/^}$/q')
+    ok "it is the scene of assets" $?
+done
+expect 0 "figures one after the other, knots deleted, all undone" figure 40 \
+    "2 key 4 ctrl" "4 key A ctrl" "5 key Delete" "8 key 5 ctrl" "12 key Z ctrl" "13 key Z ctrl" "14 key Z ctrl" "15 key S ctrl"
+cmp "$scratch/figure.json" "$scratch/own.json"
+ok "the first document is back" $?
+cp $scene "$scratch/own.json"
+expect 0 "a figure is no file's" figure 40 "2 key 4 ctrl" "4 key S ctrl"
+cmp "$scratch/own.json" $scene
+ok "saving one leaves the file that was open before alone" $?
+[ $cases_failed -eq 0 ]
