@@ -87,10 +87,7 @@ static void studio_open(struct studio *s)
     frame(s);
 }
 
-static void studio_close(struct studio *s)
-{
-    session_close(&s->session);
-}
+static void studio_close(struct studio *s) { session_close(&s->session); }
 
 /// The middle of the front of a finger, 3/4 up.
 static const char left_finger[] = "character(hand,0.2,0.75)", right_finger[] = "character(hand,0.8,0.75)";

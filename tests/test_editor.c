@@ -40,7 +40,8 @@ static void test_double_click_inserts_at_the_pointer(void **state)
     assert_int_equal(sway(&s)->knot_count, 5);
     assert_near(sway(&s)->knots[3].frame, 30, 0);
     assert_near(sway(&s)->knots[3].value, 1.1, 1e-5);
-    assert_near(s.table.evaluation.curves[0].total[30], sway(&s)->knots[3].value, 0); // hit exactly, in the same frame
+    assert_near(s.table.evaluation.curves[0].total[30], sway(&s)->knots[3].value,
+                0); // hit exactly, in the same frame
     session_key(&s, 'Z', MOD_CTRL);
     assert_int_equal(sway(&s)->knot_count, 4);
     session_close(&s);
@@ -389,7 +390,8 @@ static void test_a_monkey_can_be_undone(void **state)
             session_release(&s, BUTTON_RIGHT);
         }
         assert_false(history_is_open(s.history));
-        for (int i = 0; i < s.table.evaluation.samples; i++) assert_true(isfinite(s.table.evaluation.curves[0].total[i]));
+        for (int i = 0; i < s.table.evaluation.samples; i++)
+            assert_true(isfinite(s.table.evaluation.curves[0].total[i]));
         while (history_undo_label(s.history)) assert_true(history_undo(s.history, s.document));
         assert_saved(&s, original);
         free(original);

@@ -100,7 +100,8 @@ static void test_a_pull_out_of_reach_stays_calm(void **state)
     session_press(&s, BUTTON_LEFT, 1);
     session_drag(&s, -5000, 3000, 5);
     for (int i = 0; i < 100; i++) session_frame(&s);
-    for (int i = 0; i < s.table.evaluation.samples; i++) assert_true(fabs(s.table.evaluation.curves[0].total[i]) < 100);
+    for (int i = 0; i < s.table.evaluation.samples; i++)
+        assert_true(fabs(s.table.evaluation.curves[0].total[i]) < 100);
     session_key(&s, KEY_ESCAPE, 0);
     assert_int_equal(s.document->splines[0].knot_count, 3);
     session_close(&s);
@@ -452,7 +453,8 @@ static void assert_finite_at(struct session *s, enum wiggly_mode mode, enum wigg
     set(s, PARAMETER_CALM, ends & 8 ? 1 : 0);
     history_end(s->history);
     session_frame(s);
-    for (int i = 0; i < s->table.evaluation.samples; i++) assert_true(isfinite(s->table.evaluation.curves[0].total[i]));
+    for (int i = 0; i < s->table.evaluation.samples; i++)
+        assert_true(isfinite(s->table.evaluation.curves[0].total[i]));
     int count = 0;
     assert_non_null(active_line(s, &count));
     assert_true(count > 100);

@@ -321,7 +321,8 @@ static void assert_finite_and_loadable(struct session *f)
     session_frame(f);
     for (int s = 0; s < f->table.evaluation.count; s++) {
         for (int i = 0; i < f->table.evaluation.samples; i++) {
-            assert_true(isfinite(f->table.evaluation.curves[s].total[i]) && isfinite(f->table.evaluation.curves[s].im[i]));
+            assert_true(isfinite(f->table.evaluation.curves[s].total[i]) &&
+                        isfinite(f->table.evaluation.curves[s].im[i]));
         }
     }
     size_t size;

@@ -47,10 +47,7 @@ static void open_puppet(struct puppetry *p)
     session_frame(&p->session);
 }
 
-static void close_puppet(struct puppetry *p)
-{
-    session_close(&p->session);
-}
+static void close_puppet(struct puppetry *p) { session_close(&p->session); }
 
 static const struct stage_character *on_stage(const struct puppetry *p, int index)
 {
