@@ -14,32 +14,32 @@ static const struct command {
     int (*run)(int argc, char **argv);
     const char *operands, *summary;
 } commands[] = {
-    {"live", command_live, "[scene.json]", "the live app; without a scene, the swinging tail"},
-    {"solve", command_solve, "scene.json [-o out.csv]", "every spline, every sample, as CSV"},
-    {"check", command_check, "scene.json", "prints every problem of a scene file"},
+    {"live", command_live, "[scene.json]", "the app; without a scene, a swinging tail"},
+    {"solve", command_solve, "scene.json [-o out.csv]", "writes every spline at every sample as CSV"},
+    {"check", command_check, "scene.json", "prints every problem in a scene file"},
     {"simulate", command_simulate, "mesh.obj -o sim.npy",
-     "shakes a closed mesh as a soft body; its vertices in every frame"},
+     "shakes a closed mesh as a soft body and records its motion"},
     {"analyze", command_analyze, "up.npy --rest mesh.obj --fps N -o creature.glb",
-     "finds how a motion oscillates; a character for a spline to drive"},
-    {"log", command_log, "FILE.csv [-o FILE.svg]", "how a timing log's frame times are distributed"},
-    {"bench", command_bench, "[--json FILE]", "the solver against LAPACKE"},
+     "turns motions into a character that splines can drive"},
+    {"log", command_log, "FILE.csv [-o FILE.svg]", "summarises the frame times in a timing log"},
+    {"bench", command_bench, "[--json FILE]", "times the solver against LAPACKE"},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0], SUMMARY_AT = 33 };
 
 static int print_help(void)
 {
-    printf("wiggly %s: splines that swing, overshoot and follow through, keyed live\n\n", WIGGLY_VERSION);
+    printf("wiggly %s: splines that swing, overshoot and follow through\n\n", WIGGLY_VERSION);
     printf("Usage: wiggly [command] [options]\n\nCommands:\n");
     for (int i = 0; i < COMMAND_COUNT; i++) {
         int length = printf("  %s %s", commands[i].name, commands[i].operands);
         if (length > SUMMARY_AT - 2) length = printf("\n") - 1;
         printf("%*s%s\n", SUMMARY_AT - length, "", commands[i].summary);
     }
-    printf("\n  --version                      version and commit\n"
-           "  --licenses                     of this program and of what is built into it\n"
-           "  <command> --help               a command's options\n\n"
-           "Exit status: 0 done, 1 the input was bad, 2 wrong usage, 3 the environment failed.\n");
+    printf("\n  --version                      print version and commit\n"
+           "  --licenses                     print the licences of wiggly and its built-in parts\n"
+           "  <command> --help               print a command's options\n\n"
+           "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 the environment failed.\n");
     return 0;
 }
 
@@ -71,9 +71,9 @@ static int wrong_command(const char *word)
     for (int i = 0; i < COMMAND_COUNT; i++) names[i] = commands[i].name;
     const char *nearest = options_nearest(word, names, COMMAND_COUNT);
     if (nearest) {
-        fprintf(stderr, "wiggly: there is no command %s (did you mean %s?); see wiggly --help\n", word, nearest);
+        fprintf(stderr, "wiggly: unknown command %s (did you mean %s?); see wiggly --help\n", word, nearest);
     } else {
-        fprintf(stderr, "wiggly: there is no command %s; see wiggly --help\n", word);
+        fprintf(stderr, "wiggly: unknown command %s; see wiggly --help\n", word);
     }
     return 2;
 }
@@ -101,6 +101,6 @@ int main(int argc, char **argv)
     int status = run(argc, argv);
     bool written = fflush(stdout) == 0 && !ferror(stdout);
     if (written || status != 0) return status;
-    fprintf(stderr, "wiggly: standard output cannot be written: is the disk full?\n");
+    fprintf(stderr, "wiggly: cannot write standard output: is the disk full?\n");
     return 3;
 }

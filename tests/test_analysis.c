@@ -309,7 +309,7 @@ static void what_cannot_be_analysed_gets_one_sentence(void **state)
         sample *at;
         const char *says;
     } cases[] = {
-        {20, still, "expected a motion, got one in which nothing moves"},
+        {20, still, "expected a motion, but nothing moves"},
         {7, ringing, "expected 8 to 4096 frames, got 7"},
         {1, ringing, "expected 8 to 4096 frames, got 1"},
         {5000, still, "expected 8 to 4096 frames, got 5000"},

@@ -26,7 +26,7 @@ analyze 0 "two motions, two modes each" "$scratch/up.npy" "$scratch/side.pc2" --
     --shake up:side -o "$scratch/out/box.glb" --scene "$scratch/box.json"
 [ -z "$err" ]
 ok "without a warning" $?
-says "says what was read" "up.npy: 60 frames of 8 vertices, 30 a second" "$out"
+says "says what was read" "up.npy: 60 frames of 8 vertices at 30 fps" "$out"
 says "names coordinates after files" "  side: explains " "$out"
 says "and further modes" "  up-2: explains " "$out"
 says "compares with real principal components" "real PCA's first " "$out"
@@ -47,7 +47,7 @@ analyze 0 "the first again" "$scratch/up.npy" "$scratch/side.pc2" --rest "$scrat
 ok "gives the same bytes" $?
 awk '/^v/ { print $1, $2, -$4, $3; next } { print }' "$scratch/box.obj" >"$scratch/z-up.obj"
 analyze 0 "a mesh with z up" "$scratch/up.npy" --rest "$scratch/z-up.obj" --fps 30 -o "$scratch/out/z-up.glb"
-says "is warned of" "up.npy: warning: swings about another place than the mesh at rest" "$err"
+says "is warned of" "up.npy: warning: the motion is not centred on the rest mesh" "$err"
 if command -v ldd >/dev/null; then
     ! ldd "$WIGGLY" | grep -qE 'lapack|blas'
     ok "the program does without LAPACKE until it analyses" $?
@@ -65,7 +65,7 @@ head -c 1000 "$scratch/up.npy" >"$scratch/cut.npy"
 rest="--rest $scratch/box.obj"
 # shellcheck disable=SC2086 # the options are split on purpose
 {
-    refused 2 "expected --fps N" "$scratch/up.npy" $rest
+    refused 2 "give --fps N" "$scratch/up.npy" $rest
     refused 2 "--rest mesh.obj is missing" "$scratch/up.npy"
     refused 2 "--shake: expected up, side, front" "$scratch/up.npy" $rest --shake sideways
     refused 2 "--shake: expected up, side, front" "$scratch/up.npy" $rest --shake up:side

@@ -21,7 +21,7 @@ static bool has_file(const struct autosave *autosave) { return access(autosave_p
 /// Waits for the thread: until the file is there, or gone.
 static void wait_for_file(const struct autosave *autosave, bool there)
 {
-    for (int i = 0; i < 1000 && has_file(autosave) != there; i++) wait_a_moment();
+    for (int i = 0; i < 12000 && has_file(autosave) != there; i++) wait_a_moment();
     assert_int_equal(has_file(autosave), there);
 }
 
@@ -261,11 +261,12 @@ static void test_killed_while_saving(void **state)
     assert_true(scene_save(small.document, path, &error));
     srand(7);
     int seen[2] = {0, 0};
-    for (int i = 0; i < KILLS; i++) {
+    for (int i = 0; i < KILLS || !seen[0] || !seen[1]; i++) { // on a loaded machine a save may take longer than a few rounds
+        assert_true(i < 20 * KILLS);
         pid_t child = fork();
         assert_true(child >= 0);
         if (child == 0) save_for_ever(path, small.document, large.document);
-        nanosleep(&(struct timespec){.tv_nsec = 1000 * (1000 + rand() % 40000)}, NULL);
+        nanosleep(&(struct timespec){.tv_nsec = 1000 * (1000 + rand() % 40000) * (1 + i / KILLS)}, NULL);
         kill(child, SIGKILL);
         int status;
         waitpid(child, &status, 0);
@@ -278,7 +279,6 @@ static void test_killed_while_saving(void **state)
         seen[is_large]++;
         free(data);
     }
-    assert_true(seen[0] > 0 && seen[1] > 0); // else no save was ever cut short
     free(texts[0]);
     free(texts[1]);
     world_close(&small);

@@ -234,7 +234,7 @@ static void modes_and_modifiers_do_what_they_say(void **state)
     hold(&s, left_finger, 0, 600);
     panel_click(&s.session, "paint.clean");
     assert_true(paint_is_plain(rig_of(&s)->painted));
-    assert_string_equal(history_undo_label(s.session.history), "Take paint off");
+    assert_string_equal(history_undo_label(s.session.history), "Remove paint");
     session_key(&s.session, 'Z', MOD_CTRL);
     assert_false(paint_is_plain(rig_of(&s)->painted));
     studio_close(&s);

@@ -20,14 +20,14 @@ for command in live solve check simulate log bench; do
     expect 0 "$command --help" "$WIGGLY" $command --help
     says "$command --help says how it is called" "Usage: wiggly $command" "$out"
     expect 2 "$command refuses an unknown option" "$WIGGLY" $command --hlep
-    says "$command names the option and the nearest right one" "no option --hlep (did you mean --help?)" "$err"
+    says "$command names the option and the nearest right one" "unknown option --hlep (did you mean --help?)" "$err"
     one_sentence "$command says it in one line" "$err"
 done
 
 expect 2 "an unknown command" "$WIGGLY" slove
-says "names the nearest right one" "there is no command slove (did you mean solve?)" "$err"
+says "names the nearest right one" "unknown command slove (did you mean solve?)" "$err"
 expect 2 "a command that is like none" "$WIGGLY" xyzzyxyzzy
-says "is named without a guess" "there is no command xyzzyxyzzy; see" "$err"
+says "is named without a guess" "unknown command xyzzyxyzzy; see" "$err"
 expect 2 "solve without a scene" "$WIGGLY" solve
 says "says what is missing" "scene.json" "$err"
 expect 2 "an option without its value" "$WIGGLY" live --headless --frames
@@ -88,7 +88,7 @@ allocations=$(awk -F, 'BEGIN { total = 0 }
 [ "$allocations" = 0 ] || echo "  allocations after frame 60: $allocations"
 [ "$allocations" = 0 ]
 ok "playing allocates nothing" $?
-expect 0 "the document at the end is a good scene" "$WIGGLY" check "$scratch/end.json"
+expect 0 "write the document at the end is a good scene" "$WIGGLY" check "$scratch/end.json"
 expect 0 "it opens again" live --frames 2 "$scratch/end.json"
 expect 0 "without a display and without --headless" "$WIGGLY" live --frames 2 --size 640x360
 says "it says that it runs headless" "headless" "$out$err"

@@ -178,18 +178,18 @@ static void test_a_paste_that_does_not_fit_changes_nothing(void **state)
     session_click(&s, "ruler(35)");
     char *original = session_saved(&s);
     paste(&s, "0,1\n5,2\n");
-    assert_string_equal(s.editor->message.text, "sway: there is a knot at frame 40 already");
+    assert_string_equal(s.editor->message.text, "sway: there is already a knot at frame 40");
     paste(&s, "0,1\n1,2\n200,3\n");
     assert_string_equal(s.editor->message.text, "sway: frame 235 is outside 0 to 96");
     paste(&s, "0,1\n0,2\n");
-    assert_string_equal(s.editor->message.text, "sway: there is a knot at frame 35 already");
+    assert_string_equal(s.editor->message.text, "sway: there is already a knot at frame 35");
     paste(&s, "nonsense");
     assert_true(s.editor->message.is_error);
     assert_null(history_undo_label(s.history));
     assert_saved(&s, original);
     free(original);
     paste(&s, " \n");
-    assert_string_equal(s.editor->message.text, "There is no text on the clipboard.");
+    assert_string_equal(s.editor->message.text, "The clipboard has no text.");
     session_close(&s);
 }
 
@@ -213,7 +213,7 @@ static void test_copies_come_behind_and_pass_through(void **state)
     session_key(&s, 'A', MOD_CTRL);
     original = session_saved(&s);
     session_key(&s, 'D', MOD_CTRL);
-    assert_non_null(strstr(s.editor->message.text, "no room"));
+    assert_non_null(strstr(s.editor->message.text, "No room"));
     assert_saved(&s, original);
     free(original);
     session_click(&s, "knot(sway,5)");

@@ -72,12 +72,12 @@ static void test_recent_files(void **state)
     session_key(&s, 'O', MOD_CTRL);
     assert_int_equal(s.editor->dialog.match_count, 5);
     assert_non_null(shown(&s, "/home/me/scenes"));
-    assert_non_null(shown(&s, "not there any more"));
+    assert_non_null(shown(&s, "no longer exists"));
     session_key(&s, KEY_DOWN, 0);
     session_key(&s, KEY_DOWN, 0);
     session_key(&s, KEY_ENTER, 0);
     expect_request(&s, REQUEST_NONE, "");
-    assert_non_null(strstr(s.editor->dialog.error, "/home/me/gone.json is not there any more"));
+    assert_non_null(strstr(s.editor->dialog.error, "/home/me/gone.json no longer exists"));
     session_key(&s, KEY_UP, 0);
     session_key(&s, KEY_ENTER, 0);
     expect_request(&s, REQUEST_OPEN, "/home/me/scenes/walk.json");
@@ -130,7 +130,7 @@ static void open_offer(struct session *session)
     open_session(session);
     editor_offer_recovery(session->editor, &offer);
     session_frame(session);
-    assert_non_null(shown(session, "Unsaved work on walk.json was left behind"));
+    assert_non_null(shown(session, "Recover unsaved work on walk.json?"));
 }
 
 static void test_recover(void **state)
@@ -142,7 +142,8 @@ static void test_recover(void **state)
     assert_int_equal(s.document->splines[0].knot_count, 2);
     session_key(&s, KEY_ENTER, 0);
     expect_request(&s, REQUEST_RECOVER, "");
-    panel_answer(&s, REQUEST_RECOVER, false, "recovery-1:3: expected a number"); // it is broken: the choice is open again
+    panel_answer(&s, REQUEST_RECOVER, false,
+                 "recovery-1:3: expected a number"); // it is broken: the choice is open again
     assert_int_equal(s.editor->dialog.kind, DIALOG_RECOVER);
     session_key(&s, 'R', 0);
     expect_request(&s, REQUEST_RECOVER, "");

@@ -146,7 +146,7 @@ done
 # shellcheck disable=SC2086
 unknown=$(grep -ohE '`[^`]*`' $documents | grep -oE -- '--[a-z][a-z-]*' | sort -u |
     grep -vxFf <(cut -d' ' -f1 "$scratch"/*.options; printf '%s\n' --help --version --cflags --libs))
-[ -z "$unknown" ] || echo "  there is no option $unknown"
+[ -z "$unknown" ] || echo "  unknown option $unknown"
 [ -z "$unknown" ]
 ok "every option that is named is there" $?
 
@@ -157,7 +157,7 @@ ok "every command is named" $?
 
 # shellcheck disable=SC2086
 unknown=$(grep -ohE '`wiggly [a-z]+' $documents | cut -d' ' -f2 | sort -u | grep -vxFf <(tr ' ' '\n' <<<"$commands"))
-[ -z "$unknown" ] || echo "  there is no command $unknown"
+[ -z "$unknown" ] || echo "  unknown command $unknown"
 [ -z "$unknown" ]
 ok "every command that is named is there" $?
 

@@ -32,19 +32,19 @@ static void test_refused_knots(void **state)
     (void)state;
     struct world world;
     world_open(&world);
-    assert_refused(&world, edit_insert(SWAY, 12.4, 0), "sway: there is a knot at frame 12.4 already");
-    assert_refused(&world, edit_move(&world, SWAY, 0, 30, 0), "sway: there is a knot at frame 30 already");
+    assert_refused(&world, edit_insert(SWAY, 12.4, 0), "sway: there is already a knot at frame 12.4");
+    assert_refused(&world, edit_move(&world, SWAY, 0, 30, 0), "sway: there is already a knot at frame 30");
     assert_refused(&world, edit_insert(SWAY, 48.5, 0), "sway: frame 48.5 is outside 0 to 48");
     assert_refused(&world, edit_insert(SWAY, -0.6, 0), "sway: frame -0.6 is outside 0 to 48");
     assert_refused(&world, edit_insert(LOOP, 48, 0),
-                   "loop: frame 48 is outside 0 to 48, whose last is the loop's first again");
+                   "loop: frame 48 is outside 0 to 48; the last frame of a loop repeats the first");
     assert_refused(&world, edit_insert(SWAY, 5, NAN), "sway: a knot's numbers must be finite");
     assert_refused(&world, edit_insert(SWAY, INFINITY, 0), "sway: a knot's numbers must be finite");
     struct edit soft = edit_move(&world, SWAY, 1, 12, 0);
     soft.knot.stiffness = 0;
     assert_refused(&world, soft, "sway: stiffness must be above 0");
     assert_refused(&world, (struct edit){.kind = EDIT_KNOT_REMOVE, .spline = SWAY, .knot = {.id = 99}},
-                   "sway: there is no such knot any more");
+                   "sway: this knot no longer exists");
     assert_refused(&world, edit_insert(3, 5, 0), "there is no such spline");
     assert_refused(&world, edit_insert(-1, 5, 0), "there is no such spline");
     world_close(&world);
@@ -60,17 +60,17 @@ static void test_refused_parameters(void **state)
     assert_refused(&world, edit_number(SWAY, PARAMETER_EQUILIBRIUM, NAN), "sway: equilibrium must be finite");
     assert_refused(&world, edit_number(SWAY, PARAMETER_SPRING, 1), "sway: spring is not in use");
     assert_refused(&world, edit_number(PLUCK, PARAMETER_DAMPING, 1), "pluck: damping is not in use");
-    assert_refused(&world, edit_track(SWAY, PARAMETER_CALM, LOOP), "sway: calm is a number only");
+    assert_refused(&world, edit_track(SWAY, PARAMETER_CALM, LOOP), "sway: calm must be a number");
     assert_refused(&world, edit_track(SWAY, PARAMETER_DAMPING, 3), "sway: there is no spline to follow");
     assert_refused(&world, edit_track(SWAY, PARAMETER_DAMPING, SWAY),
-                   "sway cannot follow sway, which follows it already");
+                   "sway cannot follow sway, which already follows it");
     assert_refused(&world, edit_track(SWAY, PARAMETER_DAMPING, LOOP),
-                   "sway cannot follow loop, which follows it already");
+                   "sway cannot follow loop, which already follows it");
     world_must(&world, edit_track(PLUCK, PARAMETER_SPRING, LOOP));
     assert_refused(&world, edit_track(SWAY, PARAMETER_BANDWIDTH, PLUCK),
-                   "sway cannot follow pluck, which follows it already");
+                   "sway cannot follow pluck, which already follows it");
     assert_refused(&world, edit_mode(PLUCK, WIGGLY_COMPLEX),
-                   "pluck: spring follows a spline and cannot be converted; make it a number first");
+                   "pluck: spring follows a spline: make it a number before converting");
     assert_refused(&world, (struct edit){.kind = EDIT_SPRING, .spline = SWAY, .flag = true},
                    "sway: spring and friction are for real mode only");
     world_close(&world);
@@ -108,19 +108,19 @@ static void test_range_and_loops(void **state)
     (void)state;
     struct world world;
     world_open(&world);
-    assert_refused(&world, edit_range(1, 48), "sway: the knot at frame 0 would lie outside");
-    assert_refused(&world, edit_range(0, 29), "sway: the knot at frame 30 would lie outside");
+    assert_refused(&world, edit_range(1, 48), "sway: the knot at frame 0 would fall outside the range");
+    assert_refused(&world, edit_range(0, 29), "sway: the knot at frame 30 would fall outside the range");
     assert_refused(&world, edit_range(5, 4), "the last frame must not be before the first");
-    assert_refused(&world, edit_range(0, 1000000000), "that would be more than 10000000 samples over all splines");
-    assert_refused(&world, edit_range(INT32_MIN, INT32_MAX), "frames must lie from -1000000000 to 1000000000");
+    assert_refused(&world, edit_range(0, 1000000000), "the limit is 10000000 samples over all splines");
+    assert_refused(&world, edit_range(INT32_MIN, INT32_MAX), "frames must be from -1000000000 to 1000000000");
     world_must(&world, edit_range(-10, 30));
     assert_int_equal(document_samples(world.document), 41);
     assert_refused(&world, edit_start(SWAY, WIGGLY_LOOP),
-                   "sway: the knot at the last frame must go first, where a loop is at its first again");
+                   "sway: delete the knot at the last frame first; in a loop that frame repeats the first");
     world_must(&world, edit_start(LOOP, WIGGLY_FREE));
     world_must(&world, edit_range(-10, 48));
     world_must(&world, edit_start(SWAY, WIGGLY_LOOP));
-    assert_refused(&world, edit_range(-10, 30), "sway: the knot at frame 30 would lie outside");
+    assert_refused(&world, edit_range(-10, 30), "sway: the knot at frame 30 would fall outside the range");
     world_close(&world);
 }
 

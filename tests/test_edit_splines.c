@@ -58,7 +58,7 @@ static void test_a_new_spline(void **state)
     assert_int_equal(document_find_spline_id(world.document, id), 4);
     assert_int_equal(world.document->splines[4].knots[0].id, knot);
     add.text = "sway";
-    assert_refused(&world, add, "there is a spline called sway already");
+    assert_refused(&world, add, "a spline called sway already exists");
     add.text = NULL;
     add.knot.frame = 49;
     assert_refused(&world, add, "frame 49 is outside 0 to 48");
@@ -88,8 +88,8 @@ static void test_removal_needs_no_followers(void **state)
     (void)state;
     struct world world;
     world_open(&world);
-    assert_refused(&world, on(EDIT_SPLINE_REMOVE, SWAY), "sway: followed in 2 places, which must let go of it first");
-    assert_refused(&world, on(EDIT_SPLINE_REMOVE, LOOP), "loop: followed in 1 place, which must let go of it first");
+    assert_refused(&world, on(EDIT_SPLINE_REMOVE, SWAY), "sway: still used in 2 places; remove those first");
+    assert_refused(&world, on(EDIT_SPLINE_REMOVE, LOOP), "loop: still used in 1 place; remove those first");
     unsigned id = world.document->splines[PLUCK].id;
     assert_reversible(&world, on(EDIT_SPLINE_REMOVE, PLUCK));
     assert_int_equal(document_find_spline_id(world.document, id), -1);
@@ -124,7 +124,7 @@ static void test_names_and_colours(void **state)
     world_open(&world);
     assert_reversible(&world, edit_name(SWAY, "Schwung · 1"));
     assert_refused(&world, edit_name(SWAY, ""), "a spline needs a name");
-    assert_refused(&world, edit_name(SWAY, "loop"), "there is a spline called loop already");
+    assert_refused(&world, edit_name(SWAY, "loop"), "a spline called loop already exists");
     world_must(&world, edit_name(LOOP, "loop")); // its own
     assert_reversible(&world, edit_color(PLUCK, 0x4FA3E3));
     char *text = world_print(&world);
@@ -157,10 +157,10 @@ static void test_frames_per_second(void **state)
     assert_near(world.document->splines[SWAY].knots[2].frame, 37.5, 0);
     assert_near(world.document->splines[SWAY].knots[1].slope, 0, 0);
     assert_int_equal(world.document->last_frame, 60);
-    assert_refused(&world, edit_fps(0, false), "frames per second must lie above 0 and up to 100000");
-    assert_refused(&world, edit_fps(NAN, true), "frames per second must lie above 0 and up to 100000");
+    assert_refused(&world, edit_fps(0, false), "frames per second must be above 0 and at most 100000");
+    assert_refused(&world, edit_fps(NAN, true), "frames per second must be above 0 and at most 100000");
     world_must(&world, edit_insert(SWAY, 16, 0));
-    assert_refused(&world, edit_fps(10, true), "sway: two knots would meet at frame 5.333333333");
+    assert_refused(&world, edit_fps(10, true), "sway: two knots would land on frame 5.333333333");
     world_close(&world);
 }
 
@@ -173,7 +173,7 @@ static void test_substeps(void **state)
     assert_reversible(&world, edit);
     world_must(&world, edit_insert(SWAY, 12.25, 0));
     edit.substeps = 1;
-    assert_refused(&world, edit, "sway: two knots would meet at frame 12.25");
+    assert_refused(&world, edit, "sway: two knots would land on frame 12.25");
     world_close(&world);
 }
 
@@ -184,7 +184,7 @@ static void test_a_range_that_knots_do_not_fit(void **state)
     world_open(&world);
     world_must(&world, edit_insert(SWAY, 28, 4));
     const struct spline *sway = &world.document->splines[SWAY];
-    assert_refused(&world, edit_fit(2, 28, RANGE_REFUSE), "sway: the knot at frame 0 would lie outside");
+    assert_refused(&world, edit_fit(2, 28, RANGE_REFUSE), "sway: the knot at frame 0 would fall outside the range");
     assert_reversible(&world, edit_fit(2, 28, RANGE_TRIM));
     assert_int_equal(sway->knot_count, 2);
     assert_near(sway->knots[0].frame, 12, 0);

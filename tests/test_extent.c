@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { WIDTH = 480, HEIGHT = 360, FRAMES = 9, STRIDE = 11 };
+enum { WIDTH = 480, HEIGHT = 360, FRAMES = 5, STRIDE = 9 };
 static unsigned char partial[WIDTH * HEIGHT * 4], whole[WIDTH * HEIGHT * 4];
 
 static bool open_picture(struct app *app)

@@ -111,12 +111,13 @@ static void it_stands_on_its_feet(void **state)
         assert_true(evaluation_resize(&evaluation, scene.document, &error));
         evaluation_update(&evaluation, scene.document, NULL, false);
         for (int i = 0; i < evaluation.samples; i++) {
-            struct morph morph;
+            struct rig_pose pose;
             float lo[3], hi[3];
-            assert_true(posing_character(&posing, 0, i, &morph));
-            morph_bounds(scene.figure, &morph, lo, hi);
-            assert_near((double)lo[1], (double)scene.figure->lo[1], 0.02);
-            assert_true(hi[1] < 2.0f && hi[1] > 1.1f && hi[0] < 1.4f && lo[0] > -1.4f);
+            assert_true(rig_pose(&posing, 0, i, NULL, &pose));
+            rig_bounds(&pose, lo, hi);
+            const float x = pose.character.position[0], y = pose.character.position[1];
+            assert_near((double)lo[1], (double)y, 0.02);
+            assert_true(hi[1] < y + 2.0f && hi[1] > y + 1.1f && hi[0] < x + 1.4f && lo[0] > x - 1.4f);
         }
         evaluation_free(&evaluation);
         close_scene(&scene);

@@ -181,10 +181,10 @@ static void test_figure6(void **state)
     int lag = 0, count = evaluation.samples;
     assert_in_range(count, 100, 128);
     for (int i = 0; i < count; i++) {
-        struct pose pose;
-        posing_tail(&posing, 0, i, NULL, &pose);
-        bend[0][i] = heading(&pose, BASE);
-        bend[1][i] = heading(&pose, LATE) - heading(&pose, LATE - 1);
+        struct rig_pose pose;
+        assert_true(rig_pose(&posing, 0, i, NULL, &pose));
+        bend[0][i] = heading(&pose.tail, BASE);
+        bend[1][i] = heading(&pose.tail, LATE) - heading(&pose.tail, LATE - 1);
     }
     for (int shift = 0; shift < 24; shift++) {
         double sum = 0;

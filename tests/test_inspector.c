@@ -302,7 +302,7 @@ static void test_says_what_the_solver_and_the_poles_mean(void **state)
     f.table.evaluation.status[0] = WIGGLY_CALMED;
     snprintf(words, sizeof words, "%s", wiggly_status_text(f.table.evaluation.status[0]));
     assert_true(shows_text(&f, words));
-    assert_true(shows_text(&f, "Rings for ever"));
+    assert_true(shows_text(&f, "Rings forever"));
     panel_drag(&f, "damping", 0.5);
     panel_release(&f);
     session_frame(&f);
@@ -411,7 +411,7 @@ static void test_the_hint_of_a_position_outlives_the_panel(void **state)
     assert_true(inspector_target(s.editor, &s.world, "position.y", &x, &y));
     session_move(&s, x, y);
     session_frame(&s);
-    assert_string_equal(inspector_hint(s.editor), "Where the body stands along y");
+    assert_string_equal(inspector_hint(s.editor), "Position of the body along y");
     session_close(&s);
 }
 

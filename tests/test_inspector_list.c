@@ -119,7 +119,7 @@ static void test_renaming(void **state)
     panel_type(&f, "pace");
     session_key(&f, KEY_ENTER, 0);
     assert_string_equal(f.document->splines[0].name, "swing");
-    assert_non_null(strstr(f.editor->message.text, "there is a spline called pace already"));
+    assert_non_null(strstr(f.editor->message.text, "a spline called pace already exists"));
     session_key(&f, KEY_F2, 0);
     session_key(&f, KEY_DELETE, 0); // all is selected
     session_key(&f, KEY_ENTER, 0);
@@ -163,7 +163,7 @@ static void test_colours(void **state)
     panel_type(&f, "#12345");
     session_key(&f, KEY_ENTER, 0);
     assert_int_equal(f.document->splines[1].color, 0x1F9E7A);
-    assert_non_null(strstr(f.editor->message.text, "colour: expected one such as #FFB000, got “#12345”"));
+    assert_non_null(strstr(f.editor->message.text, "colour: expected something like #FFB000, got “#12345”"));
     panel_click(&f, "color.type");
     panel_type(&f, "#123456");
     session_key(&f, KEY_ENTER, 0);
@@ -213,7 +213,7 @@ static void test_a_track_is_attached_and_detached(void **state)
     panel_click(&f, "spline.pace");
     panel_click(&f, "follow.equilibrium");
     assert_false(ui_popup_is_open(&f.editor->inspector.ui, "follow")); // both others follow it
-    assert_non_null(strstr(f.editor->message.text, "no other spline that pace could follow"));
+    assert_non_null(strstr(f.editor->message.text, "no other spline for pace to follow"));
     panel_click(&f, "spline.sway");
     session_frame(&f);
     panel_click(&f, "follow.damping");

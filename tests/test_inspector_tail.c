@@ -102,7 +102,7 @@ static void test_angles_one_for_each_joint(void **state)
     session_key(&s, 'A', MOD_CTRL);
     panel_type(&s, "1, 2, x");
     session_key(&s, KEY_ENTER, 0);
-    assert_string_equal(s.editor->message.text, "gain: expected one number for each of the 4 joints.");
+    assert_string_equal(s.editor->message.text, "gain: expected 4 numbers, one per joint.");
     assert_saved(&s, good);
     free(good);
     panel_click(&s, "rest.each");

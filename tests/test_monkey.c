@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { SEEDS = 8, EVENTS = 25000, RELOAD_EVERY = 64, UNDO_EVERY = 3000, MOST_SAMPLES = 20000 };
+enum { SEEDS = 8, EVENTS = 12500, RELOAD_EVERY = 64, UNDO_EVERY = 3000, MOST_SAMPLES = 20000 };
 
 static char folder[] = "/tmp/wiggly-monkey-XXXXXX";
 static char home[4096];

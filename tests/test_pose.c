@@ -1,6 +1,7 @@
 /// The tail's pose: directions and units of the file format, lag (paper, section 7.1), and the default scene's
 /// motion.
 #include "near.h"
+#include "rig/pose.h"
 #include "rig/posing.h"
 #include "rig/shadow.h"
 #include "scene/load.h"
@@ -206,7 +207,9 @@ static int close_scene(void **state)
 static void pose_at(const struct scene *scene, double frame, struct pose *pose)
 {
     const struct posing posing = {scene->document, &scene->evaluation, NULL, LOOK_WIGGLY};
-    posing_tail(&posing, 0, frame, NULL, pose);
+    struct rig_pose posed;
+    assert_true(rig_pose(&posing, 0, frame, NULL, &posed));
+    *pose = posed.tail;
 }
 
 static double distance(const float a[3], const float b[3])

@@ -31,18 +31,18 @@ recovery=$XDG_STATE_HOME/wiggly/recovery
 start_server
 start_edited
 kill $app
-check_rescue "a signal" "$recovery-1" "$recovery-1: the next start offers it"
+check_rescue "a signal" "$recovery-1" "$recovery-1, and the next start offers to recover it"
 start_edited
 disown $server
 kill -9 $server
-check_rescue "a lost display" "$recovery-2" "$recovery-2: the next start offers it"
+check_rescue "a lost display" "$recovery-2" "$recovery-2, and the next start offers to recover it"
 start_server
 for slot in 3 4; do # destroyed while nothing moves, and while it draws
     start_edited
     [ $slot -eq 3 ] || xdotool key space
     sleep 0.3
     xdotool search --onlyvisible --name wiggly windowclose
-    check_rescue "a destroyed window" "$recovery-$slot" "$recovery-$slot: the next start offers it"
+    check_rescue "a destroyed window" "$recovery-$slot" "$recovery-$slot, and the next start offers to recover it"
 done
 grep -q '^frames [1-9]' "$scratch/mine.replay"
 ok "the recording has its length" $?
@@ -55,6 +55,6 @@ if [ -w "$XDG_STATE_HOME/wiggly" ]; then # root may write everywhere
 fi
 start_edited
 kill $app
-check_rescue "no place for recovery files" "$scratch/mine.recovered.json" "$scratch/mine.recovered.json: open that to go on"
+check_rescue "no place for recovery files" "$scratch/mine.recovered.json" "$scratch/mine.recovered.json: open it to continue"
 chmod -R u+w "$XDG_STATE_HOME"
 exit $((cases_failed > 0))

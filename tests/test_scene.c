@@ -282,12 +282,11 @@ static void test_warnings(void **state)
 {
     (void)state;
     assert_heard("{\"frames\": [0, 9],\n\"hey\": 1,\n\"splines\": [{\"name\": \"x\",\n\"hey\": 2}]}",
-                 "s.json:4: splines[0].hey: unknown key, kept but without effect\n");
+                 "s.json:4: splines[0].hey: unknown key: kept, but it has no effect\n");
     assert_heard("{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"frequency\":\n11, \"bandwidth\": 0.2}]}",
                  "s.json:2: splines[0].frequency: 13.2 Hz is above half the sample rate, 12 Hz: it aliases\n");
-    const char *slope =
-        "s.json:%d: splines[0].knots[%d].slope: slope without effect: the sample that it leads to is a "
-        "knot too\n";
+    const char *slope = "s.json:%d: splines[0].knots[%d].slope: slope has no effect: the next sample is a "
+                        "knot too\n";
     char expected[HEARD_SIZE];
     snprintf(expected, sizeof expected, slope, 3, 1);
     assert_heard("{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"knots\": [\n{\"frame\": 5, \"value\": 0},\n"

@@ -11,7 +11,7 @@ quick="--tets 60 --seconds 0.25 --fps 24 --substeps 2"
 
 # shellcheck disable=SC2086 # the options are split on purpose
 expect 0 "a box is shaken" "$WIGGLY" simulate "$scratch/box.obj" --shake side $quick -o "$scratch/box.npy"
-says "says what was written" "box.npy: 6 frames of 8 vertices, 24 a second" "$out"
+says "says what was written" "box.npy: 6 frames of 8 vertices at 24 fps" "$out"
 [ "$(stat -c %s "$scratch/box.npy")" -eq $((128 + 6 * 8 * 3 * 4)) ]
 ok "the .npy holds 6 × 8 × 3 floats" $?
 [ "$(grep -c '^v ' "$scratch/box.rest.obj")" -eq 8 ]
@@ -46,8 +46,8 @@ o="-o $scratch/none.npy"
     refused 1 "open.obj: the mesh is not closed: 3 edges have no triangle on the other side" "$scratch/open.obj" $o
     refused 1 "flat.obj: the mesh encloses no volume" "$scratch/flat.obj" $o
     refused 1 "nowhere.obj" "$scratch/nowhere.obj" $o
-    refused 1 "nothing is left to move" "$scratch/box.obj" --tets 60 --pin 9 $o
-    refused 2 "there is no option --yuong (did you mean --young?)" "$scratch/box.obj" --yuong 1 $o
+    refused 1 "nothing can move" "$scratch/box.obj" --tets 60 --pin 9 $o
+    refused 2 "unknown option --yuong (did you mean --young?)" "$scratch/box.obj" --yuong 1 $o
     refused 2 "--poisson" "$scratch/box.obj" --poisson 0.5 $o
     refused 2 "--shake: expected up, side, front or a vector x,y,z" "$scratch/box.obj" --shake 0,0,0 $o
     refused 2 "--young and --frequency both set the stiffness" "$scratch/box.obj" --young 1e6 --frequency 2 $o

@@ -35,7 +35,7 @@ expect 0 "check of a singular scene" "$WIGGLY" check "$scratch/singular.json"
 says "names the spline" 'warning: ' "$out"
 
 expect 0 "check of a loop whose equilibrium jumps" "$WIGGLY" check tests/vectors/loop_moving_equilibrium.json
-says "says so" "the equilibrium of this loop does not end where it begins" "$out"
+says "says so" "the equilibrium of this loop does not end where it starts" "$out"
 
 for scene in assets/scenes/*.json; do
     expect 0 "check of $scene" "$WIGGLY" check "$scene"

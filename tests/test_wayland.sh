@@ -18,7 +18,7 @@ unset DISPLAY
 weston --backend=headless-backend.so --socket=$WAYLAND_DISPLAY --idle-time=0 >"$scratch/weston.log" 2>&1 &
 weston=$!
 disown $weston
-for _ in $(seq 100); do [ -S "$XDG_RUNTIME_DIR/$WAYLAND_DISPLAY" ] && break; sleep 0.1; done
+for _ in $(seq 600); do [ -S "$XDG_RUNTIME_DIR/$WAYLAND_DISPLAY" ] && break; sleep 0.1; done
 [ -S "$XDG_RUNTIME_DIR/$WAYLAND_DISPLAY" ] || skip "weston does not start"
 
 expect 0 "frames in a window without a seat" "$WIGGLY" live --frames 20
@@ -26,11 +26,12 @@ case $err in *"no display"*) skip "this GLFW has no Wayland" ;; esac
 
 "$WIGGLY" live --log "$scratch/live.csv" >/dev/null 2>"$scratch/app.err" &
 app=$!
+for _ in $(seq 600); do [ -e "$scratch/live.csv" ] && break; sleep 0.1; done
 sleep 2
 kill -0 $app
 ok "it runs" $?
 kill -9 $weston
-for _ in $(seq 100); do kill -0 $app 2>/dev/null || break; sleep 0.1; done
+for _ in $(seq 600); do kill -0 $app 2>/dev/null || break; sleep 0.1; done
 kill -0 $app 2>/dev/null && kill -9 $app
 status=0
 wait $app || status=$?

@@ -278,14 +278,14 @@ static void write_tail(const char *folder)
     enum { POSES = 9, EVERY = 6, PER_ROW = 3 };
     struct solved s = solve("figure6");
     const struct posing posing = {s.document, &s.evaluation, NULL, LOOK_WIGGLY};
-    struct pose pose;
+    struct rig_pose pose;
     FILE *svg = svg_begin(folder, "figure6", TOP + POSES / PER_ROW * (ROW + GAP));
     FILE *csv = create(folder, "figure6", "csv");
     fputs("frame,joint,x,y,z\n", csv);
     for (int sample = 0; sample < s.evaluation.samples; sample++) {
-        posing_tail(&posing, 0, sample, NULL, &pose);
-        for (int j = 0; j < pose.count; j++) {
-            const float *at = &pose.matrix[j][12];
+        rig_pose(&posing, 0, sample, NULL, &pose);
+        for (int j = 0; j < pose.tail.count; j++) {
+            const float *at = &pose.tail.matrix[j][12];
             fprintf(csv, "%g,%d,%.9g,%.9g,%.9g\n", document_frame(s.document, sample), j, at[0], at[1], at[2]);
         }
     }
@@ -294,15 +294,15 @@ static void write_tail(const char *folder)
         struct frame f = {
             wide * (i % PER_ROW) + 30, TOP + i / PER_ROW * (ROW + GAP), wide - 60, ROW, -0.35, 2.15, -1.1, 1.1};
         char text[32];
-        posing_tail(&posing, 0, 24 + i * EVERY, NULL, &pose);
-        for (int j = 0; j < pose.count; j++) {
-            x[j] = pose.matrix[j][14];
-            z[j] = pose.matrix[j][12];
+        rig_pose(&posing, 0, 24 + i * EVERY, NULL, &pose);
+        for (int j = 0; j < pose.tail.count; j++) {
+            x[j] = pose.tail.matrix[j][14];
+            z[j] = pose.tail.matrix[j][12];
         }
         snprintf(text, sizeof text, "frame %g", document_frame(s.document, 24 + i * EVERY));
         svg_text(svg, f.x, f.y + 6, "start", text);
         svg_line(svg, f.x, at_y(&f, 0), f.x + f.w, at_y(&f, 0), grey, 1);
-        svg_curve(svg, &f, x, z, pose.count, accent, 5);
+        svg_curve(svg, &f, x, z, pose.tail.count, accent, 5);
     }
     svg_end(svg, "figure6");
     finish(csv, "figure6");

@@ -77,7 +77,7 @@ bool spectrum_create(struct spectrum *s, const struct lapack *lapack, const doub
     double trace = 0;
     *s = (struct spectrum){.frames = frames};
     for (size_t i = 0; i < n; i++) trace += gram[i * n + i];
-    if (!(trace > 0)) return fail(error, ERROR_INPUT, "%s: expected a motion, got one in which nothing moves", name);
+    if (!(trace > 0)) return fail(error, ERROR_INPUT, "%s: expected a motion, but nothing moves", name);
     s->transform = malloc(n * n * sizeof *s->transform);
     s->vectors = malloc(n * n * sizeof *s->vectors);
     s->values = malloc(n * sizeof *s->values);

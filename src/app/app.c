@@ -86,7 +86,7 @@ static bool rescue(struct app *app, bool good, struct error *error)
 {
     bool told = process_was_told_to_end(), unsaved = !history_is_saved(app->table.history);
     if (!is_live(app) || !unsaved || (good && !told)) return good;
-    if (good) fail(error, ERROR_ENVIRONMENT, "told to end by a signal");
+    if (good) fail(error, ERROR_ENVIRONMENT, "ended by a signal");
     app_rescue(app, error);
     return false;
 }

@@ -77,7 +77,7 @@ struct autosave *autosave_open(const struct recovery_slot *slot, struct error *e
     free(autosave);
     struct recovery_slot unused = *slot;
     recovery_release(&unused);
-    fail(error, ERROR_ENVIRONMENT, "autosave is off: its thread cannot be started");
+    fail(error, ERROR_ENVIRONMENT, "autosave is off: cannot start its thread");
     return NULL;
 }
 
@@ -121,7 +121,7 @@ static bool report(struct autosave *autosave, struct error *error)
     bool news = autosave->failed && !autosave->complained;
     autosave->complained = autosave->failed;
     if (autosave->failed) autosave->revision = 0;
-    return !news || fail(error, ERROR_ENVIRONMENT, "Unsaved work is not kept safe: %s", autosave->error.text);
+    return !news || fail(error, ERROR_ENVIRONMENT, "Unsaved work has no recovery file: %s", autosave->error.text);
 }
 
 /// A large document is written in a pause of its edits, so that no drag stumbles over it.

@@ -13,9 +13,9 @@ const char *app_clipboard_text(struct app *app)
 {
     const char *text = platform_clipboard(app->platform);
     if (!text || !*text) {
-        editor_message(app->table.editor, false, "There is no text on the clipboard.");
+        editor_message(app->table.editor, false, "The clipboard has no text.");
     } else if (strlen(text) > MAX_CLIPBOARD) {
-        editor_message(app->table.editor, true, "The clipboard holds more than 16 MB: too much for knots.");
+        editor_message(app->table.editor, true, "The clipboard holds more than 16 MB, too much for knots.");
         text = NULL;
     }
     return text && *text ? text : NULL;

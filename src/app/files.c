@@ -114,10 +114,10 @@ static bool save(struct app *app, const char *path, struct error *error)
     char folder[PATH_LIMIT];
     if (!scene_save(app->table.document, path, error)) return false;
     if (!path_folder(path, folder) || !document_set_folder(app->table.document, folder)) {
-        return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to go on with it", path);
+        return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to continue", path);
     }
     if (path != app->table.document->path && !document_set_path(app->table.document, path)) {
-        return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to go on with it", path);
+        return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to continue", path);
     }
     history_mark_saved(app->table.history);
     editor_set_path(app->table.editor, app_path(app));
@@ -163,7 +163,7 @@ static bool may_replace(struct app *app, const char *path, struct error *error)
     if (access(path, F_OK) != 0 || strcmp(path, app_path(app)) == 0 || strcmp(path, app->replaceable) == 0)
         return true;
     snprintf(app->replaceable, sizeof app->replaceable, "%s", path);
-    return fail(error, ERROR_INPUT, "%s is there already: press Enter again to replace it", path);
+    return fail(error, ERROR_INPUT, "%s already exists: press Enter again to replace it", path);
 }
 
 static bool carry_out(struct app *app, const struct request *request, struct error *error)

@@ -39,11 +39,11 @@ bool recovery_claim(const char *folder, struct recovery_slot *slot, struct error
             if (access(slot->path, F_OK) != 0) return true;
             recovery_release(slot);
         } else if (errno != EWOULDBLOCK) {
-            return fail(error, ERROR_ENVIRONMENT, "%s: no recovery file can be kept there: %s", folder,
+            return fail(error, ERROR_ENVIRONMENT, "%s: cannot write a recovery file there: %s", folder,
                         strerror(errno));
         }
     }
-    return fail(error, ERROR_ENVIRONMENT, "%s: all %d recovery files are taken: recover or discard some", folder,
+    return fail(error, ERROR_ENVIRONMENT, "%s: there are %d recovery files already: recover or discard some", folder,
                 RECOVERY_SLOTS);
 }
 

@@ -26,7 +26,7 @@ static bool write_to(const struct app *app, const struct place *place, char *pat
         if (length >= (int)size) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", place->name);
         if (access(path, F_OK) != 0) return scene_save(app->table.document, path, error);
     }
-    return fail(error, ERROR_ENVIRONMENT, "%s: older recovered scenes are in the way", path);
+    return fail(error, ERROR_ENVIRONMENT, "%s: too many recovered scenes are there already", path);
 }
 
 /// Beside the scene's own file, else in the home folder, else where everybody may write.
@@ -55,9 +55,10 @@ void app_rescue(struct app *app, struct error *error)
     if (!app->table.document || history_is_saved(app->table.history)) return;
     const char *kept = personal_rescue(app);
     if (kept) {
-        fail(error, why.kind, "%s; the unsaved scene is kept in %s: the next start offers it", why.text, kept);
+        fail(error, why.kind, "%s; the unsaved scene is safe in %s, and the next start offers to recover it",
+             why.text, kept);
     } else if (write_somewhere(app, path, sizeof path, &trouble)) {
-        fail(error, why.kind, "%s; the unsaved scene is in %s: open that to go on", why.text, path);
+        fail(error, why.kind, "%s; the unsaved scene is in %s: open it to continue", why.text, path);
     } else {
         fail(error, why.kind, "%s; the unsaved scene is lost: %s", why.text, trouble.text);
     }

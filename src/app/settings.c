@@ -59,7 +59,7 @@ static void read_line(struct settings *settings, const char *path, int number, c
         insert(settings, settings->count, NULL, text);
     } else if (!equals || equals == text) {
         if (error->kind == ERROR_NONE)
-            fail(error, ERROR_INPUT, "%s:%d: expected key = value, got \"%.40s\": the line is left out", path, number,
+            fail(error, ERROR_INPUT, "%s:%d: expected key = value, got \"%.40s\": ignoring this line", path, number,
                  text);
     } else {
         *equals = '\0';

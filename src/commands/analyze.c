@@ -96,8 +96,7 @@ static bool check_motion(const struct job *job, const struct motion *motion, con
                     rest->vertex_count, job->rest, motion->vertices);
     *fps = job->fps > 0 ? job->fps : motion->fps;
     if (*fps > 0) return true;
-    return fail(error, ERROR_USAGE,
-                "%s: expected --fps N, because the file does not say how many frames a second has", motion->path);
+    return fail(error, ERROR_USAGE, "%s: the file has no frame rate: give --fps N", motion->path);
 }
 
 /// A coordinate is added to the mesh at rest; a motion about another place has other axes, units or an offset.
@@ -112,8 +111,7 @@ static void warn_of_distance(const struct motion *motion, const struct analysis 
         size += (at - centre[n % 3]) * (at - centre[n % 3]);
     }
     if (distance > 0.25 * size) {
-        fprintf(stderr,
-                "%s: warning: swings about another place than the mesh at rest: other axes, units or position?\n",
+        fprintf(stderr, "%s: warning: the motion is not centred on the rest mesh; check axes, units and position\n",
                 motion->path);
     }
 }
@@ -130,7 +128,7 @@ static bool analyse(const struct job *job, int file, const struct lapack *lapack
     bool done = check_motion(job, &motion, rest, &fps, error) &&
                 analysis_create(&analysis, lapack, &motion, fps, job->modes, direction, error);
     if (done) warn_of_distance(&motion, &analysis, rest);
-    if (done) printf("%s: %d frames of %d vertices, %g a second\n", motion.path, motion.frames, motion.vertices, fps);
+    if (done) printf("%s: %d frames of %d vertices at %g fps\n", motion.path, motion.frames, motion.vertices, fps);
     for (int k = 0; done && k < analysis.count; k++) {
         struct coordinate *to = &character->coordinates[(*filled)++];
         done = keep(to, &analysis.components[k], &analysis, motion.path, character, error);
@@ -174,8 +172,8 @@ static const char *check(struct job *job)
 {
     int files = 0;
     while (job->files[files]) files++;
-    if (!job->rest) return "--rest mesh.obj is missing: the mesh that moves";
-    if (!job->output) return "-o creature.glb is missing: what to write";
+    if (!job->rest) return "--rest mesh.obj is missing: name the mesh at rest";
+    if (!job->output) return "-o creature.glb is missing: name the file to write";
     if (!read_directions(job, files))
         return "--shake: expected up, side, front or a vector x,y,z, one for all files or one each with : between";
     return NULL;
@@ -185,21 +183,20 @@ int command_analyze(int argc, char **argv)
 {
     struct job job = {.modes = 1};
     const struct option_spec options[] = {
-        {"--rest", NULL, "FILE", "needed: the mesh at rest, OBJ; its vertices are the files', in their order",
+        {"--rest", NULL, "FILE", "required: the mesh at rest (OBJ), with the same vertices in the same order",
          OPTION_TEXT, &job.rest, 0, 0},
-        {"--output", "-o", "FILE", "needed: the character is written there, .glb", OPTION_TEXT, &job.output, 0, 0},
-        {"--fps", NULL, "N", "frames a second; needed for .npy and .pc2, which do not say", OPTION_REAL, &job.fps,
-         1e-3, 100000},
-        {"--modes", NULL, "K", "coordinates of each file, the largest first (1)", OPTION_INT, &job.modes, 1,
-         MODES_MAX},
-        {"--shake", NULL, "DIR", "up, side, front or x,y,z, one or one a file (up:side): the sign of coordinates",
-         OPTION_TEXT, &job.shake, 0, 0},
-        {"--scene", NULL, "FILE", "write a scene that drives the character", OPTION_TEXT, &job.scene, 0, 0},
+        {"--output", "-o", "FILE", "required: the character to write (.glb)", OPTION_TEXT, &job.output, 0, 0},
+        {"--fps", NULL, "N", "frames per second; required for .npy and .pc2", OPTION_REAL, &job.fps, 1e-3, 100000},
+        {"--modes", NULL, "K", "coordinates per motion, largest first (1)", OPTION_INT, &job.modes, 1, MODES_MAX},
+        {"--shake", NULL, "DIR",
+         "direction of the shake: up, side, front or x,y,z; one for all or one per file (up:side)", OPTION_TEXT,
+         &job.shake, 0, 0},
+        {"--scene", NULL, "FILE", "write a scene that drives the character too", OPTION_TEXT, &job.scene, 0, 0},
     };
     const struct usage usage = {
         .command = "analyze",
         .operands = "up.npy [side.npy ...]",
-        .summary = "Finds the complex normal coordinate in which each motion (.npy, .pc2, .mdd) oscillates.",
+        .summary = "Finds the complex normal coordinate of each motion (.npy, .pc2, .mdd) and writes a character.",
         .options = options,
         .option_count = sizeof options / sizeof options[0],
         .operand_minimum = 1,

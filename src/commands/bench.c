@@ -84,12 +84,12 @@ int command_bench(int argc, char **argv)
 {
     const char *json = NULL;
     const struct option_spec specs[] = {
-        {"--json", NULL, "FILE", "write the table as JSON too", OPTION_TEXT, &json, 0, 0},
+        {"--json", NULL, "FILE", "also write the table as JSON", OPTION_TEXT, &json, 0, 0},
     };
     const struct usage usage = {
         .command = "bench",
         .operands = "",
-        .summary = "the solver against LAPACKE, on the same systems in the same run",
+        .summary = "Times the solver against LAPACKE on the same systems in the same run.",
         .options = specs,
         .option_count = sizeof specs / sizeof *specs,
     };

@@ -42,7 +42,7 @@ static bool check_solution(const char *path, const struct document *document, st
     evaluation_update(&evaluation, document, NULL, false);
     for (int i = 0; i < evaluation.count; i++) {
         if (jumps(document, &evaluation, i)) {
-            print_warning(problems, path, document, i, "the equilibrium of this loop does not end where it begins");
+            print_warning(problems, path, document, i, "the equilibrium of this loop does not end where it starts");
         }
         if (evaluation.status[i] != WIGGLY_OK) {
             print_warning(problems, path, document, i, wiggly_status_text(evaluation.status[i]));
@@ -87,7 +87,7 @@ int command_check(int argc, char **argv)
     const struct usage usage = {
         .command = "check",
         .operands = "scene.json",
-        .summary = "Prints every problem of a scene with its line and path.",
+        .summary = "Prints every problem in a scene file, with its line.",
         .operand_minimum = 1,
         .operand_maximum = 1,
     };

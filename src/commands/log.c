@@ -22,13 +22,12 @@ int command_log(int argc, char **argv)
 {
     const char *path, *picture = NULL;
     const struct option_spec options[] = {
-        {"--output", "-o", "FILE.svg", "draw the distribution there", OPTION_TEXT, &picture, 0, 0},
+        {"--output", "-o", "FILE.svg", "also draw the distribution", OPTION_TEXT, &picture, 0, 0},
     };
     const struct usage usage = {
         .command = "log",
         .operands = "FILE.csv",
-        .summary =
-            "Percentiles, frames over budget, histogram and slowest frames of a timing log (of several runs, too).",
+        .summary = "Prints percentiles, frames over budget, a histogram and the slowest frames of a timing log.",
         .options = options,
         .option_count = 1,
         .operand_minimum = 1,

@@ -69,8 +69,8 @@ static enum options_result wrong_option(const struct usage *usage, const char *w
     char given[WORD_MAX + 1];
     snprintf(given, sizeof given, "%.*s", (int)length, word);
     const char *nearest = options_nearest(given, names, count);
-    if (nearest) return options_wrong(usage, "there is no option %s (did you mean %s?)", given, nearest);
-    return options_wrong(usage, "there is no option %s", given);
+    if (nearest) return options_wrong(usage, "unknown option %s (did you mean %s?)", given, nearest);
+    return options_wrong(usage, "unknown option %s", given);
 }
 
 static const struct option_spec *find(const struct usage *usage, const char *word, size_t length)

@@ -52,8 +52,8 @@ static bool simulate_frame(const struct job *job, const struct soft *soft, struc
     for (int s = 0; frame > 0 && s < job->substeps; s++) {
         if (interrupted) return fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
         if (integrator_step(integrator)) continue;
-        return fail(error, ERROR_INPUT, "frame %d: the motion ran away: try more --substeps or a smaller --amplitude",
-                    frame);
+        return fail(error, ERROR_INPUT,
+                    "frame %d: the simulation became unstable: try more --substeps or a smaller --amplitude", frame);
     }
     lattice_embed(&soft->lattice, (const double(*)[3])integrator->x, position);
     return true;
@@ -74,7 +74,7 @@ static bool write_frames(const struct job *job, const struct soft *soft, struct 
         report_progress(job, frame + 1, frames, started);
     }
     if (!motion_write_commit(&writer, error)) return false;
-    printf("%s: %d frames of %d vertices, %g a second, in %.1f s\n", job->output, frames, soft->lattice.vertex_count,
+    printf("%s: %d frames of %d vertices at %g fps, in %.1f s\n", job->output, frames, soft->lattice.vertex_count,
            job->fps, clock_now() - started);
     return true;
 }
@@ -166,7 +166,7 @@ static const char *set_material(struct soft_options *soft)
     const struct soft_options usual = soft_default_options();
     if (soft->young > 0 && soft->frequency > 0) return "--young and --frequency both set the stiffness: give one";
     if (soft->density > 0 && soft->young == 0)
-        return "--density needs --young: a stiffness found for a frequency follows the mass, and the motion is the "
+        return "--density needs --young: with --frequency the stiffness follows the mass, and the motion stays the "
                "same";
     if (soft->frequency == 0) soft->frequency = usual.frequency;
     if (soft->density == 0) soft->density = usual.density;
@@ -176,7 +176,7 @@ static const char *set_material(struct soft_options *soft)
 /// What the table of options cannot say; NULL or what is wrong.
 static const char *check(struct job *job)
 {
-    if (!job->output) return "-o FILE is missing: what to write";
+    if (!job->output) return "-o FILE is missing: name the file to write";
     if (job->modal && !ends_in(job->output, ".npy")) return "--output: expected a name ending in .npy for --modal";
     if (!ends_in(job->output, ".npy") && !ends_in(job->output, ".pc2"))
         return "--output: expected a name ending in .npy or .pc2";
@@ -207,28 +207,31 @@ int command_simulate(int argc, char **argv)
     job.soft.frequency = job.soft.density = 0;
     const struct option_spec options[] = {
         {"--output", "-o", "FILE",
-         "needed: NAME.npy or NAME.pc2 (--modal: .npy); the mesh at rest goes to NAME.rest.obj", OPTION_TEXT,
+         "required: NAME.npy or NAME.pc2 (--modal: .npy); the rest mesh goes to NAME.rest.obj", OPTION_TEXT,
          &job.output, 0, 0},
         {"--shake", NULL, "DIR", "up, side, front or a vector x,y,z (default: up)", OPTION_TEXT, &job.shake_text, 0,
          0},
-        {"--amplitude", NULL, "A", "how far the top goes, as a part of the height (0.2)", OPTION_REAL,
+        {"--amplitude", NULL, "A", "how far the top moves, relative to the height (0.2)", OPTION_REAL,
          &job.shake.amplitude, -2, 2},
-        {"--impulse", NULL, NULL, "start with a push, not deformed", OPTION_FLAG, &job.shake.impulse, 0, 0},
-        {"--seconds", NULL, "S", "how long (4)", OPTION_REAL, &job.seconds, 1e-3, 3600},
-        {"--fps", NULL, "N", "frames a second (24)", OPTION_REAL, &job.fps, 1, 1000},
-        {"--substeps", NULL, "N", "steps of the integrator a frame (8)", OPTION_INT, &job.substeps, 1, 1000},
-        {"--tets", NULL, "N", "about how many tetrahedra (3000)", OPTION_INT, &job.soft.tets, 50, 200000},
-        {"--pin", NULL, "H", "pin what is up to H above the lowest point (a twentieth of the height)", OPTION_REAL,
+        {"--impulse", NULL, NULL, "start with a push instead of a deformation", OPTION_FLAG, &job.shake.impulse, 0,
+         0},
+        {"--seconds", NULL, "S", "duration in seconds (4)", OPTION_REAL, &job.seconds, 1e-3, 3600},
+        {"--fps", NULL, "N", "frames per second (24)", OPTION_REAL, &job.fps, 1, 1000},
+        {"--substeps", NULL, "N", "integrator steps per frame (8)", OPTION_INT, &job.substeps, 1, 1000},
+        {"--tets", NULL, "N", "approximate number of tetrahedra (3000)", OPTION_INT, &job.soft.tets, 50, 200000},
+        {"--pin", NULL, "H", "pin everything up to H above the lowest point (1/20 of the height)", OPTION_REAL,
          &job.soft.pin, 0, 1e6},
-        {"--frequency", NULL, "HZ", "of the lowest mode: sets the stiffness (2)", OPTION_REAL, &job.soft.frequency,
-         1e-3, 1e3},
-        {"--young", NULL, "E", "Young's modulus in Pa, in place of --frequency", OPTION_REAL, &job.soft.young, 1e-6,
+        {"--frequency", NULL, "HZ", "frequency of the lowest mode; sets the stiffness (2)", OPTION_REAL,
+         &job.soft.frequency, 1e-3, 1e3},
+        {"--young", NULL, "E", "Young's modulus in Pa, instead of --frequency", OPTION_REAL, &job.soft.young, 1e-6,
          1e15},
         {"--poisson", NULL, "NU", "Poisson's ratio (0.35)", OPTION_REAL, &job.soft.poisson, 0, 0.49},
-        {"--density", NULL, "RHO", "kg/m^3, beside --young (1000)", OPTION_REAL, &job.soft.density, 1e-6, 1e9},
+        {"--density", NULL, "RHO", "density in kg/m^3, only with --young (1000)", OPTION_REAL, &job.soft.density,
+         1e-6, 1e9},
         {"--damping", NULL, "Z", "damping ratio at the lowest mode (0.03)", OPTION_REAL, &job.soft.damping, 0, 1},
-        {"--modal", NULL, "K", "no shake: the K lowest normal modes", OPTION_INT, &modes, 1, 200},
-        {"--verbose", NULL, NULL, "progress although standard error is no terminal", OPTION_FLAG, &job.verbose, 0, 0},
+        {"--modal", NULL, "K", "write the K lowest normal modes instead of a shake", OPTION_INT, &modes, 1, 200},
+        {"--verbose", NULL, NULL, "show progress even if standard error is not a terminal", OPTION_FLAG, &job.verbose,
+         0, 0},
     };
     const struct usage usage = {
         .command = "simulate",

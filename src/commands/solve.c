@@ -100,7 +100,7 @@ int command_solve(int argc, char **argv)
         {.name = "--output",
          .alias = "-o",
          .argument = "FILE",
-         .help = "write there (default: standard output)",
+         .help = "file to write (default: standard output)",
          .kind = OPTION_TEXT,
          .target = &out},
     };

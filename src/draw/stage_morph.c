@@ -1,5 +1,6 @@
 #include "draw/stage_morph.h"
 #include "draw/gl.h"
+#include "draw/painter.h"
 #include "draw/stage_flat.h"
 #include <stdlib.h>
 #include <string.h>
@@ -34,7 +35,7 @@ struct stage_morph {
     long clock;
 };
 
-struct stage_morph *stage_morph_create(struct error *error)
+static void *create(struct error *error)
 {
     struct stage_morph *morph = calloc(1, sizeof *morph);
     if (!morph) {
@@ -80,9 +81,9 @@ static void model_free(struct model *model)
     *model = (struct model){0};
 }
 
-void stage_morph_destroy(struct stage_morph *morph)
+static void destroy(void *state)
 {
-    if (!morph) return;
+    struct stage_morph *morph = state;
     for (int i = 0; i < MAX_KEPT; i++) model_free(&morph->models[i]);
     glDeleteProgram(morph->program);
     free(morph);
@@ -211,8 +212,9 @@ static struct model *find_model(struct stage_morph *morph, const struct figure *
     return oldest;
 }
 
-void stage_morph_upload(struct stage_morph *morph, const struct stage_view *view, long *bytes)
+static void upload(void *state, const struct stage_view *view, long *bytes)
 {
+    struct stage_morph *morph = state;
     morph->clock++;
     for (int i = 0; i < view->character_count; i++) {
         const struct figure *figure = view->characters[i].figure;
@@ -251,8 +253,9 @@ static void draw_character(const struct stage_morph *morph, const struct model *
     glDrawElements(GL_TRIANGLES, shown->coarse ? model->coarse_count : model->fine_count, GL_UNSIGNED_INT, NULL);
 }
 
-void stage_morph_draw(const struct stage_morph *morph, const struct stage_view *view, float scale, float seam)
+static void draw(const void *state, const struct stage_view *view, float scale, float seam)
 {
+    const struct stage_morph *morph = state;
     if (view->character_count == 0) return;
     mat4s clip_from_world = stage_clip_from_world(view);
     glUseProgram(morph->program);
@@ -269,3 +272,5 @@ void stage_morph_draw(const struct stage_morph *morph, const struct stage_view *
     }
     glBindVertexArray(0);
 }
+
+const struct painter character_painter = {create, destroy, upload, draw};

@@ -100,7 +100,7 @@ void editor_reserve(struct editor *editor, const struct document *document)
     enough &= reserve_selection(&editor->hidden, document->next_spline_id);
     enough &= reserve_selection(&editor->solo, document->next_spline_id);
     if (!reserve_drag(&editor->drag, most) || !enough) {
-        editor_message(editor, true, "Out of memory: not all knots can be selected.");
+        editor_message(editor, true, "Out of memory: some knots cannot be selected.");
     }
 }
 
@@ -293,9 +293,9 @@ void editor_activate(struct editor *editor, const struct editor_world *world, in
 void editor_set_look(struct editor *editor, enum look look)
 {
     static const char *const texts[] = {
-        [LOOK_WIGGLY] = "Wiggly: one spline, every joint in its own phase",
+        [LOOK_WIGGLY] = "Wiggly: one spline, each joint with its own phase",
         [LOOK_STIFF] = "Stiff: the same spline without lag",
-        [LOOK_CUBIC] = "Cubic: the same knots with a classical spline",
+        [LOOK_CUBIC] = "Cubic: the same knots as a classical spline",
     };
     editor->look = look;
     editor_message(editor, false, texts[look]);

@@ -66,7 +66,7 @@ void keyboard_remedy(struct editor *editor, const struct editor_world *world, in
     if (editor->warnings.count > 0) {
         warning_remedy(editor, world, &editor->warnings.list[0]);
     } else {
-        editor_message(editor, false, "There is no warning about this spline.");
+        editor_message(editor, false, "This spline has no warnings.");
     }
 }
 

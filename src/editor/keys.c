@@ -161,8 +161,8 @@ static void run_snap(struct editor *e, const struct editor_world *w, int argumen
     (void)argument;
     e->options.no_snap = !e->options.no_snap;
     editor_message(e, false,
-                   e->options.no_snap ? "Knots go between the frames, onto them with Ctrl."
-                                      : "Knots go to whole frames, between them with Ctrl.");
+                   e->options.no_snap ? "Snapping off: hold Ctrl to snap to frames."
+                                      : "Snapping on: hold Ctrl to place knots between frames.");
 }
 
 static void run_scale(struct editor *e, const struct editor_world *w, int argument)

@@ -1,4 +1,5 @@
 #include "rig/morph.h"
+#include "rig/posing_kind.h"
 #include <math.h>
 
 _Static_assert((int)CHARACTER_MAX_DRIVES <= (int)MORPH_MAX_COORDINATES, "a drive moves a coordinate");
@@ -22,3 +23,39 @@ void pose_character(const struct character_rig *rig, const struct figure *figure
         morph->count++;
     }
 }
+
+/// Its number among the document's characters, as the cast counts them.
+static int number_of(const struct document *document, int rig)
+{
+    int number = 0;
+    for (int i = 0; i < rig; i++) number += document->rigs[i].kind == RIG_CHARACTER;
+    return number;
+}
+
+static bool pose(const struct posing *posing, int rig, double position, const wiggly_value *values,
+                 const struct by_hand *by_hand, struct rig_pose *posed)
+{
+    const struct character_rig *character = &posing->document->rigs[rig].character;
+    const struct figure *figure = cast_figure(posing->cast, number_of(posing->document, rig));
+    (void)position;
+    if (!figure) return false;
+    posed->character.figure = figure;
+    for (int k = 0; k < 3; k++) {
+        posed->character.position[k] = (float)(character->position[k] + (by_hand ? by_hand->base[k] : 0));
+    }
+    pose_character(character, figure, values, posing->look, &posed->character.morph);
+    return true;
+}
+
+static void bounds(const struct rig_pose *posed, float lo[3], float hi[3])
+{
+    const struct figure *figure = posed->character.figure;
+    morph_bounds(figure, &posed->character.morph, lo, hi);
+    for (int k = 0; k < 3; k++) {
+        const float at = posed->character.position[k] - (k == 1 ? figure->lo[1] : 0.0f);
+        lo[k] += at;
+        hi[k] += at;
+    }
+}
+
+const struct posing_functions character_posing = {pose, bounds};

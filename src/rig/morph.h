@@ -9,7 +9,7 @@
 #define RIG_MORPH_H
 
 #include "model/morph.h"
-#include "rig/pose.h"
+#include "rig/look.h"
 #include "scene/document.h"
 
 /// `values[k]` is the spline value of drive k at the time shown. Drives whose coordinate the figure does not have are left

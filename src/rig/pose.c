@@ -1,5 +1,6 @@
 #include "rig/pose.h"
 #include "model/creature.h"
+#include "rig/posing_kind.h"
 #include <math.h>
 
 _Static_assert((int)TAIL_MAX_JOINTS <= (int)POSE_MAX_JOINTS, "a pose holds every tail");
@@ -62,3 +63,28 @@ void pose_tail(const struct tail *tail, const wiggly_value *values, enum look lo
         for (int k = 0; k < 3; k++) frame[12 + k] += segment * frame[8 + k];
     }
 }
+
+/// Where the coordinates of a tail's position that follow splines are; 0 for the others.
+static void base_at(const struct posing *posing, const struct tail *tail, double position, double base[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const wiggly_value value = evaluation_at(posing->evaluation, tail->position[k].track, position);
+        base[k] = value.y + value.re;
+    }
+}
+
+static bool pose(const struct posing *posing, int rig, double position, const wiggly_value *values,
+                 const struct by_hand *by_hand, struct rig_pose *posed)
+{
+    const struct tail *tail = &posing->document->rigs[rig].tail;
+    double base[3];
+    pose_tail(tail, values, posing->look, &posed->tail);
+    base_at(posing, tail, position, base);
+    for (int k = 0; k < 3 && by_hand; k++) base[k] += by_hand->base[k];
+    pose_move(&posed->tail, base);
+    return true;
+}
+
+static void bounds(const struct rig_pose *posed, float lo[3], float hi[3]) { pose_bounds(&posed->tail, lo, hi); }
+
+const struct posing_functions tail_posing = {pose, bounds};

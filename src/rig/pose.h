@@ -3,11 +3,8 @@
 #define RIG_POSE_H
 
 #include "model/pose.h"
+#include "rig/look.h"
 #include "scene/document.h"
-
-/// How the same knots are shown: the paper's method, without lag, or as classical cubics (the splines are then solved
-/// so).
-enum look { LOOK_WIGGLY, LOOK_STIFF, LOOK_CUBIC };
 
 /// Poses a tail at its position, coordinates that follow a spline being 0 (see pose_move()). `values[c]` is the spline value of
 /// channel c at the time shown. Joint n bends by gain·(y + Re(e^{−j·n·lag} x)) about each channel's axis, without y for

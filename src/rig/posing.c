@@ -1,43 +1,23 @@
 #include "rig/posing.h"
+#include "rig/posing_kind.h"
 
-/// Where the coordinates of a tail's position that follow splines are; 0 for the others.
-static void base_at(const struct posing *posing, const struct tail *tail, double position, double base[3])
-{
-    for (int k = 0; k < 3; k++) {
-        wiggly_value value = {0};
-        if (tail->position[k].track >= 0)
-            value = evaluation_at(posing->evaluation, tail->position[k].track, position);
-        base[k] = value.y + value.re;
-    }
-}
+static const struct posing_functions *const kinds[RIG_KINDS] = {
+    [RIG_TAIL] = &tail_posing, [RIG_CHARACTER] = &character_posing};
 
-void posing_tail(const struct posing *posing, int index, double position, const struct by_hand *by_hand,
-                 struct pose *pose)
+bool rig_pose(const struct posing *posing, int index, double position, const struct by_hand *by_hand,
+              struct rig_pose *pose)
 {
-    const struct tail *tail = document_tail(posing->document, index);
-    wiggly_value values[SCENE_MAX_CHANNELS];
-    double base[3];
-    for (int c = 0; c < tail->channel_count; c++) {
-        values[c] = evaluation_at(posing->evaluation, tail->channels[c].spline, position);
+    wiggly_value values[RIG_MAX_INPUTS];
+    if (index < 0 || index >= posing->document->rig_count) return false;
+    const struct rig *rig = &posing->document->rigs[index];
+    for (int i = 0; i < rig_input_count(rig); i++) {
+        values[i] = evaluation_at(posing->evaluation, rig_input(rig, i), position);
         if (!by_hand) continue;
-        values[c].re += by_hand->channel[c].re;
-        values[c].im += by_hand->channel[c].im;
+        values[i].re += by_hand->input[i].re;
+        values[i].im += by_hand->input[i].im;
     }
-    pose_tail(tail, values, posing->look, pose);
-    base_at(posing, tail, position, base);
-    for (int k = 0; k < 3 && by_hand; k++) base[k] += by_hand->base[k];
-    pose_move(pose, base);
+    pose->kind = rig->kind;
+    return kinds[rig->kind]->pose(posing, index, position, values, by_hand, pose);
 }
 
-bool posing_character(const struct posing *posing, int index, double position, struct morph *morph)
-{
-    const struct character_rig *rig = document_character(posing->document, index);
-    const struct figure *figure = cast_figure(posing->cast, index);
-    wiggly_value values[CHARACTER_MAX_DRIVES] = {{0}};
-    if (!figure) return false;
-    for (int k = 0; k < rig->drive_count; k++) {
-        values[k] = evaluation_at(posing->evaluation, rig->drives[k].spline, position);
-    }
-    pose_character(rig, figure, values, posing->look, morph);
-    return true;
-}
+void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]) { kinds[pose->kind]->bounds(pose, lo, hi); }

@@ -2,9 +2,10 @@
 #ifndef RIG_POSING_H
 #define RIG_POSING_H
 
+#include "model/morph.h"
+#include "model/pose.h"
 #include "rig/cast.h"
-#include "rig/morph.h"
-#include "rig/pose.h"
+#include "rig/look.h"
 #include "scene/evaluate.h"
 
 /// What rigs are posed from.
@@ -15,17 +16,30 @@ struct posing {
     enum look look;
 };
 
-/// What moves a tail besides the document.
+/// What moves a rig besides the document.
 struct by_hand {
-    wiggly_value channel[SCENE_MAX_CHANNELS]; ///< added to each channel's value
-    double base[3];                           ///< metres
+    wiggly_value input[RIG_MAX_INPUTS]; ///< added to each of its inputs (rig.h)
+    double base[3];                     ///< metres
 };
 
-/// Poses a tail at a position in samples; `by_hand` may be NULL. Allocates nothing.
-void posing_tail(const struct posing *posing, int tail, double position, const struct by_hand *by_hand,
-                 struct pose *pose);
+struct rig_pose {
+    enum rig_kind kind;
+    union {
+        struct pose tail;
+        struct {
+            const struct figure *figure;
+            struct morph morph;
+            float position[3]; ///< what it stands on, metres
+        } character;
+    };
+};
 
-/// The same of a character; false where its model could not be read.
-bool posing_character(const struct posing *posing, int character, double position, struct morph *morph);
+/// Poses a rig of the document at a position in samples; `by_hand` may be NULL. false where there is no such rig, or its model
+/// could not be read. Allocates nothing.
+bool rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+              struct rig_pose *pose);
+
+/// The box around a posed rig, metres.
+void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]);
 
 #endif

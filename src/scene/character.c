@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+_Static_assert((int)CHARACTER_MAX_DRIVES <= (int)RIG_MAX_INPUTS, "a drive is an input");
+
 static const char *const character_keys[] = {"type",        "name",   "model", "position",
                                              "coordinates", "phases", "paint", NULL};
 static const char *const axes[] = {"x", "y", "z", NULL};

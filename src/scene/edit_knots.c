@@ -11,8 +11,7 @@ static bool reserve_knot(const struct document *document, struct spline *spline,
 {
     long long total = 1;
     for (int i = 0; i < document->spline_count; i++) total += document->splines[i].knot_count;
-    if (total > SCENE_MAX_KNOTS)
-        return fail(error, ERROR_INPUT, "there are %d knots, and no more fit", SCENE_MAX_KNOTS);
+    if (total > SCENE_MAX_KNOTS) return fail(error, ERROR_INPUT, "the limit of %d knots is reached", SCENE_MAX_KNOTS);
     if (spline->knot_count < spline->knot_capacity) return true;
     int capacity = spline->knot_capacity > 0 ? 2 * spline->knot_capacity : FIRST_KNOTS;
     struct knot *knots = realloc(spline->knots, (size_t)capacity * sizeof *knots);
@@ -36,11 +35,11 @@ static bool check_knot(const struct document *document, const struct spline *spl
     if (sample < 0 || sample > last) {
         return fail(error, ERROR_INPUT, "%s: frame %s is outside %d to %d%s", spline->name, frame,
                     document->first_frame, document->last_frame,
-                    spline_start(spline) == WIGGLY_LOOP ? ", whose last is the loop's first again" : "");
+                    spline_start(spline) == WIGGLY_LOOP ? "; the last frame of a loop repeats the first" : "");
     }
     int there = spline_find_knot(document, spline, sample);
     if (there < 0 || spline->knots[there].id == id) return true;
-    return fail(error, ERROR_INPUT, "%s: there is a knot at frame %s already", spline->name, frame);
+    return fail(error, ERROR_INPUT, "%s: there is already a knot at frame %s", spline->name, frame);
 }
 
 /// −0 is saved as 0, and must be 0 before, or saving and loading would be a change.
@@ -68,7 +67,7 @@ bool plan_knot_insert(struct document *document, const struct edit *edit, struct
     change.knot = without_negative_zeros(edit->knot);
     if (!check_knot(document, spline, &change.knot, 0, error)) return false;
     if (change.knot.id != 0 && has_id(document, change.knot.id)) {
-        return fail(error, ERROR_INPUT, "%s: the knot is there already", spline->name);
+        return fail(error, ERROR_INPUT, "%s: this knot already exists", spline->name);
     }
     if (!reserve_knot(document, spline, error)) return false;
     if (change.knot.id == 0) change.knot.id = document->next_id;
@@ -83,7 +82,7 @@ bool plan_knot_remove(struct document *document, const struct edit *edit, struct
     const struct spline *spline = &document->splines[edit->spline];
     struct change change = {.kind = CHANGE_KNOT_IN, .spline = edit->spline, .knot = edit->knot};
     if (spline_find_id(spline, edit->knot.id) < 0) {
-        return fail(error, ERROR_INPUT, "%s: there is no such knot any more", spline->name);
+        return fail(error, ERROR_INPUT, "%s: this knot no longer exists", spline->name);
     }
     return plan_add(list, &change, error);
 }
@@ -99,7 +98,7 @@ bool plan_knot_set(struct document *document, const struct edit *edit, struct ch
     const struct spline *spline = &document->splines[edit->spline];
     struct change change = {.kind = CHANGE_KNOT, .spline = edit->spline};
     int at = spline_find_id(spline, edit->knot.id);
-    if (at < 0) return fail(error, ERROR_INPUT, "%s: there is no such knot any more", spline->name);
+    if (at < 0) return fail(error, ERROR_INPUT, "%s: this knot no longer exists", spline->name);
     change.knot = without_negative_zeros(edit->knot);
     change.knot.extra = spline->knots[at].extra;
     if (!check_knot(document, spline, &change.knot, change.knot.id, error)) return false;

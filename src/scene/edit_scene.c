@@ -24,10 +24,11 @@ static bool check_knots_fit(const struct document *document, const double *frame
             double frame = frames ? *frames++ : spline->knots[k].frame;
             int sample = document_sample(document, frame);
             if (sample < 0 || sample > last) {
-                return fail(error, ERROR_INPUT, "%s: the knot at frame %.10g would lie outside", spline->name, frame);
+                return fail(error, ERROR_INPUT, "%s: the knot at frame %.10g would fall outside the range",
+                            spline->name, frame);
             }
             if (sample == before) {
-                return fail(error, ERROR_INPUT, "%s: two knots would meet at frame %.10g", spline->name, frame);
+                return fail(error, ERROR_INPUT, "%s: two knots would land on frame %.10g", spline->name, frame);
             }
             before = sample;
         }
@@ -41,17 +42,17 @@ static bool check_timing(const struct document *document, const struct timing *t
     long long frames = (long long)timing->last - timing->first, splines = document->spline_count;
     long long samples = frames * timing->substeps + 1;
     if (!(timing->fps > 0 && timing->fps <= SCENE_MAX_FPS)) {
-        return fail(error, ERROR_INPUT, "frames per second must lie above 0 and up to %d", SCENE_MAX_FPS);
+        return fail(error, ERROR_INPUT, "frames per second must be above 0 and at most %d", SCENE_MAX_FPS);
     }
     if (timing->substeps < 1 || timing->substeps > SCENE_MAX_SUBSTEPS) {
-        return fail(error, ERROR_INPUT, "substeps must lie from 1 to %d", SCENE_MAX_SUBSTEPS);
+        return fail(error, ERROR_INPUT, "substeps must be from 1 to %d", SCENE_MAX_SUBSTEPS);
     }
     if (frames < 0) return fail(error, ERROR_INPUT, "the last frame must not be before the first");
     if (timing->first < -SCENE_MAX_FRAME || timing->last > SCENE_MAX_FRAME) {
-        return fail(error, ERROR_INPUT, "frames must lie from -%d to %d", SCENE_MAX_FRAME, SCENE_MAX_FRAME);
+        return fail(error, ERROR_INPUT, "frames must be from -%d to %d", SCENE_MAX_FRAME, SCENE_MAX_FRAME);
     }
     if (samples * (splines > 0 ? splines : 1) > SCENE_MAX_SAMPLES) {
-        return fail(error, ERROR_INPUT, "that would be more than %d samples over all splines", SCENE_MAX_SAMPLES);
+        return fail(error, ERROR_INPUT, "the limit is %d samples over all splines", SCENE_MAX_SAMPLES);
     }
     return true;
 }

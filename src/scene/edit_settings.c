@@ -30,7 +30,7 @@ static bool check_track(struct document *document, const struct edit *edit, stru
     int track = edit->param.track;
     const struct parameter_row *row = &parameter_rows[edit->parameter];
     if (row->kind != PARAMETER_TRACK)
-        return fail(error, ERROR_INPUT, "%s: %s is a number only", spline->name, row->name);
+        return fail(error, ERROR_INPUT, "%s: %s must be a number", spline->name, row->name);
     if (track >= document->spline_count) {
         return fail(error, ERROR_INPUT, "%s: there is no spline to follow", spline->name);
     }
@@ -40,7 +40,7 @@ static bool check_track(struct document *document, const struct edit *edit, stru
     spline->parameter[edit->parameter] = old;
     if (good) return true;
     if (cycle.spline < 0) return plan_no_memory(error);
-    return fail(error, ERROR_INPUT, "%s cannot follow %s, which follows it already", spline->name,
+    return fail(error, ERROR_INPUT, "%s cannot follow %s, which already follows it", spline->name,
                 document->splines[track].name);
 }
 
@@ -64,7 +64,7 @@ static bool convert_spring(const struct spline *spline, struct settings *setting
         enum parameter source = to_spring ? from[i] : to[i];
         number[i] = settings->parameter[source].value;
         if (settings->parameter[source].track >= 0) {
-            return fail(error, ERROR_INPUT, "%s: %s follows a spline and cannot be converted; make it a number first",
+            return fail(error, ERROR_INPUT, "%s: %s follows a spline: make it a number before converting",
                         spline->name, parameter_rows[source].name);
         }
         settings->parameter[source].value = parameter_rows[source].standard;
@@ -73,7 +73,7 @@ static bool convert_spring(const struct spline *spline, struct settings *setting
     result[0] = to_spring ? omega * omega : omega / TWO_PI;
     result[1] = to_spring ? 2 * number[1] * omega : omega > 0 ? number[1] / (2 * omega) : 0;
     if (!isfinite(result[0]) || !isfinite(result[1])) {
-        return fail(error, ERROR_INPUT, "%s: the numbers are too large to be converted", spline->name);
+        return fail(error, ERROR_INPUT, "%s: the numbers are too large to convert", spline->name);
     }
     for (int i = 0; i < 2; i++) settings->parameter[to_spring ? to[i] : from[i]].value = result[i];
     settings->spring_friction = to_spring;
@@ -99,7 +99,7 @@ static bool check_loop(const struct document *document, const struct spline *spl
     if (last == 0) return fail(error, ERROR_INPUT, "%s: a loop needs more than one frame", spline->name);
     if (spline_find_knot(document, spline, last) < 0) return true;
     return fail(error, ERROR_INPUT,
-                "%s: the knot at the last frame must go first, where a loop is at its first again", spline->name);
+                "%s: delete the knot at the last frame first; in a loop that frame repeats the first", spline->name);
 }
 
 static bool set_choice(const struct document *document, const struct spline *spline, struct settings *settings,

@@ -14,10 +14,10 @@ static bool reserve_spline(struct document *document, int knots, struct error *e
     long long total = knots, samples = (long long)document_samples(document) * (document->spline_count + 1);
     for (int i = 0; i < document->spline_count; i++) total += document->splines[i].knot_count;
     if (samples > SCENE_MAX_SAMPLES) {
-        return fail(error, ERROR_INPUT, "that would be more than %d samples over all splines", SCENE_MAX_SAMPLES);
+        return fail(error, ERROR_INPUT, "the limit is %d samples over all splines", SCENE_MAX_SAMPLES);
     }
     if (total > SCENE_MAX_KNOTS) {
-        return fail(error, ERROR_INPUT, "that would be more than %d knots over all splines", SCENE_MAX_KNOTS);
+        return fail(error, ERROR_INPUT, "the limit is %d knots over all splines", SCENE_MAX_KNOTS);
     }
     if (document->spline_count < document->spline_capacity) return true;
     int capacity = document->spline_capacity > 0 ? 2 * document->spline_capacity : 8;
@@ -50,7 +50,7 @@ static bool check_name(const struct document *document, const char *name, int ow
     int other = document_find_spline(document, name);
     if (!name[0]) return fail(error, ERROR_INPUT, "a spline needs a name");
     if (other < 0 || other == own) return true;
-    return fail(error, ERROR_INPUT, "there is a spline called %s already", name);
+    return fail(error, ERROR_INPUT, "a spline called %s already exists", name);
 }
 
 /// Puts a spline into the plan, with the ids of a new one. It is the plan's even where this fails.
@@ -138,7 +138,7 @@ bool plan_spline_remove(struct document *document, const struct edit *edit, stru
     struct change change = {.kind = CHANGE_SPLINE_IN, .spline = edit->spline};
     int followers = reference_count(document, edit->spline);
     if (followers > 0) {
-        return fail(error, ERROR_INPUT, "%s: followed in %d place%s, which must let go of it first",
+        return fail(error, ERROR_INPUT, "%s: still used in %d place%s; remove those first",
                     document->splines[edit->spline].name, followers, followers == 1 ? "" : "s");
     }
     change.held = calloc(1, sizeof *change.held);

@@ -90,7 +90,7 @@ static void check_domain(struct reader *reader, const struct where *at, const st
                     document->last_frame, frame);
     } else if (sample > document_last_knot_sample(document, spline)) {
         reader_fail(reader, &frame_at,
-                    "expected a frame before %d, where a loop is at its first frame again, got %.10g",
+                    "expected a frame before %d, because the last frame of a loop repeats the first, got %.10g",
                     document->last_frame, frame);
     }
 }
@@ -125,7 +125,7 @@ static void check_knots(struct reader *reader, const struct where *knots_at, str
             reader_fail(reader, &frame_at, "expected a sample of its own, got that of knots[%u]",
                         before->id - first_id);
         } else if (knot->has_slope && slope_is_fixed(document, spline, i)) {
-            reader_warn(reader, &slope_at, "slope without effect: the sample that it leads to is a knot too");
+            reader_warn(reader, &slope_at, "slope has no effect: the next sample is a knot too");
         }
     }
 }

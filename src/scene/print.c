@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-
 static bool is_parameter(const char *key) { return parameter_find(key) != PARAMETER_COUNT; }
 
 /// A parameter that the mode does not use is written where it differs from the default: another mode may want it

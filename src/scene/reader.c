@@ -247,8 +247,8 @@ static void warn_unknown(struct reader *reader, const struct where *object_at, c
     if (reader->warned_count == READER_MAX_WARNED) return;
     struct where at = {.parent = object_at, .key = key};
     reader->warned[reader->warned_count++] = key;
-    const char *last = reader->warned_count == READER_MAX_WARNED ? "; so are any further ones" : "";
-    reader_warn(reader, &at, "unknown key, kept but without effect%s", last);
+    const char *last = reader->warned_count == READER_MAX_WARNED ? "; further unknown keys are kept silently" : "";
+    reader_warn(reader, &at, "unknown key: kept, but it has no effect%s", last);
 }
 
 json_t *reader_extra(struct reader *reader, const struct where *object_at, json_t *object, const char *const *known)

@@ -1,7 +1,6 @@
 /// The rigs of a scene, in the order of the file, whatever kinds they are.
 #include "scene/rig.h"
 #include "scene/rig_kind.h"
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

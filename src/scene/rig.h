@@ -9,6 +9,8 @@
 
 enum rig_kind { RIG_TAIL, RIG_CHARACTER, RIG_KINDS };
 
+enum { RIG_MAX_INPUTS = 64 }; ///< of a rig of any kind
+
 struct rig {
     enum rig_kind kind;
     char *name; ///< NULL where the file has none

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+_Static_assert((int)SCENE_MAX_CHANNELS <= (int)RIG_MAX_INPUTS, "a channel is an input");
+
 static const char *const tail_keys[] = {"type",   "name", "joints", "length", "position", "rest", "channels",
                                         "spline", "axis", "of",     "lag",    "gain",     NULL};
 static const char *const channel_keys[] = {"spline", "axis", "of", "lag", "gain", NULL};
@@ -79,7 +81,7 @@ static void load_channels(struct reader *reader, const struct where *tail_at, co
     bool is_short = false;
     for (int i = 0; channel_keys[i]; i++) is_short |= json_object_get(object, channel_keys[i]) != NULL;
     if (is_short && channels) {
-        reader_fail(reader, &at, "expected either channels or one channel's keys beside the type, got both");
+        reader_fail(reader, &at, "expected either channels or one channel's keys, got both");
         return;
     }
     int count = is_short ? 1 : reader_objects(reader, &at, channels, SCENE_MAX_CHANNELS);

@@ -71,8 +71,7 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
     if (good) pin(soft, options->pin);
     if (good && soft->pinned == soft->body.node_count) {
         soft_free(soft);
-        return fail(error, ERROR_INPUT, "%s: nothing is left to move: all of the lattice is below the --pin height",
-                    name);
+        return fail(error, ERROR_INPUT, "%s: nothing can move: the whole lattice is below the --pin height", name);
     }
     good = good && count_loose(soft) && tune(soft, options);
     if (good) return true;

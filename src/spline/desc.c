@@ -1,5 +1,4 @@
 #include "spline/desc.h"
-#include <string.h>
 
 /// X(name, kind, filters), in the order of wiggly_desc.
 #define SETTINGS(X)                                                                                                  \
@@ -25,30 +24,16 @@ const desc_member desc_members[] = {SETTINGS(ROW){0}};
 /// By position: a member of wiggly_desc that the list lacks is a warning here (-Wmissing-field-initializers).
 wiggly_desc desc_settings(const wiggly_desc *desc) { return (wiggly_desc){SETTINGS(VALUE) NULL, 0}; }
 
-static bool same_member(const wiggly_desc *a, const wiggly_desc *b, const desc_member *member)
-{
-    const void *left = (const char *)a + member->offset, *right = (const char *)b + member->offset;
-    if (member->kind == DESC_NUMBER) return *(const double *)left == *(const double *)right;
-    if (member->kind != DESC_PARAM) return memcmp(left, right, member->size) == 0;
-    const wiggly_param *p = left, *q = right;
-    return p->value == q->value && p->track == q->track;
-}
+#define SAME_COUNT(member) (a->member == b->member)
+#define SAME_CHOICE(member) (a->member == b->member)
+#define SAME_NUMBER(member) (a->member == b->member)
+#define SAME_PARAM(member) (a->member.value == b->member.value && a->member.track == b->member.track)
+#define AND_SAME(member, kind, filters) &&SAME_##kind(member)
+#define AND_SAME_FILTER(member, kind, filters) &&(!(filters) || SAME_##kind(member))
 
-bool desc_same_settings(const wiggly_desc *a, const wiggly_desc *b)
-{
-    for (const desc_member *m = desc_members; m->name; m++) {
-        if (!same_member(a, b, m)) return false;
-    }
-    return true;
-}
+bool desc_same_settings(const wiggly_desc *a, const wiggly_desc *b) { return true SETTINGS(AND_SAME); }
 
-bool desc_same_filter(const wiggly_desc *a, const wiggly_desc *b)
-{
-    for (const desc_member *m = desc_members; m->name; m++) {
-        if (m->filters && !same_member(a, b, m)) return false;
-    }
-    return true;
-}
+bool desc_same_filter(const wiggly_desc *a, const wiggly_desc *b) { return true SETTINGS(AND_SAME_FILTER); }
 
 bool desc_has_track(const wiggly_desc *desc)
 {

@@ -116,7 +116,7 @@ struct what_if {
 struct posing stage_posing(const struct editor *editor, const struct editor_world *world);
 /// Poses one tail with what is moved by hand; `change` may be NULL.
 void stage_pose_tail(const struct editor *editor, const struct editor_world *world, int tail, double position,
-                     const struct what_if *change, struct pose *pose);
+                     const struct what_if *change, struct rig_pose *pose);
 /// The same as stage_project() of any pose.
 bool stage_project_pose(const struct editor *editor, const struct pose *pose, int joint, double fraction,
                         float xy[2]);

@@ -72,7 +72,7 @@ void paste_knots(struct editor *editor, const struct editor_world *world, const 
     struct error error;
     if (!editor_active_spline(editor, world) || history_is_open(world->history)) return;
     if (!text || !text[strspn(text, " \t\r\n")]) {
-        editor_message(editor, false, "There is no text on the clipboard.");
+        editor_message(editor, false, "The clipboard has no text.");
         return;
     }
     if (!knots_parse("clipboard", text, &list, &error)) {
@@ -112,7 +112,7 @@ void duplicate_knots(struct editor *editor, const struct editor_world *world)
     double shift = round(last->frame - drag->originals[0].frame + fmax(step, 1));
     while (last->frame + shift <= end && !has_room(editor, document, spline, shift)) shift++;
     if (last->frame + shift > end) {
-        editor_message(editor, false, "There is no room for copies between these knots and the end of the range.");
+        editor_message(editor, false, "No room for copies before the end of the range.");
     } else if (insert_all(editor, world, count == 1 ? "Duplicate knot" : "Duplicate knots", drag->originals, count,
                           shift)) {
         say_count(editor, "Duplicated", count);

@@ -83,7 +83,7 @@ static void nudge_lag(struct editor *editor, const struct editor_world *world, d
     int tail = -1, channel = -1;
     const struct channel *active = active_channel(editor, world->document, &tail, &channel);
     if (!active) {
-        editor_message(editor, false, "Nothing lags here: the scene has no tail.");
+        editor_message(editor, false, "This scene has no tail to lag.");
         return;
     }
     struct angles lag = active->lag;
@@ -127,9 +127,9 @@ static bool say_idle(struct editor *editor, const struct spline *spline, enum pa
     char text[160];
     if (parameter == PARAMETER_CALM || row->modes >> spline_mode(spline) & 1) return false;
     if (spline_mode(spline) == WIGGLY_CUBIC) {
-        snprintf(text, sizeof text, "A cubic neither swings nor rings; M changes the mode.");
+        snprintf(text, sizeof text, "A cubic does not swing; press M to change the mode.");
     } else {
-        snprintf(text, sizeof text, "Only the %s mode has a %s; M changes the mode.",
+        snprintf(text, sizeof text, "Only %s mode has a %s; press M to change the mode.",
                  row->modes & IN_COMPLEX ? "complex" : "real", row->name);
     }
     editor_message(editor, false, text);

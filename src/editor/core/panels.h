@@ -112,9 +112,9 @@ struct dialog {
     struct recovery_offer offer; ///< of DIALOG_RECOVER
     struct ask ask;              ///< of DIALOG_ASK, and its question
     struct question question;
-    struct request after; ///< what to do once the work is saved or discarded; REQUEST_NONE: nothing
+    struct request after;      ///< what to do once the work is saved or discarded; REQUEST_NONE: nothing
     enum request_kind awaited; ///< what was requested and is not answered yet; REQUEST_NONE: nothing
-    bool skip_text;       ///< a letter has answered: the character that comes with it is no part of a path
+    bool skip_text;            ///< a letter has answered: the character that comes with it is no part of a path
     char error[DIALOG_ERROR_SIZE];
     char listed[UI_TEXT_SIZE]; ///< folder whose names are in `names`
     char names[DIALOG_MAX_NAMES][DIALOG_NAME_SIZE];

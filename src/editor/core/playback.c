@@ -94,7 +94,7 @@ void playback_change_speed(struct editor *editor, const struct editor_world *wor
     while (at < SPEEDS - 1 && speeds[at] < *speed) at++;
     at += direction;
     *speed = direction == 0 ? 1 : speeds[at < 0 ? 0 : at >= SPEEDS ? SPEEDS - 1 : at];
-    snprintf(text, sizeof text, *speed == 1 ? "Playback in real time." : "Playback at %g times real time.", *speed);
+    snprintf(text, sizeof text, *speed == 1 ? "Playback in real time." : "Playback at %g× speed.", *speed);
     editor_message(editor, false, text);
 }
 

@@ -321,9 +321,9 @@ static void show_empty(struct editor *editor, const struct editor_world *world)
     bool flat = spline && spline->knot_count == 0 && spline->parameter[PARAMETER_EQUILIBRIUM].track < 0;
     bool hidden = spline && !arrange_seen(editor, world);
     if (spline && !flat && !hidden) return;
-    const char *text = hidden ? "This spline is hidden. Its eye in the list shows it again."
+    const char *text = hidden ? "This spline is hidden. Click its eye in the list to show it."
                        : flat ? "Double-click to set the first knot."
-                              : "This scene has no splines. The + in the list at the right adds one.";
+                              : "This scene has no splines. Click + in the list on the right to add one.";
     const struct rect *plot = &editor->layout.plot;
     float x = plot->x + (plot->w - font_width(FONT_LABEL, THEME_TEXT_NORMAL, text)) / 2;
     drawlist_text(&editor->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, text);

@@ -111,7 +111,7 @@ struct rect ruler_corner(const struct editor *editor)
 void ruler_toggle(struct editor *editor)
 {
     editor->options.seconds = !editor->options.seconds;
-    editor_message(editor, false, editor->options.seconds ? "The ruler counts seconds." : "The ruler counts frames.");
+    editor_message(editor, false, editor->options.seconds ? "The ruler shows seconds." : "The ruler shows frames.");
 }
 
 static void show_units(struct editor *editor)

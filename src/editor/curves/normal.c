@@ -46,10 +46,11 @@ void normal_toggle(struct editor *editor, const struct editor_world *world)
     editor->options.normalise = !editor->options.normalise;
     normal_update(editor, world);
     view_frame_all(editor, world);
-    editor_message(editor, false,
-                   editor->options.normalise
-                       ? "Normalised: every curve as high as the active one, whose values the axis shows."
-                       : "All curves on the same axis.");
+    editor_message(
+        editor, false,
+        editor->options.normalise
+            ? "Normalised: every curve is as high as the active one. The axis shows the active curve's values."
+            : "All curves share one axis again.");
 }
 
 void normal_activate(struct editor *editor, int spline)

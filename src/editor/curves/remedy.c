@@ -55,7 +55,7 @@ static bool lower_frequency(struct editor *editor, const struct editor_world *wo
         value = round_value(value * LOWER, 0.01);
         struct edit edit = parameter_edit(editor, PARAMETER_FREQUENCY, value);
         if (!helps(editor, world, &edit, before)) continue;
-        snprintf(text, 96, "%.3g Hz keeps the swing down.", value);
+        snprintf(text, 96, "Lowered the frequency to %.3g Hz to tame the swing.", value);
         return true;
     }
     return false;
@@ -73,11 +73,11 @@ static bool tame(struct editor *editor, const struct editor_world *world, const 
                               .value = round_value(warning->remedy, resolution),
                               .stiffness = KNOT_DEFAULT_STIFFNESS};
     if (spline->parameter[PARAMETER_CALM].value < 1 && helps(editor, world, &calm, before)) {
-        snprintf(text, 96, "Calm 1 keeps the swing down.");
+        snprintf(text, 96, "Raised calm to 1 to tame the swing.");
         return true;
     }
     if (helps(editor, world, &hold, before)) {
-        snprintf(text, 96, "A knot at frame %.6g keeps the swing down.", warning->frame);
+        snprintf(text, 96, "Added a knot at frame %.6g to tame the swing.", warning->frame);
         return true;
     }
     return lower_frequency(editor, world, spline, before, text);
@@ -121,6 +121,6 @@ void warning_remedy(struct editor *editor, const struct editor_world *world, con
     if (good) {
         editor_message(editor, false, text);
     } else if (chosen.kind == WARNING_SWING) {
-        editor_message(editor, false, "Neither calm nor a knot nor a lower frequency helps here: move the knots.");
+        editor_message(editor, false, "Calm, a knot or a lower frequency would not help here. Move the knots.");
     }
 }

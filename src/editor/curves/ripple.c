@@ -19,8 +19,8 @@ void ripple_toggle(struct editor *editor, const struct editor_world *world)
     drag->stale = true;
     drag_collect(editor, spline);
     editor_message(editor, false,
-                   drag->ripple ? "Ripple: the later knots move along in time (R: they stay)."
-                                : "The later knots stay.");
+                   drag->ripple ? "Ripple on: later knots move too (R turns it off)."
+                                : "Ripple off: later knots stay.");
 }
 
 double ripple_least(const struct editor *editor, const struct document *document, const struct spline *spline)
@@ -35,5 +35,5 @@ double ripple_least(const struct editor *editor, const struct document *document
 
 void ripple_stopped(struct editor *editor)
 {
-    editor_message(editor, false, "The last knot is at the end of the range: a longer range makes room to retime.");
+    editor_message(editor, false, "The last knot has reached the end of the range. Extend the range to make room.");
 }

@@ -24,21 +24,21 @@ static void put_words(const struct warning *warning, char what[160], char remedy
 {
     switch (warning->kind) {
     case WARNING_SWING:
-        snprintf(what, 160, "From frame %.6g to %.6g the curve swings %.1f times as far as its knots.", warning->from,
+        snprintf(what, 160, "Frames %.6g to %.6g: the curve swings %.1f times as far as its knots.", warning->from,
                  warning->to, warning->amount);
-        snprintf(remedy, 96, "Click to tame it: more calm, a knot at its height, or a lower frequency.");
+        snprintf(remedy, 96, "Click to tame it with more calm, a knot at the peak or a lower frequency.");
         break;
     case WARNING_RATE:
-        snprintf(what, 160,
-                 "Swings of %.3g Hz are near half the sample rate and lose their shape (up to %.3g Hz is fine).",
+        snprintf(what, 160, "%.3g Hz is too close to half the sample rate to keep its shape (the limit is %.3g Hz).",
                  warning->amount, warning->limit);
-        snprintf(remedy, 96, "Click for %.0f substeps a frame.", warning->remedy);
+        snprintf(remedy, 96, "Click to use %.0f substeps per frame.", warning->remedy);
         break;
     case WARNING_DRIFT:
         snprintf(what, 160,
-                 "Bandwidth %.3g lets the swing drift out of phase over %.1f periods, from frame %.6g to %.6g.",
+                 "Bandwidth %.3g is too wide for the %.1f periods between frames %.6g and %.6g: the swing drifts out "
+                 "of phase.",
                  warning->limit, warning->amount, warning->from, warning->to);
-        snprintf(remedy, 96, "Click for bandwidth %.3g.", warning->remedy);
+        snprintf(remedy, 96, "Click to narrow it to %.3g.", warning->remedy);
         break;
     }
 }

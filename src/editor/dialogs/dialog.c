@@ -125,7 +125,7 @@ static void confirm(struct editor *editor)
     bool saving = dialog->kind == DIALOG_SAVE_AS;
     if (is_question(dialog)) return;
     if (!typed[0] || ends_with(typed, "/")) {
-        snprintf(dialog->error, sizeof dialog->error, "Type the name of a file.");
+        snprintf(dialog->error, sizeof dialog->error, "Type a file name.");
         return;
     }
     int length = snprintf(path, sizeof path, "%s%s", typed, saving && !ends_with(typed, ".json") ? ".json" : "");
@@ -147,7 +147,7 @@ static void unsaved_question(const struct editor *editor, struct question *quest
     question->count = sizeof answers / sizeof answers[0];
     snprintf(question->title, sizeof question->title, "%s has unsaved changes", editor->title);
     snprintf(question->note, sizeof question->note,
-             "They are lost unless you save them.  S saves, D discards, Esc cancels.");
+             "Save them, or they will be lost. S saves, D discards, Esc cancels.");
 }
 
 /// The question that is on the screen.
@@ -259,10 +259,10 @@ static void build_path(struct editor *editor)
     }
     ui_space(ui, 8);
     if (dialog->files.list) build_list(editor);
-    const char *note = saving && dialog_exists(dialog) ? "Replaces the file that is there." : "";
+    const char *note = saving && dialog_exists(dialog) ? "This replaces an existing file." : "";
     if (dialog->match_count > 0 && dialog_recent_of(dialog, 0))
-        note = "Recent files first.  Type or choose; Tab completes.";
-    if (!note[0] && dialog->files.list) note = "Tab completes, arrows choose.";
+        note = "Recent files come first. Type a path or choose one; Tab completes.";
+    if (!note[0] && dialog->files.list) note = "Tab completes, arrow keys choose.";
     ui_space(ui, 4);
     float top = ui->y;
     ui_paragraph(ui, dialog->error[0] ? dialog->error : note, dialog->error[0] ? theme()->error : theme()->text_dim);

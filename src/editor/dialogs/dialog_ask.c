@@ -15,11 +15,13 @@ static void ask_fps(struct question *question, const struct document *document, 
 {
     question->answers = fps_answers;
     question->count = sizeof fps_answers / sizeof fps_answers[0];
-    snprintf(question->title, sizeof question->title, "%g frames per second, and not %g", ask->number, document->fps);
-    snprintf(question->note, sizeof question->note,
-             "Keep frames: knots stay on their frames, and all goes %s.  Keep seconds: knots and range move to other "
-             "frames, and the motion stays.",
-             ask->number > document->fps ? "faster" : "slower");
+    snprintf(question->title, sizeof question->title, "%g frames per second instead of %g", ask->number,
+             document->fps);
+    snprintf(
+        question->note, sizeof question->note,
+        "Keep frames: knots stay on their frames, and everything goes %s. Keep seconds: knots and range move to new "
+        "frames and the timing stays.",
+        ask->number > document->fps ? "faster" : "slower");
 }
 
 static void ask_range(struct question *question, const struct document *document, const struct ask *ask)
@@ -27,10 +29,10 @@ static void ask_range(struct question *question, const struct document *document
     int count = arrange_outside(document, ask->first, ask->last);
     question->answers = range_answers;
     question->count = sizeof range_answers / sizeof range_answers[0];
-    snprintf(question->title, sizeof question->title, "%d knot%s would lie outside of %d to %d", count,
+    snprintf(question->title, sizeof question->title, "%d knot%s would fall outside frames %d to %d", count,
              count == 1 ? "" : "s", ask->first, ask->last);
     snprintf(question->note, sizeof question->note,
-             "Move: to the nearest free frames inside, in their order.  Trim: deletes them.");
+             "Move shifts them to the nearest free frames inside. Trim deletes them.");
 }
 
 static void ask_remove(struct question *question, const struct document *document, int spline)
@@ -38,12 +40,11 @@ static void ask_remove(struct question *question, const struct document *documen
     int count = reference_count(document, spline);
     question->answers = remove_answers;
     question->count = sizeof remove_answers / sizeof remove_answers[0];
-    snprintf(question->title, sizeof question->title, "%.200s is followed in %d place%s",
-             document->splines[spline].name, count, count == 1 ? "" : "s");
-    snprintf(
-        question->note, sizeof question->note,
-        "Parameters that follow it keep the value that they have at the playhead; what it bends or drives on the "
-        "stage lets go of it.");
+    snprintf(question->title, sizeof question->title, "%.200s is used in %d place%s", document->splines[spline].name,
+             count, count == 1 ? "" : "s");
+    snprintf(question->note, sizeof question->note,
+             "Parameters that follow it keep their value at the playhead. Tails and characters on the "
+             "stage stop using it.");
 }
 
 void dialog_ask(struct editor *editor, const struct editor_world *world, const struct ask *ask)

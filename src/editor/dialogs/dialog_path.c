@@ -75,7 +75,7 @@ const struct dialog_recent *dialog_recent_of(const struct dialog *dialog, int ma
 static bool take_recent(struct dialog *dialog, const struct dialog_recent *recent)
 {
     if (recent->missing) {
-        snprintf(dialog->error, sizeof dialog->error, "%.300s is not there any more.", recent->path);
+        snprintf(dialog->error, sizeof dialog->error, "%.300s no longer exists.", recent->path);
         return false;
     }
     ui_text_set(&dialog->ui.text, recent->path);
@@ -114,7 +114,7 @@ static void label_recent(struct ui *ui, struct rect r, const struct dialog_recen
     ui_label(ui, (struct rect){r.x + 6, r.y, half - 6, r.h}, slash ? slash + 1 : recent->path,
              recent->missing ? theme()->text_dim : theme()->text);
     ui_label_right(ui, (struct rect){r.x + half + UI_GAP, r.y, r.w - half - UI_GAP - 6, r.h},
-                   recent->missing ? "not there any more" : folder, theme()->text_dim);
+                   recent->missing ? "no longer exists" : folder, theme()->text_dim);
 }
 
 bool dialog_row(struct dialog *dialog, struct rect r, int match)

@@ -24,9 +24,9 @@ void dialog_recover_question(const struct editor *editor, struct question *quest
     }
     question->answers = answers;
     question->count = sizeof answers / sizeof answers[0];
-    snprintf(question->title, sizeof question->title, "Unsaved work on %s was left behind", offer->name);
-    snprintf(question->note, sizeof question->note, "Kept on %s.  Later asks again at the next start.%s", offer->when,
-             others);
+    snprintf(question->title, sizeof question->title, "Recover unsaved work on %s?", offer->name);
+    snprintf(question->note, sizeof question->note, "Last kept on %s. Later asks again at the next start.%s",
+             offer->when, others);
 }
 
 void dialog_recover_answer(struct editor *editor, int answer)

@@ -160,7 +160,7 @@ static float show_group(struct drawlist *list, struct rect r, float keys, const 
 
 static void show_title(struct drawlist *list, const struct page *page)
 {
-    const char *closing = range_of(page) > 0 ? "↑ ↓ scroll, any other key closes" : "Any key closes this";
+    const char *closing = range_of(page) > 0 ? "↑ ↓ to scroll, any other key to close" : "Press any key to close";
     const struct rect *box = &page->box;
     float left = box->x + MARGIN, width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, closing);
     float right = fmaxf(box->x + box->w - MARGIN - width, left + 90);

@@ -1,10 +1,10 @@
-/// The one list of what the live app answers to, for the overlay (F1); the README's is made after it.
+/// What the F1 overlay lists. docs/keys.md is the full table.
 #ifndef EDITOR_DIALOGS_HELP_ROWS_H
 #define EDITOR_DIALOGS_HELP_ROWS_H
 
 enum { HELP_MAX_ROWS = 12, HELP_GROUPS = 10, HELP_HELD = 5 };
 
-/// Keys are separated by ", ", "; " or two spaces; one without a Ctrl+ or Shift+ of its own may have that of the one before it.
+/// Keys are separated by ", ", "; " or two spaces; one without Ctrl+ or Shift+ may share that of the key before it.
 struct help_row {
     const char *keys, *what;
 };

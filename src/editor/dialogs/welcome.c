@@ -10,7 +10,7 @@ static const struct hint {
     const char *what, *why;
 } hints[] = {
     {"Drag a knot", "the curve hits it, and swings"},
-    {"Pull the tail", "a knot follows at the playhead"},
+    {"Pull the tail", "this sets a knot at the playhead"},
     {"Hold F, press ↑", "it swings faster"},
 };
 

@@ -19,17 +19,18 @@ static bool has_character(const struct inspection *in) { return document_charact
 static const struct section {
     const char *name, *title;
     void (*build)(struct inspection *in);
+    void (*lists)(struct inspection *in);       ///< that it has opened over the panel; NULL: none
     bool (*shown)(const struct inspection *in); ///< NULL: always
     bool closed;                                ///< at first
 } sections[] = {
-    {"section.scene", "Scene", inspector_scene, NULL, true},
-    {"section.splines", "Splines", inspector_splines, NULL, false},
-    {"section.spline", "Spline", inspector_spline, has_spline, false},
-    {"section.poles", "Poles and response", inspector_poles, has_spline, true},
-    {"section.knot", "Knot", inspector_knot, has_spline, false},
-    {"section.tail", "Tail", inspector_tail, has_tail, false},
-    {"section.character", "Character", inspector_character, has_character, false},
-    {"section.history", "History", inspector_history, NULL, true}, // the last one: see there
+    {"section.scene", "Scene", inspector_scene, NULL, NULL, true},
+    {"section.splines", "Splines", inspector_splines, inspector_palette, NULL, false},
+    {"section.spline", "Spline", inspector_spline, inspector_follow_list, has_spline, false},
+    {"section.poles", "Poles and response", inspector_poles, NULL, has_spline, true},
+    {"section.knot", "Knot", inspector_knot, NULL, has_spline, false},
+    {"section.tail", "Tail", inspector_tail, inspector_tail_lists, has_tail, false},
+    {"section.character", "Character", inspector_character, inspector_character_lists, has_character, false},
+    {"section.history", "History", inspector_history, NULL, NULL, true}, // the last one: see there
 };
 
 _Static_assert(sizeof sections / sizeof sections[0] <= INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
@@ -66,7 +67,7 @@ static void build_look(struct inspection *in, struct rect footer)
         drawlist_rect(ui->list, footer, theme()->panel);
         drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
     }
-    if (ui_hovered(ui, footer)) ui->hint = "The same knots: wiggly, without lag, or as a classical cubic (V)";
+    if (ui_hovered(ui, footer)) ui->hint = "Compare the same knots: wiggly, without lag, or as a cubic (V)";
     int look = (int)in->editor->look;
     if (ui_segments(ui, r, "look", looks, 3, &look)) editor_set_look(in->editor, (enum look)look);
 }
@@ -80,11 +81,9 @@ static void build(struct inspection *in, struct rect area)
     ui_space(ui, 4);
     ui_scroll_end(ui);
     build_look(in, (struct rect){area.x, area.y + view.h, area.w, FOOTER});
-    inspector_palette(in);
-    inspector_follow_list(in);
-    inspector_character_lists(in);
-    inspector_feed_list(in);
-    inspector_place_list(in);
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+        if (sections[i].lists) sections[i].lists(in);
+    }
 }
 
 static struct inspection inspection_of(struct editor *editor, const struct editor_world *world)

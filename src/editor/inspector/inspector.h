@@ -36,8 +36,7 @@ void inspector_knots(struct inspection *in);
 void inspector_palette(struct inspection *in);
 void inspector_follow_list(struct inspection *in);
 /// The list of splines that may bend a tail, and the one that its body may follow.
-void inspector_feed_list(struct inspection *in);
-void inspector_place_list(struct inspection *in);
+void inspector_tail_lists(struct inspection *in);
 
 /// A row in which a parameter follows a spline, in place of its slider; and the button at its right that lets it follow one
 /// or lets go.

@@ -9,12 +9,13 @@
 enum { SWITCH = 26 }; ///< width of the button between one and each
 
 const struct angle_row angle_row_lag = {
-    ANGLE_LAG, "lag", "How much later each joint follows, in degrees of swing (hold L, arrows)", "Set lag", 0, 30,
+    ANGLE_LAG, "lag", "How far each joint lags behind the last, in degrees of swing (hold L and press ↑ ↓)",
+    "Set lag", 0,     30,
     6.5,       0.5};
 const struct angle_row angle_row_gain = {
-    ANGLE_GAIN, "gain", "How far a joint bends at a spline value of 1", "Set gain", 0, 20, 5, 0.5};
+    ANGLE_GAIN, "gain", "How far each joint bends when the spline is 1", "Set gain", 0, 20, 5, 0.5};
 const struct angle_row angle_row_rest = {
-    ANGLE_REST, "rest", "Curl of the tail without motion; a joint's bend upwards", "Set rest pose", -15, 15, 0, 0.5};
+    ANGLE_REST, "rest", "Upward bend of each joint at rest", "Set rest pose", -15, 15, 0, 0.5};
 
 /// Joint with the largest angle: what a slider shows and sets where there is one angle a joint.
 static int peak_joint(const struct angles *angles, int joints)
@@ -104,8 +105,8 @@ static void build_end(struct inspection *in, const struct angle_row *row, const 
     snprintf(name, sizeof name, "%s.%s", row->name, last ? "last" : "first");
     const struct ui_number number = {.name = name,
                                      .unit = "°",
-                                     .hint = last ? "The last joint's; those between are filled in"
-                                                  : "The first joint's; those between are filled in",
+                                     .hint = last ? "For the last joint; the joints between are interpolated"
+                                                  : "For the first joint; the joints between are interpolated",
                                      .lowest = -36000,
                                      .highest = 36000,
                                      .fallback = NAN,
@@ -151,7 +152,7 @@ static void build_list(struct inspection *in, const struct angle_row *row, const
     char name[32], text[UI_TEXT_SIZE];
     snprintf(name, sizeof name, "%s.list", row->name);
     if (!ui_line_is_open(in->ui, name)) {
-        if (ui_hovered(in->ui, r)) in->ui->hint = "Type one number for each joint, with commas between them";
+        if (ui_hovered(in->ui, r)) in->ui->hint = "Type one number per joint, separated by commas";
         print_list(angles, joints, text, sizeof text);
         if (ui_button(in->ui, r, name, "List", false)) ui_line_begin(in->ui, name, text);
         return;
@@ -163,7 +164,7 @@ static void build_list(struct inspection *in, const struct angle_row *row, const
         editor_step(in->editor, in->world, row->undo, 0, &edit);
         return;
     }
-    snprintf(text, sizeof text, "%s: expected one number for each of the %d joints.", row->name, joints);
+    snprintf(text, sizeof text, "%s: expected %d numbers, one per joint.", row->name, joints);
     editor_message(in->editor, true, text);
 }
 
@@ -175,7 +176,7 @@ void inspector_angles(struct inspection *in, const struct angle_row *row, const 
     char name[32];
     build_slider(in, row, angles, joints, (struct rect){r.x, r.y, r.w - SWITCH - 4, r.h});
     snprintf(name, sizeof name, "%s.each", row->name);
-    if (ui_hovered(ui, right)) ui->hint = angles->each ? "One angle for all joints" : "One angle for each joint";
+    if (ui_hovered(ui, right)) ui->hint = angles->each ? "Use one angle for all joints" : "Use one angle per joint";
     if (ui_button(ui, right, name, angles->each ? "n" : "1", false)) {
         struct angles next = converted(angles, row->kind, joints);
         struct edit edit = angles_edit(in, row, &next);

@@ -42,20 +42,19 @@ void inspector_brush(struct inspection *in)
     struct brush *brush = &in->editor->brush;
     struct rect r = inspector_labelled(in, "paint");
     int on = brush->on;
-    if (ui_hovered(in->ui, r)) in->ui->hint = "Phase and amplitude by hand, on the character's surface (K)";
+    if (ui_hovered(in->ui, r)) in->ui->hint = "Paint phase and amplitude onto the character (K)";
     if (ui_segments(in->ui, r, "paint", switches, 2, &on)) brush_set(in->editor, in->world, on);
     const struct character_rig *rig = characters_selected(in->editor, in->world);
     if (brush->on) {
-        build_modes(in, "phase", "Move earlier, later, or as the surface around does", BRUSH_ADVANCE, phase, 3);
-        build_modes(in, "swing", "Swing further, less far, or as far as the surface around", BRUSH_MORE, amplitude,
-                    3);
-        build_modes(in, "erase", "Back to what the model says", BRUSH_ERASE, erase, 1);
-        build_share(in, "radius", "Of the character's height (Ctrl+wheel on the stage)", 0.12, 0.01, 0.5,
-                    &brush->radius);
+        build_modes(in, "phase", "Move earlier, later, or blend with the surroundings", BRUSH_ADVANCE, phase, 3);
+        build_modes(in, "swing", "Swing more, less, or blend with the surroundings", BRUSH_MORE, amplitude, 3);
+        build_modes(in, "erase", "Remove paint and restore the model", BRUSH_ERASE, erase, 1);
+        build_share(in, "radius", "Radius, relative to the character's height (Ctrl+wheel on the stage)", 0.12, 0.01,
+                    0.5, &brush->radius);
         build_share(in, "strength", "How fast paint flows (Shift+wheel on the stage)", 0.4, 0.02, 1,
                     &brush->strength);
     }
     if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
-    if (ui_button(in->ui, ui_row(in->ui, UI_ROW), "paint.clean", "Take all paint off", false))
+    if (ui_button(in->ui, ui_row(in->ui, UI_ROW), "paint.clean", "Remove all paint", false))
         brush_clean(in->editor, in->world);
 }

@@ -25,7 +25,7 @@ static void build_list(struct inspection *in, const struct tail *tail)
         const char *axis = channel->axis == AXIS_SIDE ? "sideways" : "up and down";
         snprintf(text, sizeof text, "%s, %s", in->document->splines[channel->spline].name, axis);
         struct rect r = ui_row(ui, UI_ROW);
-        if (ui_hovered(ui, r)) ui->hint = "A spline that bends this tail";
+        if (ui_hovered(ui, r)) ui->hint = "One of the splines that bend this tail";
         uint32_t color = arrange_color(in->document, channel->spline);
         if (ui_list_row(ui, r, name, text, color, c == in->editor->inspector.channel)) {
             in->editor->inspector.channel = c;
@@ -36,8 +36,7 @@ static void build_list(struct inspection *in, const struct tail *tail)
 static void build_buttons(struct inspection *in, const struct tail *tail)
 {
     struct rect r = inspector_labelled(in, "channel"), icon = {r.x - 2, r.y, ICON, r.h};
-    if (ui_icon_button(in->ui, icon, "channel.add", UI_ICON_ADD, false,
-                       "The active spline bends this tail as well")) {
+    if (ui_icon_button(in->ui, icon, "channel.add", UI_ICON_ADD, false, "Bend this tail by the active spline too")) {
         struct edit edit = channel_edit(in, EDIT_CHANNEL_ADD);
         if (editor_step(in->editor, in->world, "Add channel", 0, &edit)) {
             in->editor->inspector.channel = in->document->rigs[edit.rig].tail.channel_count - 1;
@@ -46,7 +45,7 @@ static void build_buttons(struct inspection *in, const struct tail *tail)
     }
     icon.x += ICON + 6;
     if (tail->channel_count == 0) return;
-    if (ui_icon_button(in->ui, icon, "channel.delete", UI_ICON_DELETE, false, "Takes this channel away")) {
+    if (ui_icon_button(in->ui, icon, "channel.delete", UI_ICON_DELETE, false, "Delete this channel")) {
         struct edit edit = channel_edit(in, EDIT_CHANNEL_REMOVE);
         editor_step(in->editor, in->world, "Delete channel", 0, &edit);
     }
@@ -65,7 +64,7 @@ static void build_choices(struct inspection *in, const struct channel *channel)
         editor_step(in->editor, in->world, "Set axis", 0, &edit);
     }
     struct rect r = inspector_labelled(in, "bends by");
-    if (ui_hovered(ui, r)) ui->hint = "The whole value, or x without the equilibrium: for a tail whose base moves";
+    if (ui_hovered(ui, r)) ui->hint = "Total, or displacement only: use that for a tail on a moving base";
     if (ui_segments(ui, r, "part", parts, 2, &part)) {
         struct edit edit = channel_edit(in, EDIT_PART);
         edit.of = (enum channel_part)part;

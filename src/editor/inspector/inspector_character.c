@@ -48,11 +48,11 @@ static void build_drives(struct inspection *in, const struct character_rig *rig)
         snprintf(remove, sizeof remove, "drive.%d.remove", k);
         snprintf(text, sizeof text, "%.60s, by %.60s", drive->name, in->document->splines[drive->spline].name);
         r.w -= r.h + 4;
-        if (ui_hovered(ui, r)) ui->hint = "A way in which this character swings";
+        if (ui_hovered(ui, r)) ui->hint = "One of the ways this character swings";
         const uint32_t color = arrange_color(in->document, drive->spline);
         if (ui_list_row(ui, r, name, text, color, k == in->editor->characters.drive))
             in->editor->characters.drive = k;
-        if (ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Stop moving the character in this way")) {
+        if (ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this coordinate")) {
             struct edit edit = drive_edit(in, EDIT_DRIVE_REMOVE, drive);
             edit.channel = k;
             editor_step(in->editor, in->world, "Remove coordinate", 0, &edit);
@@ -65,7 +65,7 @@ static void build_numbers(struct inspection *in, const struct drive *drive)
 {
     static const struct ui_number amplitude_row = {.name = "amplitude",
                                                    .label = "amplitude",
-                                                   .hint = "How far it swings at a spline value of 1",
+                                                   .hint = "How far it swings when the spline is 1",
                                                    .minimum = -2,
                                                    .maximum = 2,
                                                    .lowest = -INSPECTOR_NO_LIMIT,
@@ -76,7 +76,7 @@ static void build_numbers(struct inspection *in, const struct drive *drive)
     static const struct ui_number lag_row = {.name = "drive.lag",
                                              .label = "lag",
                                              .unit = "°",
-                                             .hint = "How much later than the spline it swings; 360 is a full swing",
+                                             .hint = "How far it lags behind the spline; 360 is a full swing",
                                              .minimum = -180,
                                              .maximum = 180,
                                              .lowest = -36000,
@@ -98,7 +98,7 @@ static void build_spline(struct inspection *in, const struct drive *drive)
 {
     struct rect r = inspector_labelled(in, "spline");
     const uint32_t color = arrange_color(in->document, drive->spline);
-    if (ui_hovered(in->ui, r)) in->ui->hint = "The spline that this coordinate swings by";
+    if (ui_hovered(in->ui, r)) in->ui->hint = "The spline that drives this coordinate";
     ui_dropdown(in->ui, r, spline_list, 0, in->document->splines[drive->spline].name, color);
 }
 
@@ -133,13 +133,13 @@ static void build_looks(struct inspection *in)
     struct character_view *view = &in->editor->characters;
     struct rect r = inspector_labelled(in, "phases");
     int map = view->mapped ? 1 + view->axis : 0, pair = view->compare;
-    if (ui_hovered(in->ui, r)) in->ui->hint = "Colours say how far ahead each point moves along x, y or z";
+    if (ui_hovered(in->ui, r)) in->ui->hint = "Colour each point by its phase along x, y or z";
     if (ui_segments(in->ui, r, "phases", maps, 4, &map)) {
         view->mapped = map > 0;
         if (map > 0) view->axis = map - 1;
     }
     r = inspector_labelled(in, "stiff twin");
-    if (ui_hovered(in->ui, r)) in->ui->hint = "The same character moved by real parts alone, all points in step";
+    if (ui_hovered(in->ui, r)) in->ui->hint = "Show the character with real parts only: every point moves in step";
     if (ui_segments(in->ui, r, "twin", pairs, 2, &pair)) {
         view->compare = pair;
         stage_fit(in->editor, in->world);
@@ -152,7 +152,7 @@ static void build_facts(struct inspection *in)
     const struct coordinate *c = characters_coordinate(in->editor, in->world);
     char text[160];
     if (!c) {
-        ui_paragraph(in->ui, "The model has no such coordinate.", theme()->text_dim);
+        ui_paragraph(in->ui, "The model lacks this coordinate.", theme()->text_dim);
     } else if (c->frequency > 0) {
         snprintf(text, sizeof text,
                  "Found at %.2f Hz, damping %.3f. Explains %.0f %%; real PCA %.0f, its first two %.0f %%.",

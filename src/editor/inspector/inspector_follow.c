@@ -37,7 +37,7 @@ static void open_list(struct inspection *in, enum parameter parameter, struct re
         return;
     }
     char text[160];
-    snprintf(text, sizeof text, "There is no other spline that %.80s could follow.",
+    snprintf(text, sizeof text, "There is no other spline for %.80s to follow.",
              in->document->splines[in->editor->active].name);
     editor_message(in->editor, true, text);
 }
@@ -50,7 +50,7 @@ void inspector_track(struct inspection *in, enum parameter parameter, const char
     ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
     snprintf(text, sizeof text, "%s", in->document->splines[track].name);
     struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
-    if (ui_hovered(in->ui, field)) in->ui->hint = "Follows this spline at every sample";
+    if (ui_hovered(in->ui, field)) in->ui->hint = "The spline it follows, sample by sample";
     ui_dropdown(in->ui, field, follow_list, (int)parameter, text, arrange_color(in->document, track));
 }
 
@@ -59,7 +59,7 @@ void inspector_follow_button(struct inspection *in, enum parameter parameter, st
     int active = in->editor->active;
     bool follows = in->document->splines[active].parameter[parameter].track >= 0;
     enum ui_icon icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW;
-    const char *hint = follows ? "Stops following; keeps the value at the playhead" : "Follows another spline";
+    const char *hint = follows ? "Stop following; keep the value at the playhead" : "Follow another spline";
     char name[64];
     snprintf(name, sizeof name, "follow.%s", parameter_rows[parameter].name);
     if (!ui_icon_button(in->ui, r, name, icon, false, hint)) return;

@@ -26,7 +26,7 @@ static void build_frame(struct inspection *in, const struct spline *spline, cons
     bool whole = knot->frame == floor(knot->frame);
     struct ui_number number = {.name = "frame",
                                .label = "frame",
-                               .hint = "When the knot is reached",
+                               .hint = "Frame of the knot",
                                .lowest = document->first_frame,
                                .highest = document_frame(document, last),
                                .fallback = NAN,
@@ -42,7 +42,7 @@ static void build_value(struct inspection *in, const struct knot *knot)
 {
     struct ui_number number = {.name = "value",
                                .label = "value",
-                               .hint = "What the curve is at this knot, exactly",
+                               .hint = "Value of the knot; the curve hits it exactly",
                                .lowest = -INSPECTOR_NO_LIMIT,
                                .highest = INSPECTOR_NO_LIMIT,
                                .fallback = 0,
@@ -58,7 +58,7 @@ static void build_slope(struct inspection *in, const struct knot *knot)
     struct ui *ui = in->ui;
     struct rect r = inspector_labelled(in, "slope");
     struct knot next = *knot;
-    if (ui_hovered(ui, r)) ui->hint = "Whether the knot also asks for a slope (T); D and E turn it";
+    if (ui_hovered(ui, r)) ui->hint = "Give the knot a slope (T); D and E turn it";
     if (ui_toggle(ui, r, "has_slope", &next.has_slope)) {
         toggle_slope(in->editor, in->world); // the knot is the only selected one
         return;
@@ -70,7 +70,7 @@ static void build_slope(struct inspection *in, const struct knot *knot)
     }
     struct ui_number number = {.name = "slope",
                                .unit = "/s",
-                               .hint = "Change of the value in a second (D, E)",
+                               .hint = "Change per second (D, E)",
                                .lowest = -INSPECTOR_NO_LIMIT,
                                .highest = INSPECTOR_NO_LIMIT,
                                .fallback = 0,
@@ -85,7 +85,7 @@ static void build_stiffness(struct inspection *in, const struct knot *knot)
     struct ui_number number = {.name = "stiffness",
                                .label = "stiffness",
                                .unit = "1/s",
-                               .hint = "How firmly the slope is kept; 1000 is firm (Shift+D, Shift+E)",
+                               .hint = "How firmly the slope holds; 1000 is firm (Shift+D, Shift+E)",
                                .lowest = 0.001,
                                .highest = INSPECTOR_NO_LIMIT,
                                .fallback = 1000,
@@ -104,9 +104,9 @@ static void build_slopes(struct inspection *in)
         const char *name, *label, *hint;
         void (*run)(struct editor *editor, const struct editor_world *world);
     } buttons[] = {
-        {"slope.flat", "Flat", "Level slopes (Shift+T)", flatten_slopes},
-        {"slope.smooth", "Smooth", "Slopes towards the neighbours, after Catmull and Rom (Ctrl+T)", smooth_slopes},
-        {"slope.switch", "On, off", "Slopes on, as the curve runs there, or off (T)", toggle_slope},
+        {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", flatten_slopes},
+        {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", smooth_slopes},
+        {"slope.switch", "On, off", "Switch slopes on, along the curve, or off (T)", toggle_slope},
     };
     struct ui *ui = in->ui;
     struct rect r = ui_row(ui, UI_ROW);

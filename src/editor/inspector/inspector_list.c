@@ -32,13 +32,13 @@ static void build_visibility(struct inspection *in, int s, struct rect r)
     bool solo = selection_has(&editor->solo, spline->id), shown = arrange_shows(editor, in->document, s);
     struct rect icon = {r.x + r.w - 2 * ICON, r.y, ICON, r.h};
     snprintf(name, sizeof name, "solo.%s", spline->name);
-    if (ui_icon_button(in->ui, icon, name, UI_ICON_SOLO, solo, "Shows this curve and no others")) {
+    if (ui_icon_button(in->ui, icon, name, UI_ICON_SOLO, solo, "Show only this curve")) {
         flip(editor, &editor->solo, spline->id);
     }
     icon.x += ICON;
     snprintf(name, sizeof name, "eye.%s", spline->name);
     enum ui_icon eye = shown ? UI_ICON_EYE : UI_ICON_EYE_CLOSED;
-    if (ui_icon_button(in->ui, icon, name, eye, false, "Shows or hides this curve")) {
+    if (ui_icon_button(in->ui, icon, name, eye, false, "Show or hide this curve")) {
         flip(editor, &editor->hidden, spline->id);
     }
 }
@@ -71,7 +71,7 @@ static bool build_row(struct inspection *in, int s, struct rect r)
     if (active && ui_line_is_open(ui, rename_line)) {
         build_rename(in, s, label);
     } else {
-        if (ui_hovered(ui, label)) ui->hint = "Click to edit this spline (PgUp, PgDn), F2 renames, drag reorders";
+        if (ui_hovered(ui, label)) ui->hint = "Click to edit (PgUp, PgDn), F2 to rename, drag to reorder";
         enum ui_row_event event = ui_sort_row(ui, r, label, name, spline->name, active);
         if (event == UI_ROW_PRESSED) editor_activate(in->editor, in->world, s);
         if (event == UI_ROW_TWICE) {
@@ -94,7 +94,7 @@ static void build_buttons(struct inspection *in)
         const char *name, *hint;
         enum ui_icon icon;
     } buttons[] = {
-        {"spline.add", "New spline, its first knot at the playhead", UI_ICON_ADD},
+        {"spline.add", "Add a spline with a knot at the playhead", UI_ICON_ADD},
         {"spline.copy", "Duplicate this spline", UI_ICON_COPY},
         {"spline.delete", "Delete this spline", UI_ICON_DELETE},
         {"spline.up", "Move this spline up", UI_ICON_UP},
@@ -143,7 +143,7 @@ void inspector_splines(struct inspection *in)
     if (dropped >= 0) arrange_move(in->editor, in->world, dropped, to);
     if (count > MAX_ROWS) {
         char text[64];
-        snprintf(text, sizeof text, "%d of %d splines; PgUp and PgDn go on", MAX_ROWS, count);
+        snprintf(text, sizeof text, "%d of %d splines; PgUp and PgDn show more", MAX_ROWS, count);
         ui_paragraph(ui, text, theme()->text_dim);
     }
     build_buttons(in);

@@ -47,7 +47,7 @@ static void build_typed(struct inspection *in, int spline, struct rect r)
     if (color_parse(ui->text.bytes, &color)) {
         set_color(in, spline, color);
     } else {
-        snprintf(ui->complaint, sizeof ui->complaint, "colour: expected one such as #FFB000, got “%.40s”",
+        snprintf(ui->complaint, sizeof ui->complaint, "colour: expected something like #FFB000, got “%.40s”",
                  ui->text.bytes);
     }
 }

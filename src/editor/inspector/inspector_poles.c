@@ -107,11 +107,11 @@ static void build_inset(struct inspection *in, const struct spline *spline, cons
     float y = poles_y(view, inset, setting->damping);
     double spread = setting->hz * setting->bandwidth;
     struct ui_handle handles[HANDLES] = {
-        [HANDLE_CENTRE] = {"pole.centre", "Frequency across, damping up (Shift: fine)",
+        [HANDLE_CENTRE] = {"pole.centre", "Drag sideways for frequency, up for damping (Shift: fine)",
                            poles_x(view, inset, setting->hz), y, 0, 0},
-        [HANDLE_LOWER] = {"pole.lower", "A pole: across opens the band, up is damping",
+        [HANDLE_LOWER] = {"pole.lower", "Pole: drag sideways for bandwidth, up for damping",
                           poles_x(view, inset, setting->hz - spread), y, 0, 0},
-        [HANDLE_UPPER] = {"pole.upper", "A pole: across opens the band, up is damping",
+        [HANDLE_UPPER] = {"pole.upper", "Pole: drag sideways for bandwidth, up for damping",
                           poles_x(view, inset, setting->hz + spread), y, 0, 0}};
     int which = 0, count = setting->kind == FILTER_TWO_COMPLEX ? HANDLES : 1;
     if (in->ui->pass == UI_PASS_DRAW) poles_draw_inset(view, setting, inset, in->ui->list);
@@ -139,7 +139,7 @@ void inspector_poles(struct inspection *in)
     struct spline *spline = editor_active_spline(in->editor, in->world);
     struct pole_setting setting = setting_of(in, spline);
     if (spline_mode(spline) == WIGGLY_CUBIC || !(setting.hz > 0)) {
-        ui_paragraph(ui, "Both poles at 1, at frequency 0: a cubic has no swing of its own.", theme()->text_dim);
+        ui_paragraph(ui, "Both poles are at 1 (frequency 0): a cubic does not swing by itself.", theme()->text_dim);
         return;
     }
     if (!is_held(ui)) poles_fit(view, &setting);
@@ -148,7 +148,7 @@ void inspector_poles(struct inspection *in)
     struct rect top = ui_row(ui, CIRCLE);
     struct rect circle = {top.x, top.y, CIRCLE, CIRCLE};
     if (ui_hovered(ui, circle))
-        ui->hint = "The unit circle: poles inside it are stable; angle is frequency, depth damping";
+        ui->hint = "Unit circle: poles inside are stable; angle is frequency, distance from the rim damping";
     if (ui->pass == UI_PASS_DRAW) {
         struct rect legend = {top.x + CIRCLE + UI_GAP, top.y, top.w - CIRCLE - UI_GAP, CIRCLE};
         poles_draw_circle(&setting, circle, ui->list);
@@ -158,7 +158,7 @@ void inspector_poles(struct inspection *in)
     build_inset(in, spline, &setting);
     ui_space(ui, 4);
     struct rect response = ui_row(ui, RESPONSE);
-    if (ui_hovered(ui, response)) ui->hint = "Response in dB over Hz: the complex filter keeps out what is slow";
+    if (ui_hovered(ui, response)) ui->hint = "Response in dB over Hz: the complex filter rejects low frequencies";
     if (ui->pass == UI_PASS_DRAW) poles_draw_response(view, response, ui->list);
     ui_space(ui, 4);
 }

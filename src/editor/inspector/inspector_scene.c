@@ -51,7 +51,7 @@ static void build_substeps(struct inspection *in)
     int substeps = in->document->substeps;
     struct ui_number number = {.name = "scene.substeps",
                                .label = "substeps",
-                               .hint = "Samples a frame, for motion blur",
+                               .hint = "Samples per frame, for motion blur",
                                .lowest = 1,
                                .highest = SCENE_MAX_SUBSTEPS,
                                .fallback = 1,
@@ -70,7 +70,7 @@ void inspector_scene(struct inspection *in)
     struct ui_number rate = {.name = "scene.fps",
                              .label = "rate",
                              .unit = "fps",
-                             .hint = "Frames per second; asks whether frames or seconds are kept",
+                             .hint = "Frames per second; asks whether to keep frames or seconds",
                              .lowest = 0.001,
                              .highest = SCENE_MAX_FPS,
                              .fallback = 24,
@@ -87,7 +87,7 @@ void inspector_scene(struct inspection *in)
     if (build_whole(in, end, &first)) arrange_range(in->editor, in->world, first, last);
     end.name = "scene.last";
     end.label = "last";
-    end.hint = "Last frame of the scene; a loop's is its first again";
+    end.hint = "Last frame of the scene; in a loop it repeats the first";
     if (build_whole(in, end, &last)) arrange_range(in->editor, in->world, document->first_frame, last);
     build_substeps(in);
 }

@@ -72,7 +72,7 @@ static void build_spring_toggle(struct inspection *in, const struct spline *spli
     bool on = spline->spring_friction;
     struct rect r = ui_row(in->ui, UI_ROW);
     ui_label(in->ui, (struct rect){r.x, r.y, r.w - 40, r.h}, "spring and friction", theme()->text_dim);
-    if (ui_hovered(in->ui, r)) in->ui->hint = "Spring constant and friction in place of frequency and damping";
+    if (ui_hovered(in->ui, r)) in->ui->hint = "Use spring constant and friction instead of frequency and damping";
     r = (struct rect){r.x + r.w - 28, r.y, 28, r.h};
     if (!ui_toggle(in->ui, r, "spring_friction", &on)) return;
     struct edit edit = editor_edit_of(EDIT_SPRING, in->editor->active);
@@ -90,13 +90,13 @@ static void build_settling(struct inspection *in, const struct spline *spline)
     case SETTLE_UNKNOWN:
         return;
     case SETTLE_NEVER:
-        snprintf(text, sizeof text, "Rings for ever.");
+        snprintf(text, sizeof text, "Rings forever.");
         break;
     case SETTLE_CUBIC:
-        snprintf(text, sizeof text, "Frequency 0: a plain cubic.");
+        snprintf(text, sizeof text, "Frequency 0 makes it a plain cubic.");
         break;
     case SETTLE_LATE:
-        snprintf(text, sizeof text, "Settles to 5 %% in more than %d s.", SETTLE_LIMIT);
+        snprintf(text, sizeof text, "Takes more than %d s to settle to 5 %%.", SETTLE_LIMIT);
         break;
     case SETTLE_MEASURED:
         snprintf(text, sizeof text, "Settles to 5 %% in %.2f s (%.0f frames).", settling.seconds, frames);
@@ -119,8 +119,7 @@ static void build_warnings(struct inspection *in, const struct spline *spline)
     bool poles = spline_mode(spline) != WIGGLY_CUBIC && !spline->spring_friction && p[PARAMETER_FREQUENCY].track < 0;
     if (poles && highest > limit) {
         char text[128];
-        snprintf(text, sizeof text, "Faster than half the sample rate (%g Hz): the swing is not seen as it is.",
-                 limit);
+        snprintf(text, sizeof text, "Faster than half the sample rate (%g Hz): the swing aliases.", limit);
         ui_paragraph(in->ui, text, theme()->warning);
     }
 }
@@ -140,7 +139,7 @@ void inspector_spline(struct inspection *in)
         build_parameter(in, spline, p);
         if (p == PARAMETER_MODE) ui_space(in->ui, 4);
         if (p == PARAMETER_MODE && spline_mode(spline) == WIGGLY_CUBIC)
-            ui_paragraph(in->ui, "The classical spline: smooth through the knots, without swing.", theme()->text_dim);
+            ui_paragraph(in->ui, "The classical spline: smooth through the knots, with no swing.", theme()->text_dim);
         if (p == PARAMETER_DAMPING || p == PARAMETER_FRICTION) build_pair(in, spline);
     }
     build_warnings(in, spline);

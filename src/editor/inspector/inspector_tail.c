@@ -39,7 +39,7 @@ static void build_name(struct inspection *in)
     struct rect r = inspector_labelled(in, "name");
     if (!ui_line_is_open(in->ui, rename_line)) {
         struct rect field = {r.x, r.y + 2, r.w, r.h - 4};
-        if (ui_hovered(in->ui, field)) in->ui->hint = "Click to type another name";
+        if (ui_hovered(in->ui, field)) in->ui->hint = "Click to rename";
         if (ui_button(in->ui, field, "tail.name", rig->name, false)) ui_line_begin(in->ui, rename_line, rig->name);
     } else if (ui_line(in->ui, r, rename_line) == UI_LINE_DONE) {
         struct edit edit = tail_edit(in, EDIT_TAIL_NAME);
@@ -53,7 +53,7 @@ static void build_buttons(struct inspection *in)
     struct inspector *inspector = &in->editor->inspector;
     struct rect r = inspector_labelled(in, "tail"), icon = {r.x - 2, r.y, ICON, r.h};
     bool any = document_tail(in->document, 0) != NULL;
-    const char *hint = any ? "Another tail like this one, beside it" : "A tail, bent by the active spline";
+    const char *hint = any ? "Duplicate this tail" : "Add a tail bent by the active spline";
     if (ui_icon_button(in->ui, icon, "tail.add", UI_ICON_ADD, false, hint)) {
         struct edit edit = tail_edit(in, EDIT_TAIL_ADD);
         if (!editor_step(in->editor, in->world, "Add tail", 0, &edit)) return;
@@ -62,7 +62,7 @@ static void build_buttons(struct inspection *in)
         return;
     }
     icon.x += ICON + 6;
-    if (!any || !ui_icon_button(in->ui, icon, "tail.delete", UI_ICON_DELETE, false, "Takes this tail away")) return;
+    if (!any || !ui_icon_button(in->ui, icon, "tail.delete", UI_ICON_DELETE, false, "Delete this tail")) return;
     struct edit edit = tail_edit(in, EDIT_TAIL_REMOVE);
     editor_step(in->editor, in->world, "Delete tail", 0, &edit);
 }
@@ -84,14 +84,16 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
         ui_dropdown(in->ui, field, place_list, k, in->document->splines[param->track].name,
                     arrange_color(in->document, param->track));
         wiggly_value now = curves_solved(in->world, param->track, in->editor->playback.position);
-        if (!ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false, "Stays where it is now")) return;
+        if (!ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false,
+                            "Stop following; stay at the current position"))
+            return;
         edit.param = (struct param){round_value(now.y + now.re, 1e-3), -1};
         editor_step(in->editor, in->world, "Stop following", 0, &edit);
         return;
     }
     const char *names[] = {"position.x", "position.y", "position.z"};
-    const char *hints[] = {"Where the body stands along x", "Where the body stands along y",
-                           "Where the body stands along z"};
+    const char *hints[] = {"Position of the body along x", "Position of the body along y",
+                           "Position of the body along z"};
     const struct ui_number number = {.name = names[k],
                                      .label = coordinate_name(k),
                                      .unit = "m",
@@ -104,12 +106,12 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
     enum ui_change change = ui_value(in->ui, r, &number, &edit.param.value);
     if (change != UI_NONE) inspector_change(in, change, "Move body", names[k], &edit);
     if (in->document->spline_count == 0) return;
-    if (ui_icon_button(in->ui, icon, button, UI_ICON_FOLLOW, false, "Follows a spline, in metres")) {
+    if (ui_icon_button(in->ui, icon, button, UI_ICON_FOLLOW, false, "Follow a spline (in metres)")) {
         ui_popup_open(in->ui, place_list, k, field);
     }
 }
 
-void inspector_place_list(struct inspection *in)
+static void place_popup(struct inspection *in)
 {
     const struct inspector *inspector = &in->editor->inspector;
     const struct tail *tail = document_tail(in->document, inspector->tail);
@@ -130,11 +132,17 @@ void inspector_place_list(struct inspection *in)
     editor_step(in->editor, in->world, "Follow spline", 0, &edit);
 }
 
+void inspector_tail_lists(struct inspection *in)
+{
+    inspector_feed_list(in);
+    place_popup(in);
+}
+
 static void build_size(struct inspection *in, const struct tail *tail)
 {
     static const struct ui_number joints = {.name = "joints",
                                             .label = "joints",
-                                            .hint = "More joints bend finer; the tail keeps its shape and its swing",
+                                            .hint = "More joints bend more smoothly; shape and swing stay the same",
                                             .minimum = 1,
                                             .maximum = 64,
                                             .lowest = 1,
@@ -144,7 +152,7 @@ static void build_size(struct inspection *in, const struct tail *tail)
     static const struct ui_number length = {.name = "length",
                                             .label = "length",
                                             .unit = "m",
-                                            .hint = "Length of the tail; the body goes with it",
+                                            .hint = "Length of the tail; the body scales with it",
                                             .minimum = 0.2,
                                             .maximum = 4,
                                             .lowest = 1e-3,
@@ -175,10 +183,10 @@ static void build_view(struct inspection *in)
         const char *name, *label, *hint;
         bool *on;
     } toggles[] = {
-        {"record", "record", "The next drag of the body becomes knots that its position follows (R while dragging)",
+        {"record", "record", "Record the next drag of the body as knots (or press R while dragging)",
          &editor->record.armed},
-        {"onion", "onion skin", "The tail at the knots around the playhead (O)", &editor->overlays.onion},
-        {"trail", "motion arc", "The way of the tip, a mark a frame (P)", &editor->overlays.trail},
+        {"onion", "onion skin", "Show the tail at the knots around the playhead (O)", &editor->overlays.onion},
+        {"trail", "motion arc", "Show the path of the tip, one mark per frame (P)", &editor->overlays.trail},
     };
     for (size_t i = 0; i < sizeof toggles / sizeof toggles[0]; i++) {
         struct rect r = inspector_labelled(in, toggles[i].label);

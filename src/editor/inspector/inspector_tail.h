@@ -21,4 +21,7 @@ void inspector_angles(struct inspection *in, const struct angle_row *row, const 
 void inspector_channels(struct inspection *in, const struct tail *tail);
 void inspector_channel(struct inspection *in, const struct tail *tail);
 
+/// The list of splines that the channel can bend by, where it is open.
+void inspector_feed_list(struct inspection *in);
+
 #endif

@@ -82,14 +82,14 @@ void brush_set(struct editor *editor, const struct editor_world *world, bool on)
     brush->covers = false;
     if (!on) return;
     if (!figure) {
-        editor_message(editor, false, "There is no character here to paint on.");
+        editor_message(editor, false, "This scene has no character to paint.");
     } else if (!reserve(&brush->work, figure->character.vertex_count)) {
-        editor_message(editor, true, "There is not enough memory to paint.");
+        editor_message(editor, true, "Not enough memory to paint.");
     } else {
         brush->on = true;
         choose_axis(editor, figure, coordinate);
         inspector_unfold(editor, "section.character");
-        editor_message(editor, false, "Drag over the character. Ctrl: the other way, Shift: smooth, Esc: done.");
+        editor_message(editor, false, "Drag over the character to paint. Ctrl reverses, Shift smooths, Esc ends.");
     }
 }
 
@@ -186,7 +186,7 @@ bool brush_press(struct editor *editor, const struct editor_world *world, const 
     if (!figure || !find_spot(editor, figure, event->x, event->y, &brush->spot)) return false;
     const struct paint *paint = characters_selected(editor, world)->painted;
     if (paint && !cast_fits(paint, figure)) {
-        editor_message(editor, true, "The paint in this scene is for another model: take it off first.");
+        editor_message(editor, true, "The paint in this scene belongs to another model. Remove it first.");
         return true;
     }
     drag_begin(editor, DRAG_PAINT, event);
@@ -282,5 +282,5 @@ void brush_clean(struct editor *editor, const struct editor_world *world)
     const struct figure *figure = brush_figure(editor, world, &coordinate);
     if (!figure || history_is_open(world->history)) return;
     const struct edit blank = blank_edit(editor, world, figure);
-    editor_step(editor, world, "Take paint off", 0, &blank);
+    editor_step(editor, world, "Remove paint", 0, &blank);
 }

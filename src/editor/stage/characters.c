@@ -1,8 +1,8 @@
 /// Poses soft characters and their stiff twins on the stage.
 #include "editor/stage/characters.h"
+#include "base/hash.h"
 #include "editor/core/actions.h"
-#include "editor/core/state.h"
-#include "rig/posing.h"
+#include "editor/stage/kinds.h"
 #include "ui/font.h"
 #include "ui/phase_color.h"
 #include "ui/theme.h"
@@ -59,73 +59,82 @@ static void add_soles(struct stage_view *view, const struct stage_character *sho
 }
 
 /// One figure on the stage, `aside` metres from where its rig stands.
-static void add_character(struct editor *editor, const struct editor_world *world, int index, enum look look,
+static void add_character(struct editor *editor, const struct editor_world *world, int rig, int n, enum look look,
                           float aside)
 {
     struct stage_view *view = &editor->stage;
     const struct character_view *how = &editor->characters;
+    const struct character_rig *character = &world->document->rigs[rig].character;
+    const struct posing posing = {world->document, world->evaluation, world->cast, look};
+    struct rig_pose posed;
     if (view->character_count == STAGE_MAX_CHARACTERS) return;
-    const struct character_rig *rig = document_character(world->document, index);
+    if (!rig_pose(&posing, rig, editor->playback.position, NULL, &posed)) return;
     struct stage_character *shown = &view->characters[view->character_count++];
     *shown =
-        (struct stage_character){.figure = cast_figure(world->cast, index),
-                                 .rig = index,
+        (struct stage_character){.figure = posed.character.figure,
+                                 .morph = posed.character.morph,
+                                 .rig = n,
                                  .is_twin = aside > 0,
                                  .coarse = how->compare || document_count_rigs(world->document, RIG_CHARACTER) > 1,
                                  .map_coordinate = -1,
                                  .map_axis = how->axis};
-    for (int k = 0; k < 3; k++) shown->position[k] = (float)rig->position[k] + (k == 0 ? aside : 0.0f);
-    const struct posing posing = {world->document, world->evaluation, world->cast, look};
-    posing_character(&posing, index, editor->playback.position, &shown->morph);
-    const int drive = how->drive < rig->drive_count ? how->drive : 0;
-    const bool is_painted = editor->brush.on && index == how->character;
-    if ((how->mapped || is_painted) && rig->drive_count > 0)
-        shown->map_coordinate = figure_find(shown->figure, rig->drives[drive].name);
+    for (int k = 0; k < 3; k++) shown->position[k] = posed.character.position[k] + (k == 0 ? aside : 0.0f);
+    const int drive = how->drive < character->drive_count ? how->drive : 0;
+    const bool is_painted = editor->brush.on && n == how->character;
+    if ((how->mapped || is_painted) && character->drive_count > 0)
+        shown->map_coordinate = figure_find(shown->figure, character->drives[drive].name);
     add_soles(view, shown);
 }
 
-void characters_pose(struct editor *editor, const struct editor_world *world)
+static void pose(struct editor *editor, const struct editor_world *world, int rig, int n)
 {
-    const int count = document_count_rigs(world->document, RIG_CHARACTER);
-    editor->stage.character_count = 0;
-    for (int i = 0; i < count; i++) {
-        const struct figure *figure = cast_figure(world->cast, i);
-        if (!figure) continue;
-        if (!editor->characters.compare) {
-            add_character(editor, world, i, editor->look, 0.0f);
-        } else {
-            add_character(editor, world, i, editor->look, -pair_offset(figure));
-            add_character(editor, world, i, LOOK_STIFF, pair_offset(figure));
-        }
+    const struct figure *figure = cast_figure(world->cast, n);
+    if (!figure) return;
+    if (!editor->characters.compare) {
+        add_character(editor, world, rig, n, editor->look, 0.0f);
+    } else {
+        add_character(editor, world, rig, n, editor->look, -pair_offset(figure));
+        add_character(editor, world, rig, n, LOOK_STIFF, pair_offset(figure));
     }
 }
 
-bool characters_bounds(const struct editor *editor, const struct editor_world *world, float lo[3], float hi[3])
+static bool bounds(const struct editor *editor, const struct editor_world *world, int rig, int n, float lo[3],
+                   float hi[3])
 {
     const struct posing posing = stage_posing(editor, world);
     const double last = document_samples(world->document) - 1;
-    const int count = document_count_rigs(world->document, RIG_CHARACTER);
-    bool any = false;
-    for (int i = 0; i < count; i++) {
-        const struct figure *figure = cast_figure(world->cast, i);
-        const struct character_rig *rig = document_character(world->document, i);
-        if (!figure) continue;
-        any = true;
-        for (int step = 0; step <= BOUND_STEPS; step++) {
-            struct morph morph;
-            float low[3], high[3];
-            posing_character(&posing, i, last * step / BOUND_STEPS, &morph);
-            morph_bounds(figure, &morph, low, high);
-            for (int k = 0; k < 3; k++) {
-                const float at = (float)rig->position[k] - (k == 1 ? figure->lo[1] : 0.0f);
-                const float aside = k == 0 && editor->characters.compare ? pair_offset(figure) : 0.0f;
-                lo[k] = fminf(lo[k], low[k] + at - aside);
-                hi[k] = fmaxf(hi[k], high[k] + at + aside);
-            }
+    const struct figure *figure = cast_figure(world->cast, n);
+    struct rig_pose posed;
+    if (!figure) return false;
+    for (int step = 0; step <= BOUND_STEPS; step++) {
+        float low[3], high[3];
+        rig_pose(&posing, rig, last * step / BOUND_STEPS, NULL, &posed);
+        rig_bounds(&posed, low, high);
+        for (int k = 0; k < 3; k++) {
+            const float aside = k == 0 && editor->characters.compare ? pair_offset(figure) : 0.0f;
+            lo[k] = fminf(lo[k], low[k] - aside);
+            hi[k] = fmaxf(hi[k], high[k] + aside);
         }
     }
-    return any;
+    return true;
 }
+
+static uint64_t hash(uint64_t sum, const struct stage_view *view)
+{
+    for (int c = 0; c < view->character_count; c++) {
+        const struct stage_character *shown = &view->characters[c];
+        const struct morph *morph = &shown->morph;
+        const int looks[] = {shown->coarse, shown->map_coordinate, shown->map_axis};
+        sum = hash_word(hash_word(sum, shown->figure->id), shown->figure->version);
+        sum = hash_bytes(sum, shown->position, sizeof shown->position);
+        sum = hash_bytes(sum, looks, sizeof looks);
+        sum = hash_bytes(sum, morph->coordinate, (size_t)morph->count * sizeof *morph->coordinate);
+        sum = hash_bytes(sum, morph->weight, (size_t)morph->count * sizeof *morph->weight);
+    }
+    return sum;
+}
+
+const struct stage_kind stage_characters = {pose, bounds, hash};
 
 /// The vertex that is seen there from the front of the character at rest.
 static int front_vertex(const struct figure *figure, const double uv[2])

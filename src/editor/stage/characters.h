@@ -19,12 +19,6 @@ const struct coordinate *characters_coordinate(const struct editor *editor, cons
 /// A new document is on the table: what its first character shows at first.
 void characters_open(struct editor *editor, const struct document *document);
 
-/// Poses them into the editor's stage view, with their shadows.
-void characters_pose(struct editor *editor, const struct editor_world *world);
-
-/// Adds their motion over the whole scene to the box lo … hi; true where there is any.
-bool characters_bounds(const struct editor *editor, const struct editor_world *world, float lo[3], float hi[3]);
-
 /// Where a point of its surface is on the screen: `uv` across and up its box at rest, seen from the front. false where it is not
 /// shown.
 bool characters_point(const struct editor *editor, int character, const double uv[2], float xy[2]);

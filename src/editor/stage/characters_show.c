@@ -75,7 +75,7 @@ static void show_legend(struct editor *editor, const struct coordinate *coordina
 /// A line under the feet of each of the pair.
 static void show_pair(struct editor *editor)
 {
-    static const char *const names[] = {"with their phases", "real parts alone"};
+    static const char *const names[] = {"with their phases", "real parts only"};
     const struct stage_view *view = &editor->stage;
     const struct rect r = editor->layout.stage;
     const float viewport[4] = {r.x, r.y, r.w, r.h};

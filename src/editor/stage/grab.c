@@ -73,9 +73,9 @@ void grab_begin(struct editor *editor, const struct editor_world *world, const s
     editor->playback.position = grab->sample;
     grab->start[0] = hover->x;
     grab->start[1] = hover->y;
-    struct pose pose;
+    struct rig_pose pose;
     stage_pose_tail(editor, world, grab->tail, editor->playback.position, NULL, &pose);
-    stage_project_pose(editor, &pose, grab->joint, grab->fraction, grab->start);
+    stage_project_pose(editor, &pose.tail, grab->joint, grab->fraction, grab->start);
 }
 
 /// Takes the present value over and learns from the last step how Im x follows it.
@@ -96,12 +96,12 @@ static void derivative(const struct editor *editor, const struct editor_world *w
                        const float at[2], double response[2])
 {
     const struct grab *grab = &editor->grab;
-    struct pose pose;
+    struct rig_pose pose;
     float moved[2] = {at[0], at[1]};
     double change = PROBE * axis->values_per_radian;
     const struct what_if what_if = {axis->spline, change, change * axis->turn};
     stage_pose_tail(editor, world, grab->tail, editor->playback.position, &what_if, &pose);
-    stage_project_pose(editor, &pose, grab->joint, grab->fraction, moved);
+    stage_project_pose(editor, &pose.tail, grab->joint, grab->fraction, moved);
     response[0] = (moved[0] - at[0]) / PROBE;
     response[1] = (moved[1] - at[1]) / PROBE;
 }
@@ -162,10 +162,10 @@ void grab_apply(struct editor *editor, const struct editor_world *world)
     const struct drag *drag = &editor->drag;
     if (drag->kind != DRAG_GRAB || !drag->moved) return;
     if (!grab->axis[AXIS_SIDE].active && !grab->axis[AXIS_UP].active) return;
-    struct pose pose;
+    struct rig_pose pose;
     float at[2];
     stage_pose_tail(editor, world, grab->tail, editor->playback.position, NULL, &pose);
-    if (!stage_project_pose(editor, &pose, grab->joint, grab->fraction, at)) return;
+    if (!stage_project_pose(editor, &pose.tail, grab->joint, grab->fraction, at)) return;
     double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
     if (grab->applied && hypot(miss[0], miss[1]) < CLOSE) return;
     double column[2][2] = {{0}}, step[2];

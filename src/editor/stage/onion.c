@@ -102,11 +102,12 @@ void onion_show(struct editor *editor, const struct editor_world *world)
     int count = nearest_knots(document, spline, editor->playback.position, samples);
     uint32_t color = arrange_color(document, editor->active);
     const struct posing posing = stage_posing(editor, world);
+    const int rig = document_find_rig(document, RIG_TAIL, tail);
     for (int i = count - 1; i >= 0; i--) {
-        struct pose pose;
+        struct rig_pose pose;
         float points[OUTLINE][2];
-        posing_tail(&posing, tail, samples[i], NULL, &pose);
-        if (!outline(editor, &pose, points)) continue;
+        rig_pose(&posing, rig, samples[i], NULL, &pose);
+        if (!outline(editor, &pose.tail, points)) continue;
         float share = count > 1 ? (float)i / (float)(count - 1) : 0;
         drawlist_line(&editor->list, points[0], OUTLINE, 1.25f,
                       theme_fade(color, NEAREST + (FARTHEST - NEAREST) * share));
@@ -117,6 +118,6 @@ void onion_toggle(struct editor *editor)
 {
     editor->overlays.onion = !editor->overlays.onion;
     editor_message(editor, false,
-                   editor->overlays.onion ? "Onion skin: the tail at the knots around the playhead (O)."
-                                          : "No onion skin.");
+                   editor->overlays.onion ? "Onion skin on: the tail at the knots around the playhead (O)."
+                                          : "Onion skin off.");
 }

@@ -11,7 +11,7 @@ void record_begin(struct editor *editor)
     if (record->running) return;
     *record = (struct record){.armed = record->armed, .running = true, .first = (int)ceil(editor->playback.position)};
     editor->playback.playing = true;
-    editor_message(editor, false, "Recording the body's way: let go to keep it.");
+    editor_message(editor, false, "Recording the body: release to keep it.");
 }
 
 void record_advance(struct editor *editor, const struct editor_world *world)

@@ -1,17 +1,16 @@
-/// The stage: poses the tails, drives the camera, finds what the pointer is over.
+/// The stage: poses the rigs, drives the camera, finds what the pointer is over.
 #include "base/hash.h"
 #include "editor/core/actions.h"
 #include "editor/curves/curves.h"
 #include "editor/stage/body.h"
-#include "editor/stage/follow.h"
+#include "editor/stage/kinds.h"
 #include "editor/stage/overlays.h"
-#include "rig/shadow.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <assert.h>
 #include <math.h>
 
-enum { FIT_STEPS = 120, BLOBS_OF_ONE_TAIL = 16, RING_SIZE = 13 };
+enum { RING_SIZE = 13 };
 
 static const float GRAB_REACH = 16; ///< pixels from the tail's centre line
 /// Radians. Characters look towards +z; one is met from a bit aside, a pair from the front.
@@ -23,79 +22,38 @@ struct posing stage_posing(const struct editor *editor, const struct editor_worl
     return (struct posing){world->document, world->evaluation, world->cast, editor->look};
 }
 
-/// What moves a tail besides the document: its body in the hand, what swings after it, and `change` (may be NULL).
-static struct by_hand by_hand(const struct editor *editor, const struct tail *shown, int tail,
-                              const struct what_if *change)
-{
-    struct by_hand hand = {0};
-    for (int c = 0; c < shown->channel_count; c++) {
-        hand.channel[c] = follow_value(editor, tail, c);
-        if (!change || change->spline != shown->channels[c].spline) continue;
-        hand.channel[c].re += change->re;
-        hand.channel[c].im += change->im;
-    }
-    body_offset(editor, tail, hand.base);
-    return hand;
-}
+/// In this order they are posed, hashed and drawn.
+static const struct stage_kind *const kinds[RIG_KINDS] = {
+    [RIG_TAIL] = &stage_tails, [RIG_CHARACTER] = &stage_characters};
 
-void stage_pose_tail(const struct editor *editor, const struct editor_world *world, int tail, double position,
-                     const struct what_if *change, struct pose *pose)
+/// Adds all motion of a kind to the box lo … hi; false where nothing of it is to be seen.
+static bool add_bounds(const struct editor *editor, const struct editor_world *world, enum rig_kind kind, float lo[3],
+                       float hi[3])
 {
-    const struct posing posing = stage_posing(editor, world);
-    const struct by_hand hand = by_hand(editor, document_tail(world->document, tail), tail, change);
-    posing_tail(&posing, tail, position, &hand, pose);
-}
-
-static void add_blobs(struct stage_view *view, const struct pose *pose)
-{
-    struct shadow_blob blobs[BLOBS_OF_ONE_TAIL];
-    int room = STAGE_MAX_BLOBS - view->blob_count;
-    int count = pose_blobs(pose, blobs, room < BLOBS_OF_ONE_TAIL ? room : BLOBS_OF_ONE_TAIL);
-    for (int i = 0; i < count; i++) {
-        view->blobs[view->blob_count++] =
-            (struct stage_blob){blobs[i].x, blobs[i].z, blobs[i].radius, blobs[i].strength};
+    const struct document *document = world->document;
+    bool any = false;
+    int rig = document_next_rig(document, kind, 0);
+    for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, kind, rig + 1)) {
+        any |= kinds[kind]->bounds(editor, world, rig, n, lo, hi);
     }
+    return any;
 }
 
 void stage_fit(struct editor *editor, const struct editor_world *world)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
-    double last = document_samples(world->document) - 1;
-    const int tails = document_count_rigs(world->document, RIG_TAIL);
-    for (int i = 0; i <= FIT_STEPS; i++) {
-        for (int t = 0; t < tails && t < STAGE_MAX_TAILS; t++) {
-            struct pose pose;
-            float low[3], high[3];
-            stage_pose_tail(editor, world, t, last * i / FIT_STEPS, NULL, &pose);
-            pose_bounds(&pose, low, high);
-            for (int axis = 0; axis < 3; axis++) {
-                lo[axis] = fminf(lo[axis], low[axis]);
-                hi[axis] = fmaxf(hi[axis], high[axis]);
-            }
-        }
+    bool seen[RIG_KINDS], any = false;
+    for (int kind = 0; kind < RIG_KINDS; kind++) {
+        seen[kind] = add_bounds(editor, world, (enum rig_kind)kind, lo, hi);
+        any |= seen[kind];
     }
     editor->camera = camera_default();
-    bool any = characters_bounds(editor, world, lo, hi);
-    if (any && tails == 0) editor->camera.azimuth = editor->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
+    if (seen[RIG_CHARACTER] && !seen[RIG_TAIL])
+        editor->camera.azimuth = editor->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
     camera_lamp(&editor->camera, editor->stage.key_from); // it stays there while the camera goes round
-    if (!any && tails == 0) return;
+    if (!any) return;
     for (int k = 0; k < 2; k++) editor->stage.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
     camera_fit(&editor->camera, lo, hi, editor->layout.stage.w / editor->layout.stage.h);
-}
-
-static uint64_t characters_hash(uint64_t hash, const struct stage_view *view)
-{
-    for (int c = 0; c < view->character_count; c++) {
-        const struct stage_character *shown = &view->characters[c];
-        const struct morph *morph = &shown->morph;
-        const int looks[] = {shown->coarse, shown->map_coordinate, shown->map_axis};
-        hash = hash_word(hash_word(hash, shown->figure->id), shown->figure->version);
-        hash = hash_bytes(hash, shown->position, sizeof shown->position);
-        hash = hash_bytes(hash, looks, sizeof looks);
-        hash = hash_bytes(hash, morph->coordinate, (size_t)morph->count * sizeof *morph->coordinate);
-        hash = hash_bytes(hash, morph->weight, (size_t)morph->count * sizeof *morph->weight);
-    }
-    return hash;
 }
 
 static uint64_t view_hash(const struct stage_view *view)
@@ -106,14 +64,7 @@ static uint64_t view_hash(const struct stage_view *view)
     hash = hash_bytes(hash, view->middle, sizeof view->middle);
     hash = hash_bytes(hash, view->key_from, sizeof view->key_from);
     hash = hash_bytes(hash, &view->colors, sizeof view->colors);
-    for (int t = 0; t < view->tail_count; t++) {
-        const struct stage_tail *tail = &view->tails[t];
-        hash = hash_bytes(hash, &tail->joints, sizeof tail->joints);
-        hash = hash_bytes(hash, &tail->length, sizeof tail->length);
-        hash = hash_bytes(hash, &tail->pose.ground, sizeof tail->pose.ground);
-        hash = hash_bytes(hash, tail->pose.matrix, (size_t)tail->pose.count * sizeof tail->pose.matrix[0]);
-    }
-    hash = characters_hash(hash, view);
+    for (int kind = 0; kind < RIG_KINDS; kind++) hash = kinds[kind]->hash(hash, view);
     return hash_bytes(hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
 }
 
@@ -121,18 +72,13 @@ void stage_pose(struct editor *editor, const struct editor_world *world)
 {
     struct stage_view *view = &editor->stage;
     const struct document *document = world->document;
-    const int tails = document_count_rigs(document, RIG_TAIL);
-    view->tail_count = tails < STAGE_MAX_TAILS ? tails : STAGE_MAX_TAILS;
-    view->blob_count = 0;
-    for (int t = 0; t < view->tail_count; t++) {
-        const struct tail *tail = document_tail(document, t);
-        struct stage_tail *shown = &view->tails[t];
-        shown->joints = tail->joints;
-        shown->length = (float)tail->length;
-        stage_pose_tail(editor, world, t, editor->playback.position, NULL, &shown->pose);
-        add_blobs(view, &shown->pose);
+    view->tail_count = view->character_count = view->blob_count = 0;
+    for (int kind = 0; kind < RIG_KINDS; kind++) {
+        int rig = document_next_rig(document, (enum rig_kind)kind, 0);
+        for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, (enum rig_kind)kind, rig + 1)) {
+            kinds[kind]->pose(editor, world, rig, n);
+        }
     }
-    characters_pose(editor, world);
     view->viewport = editor->layout.stage;
     view->colors = theme()->stage;
     camera_matrices(&editor->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
@@ -158,8 +104,8 @@ static const char *empty_text(const struct editor *editor, const struct editor_w
     const struct stage_view *view = &editor->stage;
     if (view->tail_count > 0 || view->character_count > 0) return NULL;
     if (document_character(world->document, 0))
-        return "This scene's character could not be read: its curves are below.";
-    return editor->active < 0 ? "This scene is empty." : "This scene moves no tail: its curves are below.";
+        return "wiggly could not read this scene's character. Its curves are below.";
+    return editor->active < 0 ? "This scene is empty." : "This scene has no tail. Its curves are below.";
 }
 
 void stage_show(struct editor *editor, const struct editor_world *world)

@@ -36,11 +36,12 @@ static const float *tip_at(struct editor *editor, const struct editor_world *wor
     key = hash_word(key, (uint64_t)tail << 8 | (uint64_t)editor->look);
     struct trail_point *point = &editor->overlays.trail_point[(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
     if (point->known && point->key == key && point->frame == frame) return point->tip;
-    struct pose pose;
+    struct rig_pose pose;
     const struct posing posing = stage_posing(editor, world);
-    posing_tail(&posing, tail, (double)frame * world->document->substeps, NULL, &pose);
+    rig_pose(&posing, document_find_rig(world->document, RIG_TAIL, tail), (double)frame * world->document->substeps,
+             NULL, &pose);
     *point = (struct trail_point){.known = true, .key = key, .frame = frame};
-    for (int k = 0; k < 3; k++) point->tip[k] = pose.matrix[pose.count - 1][12 + k];
+    for (int k = 0; k < 3; k++) point->tip[k] = pose.tail.matrix[pose.tail.count - 1][12 + k];
     return point->tip;
 }
 
@@ -135,5 +136,6 @@ void trail_toggle(struct editor *editor)
 {
     editor->overlays.trail = !editor->overlays.trail;
     editor_message(editor, false,
-                   editor->overlays.trail ? "Motion arc: the way of the tip, a mark a frame (P)." : "No motion arc.");
+                   editor->overlays.trail ? "Motion arc on: the path of the tip, one mark per frame (P)."
+                                          : "Motion arc off.");
 }

@@ -41,7 +41,8 @@ static void say(struct editor *editor, const struct document *document)
     double range[2];
     playback_range(editor, document, range);
     bool part = is_part(editor, document);
-    snprintf(text, sizeof text, part ? "Plays frames %.0f to %.0f." : "Plays the whole scene.", range[0], range[1]);
+    snprintf(text, sizeof text, part ? "Playing frames %.0f to %.0f." : "Playing the whole scene.", range[0],
+             range[1]);
     editor_message(editor, false, text);
 }
 
@@ -81,7 +82,7 @@ void range_end(struct editor *editor, bool keep)
         playback->range[1] = playback->old_range[1];
     } else if (!editor->drag.moved) {
         playback->has_range = false;
-        editor_message(editor, false, "Plays the whole scene.");
+        editor_message(editor, false, "Playing the whole scene.");
     }
 }
 

@@ -26,34 +26,35 @@ static const char *hover_hint(const struct editor *editor, const struct document
     if (editor->drag.kind == DRAG_SCALE) return editor->scaling.sentence;
     switch (editor->hover.kind) {
     case HOVER_KNOT:
-        return "Drag to move (X, Y lock an axis, R takes the later knots along, Shift fine, Ctrl off the frames)";
+        return "Drag to move (X or Y locks an axis, R moves later knots too, Shift: fine, Ctrl: between frames)";
     case HOVER_SLOPE:
-        return "Drag to turn the slope, longer to hold it more firmly; T takes it away";
+        return "Drag to turn the slope, pull to make it firmer; T removes it";
     case HOVER_CURVE:
-        return editor->hover.spline == editor->active ? "Double-click: a knot that keeps the curve; drag: a box"
-                                                      : "Click to edit this spline";
+        return editor->hover.spline == editor->active
+                   ? "Double-click to insert a knot without changing the curve; drag to select with a box"
+                   : "Click to edit this spline";
     case HOVER_RULER:
-        return "Drag to scrub; Shift+drag: play only a part, Shift+click: all again";
+        return "Drag to scrub; Shift+drag to play part of the range, Shift+click to play it all";
     case HOVER_WARNING:
-        return "Click the warning to do away with it; Ctrl+Z brings it back";
+        return "Click to fix; Ctrl+Z undoes it";
     case HOVER_UNITS:
-        return "Click to count frames or seconds (U)";
+        return "Click to switch between frames and seconds (U)";
     case HOVER_JOINT:
-        return "Pull the tail: it sets the knot at the playhead";
+        return "Drag the tail to set the knot at the playhead";
     case HOVER_BODY:
-        return "Drag the body: the tail follows through (X, Y along one axis, R records)";
+        return "Drag the body and the tail follows through (X or Y locks an axis, R records)";
     case HOVER_PLAY:
         return "Play, pause (Space)";
     case HOVER_LOOP:
-        return "Loop, or stop at the end (Ctrl+L)";
+        return "Loop or stop at the end (Ctrl+L)";
     case HOVER_SPEED:
-        return "Faster; Shift: slower; right button: real time (- and =, or the wheel)";
+        return "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)";
     case HOVER_NONE:
         break;
     }
     if (document->spline_count == 0) return "Ctrl+O opens a scene.  F1 shows all keys";
     if (document_next_rig(document, RIG_TAIL, 0) < 0) return "Drag a knot.  Space plays, F1 shows all keys";
-    return "Drag a knot, or pull the tail.  Space plays, F1 shows all keys";
+    return "Drag a knot or the tail. Space plays, F1 shows all keys";
 }
 
 static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)

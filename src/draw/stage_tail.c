@@ -1,0 +1,171 @@
+/// Tails and the animals that they grow out of, skinned.
+#include "draw/gl.h"
+#include "draw/painter.h"
+#include "draw/stage_flat.h"
+#include "model/creature.h"
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    JOINT_BINDING = 0,
+    MAX_SLOTS = POSE_MAX_JOINTS + 1,  ///< slot 0 does not bend, slot n + 1 follows joint n (see stage_mesh.vert)
+    BLOCK_BYTES = MAX_SLOTS * 3 * 16, ///< what the shader's block holds: three rows a slot
+    BLOCK_STRIDE = (BLOCK_BYTES + 255) / 256 * 256, ///< 256: the largest offset alignment a driver may ask for
+};
+
+/// A mesh that every animal is drawn with.
+struct model {
+    GLuint vertex_array, vertices, indices;
+    GLsizei index_count;
+};
+
+struct animals {
+    GLuint program, joints;
+    GLint clip_from_world, shape, eye, key_from, earth, seam;
+    struct model models[CREATURE_LEVELS];
+    float rows[MAX_SLOTS][3][4];
+};
+
+static void attribute(GLuint index, GLint size, size_t offset)
+{
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(struct vertex), (const void *)offset);
+}
+
+static bool model_create(struct model *model, int level, struct error *error)
+{
+    struct mesh mesh = {0};
+    mesh_creature(level, &mesh);
+    model->index_count = mesh.index_count;
+    if (mesh.failed) {
+        mesh_free(&mesh);
+        return fail(error, ERROR_ENVIRONMENT, "not enough memory for the model on the stage");
+    }
+    glGenVertexArrays(1, &model->vertex_array);
+    glBindVertexArray(model->vertex_array);
+    glGenBuffers(1, &model->vertices);
+    glBindBuffer(GL_ARRAY_BUFFER, model->vertices);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((size_t)mesh.vertex_count * sizeof *mesh.vertices), mesh.vertices,
+                 GL_STATIC_DRAW);
+    glGenBuffers(1, &model->indices);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, model->indices);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)((size_t)mesh.index_count * sizeof *mesh.indices), mesh.indices,
+                 GL_STATIC_DRAW);
+    attribute(0, 3, offsetof(struct vertex, position));
+    attribute(1, 3, offsetof(struct vertex, normal));
+    attribute(2, 3, offsetof(struct vertex, color));
+    attribute(3, 1, offsetof(struct vertex, bend));
+    glBindVertexArray(0);
+    mesh_free(&mesh);
+    return true;
+}
+
+static void model_destroy(struct model *model)
+{
+    glDeleteVertexArrays(1, &model->vertex_array);
+    glDeleteBuffers(1, &model->vertices);
+    glDeleteBuffers(1, &model->indices);
+}
+
+static bool program_create(struct animals *painter, struct error *error)
+{
+    painter->program = gl_program("stage_mesh.vert", "stage_mesh.frag", error);
+    if (!painter->program) return false;
+    painter->clip_from_world = glGetUniformLocation(painter->program, "clip_from_world");
+    painter->shape = glGetUniformLocation(painter->program, "shape");
+    painter->eye = glGetUniformLocation(painter->program, "eye");
+    painter->key_from = glGetUniformLocation(painter->program, "key_from");
+    painter->earth = glGetUniformLocation(painter->program, "earth");
+    painter->seam = glGetUniformLocation(painter->program, "seam");
+    glUniformBlockBinding(painter->program, glGetUniformBlockIndex(painter->program, "Joints"), JOINT_BINDING);
+    glGenBuffers(1, &painter->joints);
+    glBindBuffer(GL_UNIFORM_BUFFER, painter->joints);
+    glBufferData(GL_UNIFORM_BUFFER, STAGE_MAX_TAILS * BLOCK_STRIDE, NULL, GL_DYNAMIC_DRAW);
+    return true;
+}
+
+static void destroy(void *state)
+{
+    struct animals *painter = state;
+    for (int level = 0; level < CREATURE_LEVELS; level++) model_destroy(&painter->models[level]);
+    glDeleteBuffers(1, &painter->joints);
+    if (painter->program) glDeleteProgram(painter->program);
+    free(painter);
+}
+
+static void *create(struct error *error)
+{
+    struct animals *painter = calloc(1, sizeof *painter);
+    if (!painter) {
+        fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
+        return NULL;
+    }
+    bool made = program_create(painter, error);
+    for (int level = 0; made && level < CREATURE_LEVELS; level++) {
+        made = model_create(&painter->models[level], level, error);
+    }
+    if (made) return painter;
+    destroy(painter);
+    return NULL;
+}
+
+/// matrix · translation by −along on z, as three rows: what takes a point of the straight tail to where its joint is
+/// now.
+static void slot_rows(mat4s matrix, float along, float rows[3][4])
+{
+    glm_translate_z(matrix.raw, -along);
+    glm_mat4_transpose(matrix.raw);
+    memcpy(rows, matrix.raw, 3 * sizeof *rows);
+}
+
+static int upload_joints(struct animals *painter, const struct stage_tail *tail, int block)
+{
+    const int joints = tail->pose.count - 1;
+    const float segment = pose_length(&tail->pose) / (float)joints;
+    const mat4s root = glms_translate_make(vec3_from(tail->pose.matrix[0] + 12));
+    slot_rows(root, 0.0f, painter->rows[0]);
+    for (int n = 0; n < joints; n++)
+        slot_rows(mat4_from(tail->pose.matrix[n]), (float)n * segment, painter->rows[n + 1]);
+    const int bytes = (joints + 1) * (int)sizeof *painter->rows;
+    glBufferSubData(GL_UNIFORM_BUFFER, block * BLOCK_STRIDE, bytes, painter->rows);
+    return bytes;
+}
+
+static void upload(void *state, const struct stage_view *view, long *bytes)
+{
+    struct animals *painter = state;
+    glBindBuffer(GL_UNIFORM_BUFFER, painter->joints);
+    for (int t = 0; t < view->tail_count; t++) *bytes += upload_joints(painter, &view->tails[t], t);
+}
+
+static void draw_animal(const struct animals *painter, const struct model *model, const struct stage_view *view,
+                        int tail)
+{
+    const struct pose *pose = &view->tails[tail].pose;
+    const int joints = pose->count - 1;
+    const float length = pose_length(pose);
+    glUniform4f(painter->shape, length / CREATURE_TAIL_LENGTH, (float)joints, length / (float)joints, pose->ground);
+    glBindBufferRange(GL_UNIFORM_BUFFER, JOINT_BINDING, painter->joints, tail * BLOCK_STRIDE, BLOCK_BYTES);
+    glDrawElements(GL_TRIANGLES, model->index_count, GL_UNSIGNED_INT, NULL);
+}
+
+static void draw(const void *state, const struct stage_view *view, float scale, float seam)
+{
+    const struct animals *painter = state;
+    (void)scale;
+    const struct model *model = &painter->models[creature_level(view->tail_count)];
+    if (view->tail_count == 0) return;
+    mat4s clip_from_world = stage_clip_from_world(view);
+    glUseProgram(painter->program);
+    glUniformMatrix4fv(painter->clip_from_world, 1, GL_FALSE, clip_from_world.raw[0]);
+    glUniform3fv(painter->eye, 1, view->eye);
+    glUniform3fv(painter->key_from, 1, view->key_from);
+    gl_uniform_linear(painter->earth, view->colors.bounce);
+    glUniform1f(painter->seam, seam);
+    glBindVertexArray(model->vertex_array);
+    for (int t = 0; t < view->tail_count; t++) draw_animal(painter, model, view, t);
+    glBindVertexArray(0);
+}
+
+const struct painter tail_painter = {create, destroy, upload, draw};

@@ -1,0 +1,176 @@
+// The table of parameters: each is one that the solver knows, in the right place; an edit of it is seen in the curve, is saved, and is
+// loaded again; and a reader of docs/scene-format.md finds it.
+#include "near.h"
+
+#include "base/file.h"
+#include "scene/evaluate.h"
+#include "scene/order.h"
+#include "spline/desc.h"
+#include "world.h"
+#include <stdlib.h>
+#include <string.h>
+
+static const char scene[] =
+    "{\"wiggly\": 1, \"frames\": [0, 240], \"splines\": ["
+    "{\"name\": \"a\", \"frequency\": 1.1, \"damping\": 0.1, \"calm\": 0.5, \"knots\": ["
+    "{\"frame\": 8, \"value\": 1}, {\"frame\": 40, \"value\": 0, \"slope\": 1}, {\"frame\": 90, \"value\": 2}]},"
+    "{\"name\": \"b\", \"mode\": \"real\", \"spring\": 40, \"friction\": 1, \"knots\": ["
+    "{\"frame\": 8, \"value\": 1}, {\"frame\": 40, \"value\": 0}]},"
+    "{\"name\": \"c\", \"mode\": \"cubic\", \"start\": \"rest\", \"knots\": ["
+    "{\"frame\": 8, \"value\": 0.4}, {\"frame\": 40, \"value\": 0.5}]}]}";
+
+static enum desc_kind kind_in_desc(enum parameter_kind kind)
+{
+    return kind == PARAMETER_TRACK ? DESC_PARAM : kind == PARAMETER_NUMBER ? DESC_NUMBER : DESC_CHOICE;
+}
+
+static const struct parameter_row *row_at(size_t place)
+{
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        if (parameter_rows[p].place == place) return &parameter_rows[p];
+    }
+    return NULL;
+}
+
+static void every_setting_of_the_solver_has_a_row(void **state)
+{
+    (void)state;
+    static const char *const others[] = {"samples", "step", "spring_friction"}; // the scene's, and what a pair says
+    int found = 0;
+    for (const desc_member *m = desc_members; m->name; m++) {
+        bool other = false;
+        for (int i = 0; i < 3; i++) other |= strcmp(m->name, others[i]) == 0;
+        const struct parameter_row *row = row_at(m->offset);
+        if (other) continue;
+        if (!row) fail_msg("%s has no row", m->name);
+        assert_int_equal(kind_in_desc(row->kind), m->kind);
+        if (row->kind == PARAMETER_CHOICE) assert_int_equal(m->size, sizeof(unsigned));
+        found++;
+    }
+    assert_int_equal(found, PARAMETER_COUNT);
+}
+
+static void every_row_is_whole(void **state)
+{
+    (void)state;
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        const struct parameter_row *row = &parameter_rows[p];
+        assert_true(row->name && row->hint && row->undo && row->modes);
+        assert_int_equal(parameter_find(row->name), p);
+        assert_true(row->standard >= row->minimum && row->standard <= row->maximum);
+        assert_true(row->fresh >= row->minimum && row->fresh <= row->maximum);
+        assert_true(row->kind == PARAMETER_CHOICE || row->step > 0);
+        if (row->letter) assert_int_equal(parameter_of_letter(row->letter[0]), p);
+        int words = 0;
+        while (row->words[words]) assert_non_null(row->labels[words++]);
+        assert_int_equal(words, row->kind == PARAMETER_CHOICE ? (int)row->maximum + 1 : 0);
+    }
+}
+
+static void assert_same_curves(const struct evaluation *a, const struct evaluation *b, const char *name)
+{
+    for (int s = 0; s < a->count; s++) {
+        size_t size = sizeof(double) * (size_t)a->samples;
+        bool same = a->status[s] == b->status[s] && memcmp(a->curves[s].total, b->curves[s].total, size) == 0 &&
+                    memcmp(a->curves[s].im, b->curves[s].im, size) == 0;
+        if (!same) fail_msg("%s: spline %d is not solved anew", name, s);
+    }
+}
+
+static void assert_round_trip(const struct world *world)
+{
+    struct error error;
+    char *text = world_print(world);
+    struct document *again = scene_parse("again", text, strlen(text), NULL, &error);
+    assert_non_null(again);
+    for (int s = 0; s < again->spline_count; s++) {
+        for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+            const struct spline *spline = &world->document->splines[s];
+            if (!spline_has(spline, p)) continue;
+            assert_true(spline->parameter[p].value == again->splines[s].parameter[p].value);
+            assert_int_equal(spline->parameter[p].track, again->splines[s].parameter[p].track);
+        }
+    }
+    document_destroy(again);
+    free(text);
+}
+
+/// Another number than it has, inside its range, or another word.
+static double another(const struct spline *spline, enum parameter p)
+{
+    double value = spline->parameter[p].value;
+    if (parameter_rows[p].kind == PARAMETER_CHOICE) return value < parameter_rows[p].maximum ? value + 1 : 0;
+    return value > 0 ? 0.75 * value : 0.25;
+}
+
+/// Makes the edit with an evaluation that has solved what was there before, and compares with one that has not.
+static void try_edit(struct edit edit, const char *name)
+{
+    struct world world = {.history = history_create()};
+    struct evaluation kept = {0}, fresh = {0};
+    bool dirty[3];
+    world.document = scene_parse("scene", scene, sizeof scene - 1, NULL, &world.error);
+    assert_non_null(world.document);
+    assert_true(evaluation_resize(&kept, world.document, NULL) && evaluation_resize(&fresh, world.document, NULL));
+    evaluation_update(&kept, world.document, NULL, false);
+    int samples = kept.samples;
+    double *before = malloc(sizeof *before * (size_t)samples);
+    memcpy(before, kept.curves[edit.spline].total, sizeof *before * (size_t)samples);
+    history_take_dirty(world.history, world.document, dirty, 3);
+    world_must(&world, edit);
+    history_take_dirty(world.history, world.document, dirty, 3);
+    evaluation_update(&kept, world.document, dirty, false);
+    evaluation_update(&fresh, world.document, NULL, false);
+    assert_same_curves(&kept, &fresh, name);
+    if (memcmp(before, kept.curves[edit.spline].total, sizeof *before * (size_t)samples) == 0)
+        fail_msg("%s: spline %d does not change", name, edit.spline);
+    assert_round_trip(&world);
+    free(before);
+    evaluation_free(&kept);
+    evaluation_free(&fresh);
+    world_close(&world);
+}
+
+static void an_edit_of_each_is_seen_and_saved(void **state)
+{
+    (void)state;
+    struct error error;
+    struct document *document = scene_parse("scene", scene, sizeof scene - 1, NULL, &error);
+    for (int s = 0; s < document->spline_count; s++) {
+        for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+            const struct spline *spline = &document->splines[s];
+            bool still =
+                p == PARAMETER_CALM && spline_start(spline) != WIGGLY_FREE; // nothing swings before the start
+            if (!spline_uses(spline, p, false) || still) continue;
+            try_edit(edit_number(s, p, another(spline, p)), parameter_rows[p].name);
+            if (parameter_rows[p].kind == PARAMETER_TRACK)
+                try_edit(edit_track(s, p, s == 2 ? 1 : 2), parameter_rows[p].name);
+        }
+    }
+    document_destroy(document);
+}
+
+static void each_is_described(void **state)
+{
+    (void)state;
+    char *text, quoted[64];
+    size_t size;
+    struct error error;
+    assert_true(file_read("docs/scene-format.md", 1 << 20, &text, &size, &error));
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        snprintf(quoted, sizeof quoted, "`%s`", parameter_rows[p].name);
+        if (!strstr(text, quoted)) fail_msg("docs/scene-format.md does not name %s", quoted);
+    }
+    free(text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_setting_of_the_solver_has_a_row),
+        cmocka_unit_test(every_row_is_whole),
+        cmocka_unit_test(an_edit_of_each_is_seen_and_saved),
+        cmocka_unit_test(each_is_described),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
