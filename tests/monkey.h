@@ -4,8 +4,8 @@
 #define TESTS_MONKEY_H
 
 #include "blind.h"
+#include "inside.h"
 
-#include "editor/core/state.h"
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -78,7 +78,7 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
     struct app *app = &m->blind->app;
     const struct document *d = app->table.document;
     struct editor_world world = table_world(&app->table);
-    const struct spline *spline = editor_active_spline(app->table.editor, &world);
+    const struct spline *spline = core_active_spline(&app->table.editor->core, &world);
     const int tails = document_count_rigs(d, RIG_TAIL);
     const char *tail = tails > 0 ? d->rigs[document_find_rig(d, RIG_TAIL, below(m, tails))].name : NULL;
     char target[512] = "";
@@ -105,7 +105,8 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
 static inline bool find_widget(struct monkey *m, float *x, float *y)
 {
     const struct editor *editor = m->blind->app.table.editor;
-    const struct ui *ui = editor->dialog.kind != DIALOG_NONE ? &editor->dialog.ui : &editor->inspector.ui;
+    const struct ui *ui =
+        editor->dialogs->dialog.kind != DIALOG_NONE ? &editor->dialogs->dialog.ui : &editor->inspector->ui;
     if (ui->stop_count == 0) return false;
     const struct rect r = ui->stop[below(m, ui->stop_count)].rect;
     *x = r.x + r.w * (float)below(m, 101) / 100;
@@ -115,7 +116,7 @@ static inline bool find_widget(struct monkey *m, float *x, float *y)
 
 static inline void monkey_point(struct monkey *m)
 {
-    const struct rect window = m->blind->app.table.editor->layout.window;
+    const struct rect window = m->blind->app.table.editor->core.layout.window;
     float x = window.w * (float)(below(m, 1100) - 50) / 1000, y = window.h * (float)(below(m, 1100) - 50) / 1000;
     const int what = below(m, 5);
     if (what < 2) find_thing(m, &x, &y);

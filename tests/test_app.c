@@ -1,7 +1,7 @@
 /// The app's frames and files, without a picture.
 #include "blind.h"
+#include "inside.h"
 
-#include "editor/core/state.h"
 #include "scene/load.h"
 #include "temporary.h"
 #include <signal.h>
@@ -90,7 +90,7 @@ static void assert_save_fails(struct blind *blind, const char *folder, const cha
 {
     send_key(blind, 'S', MOD_CTRL);
     blind_frame(blind);
-    const struct message *message = &blind->app.table.editor->message;
+    const struct message *message = &blind->app.table.editor->core.message;
     assert_true(message->is_error);
     assert_non_null(strstr(message->text, path));
     assert_null(strchr(message->text, '\n'));

@@ -43,6 +43,21 @@ refuses_through app/a.c draw/gl.h '#include <epoxy/gl.h>' "epoxy/gl.h belongs in
 refuses_through model/a.c base/status.h '#include <wiggly/wiggly.h>' "model must not include wiggly/wiggly.h"
 plant draw/a.c '#include "ui/stage.h"' ui/stage.h '#include "model/pose.h"' model/pose.h '#include "base/error.h"'
 expect 0 "what follows the arrows through three headers is fine" tools/check-arrows.sh "$tree"
+
+# The editor's walls: a panel sees core and itself, core no panel, the editor's own files the panels' doors alone.
+refuses editor/curves/a.c '#include "editor/stage/stage.h"' "editor/curves must not include editor/stage/stage.h"
+refuses editor/core/a.c '#include "editor/curves/curves.h"' "editor/core must not include editor/curves/curves.h"
+refuses editor/stage/a.c '#include "editor/state.h"' "editor/stage must not include editor/state.h"
+refuses editor/a.c '#include "editor/curves/state.h"' "editor/curves/state.h is private to editor/curves: the way in is editor/curves/curves.h"
+refuses app/a.c '#include "editor/core/state.h"' "app must not include editor/core/state.h"
+plant editor/a.c '#include "editor/curves/curves.h"' editor/curves/b.c '#include "editor/core/state.h"' editor/stage/c.c '#include "editor/stage/state.h"'
+expect 0 "doors, core and one's own room are open" tools/check-arrows.sh "$tree"
+plant base/a.c '#include "base/b.h"' base/b.c '#include "base/c.h"' base/c.c '#include "base/a.h"'
+expect 0 "three files may include each other" tools/check-arrows.sh "$tree"
+plant base/a.c '#include "base/b.h"' base/b.c '#include "base/c.h"' base/c.c '#include "base/d.h"' base/d.h '#include "base/a.h"'
+expect 1 "four may not" tools/check-arrows.sh "$tree"
+says "and all four are named" "4 files include each other in a circle: base/d base/c base/b base/a" "$out"
+
 refuses misc/a.c '#include "base/error.h"' "src/misc is not a room of the house"
 
 expect 0 "no circle of includes in the tree is larger than those that are known" tools/check-circles.sh

@@ -1,8 +1,8 @@
 // Long documents, edited as at a window: what is looked at is right in the frame of the edit, and once the thread is done every
 // row is wiggly_solve()'s, bit for bit, whatever was edited while it worked.
+#include "inside.h"
 #include "session.h"
 
-#include "editor/core/state.h"
 #include "scene/edit.h"
 #include "scene/extremes.h"
 #include "scene/storage.h"
@@ -121,8 +121,8 @@ static void open_long(struct session *s)
     char *scene = long_scene(LONG_SAMPLES);
     open_threaded(s, scene);
     free(scene);
-    s->editor->view.frame0 = FIRST_SHOWN;
-    s->editor->view.frame1 = FIRST_SHOWN + 100;
+    s->editor->curves->view.frame0 = FIRST_SHOWN;
+    s->editor->curves->view.frame1 = FIRST_SHOWN + 100;
     session_frame(s);
     settle(s);
 }

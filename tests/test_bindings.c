@@ -1,6 +1,7 @@
 // Keyboards of other countries: every action has a key there, and what is typed is what counts, not the key that types it.
-#include "editor/keys.h"
 #include "editor/core/playback.h"
+#include "editor/keys.h"
+#include "inside.h"
 #include "panel_session.h"
 
 static const char scene[] =
@@ -94,16 +95,16 @@ static void test_punctuation_is_what_is_typed(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    const struct playback *playback = &s.editor->playback;
+    const struct playback *playback = &s.editor->core.playback;
     session_strike(&s, '6', 0, '-'); // AZERTY
     assert_near(playback->speed, 0.5, 0);
     session_strike(&s, '0', MOD_SHIFT, '='); // QWERTZ
     assert_near(playback->speed, 1, 0);
     session_strike(&s, '8', 0, '[');         // with AltGr
     session_strike(&s, ';', MOD_SHIFT, '.'); // AZERTY
-    assert_int_equal(selection_count(&s.editor->selection, &s.document->splines[0]), 1);
+    assert_int_equal(selection_count(&s.editor->core.selection, &s.document->splines[0]), 1);
     session_strike(&s, '<', MOD_SHIFT, '>');
-    assert_int_equal(selection_count(&s.editor->selection, &s.document->splines[0]), 2);
+    assert_int_equal(selection_count(&s.editor->core.selection, &s.document->splines[0]), 2);
     session_close(&s);
 }
 
@@ -112,10 +113,10 @@ static void test_a_part_is_played_without_brackets(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    const struct playback *playback = &s.editor->playback;
-    playback_seek(s.editor, s.document, 20);
+    const struct playback *playback = &s.editor->core.playback;
+    playback_seek(&s.editor->core, s.document, 20);
     session_key(&s, KEY_HOME, MOD_CTRL);
-    playback_seek(s.editor, s.document, 50);
+    playback_seek(&s.editor->core, s.document, 50);
     session_key(&s, KEY_END, MOD_CTRL);
     assert_true(playback->has_range);
     assert_near(playback->range[0], 20, 0);
@@ -134,7 +135,7 @@ static void test_a_key_kept_down_is_one_press_where_it_should(void **state)
         session_frame(&s);
         session_hold(&s, '6', ACTION_REPEAT);
     }
-    assert_near(s.editor->playback.speed, 0.5, 0);
+    assert_near(s.editor->core.playback.speed, 0.5, 0);
     session_close(&s);
 }
 
@@ -145,10 +146,10 @@ static void test_a_key_that_closes_something_types_nothing(void **state)
     session_open(&s, scene);
     session_key(&s, KEY_F1, 0);
     session_type(&s, ".");
-    assert_false(s.editor->help.open);
-    assert_int_equal(selection_count(&s.editor->selection, &s.document->splines[0]), 0);
+    assert_false(s.editor->dialogs->help.open);
+    assert_int_equal(selection_count(&s.editor->core.selection, &s.document->splines[0]), 0);
     session_type(&s, ".");
-    assert_int_equal(selection_count(&s.editor->selection, &s.document->splines[0]), 1);
+    assert_int_equal(selection_count(&s.editor->core.selection, &s.document->splines[0]), 1);
     session_close(&s);
 }
 

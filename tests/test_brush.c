@@ -1,6 +1,6 @@
 /// The brush on a character's surface, by mouse and keys: what a stroke changes and what it leaves alone, its undo, its modes, and
 /// the distances that it works with.
-#include "editor/stage/brush.h"
+#include "inside.h"
 #include "panel_session.h"
 #include "puppet.h"
 #include "timing/framelog.h"
@@ -83,7 +83,7 @@ static void studio_open(struct studio *s)
     s->cast = panel_open_cast(&s->session, scene);
     if (editor_is_playing(s->session.editor)) session_key(&s->session, KEY_SPACE, 0);
     s->plain = cast_figure(s->cast, 0);
-    s->session.editor->camera.azimuth = -1.5708f; // from the front
+    s->session.editor->stage->camera.azimuth = -1.5708f; // from the front
     frame(s);
 }
 
@@ -115,7 +115,7 @@ static void a_stroke_changes_phase_where_it_is_and_nowhere_else(void **state)
     struct studio s;
     studio_open(&s);
     session_key(&s.session, 'K', 0);
-    s.session.editor->brush.radius = 0.2; // 0.19 m: through the air it would reach the other finger
+    s.session.editor->core.brush.radius = 0.2; // 0.19 m: through the air it would reach the other finger
     hold(&s, left_finger, 0, 30);
     assert_non_null(rig_of(&s)->painted);
     float most = 0;
@@ -169,7 +169,7 @@ static void undo_and_redo_are_exact(void **state)
     frames(&s, 5);
     session_key(&s.session, KEY_ESCAPE, 0); // takes the stroke back, and the brush stays
     assert_memory_equal(rig_of(&s)->painted->values, twice, size);
-    assert_true(s.session.editor->brush.on);
+    assert_true(s.session.editor->core.brush.on);
     assert_int_equal((int)history_count(s.session.history), 2);
     free(once);
     free(twice);
@@ -211,7 +211,7 @@ static void modes_and_modifiers_do_what_they_say(void **state)
     struct studio s;
     studio_open(&s);
     panel_click(&s.session, "paint.on");
-    assert_true(s.session.editor->brush.on);
+    assert_true(s.session.editor->core.brush.on);
     hold(&s, left_finger, MOD_CTRL, 10);
     assert_string_equal(history_undo_label(s.session.history), "Delay phase");
     const double delayed = mean_lead(&s);
@@ -297,7 +297,7 @@ static void smoothing_reduces_variation(void **state)
     double rough[2], even[2], calm[2];
     variation(&s, rough);
     session_key(&s.session, 'K', 0);
-    s.session.editor->brush.radius = 0.25;
+    s.session.editor->core.brush.radius = 0.25;
     hold(&s, left_finger, MOD_SHIFT, 30); // advance, with Shift
     assert_string_equal(history_undo_label(s.session.history), "Smooth phase");
     variation(&s, even);
@@ -317,34 +317,34 @@ static void the_map_is_shown_and_the_rest_of_the_stage_still_turns(void **state)
     struct studio s;
     studio_open(&s);
     const struct editor *editor = s.session.editor;
-    assert_int_equal(editor->stage.characters[0].map_coordinate, -1);
+    assert_int_equal(editor->stage->view.characters[0].map_coordinate, -1);
     session_key(&s.session, 'K', 0);
     frame(&s);
-    assert_int_equal(editor->stage.characters[0].map_coordinate, 0);
-    assert_int_equal(editor->stage.characters[0].map_axis, 0); // it moves along x most
+    assert_int_equal(editor->stage->view.characters[0].map_coordinate, 0);
+    assert_int_equal(editor->stage->view.characters[0].map_axis, 0); // it moves along x most
     session_point(&s.session, left_finger);
     frame(&s);
-    assert_true(editor->brush.covers);
-    const double radius = editor->brush.radius, strength = editor->brush.strength;
-    const float distance = editor->camera.distance;
+    assert_true(editor->stage->painting.covers);
+    const double radius = editor->core.brush.radius, strength = editor->core.brush.strength;
+    const float distance = editor->stage->camera.distance;
     s.session.mods = MOD_CTRL;
     session_wheel(&s.session, 1);
     s.session.mods = MOD_SHIFT;
     session_wheel(&s.session, -1);
     s.session.mods = 0;
-    assert_true(editor->brush.radius > radius && editor->brush.strength < strength);
-    assert_near((double)editor->camera.distance, (double)distance, 0);
-    const float azimuth = editor->camera.azimuth;
+    assert_true(editor->core.brush.radius > radius && editor->core.brush.strength < strength);
+    assert_near((double)editor->stage->camera.distance, (double)distance, 0);
+    const float azimuth = editor->stage->camera.azimuth;
     session_point(&s.session, "stage(0.95,0.5)");
     session_press(&s.session, BUTTON_LEFT, 1);
     session_drag(&s.session, -40, 0, 4);
     session_release(&s.session, BUTTON_LEFT);
-    assert_true(editor->camera.azimuth != azimuth);
+    assert_true(editor->stage->camera.azimuth != azimuth);
     assert_int_equal((int)history_count(s.session.history), 0);
     session_key(&s.session, KEY_ESCAPE, 0);
     frame(&s);
-    assert_false(editor->brush.on);
-    assert_int_equal(editor->stage.characters[0].map_coordinate, -1);
+    assert_false(editor->core.brush.on);
+    assert_int_equal(editor->stage->view.characters[0].map_coordinate, -1);
     studio_close(&s);
 }
 

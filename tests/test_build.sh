@@ -1,7 +1,7 @@
 # The Makefile in hands that its author does not know: flags of the user's, folders with spaces, root in somebody else's clone.
 . tests/check.sh
-B=${B:-build}
-unset MAKEFLAGS # how this very suite is built says nothing here
+built=${B:-build}
+unset MAKEFLAGS B DEBUG SANITIZE # how this very suite is built says nothing here
 
 compile_line() { # <make's arguments>...: how src/spline/batch.c would be compiled
     make --no-print-directory -n V=1 B="$scratch/none" "$@" 2>&1 | grep -- '-c src/spline/batch.c'
@@ -31,7 +31,7 @@ expect 1 "an implicit declaration is an error" gcc $flags -c "$scratch/implicit.
 mkdir "$scratch/their tree"
 cp -r Makefile LICENSE wiggly.pc.in include src shaders assets tools tests "$scratch/their tree"
 mkdir "$scratch/their tree/build"
-cp "$B/wiggly" "$B/libwiggly.a" "$scratch/their tree/build"
+cp "$built/wiggly" "$built/libwiggly.a" "$scratch/their tree/build"
 expect 0 "B and DESTDIR with spaces" make -C "$scratch/their tree" B="$scratch/my build" -n install DESTDIR="$scratch/a stage"
 [ -d "$scratch/my build" ]
 ok "the build folder is the one that was named" $?
@@ -44,12 +44,12 @@ if [ "$(id -u)" = 0 ]; then
     expect 0 "root installs from it" make -C "$scratch/their tree" install DESTDIR="$scratch/a stage" PREFIX=/opt/wiggly
     [ "$(find "$scratch/their tree" | wc -l)" = "$before" ] && [ -z "$(find "$scratch/their tree" -user root)" ]
     ok "and leaves nothing there" $?
-    [ "$("$scratch/a stage/opt/wiggly/bin/wiggly" --version)" = "$("$B/wiggly" --version)" ]
+    [ "$("$scratch/a stage/opt/wiggly/bin/wiggly" --version)" = "$("$built/wiggly" --version)" ]
     ok "what is installed knows its version" $?
     touch "$scratch/their tree/src/main.c"
     folder=$(cd "$scratch/their tree" && TMPDIR=$scratch tools/install-from.sh build)
     case $folder in "$scratch"/wiggly-install.*) ok "what is not built, or was changed since, is built elsewhere" 0 ;;
     *) ok "what is not built, or was changed since, is built elsewhere" 1 ;; esac
 fi
-says "licences of what is built in are printed" "part of this program" "$("$B/wiggly" --licenses)"
+says "licences of what is built in are printed" "part of this program" "$("$built/wiggly" --licenses)"
 exit $((cases_failed > 0))

@@ -1,4 +1,5 @@
 // Knots as text and on the clipboard: what is read, what is refused and with which words, and what pasting does.
+#include "inside.h"
 #include "panel_session.h"
 #include "scene/knots.h"
 
@@ -141,8 +142,8 @@ static void test_copy_and_paste_at_the_playhead(void **state)
     assert_near(sway(&s)->knots[5].stiffness, 50, 0);
     assert_near(sway(&s)->knots[6].frame, 79.5, 0);
     assert_near(sway(&s)->knots[6].value, -1, 0);
-    assert_int_equal(selection_count(&s.editor->selection, sway(&s)), 2);
-    assert_true(selection_has(&s.editor->selection, sway(&s)->knots[5].id)); // what was pasted is selected
+    assert_int_equal(selection_count(&s.editor->core.selection, sway(&s)), 2);
+    assert_true(selection_has(&s.editor->core.selection, sway(&s)->knots[5].id)); // what was pasted is selected
     assert_one_step(&s, original);
     free(original);
     free(text);
@@ -178,18 +179,18 @@ static void test_a_paste_that_does_not_fit_changes_nothing(void **state)
     session_click(&s, "ruler(35)");
     char *original = session_saved(&s);
     paste(&s, "0,1\n5,2\n");
-    assert_string_equal(s.editor->message.text, "sway: there is already a knot at frame 40");
+    assert_string_equal(s.editor->core.message.text, "sway: there is already a knot at frame 40");
     paste(&s, "0,1\n1,2\n200,3\n");
-    assert_string_equal(s.editor->message.text, "sway: frame 235 is outside 0 to 96");
+    assert_string_equal(s.editor->core.message.text, "sway: frame 235 is outside 0 to 96");
     paste(&s, "0,1\n0,2\n");
-    assert_string_equal(s.editor->message.text, "sway: there is already a knot at frame 35");
+    assert_string_equal(s.editor->core.message.text, "sway: there is already a knot at frame 35");
     paste(&s, "nonsense");
-    assert_true(s.editor->message.is_error);
+    assert_true(s.editor->core.message.is_error);
     assert_null(history_undo_label(s.history));
     assert_saved(&s, original);
     free(original);
     paste(&s, " \n");
-    assert_string_equal(s.editor->message.text, "The clipboard has no text.");
+    assert_string_equal(s.editor->core.message.text, "The clipboard has no text.");
     session_close(&s);
 }
 
@@ -213,7 +214,7 @@ static void test_copies_come_behind_and_pass_through(void **state)
     session_key(&s, 'A', MOD_CTRL);
     original = session_saved(&s);
     session_key(&s, 'D', MOD_CTRL);
-    assert_non_null(strstr(s.editor->message.text, "No room"));
+    assert_non_null(strstr(s.editor->core.message.text, "No room"));
     assert_saved(&s, original);
     free(original);
     session_click(&s, "knot(sway,5)");

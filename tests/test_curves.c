@@ -1,4 +1,5 @@
 // The curves panel as an animator uses it: boxes, scaling, retiming, other curves, ruler. Events in, document out.
+#include "inside.h"
 #include "panel_session.h"
 
 static const char FIVE[] =
@@ -20,7 +21,7 @@ static void assert_selected(const struct session *s, const char *expected)
 {
     char text[64] = "";
     for (int k = 0; k < spline(s, 0)->knot_count; k++) {
-        text[k] = selection_has(&s->editor->selection, spline(s, 0)->knots[k].id) ? '1' : '0';
+        text[k] = selection_has(&s->editor->core.selection, spline(s, 0)->knots[k].id) ? '1' : '0';
     }
     assert_string_equal(text, expected);
 }
@@ -86,10 +87,10 @@ static void test_a_knot_of_another_curve_makes_it_active(void **state)
     (void)state;
     struct session s;
     session_open(&s, FIVE);
-    assert_int_equal(s.editor->active, 0);
+    assert_int_equal(s.editor->core.active, 0);
     session_point(&s, "knot(up,1)");
     session_press(&s, BUTTON_LEFT, 1);
-    assert_int_equal(s.editor->active, 1);
+    assert_int_equal(s.editor->core.active, 1);
     session_drag(&s, 0, -20, 4); // and the same press drags it
     session_release(&s, BUTTON_LEFT);
     assert_true(spline(&s, 1)->knots[1].value > 0.8);
@@ -189,7 +190,8 @@ static void test_a_ripple_moves_what_comes_after(void **state)
     struct session s;
     session_open(&s, FIVE);
     char *original = session_saved(&s);
-    float frame = (float)(s.editor->layout.plot.w / (s.editor->view.frame1 - s.editor->view.frame0));
+    float frame =
+        (float)(s.editor->core.layout.plot.w / (s.editor->curves->view.frame1 - s.editor->curves->view.frame0));
     session_point(&s, "knot(sway,2)");
     session_press(&s, BUTTON_LEFT, 1);
     session_key(&s, 'R', 0);
@@ -205,7 +207,7 @@ static void test_a_ripple_moves_what_comes_after(void **state)
     session_drag(&s, 200 * frame, 0, 10);
     const double end[] = {10, 20, 66, 76, 96};
     assert_frames(&s, end); // and at the end of the range
-    assert_non_null(strstr(s.editor->message.text, "end of the range"));
+    assert_non_null(strstr(s.editor->core.message.text, "end of the range"));
     session_release(&s, BUTTON_LEFT);
     assert_near(spline(&s, 0)->knots[3].value, 0.5, 0);
     assert_one_step(&s, original);
@@ -218,13 +220,14 @@ static void test_ruler_units_and_snap(void **state)
     (void)state;
     struct session s;
     session_open(&s, FIVE);
-    session_move(&s, s.editor->layout.ruler.x / 2, s.editor->layout.ruler.y + 8);
+    session_move(&s, s.editor->core.layout.ruler.x / 2, s.editor->core.layout.ruler.y + 8);
     session_press(&s, BUTTON_LEFT, 1);
     session_release(&s, BUTTON_LEFT);
-    assert_true(s.editor->options.seconds);
+    assert_true(s.editor->curves->options.seconds);
     session_key(&s, 'U', 0);
-    assert_false(s.editor->options.seconds);
-    float frame = (float)(s.editor->layout.plot.w / (s.editor->view.frame1 - s.editor->view.frame0));
+    assert_false(s.editor->curves->options.seconds);
+    float frame =
+        (float)(s.editor->core.layout.plot.w / (s.editor->curves->view.frame1 - s.editor->curves->view.frame0));
     session_key(&s, 'G', 0); // off the frames
     session_pull(&s, "knot(sway,0)", 2.25f * frame, 0, 3);
     assert_near(spline(&s, 0)->knots[0].frame, 12.25, 1e-3);
@@ -241,21 +244,21 @@ static void test_normalised_curves_keep_their_picture(void **state)
     struct session s;
     session_open(&s, FIVE);
     session_key(&s, 'N', 0);
-    const float(*line)[2] = (const float(*)[2])s.editor->cache.others[0];
-    int count = s.editor->cache.count;
+    const float(*line)[2] = (const float(*)[2])s.editor->curves->cache.others[0];
+    int count = s.editor->curves->cache.count;
     float low = line[0][1], high = line[0][1], own_low = 1e9f, own_high = -1e9f;
     for (int c = 0; c < count; c++) {
         low = fminf(low, line[c][1]);
         high = fmaxf(high, line[c][1]);
-        own_low = fminf(own_low, s.editor->cache.re[c][1]);
-        own_high = fmaxf(own_high, s.editor->cache.re[c][1]);
+        own_low = fminf(own_low, s.editor->curves->cache.re[c][1]);
+        own_high = fmaxf(own_high, s.editor->curves->cache.re[c][1]);
     }
     assert_near(low, own_low, 1.5); // as high as the active one
     assert_near(high, own_high, 1.5);
     float before = line[count / 2][1];
     session_key(&s, KEY_PAGE_DOWN, 0);
-    assert_int_equal(s.editor->active, 1);
-    assert_near(s.editor->cache.re[count / 2][1], before, 1.5); // nothing jumps
+    assert_int_equal(s.editor->core.active, 1);
+    assert_near(s.editor->curves->cache.re[count / 2][1], before, 1.5); // nothing jumps
     session_close(&s);
 }
 
@@ -325,7 +328,7 @@ static void test_double_click_on_the_curve_keeps_it(void **state)
         session_press(&s, BUTTON_LEFT, 2);
         session_release(&s, BUTTON_LEFT);
         assert_int_equal(spline(&s, 0)->knot_count, count + 1);
-        int k = selection_single(&s.editor->selection, spline(&s, 0));
+        int k = selection_single(&s.editor->core.selection, spline(&s, 0));
         assert_near(spline(&s, 0)->knots[k].frame, frame, 0);
         assert_int_equal(spline(&s, 0)->knots[k].has_slope, mods != 0);
         for (int i = 0; i < 97; i++) assert_near(s.table.evaluation.curves[0].total[i], before[i], 1e-6);
@@ -357,7 +360,7 @@ static void test_crowded_knots_are_drawn_as_one_and_hit_each(void **state)
         char target[32];
         snprintf(target, sizeof target, "knot(sway,%d)", k);
         session_click(&s, target);
-        assert_int_equal(selection_single(&s.editor->selection, spline(&s, 0)), k);
+        assert_int_equal(selection_single(&s.editor->core.selection, spline(&s, 0)), k);
     }
     session_close(&s);
 }
@@ -377,12 +380,12 @@ static void test_labels_never_overlap(void **state)
     struct session s;
     panel_open(&s, scene, 640, 300);
     const struct drawlist *list = editor_drawlist(s.editor);
-    const struct rect plot = s.editor->layout.plot;
+    const struct rect plot = s.editor->core.layout.plot;
     float last = plot.y - 20;
     int labels = 0;
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
-        bool beside = c->kind == DRAW_TEXT && c->x > plot.x + plot.w && c->x < s.editor->layout.inspector.x;
+        bool beside = c->kind == DRAW_TEXT && c->x > plot.x + plot.w && c->x < s.editor->core.layout.inspector.x;
         if (!beside || c->y < plot.y || c->y > plot.y + plot.h + 8) continue;
         assert_true(c->y - last > 13);
         last = c->y;

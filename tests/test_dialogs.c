@@ -1,4 +1,5 @@
 /// The dialogs that deal with files of before: recent ones, and work that an earlier run left behind.
+#include "inside.h"
 #include "panel_session.h"
 
 #include "ui/font.h"
@@ -70,14 +71,14 @@ static void test_recent_files(void **state)
     struct session s;
     open_session(&s);
     session_key(&s, 'O', MOD_CTRL);
-    assert_int_equal(s.editor->dialog.match_count, 5);
+    assert_int_equal(s.editor->dialogs->dialog.match_count, 5);
     assert_non_null(shown(&s, "/home/me/scenes"));
     assert_non_null(shown(&s, "no longer exists"));
     session_key(&s, KEY_DOWN, 0);
     session_key(&s, KEY_DOWN, 0);
     session_key(&s, KEY_ENTER, 0);
     expect_request(&s, REQUEST_NONE, "");
-    assert_non_null(strstr(s.editor->dialog.error, "/home/me/gone.json no longer exists"));
+    assert_non_null(strstr(s.editor->dialogs->dialog.error, "/home/me/gone.json no longer exists"));
     session_key(&s, KEY_UP, 0);
     session_key(&s, KEY_ENTER, 0);
     expect_request(&s, REQUEST_OPEN, "/home/me/scenes/walk.json");
@@ -92,12 +93,12 @@ static void test_recent_files_give_way(void **state)
     open_session(&s);
     session_key(&s, 'O', MOD_CTRL);
     panel_type(&s, "t");
-    assert_int_equal(s.editor->dialog.match_count, 1);
+    assert_int_equal(s.editor->dialogs->dialog.match_count, 1);
     session_key(&s, KEY_TAB, 0);
-    assert_string_equal(s.editor->dialog.ui.text.bytes, "two.json");
+    assert_string_equal(s.editor->dialogs->dialog.ui.text.bytes, "two.json");
     session_key(&s, KEY_ESCAPE, 0);
     session_key(&s, 'S', MOD_CTRL | MOD_SHIFT);
-    assert_int_equal(s.editor->dialog.recent_count, 0);
+    assert_int_equal(s.editor->dialogs->dialog.recent_count, 0);
     session_close(&s);
 }
 
@@ -109,7 +110,7 @@ static void test_mouse_in_the_list(void **state)
     session_key(&s, 'O', MOD_CTRL);
     click(&s, "two.json", 1); // a name is chosen first
     expect_request(&s, REQUEST_NONE, "");
-    assert_string_equal(s.editor->dialog.ui.text.bytes, "two.json");
+    assert_string_equal(s.editor->dialogs->dialog.ui.text.bytes, "two.json");
     session_key(&s, KEY_ESCAPE, 0);
     session_key(&s, 'O', MOD_CTRL);
     click(&s, "two.json", 2);
@@ -144,16 +145,16 @@ static void test_recover(void **state)
     expect_request(&s, REQUEST_RECOVER, "");
     panel_answer(&s, REQUEST_RECOVER, false,
                  "recovery-1:3: expected a number"); // it is broken: the choice is open again
-    assert_int_equal(s.editor->dialog.kind, DIALOG_RECOVER);
+    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_RECOVER);
     session_key(&s, 'R', 0);
     expect_request(&s, REQUEST_RECOVER, "");
     editor_message(s.editor, true, "Unsaved work cannot be kept."); // no answer to it
-    assert_int_equal(s.editor->dialog.kind, DIALOG_RECOVER);
+    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_RECOVER);
     panel_answer(&s, REQUEST_SCREENSHOT, true, ""); // nor is this one
-    assert_int_equal(s.editor->dialog.kind, DIALOG_RECOVER);
+    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_RECOVER);
     editor_open(s.editor, &s.world);
     panel_answer(&s, REQUEST_RECOVER, true, "");
-    assert_int_equal(s.editor->dialog.kind, DIALOG_NONE);
+    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_NONE);
     session_close(&s);
 }
 
@@ -166,16 +167,16 @@ static void test_discard_and_later(void **state)
     expect_request(&s, REQUEST_FORGET, "");
     editor_offer_recovery(s.editor, &offer); // there is another one
     panel_answer(&s, REQUEST_FORGET, true, "");
-    assert_int_equal(s.editor->dialog.kind, DIALOG_RECOVER);
+    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_RECOVER);
     session_key(&s, KEY_ESCAPE, 0);
-    assert_int_equal(s.editor->dialog.kind, DIALOG_NONE);
+    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_NONE);
     expect_request(&s, REQUEST_NONE, "");
     editor_offer_recovery(s.editor, &offer);
     session_frame(&s);
     click(&s, "Discard", 1);
     expect_request(&s, REQUEST_FORGET, "");
     panel_answer(&s, REQUEST_FORGET, true, ""); // that was the last one
-    assert_int_equal(s.editor->dialog.kind, DIALOG_NONE);
+    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_NONE);
     editor_offer_recovery(s.editor, &offer);
     session_send(&s, (struct event){.kind = EVENT_CLOSE}); // closing the window decides it later
     expect_request(&s, REQUEST_QUIT, "");

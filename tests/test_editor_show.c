@@ -1,7 +1,7 @@
 // What the editor shows, frame by frame: playback, views, the tail that is pulled, and what it costs. Without GL.
+#include "inside.h"
 #include "session.h"
 
-#include "editor/core/state.h"
 #include "timing/framelog.h"
 #include "ui/theme.h"
 #include <stdio.h>
@@ -45,7 +45,7 @@ static void pull(struct session *s, float share, float dx, float dy)
 static int selected_from(const struct session *s, unsigned id)
 {
     int count = 0;
-    for (; id < s->editor->selection.capacity; id++) count += selection_has(&s->editor->selection, id);
+    for (; id < s->editor->core.selection.capacity; id++) count += selection_has(&s->editor->core.selection, id);
     return count;
 }
 

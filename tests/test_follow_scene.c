@@ -1,4 +1,5 @@
 /// assets/scenes/follow.json: a body that hops aside and back, and a tail that is keyed nowhere and follows through.
+#include "inside.h"
 #include "panel_session.h"
 
 #include <math.h>
@@ -81,12 +82,12 @@ static void test_playing_is_scrubbing(void **state)
     int count = 0;
     while (count < 4 * FRAMES / 2) {
         session_frame(&s);
-        at[count] = s.editor->playback.position;
+        at[count] = s.editor->core.playback.position;
         played[count++] = *pose_of(&s);
     }
     session_key(&s, KEY_SPACE, 0);
     for (int i = count - 1; i >= 0; i -= 7) {
-        s.editor->playback.position = at[i];
+        s.editor->core.playback.position = at[i];
         session_frame(&s);
         assert_memory_equal(pose_of(&s)->matrix, played[i].matrix, (JOINTS + 1) * sizeof played[i].matrix[0]);
     }

@@ -1,7 +1,8 @@
 // The overlay with all keys: whole in every usual window, scrolled in small ones, and true: it names each key that the editor
 // answers to, and no other.
-#include "editor/core/actions.h"
 #include "editor/dialogs/help_rows.h"
+#include "editor/keys.h"
+#include "inside.h"
 #include "panel_session.h"
 
 static const char scene[] =
@@ -13,7 +14,7 @@ static void open_help(struct session *s, float width, float height)
 {
     panel_open(s, scene, width, height);
     session_key(s, KEY_F1, 0);
-    assert_true(s->editor->help.open);
+    assert_true(s->editor->dialogs->help.open);
 }
 
 /// The text on the screen that is `text`, or NULL.
@@ -89,7 +90,7 @@ static void test_small_windows_scroll(void **state)
     session_wheel(&s, 1000);
     assert_true(is_seen(shown(&s, "Double-click")));
     session_key(&s, 'V', 0);
-    assert_false(s.editor->help.open);
+    assert_false(s.editor->dialogs->help.open);
     session_close(&s);
 }
 
@@ -99,14 +100,14 @@ static void test_any_key_closes_the_help_and_does_nothing_else(void **state)
     struct session s;
     panel_open(&s, scene, 1280, 720);
     session_key(&s, KEY_F1, 0);
-    assert_true(s.editor->help.open);
+    assert_true(s.editor->dialogs->help.open);
     session_key(&s, 'V', 0);
-    assert_false(s.editor->help.open);
-    assert_int_equal(s.editor->look, LOOK_WIGGLY);
+    assert_false(s.editor->dialogs->help.open);
+    assert_int_equal(s.editor->core.look, LOOK_WIGGLY);
     session_key(&s, KEY_F1, 0);
     session_move(&s, 500, 500);
     session_press(&s, BUTTON_LEFT, 1);
-    assert_false(s.editor->help.open);
+    assert_false(s.editor->dialogs->help.open);
     session_close(&s);
 }
 

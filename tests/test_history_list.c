@@ -1,4 +1,5 @@
 /// The inspector's list of the history: every step can be seen and gone to, by mouse, keys and wheel.
+#include "inside.h"
 #include "panel_session.h"
 
 static const char scene[] =
@@ -45,8 +46,8 @@ static void test_keys(void **state)
     open_list(&s, 4);
     panel_click(&s, "section.history"); // a press gives no keyboard focus; Tab does
     panel_click(&s, "section.history");
-    for (int i = 0; i < 60 && s.editor->inspector.ui.focus != ui_id("history.4"); i++) session_key(&s, KEY_TAB, 0);
-    assert_int_equal(s.editor->inspector.ui.focus, ui_id("history.4"));
+    for (int i = 0; i < 60 && s.editor->inspector->ui.focus != ui_id("history.4"); i++) session_key(&s, KEY_TAB, 0);
+    assert_int_equal(s.editor->inspector->ui.focus, ui_id("history.4"));
     session_key(&s, KEY_UP, 0);
     session_key(&s, KEY_UP, 0);
     assert_int_equal(knots(&s), 3);
@@ -97,7 +98,7 @@ static void test_dropped(void **state)
     assert_true(history_dropped(s.history) > 10);
     for (int i = 0; i < 20; i++) {
         float x, y;
-        assert_true(inspector_target(s.editor, &s.world, "section.history", &x, &y));
+        assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, "section.history", &x, &y));
         session_move(&s, x, y + 40);
         session_wheel(&s, 1);
     }

@@ -1,4 +1,5 @@
 /// The inspector: what its widgets do to the document, by the events of mouse and keyboard.
+#include "inside.h"
 #include "panel_session.h"
 
 static const char scene[] =
@@ -19,7 +20,7 @@ static void test_drag_is_one_undo_step(void **state)
     panel_open(&f, scene, 1280, 720);
     panel_drag(&f, "frequency", 2.5);
     assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 2.5, 0);
-    assert_true(inspector_is_dragging(f.editor));
+    assert_true(inspector_is_dragging(f.editor->inspector));
     panel_release(&f);
     assert_false(history_is_open(f.history));
     assert_string_equal(history_undo_label(f.history), "Set frequency");
@@ -55,7 +56,7 @@ static void test_closing_ends_a_drag(void **state)
     panel_drag(&f, "frequency", 3);
     session_send(&f, (struct event){.kind = EVENT_CLOSE});
     assert_false(history_is_open(f.history));
-    assert_int_equal(f.editor->dialog.kind, DIALOG_UNSAVED);
+    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_UNSAVED);
     session_close(&f);
 }
 
@@ -65,12 +66,12 @@ static void test_typed_nonsense_is_said_and_refused(void **state)
     struct session f;
     panel_open(&f, scene, 1280, 720);
     panel_enter(&f, "damping", "lots");
-    assert_true(f.editor->message.is_error);
-    assert_non_null(strstr(f.editor->message.text, "damping: expected a number"));
+    assert_true(f.editor->core.message.is_error);
+    assert_non_null(strstr(f.editor->core.message.text, "damping: expected a number"));
     session_key(&f, 'A', 0);
     session_key(&f, KEY_ESCAPE, 0);
     panel_enter(&f, "damping", "1.5"); // more than complex mode takes
-    assert_non_null(strstr(f.editor->message.text, "damping: expected 0 … 1"));
+    assert_non_null(strstr(f.editor->core.message.text, "damping: expected 0 … 1"));
     assert_near(parameter(&f, 0, PARAMETER_DAMPING)->value, 0.1, 0);
     assert_null(history_undo_label(f.history));
     session_close(&f);
@@ -83,21 +84,21 @@ static void test_typing_keeps_keys_from_the_editor(void **state)
     panel_open(&f, scene, 1280, 720);
     panel_press(&f, "frequency", 2);
     panel_release(&f);
-    assert_true(inspector_is_typing(f.editor));
+    assert_true(inspector_is_typing(f.editor->inspector));
     panel_type(&f, "v m.");
     session_key(&f, KEY_DELETE, 0);
     session_key(&f, KEY_SPACE, 0);
-    assert_int_equal(f.editor->look, LOOK_WIGGLY);
+    assert_int_equal(f.editor->core.look, LOOK_WIGGLY);
     assert_int_equal(spline_mode(&f.document->splines[0]), WIGGLY_COMPLEX);
     assert_int_equal(f.document->splines[0].knot_count, 3);
-    assert_false(f.editor->playback.playing);
+    assert_false(f.editor->core.playback.playing);
     session_key(&f, KEY_F1, 0);
-    assert_true(f.editor->help.open);
+    assert_true(f.editor->dialogs->help.open);
     session_key(&f, KEY_ESCAPE, 0);
     session_key(&f, KEY_ESCAPE, 0);
-    assert_false(inspector_is_typing(f.editor));
+    assert_false(inspector_is_typing(f.editor->inspector));
     session_key(&f, 'V', 0);
-    assert_int_equal(f.editor->look, LOOK_STIFF);
+    assert_int_equal(f.editor->core.look, LOOK_STIFF);
     session_close(&f);
 }
 
@@ -106,16 +107,16 @@ static void test_arrows_belong_to_the_focus(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
-    f.editor->inspector.ui.focus = ui_id("frequency");
+    f.editor->inspector->ui.focus = ui_id("frequency");
     session_key(&f, KEY_RIGHT, 0);
     session_key(&f, KEY_RIGHT, 0);
     assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 1.1, 0);
-    assert_near(f.editor->playback.position, 0, 0);
+    assert_near(f.editor->core.playback.position, 0, 0);
     session_key(&f, 'Z', MOD_CTRL); // the run of nudges is one step
     assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 1, 0);
     session_key(&f, KEY_ESCAPE, 0);
     session_key(&f, KEY_RIGHT, 0);
-    assert_near(f.editor->playback.position, 1, 0);
+    assert_near(f.editor->core.playback.position, 1, 0);
     assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 1, 0);
     session_close(&f);
 }
@@ -135,13 +136,13 @@ static void test_only_what_counts_is_shown(void **state)
     panel_click(&f, "mode.cubic");
     assert_false(panel_shows(&f, "spring"));
     panel_click(&f, "spline.lift");
-    assert_int_equal(f.editor->active, 2);
+    assert_int_equal(f.editor->core.active, 2);
     assert_false(panel_shows(&f, "frequency")); // a track drives it
     assert_true(panel_shows(&f, "damping"));
     panel_click(&f, "start.loop");
     assert_int_equal(spline_start(&f.document->splines[2]), WIGGLY_LOOP);
     panel_click(&f, "look.cubic");
-    assert_int_equal(f.editor->look, LOOK_CUBIC);
+    assert_int_equal(f.editor->core.look, LOOK_CUBIC);
     session_close(&f);
 }
 
@@ -152,8 +153,8 @@ static void test_knot_is_edited_in_place(void **state)
     panel_open(&f, scene, 1280, 720);
     const struct spline *sway = &f.document->splines[0];
     unsigned id = sway->knots[1].id;
-    editor_reserve(f.editor, f.document);
-    selection_set(&f.editor->selection, id, true);
+    core_reserve(&f.editor->core, f.document);
+    selection_set(&f.editor->core.selection, id, true);
     panel_enter(&f, "value", "0.75");
     assert_near(sway->knots[1].value, 0.75, 0);
     panel_enter(&f, "frame", "70"); // past its neighbour
@@ -161,7 +162,7 @@ static void test_knot_is_edited_in_place(void **state)
     assert_int_equal(sway->knots[2].id, id);
     panel_enter(&f, "frame", "60"); // where another knot sits
     assert_near(sway->knots[2].frame, 70, 0);
-    assert_true(f.editor->message.is_error);
+    assert_true(f.editor->core.message.is_error);
     panel_click(&f, "has_slope");
     assert_true(sway->knots[2].has_slope);
     panel_enter(&f, "stiffness", "50");
@@ -194,7 +195,7 @@ static void test_several_knots(void **state)
     assert_near(sway->knots[2].frame, 70, 0);
     panel_enter(&f, "frame", "40"); // the last one would leave the scene
     assert_near(sway->knots[0].frame, 10, 0);
-    assert_non_null(strstr(f.editor->message.text, "frame 100 is outside 0 to 96"));
+    assert_non_null(strstr(f.editor->core.message.text, "frame 100 is outside 0 to 96"));
     panel_press(&f, "frame", 1);
     session_drag(&f, 60, 0, 60); // as far as it goes
     panel_release(&f);
@@ -204,7 +205,7 @@ static void test_several_knots(void **state)
     panel_enter(&f, "stiffness", "50");
     for (int k = 0; k < 3; k++) assert_near(sway->knots[k].stiffness, 50, 0);
     panel_enter(&f, "slope", "steep");
-    assert_non_null(strstr(f.editor->message.text, "slope: expected a number"));
+    assert_non_null(strstr(f.editor->core.message.text, "slope: expected a number"));
     session_close(&f);
 }
 
@@ -214,8 +215,8 @@ static void test_frame_drag_passes_through_a_neighbour(void **state)
     struct session f;
     panel_open(&f, scene, 1280, 720);
     const struct spline *sway = &f.document->splines[0];
-    editor_reserve(f.editor, f.document);
-    selection_set(&f.editor->selection, sway->knots[1].id, true);
+    core_reserve(&f.editor->core, f.document);
+    selection_set(&f.editor->core.selection, sway->knots[1].id, true);
     panel_press(&f, "frame", 1);
     float x = f.x;
     for (int moved = 3; moved <= 30; moved++) session_move(&f, x + (float)moved, f.y);
@@ -264,9 +265,9 @@ static void test_tail_array_scales_as_a_whole(void **state)
     session_key(&f, 'Z', MOD_CTRL);
     assert_near(tail->channels[0].gain.value[0], 3, 0);
     session_key(&f, KEY_PAGE_UP, 0); // the tail's numbers are those of the spline that is edited
-    assert_int_equal(f.editor->inspector.channel, 1);
+    assert_int_equal(f.editor->inspector->channel, 1);
     session_key(&f, KEY_PAGE_DOWN, 0);
-    assert_int_equal(f.editor->inspector.channel, 0);
+    assert_int_equal(f.editor->inspector->channel, 0);
     panel_click(&f, "channel.1");
     panel_drag(&f, "lag", 12);
     panel_release(&f);
@@ -277,9 +278,9 @@ static void test_tail_array_scales_as_a_whole(void **state)
 
 static bool shows_text(struct session *f, const char *part)
 {
-    struct drawlist *list = &f->editor->list;
-    drawlist_clear(list, f->editor->layout.window);
-    inspector_show(f->editor, &f->world);
+    struct drawlist *list = &f->editor->core.list;
+    drawlist_clear(list, f->editor->core.layout.window);
+    inspector_show(f->editor->inspector, &f->editor->core, &f->world, false);
     for (int i = 0; i < list->count; i++) {
         if (list->commands[i].kind == DRAW_TEXT && strstr(list->text + list->commands[i].first, part)) return true;
     }
@@ -408,10 +409,10 @@ static void test_the_hint_of_a_position_outlives_the_panel(void **state)
     struct session s;
     float x, y;
     panel_open(&s, tail, 1280, 1400);
-    assert_true(inspector_target(s.editor, &s.world, "position.y", &x, &y));
+    assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, "position.y", &x, &y));
     session_move(&s, x, y);
     session_frame(&s);
-    assert_string_equal(inspector_hint(s.editor), "Position of the body along y");
+    assert_string_equal(inspector_hint(s.editor->inspector), "Position of the body along y");
     session_close(&s);
 }
 

@@ -1,14 +1,14 @@
 /// The inspector's scene, list of splines, tracks and palette, by the events of mouse and keyboard.
-#include "panel_session.h"
-
 #include "editor/core/arrange.h"
+#include "inside.h"
+#include "panel_session.h"
 
 static const char scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [" PANEL_SPLINES "],"
     "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"joints\": 3, \"channels\": ["
     "{\"spline\": \"sway\", \"axis\": \"side\"}, {\"spline\": \"lift\", \"axis\": \"up\"}]}]}";
 
-static const char *active_name(const struct session *f) { return f->document->splines[f->editor->active].name; }
+static const char *active_name(const struct session *f) { return f->document->splines[f->editor->core.active].name; }
 
 static void test_a_spline_is_added_at_the_playhead(void **state)
 {
@@ -23,7 +23,7 @@ static void test_a_spline_is_added_at_the_playhead(void **state)
     assert_near(f.document->splines[3].parameter[PARAMETER_FREQUENCY].value, 1, 0);
     assert_one_step(&f, before);
     session_key(&f, 'Z', MOD_CTRL);
-    assert_true(f.editor->active >= 0 && f.editor->active < 3);
+    assert_true(f.editor->core.active >= 0 && f.editor->core.active < 3);
     free(before);
     session_close(&f);
 }
@@ -38,7 +38,7 @@ static void test_the_active_spline_is_followed(void **state)
     char *before = session_saved(&f);
     panel_click(&f, "spline.down");
     assert_string_equal(active_name(&f), "pace");
-    assert_int_equal(f.editor->active, 2);
+    assert_int_equal(f.editor->core.active, 2);
     assert_one_step(&f, before);
     assert_string_equal(active_name(&f), "pace");
     session_key(&f, 'Z', MOD_CTRL);
@@ -47,7 +47,7 @@ static void test_the_active_spline_is_followed(void **state)
     assert_string_equal(active_name(&f), "pace 2");
     panel_click(&f, "spline.delete"); // nothing follows it: no question
     assert_int_equal(f.document->spline_count, 3);
-    assert_int_equal(f.editor->dialog.kind, DIALOG_NONE);
+    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_NONE);
     free(before);
     session_close(&f);
 }
@@ -62,7 +62,7 @@ static void test_deleting_a_followed_spline_asks(void **state)
     panel_click(&f, "spline.pace");
     char *before = session_saved(&f);
     panel_click(&f, "spline.delete");
-    assert_int_equal(f.editor->dialog.kind, DIALOG_ASK);
+    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_ASK);
     session_key(&f, KEY_ESCAPE, 0);
     assert_int_equal(f.document->spline_count, 3);
     panel_click(&f, "spline.delete");
@@ -91,10 +91,10 @@ static void test_an_empty_list(void **state)
     panel_open(&f, scene, 960, 600);
     for (int i = 0; i < 3; i++) {
         panel_click(&f, "spline.delete");
-        if (f.editor->dialog.kind == DIALOG_ASK) session_key(&f, 'D', 0);
+        if (f.editor->dialogs->dialog.kind == DIALOG_ASK) session_key(&f, 'D', 0);
     }
     assert_int_equal(f.document->spline_count, 0);
-    assert_int_equal(f.editor->active, -1);
+    assert_int_equal(f.editor->core.active, -1);
     panel_click(&f, "spline.delete");
     panel_click(&f, "spline.copy");
     panel_click(&f, "spline.add");
@@ -119,12 +119,12 @@ static void test_renaming(void **state)
     panel_type(&f, "pace");
     session_key(&f, KEY_ENTER, 0);
     assert_string_equal(f.document->splines[0].name, "swing");
-    assert_non_null(strstr(f.editor->message.text, "a spline called pace already exists"));
+    assert_non_null(strstr(f.editor->core.message.text, "a spline called pace already exists"));
     session_key(&f, KEY_F2, 0);
     session_key(&f, KEY_DELETE, 0); // all is selected
     session_key(&f, KEY_ENTER, 0);
     assert_string_equal(f.document->splines[0].name, "swing");
-    assert_non_null(strstr(f.editor->message.text, "a spline needs a name"));
+    assert_non_null(strstr(f.editor->core.message.text, "a spline needs a name"));
     assert_int_equal(f.document->splines[0].knot_count, 3);
     free(before);
     session_close(&f);
@@ -156,14 +156,14 @@ static void test_colours(void **state)
     panel_click(&f, "color.pace");
     panel_click(&f, "color.3");
     assert_int_equal(f.document->splines[1].color, 0x1F9E7A);
-    assert_false(f.editor->inspector.ui.popup.id);
+    assert_false(f.editor->inspector->ui.popup.id);
     assert_one_step(&f, before);
     panel_click(&f, "color.pace");
     panel_click(&f, "color.type");
     panel_type(&f, "#12345");
     session_key(&f, KEY_ENTER, 0);
     assert_int_equal(f.document->splines[1].color, 0x1F9E7A);
-    assert_non_null(strstr(f.editor->message.text, "colour: expected something like #FFB000, got “#12345”"));
+    assert_non_null(strstr(f.editor->core.message.text, "colour: expected something like #FFB000, got “#12345”"));
     panel_click(&f, "color.type");
     panel_type(&f, "#123456");
     session_key(&f, KEY_ENTER, 0);
@@ -179,18 +179,18 @@ static void test_hidden_and_solo_curves(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
-    assert_int_equal(f.editor->cache.other_count, 2);
+    assert_int_equal(f.editor->curves->cache.other_count, 2);
     panel_click(&f, "eye.pace");
-    assert_int_equal(f.editor->cache.other_count, 1);
+    assert_int_equal(f.editor->curves->cache.other_count, 1);
     panel_click(&f, "spline.pace"); // the order of the list does not matter to what is hidden
     panel_click(&f, "spline.up");
-    assert_false(arrange_shows(f.editor, f.document, 0));
+    assert_false(arrange_shows(&f.editor->core, f.document, 0));
     panel_click(&f, "solo.lift");
-    assert_true(arrange_shows(f.editor, f.document, 2));
-    assert_false(arrange_shows(f.editor, f.document, 1));
+    assert_true(arrange_shows(&f.editor->core, f.document, 2));
+    assert_false(arrange_shows(&f.editor->core, f.document, 1));
     panel_click(&f, "solo.lift");
     panel_click(&f, "eye.pace");
-    assert_int_equal(f.editor->cache.other_count, 2);
+    assert_int_equal(f.editor->curves->cache.other_count, 2);
     assert_true(history_is_saved(f.history) == false); // by the reordering alone
     session_close(&f);
 }
@@ -212,8 +212,8 @@ static void test_a_track_is_attached_and_detached(void **state)
     assert_false(panel_shows(&f, "damping"));
     panel_click(&f, "spline.pace");
     panel_click(&f, "follow.equilibrium");
-    assert_false(ui_popup_is_open(&f.editor->inspector.ui, "follow")); // both others follow it
-    assert_non_null(strstr(f.editor->message.text, "no other spline for pace to follow"));
+    assert_false(ui_popup_is_open(&f.editor->inspector->ui, "follow")); // both others follow it
+    assert_non_null(strstr(f.editor->core.message.text, "no other spline for pace to follow"));
     panel_click(&f, "spline.sway");
     session_frame(&f);
     panel_click(&f, "follow.damping");
@@ -231,7 +231,7 @@ static void test_frames_per_second_ask(void **state)
     panel_click(&f, "section.scene");
     char *before = session_saved(&f);
     panel_enter(&f, "scene.fps", "48");
-    assert_int_equal(f.editor->dialog.kind, DIALOG_ASK);
+    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_ASK);
     assert_near(f.document->fps, 24, 0);
     session_key(&f, 'S', 0);
     assert_near(f.document->fps, 48, 0);
@@ -243,7 +243,7 @@ static void test_frames_per_second_ask(void **state)
     session_key(&f, 'F', 0);
     assert_near(f.document->splines[0].knots[1].frame, 36, 0);
     panel_enter(&f, "scene.fps", "0");
-    assert_non_null(strstr(f.editor->message.text, "rate: expected"));
+    assert_non_null(strstr(f.editor->core.message.text, "rate: expected"));
     session_key(&f, KEY_ESCAPE, 0);
     free(before);
     session_close(&f);
@@ -258,23 +258,23 @@ static void test_a_range_asks_for_its_knots(void **state)
     session_click(&f, "ruler(80)");
     char *before = session_saved(&f);
     panel_enter(&f, "scene.last", "50");
-    assert_int_equal(f.editor->dialog.kind, DIALOG_ASK);
+    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_ASK);
     session_key(&f, 'T', 0);
     assert_int_equal(f.document->splines[0].knot_count, 2);
-    assert_near(f.editor->playback.position, 50, 0); // inside again
+    assert_near(f.editor->core.playback.position, 50, 0); // inside again
     assert_one_step(&f, before);
     session_key(&f, 'Z', MOD_CTRL);
     panel_enter(&f, "scene.last", "50");
     session_key(&f, 'M', 0);
     assert_near(f.document->splines[0].knots[2].frame, 50, 0);
     panel_enter(&f, "scene.last", "50.5");
-    assert_non_null(strstr(f.editor->message.text, "last: expected a whole number, got 50.5"));
+    assert_non_null(strstr(f.editor->core.message.text, "last: expected a whole number, got 50.5"));
     panel_enter(&f, "scene.first", "60");
-    assert_non_null(strstr(f.editor->message.text, "the last frame must not be before the first"));
+    assert_non_null(strstr(f.editor->core.message.text, "the last frame must not be before the first"));
     panel_enter(&f, "scene.first", "-10"); // the playhead stays on its frame
-    assert_near(f.editor->playback.position, 60, 0);
+    assert_near(f.editor->core.playback.position, 60, 0);
     panel_enter(&f, "scene.substeps", "4");
-    assert_near(editor_frame(f.editor, f.document), 50, 0);
+    assert_near(core_frame(&f.editor->core, f.document), 50, 0);
     assert_int_equal(f.document->substeps, 4);
     free(before);
     session_close(&f);
@@ -286,7 +286,7 @@ static void random_input(struct session *f, unsigned *seed)
 {
     static const int keys[] = {KEY_ENTER, KEY_ESCAPE, KEY_TAB, KEY_UP, KEY_DOWN,  KEY_LEFT,
                                KEY_RIGHT, KEY_DELETE, KEY_F2,  '3',    KEY_SPACE, KEY_BACKSPACE};
-    struct rect area = f->editor->layout.inspector;
+    struct rect area = f->editor->core.layout.inspector;
     switch (next_random(seed) % 6) {
     case 0:
     case 1:

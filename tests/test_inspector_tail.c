@@ -1,4 +1,5 @@
 /// The inspector's section on tails: every part of a tail set by hand, each a step that undo takes back byte by byte.
+#include "inside.h"
 #include "panel_session.h"
 
 #include <math.h>
@@ -67,8 +68,8 @@ static void test_channels(void **state)
     assert_int_equal(tail(&s)->channels[0].spline, 1);
     panel_click(&s, "channel.add");
     assert_int_equal(tail(&s)->channel_count, 2);
-    assert_int_equal(tail(&s)->channels[1].spline, s.editor->active);
-    assert_int_equal(s.editor->inspector.channel, 1);
+    assert_int_equal(tail(&s)->channels[1].spline, s.editor->core.active);
+    assert_int_equal(s.editor->inspector->channel, 1);
     panel_click(&s, "channel.0");
     panel_click(&s, "channel.delete");
     assert_int_equal(tail(&s)->channel_count, 1);
@@ -102,7 +103,7 @@ static void test_angles_one_for_each_joint(void **state)
     session_key(&s, 'A', MOD_CTRL);
     panel_type(&s, "1, 2, x");
     session_key(&s, KEY_ENTER, 0);
-    assert_string_equal(s.editor->message.text, "gain: expected 4 numbers, one per joint.");
+    assert_string_equal(s.editor->core.message.text, "gain: expected 4 numbers, one per joint.");
     assert_saved(&s, good);
     free(good);
     panel_click(&s, "rest.each");
@@ -123,7 +124,7 @@ static void test_tails(void **state)
     panel_click(&s, "tail.add");
     assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 2);
     assert_int_equal(editor_stage(s.editor)->tail_count, 2);
-    assert_int_equal(s.editor->inspector.tail, 1);
+    assert_int_equal(s.editor->inspector->tail, 1);
     panel_click(&s, "tail.delete");
     panel_click(&s, "tail.delete");
     assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 0);
@@ -142,7 +143,7 @@ static void test_toggles(void **state)
     panel_click(&s, "onion");
     panel_click(&s, "trail");
     panel_click(&s, "record");
-    assert_true(s.editor->overlays.onion && s.editor->overlays.trail && s.editor->record.armed);
+    assert_true(s.editor->core.overlays.onion && s.editor->core.overlays.trail && s.editor->core.record_armed);
     assert_null(history_undo_label(s.history));
     close_undone(&s, before);
 }

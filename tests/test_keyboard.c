@@ -1,4 +1,5 @@
 // Nothing needs a mouse: what it does to selection, views, panels and warnings, the keyboard does too.
+#include "inside.h"
 #include "panel_session.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -16,7 +17,7 @@ static const char jump[] = "{\"wiggly\": 1, \"frames\": [0, 72], \"splines\": [{
 
 static bool is_selected(const struct session *s, int knot)
 {
-    return selection_has(&s->editor->selection, s->document->splines[0].knots[knot].id);
+    return selection_has(&s->editor->core.selection, s->document->splines[0].knots[knot].id);
 }
 
 static void test_the_selection_grows_by_neighbours(void **state)
@@ -32,7 +33,7 @@ static void test_the_selection_grows_by_neighbours(void **state)
     for (int k = 0; k < 3; k++) assert_true(is_selected(&s, k));
     assert_false(is_selected(&s, 3));
     for (int i = 0; i < 3; i++) session_type(&s, "<"); // there is nothing before the first
-    assert_int_equal(selection_count(&s.editor->selection, &s.document->splines[0]), 3);
+    assert_int_equal(selection_count(&s.editor->core.selection, &s.document->splines[0]), 3);
     session_close(&s);
 }
 
@@ -41,18 +42,19 @@ static void test_the_curves_pan_and_zoom(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    const struct view before = s.editor->view;
+    const struct view before = s.editor->curves->view;
     session_key(&s, KEY_RIGHT, MOD_CTRL);
     session_key(&s, KEY_UP, MOD_CTRL);
-    assert_true(s.editor->view.frame0 > before.frame0 && s.editor->view.value0 > before.value0);
+    assert_true(s.editor->curves->view.frame0 > before.frame0 && s.editor->curves->view.value0 > before.value0);
     session_key(&s, KEY_LEFT, MOD_CTRL);
     session_key(&s, KEY_DOWN, MOD_CTRL);
-    assert_near(s.editor->view.frame0, before.frame0, 1e-3);
-    assert_near(s.editor->view.value1, before.value1, 1e-3);
+    assert_near(s.editor->curves->view.frame0, before.frame0, 1e-3);
+    assert_near(s.editor->curves->view.value1, before.value1, 1e-3);
     session_key(&s, '=', MOD_CTRL);
-    assert_near(s.editor->view.frame1 - s.editor->view.frame0, 0.8 * (before.frame1 - before.frame0), 1e-3);
+    assert_near(s.editor->curves->view.frame1 - s.editor->curves->view.frame0, 0.8 * (before.frame1 - before.frame0),
+                1e-3);
     session_key(&s, '-', MOD_CTRL);
-    assert_near(s.editor->view.frame1, before.frame1, 1e-3);
+    assert_near(s.editor->curves->view.frame1, before.frame1, 1e-3);
     session_close(&s);
 }
 
@@ -61,14 +63,15 @@ static void test_the_camera_turns_and_comes_back(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    const struct camera before = s.editor->camera;
+    const struct camera before = s.editor->stage->camera;
     session_key(&s, KEY_RIGHT, MOD_CTRL | MOD_SHIFT);
     session_key(&s, KEY_UP, MOD_CTRL | MOD_SHIFT);
     session_key(&s, '=', MOD_CTRL | MOD_SHIFT);
-    assert_true(s.editor->camera.azimuth > before.azimuth && s.editor->camera.elevation > before.elevation);
-    assert_true(s.editor->camera.distance < before.distance);
+    assert_true(s.editor->stage->camera.azimuth > before.azimuth &&
+                s.editor->stage->camera.elevation > before.elevation);
+    assert_true(s.editor->stage->camera.distance < before.distance);
     session_key(&s, KEY_HOME, MOD_SHIFT);
-    assert_memory_equal(&before, &s.editor->camera, sizeof before);
+    assert_memory_equal(&before, &s.editor->stage->camera, sizeof before);
     session_close(&s);
 }
 
@@ -95,12 +98,12 @@ static void test_a_warning_is_done_away_with(void **state)
     (void)state;
     struct session s;
     session_open(&s, jump);
-    assert_int_equal(s.editor->warnings.count, 1);
+    assert_int_equal(s.editor->curves->warnings.count, 1);
     session_key(&s, 'W', 0);
     session_frame(&s);
-    assert_int_equal(s.editor->warnings.count, 0);
+    assert_int_equal(s.editor->curves->warnings.count, 0);
     session_key(&s, 'Z', MOD_CTRL);
-    assert_int_equal(s.editor->warnings.count, 1);
+    assert_int_equal(s.editor->curves->warnings.count, 1);
     session_close(&s);
 }
 
@@ -110,7 +113,7 @@ static void test_a_number_goes_to_its_default(void **state)
     struct session s;
     session_open(&s, scene);
     const double *frequency = &s.document->splines[0].parameter[PARAMETER_FREQUENCY].value;
-    for (int i = 0; i < 40 && s.editor->inspector.ui.focus != ui_id("frequency"); i++) session_key(&s, KEY_TAB, 0);
+    for (int i = 0; i < 40 && s.editor->inspector->ui.focus != ui_id("frequency"); i++) session_key(&s, KEY_TAB, 0);
     session_key(&s, KEY_DELETE, 0);
     assert_near(*frequency, 1, 1e-12);
     assert_int_equal(s.document->splines[0].knot_count, 4);
@@ -145,7 +148,7 @@ static struct rect rect_of_focus(const struct ui *ui)
 /// Goes round with Tab, and sees the focus wherever it is. Returns how many places there are.
 static int tab_round(struct session *s)
 {
-    struct ui *ui = &s->editor->inspector.ui;
+    struct ui *ui = &s->editor->inspector->ui;
     session_key(s, KEY_TAB, 0);
     const uint32_t first = ui->focus;
     int count = 0;
@@ -166,9 +169,9 @@ static void test_the_focus_is_seen_wherever_it_goes(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    inspector_unfold(s.editor, "section.scene");
-    inspector_unfold(s.editor, "section.poles");
-    inspector_unfold(s.editor, "section.history");
+    inspector_unfold(s.editor->inspector, "section.scene");
+    inspector_unfold(s.editor->inspector, "section.poles");
+    inspector_unfold(s.editor->inspector, "section.history");
     session_click(&s, "knot(sway,1)");
     assert_true(tab_round(&s) > 45);
     session_close(&s);

@@ -3,6 +3,7 @@
 ///
 ///     MONKEY_SEED=7 MONKEY_EVENTS=1000000 build/tests/test_monkey    runs one seed, as long as wanted
 ///     MONKEY_RECORD=/tmp/m.replay …                                  writes down what it does
+#include "inside.h"
 #include "invariants.h"
 #include "monkey.h"
 #include "puppet.h"
@@ -144,22 +145,22 @@ static void assert_editor(const struct app *app)
 {
     const struct editor *editor = app->table.editor;
     const struct document *d = app->table.document;
-    bool dragging = editor->drag.kind != DRAG_NONE || inspector_is_dragging(editor);
-    const struct ui *ui = &editor->inspector.ui;
+    bool dragging = editor->core.drag.kind != DRAG_NONE || inspector_is_dragging(editor->inspector);
+    const struct ui *ui = &editor->inspector->ui;
     if (history_is_open(app->table.history) && !dragging) {
-        fail_msg("a step is open, and nothing is dragged: %d %d, %x %d, dialog %d", editor->drag.kind,
-                 editor->drag.moved, ui->held, ui->moved, editor->dialog.kind);
+        fail_msg("a step is open, and nothing is dragged: %d %d, %x %d, dialog %d", editor->core.drag.kind,
+                 editor->core.drag.moved, ui->held, ui->moved, editor->dialogs->dialog.kind);
     }
-    if (d->spline_count == 0) assert_int_equal(editor->active, -1);
-    if (d->spline_count > 0) assert_in_range(editor->active, 0, d->spline_count - 1);
-    if (editor->active >= 0) assert_int_equal(d->splines[editor->active].id, editor->active_id);
+    if (d->spline_count == 0) assert_int_equal(editor->core.active, -1);
+    if (d->spline_count > 0) assert_in_range(editor->core.active, 0, d->spline_count - 1);
+    if (editor->core.active >= 0) assert_int_equal(d->splines[editor->core.active].id, editor->core.active_id);
     for (int s = 0; s < d->spline_count; s++) {
-        if (s != editor->active) assert_int_equal(selection_count(&editor->selection, &d->splines[s]), 0);
+        if (s != editor->core.active) assert_int_equal(selection_count(&editor->core.selection, &d->splines[s]), 0);
     }
-    for (unsigned id = d->next_id; id < editor->selection.capacity; id++) {
-        assert_false(selection_has(&editor->selection, id));
+    for (unsigned id = d->next_id; id < editor->core.selection.capacity; id++) {
+        assert_false(selection_has(&editor->core.selection, id));
     }
-    assert_in_range(editor->playback.position, 0, document_samples(d) - 1);
+    assert_in_range(editor->core.playback.position, 0, document_samples(d) - 1);
 }
 
 /// Lets go of everything.
@@ -183,19 +184,19 @@ static void assert_undone(struct monkey *m, struct origin *origin)
     watch_origin(origin, app);
     struct editor_world world = table_world(&app->table);
     const size_t all = history_count(app->table.history), done = history_done(app->table.history);
-    editor_jump(app->table.editor, &world, all);
+    core_jump(&app->table.editor->core, &world, all);
     char *last = printed(app->table.document);
-    editor_jump(app->table.editor, &world, 0);
+    core_jump(&app->table.editor->core, &world, 0);
     blind_frame(m->blind);
     if (history_dropped(app->table.history) > 0 || app->table.document->serial != origin->serial)
         remember(origin, app->table.document);
     char *first = printed(app->table.document);
     assert_string_equal(first, origin->text);
-    editor_jump(app->table.editor, &world, all);
+    core_jump(&app->table.editor->core, &world, all);
     blind_frame(m->blind);
     char *again = printed(app->table.document);
     assert_string_equal(again, last);
-    editor_jump(app->table.editor, &world, done);
+    core_jump(&app->table.editor->core, &world, done);
     free(first);
     free(last);
     free(again);
@@ -206,7 +207,7 @@ static void keep_small(struct app *app)
 {
     while (document_samples(app->table.document) * (app->table.document->spline_count + 1) > MOST_SAMPLES) {
         struct editor_world world = table_world(&app->table);
-        editor_undo(app->table.editor, &world);
+        core_undo(&app->table.editor->core, &world);
         if (!history_redo_label(app->table.history)) return;
     }
 }

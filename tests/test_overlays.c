@@ -1,4 +1,5 @@
 /// Onion skin and motion arc: what they show, and that they follow an edit in its own frame.
+#include "inside.h"
 #include "panel_session.h"
 
 #include "ui/theme.h"
@@ -24,7 +25,7 @@ static struct found find(const struct session *s, enum draw_kind kind, uint32_t 
 {
     struct found found = {.count = 0};
     const struct drawlist *list = editor_drawlist(s->editor);
-    const struct rect *stage = &s->editor->layout.stage;
+    const struct rect *stage = &s->editor->core.layout.stage;
     for (int i = 0; i < list->count && found.count < MAX_FOUND; i++) {
         const struct draw_command *command = &list->commands[i];
         bool inside =
@@ -69,7 +70,7 @@ static void test_onion_shows_the_nearest_knots(void **state)
     session_key(&s, KEY_DELETE, 0);
     assert_int_equal(find(&s, DRAW_LINE, color).count, 0);
     session_key(&s, 'O', 0);
-    assert_false(s.editor->overlays.onion);
+    assert_false(s.editor->core.overlays.onion);
     session_close(&s);
 }
 
@@ -125,8 +126,8 @@ static void test_overlays_outlive_documents(void **state)
     session_key(&s, 'P', 0);
     editor_open(s.editor, &s.world);
     session_frame(&s);
-    assert_true(s.editor->overlays.onion);
-    assert_true(s.editor->overlays.trail);
+    assert_true(s.editor->core.overlays.onion);
+    assert_true(s.editor->core.overlays.trail);
     session_close(&s);
 }
 

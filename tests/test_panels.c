@@ -1,4 +1,6 @@
 /// Status line and dialogs; and of all panels: no text leaves its panel, none lies over another.
+#include "editor/dialogs/dialog.h"
+#include "inside.h"
 #include "panel_session.h"
 
 static const char small_scene[] =
@@ -66,21 +68,21 @@ static int assert_texts_apart(const struct drawlist *list, int first, struct rec
     return count;
 }
 
-static void show(struct session *f) { drawlist_clear(&f->editor->list, f->editor->layout.window); }
+static void show(struct session *f) { drawlist_clear(&f->editor->core.list, f->editor->core.layout.window); }
 
 static void check_inspector(struct session *f)
 {
-    const struct spline *spline = editor_active_spline(f->editor, &f->world);
+    const struct spline *spline = core_active_spline(&f->editor->core, &f->world);
     for (int selected = 0; selected < 2; selected++) {
         if (selected && spline->knot_count > 0) {
-            editor_reserve(f->editor, f->document);
-            selection_set(&f->editor->selection, spline->knots[0].id, true);
+            core_reserve(&f->editor->core, f->document);
+            selection_set(&f->editor->core.selection, spline->knots[0].id, true);
         }
         for (int page = 0; page < 3; page++) {
-            f->editor->inspector.scroll.offset = 150.0f * (float)page;
+            f->editor->inspector->scroll.offset = 150.0f * (float)page;
             show(f);
-            inspector_show(f->editor, &f->world);
-            assert_true(assert_texts_apart(&f->editor->list, 0, f->editor->layout.inspector) > 15);
+            inspector_show(f->editor->inspector, &f->editor->core, &f->world, false);
+            assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.inspector) > 15);
         }
     }
 }
@@ -92,40 +94,40 @@ static void check_status(struct session *f)
         "in the line, whatever the width of the window may be, and then some more";
     static const char *const messages[] = {"", "Saved.", long_message};
     editor_set_stats(f->editor, 1234, 123456);
-    status_advance(f->editor, 1);
+    status_advance(f->editor->transport, &f->editor->core, 1);
     for (size_t m = 0; m < sizeof messages / sizeof messages[0]; m++) {
         editor_message(f->editor, true, messages[m]);
         show(f);
-        status_show(f->editor, &f->world);
-        assert_int_equal(assert_texts_apart(&f->editor->list, 0, f->editor->layout.status), 6);
+        status_show(f->editor->transport, &f->editor->core, &f->world, NULL);
+        assert_int_equal(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.status), 6);
     }
 }
 
 static void check_dialogs(struct session *f)
 {
     const struct request quit = {.kind = REQUEST_QUIT};
-    struct edit edit = editor_edit_of(EDIT_PARAMETER, 0);
+    struct edit edit = core_edit_of(EDIT_PARAMETER, 0);
     edit.parameter = PARAMETER_START;
     edit.param = (struct param){WIGGLY_REST, -1};
-    assert_true(editor_step(f->editor, &f->world, "Change start", 0, &edit));
+    assert_true(core_step(&f->editor->core, &f->world, "Change start", 0, &edit));
     for (int kind = 0; kind < 4; kind++) {
-        if (kind == 0) dialog_ask_open(f->editor);
-        if (kind == 1) dialog_ask_save_as(f->editor);
-        if (kind == 2) dialog_leave(f->editor, &f->world, &quit);
+        if (kind == 0) dialog_ask_open(f->editor->dialogs);
+        if (kind == 1) dialog_ask_save_as(f->editor->dialogs, &f->editor->core);
+        if (kind == 2) dialog_leave(f->editor->dialogs, &f->editor->core, &f->world, &quit);
         if (kind == 3)
             editor_offer_recovery(f->editor, &(struct recovery_offer){"walk.json", "1 May 2026, 10:00", 2});
         for (int failed = 0; failed < 2; failed++) {
             show(f);
-            dialog_show(f->editor, &f->world);
-            assert_true(assert_texts_apart(&f->editor->list, 0, f->editor->layout.window) >= 4);
-            f->editor->dialog.awaited = REQUEST_SAVE;
+            dialog_show(f->editor->dialogs, &f->editor->core, &f->world);
+            assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.window) >= 4);
+            f->editor->dialogs->dialog.awaited = REQUEST_SAVE;
             panel_answer(
                 f, REQUEST_SAVE, false,
                 "/a/long/path/to/a/folder/that/is/not/there/at/all/scene.json: expected a folder that exists, got "
                 "one that does not; and the disk is full besides, so that this needs a good many lines to be told");
         }
         session_key(f, KEY_ESCAPE, 0);
-        assert_int_equal(f->editor->dialog.kind, DIALOG_NONE);
+        assert_int_equal(f->editor->dialogs->dialog.kind, DIALOG_NONE);
     }
 }
 
@@ -156,7 +158,7 @@ static void test_no_text_leaves_its_panel_or_overlaps(void **state)
         editor_set_path(f.editor, i % 2 ? "a scene with a name that is rather too long to show.json" : "x.json");
         editor_set_files(f.editor, &(struct dialog_files){.list = list_names, .user = &calls});
         for (int s = 0; s < f.document->spline_count; s++) {
-            editor_activate(f.editor, &f.world, s);
+            core_activate(&f.editor->core, &f.world, s);
             check_inspector(&f);
         }
         check_status(&f);
@@ -187,15 +189,15 @@ static void test_save_as_stays_until_it_succeeds(void **state)
     panel_open(&f, small_scene, 1280, 720);
     editor_set_path(f.editor, "");
     session_key(&f, 'S', MOD_CTRL); // has no file yet, so it asks
-    assert_int_equal(f.editor->dialog.kind, DIALOG_SAVE_AS);
-    assert_string_equal(f.editor->dialog.ui.text.bytes, "untitled.json");
+    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_SAVE_AS);
+    assert_string_equal(f.editor->dialogs->dialog.ui.text.bytes, "untitled.json");
     panel_type(&f, "no/such/dog");
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_SAVE_AS, "no/such/dog.json");
     panel_answer(&f, REQUEST_SAVE_AS, false, "no/such/dog.json: there is no such folder");
-    assert_int_equal(f.editor->dialog.kind, DIALOG_SAVE_AS);
-    assert_non_null(strstr(f.editor->dialog.error, "no such folder"));
-    assert_string_equal(f.editor->message.text, "");
+    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_SAVE_AS);
+    assert_non_null(strstr(f.editor->dialogs->dialog.error, "no such folder"));
+    assert_string_equal(f.editor->core.message.text, "");
     for (int i = 0; i < 20; i++) session_key(&f, KEY_BACKSPACE, 0);
     session_key(&f, KEY_ENTER, 0); // nothing typed
     expect_request(&f, REQUEST_NONE, "");
@@ -203,11 +205,11 @@ static void test_save_as_stays_until_it_succeeds(void **state)
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_SAVE_AS, "untitled.json");
     answer_saved(&f, REQUEST_SAVE_AS, "pets/dog.json");
-    assert_int_equal(f.editor->dialog.kind, DIALOG_NONE);
+    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_NONE);
     session_key(&f, 'S', MOD_CTRL);
     expect_request(&f, REQUEST_SAVE, "");
     session_key(&f, 'S', MOD_CTRL | MOD_SHIFT); // starts from where the file is, not from its bare name
-    assert_string_equal(f.editor->dialog.ui.text.bytes, "pets/dog.json");
+    assert_string_equal(f.editor->dialogs->dialog.ui.text.bytes, "pets/dog.json");
     session_close(&f);
 }
 
@@ -218,7 +220,7 @@ static void open_unsaved(struct session *f, bool has_path)
     editor_set_path(f->editor, has_path ? "pets/dog.json" : "");
     panel_click(f, "mode.real");
     session_key(f, 'Q', MOD_CTRL);
-    assert_int_equal(f->editor->dialog.kind, DIALOG_UNSAVED);
+    assert_int_equal(f->editor->dialogs->dialog.kind, DIALOG_UNSAVED);
 }
 
 static void test_quitting_asks_for_unsaved_work(void **state)
@@ -227,7 +229,7 @@ static void test_quitting_asks_for_unsaved_work(void **state)
     struct session f;
     open_unsaved(&f, true);
     session_key(&f, KEY_ESCAPE, 0);
-    assert_int_equal(f.editor->dialog.kind, DIALOG_NONE);
+    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_NONE);
     expect_request(&f, REQUEST_NONE, "");
     session_key(&f, 'Q', MOD_CTRL);
     panel_type(&f, "d");
@@ -256,7 +258,7 @@ static void test_quit_waits_for_the_save(void **state)
     expect_request(&f, REQUEST_NONE, "");
     panel_answer(&f, REQUEST_SAVE, false, "dog.json: the disk is full");
     expect_request(&f, REQUEST_NONE, ""); // the work in memory stays
-    assert_int_equal(f.editor->dialog.kind, DIALOG_UNSAVED);
+    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_UNSAVED);
     panel_type(&f, "s");
     expect_request(&f, REQUEST_SAVE, "");
     history_mark_saved(f.history);
@@ -266,8 +268,8 @@ static void test_quit_waits_for_the_save(void **state)
 
     open_unsaved(&f, false); // never saved: first asks where
     panel_type(&f, "s");
-    assert_int_equal(f.editor->dialog.kind, DIALOG_SAVE_AS);
-    assert_string_equal(f.editor->dialog.ui.text.bytes, "untitled.json"); // and the S is no part of the name
+    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_SAVE_AS);
+    assert_string_equal(f.editor->dialogs->dialog.ui.text.bytes, "untitled.json"); // and the S is no part of the name
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_SAVE_AS, "untitled.json");
     answer_saved(&f, REQUEST_SAVE_AS, "pets/dog.json");
@@ -298,7 +300,7 @@ static void test_open_completes_paths(void **state)
     panel_open(&f, small_scene, 1280, 720);
     editor_set_files(f.editor, &(struct dialog_files){.list = list_names, .user = &calls});
     session_key(&f, 'O', MOD_CTRL);
-    struct dialog *dialog = &f.editor->dialog;
+    struct dialog *dialog = &f.editor->dialogs->dialog;
     assert_int_equal(dialog->match_count, 5);
     panel_type(&f, "fi");
     assert_int_equal(dialog->match_count, 3);
@@ -339,10 +341,10 @@ static void test_dialog_takes_every_key(void **state)
     session_key(&f, 'Z', MOD_CTRL);
     session_key(&f, KEY_F1, 0);
     session_key(&f, KEY_DELETE, 0);
-    assert_int_equal(f.editor->look, LOOK_WIGGLY);
-    assert_false(f.editor->help.open);
+    assert_int_equal(f.editor->core.look, LOOK_WIGGLY);
+    assert_false(f.editor->dialogs->help.open);
     assert_int_equal(f.document->splines[0].knot_count, 2);
-    assert_string_equal(f.editor->dialog.ui.text.bytes, "vim. ");
+    assert_string_equal(f.editor->dialogs->dialog.ui.text.bytes, "vim. ");
     session_close(&f);
 }
 
@@ -356,9 +358,9 @@ static void test_figures_change_twice_a_second(void **state)
     int changes = 0;
     for (int frame = 0; frame < 120; frame++) {
         editor_set_stats(f.editor, 50 + frame % 7, 200 + frame);
-        status_advance(f.editor, 1.0 / 60);
-        changes += f.editor->status.solve_us != last;
-        last = f.editor->status.solve_us;
+        status_advance(f.editor->transport, &f.editor->core, 1.0 / 60);
+        changes += f.editor->transport->status.solve_us != last;
+        last = f.editor->transport->status.solve_us;
     }
     assert_in_range(changes, 3, 5);
     session_close(&f);

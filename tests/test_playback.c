@@ -1,14 +1,19 @@
 /// Playback: the real clock, speed, the part that is played, and scrubbing.
-#include "panel_session.h"
-
+#include "editor/core/play_range.h"
 #include "editor/core/playback.h"
+#include "editor/transport/controls.h"
+#include "inside.h"
+#include "panel_session.h"
 
 /// 24 frames a second, two samples a frame: a position of 2 is one frame.
 static const char scene[] =
     "{\"frames\": [0, 100], \"substeps\": 2, \"splines\": [{\"name\": \"sway\", \"frequency\": 1, "
     "\"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 40, \"value\": 1}]}]}";
 
-static double frame_of(const struct session *session) { return editor_frame(session->editor, session->document); }
+static double frame_of(const struct session *session)
+{
+    return core_frame(&session->editor->core, session->document);
+}
 
 /// One picture after `dt` seconds.
 static void pass(struct session *session, double dt) { editor_advance(session->editor, &session->world, dt); }
@@ -16,7 +21,7 @@ static void pass(struct session *session, double dt) { editor_advance(session->e
 static void open_at(struct session *session, double frame)
 {
     panel_open(session, scene, 1280, 720);
-    playback_seek(session->editor, session->document, frame);
+    playback_seek(&session->editor->core, session->document, frame);
 }
 
 static void test_real_time(void **state)
@@ -39,17 +44,17 @@ static void test_speed(void **state)
     static const double slower[] = {0.5, 0.25, 0.1, 0.1}, faster[] = {0.25, 0.5, 1, 2, 4, 4};
     for (int i = 0; i < 4; i++) {
         session_type(&s, "-");
-        assert_near(s.editor->playback.speed, slower[i], 0);
+        assert_near(s.editor->core.playback.speed, slower[i], 0);
     }
-    s.editor->playback.playing = true;
+    s.editor->core.playback.playing = true;
     pass(&s, 1);
     assert_near(frame_of(&s), 12.4, 1e-9);
     for (int i = 0; i < 6; i++) {
         session_type(&s, i % 2 ? "+" : "=");
-        assert_near(s.editor->playback.speed, faster[i], 0);
+        assert_near(s.editor->core.playback.speed, faster[i], 0);
     }
-    playback_seek(s.editor, s.document, 0);
-    s.editor->playback.playing = true;
+    playback_seek(&s.editor->core, s.document, 0);
+    s.editor->core.playback.playing = true;
     pass(&s, 0.5);
     assert_near(frame_of(&s), 48, 1e-9);
     assert_true(history_is_saved(s.history)); // a matter of the view
@@ -64,15 +69,15 @@ static void test_dropped_frames(void **state)
     open_at(&s, 0);
     session_key(&s, KEY_SPACE, 0);
     for (int i = 0; i < 119; i++) pass(&s, 1.0 / 60);
-    assert_int_equal(s.editor->playback.dropped, 0);
+    assert_int_equal(s.editor->core.playback.dropped, 0);
     assert_near(frame_of(&s), 48, 1e-9);
     pass(&s, 0.25); // from 48 to 54: 49 … 53 were not shown
-    assert_int_equal(s.editor->playback.dropped, 5);
+    assert_int_equal(s.editor->core.playback.dropped, 5);
     pass(&s, 0.3125); // to 61.5: nor 55 … 60
-    assert_int_equal(s.editor->playback.dropped, 11);
+    assert_int_equal(s.editor->core.playback.dropped, 11);
     session_key(&s, KEY_SPACE, 0);
     session_key(&s, KEY_SPACE, 0); // counted from the start of playing
-    assert_int_equal(s.editor->playback.dropped, 0);
+    assert_int_equal(s.editor->core.playback.dropped, 0);
     session_close(&s);
 }
 
@@ -82,10 +87,10 @@ static void test_fast_is_not_dropped(void **state)
     (void)state;
     struct session s;
     open_at(&s, 0);
-    s.editor->playback.speed = 4;
+    s.editor->core.playback.speed = 4;
     session_key(&s, KEY_SPACE, 0);
     for (int i = 0; i < 200; i++) pass(&s, 1.0 / 60);
-    assert_int_equal(s.editor->playback.dropped, 0);
+    assert_int_equal(s.editor->core.playback.dropped, 0);
     session_close(&s);
 }
 
@@ -95,9 +100,9 @@ static void test_part(void **state)
     struct session s;
     open_at(&s, 20);
     session_type(&s, "[");
-    playback_seek(s.editor, s.document, 30);
+    playback_seek(&s.editor->core, s.document, 30);
     session_type(&s, "]");
-    playback_seek(s.editor, s.document, 80);
+    playback_seek(&s.editor->core, s.document, 80);
     session_key(&s, KEY_SPACE, 0); // from outside it begins at the start
     assert_near(frame_of(&s), 20 + 0.4, 1e-9);
     pass(&s, 0.25);
@@ -115,20 +120,20 @@ static void test_part(void **state)
 
 static float x_of(const struct session *s, double frame)
 {
-    const struct rect *plot = &s->editor->layout.plot;
-    const struct view *view = &s->editor->view;
+    const struct rect *plot = &s->editor->core.layout.plot;
+    const struct view *view = &s->editor->curves->view;
     return plot->x + plot->w * (float)((frame - view->frame0) / (view->frame1 - view->frame0));
 }
 
 static void ruler_at(struct session *session, double frame)
 {
-    session_move(session, x_of(session, frame), session->editor->layout.ruler.y + 10);
+    session_move(session, x_of(session, frame), session->editor->core.layout.ruler.y + 10);
 }
 
 static void assert_range(const struct session *session, double first, double last)
 {
     double range[2];
-    playback_range(session->editor, session->document, range);
+    playback_range(&session->editor->core, session->document, range);
     assert_near(range[0], first, 0);
     assert_near(range[1], last, 0);
 }
@@ -172,13 +177,13 @@ static void test_no_part(void **state)
     open_at(&s, 40);
     session_type(&s, "]");
     assert_range(&s, 0, 40);
-    playback_seek(s.editor, s.document, 60);
+    playback_seek(&s.editor->core, s.document, 60);
     session_type(&s, "["); // after its end: to the scene's end
     assert_range(&s, 60, 100);
-    playback_seek(s.editor, s.document, 0);
+    playback_seek(&s.editor->core, s.document, 0);
     session_type(&s, "[");
     assert_range(&s, 0, 100);
-    assert_false(s.editor->playback.has_range);
+    assert_false(s.editor->core.playback.has_range);
     session_close(&s);
 }
 
@@ -191,9 +196,9 @@ static void test_scrubbing(void **state)
     for (double frame = 7; frame < 90; frame += 13) {
         ruler_at(&s, frame + 0.3);
         session_press(&s, BUTTON_LEFT, 1);
-        assert_true(s.editor->playback.position == 2 * frame); // bit for bit a sample
+        assert_true(s.editor->core.playback.position == 2 * frame); // bit for bit a sample
         ruler_at(&s, frame + 1.4);
-        assert_true(s.editor->playback.position == 2 * (frame + 1));
+        assert_true(s.editor->core.playback.position == 2 * (frame + 1));
         session_release(&s, BUTTON_LEFT);
     }
     s.mods = MOD_CTRL;
@@ -206,9 +211,9 @@ static void test_scrubbing(void **state)
     session_close(&s);
 }
 
-static void click_on(struct session *session, enum transport control, enum event_button button)
+static void click_on(struct session *session, enum control control, enum event_button button)
 {
-    struct rect r = transport_rect(session->editor, control);
+    struct rect r = transport_rect(&session->editor->core, control);
     session_move(session, r.x + r.w / 2, r.y + r.h / 2);
     session_press(session, button, 1);
     session_release(session, button);
@@ -224,18 +229,18 @@ static void test_controls(void **state)
     click_on(&s, TRANSPORT_PLAY, BUTTON_LEFT);
     assert_false(editor_is_playing(s.editor));
     click_on(&s, TRANSPORT_LOOP, BUTTON_LEFT);
-    assert_false(s.editor->playback.looping);
+    assert_false(s.editor->core.playback.looping);
     click_on(&s, TRANSPORT_SPEED, BUTTON_LEFT);
-    assert_near(s.editor->playback.speed, 2, 0);
+    assert_near(s.editor->core.playback.speed, 2, 0);
     s.mods = MOD_SHIFT;
     click_on(&s, TRANSPORT_SPEED, BUTTON_LEFT);
     click_on(&s, TRANSPORT_SPEED, BUTTON_LEFT);
-    assert_near(s.editor->playback.speed, 0.5, 0);
+    assert_near(s.editor->core.playback.speed, 0.5, 0);
     s.mods = 0;
     session_wheel(&s, -1);
-    assert_near(s.editor->playback.speed, 0.25, 0);
+    assert_near(s.editor->core.playback.speed, 0.25, 0);
     click_on(&s, TRANSPORT_SPEED, BUTTON_RIGHT);
-    assert_near(s.editor->playback.speed, 1, 0);
+    assert_near(s.editor->core.playback.speed, 1, 0);
     assert_int_equal(s.document->splines[0].knot_count, 2);
     session_close(&s);
 }

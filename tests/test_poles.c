@@ -1,4 +1,5 @@
 /// The inspector's poles: dragged in the inset they set frequency, damping and bandwidth.
+#include "inside.h"
 #include "panel_session.h"
 
 static const char scene[] =
@@ -12,13 +13,13 @@ static const char scene[] =
 
 static double value(const struct session *f, enum parameter which)
 {
-    return f->document->splines[f->editor->active].parameter[which].value;
+    return f->document->splines[f->editor->core.active].parameter[which].value;
 }
 
 static void open_poles(struct session *f, int spline)
 {
     panel_open(f, scene, 1280, 720);
-    editor_activate(f->editor, &f->world, spline);
+    core_activate(&f->editor->core, &f->world, spline);
     panel_click(f, "section.poles");
     session_frame(f);
 }
@@ -27,7 +28,7 @@ static void open_poles(struct session *f, int spline)
 static void drag(struct session *f, const char *name, float dx, float dy)
 {
     float x, y;
-    assert_true(inspector_target(f->editor, &f->world, name, &x, &y));
+    assert_true(inspector_target(f->editor->inspector, &f->editor->core, &f->world, name, &x, &y));
     panel_press(f, name, 1);
     session_move(f, x + dx, y + dy);
     session_frame(f);
@@ -110,13 +111,13 @@ static void test_arrow_keys_move_a_focused_pole(void **state)
     (void)state;
     struct session f;
     open_poles(&f, 0);
-    f.editor->inspector.ui.focus = ui_id("pole.centre");
+    f.editor->inspector->ui.focus = ui_id("pole.centre");
     session_key(&f, KEY_RIGHT, 0);
     session_key(&f, KEY_RIGHT, 0);
     assert_near(value(&f, PARAMETER_FREQUENCY), 1.1, 1e-12);
     session_key(&f, 'Z', MOD_CTRL);
     assert_near(value(&f, PARAMETER_FREQUENCY), 1, 0);
-    f.editor->inspector.ui.focus = ui_id("pole.lower");
+    f.editor->inspector->ui.focus = ui_id("pole.lower");
     session_key(&f, KEY_LEFT, 0);
     assert_near(value(&f, PARAMETER_BANDWIDTH), 0.133, 1e-12);
     session_close(&f);

@@ -1,4 +1,5 @@
 /// Recording the body's way: few knots that keep to the hand's motion, a tail that swings as it did, one step to undo.
+#include "inside.h"
 #include "panel_session.h"
 
 #include "editor/stage/record.h"
@@ -127,7 +128,7 @@ static void test_escape_forgets_the_recording(void **state)
     session_drag(&s, -40, 0, 20);
     session_key(&s, KEY_ESCAPE, 0);
     assert_saved(&s, before);
-    assert_false(record_has_motion(s.editor));
+    assert_false(record_has_motion(s.editor->stage));
     free(before);
     session_close(&s);
 }

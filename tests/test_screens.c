@@ -1,5 +1,6 @@
 // Every screen in every size, at every scale, dark and light: all text is whole, apart from other text, and can be read.
 #include "base/file.h"
+#include "inside.h"
 #include "legible.h"
 #include "panel_session.h"
 #include "ui/theme.h"
@@ -118,7 +119,7 @@ static void open_recover(struct session *s)
 static void open_failed(struct session *s)
 {
     session_key(s, 'S', MOD_CTRL | MOD_SHIFT);
-    s->editor->dialog.awaited = REQUEST_SAVE_AS;
+    s->editor->dialogs->dialog.awaited = REQUEST_SAVE_AS;
     panel_answer(s, REQUEST_SAVE_AS, false, long_message);
 }
 
@@ -127,7 +128,7 @@ static void open_palette(struct session *s) { panel_click(s, "color.sway"); }
 static void open_knots(struct session *s)
 {
     session_click(s, "knot(sway,1)");
-    inspector_unfold(s->editor, "section.poles");
+    inspector_unfold(s->editor->inspector, "section.poles");
 }
 
 static void open_all_knots(struct session *s)
@@ -180,7 +181,7 @@ static const struct screen {
 
 static int problems_of(struct session *s, const char *where, bool whole)
 {
-    const struct layout *layout = &s->editor->layout;
+    const struct layout *layout = &s->editor->core.layout;
     struct legible_ground ground = {layout->window, layout->stage, whole};
     return legible_problems(editor_drawlist(s->editor), &ground, where);
 }
@@ -188,10 +189,10 @@ static int problems_of(struct session *s, const char *where, bool whole)
 /// The panel scrolled all the way down, page by page.
 static int walk_inspector(struct session *s, const char *where, bool whole)
 {
-    struct ui_scroll *scroll = &s->editor->inspector.scroll;
+    struct ui_scroll *scroll = &s->editor->inspector->scroll;
     int problems = 0;
     for (int page = 0; page < 8; page++) {
-        scroll->offset = 0.5f * s->editor->layout.inspector.h * (float)page;
+        scroll->offset = 0.5f * s->editor->core.layout.inspector.h * (float)page;
         session_frame(s);
         problems += problems_of(s, where, whole);
     }

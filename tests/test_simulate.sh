@@ -74,8 +74,8 @@ ok "the old file is intact" $?
 [ "$(find "$scratch" -name '*box.npy*' | wc -l)" -eq 1 ]
 ok "no temporary file stays" $?
 
-"$WIGGLY" simulate "$scratch/box.obj" --tets 2000 --seconds 1000 -o "$scratch/stopped.npy" >/dev/null 2>"$scratch/said" &
-sleep 1
+"$WIGGLY" simulate "$scratch/box.obj" --tets 2000 --seconds 1000 -o "$scratch/stopped.npy" >"$scratch/begun" 2>/dev/null &
+for _ in $(seq 600); do [ -s "$scratch/begun" ] && break; sleep 0.1; done
 kill -INT $!
 wait $!
 [ $? -eq 3 ]

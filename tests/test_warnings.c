@@ -1,6 +1,7 @@
 // Warnings in the curves panel: said where something is wrong, silent where nothing is, and gone after one click.
 #include "base/file.h"
 #include "editor/curves/warnings.h"
+#include "inside.h"
 #include "panel_session.h"
 
 /// A jump within two frames, and a knot half a period later that asks for the same value again.
@@ -27,21 +28,21 @@ static const char WIDE[] =
 static void assert_remedied(struct session *s, const char *scene, enum warning_kind kind)
 {
     session_open(s, scene);
-    assert_int_equal(s->editor->warnings.count, 1);
-    assert_int_equal(s->editor->warnings.list[0].kind, kind);
+    assert_int_equal(s->editor->curves->warnings.count, 1);
+    assert_int_equal(s->editor->curves->warnings.list[0].kind, kind);
     char *original = session_saved(s);
     session_point(s, "warning(0)");
     session_frame(s);
-    assert_int_equal(s->editor->hover.kind, HOVER_WARNING);
+    assert_int_equal(s->editor->core.hover.kind, HOVER_WARNING);
     session_click(s, "warning(0)");
     session_frame(s);
-    assert_int_equal(s->editor->warnings.count, 0);
+    assert_int_equal(s->editor->curves->warnings.count, 0);
     session_key(s, 'Z', MOD_CTRL);
     assert_saved(s, original);
-    assert_int_equal(s->editor->warnings.count, 1);
+    assert_int_equal(s->editor->curves->warnings.count, 1);
     assert_null(history_undo_label(s->history));
     session_key(s, 'Y', MOD_CTRL);
-    assert_int_equal(s->editor->warnings.count, 0);
+    assert_int_equal(s->editor->curves->warnings.count, 0);
     free(original);
 }
 
@@ -107,9 +108,9 @@ static void test_a_cubic_has_nothing_to_warn_of(void **state)
     struct session s;
     session_open(&s, WIDE);
     session_key(&s, 'V', 0);
-    assert_int_equal(s.editor->warnings.count, 1); // stiff: the same curve
+    assert_int_equal(s.editor->curves->warnings.count, 1); // stiff: the same curve
     session_key(&s, 'V', 0);
-    assert_int_equal(s.editor->warnings.count, 0);
+    assert_int_equal(s.editor->curves->warnings.count, 0);
     session_close(&s);
 }
 

@@ -1,8 +1,18 @@
 /// The editor's public functions: who gets an event, and what happens once a frame.
-#include "editor/core/actions.h"
-#include "editor/core/arrange.h"
+#include "editor/editor.h"
+#include "editor/core/characters.h"
+#include "editor/core/core.h"
+#include "editor/core/layout.h"
+#include "editor/core/nudge.h"
+#include "editor/core/selection.h"
 #include "editor/curves/curves.h"
-#include "editor/stage/follow.h"
+#include "editor/dialogs/dialog_files.h"
+#include "editor/dialogs/dialogs.h"
+#include "editor/drags.h"
+#include "editor/inspector/inspector.h"
+#include "editor/stage/stage.h"
+#include "editor/state.h"
+#include "editor/transport/transport.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
@@ -11,22 +21,55 @@
 
 enum { MAX_COMMANDS = 16384, MAX_POINTS = 1 << 18, MAX_TEXT = 1 << 16 };
 
-static const double MESSAGE_SECONDS = 5;
+/// Panels hear of what happens in core.
+static void hear(void *who, const struct editor_world *world, enum news news, int spline)
+{
+    struct editor *editor = who;
+    int tail, channel;
+    const struct channel *moved;
+    switch (news) {
+    case NEWS_OPENED:
+        editor_open(editor, world);
+        break;
+    case NEWS_RENUMBERED:
+        curves_forget(editor->curves);
+        break;
+    case NEWS_ACTIVATES:
+        normal_activate(editor->curves, &editor->core, spline);
+        break;
+    case NEWS_ACTIVATED:
+        moved = active_channel(&editor->core, world->document, &tail, &channel);
+        if (moved && moved->spline == spline) inspector_show_channel(editor->inspector, tail, channel);
+        break;
+    case NEWS_DRAG_MOVES:
+        ghost_capture(editor->curves, &editor->core, world);
+        break;
+    }
+}
 
 struct editor *editor_create(struct error *error)
 {
     struct editor *editor = calloc(1, sizeof *editor);
-    if (!editor || !drawlist_create(&editor->list, MAX_COMMANDS, MAX_POINTS, MAX_TEXT)) {
-        free(editor);
+    bool good = editor && drawlist_create(&editor->core.list, MAX_COMMANDS, MAX_POINTS, MAX_TEXT);
+    if (good) {
+        editor->curves = curves_create();
+        editor->stage = stage_create();
+        editor->inspector = inspector_create();
+        editor->dialogs = dialogs_create();
+        editor->transport = transport_create();
+        good = editor->curves && editor->stage && editor->inspector && editor->dialogs && editor->transport;
+    }
+    if (!good) {
+        editor_destroy(editor);
         fail(error, ERROR_ENVIRONMENT, "out of memory for the editor");
         return NULL;
     }
-    editor->layout.stage_share = 400.0f / (720 - THEME_STATUS_HEIGHT);
-    editor->layout.inspector_width = THEME_INSPECTOR_WIDTH;
-    editor->view = (struct view){0, 120, -1, 1};
-    editor->camera = camera_default();
-    editor->active = -1;
-    brush_init(&editor->brush);
+    editor->core.layout.stage_share = 400.0f / (720 - THEME_STATUS_HEIGHT);
+    editor->core.layout.inspector_width = THEME_INSPECTOR_WIDTH;
+    editor->core.visible = 2;
+    editor->core.active = -1;
+    editor->core.brush = (struct brush){.radius = 0.12, .strength = 0.4};
+    editor->core.listener = (struct listener){hear, editor};
     editor_resize(editor, 1280, 720, 1);
     return editor;
 }
@@ -34,74 +77,38 @@ struct editor *editor_create(struct error *error)
 void editor_destroy(struct editor *editor)
 {
     if (!editor) return;
-    drawlist_destroy(&editor->list);
-    free(editor->selection.bits);
-    free(editor->hidden.bits);
-    free(editor->solo.bits);
-    free(editor->before_box.bits);
-    free(editor->clipboard);
-    brush_free(&editor->brush);
-    free(editor->drag.originals);
+    curves_destroy(editor->curves);
+    stage_destroy(editor->stage);
+    inspector_destroy(editor->inspector);
+    dialogs_destroy(editor->dialogs);
+    transport_destroy(editor->transport);
+    drawlist_destroy(&editor->core.list);
+    free(editor->core.selection.bits);
+    free(editor->core.hidden.bits);
+    free(editor->core.solo.bits);
+    free(editor->core.clipboard);
+    free(editor->core.originals.knot);
     free(editor);
 }
 
 void editor_resize(struct editor *editor, float width, float height, float scale)
 {
-    editor->layout.window = (struct rect){0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
-    editor->scale = scale > 0 ? scale : 1;
-    editor_layout(editor);
+    editor->core.layout.window = (struct rect){0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
+    editor->core.scale = scale > 0 ? scale : 1;
+    core_layout(&editor->core);
 }
 
 void editor_panels(const struct editor *editor, double *stage_share, double *inspector_width)
 {
-    *stage_share = (double)editor->layout.stage_share;
-    *inspector_width = (double)editor->layout.inspector_width;
+    *stage_share = (double)editor->core.layout.stage_share;
+    *inspector_width = (double)editor->core.layout.inspector_width;
 }
 
 void editor_set_panels(struct editor *editor, double stage_share, double inspector_width)
 {
-    editor->layout.stage_share = (float)fmin(fmax(stage_share, 0), 1);
-    editor->layout.inspector_width = (float)fmin(fmax(inspector_width, 0), 1e4);
-    editor_layout(editor);
-}
-
-/// Ids are given in turn, so room for the next ones is taken along.
-static bool reserve_selection(struct selection *selection, unsigned next_id)
-{
-    if (next_id < selection->capacity) return true;
-    unsigned capacity = (next_id / 512 + 2) * 512;
-    uint64_t *bits = realloc(selection->bits, capacity / 8);
-    if (!bits) return false;
-    memset((char *)bits + selection->capacity / 8, 0, (capacity - selection->capacity) / 8);
-    selection->bits = bits;
-    selection->capacity = capacity;
-    return true;
-}
-
-static bool reserve_drag(struct drag *drag, int knots)
-{
-    if (drag->capacity > 0 && knots <= drag->capacity) return true;
-    int capacity = knots + knots / 2 + 64;
-    struct knot *originals = realloc(drag->originals, (size_t)capacity * sizeof *originals);
-    if (!originals) return false;
-    drag->originals = originals;
-    drag->capacity = capacity;
-    return true;
-}
-
-void editor_reserve(struct editor *editor, const struct document *document)
-{
-    int most = 0;
-    for (int s = 0; s < document->spline_count; s++) {
-        if (document->splines[s].knot_count > most) most = document->splines[s].knot_count;
-    }
-    bool enough = reserve_selection(&editor->selection, document->next_id);
-    enough &= reserve_selection(&editor->before_box, document->next_id);
-    enough &= reserve_selection(&editor->hidden, document->next_spline_id);
-    enough &= reserve_selection(&editor->solo, document->next_spline_id);
-    if (!reserve_drag(&editor->drag, most) || !enough) {
-        editor_message(editor, true, "Out of memory: some knots cannot be selected.");
-    }
+    editor->core.layout.stage_share = (float)fmin(fmax(stage_share, 0), 1);
+    editor->core.layout.inspector_width = (float)fmin(fmax(inspector_width, 0), 1e4);
+    core_layout(&editor->core);
 }
 
 /// The spline to begin with: the first that moves something, else the first; -1 where there is none.
@@ -116,206 +123,118 @@ static int first_spline(const struct document *document)
     return document->spline_count > 0 ? 0 : -1;
 }
 
+void editor_reserve(struct editor *editor, const struct document *document)
+{
+    core_reserve(&editor->core, document);
+    if (!curves_reserve(editor->curves, &editor->core))
+        core_message(&editor->core, true, "Out of memory: no box can be taken back.");
+}
+
 void editor_open(struct editor *editor, const struct editor_world *world)
 {
     const struct document *document = world->document;
-    selection_clear(&editor->selection);
-    editor->drag.kind = DRAG_NONE;
-    editor->ghost.visible = false;
-    editor->hover = (struct hover){0};
-    memset(editor->follow, 0, sizeof editor->follow);
-    editor->cache.key = 0;
-    editor->cache.range_count = 0;
-    editor->warnings = (struct warnings){0};
+    selection_clear(&editor->core.selection);
+    editor->core.drag.kind = DRAG_NONE;
+    editor->core.hover = (struct hover){0};
+    curves_open(editor->curves);
+    stage_open(editor->stage);
     editor->fitted = false;
-    editor->look = LOOK_WIGGLY;
-    characters_open(editor, document);
-    editor->active = first_spline(document);
-    editor->active_id = editor->active >= 0 ? document->splines[editor->active].id : 0;
-    selection_clear(&editor->hidden);
-    selection_clear(&editor->solo);
-    editor->seen_first = document->first_frame;
-    editor->seen_substeps = document->substeps;
-    editor->held_key = 0;
-    editor->space_down = false;
-    editor->message = (struct message){0};
-    editor->playback = (struct playback){.looping = true, .speed = 1};
+    editor->core.look = LOOK_WIGGLY;
+    characters_open(&editor->core, document);
+    editor->core.active = first_spline(document);
+    editor->core.active_id = editor->core.active >= 0 ? document->splines[editor->core.active].id : 0;
+    selection_clear(&editor->core.hidden);
+    selection_clear(&editor->core.solo);
+    editor->core.seen_first = document->first_frame;
+    editor->core.seen_substeps = document->substeps;
+    editor->core.held_key = 0;
+    editor->core.space_down = false;
+    editor->core.message = (struct message){0};
+    editor->core.playback = (struct playback){.looping = true, .speed = 1};
     for (int s = 0; s < document->spline_count; s++) {
-        editor->playback.playing |= spline_start(&document->splines[s]) == WIGGLY_LOOP;
+        editor->core.playback.playing |= spline_start(&document->splines[s]) == WIGGLY_LOOP;
     }
-    editor->serial = document->serial;
+    editor->core.serial = document->serial;
     editor_reserve(editor, document);
-    inspector_reset(editor);
+    inspector_reset(editor->inspector);
     editor_set_path(editor, document->path ? document->path : "");
-}
-
-void editor_follow(struct editor *editor, const struct editor_world *world)
-{
-    if (editor->serial != world->document->serial) {
-        editor_open(editor, world);
-    } else {
-        arrange_follow(editor, world);
-    }
 }
 
 void editor_set_path(struct editor *editor, const char *path)
 {
     const char *slash = strrchr(path, '/');
-    snprintf(editor->path, sizeof editor->path, "%s", path);
-    snprintf(editor->title, sizeof editor->title, "%s", path[0] ? (slash ? slash + 1 : path) : "untitled");
+    snprintf(editor->core.path, sizeof editor->core.path, "%s", path);
+    snprintf(editor->core.title, sizeof editor->core.title, "%s", path[0] ? (slash ? slash + 1 : path) : "untitled");
 }
 
-void editor_set_stage_scale(struct editor *editor, float scale) { editor->stage_scale = scale; }
+void editor_set_stage_scale(struct editor *editor, float scale) { transport_tell_scale(editor->transport, scale); }
 
 void editor_set_stats(struct editor *editor, double fps, double solve_us)
 {
-    editor->fps = fps;
-    editor->solve_us = solve_us;
-}
-
-struct edit editor_edit_of(enum edit_kind kind, int spline)
-{
-    return (struct edit){.kind = kind, .spline = spline, .param.track = -1};
-}
-
-bool editor_edit(struct editor *editor, const struct editor_world *world, const struct edit *edit)
-{
-    struct error error = {0};
-    if (history_apply(world->history, world->document, edit, &error)) {
-        editor_follow(editor, world);
-        return true;
-    }
-    editor_message(editor, true, error.text);
-    return false;
-}
-
-bool editor_step(struct editor *editor, const struct editor_world *world, const char *label, uint64_t merge,
-                 const struct edit *edit)
-{
-    if (history_is_open(world->history))
-        return false; /* a drag is running: its step is not to be mixed with others */
-    history_begin(world->history, label, merge);
-    bool done = editor_edit(editor, world, edit);
-    history_end(world->history);
-    return done;
-}
-
-void editor_undo(struct editor *editor, const struct editor_world *world)
-{
-    if (history_is_open(world->history)) return;
-    const char *label = history_undo_label(world->history);
-    char text[128];
-    snprintf(text, sizeof text, label ? "Undone: %s" : "Nothing to undo", label);
-    history_undo(world->history, world->document);
-    editor_follow(editor, world);
-    editor_message(editor, false, text);
-}
-
-void editor_redo(struct editor *editor, const struct editor_world *world)
-{
-    if (history_is_open(world->history)) return;
-    const char *label = history_redo_label(world->history);
-    char text[128];
-    snprintf(text, sizeof text, label ? "Redone: %s" : "Nothing to redo", label);
-    history_redo(world->history, world->document);
-    editor_follow(editor, world);
-    editor_message(editor, false, text);
-}
-
-void editor_jump(struct editor *editor, const struct editor_world *world, size_t done)
-{
-    if (history_is_open(world->history)) return;
-    size_t before = history_done(world->history), steps = before > done ? before - done : done - before;
-    if (!history_jump(world->history, world->document, done)) return;
-    editor_follow(editor, world);
-    char text[64];
-    snprintf(text, sizeof text, "%s %zu step%s", before > done ? "Undone:" : "Redone:", steps, steps == 1 ? "" : "s");
-    editor_message(editor, false, text);
-}
-
-void editor_request(struct editor *editor, enum request_kind kind, const char *path)
-{
-    if (editor->request_count == EDITOR_MAX_REQUESTS) return;
-    struct request *request = &editor->requests[editor->request_count++];
-    request->kind = kind;
-    snprintf(request->path, sizeof request->path, "%s", path ? path : "");
-}
-
-void editor_request_figure(struct editor *editor, int number)
-{
-    int at = editor->request_count;
-    editor_request(editor, REQUEST_FIGURE, NULL);
-    if (editor->request_count > at) editor->requests[at].number = number;
+    transport_tell(editor->transport, fps, solve_us);
 }
 
 struct request editor_take_request(struct editor *editor)
 {
     struct request taken = {.kind = REQUEST_NONE};
-    if (editor->request_count == 0) return taken;
-    taken = editor->requests[0];
-    editor->request_count--;
-    memmove(&editor->requests[0], &editor->requests[1], (size_t)editor->request_count * sizeof taken);
+    if (editor->core.request_count == 0) return taken;
+    taken = editor->core.requests[0];
+    editor->core.request_count--;
+    memmove(&editor->core.requests[0], &editor->core.requests[1], (size_t)editor->core.request_count * sizeof taken);
     return taken;
 }
 
 void editor_answer(struct editor *editor, const struct request *request, bool ok, const char *text)
 {
-    if (!dialog_answer(editor, request, ok, text) && !ok) editor_message(editor, true, text);
+    if (!dialog_answer(editor->dialogs, &editor->core, request, ok, text) && !ok)
+        core_message(&editor->core, true, text);
 }
 
-void editor_message(struct editor *editor, bool is_error, const char *text)
-{
-    snprintf(editor->message.text, sizeof editor->message.text, "%s", text);
-    editor->message.is_error = is_error;
-    editor->message.seconds_left = is_error ? 0 : MESSAGE_SECONDS;
-}
+enum look editor_look(const struct editor *editor) { return editor->core.look; }
 
-struct spline *editor_active_spline(const struct editor *editor, const struct editor_world *world)
-{
-    bool exists = editor->active >= 0 && editor->active < world->document->spline_count;
-    return exists ? &world->document->splines[editor->active] : NULL;
-}
-
-void editor_activate(struct editor *editor, const struct editor_world *world, int spline)
-{
-    if (spline == editor->active || spline < 0 || spline >= world->document->spline_count) return;
-    normal_activate(editor, spline);
-    editor->active = spline;
-    editor->active_id = world->document->splines[spline].id;
-    selection_clear(&editor->selection);
-    int tail, channel;
-    const struct channel *moved = active_channel(editor, world->document, &tail, &channel);
-    if (!moved || moved->spline != spline) return;
-    editor->inspector.tail = tail;
-    editor->inspector.channel = channel;
-}
-
-void editor_set_look(struct editor *editor, enum look look)
-{
-    static const char *const texts[] = {
-        [LOOK_WIGGLY] = "Wiggly: one spline, each joint with its own phase",
-        [LOOK_STIFF] = "Stiff: the same spline without lag",
-        [LOOK_CUBIC] = "Cubic: the same knots as a classical spline",
-    };
-    editor->look = look;
-    editor_message(editor, false, texts[look]);
-}
-
-enum look editor_look(const struct editor *editor) { return editor->look; }
-
-bool editor_is_playing(const struct editor *editor) { return editor->playback.playing; }
+bool editor_is_playing(const struct editor *editor) { return editor->core.playback.playing; }
 
 bool editor_wants_frames(const struct editor *editor)
 {
-    return editor->playback.playing || editor->drag.kind == DRAG_GRAB || editor->drag.kind == DRAG_PAINT ||
-           follow_is_moving(editor) || editor->message.seconds_left > 0 || editor->warnings.search.running;
+    return editor->core.playback.playing || editor->core.drag.kind == DRAG_GRAB ||
+           editor->core.drag.kind == DRAG_PAINT || follow_is_moving(editor->stage) ||
+           editor->core.message.seconds_left > 0 || curves_wants_frames(editor->curves);
 }
 
-double editor_frame(const struct editor *editor, const struct document *document)
+const struct drawlist *editor_drawlist(const struct editor *editor) { return &editor->core.list; }
+
+const struct stage_view *editor_stage(const struct editor *editor) { return stage_seen(editor->stage); }
+
+void editor_message(struct editor *editor, bool is_error, const char *text)
 {
-    return document->first_frame + editor->playback.position / document->substeps;
+    core_message(&editor->core, is_error, text);
 }
 
-const struct drawlist *editor_drawlist(const struct editor *editor) { return &editor->list; }
+void editor_follow(struct editor *editor, const struct editor_world *world) { core_follow(&editor->core, world); }
 
-const struct stage_view *editor_stage(const struct editor *editor) { return &editor->stage; }
+const char *editor_clipboard(const struct editor *editor)
+{
+    return editor->core.clipboard ? editor->core.clipboard : "";
+}
+
+void editor_set_files(struct editor *editor, const struct dialog_files *files)
+{
+    dialogs_set_files(editor->dialogs, files);
+}
+
+void editor_offer_recovery(struct editor *editor, const struct recovery_offer *offer)
+{
+    dialog_offer_recovery(editor->dialogs, offer);
+}
+
+void editor_welcome(struct editor *editor) { welcome_open(editor->dialogs); }
+
+bool editor_is_welcoming(const struct editor *editor) { return welcome_is_open(editor->dialogs); }
+
+struct focus editor_focus(const struct editor *editor, const struct document *document)
+{
+    struct focus focus = {.spline = editor->core.active < document->spline_count ? editor->core.active : -1};
+    curves_span(editor->curves, document, &focus.first, &focus.count);
+    focus.at = (int)fmin(fmax(editor->core.playback.position, 0), document_samples(document) - 1);
+    return focus;
+}

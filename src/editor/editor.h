@@ -2,48 +2,9 @@
 #ifndef EDITOR_EDITOR_H
 #define EDITOR_EDITOR_H
 
-#include "rig/cast.h"
-#include "rig/pose.h"
-#include "scene/background.h"
-#include "scene/edit.h"
-#include "scene/evaluate.h"
-#include "ui/cursor.h"
-#include "ui/drawlist.h"
-#include "ui/event.h"
-#include "ui/stage.h"
+#include "editor/core/world.h"
 
 struct editor;
-
-/// What the editor works on, owned by the app.
-struct editor_world {
-    struct document *document;
-    struct history *history;
-    const struct evaluation *evaluation; ///< as of the last solve: the frame before, until editor_show()
-    const struct cast *cast;             ///< the characters' models; NULL: none
-};
-
-/// What the editor asks of the app after a frame's events (files and windows are not its business).
-enum request_kind {
-    REQUEST_NONE,
-    REQUEST_NEW,
-    REQUEST_OPEN,    ///< path
-    REQUEST_SAVE,    ///< to the document's own path, or ask
-    REQUEST_SAVE_AS, ///< path
-    REQUEST_FIGURE,  ///< number: a figure of the paper in place of the document, as a step of the history
-    REQUEST_QUIT,
-    REQUEST_RECOVER, ///< the work that was offered
-    REQUEST_FORGET,  ///< the same, for good
-    REQUEST_SCREENSHOT,
-    REQUEST_FULLSCREEN,
-    REQUEST_COPY,  ///< editor_clipboard() onto the clipboard
-    REQUEST_PASTE, ///< an EVENT_PASTE with what is there
-};
-
-struct request {
-    enum request_kind kind;
-    int number;
-    char path[1024];
-};
 
 struct editor *editor_create(struct error *error);
 void editor_destroy(struct editor *editor);
@@ -62,13 +23,6 @@ void editor_let_go(struct editor *editor, const struct editor_world *world);
 
 /// The path of the document's own file, "" where it has none (Ctrl+S then asks for one): after saving.
 void editor_set_path(struct editor *editor, const char *path);
-
-/// Unsaved work that an earlier run left behind.
-struct recovery_offer {
-    char name[256]; ///< what its document was called
-    char when[64];  ///< date and time, as text
-    int others;     ///< older ones there are besides
-};
 
 /// Asks what to do with it: REQUEST_RECOVER, REQUEST_FORGET, or nothing yet.
 void editor_offer_recovery(struct editor *editor, const struct recovery_offer *offer);
@@ -130,7 +84,7 @@ enum cursor editor_cursor(const struct editor *editor);
 
 /// Where a replay's target is on the screen now: "knot(sway,2)", "curve(sway,36,1)", "slider(frequency)",
 /// "stage(0.5,0.5)", "tail(tail,0.9)", "warning(0)". false where there is no such thing (with a sentence).
-bool editor_target(struct editor *editor, const struct editor_world *world, const char *target, float *x,
-                   float *y, struct error *error);
+bool editor_target(struct editor *editor, const struct editor_world *world, const char *target, float *x, float *y,
+                   struct error *error);
 
 #endif

@@ -1,24 +1,40 @@
 /// One frame of the editor: events are handed to who wants them, time passes, everything is shown.
-#include "editor/core/actions.h"
+#include "editor/core/clipboard.h"
+#include "editor/core/drag.h"
+#include "editor/core/layout.h"
+#include "editor/core/playback.h"
 #include "editor/curves/curves.h"
-#include "editor/stage/follow.h"
-#include "editor/stage/record.h"
+#include "editor/dialogs/dialogs.h"
+#include "editor/drags.h"
+#include "editor/editor.h"
+#include "editor/inspector/inspector.h"
+#include "editor/keys.h"
+#include "editor/stage/stage.h"
+#include "editor/state.h"
+#include "editor/transport/transport.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
 
 static void press(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
-    enum drag_kind divider = divider_at(editor, event->x, event->y);
+    enum drag_kind divider = divider_at(&editor->core, event->x, event->y);
     if (divider != DRAG_NONE && event->button == BUTTON_LEFT) {
-        drag_begin(editor, divider, event);
-    } else if (rect_contains(editor->layout.curves, event->x, event->y)) {
-        curves_press(editor, world, event);
-    } else if (rect_contains(editor->layout.stage, event->x, event->y)) {
-        stage_press(editor, world, event);
+        drag_begin(&editor->core, divider, NULL, event);
+    } else if (rect_contains(editor->core.layout.curves, event->x, event->y)) {
+        curves_press(editor->curves, &editor->core, world, event);
+    } else if (rect_contains(editor->core.layout.stage, event->x, event->y)) {
+        stage_press(editor->stage, &editor->core, world, event);
     } else {
-        transport_event(editor, world, event);
+        transport_event(&editor->core, world, event);
     }
+}
+
+/// What asks for another document, or for the end, ends what the inspector is in the middle of.
+void editor_leave(struct editor *editor, const struct editor_world *world, const struct request *request)
+{
+    inspector_let_go(editor->inspector, world);
+    dialog_leave(editor->dialogs, &editor->core, world, request);
 }
 
 /// Events that neither a dialog nor a running drag nor the inspector wanted.
@@ -34,19 +50,22 @@ static void dispatch(struct editor *editor, const struct editor_world *world, co
         if (event->action == ACTION_PRESS) press(editor, world, event);
         break;
     case EVENT_WHEEL:
-        if (rect_contains(editor->layout.curves, event->x, event->y)) curves_wheel(editor, event);
-        if (rect_contains(editor->layout.status, event->x, event->y)) transport_event(editor, world, event);
-        if (rect_contains(editor->layout.stage, event->x, event->y)) stage_wheel(editor, event);
+        if (rect_contains(editor->core.layout.curves, event->x, event->y))
+            curves_wheel(editor->curves, &editor->core, event);
+        if (rect_contains(editor->core.layout.status, event->x, event->y))
+            transport_event(&editor->core, world, event);
+        if (rect_contains(editor->core.layout.stage, event->x, event->y))
+            stage_wheel(editor->stage, &editor->core, event);
         break;
     case EVENT_PASTE:
-        paste_knots(editor, world, event->text);
+        paste_knots(&editor->core, world, event->text);
         break;
     case EVENT_CLOSE:
-        dialog_leave(editor, world, &request);
+        editor_leave(editor, world, &request);
         break;
     case EVENT_DROP:
         snprintf(request.path, sizeof request.path, "%s", event->path ? event->path : "");
-        dialog_leave(editor, world, &request);
+        editor_leave(editor, world, &request);
         break;
     default:
         break;
@@ -58,30 +77,39 @@ static void note(struct editor *editor, const struct event *event)
 {
     bool has_pointer = event->kind == EVENT_POINTER || event->kind == EVENT_BUTTON || event->kind == EVENT_WHEEL;
     if (has_pointer) {
-        editor->pointer_x = event->x;
-        editor->pointer_y = event->y;
+        editor->core.pointer_x = event->x;
+        editor->core.pointer_y = event->y;
     }
-    if (has_pointer || event->kind == EVENT_KEY) editor->mods = event->mods;
+    if (has_pointer || event->kind == EVENT_KEY) editor->core.mods = event->mods;
     bool pressed = event->kind == EVENT_KEY || event->kind == EVENT_BUTTON;
-    if (pressed && event->action == ACTION_PRESS && editor->message.is_error) {
-        editor->message.text[0] = 0;
-        editor->message.is_error = false;
+    if (pressed && event->action == ACTION_PRESS && editor->core.message.is_error) {
+        editor->core.message.text[0] = 0;
+        editor->core.message.is_error = false;
     }
 }
 
 void editor_let_go(struct editor *editor, const struct editor_world *world)
 {
-    if (editor->drag.kind != DRAG_NONE) drag_end(editor, world, true);
-    inspector_let_go(editor, world);
+    if (editor->core.drag.kind != DRAG_NONE) drags_end(editor, world, true);
+    inspector_let_go(editor->inspector, world);
+}
+
+/// An edit that core wants to be asked about first.
+static void ask(struct editor *editor, const struct editor_world *world)
+{
+    if (editor->core.ask.kind == ASK_NOTHING) return;
+    dialog_ask(editor->dialogs, &editor->core, world, &editor->core.ask);
+    editor->core.ask.kind = ASK_NOTHING;
+    inspector_let_go(editor->inspector, world);
 }
 
 /// What opened over the panels ends whatever the pointer and the keys were in the middle of.
 static void let_go(struct editor *editor, const struct editor_world *world)
 {
-    if (editor->dialog.kind == DIALOG_NONE && !editor->help.open) return;
-    if (editor->drag.kind != DRAG_NONE) drag_end(editor, world, true);
-    editor->held_key = 0;
-    editor->space_down = false;
+    if (!dialogs_cover(editor->dialogs)) return;
+    if (editor->core.drag.kind != DRAG_NONE) drags_end(editor, world, true);
+    editor->core.held_key = 0;
+    editor->core.space_down = false;
 }
 
 void editor_event(struct editor *editor, const struct editor_world *world, const struct event *event)
@@ -89,54 +117,54 @@ void editor_event(struct editor *editor, const struct editor_world *world, const
     note(editor, event);
     if (event->kind == EVENT_SIZE) editor_resize(editor, event->x, event->y, event->scale);
     editor_reserve(editor, world->document);
-    bool used = dialog_event(editor, world, event) || help_event(editor, event) || welcome_event(editor, event) ||
-                drag_event(editor, world, event) ||
-                (editor->drag.kind == DRAG_NONE && inspector_event(editor, world, event));
+    bool used =
+        dialogs_event(editor->dialogs, &editor->core, world, event, inspector_is_dragging(editor->inspector)) ||
+        drags_event(editor, world, event) ||
+        (editor->core.drag.kind == DRAG_NONE && inspector_event(editor->inspector, &editor->core, world, event));
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
     }
     if (!used) dispatch(editor, world, event);
+    ask(editor, world);
     let_go(editor, world);
 }
 
 void editor_advance(struct editor *editor, const struct editor_world *world, double dt)
 {
-    struct message *message = &editor->message;
+    struct message *message = &editor->core.message;
     editor->press = (struct press){.used = false}; // what it types comes in the same frame
     if (message->seconds_left > 0) {
         message->seconds_left -= dt;
         if (message->seconds_left <= 0) message->text[0] = 0;
     }
-    status_advance(editor, dt);
-    playback_advance(editor, world, dt);
-    drag_apply(editor, world);
-    brush_advance(editor, world, dt);
-    grab_apply(editor, world);
-    follow_advance(editor, world, dt);
-    record_advance(editor, world);
+    status_advance(editor->transport, &editor->core, dt);
+    playback_advance(&editor->core, world, dt);
+    curves_drag_apply(editor->curves, &editor->core, world);
+    stage_advance(editor->stage, &editor->core, world, dt);
 }
 
 void editor_pose(struct editor *editor, const struct editor_world *world)
 {
     if (!editor->fitted) {
         editor->fitted = true;
-        view_frame_all(editor, world);
-        stage_fit(editor, world);
+        view_frame_all(editor->curves, &editor->core, world);
+        stage_fit(editor->stage, &editor->core, world);
     }
-    stage_pose(editor, world);
-    brush_pose(editor, world);
+    stage_pose(editor->stage, &editor->core, world, dialogs_cover(editor->dialogs));
 }
 
 /// What the pointer is over now: things move under it.
 static void update_hover(struct editor *editor, const struct editor_world *world)
 {
-    if (editor->drag.kind != DRAG_NONE) return;
-    float x = editor->pointer_x, y = editor->pointer_y;
-    editor->hover = (struct hover){.kind = HOVER_NONE};
-    if (editor->dialog.kind != DIALOG_NONE || editor->help.open || divider_at(editor, x, y) != DRAG_NONE) return;
-    if (rect_contains(editor->layout.curves, x, y)) editor->hover = curves_hover(editor, world, x, y);
-    if (rect_contains(editor->layout.stage, x, y)) editor->hover = stage_hover(editor, x, y);
-    if (rect_contains(editor->layout.status, x, y)) editor->hover = transport_hover(editor, x, y);
+    if (editor->core.drag.kind != DRAG_NONE) return;
+    float x = editor->core.pointer_x, y = editor->core.pointer_y;
+    editor->core.hover = (struct hover){.kind = HOVER_NONE};
+    if (dialogs_cover(editor->dialogs) || divider_at(&editor->core, x, y) != DRAG_NONE) return;
+    if (rect_contains(editor->core.layout.curves, x, y))
+        editor->core.hover = curves_hover(editor->curves, &editor->core, world, x, y);
+    if (rect_contains(editor->core.layout.stage, x, y))
+        editor->core.hover = stage_hover(editor->stage, &editor->core, x, y);
+    if (rect_contains(editor->core.layout.status, x, y)) editor->core.hover = transport_hover(&editor->core, x, y);
 }
 
 /// A short thick piece in the middle of a divider: the line alone does not look as if it could be dragged.
@@ -145,36 +173,37 @@ static void show_grip(struct editor *editor, enum drag_kind divider, float x, fl
     enum { LENGTH = 36, THICKNESS = 3 };
     const bool across = divider == DRAG_STAGE_DIVIDER;
     const float w = across ? LENGTH : THICKNESS, h = across ? THICKNESS : LENGTH;
-    const bool held = editor->drag.kind == divider;
-    const bool hot =
-        editor->drag.kind == DRAG_NONE && divider_at(editor, editor->pointer_x, editor->pointer_y) == divider;
+    const bool held = editor->core.drag.kind == divider;
+    const bool hot = editor->core.drag.kind == DRAG_NONE &&
+                     divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y) == divider;
     const uint32_t color = held ? theme()->accent : hot ? theme()->text : theme()->text_dim;
-    drawlist_rounded(&editor->list, (struct rect){roundf(x - w / 2), roundf(y - h / 2), w, h}, THICKNESS / 2.0f,
+    drawlist_rounded(&editor->core.list, (struct rect){roundf(x - w / 2), roundf(y - h / 2), w, h}, THICKNESS / 2.0f,
                      color);
 }
 
 static void show_dividers(struct editor *editor)
 {
-    const struct layout *l = &editor->layout;
-    drawlist_rect(&editor->list, (struct rect){0, l->curves.y, l->curves.w, 1}, theme()->border);
-    drawlist_rect(&editor->list, (struct rect){l->inspector.x, 0, 1, l->inspector.h}, theme()->border);
+    const struct layout *l = &editor->core.layout;
+    drawlist_rect(&editor->core.list, (struct rect){0, l->curves.y, l->curves.w, 1}, theme()->border);
+    drawlist_rect(&editor->core.list, (struct rect){l->inspector.x, 0, 1, l->inspector.h}, theme()->border);
     show_grip(editor, DRAG_STAGE_DIVIDER, l->curves.w / 2, l->curves.y + 0.5f);
     show_grip(editor, DRAG_INSPECTOR_DIVIDER, l->inspector.x + 0.5f, l->inspector.h / 2);
 }
 
 void editor_show(struct editor *editor, const struct editor_world *world)
 {
-    drawlist_clear(&editor->list, editor->layout.window);
+    drawlist_clear(&editor->core.list, editor->core.layout.window);
     update_hover(editor, world);
-    stage_show(editor, world);
-    caption_show(editor, world->document);
-    welcome_show(editor, world);
-    curves_show(editor, world);
-    inspector_show(editor, world);
+    stage_show(editor->stage, &editor->core, world);
+    caption_show(&editor->core, world->document, dialogs_bottom(editor->dialogs, &editor->core));
+    welcome_show(editor->dialogs, &editor->core, world);
+    curves_show(editor->curves, &editor->core, world);
+    inspector_show(editor->inspector, &editor->core, world, dialogs_cover(editor->dialogs));
     show_dividers(editor);
-    status_show(editor, world);
-    help_show(editor);
-    dialog_show(editor, world);
+    const char *hint = inspector_hint(editor->inspector);
+    status_show(editor->transport, &editor->core, world, hint ? hint : curves_hint(editor->curves, &editor->core));
+    help_show(editor->dialogs, &editor->core);
+    dialog_show(editor->dialogs, &editor->core, world);
 }
 
 enum cursor editor_cursor(const struct editor *editor)
@@ -202,12 +231,13 @@ enum cursor editor_cursor(const struct editor *editor)
     };
     static const enum cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};
-    if (editor->dialog.kind != DIALOG_NONE) return of_widget[editor->dialog.ui.over];
-    if (editor->help.open) return CURSOR_ARROW;
-    if (editor->drag.kind != DRAG_NONE) return of_drag[editor->drag.kind];
-    enum drag_kind divider = divider_at(editor, editor->pointer_x, editor->pointer_y);
+    enum ui_over over;
+    if (dialogs_over(editor->dialogs, &over)) return of_widget[over];
+    if (editor->core.drag.kind != DRAG_NONE) return of_drag[editor->core.drag.kind];
+    enum drag_kind divider = divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y);
     if (divider != DRAG_NONE) return of_drag[divider];
-    if (editor->inspector.ui.over != UI_OVER_NOTHING) return of_widget[editor->inspector.ui.over];
-    if (editor->hover.kind == HOVER_CURVE && editor->hover.spline == editor->active) return CURSOR_ARROW;
-    return of_hover[editor->hover.kind];
+    if (inspector_over(editor->inspector) != UI_OVER_NOTHING) return of_widget[inspector_over(editor->inspector)];
+    if (editor->core.hover.kind == HOVER_CURVE && editor->core.hover.spline == editor->core.active)
+        return CURSOR_ARROW;
+    return of_hover[editor->core.hover.kind];
 }

@@ -1,7 +1,9 @@
 #include "editor/keyboard.h"
-#include "editor/core/actions.h"
+#include "editor/core/knots.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/warnings.h"
+#include "editor/editor.h"
+#include "editor/stage/stage.h"
+#include "editor/state.h"
 
 static const double PAN = 0.1;  ///< of the panel's size
 static const double ZOOM = 0.8; ///< of what is seen, a step
@@ -11,63 +13,57 @@ static const int way_sign[][2] = {
 
 void keyboard_pan(struct editor *editor, const struct editor_world *world, int way)
 {
-    const struct rect *plot = &editor->layout.plot;
+    const struct rect *plot = &editor->core.layout.plot;
     (void)world;
-    view_pan(editor, -PAN * way_sign[way][0] * plot->w, -PAN * way_sign[way][1] * plot->h);
+    view_pan(editor->curves, &editor->core, -PAN * way_sign[way][0] * plot->w, -PAN * way_sign[way][1] * plot->h);
 }
 
 void keyboard_zoom(struct editor *editor, const struct editor_world *world, int direction)
 {
-    const struct rect *plot = &editor->layout.plot;
+    const struct rect *plot = &editor->core.layout.plot;
     double factor = direction > 0 ? ZOOM : 1 / ZOOM;
     (void)world;
-    view_zoom(editor, plot->x + plot->w / 2, plot->y + plot->h / 2, factor, factor);
+    view_zoom(editor->curves, &editor->core, plot->x + plot->w / 2, plot->y + plot->h / 2, factor, factor);
 }
 
 void keyboard_orbit(struct editor *editor, const struct editor_world *world, int way)
 {
     (void)world;
-    camera_orbit(&editor->camera, TURN * (float)way_sign[way][0], -TURN * (float)way_sign[way][1]);
+    stage_orbit(editor->stage, TURN * (float)way_sign[way][0], -TURN * (float)way_sign[way][1]);
 }
 
 void keyboard_approach(struct editor *editor, const struct editor_world *world, int direction)
 {
     (void)world;
-    camera_zoom(&editor->camera, (float)(direction > 0 ? ZOOM : 1 / ZOOM));
+    stage_approach(editor->stage, (float)(direction > 0 ? ZOOM : 1 / ZOOM));
 }
 
 void keyboard_fit_stage(struct editor *editor, const struct editor_world *world, int argument)
 {
     (void)argument;
-    stage_fit(editor, world);
-}
-
-void keyboard_extend(struct editor *editor, const struct editor_world *world, int direction)
-{
-    const struct spline *spline = editor_active_spline(editor, world);
-    int end = -1;
-    for (int k = 0; spline && k < spline->knot_count; k++) {
-        if (selection_has(&editor->selection, spline->knots[k].id) && (end < 0 || direction > 0)) end = k;
-    }
-    if (end < 0) {
-        select_neighbour(editor, world, direction);
-        return;
-    }
-    int next = end + direction;
-    if (next < 0 || next >= spline->knot_count) return;
-    selection_set(&editor->selection, spline->knots[next].id, true);
-    view_reveal(editor, spline->knots[next].frame, spline->knots[next].value);
+    stage_fit(editor->stage, &editor->core, world);
 }
 
 void keyboard_remedy(struct editor *editor, const struct editor_world *world, int argument)
 {
     (void)argument;
-    warnings_update(editor, world);
-    if (editor->warnings.count > 0) {
-        warning_remedy(editor, world, &editor->warnings.list[0]);
-    } else {
-        editor_message(editor, false, "This spline has no warnings.");
-    }
+    curves_remedy_first(editor->curves, &editor->core, world);
+}
+
+/// What was selected is to be seen.
+static void reveal(struct editor *editor, const struct knot *knot)
+{
+    if (knot) view_reveal(editor->curves, &editor->core, knot->frame, knot->value);
+}
+
+void keyboard_neighbour(struct editor *editor, const struct editor_world *world, int direction)
+{
+    reveal(editor, select_neighbour(&editor->core, world, direction));
+}
+
+void keyboard_extend(struct editor *editor, const struct editor_world *world, int direction)
+{
+    reveal(editor, extend_selection(&editor->core, world, direction));
 }
 
 /// The first of the sizes that is clearly larger than the present one, round the end.

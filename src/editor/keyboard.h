@@ -2,7 +2,7 @@
 #ifndef EDITOR_KEYBOARD_H
 #define EDITOR_KEYBOARD_H
 
-#include "editor/core/state.h"
+#include "editor/state.h"
 
 /// Arguments of keyboard_pan() and keyboard_orbit().
 enum keyboard_way { WAY_LEFT, WAY_RIGHT, WAY_UP, WAY_DOWN };
@@ -18,6 +18,8 @@ void keyboard_approach(struct editor *editor, const struct editor_world *world, 
 /// All of the stage's rigs in sight, from where the camera was at first.
 void keyboard_fit_stage(struct editor *editor, const struct editor_world *world, int argument);
 
+/// The selected knot's neighbour (from the playhead where not just one is selected).
+void keyboard_neighbour(struct editor *editor, const struct editor_world *world, int direction);
 /// The knot after the last selected one (1), or before the first one (-1), is selected besides.
 void keyboard_extend(struct editor *editor, const struct editor_world *world, int direction);
 /// Does away with the first warning.

@@ -1,120 +1,132 @@
 /// The keyboard: one table of what a key does, one of what a typed character does. docs/keys.md lists them.
 #include "editor/keys.h"
-#include "editor/core/actions.h"
+#include "editor/core/characters.h"
+#include "editor/core/clipboard.h"
+#include "editor/core/core.h"
+#include "editor/core/knots.h"
+#include "editor/core/nudge.h"
+#include "editor/core/play_range.h"
+#include "editor/core/playback.h"
+#include "editor/core/selection.h"
+#include "editor/core/slopes.h"
 #include "editor/curves/curves.h"
+#include "editor/dialogs/dialogs.h"
+#include "editor/drags.h"
+#include "editor/inspector/inspector.h"
 #include "editor/keyboard.h"
-#include "editor/stage/overlays.h"
+#include "editor/stage/stage.h"
+#include "editor/state.h"
 #include "ui/theme.h"
 #include <math.h>
 
 static void run_undo(struct editor *e, const struct editor_world *w, int argument)
 {
     if (argument < 0) {
-        editor_undo(e, w);
+        core_undo(&e->core, w);
     } else {
-        editor_redo(e, w);
+        core_redo(&e->core, w);
     }
 }
 
 static void run_leave(struct editor *e, const struct editor_world *w, int argument)
 {
     struct request request = {.kind = (enum request_kind)argument};
-    dialog_leave(e, w, &request);
+    editor_leave(e, w, &request);
 }
 
 static void run_save(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
-    if (argument == REQUEST_SAVE && e->path[0]) {
-        editor_request(e, REQUEST_SAVE, NULL);
+    if (argument == REQUEST_SAVE && e->core.path[0]) {
+        core_request(&e->core, REQUEST_SAVE, NULL);
     } else {
-        dialog_ask_save_as(e);
+        dialog_ask_save_as(e->dialogs, &e->core);
     }
 }
 
 static void run_request(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
-    editor_request(e, (enum request_kind)argument, NULL);
+    core_request(&e->core, (enum request_kind)argument, NULL);
 }
 
 static void run_figure(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
-    if (argument == 2) inspector_unfold(e, "section.poles");
-    editor_request_figure(e, argument);
+    if (argument == 2) inspector_unfold(e->inspector, "section.poles");
+    core_request_figure(&e->core, argument);
 }
 
 static void run_insert(struct editor *e, const struct editor_world *w, int argument)
 {
-    insert_on_curve(e, w, editor_frame(e, w->document), true, argument);
+    insert_on_curve(&e->core, w, core_frame(&e->core, w->document), true, argument);
 }
 
 static void run_delete(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    delete_knots(e, w);
+    delete_knots(&e->core, w);
 }
 
 static void run_select_all(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    select_all(e, w);
+    select_all(&e->core, w);
 }
 
 /// Puts the brush away; without one nothing is selected any more.
 static void run_select_none(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    if (e->brush.on) {
-        brush_set(e, w, false);
+    if (e->core.brush.on) {
+        brush_set(&e->core, w, false);
     } else {
-        selection_clear(&e->selection);
+        selection_clear(&e->core.selection);
     }
 }
 
 static void run_toggle_slope(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    toggle_slope(e, w);
+    toggle_slope(&e->core, w);
 }
 
 static void run_flatten(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    flatten_slopes(e, w);
+    flatten_slopes(&e->core, w);
 }
 
 static void run_smooth(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    smooth_slopes(e, w);
+    smooth_slopes(&e->core, w);
 }
 
 static void run_slope(struct editor *e, const struct editor_world *w, int argument)
 {
-    nudge_slope(e, w, 0.05 * argument);
+    nudge_slope(&e->core, w, 0.05 * argument);
 }
 
 static void run_stiffness(struct editor *e, const struct editor_world *w, int argument)
 {
-    nudge_stiffness(e, w, pow(1.25, argument));
+    nudge_stiffness(&e->core, w, pow(1.25, argument));
 }
 
 static void run_mode(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    cycle_mode(e, w);
+    cycle_mode(&e->core, w);
 }
 
 static void run_frame(struct editor *e, const struct editor_world *w, int argument)
 {
-    if (!argument && rect_contains(e->layout.stage, e->pointer_x, e->pointer_y)) {
-        stage_fit(e, w);
+    if (!argument && rect_contains(e->core.layout.stage, e->core.pointer_x, e->core.pointer_y)) {
+        stage_fit(e->stage, &e->core, w);
     } else if (argument) {
-        view_frame_selection(e, w);
+        view_frame_selection(e->curves, &e->core, w);
     } else {
-        view_frame_all(e, w);
+        view_frame_all(e->curves, &e->core, w);
     }
 }
 
@@ -124,7 +136,7 @@ static void run_look(struct editor *e, const struct editor_world *w, int argumen
         [LOOK_WIGGLY] = LOOK_STIFF, [LOOK_STIFF] = LOOK_CUBIC, [LOOK_CUBIC] = LOOK_WIGGLY};
     (void)w;
     (void)argument;
-    editor_set_look(e, next[e->look]);
+    core_set_look(&e->core, next[e->core.look]);
 }
 
 enum clipboard_use { CLIPBOARD_COPY, CLIPBOARD_CUT, CLIPBOARD_PASTE, CLIPBOARD_DUPLICATE };
@@ -132,65 +144,66 @@ enum clipboard_use { CLIPBOARD_COPY, CLIPBOARD_CUT, CLIPBOARD_PASTE, CLIPBOARD_D
 /// Not while a value is typed: knots are not what is meant then.
 static void run_clipboard(struct editor *e, const struct editor_world *w, int argument)
 {
-    if (inspector_is_typing(e)) return;
+    if (inspector_is_typing(e->inspector)) return;
     if (argument == CLIPBOARD_DUPLICATE) {
-        duplicate_knots(e, w);
+        duplicate_knots(&e->core, w);
     } else if (argument == CLIPBOARD_PASTE) {
-        editor_request(e, REQUEST_PASTE, NULL);
-    } else if (copy_knots(e, w, argument == CLIPBOARD_CUT)) {
-        editor_request(e, REQUEST_COPY, NULL);
+        core_request(&e->core, REQUEST_PASTE, NULL);
+    } else if (copy_knots(&e->core, w, argument == CLIPBOARD_CUT)) {
+        core_request(&e->core, REQUEST_COPY, NULL);
     }
 }
 
 static void run_normalise(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    normal_toggle(e, w);
+    normal_toggle(e->curves, &e->core, w);
 }
 
 static void run_units(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
     (void)argument;
-    ruler_toggle(e);
+    ruler_toggle(e->curves, &e->core);
 }
 
 static void run_snap(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
     (void)argument;
-    e->options.no_snap = !e->options.no_snap;
-    editor_message(e, false,
-                   e->options.no_snap ? "Snapping off: hold Ctrl to snap to frames."
-                                      : "Snapping on: hold Ctrl to place knots between frames.");
+    e->core.no_snap = !e->core.no_snap;
+    core_message(&e->core, false,
+                 e->core.no_snap ? "Snapping off: hold Ctrl to snap to frames."
+                                 : "Snapping on: hold Ctrl to place knots between frames.");
 }
 
 static void run_scale(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    scale_begin(e, w);
+    scale_begin(e->curves, &e->core, w);
 }
 
 static void run_overlay(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
     if (argument == 'O') {
-        onion_toggle(e);
+        onion_toggle(&e->core);
     } else {
-        trail_toggle(e);
+        trail_toggle(&e->core);
     }
 }
 
 static void run_brush(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    brush_set(e, w, !e->brush.on);
+    brush_set(&e->core, w, !e->core.brush.on);
+    if (e->core.brush.on) inspector_unfold(e->inspector, "section.character");
 }
 
 static void run_rename(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    inspector_rename(e, w);
+    inspector_rename(e->inspector, &e->core, w);
 }
 
 static void run_theme(struct editor *e, const struct editor_world *w, int argument)
@@ -204,7 +217,34 @@ static void run_theme(struct editor *e, const struct editor_world *w, int argume
 /// ↑ and ↓ while a letter is held: that parameter.
 static void run_held(struct editor *e, const struct editor_world *w, int argument)
 {
-    if (e->held_key) nudge_parameter(e, w, e->held_key, argument);
+    if (e->core.held_key) nudge_parameter(&e->core, w, e->core.held_key, argument);
+}
+
+static void run_activate_neighbour(struct editor *e, const struct editor_world *w, int direction)
+{
+    activate_neighbour(&e->core, w, direction);
+}
+
+static void run_step(struct editor *e, const struct editor_world *w, int direction)
+{
+    playback_step(&e->core, w, direction);
+}
+
+static void run_end(struct editor *e, const struct editor_world *w, int direction)
+{
+    playback_end(&e->core, w, direction);
+}
+
+static void run_range_mark(struct editor *e, const struct editor_world *w, int end) { range_mark(&e->core, w, end); }
+
+static void run_toggle_loop(struct editor *e, const struct editor_world *w, int unused)
+{
+    playback_toggle_loop(&e->core, w, unused);
+}
+
+static void run_change_speed(struct editor *e, const struct editor_world *w, int direction)
+{
+    playback_change_speed(&e->core, w, direction);
 }
 
 enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT };
@@ -238,8 +278,8 @@ const struct binding key_bindings[] = {
     {.key = 'X', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_CUT},
     {.key = 'V', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_PASTE},
     {.key = 'D', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_DUPLICATE},
-    {.key = KEY_PAGE_UP, .repeats = true, .run = activate_neighbour, .argument = -1},
-    {.key = KEY_PAGE_DOWN, .repeats = true, .run = activate_neighbour, .argument = 1},
+    {.key = KEY_PAGE_UP, .repeats = true, .run = run_activate_neighbour, .argument = -1},
+    {.key = KEY_PAGE_DOWN, .repeats = true, .run = run_activate_neighbour, .argument = 1},
     {.key = KEY_PAGE_UP, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = -1},
     {.key = KEY_PAGE_DOWN, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = 1},
     {.key = 'T', .run = run_toggle_slope},
@@ -257,13 +297,13 @@ const struct binding key_bindings[] = {
     {.key = 'G', .any_time = true, .run = run_snap},
     {.key = KEY_UP, .repeats = true, .run = run_held, .argument = 1},
     {.key = KEY_DOWN, .repeats = true, .run = run_held, .argument = -1},
-    {.key = KEY_LEFT, .repeats = true, .run = playback_step, .argument = -1},
-    {.key = KEY_RIGHT, .repeats = true, .run = playback_step, .argument = 1},
-    {.key = KEY_LEFT, .mods = MOD_SHIFT, .run = playback_end, .argument = -1},
-    {.key = KEY_RIGHT, .mods = MOD_SHIFT, .run = playback_end, .argument = 1},
-    {.key = 'L', .mods = MOD_CTRL, .run = playback_toggle_loop},
-    {.key = KEY_HOME, .mods = MOD_CTRL, .run = range_mark, .argument = 0},
-    {.key = KEY_END, .mods = MOD_CTRL, .run = range_mark, .argument = 1},
+    {.key = KEY_LEFT, .repeats = true, .run = run_step, .argument = -1},
+    {.key = KEY_RIGHT, .repeats = true, .run = run_step, .argument = 1},
+    {.key = KEY_LEFT, .mods = MOD_SHIFT, .run = run_end, .argument = -1},
+    {.key = KEY_RIGHT, .mods = MOD_SHIFT, .run = run_end, .argument = 1},
+    {.key = 'L', .mods = MOD_CTRL, .run = run_toggle_loop},
+    {.key = KEY_HOME, .mods = MOD_CTRL, .run = run_range_mark, .argument = 0},
+    {.key = KEY_END, .mods = MOD_CTRL, .run = run_range_mark, .argument = 1},
     {.key = KEY_LEFT, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_LEFT},
     {.key = KEY_RIGHT, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_RIGHT},
     {.key = KEY_UP, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_UP},
@@ -296,15 +336,15 @@ const struct binding key_bindings[] = {
 };
 
 const struct binding character_bindings[] = {
-    {.key = ',', .repeats = true, .run = select_neighbour, .argument = -1},
-    {.key = '.', .repeats = true, .run = select_neighbour, .argument = 1},
+    {.key = ',', .repeats = true, .run = keyboard_neighbour, .argument = -1},
+    {.key = '.', .repeats = true, .run = keyboard_neighbour, .argument = 1},
     {.key = '<', .repeats = true, .run = keyboard_extend, .argument = -1},
     {.key = '>', .repeats = true, .run = keyboard_extend, .argument = 1},
-    {.key = '[', .run = range_mark, .argument = 0},
-    {.key = ']', .run = range_mark, .argument = 1},
-    {.key = '-', .any_time = true, .run = playback_change_speed, .argument = -1},
-    {.key = '=', .any_time = true, .run = playback_change_speed, .argument = 1},
-    {.key = '+', .any_time = true, .run = playback_change_speed, .argument = 1},
+    {.key = '[', .run = run_range_mark, .argument = 0},
+    {.key = ']', .run = run_range_mark, .argument = 1},
+    {.key = '-', .any_time = true, .run = run_change_speed, .argument = -1},
+    {.key = '=', .any_time = true, .run = run_change_speed, .argument = 1},
+    {.key = '+', .any_time = true, .run = run_change_speed, .argument = 1},
     {.run = NULL},
 };
 
@@ -323,10 +363,10 @@ static bool nudge_event(struct editor *editor, const struct editor_world *world,
 {
     if (!(event->mods & MOD_ALT)) return false;
     double factor = event->mods & MOD_SHIFT ? 10 : event->mods & MOD_CTRL ? 0.1 : 1;
-    double visible = editor->view.value1 - editor->view.value0;
     for (size_t i = 0; i < sizeof nudge_keys / sizeof nudge_keys[0]; i++) {
         if (nudge_keys[i].key != event->key) continue;
-        nudge_knots(editor, world, nudge_keys[i].frames * factor, nudge_keys[i].values * factor * visible);
+        nudge_knots(&editor->core, world, nudge_keys[i].frames * factor,
+                    nudge_keys[i].values * factor * editor->core.visible);
         return true;
     }
     return false;
@@ -336,11 +376,11 @@ static bool nudge_event(struct editor *editor, const struct editor_world *world,
 static void space_event(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     if (event->action == ACTION_PRESS) {
-        editor->space_down = true;
-        editor->space_used = false;
-    } else if (event->action == ACTION_RELEASE && editor->space_down) {
-        editor->space_down = false;
-        if (!editor->space_used) playback_toggle(editor, world);
+        editor->core.space_down = true;
+        editor->core.space_used = false;
+    } else if (event->action == ACTION_RELEASE && editor->core.space_down) {
+        editor->core.space_down = false;
+        if (!editor->core.space_used) playback_toggle(&editor->core, world);
     }
 }
 
@@ -374,10 +414,10 @@ bool keys_event(struct editor *editor, const struct editor_world *world, const s
         return true;
     }
     if (event->action == ACTION_RELEASE) {
-        if (event->key == editor->held_key) editor->held_key = 0;
+        if (event->key == editor->core.held_key) editor->core.held_key = 0;
         return false;
     }
-    if (mods == 0 && event->action == ACTION_PRESS && is_held_letter(event->key)) editor->held_key = event->key;
+    if (mods == 0 && event->action == ACTION_PRESS && is_held_letter(event->key)) editor->core.held_key = event->key;
     if (nudge_event(editor, world, event)) return true;
     return run(editor, world, key_bindings, event->key, mods, event->action == ACTION_REPEAT);
 }

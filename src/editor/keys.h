@@ -2,7 +2,7 @@
 #ifndef EDITOR_KEYS_H
 #define EDITOR_KEYS_H
 
-#include "editor/core/state.h"
+#include "editor/state.h"
 
 typedef void key_action(struct editor *editor, const struct editor_world *world, int argument);
 
@@ -20,5 +20,8 @@ extern const struct binding key_bindings[];
 /// Punctuation, by what is typed: every layout has it on other keys, and some need Shift for it. What AZERTY, QWERTZ or
 /// Nordic layouts cannot type without AltGr has a key as well.
 extern const struct binding character_bindings[];
+
+/// Keys and characters; true where the event is used up.
+bool keys_event(struct editor *editor, const struct editor_world *world, const struct event *event);
 
 #endif

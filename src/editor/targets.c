@@ -1,8 +1,8 @@
 /// Names for places on the screen that survive a new layout, for replays: "knot(sway,2)", "tail(tail,0.9)".
-#include "editor/core/actions.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/warnings.h"
-#include "editor/stage/body.h"
+#include "editor/inspector/inspector.h"
+#include "editor/stage/stage.h"
+#include "editor/state.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,9 +27,9 @@ typedef bool find_place(struct place *place, struct error *error);
 
 static bool in_plot(struct place *place, double frame, double value, struct error *error)
 {
-    place->x = curves_x(place->editor, frame);
-    place->y = curves_y(place->editor, value);
-    const struct rect *plot = &place->editor->layout.plot;
+    place->x = curves_x(place->editor->curves, &place->editor->core, frame);
+    place->y = curves_y(place->editor->curves, &place->editor->core, value);
+    const struct rect *plot = &place->editor->core.layout.plot;
     bool inside =
         place->x >= plot->x && place->y >= plot->y && place->x <= plot->x + plot->w && place->y <= plot->y + plot->h;
     return inside ||
@@ -71,7 +71,8 @@ static bool find_handle(struct place *place, struct error *error)
     float xy[2];
     if (!knot_named(place, &knot, error)) return false;
     if (!knot->has_slope) return fail(error, ERROR_INPUT, "that knot of \"%s\" has no slope", place->target->name);
-    curves_handle(place->editor, place->world->document, knot, place->target->number[1] > 0, xy);
+    curves_handle(place->editor->curves, &place->editor->core, place->world->document, knot,
+                  place->target->number[1] > 0, xy);
     place->x = xy[0];
     place->y = xy[1];
     return true;
@@ -86,11 +87,9 @@ static bool find_curve(struct place *place, struct error *error)
 
 static bool find_warning(struct place *place, struct error *error)
 {
-    const struct warnings *warnings = &place->editor->warnings;
     double number = place->target->number[0];
     float xy[2];
-    bool there = number >= 0 && number < warnings->count;
-    if (!there || !warning_place(place->editor, &warnings->list[(int)number], xy)) {
+    if (!curves_warning(place->editor->curves, &place->editor->core, number, xy)) {
         return fail(error, ERROR_INPUT, "no warning %g is to be seen", number);
     }
     place->x = xy[0];
@@ -100,8 +99,8 @@ static bool find_warning(struct place *place, struct error *error)
 
 static bool find_ruler(struct place *place, struct error *error)
 {
-    const struct rect *ruler = &place->editor->layout.ruler;
-    place->x = curves_x(place->editor, place->target->number[0]);
+    const struct rect *ruler = &place->editor->core.layout.ruler;
+    place->x = curves_x(place->editor->curves, &place->editor->core, place->target->number[0]);
     place->y = ruler->y + ruler->h / 2;
     return rect_contains(*ruler, place->x, place->y) ||
            fail(error, ERROR_INPUT, "frame %g is not on the visible part of the ruler", place->target->number[0]);
@@ -110,7 +109,7 @@ static bool find_ruler(struct place *place, struct error *error)
 static bool find_stage(struct place *place, struct error *error)
 {
     (void)error;
-    const struct rect *stage = &place->editor->layout.stage;
+    const struct rect *stage = &place->editor->core.layout.stage;
     place->x = stage->x + stage->w * (float)place->target->number[0];
     place->y = stage->y + stage->h * (float)place->target->number[1];
     return true;
@@ -127,7 +126,7 @@ static bool find_tail(struct place *place, struct error *error)
         double along = share * joints;
         int joint = (int)fmin(floor(along), joints - 1);
         float xy[2];
-        if (!stage_project(place->editor, t, joint, along - joint, xy)) break;
+        if (!stage_project(place->editor->stage, &place->editor->core, t, joint, along - joint, xy)) break;
         place->x = xy[0];
         place->y = xy[1];
         return true;
@@ -139,11 +138,11 @@ static bool find_body(struct place *place, struct error *error)
 {
     const struct document *document = place->world->document;
     int rig = document_next_rig(document, RIG_TAIL, 0);
-    for (int t = 0; t < place->editor->stage.tail_count && rig >= 0;
+    for (int t = 0; t < stage_seen(place->editor->stage)->tail_count && rig >= 0;
          t++, rig = document_next_rig(document, RIG_TAIL, rig + 1)) {
         float xy[2];
         if (strcmp(document->rigs[rig].name, place->target->name) != 0) continue;
-        if (!body_point(place->editor, t, xy)) break;
+        if (!body_point(place->editor->stage, &place->editor->core, t, xy)) break;
         place->x = xy[0];
         place->y = xy[1];
         return true;
@@ -161,7 +160,7 @@ static bool find_character(struct place *place, struct error *error)
         const struct rig *rig = &document->rigs[r];
         float xy[2];
         if (strcmp(rig->name ? rig->name : rig->character.model, place->target->name) != 0) continue;
-        if (!characters_point(place->editor, c, place->target->number, xy)) break;
+        if (!characters_point(place->editor->stage, c, place->target->number, xy)) break;
         place->x = xy[0];
         place->y = xy[1];
         return true;
@@ -171,7 +170,7 @@ static bool find_character(struct place *place, struct error *error)
 
 static bool find_divider(struct place *place, struct error *error)
 {
-    const struct layout *l = &place->editor->layout;
+    const struct layout *l = &place->editor->core.layout;
     bool inspector = strcmp(place->target->name, "inspector") == 0;
     if (!inspector && strcmp(place->target->name, "stage") != 0) {
         return fail(error, ERROR_INPUT, "there is no divider \"%s\": expected stage or inspector",
@@ -184,7 +183,8 @@ static bool find_divider(struct place *place, struct error *error)
 
 static bool find_widget(struct place *place, struct error *error)
 {
-    return inspector_target(place->editor, place->world, place->target->name, &place->x, &place->y) ||
+    return inspector_target(place->editor->inspector, &place->editor->core, place->world, place->target->name,
+                            &place->x, &place->y) ||
            fail(error, ERROR_INPUT, "the inspector does not show \"%s\"", place->target->name);
 }
 

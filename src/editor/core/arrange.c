@@ -1,5 +1,7 @@
 #include "editor/core/arrange.h"
-#include "editor/curves/curves.h"
+#include "editor/core/core.h"
+#include "editor/core/selection.h"
+#include "editor/core/state.h"
 #include "scene/reference.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -12,101 +14,90 @@ uint32_t arrange_color(const struct document *document, int spline)
     return color < 0 ? theme()->spline[spline % THEME_SPLINE_COLORS] : theme_spline((uint32_t)color);
 }
 
-static bool any_solo(const struct editor *editor, const struct document *document)
+static bool any_solo(const struct core *core, const struct document *document)
 {
     for (int s = 0; s < document->spline_count; s++) {
-        if (selection_has(&editor->solo, document->splines[s].id)) return true;
+        if (selection_has(&core->solo, document->splines[s].id)) return true;
     }
     return false;
 }
 
-bool arrange_shows(const struct editor *editor, const struct document *document, int spline)
+bool arrange_shows(const struct core *core, const struct document *document, int spline)
 {
     if (spline < 0 || spline >= document->spline_count) return false;
     unsigned id = document->splines[spline].id;
-    if (any_solo(editor, document)) return selection_has(&editor->solo, id);
-    return !selection_has(&editor->hidden, id);
+    if (any_solo(core, document)) return selection_has(&core->solo, id);
+    return !selection_has(&core->hidden, id);
 }
 
-const struct spline *arrange_seen(const struct editor *editor, const struct editor_world *world)
+const struct spline *arrange_seen(const struct core *core, const struct editor_world *world)
 {
-    return arrange_shows(editor, world->document, editor->active) ? editor_active_spline(editor, world) : NULL;
+    return arrange_shows(core, world->document, core->active) ? core_active_spline(core, world) : NULL;
 }
 
-static void find_active(struct editor *editor, const struct document *document)
+static void find_active(struct core *core, const struct document *document)
 {
-    int found = document_find_spline_id(document, editor->active_id);
+    int found = document_find_spline_id(document, core->active_id);
     if (found < 0) {
         int last = document->spline_count - 1;
-        found = editor->active > last ? last : editor->active < 0 && last >= 0 ? 0 : editor->active;
-        editor->active_id = found >= 0 ? document->splines[found].id : 0;
-        selection_clear(&editor->selection);
+        found = core->active > last ? last : core->active < 0 && last >= 0 ? 0 : core->active;
+        core->active_id = found >= 0 ? document->splines[found].id : 0;
+        selection_clear(&core->selection);
     }
-    editor->active = found;
+    core->active = found;
 }
 
-void arrange_follow(struct editor *editor, const struct editor_world *world)
+void arrange_follow(struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
-    const struct spline *active = editor_active_spline(editor, world);
+    const struct spline *active = core_active_spline(core, world);
     bool same = world->evaluation && world->evaluation->count == document->spline_count;
-    if (!same || !active || active->id != editor->active_id) {
-        find_active(editor, document);
-        editor->hover = (struct hover){0};
-        editor->cache.key = 0; // it names splines by index
-        editor->cache.other_count = editor->cache.count = 0;
+    if (!same || !active || active->id != core->active_id) {
+        find_active(core, document);
+        core->hover = (struct hover){0};
+        core_tell(core, world, NEWS_RENUMBERED, core->active);
     }
-    double frame = editor->seen_first + editor->playback.position / editor->seen_substeps;
-    bool moved = editor->seen_first != document->first_frame || editor->seen_substeps != document->substeps;
-    if (moved) editor->playback.position = (frame - document->first_frame) * document->substeps;
-    editor->playback.position = fmax(0, fmin(editor->playback.position, document_samples(document) - 1));
-    editor->seen_first = document->first_frame;
-    editor->seen_substeps = document->substeps;
-    editor_reserve(editor, document);
+    double frame = core->seen_first + core->playback.position / core->seen_substeps;
+    bool moved = core->seen_first != document->first_frame || core->seen_substeps != document->substeps;
+    if (moved) core->playback.position = (frame - document->first_frame) * document->substeps;
+    core->playback.position = fmax(0, fmin(core->playback.position, document_samples(document) - 1));
+    core->seen_first = document->first_frame;
+    core->seen_substeps = document->substeps;
+    core_reserve(core, document);
 }
 
-void arrange_add(struct editor *editor, const struct editor_world *world)
+void arrange_add(struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
-    double frame = round(editor_frame(editor, document));
-    struct edit edit = editor_edit_of(EDIT_SPLINE_ADD, -1);
+    double frame = round(core_frame(core, document));
+    struct edit edit = core_edit_of(EDIT_SPLINE_ADD, -1);
     edit.flag = true;
     edit.knot.frame = fmax(document->first_frame, fmin(frame, document->last_frame));
-    if (!editor_step(editor, world, "Add spline", 0, &edit)) return;
-    editor_activate(editor, world, document->spline_count - 1);
+    if (!core_step(core, world, "Add spline", 0, &edit)) return;
+    core_activate(core, world, document->spline_count - 1);
 }
 
-void arrange_copy(struct editor *editor, const struct editor_world *world)
+void arrange_copy(struct core *core, const struct editor_world *world)
 {
-    struct edit edit = editor_edit_of(EDIT_SPLINE_COPY, editor->active);
-    if (!editor_active_spline(editor, world)) return;
-    if (editor_step(editor, world, "Duplicate spline", 0, &edit)) editor_activate(editor, world, editor->active + 1);
+    struct edit edit = core_edit_of(EDIT_SPLINE_COPY, core->active);
+    if (!core_active_spline(core, world)) return;
+    if (core_step(core, world, "Duplicate spline", 0, &edit)) core_activate(core, world, core->active + 1);
 }
 
-void arrange_move(struct editor *editor, const struct editor_world *world, int spline, int to)
+void arrange_move(struct core *core, const struct editor_world *world, int spline, int to)
 {
-    struct edit edit = editor_edit_of(EDIT_SPLINE_MOVE, spline);
+    struct edit edit = core_edit_of(EDIT_SPLINE_MOVE, spline);
     edit.to = to;
     if (to != spline && to >= 0 && to < world->document->spline_count) {
-        editor_step(editor, world, "Reorder splines", 0, &edit);
+        core_step(core, world, "Reorder splines", 0, &edit);
     }
 }
 
-void arrange_remove(struct editor *editor, const struct editor_world *world)
-{
-    if (!editor_active_spline(editor, world)) return;
-    if (reference_count(world->document, editor->active) == 0) {
-        arrange_remove_now(editor, world);
-        return;
-    }
-    dialog_ask(editor, world, &(struct ask){.kind = ASK_REMOVE});
-}
-
-double arrange_present(const struct editor *editor, const struct editor_world *world, int spline,
+double arrange_present(const struct core *core, const struct editor_world *world, int spline,
                        enum parameter parameter)
 {
     const struct spline *follower = &world->document->splines[spline];
-    wiggly_value v = curves_solved(world, follower->parameter[parameter].track, editor->playback.position);
+    wiggly_value v = evaluation_at(world->evaluation, follower->parameter[parameter].track, core->playback.position);
     double value = isfinite(v.y + v.re) ? v.y + v.re : parameter_rows[parameter].standard;
     return parameter_clamped(parameter, spline_mode(follower), value);
 }
@@ -127,16 +118,16 @@ static void find_reference(const struct reference *reference, void *context)
 }
 
 /// The edit after which a place does not follow the active spline any more.
-static struct edit release_edit(const struct editor *editor, const struct editor_world *world,
+static struct edit release_edit(const struct core *core, const struct editor_world *world,
                                 const struct reference *reference)
 {
-    struct edit edit = editor_edit_of(EDIT_PARAMETER, reference->owner);
-    wiggly_value v = curves_solved(world, editor->active, editor->playback.position);
+    struct edit edit = core_edit_of(EDIT_PARAMETER, reference->owner);
+    wiggly_value v = evaluation_at(world->evaluation, core->active, core->playback.position);
     edit.rig = reference->owner;
     switch (reference->kind) {
     case REFERENCE_TRACK:
         edit.parameter = (enum parameter)reference->which;
-        edit.param.value = arrange_present(editor, world, reference->owner, edit.parameter);
+        edit.param.value = arrange_present(core, world, reference->owner, edit.parameter);
         break;
     case REFERENCE_POSITION:
         edit.kind = EDIT_POSITION;
@@ -155,23 +146,33 @@ static struct edit release_edit(const struct editor *editor, const struct editor
     return edit;
 }
 
-void arrange_remove_now(struct editor *editor, const struct editor_world *world)
+static void arrange_remove_now(struct core *core, const struct editor_world *world)
 {
-    if (!editor_active_spline(editor, world) || history_is_open(world->history)) return;
+    if (!core_active_spline(core, world) || history_is_open(world->history)) return;
     bool good = true;
     history_begin(world->history, "Delete spline", 0);
     for (struct search search = {.found = true}; good && search.found;) {
-        search = (struct search){.spline = editor->active};
+        search = (struct search){.spline = core->active};
         reference_each(world->document, find_reference, &search);
         if (!search.found) break;
-        struct edit release = release_edit(editor, world, &search.reference);
-        good = editor_edit(editor, world, &release);
+        struct edit release = release_edit(core, world, &search.reference);
+        good = core_edit(core, world, &release);
     }
-    struct edit edit = editor_edit_of(EDIT_SPLINE_REMOVE, editor->active);
-    good = good && editor_edit(editor, world, &edit);
+    struct edit edit = core_edit_of(EDIT_SPLINE_REMOVE, core->active);
+    good = good && core_edit(core, world, &edit);
     if (!good) history_restart(world->history, world->document);
     history_end(world->history);
-    arrange_follow(editor, world);
+    arrange_follow(core, world);
+}
+
+void arrange_remove(struct core *core, const struct editor_world *world)
+{
+    if (!core_active_spline(core, world)) return;
+    if (reference_count(world->document, core->active) == 0) {
+        arrange_remove_now(core, world);
+        return;
+    }
+    core->ask = (struct ask){.kind = ASK_REMOVE};
 }
 
 static int knot_count(const struct document *document)
@@ -181,15 +182,15 @@ static int knot_count(const struct document *document)
     return count;
 }
 
-void arrange_fps(struct editor *editor, const struct editor_world *world, double fps)
+void arrange_fps(struct core *core, const struct editor_world *world, double fps)
 {
-    struct edit edit = editor_edit_of(EDIT_FPS, -1);
+    struct edit edit = core_edit_of(EDIT_FPS, -1);
     edit.number = fps;
     if (fps == world->document->fps) return;
     if (knot_count(world->document) == 0 || !(fps > 0 && fps <= SCENE_MAX_FPS)) {
-        editor_step(editor, world, "Set frames per second", 0, &edit);
+        core_step(core, world, "Set frames per second", 0, &edit);
     } else {
-        dialog_ask(editor, world, &(struct ask){.kind = ASK_FPS, .number = fps});
+        core->ask = (struct ask){.kind = ASK_FPS, .number = fps};
     }
 }
 
@@ -210,15 +211,38 @@ int arrange_outside(const struct document *document, int first, int last)
     return count;
 }
 
-void arrange_range(struct editor *editor, const struct editor_world *world, int first, int last)
+void arrange_range(struct core *core, const struct editor_world *world, int first, int last)
 {
-    struct edit edit = editor_edit_of(EDIT_RANGE, -1);
+    struct edit edit = core_edit_of(EDIT_RANGE, -1);
     edit.first = first;
     edit.last = last;
     bool possible = last >= first && last <= SCENE_MAX_FRAME && first >= -SCENE_MAX_FRAME;
     if (possible && arrange_outside(world->document, first, last) > 0) {
-        dialog_ask(editor, world, &(struct ask){.kind = ASK_RANGE, .first = first, .last = last});
+        core->ask = (struct ask){.kind = ASK_RANGE, .first = first, .last = last};
     } else {
-        editor_step(editor, world, "Set range", 0, &edit);
+        core_step(core, world, "Set range", 0, &edit);
+    }
+}
+
+void arrange_answer(struct core *core, const struct editor_world *world, const struct ask *ask, int answer)
+{
+    struct edit edit = core_edit_of(ask->kind == ASK_FPS ? EDIT_FPS : EDIT_RANGE, -1);
+    switch (ask->kind) {
+    case ASK_NOTHING:
+        break;
+    case ASK_FPS:
+        edit.number = ask->number;
+        edit.flag = answer == 1;
+        core_step(core, world, "Set frames per second", 0, &edit);
+        break;
+    case ASK_RANGE:
+        edit.first = ask->first;
+        edit.last = ask->last;
+        edit.fit = answer == 0 ? RANGE_MOVE : RANGE_TRIM;
+        core_step(core, world, "Set range", 0, &edit);
+        break;
+    case ASK_REMOVE:
+        arrange_remove_now(core, world);
+        break;
     }
 }

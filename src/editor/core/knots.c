@@ -1,104 +1,105 @@
 /// Inserting, deleting and choosing knots.
+#include "editor/core/knots.h"
 #include "base/hash.h"
-#include "editor/core/actions.h"
-#include "editor/curves/curves.h"
+#include "editor/core/core.h"
+#include "editor/core/selection.h"
+#include "editor/core/state.h"
 #include <math.h>
 
-uint64_t merge_key(const struct editor *editor, const struct editor_world *world, uint64_t kind)
+uint64_t merge_key(const struct core *core, const struct editor_world *world, uint64_t kind)
 {
-    const struct spline *spline = editor_active_spline(editor, world);
+    const struct spline *spline = core_active_spline(core, world);
     uint64_t key = hash_bytes(HASH_START, &kind, sizeof kind);
-    key = hash_bytes(key, &editor->active, sizeof editor->active);
+    key = hash_bytes(key, &core->active, sizeof core->active);
     for (int k = 0; spline && k < spline->knot_count; k++) {
         unsigned id = spline->knots[k].id;
-        if (selection_has(&editor->selection, id)) key = hash_bytes(key, &id, sizeof id);
+        if (selection_has(&core->selection, id)) key = hash_bytes(key, &id, sizeof id);
     }
     return key ? key : 1;
 }
 
-static void select_only(struct editor *editor, unsigned id)
+static void select_only(struct core *core, unsigned id)
 {
-    selection_clear(&editor->selection);
-    selection_set(&editor->selection, id, true);
+    selection_clear(&core->selection);
+    selection_set(&core->selection, id, true);
 }
 
 /// Inserts and selects a knot; where there is one on that sample already, that one is selected.
-static void insert_at(struct editor *editor, const struct editor_world *world, const struct knot *knot)
+static void insert_at(struct core *core, const struct editor_world *world, const struct knot *knot)
 {
     const struct document *document = world->document;
-    const struct spline *spline = editor_active_spline(editor, world);
+    const struct spline *spline = core_active_spline(core, world);
     int sample = document_sample(document, knot->frame);
     int at = spline_find_knot(document, spline, sample);
     if (at < 0) {
-        struct edit edit = editor_edit_of(EDIT_KNOT_INSERT, editor->active);
+        struct edit edit = core_edit_of(EDIT_KNOT_INSERT, core->active);
         edit.knot = *knot;
-        if (!editor_step(editor, world, "Insert knot", 0, &edit)) return;
-        editor_reserve(editor, document);
+        if (!core_step(core, world, "Insert knot", 0, &edit)) return;
+        core_reserve(core, document);
         at = spline_find_knot(document, spline, sample);
     }
-    if (at >= 0) select_only(editor, spline->knots[at].id);
+    if (at >= 0) select_only(core, spline->knots[at].id);
 }
 
 /// The frame for a knot of the active spline: a whole one when `snap`, inside the range.
-static double knot_frame(const struct editor *editor, const struct editor_world *world, double frame, bool snap)
+static double knot_frame(const struct core *core, const struct editor_world *world, double frame, bool snap)
 {
     const struct document *document = world->document;
-    const struct spline *spline = editor_active_spline(editor, world);
+    const struct spline *spline = core_active_spline(core, world);
     double last = document_frame(document, document_last_knot_sample(document, spline));
     return fmin(fmax(snap ? round(frame) : frame, document->first_frame), last);
 }
 
-void insert_knot(struct editor *editor, const struct editor_world *world, double frame, double value, bool snap)
+void insert_knot(struct core *core, const struct editor_world *world, double frame, double value, bool snap)
 {
-    if (!editor_active_spline(editor, world) || !isfinite(frame)) return;
+    if (!core_active_spline(core, world) || !isfinite(frame)) return;
     const struct knot knot = {
-        .frame = knot_frame(editor, world, frame, snap), .value = value, .stiffness = KNOT_DEFAULT_STIFFNESS};
-    insert_at(editor, world, &knot);
+        .frame = knot_frame(core, world, frame, snap), .value = value, .stiffness = KNOT_DEFAULT_STIFFNESS};
+    insert_at(core, world, &knot);
 }
 
-void insert_on_curve(struct editor *editor, const struct editor_world *world, double frame, bool snap, bool slope)
+void insert_on_curve(struct core *core, const struct editor_world *world, double frame, bool snap, bool slope)
 {
     const struct document *document = world->document;
-    if (!editor_active_spline(editor, world) || !isfinite(frame)) return;
+    if (!core_active_spline(core, world) || !isfinite(frame)) return;
     struct knot knot = {
-        .frame = knot_frame(editor, world, frame, snap), .stiffness = KNOT_DEFAULT_STIFFNESS, .has_slope = slope};
+        .frame = knot_frame(core, world, frame, snap), .stiffness = KNOT_DEFAULT_STIFFNESS, .has_slope = slope};
     int sample = document_sample(document, knot.frame);
     int next = sample + 1 < document_samples(document) ? sample + 1 : sample - 1;
-    wiggly_value here = curves_solved(world, editor->active, sample);
-    wiggly_value there = curves_solved(world, editor->active, next);
+    wiggly_value here = evaluation_at(world->evaluation, core->active, sample);
+    wiggly_value there = evaluation_at(world->evaluation, core->active, next);
     knot.value = here.y + here.re;
     if (slope && next >= 0) {
         knot.slope = (there.y + there.re - knot.value) / ((next - sample) * document_step(document));
     }
-    insert_at(editor, world, &knot);
+    insert_at(core, world, &knot);
 }
 
-void remove_knots(struct editor *editor, const struct editor_world *world, const char *label)
+void remove_knots(struct core *core, const struct editor_world *world, const char *label)
 {
-    const struct spline *spline = editor_active_spline(editor, world);
+    const struct spline *spline = core_active_spline(core, world);
     if (!spline || history_is_open(world->history)) return;
     history_begin(world->history, label, 0);
     for (int k = spline->knot_count - 1; k >= 0; k--) {
-        if (!selection_has(&editor->selection, spline->knots[k].id)) continue;
-        struct edit edit = editor_edit_of(EDIT_KNOT_REMOVE, editor->active);
+        if (!selection_has(&core->selection, spline->knots[k].id)) continue;
+        struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, core->active);
         edit.knot.id = spline->knots[k].id;
-        editor_edit(editor, world, &edit);
+        core_edit(core, world, &edit);
     }
     history_end(world->history);
-    selection_clear(&editor->selection);
+    selection_clear(&core->selection);
 }
 
-void delete_knots(struct editor *editor, const struct editor_world *world)
+void delete_knots(struct core *core, const struct editor_world *world)
 {
-    int count = selection_count(&editor->selection, editor_active_spline(editor, world));
-    remove_knots(editor, world, count == 1 ? "Delete knot" : "Delete knots");
+    int count = selection_count(&core->selection, core_active_spline(core, world));
+    remove_knots(core, world, count == 1 ? "Delete knot" : "Delete knots");
 }
 
-void select_all(struct editor *editor, const struct editor_world *world)
+void select_all(struct core *core, const struct editor_world *world)
 {
-    const struct spline *spline = editor_active_spline(editor, world);
-    for (int k = 0; spline && k < spline->knot_count; k++)
-        selection_set(&editor->selection, spline->knots[k].id, true);
+    const struct spline *spline = core_active_spline(core, world);
+    for (int k = 0; spline && k < spline->knot_count; k++) selection_set(&core->selection, spline->knots[k].id, true);
 }
 
 /// Index of the first knot after, or last one before, a position; -1 where there is none.
@@ -113,20 +114,34 @@ static int beside(const struct document *document, const struct spline *spline, 
     return found;
 }
 
-void select_neighbour(struct editor *editor, const struct editor_world *world, int direction)
+const struct knot *select_neighbour(struct core *core, const struct editor_world *world, int direction)
 {
-    const struct spline *spline = editor_active_spline(editor, world);
-    if (!spline || spline->knot_count == 0) return;
-    int single = selection_single(&editor->selection, spline);
+    const struct spline *spline = core_active_spline(core, world);
+    if (!spline || spline->knot_count == 0) return NULL;
+    int single = selection_single(&core->selection, spline);
     int next = single + direction;
-    if (single < 0) next = beside(world->document, spline, editor->playback.position, direction);
-    if (next < 0 || next >= spline->knot_count) return;
-    select_only(editor, spline->knots[next].id);
-    view_reveal(editor, spline->knots[next].frame, spline->knots[next].value);
+    if (single < 0) next = beside(world->document, spline, core->playback.position, direction);
+    if (next < 0 || next >= spline->knot_count) return NULL;
+    select_only(core, spline->knots[next].id);
+    return &spline->knots[next];
 }
 
-void activate_neighbour(struct editor *editor, const struct editor_world *world, int direction)
+const struct knot *extend_selection(struct core *core, const struct editor_world *world, int direction)
+{
+    const struct spline *spline = core_active_spline(core, world);
+    int end = -1;
+    for (int k = 0; spline && k < spline->knot_count; k++) {
+        if (selection_has(&core->selection, spline->knots[k].id) && (end < 0 || direction > 0)) end = k;
+    }
+    if (end < 0) return select_neighbour(core, world, direction);
+    int next = end + direction;
+    if (next < 0 || next >= spline->knot_count) return NULL;
+    selection_set(&core->selection, spline->knots[next].id, true);
+    return &spline->knots[next];
+}
+
+void activate_neighbour(struct core *core, const struct editor_world *world, int direction)
 {
     int count = world->document->spline_count;
-    if (count > 0) editor_activate(editor, world, ((editor->active + direction) % count + count) % count);
+    if (count > 0) core_activate(core, world, ((core->active + direction) % count + count) % count);
 }

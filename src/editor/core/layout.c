@@ -1,5 +1,6 @@
 /// Where the panels are: stage over curves at the left, inspector at the right, status line below.
-#include "editor/core/actions.h"
+#include "editor/core/layout.h"
+#include "editor/core/state.h"
 #include "ui/theme.h"
 #include <math.h>
 
@@ -8,9 +9,9 @@ static const float MIN_STAGE = 120, MIN_CURVES = 140, MIN_LEFT = 480, MIN_INSPEC
 
 static float clamped(float value, float lo, float hi) { return fmaxf(lo, fminf(value, hi)); }
 
-void editor_layout(struct editor *editor)
+void core_layout(struct core *core)
 {
-    struct layout *l = &editor->layout;
+    struct layout *l = &core->layout;
     float height = fmaxf(l->window.h - THEME_STATUS_HEIGHT, 2);
     float right = clamped(l->inspector_width, MIN_INSPECTOR, fminf(MAX_INSPECTOR, fmaxf(l->window.w - MIN_LEFT, 0)));
     float left = fmaxf(l->window.w - right, 1);
@@ -26,22 +27,22 @@ void editor_layout(struct editor *editor)
     l->value_axis = (struct rect){0, l->plot.y, AXIS_WIDTH, plot};
 }
 
-enum drag_kind divider_at(const struct editor *editor, float x, float y)
+enum drag_kind divider_at(const struct core *core, float x, float y)
 {
-    const struct layout *l = &editor->layout;
+    const struct layout *l = &core->layout;
     if (y < l->status.y && fabsf(x - l->inspector.x) < DIVIDER_REACH) return DRAG_INSPECTOR_DIVIDER;
     if (x < l->inspector.x && fabsf(y - l->curves.y) < DIVIDER_REACH) return DRAG_STAGE_DIVIDER;
     return DRAG_NONE;
 }
 
-void divider_move(struct editor *editor, enum drag_kind kind, float x, float y)
+void divider_move(struct core *core, enum drag_kind kind, float x, float y)
 {
-    struct layout *l = &editor->layout;
+    struct layout *l = &core->layout;
     float height = fmaxf(l->status.y, 1);
     if (kind == DRAG_STAGE_DIVIDER) {
         l->stage_share = clamped(y, MIN_STAGE, fmaxf(height - MIN_CURVES, 1)) / height;
     } else {
         l->inspector_width = roundf(clamped(l->window.w - x, MIN_INSPECTOR, MAX_INSPECTOR));
     }
-    editor_layout(editor);
+    core_layout(core);
 }

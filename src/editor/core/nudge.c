@@ -1,6 +1,9 @@
 /// Changes by key: knots and parameters in small steps. Equal nudges of the same knots are one undo step.
-#include "editor/core/actions.h"
-#include "editor/curves/curves.h"
+#include "editor/core/nudge.h"
+#include "editor/core/core.h"
+#include "editor/core/knots.h"
+#include "editor/core/selection.h"
+#include "editor/core/state.h"
 #include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
@@ -13,53 +16,53 @@ static const double TAU = 6.283185307179586;
 /// Where the selected knots would collide with others, or leave the range, when shifted.
 enum shift_outcome { SHIFT_FREE, SHIFT_OCCUPIED, SHIFT_OUTSIDE };
 
-static enum shift_outcome try_shift(const struct editor *editor, const struct document *document,
+static enum shift_outcome try_shift(const struct core *core, const struct document *document,
                                     const struct spline *spline, double frames)
 {
     enum shift_outcome outcome = SHIFT_FREE;
     for (int k = 0; k < spline->knot_count; k++) {
-        if (!selection_has(&editor->selection, spline->knots[k].id)) continue;
+        if (!selection_has(&core->selection, spline->knots[k].id)) continue;
         int sample = document_sample(document, spline->knots[k].frame + frames);
         if (sample < 0 || sample > document_last_knot_sample(document, spline)) return SHIFT_OUTSIDE;
         int at = spline_find_knot(document, spline, sample);
-        if (at >= 0 && !selection_has(&editor->selection, spline->knots[at].id)) outcome = SHIFT_OCCUPIED;
+        if (at >= 0 && !selection_has(&core->selection, spline->knots[at].id)) outcome = SHIFT_OCCUPIED;
     }
     return outcome;
 }
 
 /// The shift itself, or the next multiple of it behind the knots that are in the way; 0 where there is no room.
-static double free_shift(const struct editor *editor, const struct document *document, const struct spline *spline,
+static double free_shift(const struct core *core, const struct document *document, const struct spline *spline,
                          double frames)
 {
     for (double shift = frames; frames != 0; shift += frames) {
-        enum shift_outcome outcome = try_shift(editor, document, spline, shift);
+        enum shift_outcome outcome = try_shift(core, document, spline, shift);
         if (outcome == SHIFT_FREE) return shift;
         if (outcome == SHIFT_OUTSIDE) break;
     }
     return 0;
 }
 
-void nudge_knots(struct editor *editor, const struct editor_world *world, double frames, double value)
+void nudge_knots(struct core *core, const struct editor_world *world, double frames, double value)
 {
-    struct spline *spline = editor_active_spline(editor, world);
-    if (selection_count(&editor->selection, spline) == 0 || history_is_open(world->history)) return;
-    double shift = free_shift(editor, world->document, spline, frames);
+    struct spline *spline = core_active_spline(core, world);
+    if (selection_count(&core->selection, spline) == 0 || history_is_open(world->history)) return;
+    double shift = free_shift(core, world->document, spline, frames);
     if (shift == 0 && value == 0) return;
-    uint64_t merge = merge_key(editor, world, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE);
+    uint64_t merge = merge_key(core, world, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE);
     history_begin(world->history, "Nudge knots", merge);
     for (int i = 0, count = spline->knot_count; i < count; i++) {
         int k = shift > 0 ? count - 1 - i : i; /* from the far end, so that they do not run into each other */
-        if (!selection_has(&editor->selection, spline->knots[k].id)) continue;
-        struct edit edit = editor_edit_of(EDIT_KNOT_SET, editor->active);
+        if (!selection_has(&core->selection, spline->knots[k].id)) continue;
+        struct edit edit = core_edit_of(EDIT_KNOT_SET, core->active);
         edit.knot = spline->knots[k];
         edit.knot.frame += shift;
         if (value != 0) edit.knot.value = round_value(edit.knot.value + value, 0.01 * fabs(value));
-        editor_edit(editor, world, &edit);
+        core_edit(core, world, &edit);
     }
     history_end(world->history);
 }
 
-const struct channel *active_channel(const struct editor *editor, const struct document *document, int *tail,
+const struct channel *active_channel(const struct core *core, const struct document *document, int *tail,
                                      int *channel)
 {
     const struct channel *first = NULL;
@@ -69,7 +72,7 @@ const struct channel *active_channel(const struct editor *editor, const struct d
         t--;
         for (int c = rig->tail.channel_count - 1; c >= 0; c--) {
             const struct channel *candidate = &rig->tail.channels[c];
-            if (first && first->spline == editor->active && candidate->spline != editor->active) continue;
+            if (first && first->spline == core->active && candidate->spline != core->active) continue;
             first = candidate;
             *tail = t;
             *channel = c;
@@ -78,24 +81,24 @@ const struct channel *active_channel(const struct editor *editor, const struct d
     return first;
 }
 
-static void nudge_lag(struct editor *editor, const struct editor_world *world, double degrees)
+static void nudge_lag(struct core *core, const struct editor_world *world, double degrees)
 {
     int tail = -1, channel = -1;
-    const struct channel *active = active_channel(editor, world->document, &tail, &channel);
+    const struct channel *active = active_channel(core, world->document, &tail, &channel);
     if (!active) {
-        editor_message(editor, false, "This scene has no tail to lag.");
+        core_message(core, false, "This scene has no tail to lag.");
         return;
     }
     struct angles lag = active->lag;
     int count = lag.each ? document_tail(world->document, tail)->joints : 1;
     for (int n = 0; n < count; n++) lag.value[n] += lag.each ? n * degrees : degrees;
-    struct edit edit = editor_edit_of(EDIT_ANGLES, editor->active);
+    struct edit edit = core_edit_of(EDIT_ANGLES, core->active);
     edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
     edit.channel = channel;
     edit.angle = ANGLE_LAG;
     edit.angles = &lag;
     uint64_t kind = NUDGE_PARAMETER + PARAMETER_COUNT + (uint64_t)(tail * 4096 + channel);
-    editor_step(editor, world, "Change lag", merge_key(editor, world, kind), &edit);
+    core_step(core, world, "Change lag", merge_key(core, world, kind), &edit);
 }
 
 /// The same step where the spline has spring and friction instead: f = √k/2π, ζ = γ/2√k.
@@ -121,7 +124,7 @@ double slider_end(const struct document *document, const struct spline *spline, 
 }
 
 /// Says why a parameter does nothing now; false where it does something.
-static bool say_idle(struct editor *editor, const struct spline *spline, enum parameter parameter)
+static bool say_idle(struct core *core, const struct spline *spline, enum parameter parameter)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
     char text[160];
@@ -132,15 +135,15 @@ static bool say_idle(struct editor *editor, const struct spline *spline, enum pa
         snprintf(text, sizeof text, "Only %s mode has a %s; press M to change the mode.",
                  row->modes & IN_COMPLEX ? "complex" : "real", row->name);
     }
-    editor_message(editor, false, text);
+    core_message(core, false, text);
     return true;
 }
 
-static void nudge_one(struct editor *editor, const struct editor_world *world, const struct spline *spline,
+static void nudge_one(struct core *core, const struct editor_world *world, const struct spline *spline,
                       enum parameter parameter, double step)
 {
-    if (say_idle(editor, spline, parameter)) return;
-    struct edit edit = editor_edit_of(EDIT_PARAMETER, editor->active);
+    if (say_idle(core, spline, parameter)) return;
+    struct edit edit = core_edit_of(EDIT_PARAMETER, core->active);
     edit.parameter = parameter;
     edit.param = spline->parameter[parameter];
     bool pair = !spline_has(spline, parameter);
@@ -149,7 +152,7 @@ static void nudge_one(struct editor *editor, const struct editor_world *world, c
         char text[160];
         snprintf(text, sizeof text, "The %s follows the spline \"%.60s\".", parameter_rows[edit.parameter].name,
                  world->document->splines[edit.param.track].name);
-        editor_message(editor, false, text);
+        core_message(core, false, text);
         return;
     }
     if (!pair)
@@ -160,24 +163,24 @@ static void nudge_one(struct editor *editor, const struct editor_world *world, c
         most = fmax(slider_end(world->document, spline, parameter), spline->parameter[parameter].value);
     edit.param.value = fmin(fmax(edit.param.value, parameter_rows[edit.parameter].minimum), most);
     if (edit.param.value == spline->parameter[edit.parameter].value) return;
-    editor_step(editor, world, "Change parameter", merge_key(editor, world, NUDGE_PARAMETER + edit.parameter), &edit);
+    core_step(core, world, "Change parameter", merge_key(core, world, NUDGE_PARAMETER + edit.parameter), &edit);
 }
 
-void nudge_parameter(struct editor *editor, const struct editor_world *world, int letter, int direction)
+void nudge_parameter(struct core *core, const struct editor_world *world, int letter, int direction)
 {
-    const struct spline *spline = editor_active_spline(editor, world);
-    if (letter == 'L') nudge_lag(editor, world, 0.5 * direction);
+    const struct spline *spline = core_active_spline(core, world);
+    if (letter == 'L') nudge_lag(core, world, 0.5 * direction);
     enum parameter parameter = parameter_of_letter(letter);
     if (!spline || parameter == PARAMETER_COUNT) return;
-    nudge_one(editor, world, spline, parameter, parameter_rows[parameter].step * direction);
+    nudge_one(core, world, spline, parameter, parameter_rows[parameter].step * direction);
 }
 
-void cycle_mode(struct editor *editor, const struct editor_world *world)
+void cycle_mode(struct core *core, const struct editor_world *world)
 {
-    const struct spline *spline = editor_active_spline(editor, world);
+    const struct spline *spline = core_active_spline(core, world);
     if (!spline) return;
-    struct edit edit = editor_edit_of(EDIT_PARAMETER, editor->active);
+    struct edit edit = core_edit_of(EDIT_PARAMETER, core->active);
     edit.parameter = PARAMETER_MODE;
     edit.param = (struct param){(spline_mode(spline) + 1) % 3, -1};
-    editor_step(editor, world, parameter_rows[PARAMETER_MODE].undo, 0, &edit);
+    core_step(core, world, parameter_rows[PARAMETER_MODE].undo, 0, &edit);
 }

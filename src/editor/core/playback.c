@@ -1,6 +1,8 @@
 /// Time: playing, stepping, scrubbing. The position is in samples and may lie between two.
 #include "editor/core/playback.h"
-#include "editor/curves/curves.h"
+#include "editor/core/core.h"
+#include "editor/core/play_range.h"
+#include "editor/core/state.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -12,25 +14,25 @@ enum { SPEEDS = sizeof speeds / sizeof speeds[0] };
 
 static double last_position(const struct document *document) { return fmax(document_samples(document) - 1, 0); }
 
-static void go_to(struct editor *editor, const struct document *document, double position)
+static void go_to(struct core *core, const struct document *document, double position)
 {
-    editor->playback.position = fmin(fmax(position, 0), last_position(document));
+    core->playback.position = fmin(fmax(position, 0), last_position(document));
 }
 
 /// The range that is played, in samples.
-static void range_positions(const struct editor *editor, const struct document *document, double range[2])
+static void range_positions(const struct core *core, const struct document *document, double range[2])
 {
-    playback_range(editor, document, range);
-    for (int end = 0; end < 2; end++) range[end] = curves_position(document, range[end]);
+    playback_range(core, document, range);
+    for (int end = 0; end < 2; end++) range[end] = core_position(document, range[end]);
 }
 
-void playback_toggle(struct editor *editor, const struct editor_world *world)
+void playback_toggle(struct core *core, const struct editor_world *world)
 {
-    struct playback *playback = &editor->playback;
+    struct playback *playback = &core->playback;
     double range[2];
     playback->playing = !playback->playing;
     if (!playback->playing) return;
-    range_positions(editor, world->document, range);
+    range_positions(core, world->document, range);
     playback->dropped = 0;
     bool at_end = !playback->looping && playback->position >= range[1];
     if (at_end || playback->position < range[0] || playback->position > range[1]) playback->position = range[0];
@@ -45,16 +47,16 @@ static long frames_dropped(const struct document *document, double from, double 
     return passed > expected ? (long)(passed - expected) : 0;
 }
 
-void playback_advance(struct editor *editor, const struct editor_world *world, double dt)
+void playback_advance(struct core *core, const struct editor_world *world, double dt)
 {
-    struct playback *playback = &editor->playback;
+    struct playback *playback = &core->playback;
     const struct document *document = world->document;
     double range[2], from = playback->position;
     if (!playback->playing) {
-        go_to(editor, document, from); /* an edit may have shortened the scene */
+        go_to(core, document, from); /* an edit may have shortened the scene */
         return;
     }
-    range_positions(editor, document, range);
+    range_positions(core, document, range);
     double to = from + dt * document->fps * document->substeps * playback->speed;
     playback->dropped += frames_dropped(document, from, to, playback->speed);
     playback->position = fmax(to, range[0]);
@@ -67,41 +69,40 @@ void playback_advance(struct editor *editor, const struct editor_world *world, d
     }
 }
 
-void playback_seek(struct editor *editor, const struct document *document, double frame)
+void playback_seek(struct core *core, const struct document *document, double frame)
 {
-    editor->playback.playing = false;
-    go_to(editor, document, curves_position(document, frame));
+    core->playback.playing = false;
+    go_to(core, document, core_position(document, frame));
 }
 
-void playback_step(struct editor *editor, const struct editor_world *world, int direction)
+void playback_step(struct core *core, const struct editor_world *world, int direction)
 {
-    double frame = editor_frame(editor, world->document);
-    playback_seek(editor, world->document, direction > 0 ? floor(frame + 1e-6) + 1 : ceil(frame - 1e-6) - 1);
+    double frame = core_frame(core, world->document);
+    playback_seek(core, world->document, direction > 0 ? floor(frame + 1e-6) + 1 : ceil(frame - 1e-6) - 1);
 }
 
-void playback_end(struct editor *editor, const struct editor_world *world, int direction)
+void playback_end(struct core *core, const struct editor_world *world, int direction)
 {
-    playback_seek(editor, world->document,
-                  direction > 0 ? world->document->last_frame : world->document->first_frame);
+    playback_seek(core, world->document, direction > 0 ? world->document->last_frame : world->document->first_frame);
 }
 
-void playback_change_speed(struct editor *editor, const struct editor_world *world, int direction)
+void playback_change_speed(struct core *core, const struct editor_world *world, int direction)
 {
     (void)world;
-    double *speed = &editor->playback.speed;
+    double *speed = &core->playback.speed;
     int at = 0;
     char text[64];
     while (at < SPEEDS - 1 && speeds[at] < *speed) at++;
     at += direction;
     *speed = direction == 0 ? 1 : speeds[at < 0 ? 0 : at >= SPEEDS ? SPEEDS - 1 : at];
     snprintf(text, sizeof text, *speed == 1 ? "Playback in real time." : "Playback at %g× speed.", *speed);
-    editor_message(editor, false, text);
+    core_message(core, false, text);
 }
 
-void playback_toggle_loop(struct editor *editor, const struct editor_world *world, int unused)
+void playback_toggle_loop(struct core *core, const struct editor_world *world, int unused)
 {
     (void)world;
     (void)unused;
-    editor->playback.looping = !editor->playback.looping;
-    editor_message(editor, false, editor->playback.looping ? "Playback loops." : "Playback stops at the end.");
+    core->playback.looping = !core->playback.looping;
+    core_message(core, false, core->playback.looping ? "Playback loops." : "Playback stops at the end.");
 }

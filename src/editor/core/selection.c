@@ -1,5 +1,6 @@
 /// Which knots are selected: a bit for each id, so that membership costs nothing in a drag of thousands.
-#include "editor/core/state.h"
+#include "editor/core/selection.h"
+#include <stdlib.h>
 #include <string.h>
 
 bool selection_has(const struct selection *selection, unsigned id)
@@ -44,4 +45,23 @@ int selection_single(const struct selection *selection, const struct spline *spl
         found = k;
     }
     return found;
+}
+
+/// Ids are given in turn, so room for the next ones is taken along.
+bool selection_reserve(struct selection *selection, unsigned next_id)
+{
+    if (next_id < selection->capacity) return true;
+    unsigned capacity = (next_id / 512 + 2) * 512;
+    uint64_t *bits = realloc(selection->bits, capacity / 8);
+    if (!bits) return false;
+    memset((char *)bits + selection->capacity / 8, 0, (capacity - selection->capacity) / 8);
+    selection->bits = bits;
+    selection->capacity = capacity;
+    return true;
+}
+
+void selection_copy(struct selection *to, const struct selection *from)
+{
+    unsigned ids = to->capacity < from->capacity ? to->capacity : from->capacity;
+    if (ids > 0) memcpy(to->bits, from->bits, ids / 8);
 }

@@ -1,6 +1,9 @@
 /// The slopes of the selected knots: on, off, flat, Catmull-Rom, turned and made firmer by keys.
-#include "editor/core/actions.h"
-#include "editor/curves/curves.h"
+#include "editor/core/slopes.h"
+#include "editor/core/core.h"
+#include "editor/core/knots.h"
+#include "editor/core/selection.h"
+#include "editor/core/state.h"
 #include <math.h>
 
 /// Kinds of nudges for merge_key(), apart from those of nudge.c.
@@ -10,11 +13,11 @@ static const double FIRM = 1000;             ///< stiffness where a knot has non
 static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
 
 /// The curve's slope around a knot, in values a second, for a slope that changes as little as possible.
-static double slope_at(const struct editor *editor, const struct editor_world *world, const struct knot *knot)
+static double slope_at(const struct core *core, const struct editor_world *world, const struct knot *knot)
 {
     double sample = document_sample(world->document, knot->frame);
-    wiggly_value before = curves_solved(world, editor->active, sample - 0.5);
-    wiggly_value after = curves_solved(world, editor->active, sample + 0.5);
+    wiggly_value before = evaluation_at(world->evaluation, core->active, sample - 0.5);
+    wiggly_value after = evaluation_at(world->evaluation, core->active, sample + 0.5);
     double slope = (after.y + after.re - before.y - before.re) / document_step(world->document);
     return isfinite(slope) ? slope : 0;
 }
@@ -55,63 +58,61 @@ struct knot_change {
     double stiffness; ///< multiplied
 };
 
-static void change_knots(struct editor *editor, const struct editor_world *world, const struct knot_change *change)
+static void change_knots(struct core *core, const struct editor_world *world, const struct knot_change *change)
 {
-    struct spline *spline = editor_active_spline(editor, world);
-    if (selection_count(&editor->selection, spline) == 0 || history_is_open(world->history)) return;
-    double visible = editor->view.value1 - editor->view.value0;
-    history_begin(world->history, change->label, change->kind ? merge_key(editor, world, change->kind) : 0);
+    struct spline *spline = core_active_spline(core, world);
+    if (selection_count(&core->selection, spline) == 0 || history_is_open(world->history)) return;
+    history_begin(world->history, change->label, change->kind ? merge_key(core, world, change->kind) : 0);
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
-        if (!selection_has(&editor->selection, knot->id)) continue;
-        struct edit edit = editor_edit_of(EDIT_KNOT_SET, editor->active);
+        if (!selection_has(&core->selection, knot->id)) continue;
+        struct edit edit = core_edit_of(EDIT_KNOT_SET, core->active);
         edit.knot = *knot;
-        if (change->on && !knot->has_slope) edit.knot.slope = slope_at(editor, world, knot);
+        if (change->on && !knot->has_slope) edit.knot.slope = slope_at(core, world, knot);
         if (!(knot->stiffness > 0)) edit.knot.stiffness = FIRM;
         edit.knot.has_slope = change->on;
         if (change->rule) edit.knot.slope = change->rule(world->document, spline, k);
         bool changes = change->rule || change->slope != 0 || (change->on && !knot->has_slope);
-        if (changes) edit.knot.slope = round_value(edit.knot.slope + change->slope, SLOPE_RESOLUTION * visible);
+        if (changes) edit.knot.slope = round_value(edit.knot.slope + change->slope, SLOPE_RESOLUTION * core->visible);
         edit.knot.stiffness = fmin(fmax(edit.knot.stiffness * change->stiffness, 1e-3), 1e9);
-        editor_edit(editor, world, &edit);
+        core_edit(core, world, &edit);
     }
     history_end(world->history);
 }
 
-void nudge_slope(struct editor *editor, const struct editor_world *world, double share)
+void nudge_slope(struct core *core, const struct editor_world *world, double share)
 {
-    double visible = editor->view.value1 - editor->view.value0;
     struct knot_change change = {
-        .label = "Change slope", .kind = NUDGE_SLOPE, .on = true, .slope = share * visible, .stiffness = 1};
-    change_knots(editor, world, &change);
+        .label = "Change slope", .kind = NUDGE_SLOPE, .on = true, .slope = share * core->visible, .stiffness = 1};
+    change_knots(core, world, &change);
 }
 
-void nudge_stiffness(struct editor *editor, const struct editor_world *world, double factor)
+void nudge_stiffness(struct core *core, const struct editor_world *world, double factor)
 {
     struct knot_change change = {
         .label = "Change stiffness", .kind = NUDGE_STIFFNESS, .on = true, .stiffness = factor};
-    change_knots(editor, world, &change);
+    change_knots(core, world, &change);
 }
 
-void toggle_slope(struct editor *editor, const struct editor_world *world)
+void toggle_slope(struct core *core, const struct editor_world *world)
 {
-    const struct spline *spline = editor_active_spline(editor, world);
+    const struct spline *spline = core_active_spline(core, world);
     bool all = true;
     for (int k = 0; spline && k < spline->knot_count; k++) {
-        if (selection_has(&editor->selection, spline->knots[k].id)) all &= spline->knots[k].has_slope;
+        if (selection_has(&core->selection, spline->knots[k].id)) all &= spline->knots[k].has_slope;
     }
     struct knot_change change = {.label = all ? "Slope off" : "Slope on", .on = !all, .stiffness = 1};
-    change_knots(editor, world, &change);
+    change_knots(core, world, &change);
 }
 
-void flatten_slopes(struct editor *editor, const struct editor_world *world)
+void flatten_slopes(struct core *core, const struct editor_world *world)
 {
     const struct knot_change change = {.label = "Slope flat", .on = true, .rule = flat, .stiffness = 1};
-    change_knots(editor, world, &change);
+    change_knots(core, world, &change);
 }
 
-void smooth_slopes(struct editor *editor, const struct editor_world *world)
+void smooth_slopes(struct core *core, const struct editor_world *world)
 {
     const struct knot_change change = {.label = "Slope smooth", .on = true, .rule = catmull_rom, .stiffness = 1};
-    change_knots(editor, world, &change);
+    change_knots(core, world, &change);
 }

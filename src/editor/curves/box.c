@@ -1,24 +1,20 @@
 /// Selecting knots by a box that is dragged on empty, shown while it grows.
-#include "editor/core/actions.h"
+#include "editor/curves/box.h"
 #include "editor/core/arrange.h"
+#include "editor/core/drag.h"
+#include "editor/core/selection.h"
 #include "editor/curves/curves.h"
+#include "editor/curves/state.h"
 #include "ui/theme.h"
 #include <math.h>
-#include <string.h>
 
-/// Both have room for the same ids (editor_reserve()), unless memory was short.
-static void copy_selection(struct selection *to, const struct selection *from)
+void box_begin(struct curves *curves, struct core *core, const struct event *event)
 {
-    unsigned ids = to->capacity < from->capacity ? to->capacity : from->capacity;
-    if (ids > 0) memcpy(to->bits, from->bits, ids / 8);
-}
-
-void box_begin(struct editor *editor, const struct event *event)
-{
-    drag_begin(editor, DRAG_BOX, event);
+    drag_begin(core, DRAG_BOX, NULL, event);
+    curves->knot_drag = (struct knot_drag){0};
     bool removes = event->mods & (MOD_CTRL | MOD_ALT);
-    editor->drag.box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
-    copy_selection(&editor->before_box, &editor->selection);
+    curves->knot_drag.box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
+    selection_copy(&curves->before_box, &core->selection);
 }
 
 static struct rect box_rect(const struct drag *drag)
@@ -27,35 +23,35 @@ static struct rect box_rect(const struct drag *drag)
                          fabsf(drag->y - drag->start_y)};
 }
 
-void box_update(struct editor *editor, const struct editor_world *world)
+void box_update(const struct curves *curves, struct core *core, const struct editor_world *world)
 {
-    const struct spline *spline = arrange_seen(editor, world);
-    const struct rect box = box_rect(&editor->drag);
+    const struct spline *spline = arrange_seen(core, world);
+    const struct rect box = box_rect(&core->drag);
     for (int k = 0; spline && k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         double frame = document_frame(world->document, document_sample(world->document, knot->frame));
-        bool inside = rect_contains(box, curves_x(editor, frame), curves_y(editor, knot->value));
-        bool before = selection_has(&editor->before_box, knot->id);
-        bool selected = editor->drag.box == BOX_REPLACE ? inside
-                        : editor->drag.box == BOX_ADD   ? before || inside
-                                                        : before && !inside;
-        selection_set(&editor->selection, knot->id, selected);
+        bool inside = rect_contains(box, curves_x(curves, core, frame), curves_y(curves, core, knot->value));
+        bool before = selection_has(&curves->before_box, knot->id);
+        bool selected = curves->knot_drag.box == BOX_REPLACE ? inside
+                        : curves->knot_drag.box == BOX_ADD   ? before || inside
+                                                             : before && !inside;
+        selection_set(&core->selection, knot->id, selected);
     }
 }
 
-void box_end(struct editor *editor, bool keep)
+void box_end(struct curves *curves, struct core *core, bool keep)
 {
-    if (!keep) copy_selection(&editor->selection, &editor->before_box);
-    if (keep && !editor->drag.moved && editor->drag.box == BOX_REPLACE) selection_clear(&editor->selection);
+    if (!keep) selection_copy(&core->selection, &curves->before_box);
+    if (keep && !core->drag.moved && curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
 }
 
-void box_show(struct editor *editor)
+void box_show(const struct curves *curves, struct core *core)
 {
-    const struct drag *drag = &editor->drag;
+    const struct drag *drag = &core->drag;
     if (drag->kind != DRAG_BOX || !drag->moved) return;
     const struct rect r = box_rect(drag);
     const float outline[] = {r.x, r.y, r.x + r.w, r.y, r.x + r.w, r.y + r.h, r.x, r.y + r.h, r.x, r.y};
-    uint32_t color = drag->box == BOX_REMOVE ? theme()->error : theme()->playhead;
-    drawlist_rect(&editor->list, r, theme_fade(color, 0.08f));
-    drawlist_dashed(&editor->list, outline, 5, 1, 4, 3, theme_fade(color, 0.7f));
+    uint32_t color = curves->knot_drag.box == BOX_REMOVE ? theme()->error : theme()->playhead;
+    drawlist_rect(&core->list, r, theme_fade(color, 0.08f));
+    drawlist_dashed(&core->list, outline, 5, 1, 4, 3, theme_fade(color, 0.7f));
 }

@@ -1,78 +1,79 @@
-/// The curves panel: where frames and values are on the screen, what is drawn there and what the mouse does.
+/// The door of the curves panel: what the editor asks of it.
 #ifndef EDITOR_CURVES_CURVES_H
 #define EDITOR_CURVES_CURVES_H
 
+#include "editor/core/drag.h"
 #include "editor/core/state.h"
 
-enum { CURVES_HIT_RADIUS = 10 };
+struct curves;
 
-/// Frame and value to logical pixels and back. Pixels stay within a few thousand of the plot, whatever the value.
-float curves_x(const struct editor *editor, double frame);
-float curves_y(const struct editor *editor, double value);
-double curves_frame(const struct editor *editor, double x);
-double curves_value(const struct editor *editor, double y);
-
-/// Logical pixels a frame, and a unit of value.
-double curves_pixels_per_frame(const struct editor *editor);
-double curves_pixels_per_value(const struct editor *editor);
-
-/// Height of a value of any spline that is drawn: the others are scaled where curves are normalised.
-float curves_y_of(const struct editor *editor, int spline, double value);
-struct value_map normal_map(const struct editor *editor, int spline);
-/// Measures the curves that are to be normalised; while a drag runs nothing is, so that what is not touched stays.
-void normal_update(struct editor *editor, const struct editor_world *world);
-/// Switches normalisation; another spline becomes the active one without a change of the picture.
-void normal_toggle(struct editor *editor, const struct editor_world *world);
-void normal_activate(struct editor *editor, int spline);
-
-/// A value with no more decimals than somebody who moves a mouse can mean: a multiple of the power of ten at or below
-/// `resolution` (> 0), so that files keep short numbers.
-double round_value(double value, double resolution);
-
-/// Shows everything, or the selected knots with room around them (everything where none is selected).
-void view_frame_all(struct editor *editor, const struct editor_world *world);
-void view_frame_selection(struct editor *editor, const struct editor_world *world);
-/// Pans so that a frame and value can be seen, and no further.
-void view_reveal(struct editor *editor, double frame, double value);
-/// Shows the values v that were shown as scale·v + offset.
-void view_rescale(struct editor *editor, double scale, double offset);
-/// Moves the view with the pointer, by logical pixels.
-void view_pan(struct editor *editor, double dx, double dy);
-/// Zooms about a point of the panel; factors below 1 come closer.
-void view_zoom(struct editor *editor, float x, float y, double time_factor, double value_factor);
-
-/// Rebuilds the polylines where document, view or layout changed since; allocates nothing.
-void curves_update(struct editor *editor, const struct editor_world *world);
+/// NULL where memory is short.
+struct curves *curves_create(void);
+/// NULL is fine.
+void curves_destroy(struct curves *curves);
 /// Remembers the active curve as it is now, to be shown behind a drag.
-void ghost_capture(struct editor *editor, const struct editor_world *world);
-
-/// Where the playhead's frame number is, on the ruler; empty where the playhead is out of sight.
-struct rect playhead_tag(const struct editor *editor, const struct document *document);
-/// Grids, numbers and ruler; part of curves_show().
-void grid_show(struct editor *editor, const struct editor_world *world);
-/// The whole panel into the draw list. The playhead comes last: nothing before it depends on the time shown.
-void curves_show(struct editor *editor, const struct editor_world *world);
-
-/// The corner left of the ruler, which says what the ruler counts and changes it.
-struct rect ruler_corner(const struct editor *editor);
-void ruler_toggle(struct editor *editor);
-
+void ghost_capture(struct curves *curves, const struct core *core, const struct editor_world *world);
+/// The ruler counts frames or seconds.
+void ruler_toggle(struct curves *curves, struct core *core);
 /// What is under a point of the panel.
-struct hover curves_hover(const struct editor *editor, const struct editor_world *world, float x, float y);
+struct hover curves_hover(const struct curves *curves, const struct core *core, const struct editor_world *world,
+                          float x, float y);
+/// A press in the panel.
+void curves_press(struct curves *curves, struct core *core, const struct editor_world *world,
+                  const struct event *event);
+/// The wheel over the panel.
+void curves_wheel(struct curves *curves, struct core *core, const struct event *event);
+/// A new document is on the table.
+void curves_open(struct curves *curves);
+/// Room for as many selected knots as core has; allocates only where knots were added. false where memory is short.
+bool curves_reserve(struct curves *curves, const struct core *core);
+/// Splines have other indices: the polylines name them by these.
+void curves_forget(struct curves *curves);
+/// Whether a search for warnings goes on.
+bool curves_wants_frames(const struct curves *curves);
+/// A sentence on what is being done, or NULL.
+const char *curves_hint(const struct curves *curves, const struct core *core);
 /// Ends of a knot's slope handle: before (0) or after (1) the knot.
-void curves_handle(const struct editor *editor, const struct document *document, const struct knot *knot, int end,
-                   float xy[2]);
-
-/// The handle's length in pixels says how firmly the slope is held, 12 for each power of ten; and back.
-double handle_length(double stiffness);
-double handle_stiffness(double length);
-
-/// A press or wheel in the panel.
-void curves_press(struct editor *editor, const struct editor_world *world, const struct event *event);
-void curves_wheel(struct editor *editor, const struct event *event);
-
-/// Position in samples (fractional) of a frame, and the spline's solved parts there.
-double curves_position(const struct document *document, double frame);
-wiggly_value curves_solved(const struct editor_world *world, int spline, double position);
+void curves_handle(const struct curves *curves, const struct core *core, const struct document *document,
+                   const struct knot *knot, int end, float xy[2]);
+/// The whole panel into the draw list. The playhead comes last: nothing before it depends on the time shown.
+void curves_show(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Makes the edits of a running drag for where the pointer is now.
+void curves_drag_apply(struct curves *curves, struct core *core, const struct editor_world *world);
+/// The pointer moved in a drag that edits nothing.
+void curves_drag_move(struct curves *curves, struct core *core, const struct editor_world *world,
+                      const struct event *event);
+/// What an event means to a drag that began here.
+enum drag_answer curves_drag_event(struct curves *curves, struct core *core, const struct editor_world *world,
+                                   const struct event *event);
+/// A drag ends: before its step is closed.
+void curves_drag_end(struct curves *curves, struct core *core, const struct editor_world *world, bool keep);
+/// Switches normalisation.
+void normal_toggle(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Another spline becomes the active one, without a change of the picture.
+void normal_activate(struct curves *curves, struct core *core, int spline);
+/// Does away with the first warning.
+void curves_remedy_first(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Starts to scale the selected knots with the pointer, about the middle of the selection (P: about the
+/// equilibrium at the playhead).
+void scale_begin(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Frame to logical pixels, within a few thousand of the plot.
+float curves_x(const struct curves *curves, const struct core *core, double frame);
+/// Value to logical pixels, within a few thousand of the plot.
+float curves_y(const struct curves *curves, const struct core *core, double value);
+/// Shows everything.
+void view_frame_all(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Shows the selected knots with room around them (everything where none is selected).
+void view_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Pans so that a frame and value can be seen, and no further.
+void view_reveal(struct curves *curves, struct core *core, double frame, double value);
+/// Moves the view with the pointer, by logical pixels.
+void view_pan(struct curves *curves, struct core *core, double dx, double dy);
+/// Zooms about a point of the panel; factors below 1 come closer.
+void view_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor);
+/// Samples that are in sight.
+void curves_span(const struct curves *curves, const struct document *document, int *first, int *count);
+/// Where a warning's marker is on the screen; false where there is none.
+bool curves_warning(const struct curves *curves, const struct core *core, double number, float xy[2]);
 
 #endif

@@ -1,30 +1,36 @@
 /// Solved splines → polylines: one vertex a pixel column, and one of them on each knot.
+#include "editor/curves/curves_cache.h"
 #include "base/hash.h"
 #include "editor/core/arrange.h"
+#include "editor/core/core.h"
 #include "editor/curves/curves.h"
+#include "editor/curves/normal.h"
+#include "editor/curves/state.h"
+#include "editor/curves/view.h"
 #include <math.h>
 #include <string.h>
 
 /// What the polylines depend on.
-static uint64_t cache_key(const struct editor *editor, const struct editor_world *world)
+static uint64_t cache_key(const struct curves *curves, const struct core *core, const struct editor_world *world)
 {
     uint64_t revision[2] = {history_revision(world->history), world->evaluation ? world->evaluation->revision : 0};
-    int choice[3] = {editor->active, (int)editor->look, editor->options.normalise};
-    bool held = editor->options.normalise && editor->drag.kind != DRAG_NONE;
+    int choice[3] = {core->active, (int)core->look, curves->options.normalise};
+    bool held = curves->options.normalise && core->drag.kind != DRAG_NONE;
     uint64_t key = hash_bytes(HASH_START, revision, sizeof revision);
     key = hash_bytes(key, choice, sizeof choice);
     key = hash_bytes(key, &held, sizeof held);
-    key = hash_bytes(key, &editor->visibility, sizeof editor->visibility);
-    key = hash_bytes(key, &editor->view, sizeof editor->view);
-    key = hash_bytes(key, &editor->layout.plot, sizeof editor->layout.plot);
+    key = hash_bytes(key, &core->visibility, sizeof core->visibility);
+    key = hash_bytes(key, &curves->view, sizeof curves->view);
+    key = hash_bytes(key, &core->layout.plot, sizeof core->layout.plot);
     return key ? key : 1;
 }
 
 /// Puts the column next to each knot of the active spline exactly on it.
-static void hit_knots(struct editor *editor, const struct editor_world *world, double first, double by)
+static void hit_knots(struct curves *curves, const struct core *core, const struct editor_world *world, double first,
+                      double by)
 {
-    struct curve_cache *cache = &editor->cache;
-    const struct spline *spline = editor_active_spline(editor, world);
+    struct curve_cache *cache = &curves->cache;
+    const struct spline *spline = core_active_spline(core, world);
     for (int k = 0; spline && k < spline->knot_count; k++) {
         double sample = document_sample(world->document, spline->knots[k].frame);
         double column = floor((sample - first) / by + 0.5);
@@ -43,23 +49,23 @@ static double outermost(const struct evaluation *evaluation, int spline, double 
 }
 
 /// Columns of the part of the scene's range that can be seen.
-static void place_columns(struct editor *editor, const struct editor_world *world)
+static void place_columns(struct curves *curves, const struct core *core, const struct editor_world *world)
 {
-    struct curve_cache *cache = &editor->cache;
+    struct curve_cache *cache = &curves->cache;
     const struct document *document = world->document;
-    double left = fmax(editor->view.frame0, document->first_frame);
-    double right = fmin(editor->view.frame1, document->last_frame);
+    double left = fmax(curves->view.frame0, document->first_frame);
+    double right = fmin(curves->view.frame1, document->last_frame);
     cache->count = 0;
     if (!(right > left)) return;
-    double pixels = (right - left) * curves_pixels_per_frame(editor);
+    double pixels = (right - left) * curves_pixels_per_frame(curves, core);
     cache->count = (int)fmin(fmax(ceil(pixels) + 1, 2), EDITOR_MAX_COLUMNS);
-    double first = curves_position(document, left);
-    double by = (curves_position(document, right) - first) / (cache->count - 1);
+    double first = core_position(document, left);
+    double by = (core_position(document, right) - first) / (cache->count - 1);
     cache->by = by;
     for (int c = 0; c < cache->count; c++) {
-        cache->position[c] = outermost(world->evaluation, editor->active, first + by * c, by, c % 2);
+        cache->position[c] = outermost(world->evaluation, core->active, first + by * c, by, c % 2);
     }
-    hit_knots(editor, world, first, by);
+    hit_knots(curves, core, world, first, by);
 }
 
 static double frame_of(const struct document *document, double position)
@@ -68,14 +74,14 @@ static double frame_of(const struct document *document, double position)
 }
 
 /// Lags (radians) that the fan shows: evenly along the tail that the active spline moves. How many there are.
-static int fan_lags(const struct editor *editor, const struct document *document, double lags[CURVES_FAN])
+static int fan_lags(const struct core *core, const struct document *document, double lags[CURVES_FAN])
 {
     int rig = document_next_rig(document, RIG_TAIL, 0);
     for (; rig >= 0; rig = document_next_rig(document, RIG_TAIL, rig + 1)) {
         const struct tail *tail = &document->rigs[rig].tail;
         for (int c = 0; c < tail->channel_count; c++) {
             const struct channel *channel = &tail->channels[c];
-            if (channel->spline != editor->active) continue;
+            if (channel->spline != core->active) continue;
             for (int i = 0; i < CURVES_FAN; i++) {
                 int joint = (tail->joints - 1) * (i + 1) / CURVES_FAN;
                 double degrees = channel->lag.each ? channel->lag.value[joint] : joint * channel->lag.value[0];
@@ -87,65 +93,64 @@ static int fan_lags(const struct editor *editor, const struct document *document
     return 0;
 }
 
-static void draw_active(struct editor *editor, const struct editor_world *world)
+static void draw_active(struct curves *curves, const struct core *core, const struct editor_world *world)
 {
-    struct curve_cache *cache = &editor->cache;
+    struct curve_cache *cache = &curves->cache;
     double lags[CURVES_FAN], turn[CURVES_FAN][2];
-    cache->fan_count = editor->look == LOOK_WIGGLY ? fan_lags(editor, world->document, lags) : 0;
+    cache->fan_count = core->look == LOOK_WIGGLY ? fan_lags(core, world->document, lags) : 0;
     for (int i = 0; i < cache->fan_count; i++) {
         turn[i][0] = cos(lags[i]);
         turn[i][1] = sin(lags[i]);
     }
     for (int c = 0; c < cache->count; c++) {
-        wiggly_value v = curves_solved(world, editor->active, cache->position[c]);
-        float x = curves_x(editor, frame_of(world->document, cache->position[c]));
-        memcpy(cache->re[c], (float[2]){x, curves_y(editor, v.y + v.re)}, sizeof cache->re[c]);
-        memcpy(cache->im[c], (float[2]){x, curves_y(editor, v.y + v.im)}, sizeof cache->im[c]);
-        memcpy(cache->equilibrium[c], (float[2]){x, curves_y(editor, v.y)}, sizeof cache->equilibrium[c]);
+        wiggly_value v = evaluation_at(world->evaluation, core->active, cache->position[c]);
+        float x = curves_x(curves, core, frame_of(world->document, cache->position[c]));
+        memcpy(cache->re[c], (float[2]){x, curves_y(curves, core, v.y + v.re)}, sizeof cache->re[c]);
+        memcpy(cache->im[c], (float[2]){x, curves_y(curves, core, v.y + v.im)}, sizeof cache->im[c]);
+        memcpy(cache->equilibrium[c], (float[2]){x, curves_y(curves, core, v.y)}, sizeof cache->equilibrium[c]);
         for (int i = 0; i < cache->fan_count; i++) { /* eq. 27: Re(e^{−jφ} x) */
             cache->fan[i][c][0] = x;
-            cache->fan[i][c][1] = curves_y(editor, v.y + turn[i][0] * v.re + turn[i][1] * v.im);
+            cache->fan[i][c][1] = curves_y(curves, core, v.y + turn[i][0] * v.re + turn[i][1] * v.im);
         }
     }
 }
 
-static void draw_others(struct editor *editor, const struct editor_world *world)
+static void draw_others(struct curves *curves, const struct core *core, const struct editor_world *world)
 {
-    struct curve_cache *cache = &editor->cache;
+    struct curve_cache *cache = &curves->cache;
     cache->other_count = 0;
     for (int s = 0; s < world->document->spline_count && cache->other_count < CURVES_MAX_OTHERS; s++) {
-        if (s == editor->active || !arrange_shows(editor, world->document, s)) continue;
+        if (s == core->active || !arrange_shows(core, world->document, s)) continue;
         polyline *line = &cache->others[cache->other_count];
-        const struct value_map map = normal_map(editor, s);
+        const struct value_map map = normal_map(curves, core, s);
         cache->other_spline[cache->other_count++] = s;
         for (int c = 0; c < cache->count; c++) {
             double position = outermost(world->evaluation, s, cache->position[c], cache->by, c % 2);
-            wiggly_value v = curves_solved(world, s, position);
-            (*line)[c][0] = curves_x(editor, frame_of(world->document, position));
-            (*line)[c][1] = curves_y(editor, map.scale * (v.y + v.re) + map.offset);
+            wiggly_value v = evaluation_at(world->evaluation, s, position);
+            (*line)[c][0] = curves_x(curves, core, frame_of(world->document, position));
+            (*line)[c][1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
         }
     }
 }
 
-void curves_update(struct editor *editor, const struct editor_world *world)
+void curves_update(struct curves *curves, struct core *core, const struct editor_world *world)
 {
-    uint64_t key = cache_key(editor, world);
-    if (key == editor->cache.key) return;
-    editor->cache.key = key;
-    place_columns(editor, world);
-    draw_active(editor, world);
-    normal_update(editor, world);
-    draw_others(editor, world);
+    uint64_t key = cache_key(curves, core, world);
+    if (key == curves->cache.key) return;
+    curves->cache.key = key;
+    place_columns(curves, core, world);
+    draw_active(curves, core, world);
+    normal_update(curves, core, world);
+    draw_others(curves, core, world);
 }
 
-void ghost_capture(struct editor *editor, const struct editor_world *world)
+void ghost_capture(struct curves *curves, const struct core *core, const struct editor_world *world)
 {
-    struct ghost *ghost = &editor->ghost;
-    const struct curve_cache *cache = &editor->cache;
+    struct ghost *ghost = &curves->ghost;
+    const struct curve_cache *cache = &curves->cache;
     ghost->count = cache->count;
-    ghost->visible = cache->count > 1;
     for (int c = 0; c < cache->count; c++) {
-        wiggly_value v = curves_solved(world, editor->active, cache->position[c]);
+        wiggly_value v = evaluation_at(world->evaluation, core->active, cache->position[c]);
         ghost->frame[c] = frame_of(world->document, cache->position[c]);
         ghost->value[c] = v.y + v.re;
     }

@@ -1,6 +1,11 @@
 /// The curves panel's background: grids with round steps, numbers at the left, frames on top.
-#include "editor/core/playback.h"
+#include "editor/curves/curves_grid.h"
+#include "editor/core/core.h"
 #include "editor/curves/curves.h"
+#include "editor/curves/curves_show.h"
+#include "editor/curves/range.h"
+#include "editor/curves/state.h"
+#include "editor/curves/view.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -33,139 +38,140 @@ static struct grid_step round_step(double least)
 }
 
 /// To whole device pixels, so that hairlines stay sharp at every scale.
-static float sharp(const struct editor *editor, float at) { return roundf(at * editor->scale) / editor->scale; }
+static float sharp(const struct core *core, float at) { return roundf(at * core->scale) / core->scale; }
 
-static void vertical(struct editor *editor, double frame, uint32_t color)
+static void vertical(const struct curves *curves, struct core *core, double frame, uint32_t color)
 {
-    const struct rect *plot = &editor->layout.plot;
-    float x = sharp(editor, curves_x(editor, frame));
-    drawlist_rect(&editor->list, (struct rect){x, plot->y, 1, plot->h}, color);
+    const struct rect *plot = &core->layout.plot;
+    float x = sharp(core, curves_x(curves, core, frame));
+    drawlist_rect(&core->list, (struct rect){x, plot->y, 1, plot->h}, color);
 }
 
-static void horizontal(struct editor *editor, double value, uint32_t color)
+static void horizontal(const struct curves *curves, struct core *core, double value, uint32_t color)
 {
-    const struct rect *plot = &editor->layout.plot;
-    float y = sharp(editor, curves_y(editor, value));
-    drawlist_rect(&editor->list, (struct rect){plot->x, y, plot->w, 1}, color);
+    const struct rect *plot = &core->layout.plot;
+    float y = sharp(core, curves_y(curves, core, value));
+    drawlist_rect(&core->list, (struct rect){plot->x, y, plot->w, 1}, color);
 }
 
 /// Darkens what lies before and after the scene's range.
-static void shade_outside(struct editor *editor, const struct document *document)
+static void shade_outside(const struct curves *curves, struct core *core, const struct document *document)
 {
-    const struct rect *plot = &editor->layout.plot;
-    float first = fmaxf(curves_x(editor, document->first_frame), plot->x);
-    float last = fminf(curves_x(editor, document->last_frame), plot->x + plot->w);
+    const struct rect *plot = &core->layout.plot;
+    float first = fmaxf(curves_x(curves, core, document->first_frame), plot->x);
+    float last = fminf(curves_x(curves, core, document->last_frame), plot->x + plot->w);
     if (first > plot->x)
-        drawlist_rect(&editor->list, (struct rect){plot->x, plot->y, first - plot->x, plot->h}, theme()->outside);
+        drawlist_rect(&core->list, (struct rect){plot->x, plot->y, first - plot->x, plot->h}, theme()->outside);
     if (last < plot->x + plot->w) {
-        drawlist_rect(&editor->list, (struct rect){last, plot->y, plot->x + plot->w - last, plot->h},
-                      theme()->outside);
+        drawlist_rect(&core->list, (struct rect){last, plot->y, plot->x + plot->w - last, plot->h}, theme()->outside);
     }
 }
 
 /// `unit`: frames that one of the ruler's numbers counts.
-static void draw_lines(struct editor *editor, struct grid_step times, double unit, struct grid_step values)
+static void draw_lines(const struct curves *curves, struct core *core, struct grid_step times, double unit,
+                       struct grid_step values)
 {
-    const struct view *view = &editor->view;
+    const struct view *view = &curves->view;
     double minor = times.size / times.parts * unit;
     for (double i = ceil(view->frame0 / minor); i * minor <= view->frame1; i++) {
-        if (fmod(i, times.parts) != 0) vertical(editor, i * minor, theme()->grid_minor);
+        if (fmod(i, times.parts) != 0) vertical(curves, core, i * minor, theme()->grid_minor);
     }
     minor = values.size / values.parts;
     for (double i = ceil(view->value0 / minor); i * minor <= view->value1; i++) {
-        if (fmod(i, values.parts) != 0) horizontal(editor, i * minor, theme()->grid_minor);
+        if (fmod(i, values.parts) != 0) horizontal(curves, core, i * minor, theme()->grid_minor);
     }
     double major = times.size * unit;
     for (double i = ceil(view->frame0 / major); i * major <= view->frame1; i++) {
-        vertical(editor, i * major, theme()->grid_major);
+        vertical(curves, core, i * major, theme()->grid_major);
     }
     for (double i = ceil(view->value0 / values.size); i * values.size <= view->value1; i++) {
-        horizontal(editor, i * values.size, i == 0 ? theme()->zero : theme()->grid_major);
+        horizontal(curves, core, i * values.size, i == 0 ? theme()->zero : theme()->grid_major);
     }
 }
 
 /// Numbers of the value axis, right-aligned beside the plot.
-static void number_values(struct editor *editor, struct grid_step step)
+static void number_values(const struct curves *curves, struct core *core, struct grid_step step)
 {
-    const struct rect *axis = &editor->layout.value_axis;
+    const struct rect *axis = &core->layout.value_axis;
     float half = font_cap_height(FONT_NUMBER, THEME_TEXT_SMALL) / 2;
-    for (double i = ceil(editor->view.value0 / step.size); i * step.size <= editor->view.value1; i++) {
+    for (double i = ceil(curves->view.value0 / step.size); i * step.size <= curves->view.value1; i++) {
         double value = i * step.size;
-        float y = curves_y(editor, value);
+        float y = curves_y(curves, core, value);
         if (y < axis->y + 8 || y > axis->y + axis->h - 8) continue;
         char text[32];
         bool wide = fabs(value) >= 1e6 || step.size < 1e-6;
         snprintf(text, sizeof text, wide ? "%.*g" : "%.*f", wide ? 3 : step.decimals, value + 0.0);
         float x = axis->x + axis->w - 8 - font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-        drawlist_text(&editor->list, fmaxf(x, axis->x + 2), roundf(y + half), FONT_NUMBER, THEME_TEXT_SMALL,
+        drawlist_text(&core->list, fmaxf(x, axis->x + 2), roundf(y + half), FONT_NUMBER, THEME_TEXT_SMALL,
                       theme()->text_dim, text);
     }
 }
 
-struct rect ruler_corner(const struct editor *editor)
+struct rect ruler_corner(const struct core *core)
 {
-    const struct layout *layout = &editor->layout;
+    const struct layout *layout = &core->layout;
     return (struct rect){layout->value_axis.x, layout->ruler.y, layout->value_axis.w, layout->ruler.h};
 }
 
-void ruler_toggle(struct editor *editor)
+void ruler_toggle(struct curves *curves, struct core *core)
 {
-    editor->options.seconds = !editor->options.seconds;
-    editor_message(editor, false, editor->options.seconds ? "The ruler shows seconds." : "The ruler shows frames.");
+    curves->options.seconds = !curves->options.seconds;
+    core_message(core, false, curves->options.seconds ? "The ruler shows seconds." : "The ruler shows frames.");
 }
 
-static void show_units(struct editor *editor)
+static void show_units(const struct curves *curves, struct core *core)
 {
-    struct rect corner = ruler_corner(editor);
-    const char *text = editor->options.seconds ? "s" : "frame";
+    struct rect corner = ruler_corner(core);
+    const char *text = curves->options.seconds ? "s" : "frame";
     float x = corner.x + corner.w - 8 - font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
-    drawlist_text(&editor->list, x, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
-                  editor->hover.kind == HOVER_UNITS ? theme()->text : theme()->text_dim, text);
+    drawlist_text(&core->list, x, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
+                  core->hover.kind == HOVER_UNITS ? theme()->text : theme()->text_dim, text);
 }
 
 /// Frames a unit of the ruler.
-static double ruler_unit(const struct editor *editor, const struct document *document)
+static double ruler_unit(const struct curves *curves, const struct document *document)
 {
-    return editor->options.seconds ? document->fps : 1;
+    return curves->options.seconds ? document->fps : 1;
 }
 
 /// Numbers of the ruler, centred over their grid lines; the one under the playhead's tag makes room for it.
-static void number_frames(struct editor *editor, const struct document *document, struct grid_step step)
+static void number_frames(const struct curves *curves, struct core *core, const struct document *document,
+                          struct grid_step step)
 {
-    const struct rect *ruler = &editor->layout.ruler;
-    const struct rect tag = playhead_tag(editor, document);
-    double unit = ruler_unit(editor, document);
-    for (double i = ceil(editor->view.frame0 / unit / step.size); i * step.size <= editor->view.frame1 / unit; i++) {
+    const struct rect *ruler = &core->layout.ruler;
+    const struct rect tag = playhead_tag(curves, core, document);
+    double unit = ruler_unit(curves, document);
+    for (double i = ceil(curves->view.frame0 / unit / step.size); i * step.size <= curves->view.frame1 / unit; i++) {
         char text[32];
         snprintf(text, sizeof text, "%.*f", step.decimals, i * step.size + 0.0);
         float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-        float x = curves_x(editor, i * step.size * unit) - width / 2;
+        float x = curves_x(curves, core, i * step.size * unit) - width / 2;
         if (x < ruler->x || x + width > ruler->x + ruler->w) continue;
         if (x < tag.x + tag.w + TAG_GAP && x + width > tag.x - TAG_GAP) continue;
-        drawlist_text(&editor->list, x, ruler->y + 15, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
+        drawlist_text(&core->list, x, ruler->y + 15, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
     }
 }
 
-void grid_show(struct editor *editor, const struct editor_world *world)
+void grid_show(const struct curves *curves, struct core *core, const struct editor_world *world)
 {
-    const struct layout *layout = &editor->layout;
-    double unit = ruler_unit(editor, world->document);
-    struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(editor) * unit));
-    struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(editor));
-    drawlist_rect(&editor->list, layout->curves, theme()->panel);
-    struct rect clip = drawlist_push_clip(&editor->list, layout->plot);
-    shade_outside(editor, world->document);
-    draw_lines(editor, times, unit, values);
-    range_show_plot(editor, world->document);
-    drawlist_set_clip(&editor->list, clip);
-    drawlist_rect(&editor->list, (struct rect){layout->ruler.x, layout->plot.y - 1, layout->ruler.w, 1},
+    const struct layout *layout = &core->layout;
+    double unit = ruler_unit(curves, world->document);
+    struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(curves, core) * unit));
+    struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(curves, core));
+    drawlist_rect(&core->list, layout->curves, theme()->panel);
+    struct rect clip = drawlist_push_clip(&core->list, layout->plot);
+    shade_outside(curves, core, world->document);
+    draw_lines(curves, core, times, unit, values);
+    range_show_plot(curves, core, world->document);
+    drawlist_set_clip(&core->list, clip);
+    drawlist_rect(&core->list, (struct rect){layout->ruler.x, layout->plot.y - 1, layout->ruler.w, 1},
                   theme()->border);
-    clip = drawlist_push_clip(&editor->list, layout->ruler);
-    range_show_ruler(editor, world->document);
-    number_frames(editor, world->document, times);
-    drawlist_set_clip(&editor->list, clip);
-    show_units(editor);
-    clip = drawlist_push_clip(&editor->list, layout->value_axis);
-    number_values(editor, values);
-    drawlist_set_clip(&editor->list, clip);
+    clip = drawlist_push_clip(&core->list, layout->ruler);
+    range_show_ruler(curves, core, world->document);
+    number_frames(curves, core, world->document, times);
+    drawlist_set_clip(&core->list, clip);
+    show_units(curves, core);
+    clip = drawlist_push_clip(&core->list, layout->value_axis);
+    number_values(curves, core, values);
+    drawlist_set_clip(&core->list, clip);
 }

@@ -1,23 +1,35 @@
 /// The mouse in the curves panel: what is under it, presses and the wheel.
-#include "editor/core/actions.h"
 #include "editor/core/arrange.h"
+#include "editor/core/core.h"
+#include "editor/core/drag.h"
+#include "editor/core/knots.h"
+#include "editor/core/playback.h"
+#include "editor/core/selection.h"
+#include "editor/curves/box.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/warnings.h"
+#include "editor/curves/curves_grid.h"
+#include "editor/curves/knot_drag.h"
+#include "editor/curves/normal.h"
+#include "editor/curves/range.h"
+#include "editor/curves/remedy.h"
+#include "editor/curves/state.h"
+#include "editor/curves/view.h"
+#include "editor/curves/warnings_show.h"
 #include <math.h>
 
 static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9;
 static const double ZOOM_STEP = 0.15; ///< of a wheel's notch, as a power of e
 
 /// The nearest knot of one spline, where it is nearer than `reach`; returns its distance, else `reach`.
-static float nearest_knot(const struct editor *editor, const struct document *document, int of, float x, float y,
-                          float reach, struct hover *hover)
+static float nearest_knot(const struct curves *curves, const struct core *core, const struct document *document,
+                          int of, float x, float y, float reach, struct hover *hover)
 {
     const struct spline *spline = &document->splines[of];
     float best = reach;
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
-        float at = curves_x(editor, document_frame(document, document_sample(document, knot->frame)));
-        float distance = hypotf(x - at, y - curves_y_of(editor, of, knot->value));
+        float at = curves_x(curves, core, document_frame(document, document_sample(document, knot->frame)));
+        float distance = hypotf(x - at, y - curves_y_of(curves, core, of, knot->value));
         if (distance > best) continue;
         best = distance;
         *hover = (struct hover){.kind = HOVER_KNOT, .spline = of, .knot = knot->id};
@@ -26,39 +38,41 @@ static float nearest_knot(const struct editor *editor, const struct document *do
 }
 
 /// Knots of the other curves that are drawn: a press on one makes its spline the active one.
-static void nearest_other_knot(const struct editor *editor, const struct document *document, float x, float y,
-                               struct hover *hover)
+static void nearest_other_knot(const struct curves *curves, const struct core *core, const struct document *document,
+                               float x, float y, struct hover *hover)
 {
     float best = OTHER_REACH;
-    for (int i = 0; i < editor->cache.other_count; i++) {
-        int spline = editor->cache.other_spline[i];
-        if (spline < document->spline_count) best = nearest_knot(editor, document, spline, x, y, best, hover);
+    for (int i = 0; i < curves->cache.other_count; i++) {
+        int spline = curves->cache.other_spline[i];
+        if (spline < document->spline_count) best = nearest_knot(curves, core, document, spline, x, y, best, hover);
     }
 }
 
-static void nearest_handle(const struct editor *editor, const struct document *document, const struct spline *spline,
-                           float x, float y, struct hover *hover)
+static void nearest_handle(const struct curves *curves, const struct core *core, const struct document *document,
+                           const struct spline *spline, float x, float y, struct hover *hover)
 {
     float best = CURVES_HIT_RADIUS;
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
-        if (!knot->has_slope || !selection_has(&editor->selection, knot->id)) continue;
+        if (!knot->has_slope || !selection_has(&core->selection, knot->id)) continue;
         for (int end = 0; end < 2; end++) {
             float xy[2];
-            curves_handle(editor, document, knot, end, xy);
+            curves_handle(curves, core, document, knot, end, xy);
             float distance = hypotf(x - xy[0], y - xy[1]);
             if (distance > best) continue;
             best = distance;
-            *hover = (struct hover){.kind = HOVER_SLOPE, .spline = editor->active, .knot = knot->id, .handle = end};
+            *hover = (struct hover){.kind = HOVER_SLOPE, .spline = core->active, .knot = knot->id, .handle = end};
         }
     }
 }
 
-static void nearest_warning(const struct editor *editor, float x, float y, struct hover *hover)
+static void nearest_warning(const struct curves *curves, const struct core *core, float x, float y,
+                            struct hover *hover)
 {
-    for (int i = 0; i < editor->warnings.count; i++) {
+    for (int i = 0; i < curves->warnings.count; i++) {
         float xy[2];
-        if (!warning_place(editor, &editor->warnings.list[i], xy) || hypotf(x - xy[0], y - xy[1]) > WARNING_REACH) {
+        if (!warning_place(curves, core, &curves->warnings.list[i], xy) ||
+            hypotf(x - xy[0], y - xy[1]) > WARNING_REACH) {
             continue;
         }
         *hover = (struct hover){.kind = HOVER_WARNING, .handle = i};
@@ -66,120 +80,124 @@ static void nearest_warning(const struct editor *editor, float x, float y, struc
 }
 
 /// The nearest curve straight above or below, the active one first.
-static void nearest_curve(const struct editor *editor, const struct editor_world *world, float x, float y,
-                          struct hover *hover)
+static void nearest_curve(const struct curves *curves, const struct core *core, const struct editor_world *world,
+                          float x, float y, struct hover *hover)
 {
-    double position = curves_position(world->document, curves_frame(editor, x));
+    double position = core_position(world->document, curves_frame(curves, core, x));
     float best = CURVE_REACH;
     for (int i = 0; i < world->document->spline_count; i++) {
-        int s = i == 0 ? editor->active : i <= editor->active ? i - 1 : i;
-        if (!arrange_shows(editor, world->document, s)) continue;
-        wiggly_value v = curves_solved(world, s, position);
-        float distance = fabsf(y - curves_y_of(editor, s, v.y + v.re));
+        int s = i == 0 ? core->active : i <= core->active ? i - 1 : i;
+        if (!arrange_shows(core, world->document, s)) continue;
+        wiggly_value v = evaluation_at(world->evaluation, s, position);
+        float distance = fabsf(y - curves_y_of(curves, core, s, v.y + v.re));
         if (distance >= best) continue;
         best = distance;
         *hover = (struct hover){.kind = HOVER_CURVE, .spline = s};
     }
 }
 
-struct hover curves_hover(const struct editor *editor, const struct editor_world *world, float x, float y)
+struct hover curves_hover(const struct curves *curves, const struct core *core, const struct editor_world *world,
+                          float x, float y)
 {
     struct hover hover = {.kind = HOVER_NONE};
-    const struct spline *spline = editor_active_spline(editor, world);
-    if (rect_contains(editor->layout.ruler, x, y)) hover.kind = HOVER_RULER;
-    if (rect_contains(ruler_corner(editor), x, y)) hover.kind = HOVER_UNITS;
-    if (!rect_contains(editor->layout.plot, x, y) || !spline) return hover;
-    bool seen = arrange_seen(editor, world) != NULL;
-    if (seen) nearest_knot(editor, world->document, editor->active, x, y, CURVES_HIT_RADIUS, &hover);
-    if (seen && hover.kind == HOVER_NONE) nearest_handle(editor, world->document, spline, x, y, &hover);
-    if (hover.kind == HOVER_NONE) nearest_warning(editor, x, y, &hover);
-    if (hover.kind == HOVER_NONE) nearest_other_knot(editor, world->document, x, y, &hover);
-    if (hover.kind == HOVER_NONE) nearest_curve(editor, world, x, y, &hover);
+    const struct spline *spline = core_active_spline(core, world);
+    if (rect_contains(core->layout.ruler, x, y)) hover.kind = HOVER_RULER;
+    if (rect_contains(ruler_corner(core), x, y)) hover.kind = HOVER_UNITS;
+    if (!rect_contains(core->layout.plot, x, y) || !spline) return hover;
+    bool seen = arrange_seen(core, world) != NULL;
+    if (seen) nearest_knot(curves, core, world->document, core->active, x, y, CURVES_HIT_RADIUS, &hover);
+    if (seen && hover.kind == HOVER_NONE) nearest_handle(curves, core, world->document, spline, x, y, &hover);
+    if (hover.kind == HOVER_NONE) nearest_warning(curves, core, x, y, &hover);
+    if (hover.kind == HOVER_NONE) nearest_other_knot(curves, core, world->document, x, y, &hover);
+    if (hover.kind == HOVER_NONE) nearest_curve(curves, core, world, x, y, &hover);
     return hover;
 }
 
 /// A press on a knot: Shift adds or removes it, else it is dragged with all that are selected.
-static void press_knot(struct editor *editor, const struct editor_world *world, const struct hover *hover,
-                       const struct event *event)
+static void press_knot(struct curves *curves, struct core *core, const struct editor_world *world,
+                       const struct hover *hover, const struct event *event)
 {
     unsigned id = hover->knot;
-    editor_activate(editor, world, hover->spline);
-    bool selected = selection_has(&editor->selection, id);
+    core_activate(core, world, hover->spline);
+    bool selected = selection_has(&core->selection, id);
     if (event->mods & MOD_SHIFT) {
-        selection_set(&editor->selection, id, !selected);
+        selection_set(&core->selection, id, !selected);
         if (selected) return;
     } else if (!selected) {
-        selection_clear(&editor->selection);
-        selection_set(&editor->selection, id, true);
+        selection_clear(&core->selection);
+        selection_set(&core->selection, id, true);
     }
-    drag_begin_knots(editor, world, id, event);
-    editor->drag.collapse = selected && !(event->mods & MOD_SHIFT);
+    drag_begin_knots(curves, core, world, id, event);
+    curves->knot_drag.collapse = selected && !(event->mods & MOD_SHIFT);
 }
 
-static void press_empty(struct editor *editor, const struct editor_world *world, const struct hover *hover,
-                        const struct event *event)
+static void press_empty(struct curves *curves, struct core *core, const struct editor_world *world,
+                        const struct hover *hover, const struct event *event)
 {
     if (event->clicks == 2 && hover->kind == HOVER_CURVE) {
-        insert_on_curve(editor, world, curves_frame(editor, event->x), drag_snaps(editor, event->mods),
+        insert_on_curve(core, world, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
                         event->mods & MOD_SHIFT);
         return;
     }
     if (event->clicks == 2) {
-        double value = round_value(curves_value(editor, event->y), 0.01 / curves_pixels_per_value(editor));
-        insert_knot(editor, world, curves_frame(editor, event->x), value, drag_snaps(editor, event->mods));
+        double value =
+            round_value(curves_value(curves, core, event->y), 0.01 / curves_pixels_per_value(curves, core));
+        insert_knot(core, world, curves_frame(curves, core, event->x), value, drag_snaps(core, event->mods));
         return;
     }
-    if (hover->kind == HOVER_CURVE) editor_activate(editor, world, hover->spline);
-    box_begin(editor, event);
+    if (hover->kind == HOVER_CURVE) core_activate(core, world, hover->spline);
+    box_begin(curves, core, event);
 }
 
-static void press_ruler(struct editor *editor, const struct editor_world *world, const struct event *event)
+static void press_ruler(const struct curves *curves, struct core *core, const struct editor_world *world,
+                        const struct event *event)
 {
     if (event->mods & MOD_SHIFT) {
-        range_begin(editor, event);
+        range_begin(core, event);
         return;
     }
-    double frame = curves_frame(editor, event->x);
-    drag_begin(editor, DRAG_SCRUB, event);
-    playback_seek(editor, world->document, drag_snaps(editor, event->mods) ? round(frame) : frame);
+    double frame = curves_frame(curves, core, event->x);
+    drag_begin(core, DRAG_SCRUB, NULL, event);
+    playback_seek(core, world->document, drag_snaps(core, event->mods) ? round(frame) : frame);
 }
 
-void curves_press(struct editor *editor, const struct editor_world *world, const struct event *event)
+void curves_press(struct curves *curves, struct core *core, const struct editor_world *world,
+                  const struct event *event)
 {
-    bool pan = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && editor->space_down);
+    bool pan = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
     if (pan) {
-        editor->space_used = editor->space_down;
-        drag_begin(editor, DRAG_PAN, event);
+        core->space_used = core->space_down;
+        drag_begin(core, DRAG_PAN, NULL, event);
         return;
     }
     if (event->button != BUTTON_LEFT) return;
-    struct hover hover = curves_hover(editor, world, event->x, event->y);
+    struct hover hover = curves_hover(curves, core, world, event->x, event->y);
     switch (hover.kind) {
     case HOVER_RULER:
-        press_ruler(editor, world, event);
+        press_ruler(curves, core, world, event);
         break;
     case HOVER_WARNING:
-        warning_remedy(editor, world, &editor->warnings.list[hover.handle]);
+        warning_remedy(curves, core, world, &curves->warnings.list[hover.handle]);
         break;
     case HOVER_UNITS:
-        ruler_toggle(editor);
+        ruler_toggle(curves, core);
         break;
     case HOVER_KNOT:
-        press_knot(editor, world, &hover, event);
+        press_knot(curves, core, world, &hover, event);
         break;
     case HOVER_SLOPE:
-        drag_begin_slope(editor, world, hover.knot, hover.handle, event);
+        drag_begin_slope(curves, core, world, hover.knot, hover.handle, event);
         break;
     default:
-        if (rect_contains(editor->layout.plot, event->x, event->y)) press_empty(editor, world, &hover, event);
+        if (rect_contains(core->layout.plot, event->x, event->y)) press_empty(curves, core, world, &hover, event);
     }
 }
 
-void curves_wheel(struct editor *editor, const struct event *event)
+void curves_wheel(struct curves *curves, struct core *core, const struct event *event)
 {
     double notches = event->dy != 0 ? event->dy : event->dx; /* some systems turn Shift+wheel sideways */
     double factor = exp(-ZOOM_STEP * fmin(fmax(notches, -20), 20));
     double time = event->mods & MOD_SHIFT && !(event->mods & MOD_CTRL) ? 1 : factor;
     double value = event->mods & MOD_CTRL && !(event->mods & MOD_SHIFT) ? 1 : factor;
-    view_zoom(editor, event->x, event->y, time, value);
+    view_zoom(curves, core, event->x, event->y, time, value);
 }

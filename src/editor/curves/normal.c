@@ -2,18 +2,22 @@
 ///
 /// Let a … b be the values that the active curve takes and c … d those of another: the other's value v is drawn where the
 /// active one's a + (v − c)·(b − a)/(d − c) is.
+#include "editor/curves/normal.h"
+#include "editor/core/core.h"
 #include "editor/curves/curves.h"
+#include "editor/curves/state.h"
+#include "editor/curves/view.h"
 #include <math.h>
 
 static bool has_height(const double range[2]) { return range[1] - range[0] > 1e-12 * fmax(1, fabs(range[0])); }
 
-struct value_map normal_map(const struct editor *editor, int spline)
+struct value_map normal_map(const struct curves *curves, const struct core *core, int spline)
 {
     const struct value_map as_it_is = {1, 0};
-    const struct curve_cache *cache = &editor->cache;
-    int active = editor->active;
+    const struct curve_cache *cache = &curves->cache;
+    int active = core->active;
     bool known = spline < cache->range_count && active >= 0 && active < cache->range_count;
-    if (!editor->options.normalise || spline == active || !known) return as_it_is;
+    if (!curves->options.normalise || spline == active || !known) return as_it_is;
     const double *to = cache->range[active], *from = cache->range[spline];
     if (!has_height(to)) return as_it_is;
     if (!has_height(from)) return (struct value_map){1, (to[0] + to[1]) / 2 - from[0]};
@@ -21,17 +25,17 @@ struct value_map normal_map(const struct editor *editor, int spline)
     return (struct value_map){scale, to[0] - scale * from[0]};
 }
 
-float curves_y_of(const struct editor *editor, int spline, double value)
+float curves_y_of(const struct curves *curves, const struct core *core, int spline, double value)
 {
-    struct value_map map = normal_map(editor, spline);
-    return curves_y(editor, map.scale * value + map.offset);
+    struct value_map map = normal_map(curves, core, spline);
+    return curves_y(curves, core, map.scale * value + map.offset);
 }
 
-void normal_update(struct editor *editor, const struct editor_world *world)
+void normal_update(struct curves *curves, const struct core *core, const struct editor_world *world)
 {
-    struct curve_cache *cache = &editor->cache;
+    struct curve_cache *cache = &curves->cache;
     const struct evaluation *evaluation = world->evaluation;
-    if (!editor->options.normalise || editor->drag.kind != DRAG_NONE || !evaluation) return;
+    if (!curves->options.normalise || core->drag.kind != DRAG_NONE || !evaluation) return;
     cache->range_count = evaluation->count < CURVES_MAX_RANGES ? evaluation->count : CURVES_MAX_RANGES;
     for (int s = 0; s < cache->range_count; s++) {
         for (int highest = 0; highest < 2; highest++) {
@@ -41,20 +45,20 @@ void normal_update(struct editor *editor, const struct editor_world *world)
     }
 }
 
-void normal_toggle(struct editor *editor, const struct editor_world *world)
+void normal_toggle(struct curves *curves, struct core *core, const struct editor_world *world)
 {
-    editor->options.normalise = !editor->options.normalise;
-    normal_update(editor, world);
-    view_frame_all(editor, world);
-    editor_message(
-        editor, false,
-        editor->options.normalise
+    curves->options.normalise = !curves->options.normalise;
+    normal_update(curves, core, world);
+    view_frame_all(curves, core, world);
+    core_message(
+        core, false,
+        curves->options.normalise
             ? "Normalised: every curve is as high as the active one. The axis shows the active curve's values."
             : "All curves share one axis again.");
 }
 
-void normal_activate(struct editor *editor, int spline)
+void normal_activate(struct curves *curves, struct core *core, int spline)
 {
-    struct value_map map = normal_map(editor, spline);
-    view_rescale(editor, map.scale, map.offset);
+    struct value_map map = normal_map(curves, core, spline);
+    view_rescale(curves, core, map.scale, map.offset);
 }

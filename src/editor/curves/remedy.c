@@ -1,7 +1,10 @@
 /// One click against a warning. What could help against a swing is tried on the solved document, and the first that does is
 /// kept.
-#include "editor/core/actions.h"
+#include "editor/curves/remedy.h"
+#include "editor/core/core.h"
 #include "editor/curves/curves.h"
+#include "editor/curves/state.h"
+#include "editor/curves/view.h"
 #include "editor/curves/warnings.h"
 #include <math.h>
 #include <stdio.h>
@@ -27,25 +30,25 @@ static int count_swings(const struct document *document, int spline)
 }
 
 /// Does an edit in the open step and says whether there are fewer swings than `before`; if not, it is taken back.
-static bool helps(struct editor *editor, const struct editor_world *world, const struct edit *edit, int before)
+static bool helps(const struct core *core, const struct editor_world *world, const struct edit *edit, int before)
 {
     struct document *document = world->document;
     int count = -1;
-    if (history_apply(world->history, document, edit, NULL)) count = count_swings(document, editor->active);
+    if (history_apply(world->history, document, edit, NULL)) count = count_swings(document, core->active);
     if (count >= 0 && count < before) return true;
     history_restart(world->history, document);
     return false;
 }
 
-static struct edit parameter_edit(const struct editor *editor, enum parameter parameter, double value)
+static struct edit parameter_edit(const struct core *core, enum parameter parameter, double value)
 {
-    struct edit edit = editor_edit_of(EDIT_PARAMETER, editor->active);
+    struct edit edit = core_edit_of(EDIT_PARAMETER, core->active);
     edit.parameter = parameter;
     edit.param.value = value;
     return edit;
 }
 
-static bool lower_frequency(struct editor *editor, const struct editor_world *world, const struct spline *spline,
+static bool lower_frequency(const struct core *core, const struct editor_world *world, const struct spline *spline,
                             int before, char text[96])
 {
     const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
@@ -53,74 +56,85 @@ static bool lower_frequency(struct editor *editor, const struct editor_world *wo
     if (frequency->track >= 0 || spline->spring_friction) return false;
     for (int i = 0; i < LOWER_STEPS; i++) {
         value = round_value(value * LOWER, 0.01);
-        struct edit edit = parameter_edit(editor, PARAMETER_FREQUENCY, value);
-        if (!helps(editor, world, &edit, before)) continue;
+        struct edit edit = parameter_edit(core, PARAMETER_FREQUENCY, value);
+        if (!helps(core, world, &edit, before)) continue;
         snprintf(text, 96, "Lowered the frequency to %.3g Hz to tame the swing.", value);
         return true;
     }
     return false;
 }
 
-static bool tame(struct editor *editor, const struct editor_world *world, const struct warning *warning,
-                 char text[96])
+static bool tame(const struct curves *curves, const struct core *core, const struct editor_world *world,
+                 const struct warning *warning, char text[96])
 {
-    const struct spline *spline = editor_active_spline(editor, world);
-    int before = count_swings(world->document, editor->active);
-    struct edit calm = parameter_edit(editor, PARAMETER_CALM, 1);
-    struct edit hold = editor_edit_of(EDIT_KNOT_INSERT, editor->active);
-    double resolution = 0.01 / curves_pixels_per_value(editor);
+    const struct spline *spline = core_active_spline(core, world);
+    int before = count_swings(world->document, core->active);
+    struct edit calm = parameter_edit(core, PARAMETER_CALM, 1);
+    struct edit hold = core_edit_of(EDIT_KNOT_INSERT, core->active);
+    double resolution = 0.01 / curves_pixels_per_value(curves, core);
     hold.knot = (struct knot){.frame = warning->frame,
                               .value = round_value(warning->remedy, resolution),
                               .stiffness = KNOT_DEFAULT_STIFFNESS};
-    if (spline->parameter[PARAMETER_CALM].value < 1 && helps(editor, world, &calm, before)) {
+    if (spline->parameter[PARAMETER_CALM].value < 1 && helps(core, world, &calm, before)) {
         snprintf(text, 96, "Raised calm to 1 to tame the swing.");
         return true;
     }
-    if (helps(editor, world, &hold, before)) {
+    if (helps(core, world, &hold, before)) {
         snprintf(text, 96, "Added a knot at frame %.6g to tame the swing.", warning->frame);
         return true;
     }
-    return lower_frequency(editor, world, spline, before, text);
+    return lower_frequency(core, world, spline, before, text);
 }
 
 /// More substeps keep the motion as it is; where there is no room for them the frequency gives way.
-static bool resolve_rate(struct editor *editor, const struct editor_world *world, const struct warning *warning,
+static bool resolve_rate(struct core *core, const struct editor_world *world, const struct warning *warning,
                          char text[96])
 {
-    struct edit edit = editor_edit_of(EDIT_SUBSTEPS, -1);
+    struct edit edit = core_edit_of(EDIT_SUBSTEPS, -1);
     edit.substeps = (int)fmin(warning->remedy, SCENE_MAX_SUBSTEPS);
     snprintf(text, 96, "%d substeps a frame.", edit.substeps);
     if (warning->remedy <= SCENE_MAX_SUBSTEPS && history_apply(world->history, world->document, &edit, NULL)) {
         return true;
     }
-    const struct spline *spline = editor_active_spline(editor, world);
+    const struct spline *spline = core_active_spline(core, world);
     double value = spline->parameter[PARAMETER_FREQUENCY].value * warning->limit / warning->amount;
-    edit = parameter_edit(editor, PARAMETER_FREQUENCY, round_value(0.99 * value, 0.01));
+    edit = parameter_edit(core, PARAMETER_FREQUENCY, round_value(0.99 * value, 0.01));
     snprintf(text, 96, "%.3g Hz.", edit.param.value);
-    return editor_edit(editor, world, &edit);
+    return core_edit(core, world, &edit);
 }
 
-void warning_remedy(struct editor *editor, const struct editor_world *world, const struct warning *warning)
+void curves_remedy_first(struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    warnings_update(curves, core, world);
+    if (curves->warnings.count > 0) {
+        warning_remedy(curves, core, world, &curves->warnings.list[0]);
+    } else {
+        core_message(core, false, "This spline has no warnings.");
+    }
+}
+
+void warning_remedy(const struct curves *curves, struct core *core, const struct editor_world *world,
+                    const struct warning *warning)
 {
     static const char *const labels[] = {
         [WARNING_SWING] = "Tame swing", [WARNING_RATE] = "Add substeps", [WARNING_DRIFT] = "Narrow bandwidth"};
     const struct warning chosen = *warning;
     char text[96] = "";
     bool good = false;
-    if (!editor_active_spline(editor, world) || history_is_open(world->history)) return;
+    if (!core_active_spline(core, world) || history_is_open(world->history)) return;
     history_begin(world->history, labels[chosen.kind], 0);
-    if (chosen.kind == WARNING_SWING) good = tame(editor, world, &chosen, text);
-    if (chosen.kind == WARNING_RATE) good = resolve_rate(editor, world, &chosen, text);
+    if (chosen.kind == WARNING_SWING) good = tame(curves, core, world, &chosen, text);
+    if (chosen.kind == WARNING_RATE) good = resolve_rate(core, world, &chosen, text);
     if (chosen.kind == WARNING_DRIFT) {
-        struct edit edit = parameter_edit(editor, PARAMETER_BANDWIDTH, chosen.remedy);
-        good = editor_edit(editor, world, &edit);
+        struct edit edit = parameter_edit(core, PARAMETER_BANDWIDTH, chosen.remedy);
+        good = core_edit(core, world, &edit);
         snprintf(text, sizeof text, "Bandwidth %.3g.", chosen.remedy);
     }
     history_end(world->history);
-    editor_reserve(editor, world->document);
+    core_reserve(core, world->document);
     if (good) {
-        editor_message(editor, false, text);
+        core_message(core, false, text);
     } else if (chosen.kind == WARNING_SWING) {
-        editor_message(editor, false, "Calm, a knot or a lower frequency would not help here. Move the knots.");
+        core_message(core, false, "Calm, a knot or a lower frequency would not help here. Move the knots.");
     }
 }

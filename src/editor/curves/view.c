@@ -1,5 +1,9 @@
 /// What part of time and value the curves panel shows.
+#include "editor/curves/view.h"
+#include "editor/core/core.h"
+#include "editor/core/selection.h"
 #include "editor/curves/curves.h"
+#include "editor/curves/state.h"
 #include <math.h>
 
 /// Pixels further from the plot than this are the same to the eye, and bounded ones are safe as floats.
@@ -10,78 +14,51 @@ static double bounded(double pixels, double lo, double hi)
     return fmin(fmax(pixels, lo - FAR_PIXELS), hi + FAR_PIXELS);
 }
 
-double curves_pixels_per_frame(const struct editor *editor)
+double curves_pixels_per_frame(const struct curves *curves, const struct core *core)
 {
-    return editor->layout.plot.w / (editor->view.frame1 - editor->view.frame0);
+    return core->layout.plot.w / (curves->view.frame1 - curves->view.frame0);
 }
 
-double curves_pixels_per_value(const struct editor *editor)
+double curves_pixels_per_value(const struct curves *curves, const struct core *core)
 {
-    return editor->layout.plot.h / (editor->view.value1 - editor->view.value0);
+    return core->layout.plot.h / (curves->view.value1 - curves->view.value0);
 }
 
-float curves_x(const struct editor *editor, double frame)
+float curves_x(const struct curves *curves, const struct core *core, double frame)
 {
-    const struct rect *plot = &editor->layout.plot;
-    double x = plot->x + (frame - editor->view.frame0) * curves_pixels_per_frame(editor);
+    const struct rect *plot = &core->layout.plot;
+    double x = plot->x + (frame - curves->view.frame0) * curves_pixels_per_frame(curves, core);
     return (float)bounded(x, plot->x, plot->x + plot->w);
 }
 
-float curves_y(const struct editor *editor, double value)
+float curves_y(const struct curves *curves, const struct core *core, double value)
 {
-    const struct rect *plot = &editor->layout.plot;
-    double y = plot->y + (editor->view.value1 - value) * curves_pixels_per_value(editor);
+    const struct rect *plot = &core->layout.plot;
+    double y = plot->y + (curves->view.value1 - value) * curves_pixels_per_value(curves, core);
     return (float)bounded(y, plot->y, plot->y + plot->h);
 }
 
-double curves_frame(const struct editor *editor, double x)
+double curves_frame(const struct curves *curves, const struct core *core, double x)
 {
-    return editor->view.frame0 + (x - editor->layout.plot.x) / curves_pixels_per_frame(editor);
+    return curves->view.frame0 + (x - core->layout.plot.x) / curves_pixels_per_frame(curves, core);
 }
 
-double curves_value(const struct editor *editor, double y)
+double curves_value(const struct curves *curves, const struct core *core, double y)
 {
-    return editor->view.value1 - (y - editor->layout.plot.y) / curves_pixels_per_value(editor);
-}
-
-double round_value(double value, double resolution)
-{
-    double exponent = floor(log10(resolution));
-    double power = pow(10, fabs(exponent));
-    double rounded = exponent < 0 ? round(value * power) / power : round(value / power) * power;
-    return isfinite(rounded) && fabs(value) < 1e15 * resolution ? rounded : value;
-}
-
-double curves_position(const struct document *document, double frame)
-{
-    return (frame - document->first_frame) * document->substeps;
-}
-
-wiggly_value curves_solved(const struct editor_world *world, int spline, double position)
-{
-    return evaluation_at(world->evaluation, spline, position);
-}
-
-struct focus editor_focus(const struct editor *editor, const struct document *document)
-{
-    double last = document_samples(document) - 1;
-    double first = fmin(fmax(floor(curves_position(document, editor->view.frame0)), 0), last);
-    double end = fmin(fmax(ceil(curves_position(document, editor->view.frame1)), 0), last);
-    return (struct focus){.spline = editor->active < document->spline_count ? editor->active : -1,
-                          .first = (int)first,
-                          .count = (int)(end - first) + 1,
-                          .at = (int)fmin(fmax(editor->playback.position, 0), last)};
+    return curves->view.value1 - (y - core->layout.plot.y) / curves_pixels_per_value(curves, core);
 }
 
 /// Keeps the visible part wider than rounding and narrower than anyone needs.
-static void keep_sane(struct view *view)
+static void keep_sane(struct curves *curves, struct core *core)
 {
+    struct view *view = &curves->view;
     double frames = fmin(fmax(view->frame1 - view->frame0, 0.5), 1e8);
     double values = fmin(fmax(view->value1 - view->value0, 1e-9), 1e15);
     double frame = fmin(fmax((view->frame0 + view->frame1) / 2, -1e9), 1e9);
     double value = fmin(fmax((view->value0 + view->value1) / 2, -1e15), 1e15);
     values = fmax(values, fabs(value) * 1e-9);
     *view = (struct view){frame - frames / 2, frame + frames / 2, value - values / 2, value + values / 2};
+    core->visible = view->value1 - view->value0;
 }
 
 static void include_value(double range[2], double value)
@@ -105,14 +82,14 @@ static void show_values(struct view *view, const double range[2])
     view->value1 = range[1] + margin;
 }
 
-void view_frame_all(struct editor *editor, const struct editor_world *world)
+void view_frame_all(struct curves *curves, struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
     const struct evaluation *evaluation = world->evaluation;
     double range[2] = {INFINITY, -INFINITY};
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = &document->splines[s];
-        if (editor->options.normalise && s != editor->active) continue;
+        if (curves->options.normalise && s != core->active) continue;
         for (int k = 0; k < spline->knot_count; k++) include_value(range, spline->knots[k].value);
         if (!evaluation || s >= evaluation->count) continue;
         for (int highest = 0; highest < 2 && evaluation->samples > 0; highest++) {
@@ -120,42 +97,42 @@ void view_frame_all(struct editor *editor, const struct editor_world *world)
             include_value(range, evaluation->curves[s].total[sample]);
         }
     }
-    show_values(&editor->view, range);
+    show_values(&curves->view, range);
     double frames = document->last_frame - document->first_frame;
-    editor->view.frame0 = document->first_frame - fmax(0.02 * frames, 0.5);
-    editor->view.frame1 = document->last_frame + fmax(0.02 * frames, 0.5);
-    keep_sane(&editor->view);
+    curves->view.frame0 = document->first_frame - fmax(0.02 * frames, 0.5);
+    curves->view.frame1 = document->last_frame + fmax(0.02 * frames, 0.5);
+    keep_sane(curves, core);
 }
 
-void view_frame_selection(struct editor *editor, const struct editor_world *world)
+void view_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world)
 {
-    const struct spline *spline = editor_active_spline(editor, world);
+    const struct spline *spline = core_active_spline(core, world);
     double values[2] = {INFINITY, -INFINITY};
     double frames[2] = {INFINITY, -INFINITY};
     for (int k = 0; spline && k < spline->knot_count; k++) {
-        if (!selection_has(&editor->selection, spline->knots[k].id)) continue;
+        if (!selection_has(&core->selection, spline->knots[k].id)) continue;
         include_value(values, spline->knots[k].value);
         include_value(frames, spline->knots[k].frame);
     }
     if (frames[0] > frames[1]) {
-        view_frame_all(editor, world);
+        view_frame_all(curves, core, world);
         return;
     }
     double margin = fmax(0.25 * (frames[1] - frames[0]), 6);
-    editor->view.frame0 = frames[0] - margin;
-    editor->view.frame1 = frames[1] + margin;
+    curves->view.frame0 = frames[0] - margin;
+    curves->view.frame1 = frames[1] + margin;
     for (int column = 0; column <= 200; column++) {
-        double frame = editor->view.frame0 + (editor->view.frame1 - editor->view.frame0) * column / 200;
-        wiggly_value v = curves_solved(world, editor->active, curves_position(world->document, frame));
+        double frame = curves->view.frame0 + (curves->view.frame1 - curves->view.frame0) * column / 200;
+        wiggly_value v = evaluation_at(world->evaluation, core->active, core_position(world->document, frame));
         include_value(values, v.y + v.re);
     }
-    show_values(&editor->view, values);
-    keep_sane(&editor->view);
+    show_values(&curves->view, values);
+    keep_sane(curves, core);
 }
 
-void view_reveal(struct editor *editor, double frame, double value)
+void view_reveal(struct curves *curves, struct core *core, double frame, double value)
 {
-    struct view *view = &editor->view;
+    struct view *view = &curves->view;
     double frames = 0.05 * (view->frame1 - view->frame0);
     double values = 0.05 * (view->value1 - view->value0);
     double dx = fmin(frame - frames - view->frame0, 0) + fmax(frame + frames - view->frame1, 0);
@@ -164,36 +141,45 @@ void view_reveal(struct editor *editor, double frame, double value)
     view->frame1 += dx;
     view->value0 += dy;
     view->value1 += dy;
-    keep_sane(view);
+    keep_sane(curves, core);
 }
 
-void view_rescale(struct editor *editor, double scale, double offset)
+void view_rescale(struct curves *curves, struct core *core, double scale, double offset)
 {
-    editor->view.value0 = (editor->view.value0 - offset) / scale;
-    editor->view.value1 = (editor->view.value1 - offset) / scale;
-    keep_sane(&editor->view);
+    curves->view.value0 = (curves->view.value0 - offset) / scale;
+    curves->view.value1 = (curves->view.value1 - offset) / scale;
+    keep_sane(curves, core);
 }
 
-void view_pan(struct editor *editor, double dx, double dy)
+void view_pan(struct curves *curves, struct core *core, double dx, double dy)
 {
-    struct view *view = &editor->view;
-    double frames = dx / curves_pixels_per_frame(editor);
-    double values = dy / curves_pixels_per_value(editor);
+    struct view *view = &curves->view;
+    double frames = dx / curves_pixels_per_frame(curves, core);
+    double values = dy / curves_pixels_per_value(curves, core);
     view->frame0 -= frames;
     view->frame1 -= frames;
     view->value0 += values;
     view->value1 += values;
-    keep_sane(view);
+    keep_sane(curves, core);
 }
 
-void view_zoom(struct editor *editor, float x, float y, double time_factor, double value_factor)
+void view_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor)
 {
-    struct view *view = &editor->view;
-    double frame = curves_frame(editor, x);
-    double value = curves_value(editor, y);
+    struct view *view = &curves->view;
+    double frame = curves_frame(curves, core, x);
+    double value = curves_value(curves, core, y);
     view->frame0 = frame + (view->frame0 - frame) * time_factor;
     view->frame1 = frame + (view->frame1 - frame) * time_factor;
     view->value0 = value + (view->value0 - value) * value_factor;
     view->value1 = value + (view->value1 - value) * value_factor;
-    keep_sane(view);
+    keep_sane(curves, core);
+}
+
+void curves_span(const struct curves *curves, const struct document *document, int *first, int *count)
+{
+    double last = document_samples(document) - 1;
+    double left = fmin(fmax(floor(core_position(document, curves->view.frame0)), 0), last);
+    double right = fmin(fmax(ceil(core_position(document, curves->view.frame1)), 0), last);
+    *first = (int)left;
+    *count = (int)(right - left) + 1;
 }

@@ -3,6 +3,7 @@
 #include "editor/curves/warnings.h"
 #include "base/hash.h"
 #include "editor/core/arrange.h"
+#include "editor/curves/state.h"
 #include <limits.h>
 #include <math.h>
 
@@ -163,23 +164,23 @@ void warnings_find(const struct document *document, const struct evaluation *eva
     if (found->search.running) go_on(document, evaluation, of, LONG_MAX, found);
 }
 
-void warnings_update(struct editor *editor, const struct editor_world *world)
+void warnings_update(struct curves *curves, const struct core *core, const struct editor_world *world)
 {
-    struct warnings *warnings = &editor->warnings;
-    const struct spline *spline = arrange_seen(editor, world);
+    struct warnings *warnings = &curves->warnings;
+    const struct spline *spline = arrange_seen(core, world);
     const struct evaluation *evaluation = world->evaluation;
     bool solved = spline && evaluation && evaluation->samples == document_samples(world->document);
-    if (solved && evaluation->stale && editor->active == warnings->spline)
+    if (solved && evaluation->stale && core->active == warnings->spline)
         return; // the last ones stay until it is solved
-    const uint64_t state[] = {history_revision(world->history), (uint64_t)(editor->active + 1),
-                              (uint64_t)editor->look, solved, evaluation ? evaluation->revision : 0};
+    const uint64_t state[] = {history_revision(world->history), (uint64_t)(core->active + 1), (uint64_t)core->look,
+                              solved, evaluation ? evaluation->revision : 0};
     uint64_t key = hash_bytes(HASH_START, state, sizeof state);
     if (key != warnings->key) {
         warnings->count = 0;
         warnings->search.running = false;
         warnings->key = key;
-        warnings->spline = editor->active;
-        if (solved) begin(world->document, evaluation, editor->active, warnings);
+        warnings->spline = core->active;
+        if (solved) begin(world->document, evaluation, core->active, warnings);
     }
-    if (warnings->search.running) go_on(world->document, evaluation, editor->active, SAMPLES_A_FRAME, warnings);
+    if (warnings->search.running) go_on(world->document, evaluation, core->active, SAMPLES_A_FRAME, warnings);
 }

@@ -1,6 +1,7 @@
 /// The markers of warnings in the curves panel, and their words.
+#include "editor/curves/warnings_show.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/warnings.h"
+#include "editor/curves/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -8,15 +9,21 @@
 
 static const float SIZE = 7, LIFT = 16, EDGE = 12; ///< half a marker; above its place; from the plot's border
 
-bool warning_place(const struct editor *editor, const struct warning *warning, float xy[2])
+bool warning_place(const struct curves *curves, const struct core *core, const struct warning *warning, float xy[2])
 {
-    const struct rect plot = editor->layout.plot;
+    const struct rect plot = core->layout.plot;
     xy[0] = plot.x + EDGE;
     xy[1] = plot.y + EDGE;
     if (warning->kind == WARNING_RATE) return true;
-    xy[0] = curves_x(editor, warning->frame);
-    xy[1] = fminf(fmaxf(curves_y(editor, warning->value) - LIFT, plot.y + EDGE), plot.y + plot.h - EDGE);
+    xy[0] = curves_x(curves, core, warning->frame);
+    xy[1] = fminf(fmaxf(curves_y(curves, core, warning->value) - LIFT, plot.y + EDGE), plot.y + plot.h - EDGE);
     return xy[0] >= plot.x && xy[0] <= plot.x + plot.w;
+}
+
+bool curves_warning(const struct curves *curves, const struct core *core, double number, float xy[2])
+{
+    bool there = number >= 0 && number < curves->warnings.count;
+    return there && warning_place(curves, core, &curves->warnings.list[(int)number], xy);
 }
 
 /// What is wrong, and what a click does about it.
@@ -44,11 +51,11 @@ static void put_words(const struct warning *warning, char what[160], char remedy
 }
 
 /// The warning under the pointer, or NULL.
-static const struct warning *hovered_warning(const struct editor *editor)
+static const struct warning *hovered_warning(const struct curves *curves, const struct core *core)
 {
-    int index = editor->hover.handle;
-    if (editor->hover.kind != HOVER_WARNING || index >= editor->warnings.count) return NULL;
-    return &editor->warnings.list[index];
+    int index = core->hover.handle;
+    if (core->hover.kind != HOVER_WARNING || index >= curves->warnings.count) return NULL;
+    return &curves->warnings.list[index];
 }
 
 static void show_marker(struct drawlist *list, const float xy[2], bool hovered)
@@ -60,35 +67,35 @@ static void show_marker(struct drawlist *list, const float xy[2], bool hovered)
     drawlist_rect(list, (struct rect){x - 0.75f, y + 0.38f * r, 1.5f, 1.5f}, theme()->panel);
 }
 
-void warnings_show(struct editor *editor)
+void warnings_show(const struct curves *curves, struct core *core)
 {
-    const struct warning *hovered = hovered_warning(editor);
-    for (int i = 0; i < editor->warnings.count; i++) {
+    const struct warning *hovered = hovered_warning(curves, core);
+    for (int i = 0; i < curves->warnings.count; i++) {
         float xy[2];
-        const struct warning *warning = &editor->warnings.list[i];
-        if (warning_place(editor, warning, xy)) show_marker(&editor->list, xy, warning == hovered);
+        const struct warning *warning = &curves->warnings.list[i];
+        if (warning_place(curves, core, warning, xy)) show_marker(&core->list, xy, warning == hovered);
     }
 }
 
-void warnings_show_words(struct editor *editor)
+void warnings_show_words(const struct curves *curves, struct core *core)
 {
     enum { PAD = 10, LINE = 18 };
-    const struct warning *warning = hovered_warning(editor);
+    const struct warning *warning = hovered_warning(curves, core);
     float xy[2];
-    if (!warning || !warning_place(editor, warning, xy)) return;
+    if (!warning || !warning_place(curves, core, warning, xy)) return;
     char what[160], remedy[96];
     put_words(warning, what, remedy);
-    const struct rect panel = editor->layout.curves;
+    const struct rect panel = core->layout.curves;
     float width =
         fmaxf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, what), font_width(FONT_LABEL, THEME_TEXT_NORMAL, remedy));
     float w = fminf(width + 2 * PAD, panel.w - 16), h = 2 * LINE + PAD;
     float x = fminf(fmaxf(xy[0] - w / 2, panel.x + 8), panel.x + panel.w - 8 - w);
     float y = xy[1] + 14 + h < panel.y + panel.h ? xy[1] + 14 : xy[1] - 14 - h;
     struct rect box = {roundf(x), roundf(y), w, h};
-    drawlist_rounded(&editor->list, box, 5, theme()->raised);
-    drawlist_rounded_line(&editor->list, box, 5, 1, theme_fade(theme()->warning, 0.6f));
-    drawlist_text_fit(&editor->list, box.x + PAD, box.y + LINE, w - 2 * PAD, FONT_LABEL, THEME_TEXT_NORMAL,
+    drawlist_rounded(&core->list, box, 5, theme()->raised);
+    drawlist_rounded_line(&core->list, box, 5, 1, theme_fade(theme()->warning, 0.6f));
+    drawlist_text_fit(&core->list, box.x + PAD, box.y + LINE, w - 2 * PAD, FONT_LABEL, THEME_TEXT_NORMAL,
                       theme()->text, what);
-    drawlist_text_fit(&editor->list, box.x + PAD, box.y + 2 * LINE, w - 2 * PAD, FONT_LABEL, THEME_TEXT_NORMAL,
+    drawlist_text_fit(&core->list, box.x + PAD, box.y + 2 * LINE, w - 2 * PAD, FONT_LABEL, THEME_TEXT_NORMAL,
                       theme()->warning, remedy);
 }

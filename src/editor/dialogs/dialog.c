@@ -1,7 +1,12 @@
 /// The dialogs: open, save as, and the questions.
 #include "editor/dialogs/dialog.h"
-#include "editor/core/state.h"
+#include "editor/core/core.h"
+#include "editor/dialogs/dialog_ask.h"
+#include "editor/dialogs/dialog_path.h"
 #include "editor/dialogs/dialog_question.h"
+#include "editor/dialogs/dialog_recover.h"
+#include "editor/dialogs/dialogs.h"
+#include "editor/dialogs/state.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
@@ -10,16 +15,16 @@
 enum { LIST_ROWS = 8, BUTTON_WIDTH = 104 };
 enum { ANSWER_SAVE, ANSWER_DISCARD, ANSWER_CANCEL };
 
-void editor_set_files(struct editor *editor, const struct dialog_files *files) { editor->dialog.files = *files; }
+void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files) { dialogs->dialog.files = *files; }
 
 static bool is_question(const struct dialog *dialog)
 {
     return dialog->kind == DIALOG_UNSAVED || dialog->kind == DIALOG_RECOVER || dialog->kind == DIALOG_ASK;
 }
 
-static void open_dialog(struct editor *editor, enum dialog_kind kind, const char *path)
+static void open_dialog(struct dialogs *dialogs, enum dialog_kind kind, const char *path)
 {
-    struct dialog *dialog = &editor->dialog;
+    struct dialog *dialog = &dialogs->dialog;
     dialog->kind = kind;
     dialog->awaited = REQUEST_NONE;
     dialog->error[0] = '\0';
@@ -34,79 +39,80 @@ static void open_dialog(struct editor *editor, enum dialog_kind kind, const char
     dialog_match(dialog);
 }
 
-void dialog_open(struct editor *editor, enum dialog_kind kind) { open_dialog(editor, kind, ""); }
+void dialog_open(struct dialogs *dialogs, enum dialog_kind kind) { open_dialog(dialogs, kind, ""); }
 
-void dialog_close(struct editor *editor)
+void dialog_close(struct dialogs *dialogs)
 {
-    struct dialog *dialog = &editor->dialog;
+    struct dialog *dialog = &dialogs->dialog;
     dialog->kind = DIALOG_NONE;
     dialog->awaited = REQUEST_NONE;
     dialog->after.kind = REQUEST_NONE;
 }
 
-void dialog_ask_open(struct editor *editor) { open_dialog(editor, DIALOG_OPEN, ""); }
+void dialog_ask_open(struct dialogs *dialogs) { open_dialog(dialogs, DIALOG_OPEN, ""); }
 
-void dialog_ask_save_as(struct editor *editor)
+void dialog_ask_save_as(struct dialogs *dialogs, const struct core *core)
 {
-    size_t length = strlen(editor->title);
-    bool named = length > 5 && strcmp(editor->title + length - 5, ".json") == 0;
-    const char *name = named ? editor->title : "untitled.json";
-    open_dialog(editor, DIALOG_SAVE_AS, editor->path[0] ? editor->path : name);
+    size_t length = strlen(core->title);
+    bool named = length > 5 && strcmp(core->title + length - 5, ".json") == 0;
+    const char *name = named ? core->title : "untitled.json";
+    open_dialog(dialogs, DIALOG_SAVE_AS, core->path[0] ? core->path : name);
 }
 
-static void go_on(struct editor *editor, const struct request *after)
+static void go_on(struct dialogs *dialogs, struct core *core, const struct request *after)
 {
     if (after->kind == REQUEST_OPEN && !after->path[0]) {
-        dialog_ask_open(editor);
+        dialog_ask_open(dialogs);
     } else if (after->kind != REQUEST_NONE) {
-        editor_request(editor, after->kind, after->path);
+        core_request(core, after->kind, after->path);
     }
 }
 
-void dialog_leave(struct editor *editor, const struct editor_world *world, const struct request *after)
+void dialog_leave(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
+                  const struct request *after)
 {
-    inspector_let_go(editor, world);
     if (history_is_saved(world->history)) {
-        go_on(editor, after);
+        go_on(dialogs, core, after);
         return;
     }
-    open_dialog(editor, DIALOG_UNSAVED, "");
-    editor->dialog.after = *after;
+    open_dialog(dialogs, DIALOG_UNSAVED, "");
+    dialogs->dialog.after = *after;
 }
 
-void dialog_await(struct editor *editor, enum request_kind kind, const char *path)
+void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path)
 {
-    editor->dialog.error[0] = '\0';
-    editor->dialog.awaited = kind;
-    editor_request(editor, kind, path);
+    dialogs->dialog.error[0] = '\0';
+    dialogs->dialog.awaited = kind;
+    core_request(core, kind, path);
 }
 
-bool dialog_answer(struct editor *editor, const struct request *request, bool ok, const char *text)
+bool dialog_answer(struct dialogs *dialogs, struct core *core, const struct request *request, bool ok,
+                   const char *text)
 {
-    struct dialog *dialog = &editor->dialog;
+    struct dialog *dialog = &dialogs->dialog;
     if (dialog->awaited == REQUEST_NONE || dialog->awaited != request->kind) return false;
     dialog->awaited = REQUEST_NONE;
     if (ok) {
         struct request after = dialog->after;
-        dialog_close(editor);
-        go_on(editor, &after);
+        dialog_close(dialogs);
+        go_on(dialogs, core, &after);
     } else {
         snprintf(dialog->error, sizeof dialog->error, "%s", text);
     }
     return true;
 }
 
-static void decide(struct editor *editor, int choice)
+static void decide(struct dialogs *dialogs, struct core *core, int choice)
 {
-    struct dialog *dialog = &editor->dialog;
+    struct dialog *dialog = &dialogs->dialog;
     struct request after = dialog->after;
-    if (choice == ANSWER_SAVE && editor->path[0]) {
-        dialog_await(editor, REQUEST_SAVE, NULL);
+    if (choice == ANSWER_SAVE && core->path[0]) {
+        dialog_await(dialogs, core, REQUEST_SAVE, NULL);
     } else if (choice == ANSWER_SAVE) {
-        dialog_ask_save_as(editor);
+        dialog_ask_save_as(dialogs, core);
     } else {
-        dialog_close(editor);
-        if (choice == ANSWER_DISCARD) go_on(editor, &after);
+        dialog_close(dialogs);
+        if (choice == ANSWER_DISCARD) go_on(dialogs, core, &after);
     }
 }
 
@@ -117,9 +123,9 @@ static bool ends_with(const char *text, const char *end)
 }
 
 /// Asks the app to open or save what is typed.
-static void confirm(struct editor *editor)
+static void confirm(struct dialogs *dialogs, struct core *core)
 {
-    struct dialog *dialog = &editor->dialog;
+    struct dialog *dialog = &dialogs->dialog;
     char path[sizeof((struct request *)0)->path];
     const char *typed = dialog->ui.text.bytes;
     bool saving = dialog->kind == DIALOG_SAVE_AS;
@@ -133,10 +139,10 @@ static void confirm(struct editor *editor)
         snprintf(dialog->error, sizeof dialog->error, "The path is too long.");
         return;
     }
-    dialog_await(editor, saving ? REQUEST_SAVE_AS : REQUEST_OPEN, path);
+    dialog_await(dialogs, core, saving ? REQUEST_SAVE_AS : REQUEST_OPEN, path);
 }
 
-static void unsaved_question(const struct editor *editor, struct question *question)
+static void unsaved_question(const struct core *core, struct question *question)
 {
     static const struct answer answers[] = {
         [ANSWER_SAVE] = {"dialog.save", "Save", 'S'},
@@ -145,45 +151,45 @@ static void unsaved_question(const struct editor *editor, struct question *quest
     };
     question->answers = answers;
     question->count = sizeof answers / sizeof answers[0];
-    snprintf(question->title, sizeof question->title, "%s has unsaved changes", editor->title);
+    snprintf(question->title, sizeof question->title, "%s has unsaved changes", core->title);
     snprintf(question->note, sizeof question->note,
              "Save them, or they will be lost. S saves, D discards, Esc cancels.");
 }
 
 /// The question that is on the screen.
-static struct question question_of(const struct editor *editor)
+static struct question question_of(const struct dialogs *dialogs, const struct core *core)
 {
     struct question question = {0};
-    if (editor->dialog.kind == DIALOG_ASK) {
-        question = editor->dialog.question;
-    } else if (editor->dialog.kind == DIALOG_UNSAVED) {
-        unsaved_question(editor, &question);
+    if (dialogs->dialog.kind == DIALOG_ASK) {
+        question = dialogs->dialog.question;
+    } else if (dialogs->dialog.kind == DIALOG_UNSAVED) {
+        unsaved_question(core, &question);
     } else {
-        dialog_recover_question(editor, &question);
+        dialog_recover_question(dialogs, &question);
     }
     return question;
 }
 
-static void answer(struct editor *editor, const struct editor_world *world, int given)
+static void answer(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int given)
 {
     if (given < 0) return;
-    if (editor->dialog.kind == DIALOG_ASK) {
-        dialog_ask_answer(editor, world, given);
-    } else if (editor->dialog.kind == DIALOG_UNSAVED) {
-        decide(editor, given);
+    if (dialogs->dialog.kind == DIALOG_ASK) {
+        dialog_ask_answer(dialogs, core, world, given);
+    } else if (dialogs->dialog.kind == DIALOG_UNSAVED) {
+        decide(dialogs, core, given);
     } else {
-        dialog_recover_answer(editor, given);
+        dialog_recover_answer(dialogs, core, given);
     }
 }
 
 /// A letter that answers brings its character along, which is no part of a path that is typed next.
-static bool question_event(struct editor *editor, const struct editor_world *world, int key)
+static bool question_event(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int key)
 {
-    struct question question = question_of(editor);
-    int given = question_key(&editor->dialog, &question, key);
+    struct question question = question_of(dialogs, core);
+    int given = question_key(&dialogs->dialog, &question, key);
     if (given == QUESTION_UNUSED) return false;
-    editor->dialog.skip_text = true;
-    answer(editor, world, given);
+    dialogs->dialog.skip_text = true;
+    answer(dialogs, core, world, given);
     return true;
 }
 
@@ -194,12 +200,12 @@ static void move_choice(struct dialog *dialog, int direction)
     dialog->choice = next < 0 ? 0 : next >= dialog->match_count ? dialog->match_count - 1 : next;
 }
 
-static bool path_key(struct editor *editor, int key)
+static bool path_key(struct dialogs *dialogs, struct core *core, int key)
 {
-    struct dialog *dialog = &editor->dialog;
+    struct dialog *dialog = &dialogs->dialog;
     switch (key) {
     case KEY_ESCAPE:
-        dialog_close(editor);
+        dialog_close(dialogs);
         return true;
     case KEY_TAB:
         dialog_complete(dialog);
@@ -212,7 +218,7 @@ static bool path_key(struct editor *editor, int key)
         return true;
     case KEY_ENTER:
         if (dialog->kind == DIALOG_OPEN && dialog->match_count == 1) dialog->choice = 0;
-        if (dialog->choice < 0 || dialog_take(dialog, dialog->choice)) confirm(editor);
+        if (dialog->choice < 0 || dialog_take(dialog, dialog->choice)) confirm(dialogs, core);
         return true;
     default:
         return false;
@@ -229,9 +235,9 @@ static bool is_confirmed(const struct dialog *dialog, struct rect list)
     return twice && rect_contains(list, event->x, event->y) && ui->text.bytes[0] && !ends_with(ui->text.bytes, "/");
 }
 
-static void build_list(struct editor *editor)
+static void build_list(struct dialogs *dialogs, struct core *core)
 {
-    struct dialog *dialog = &editor->dialog;
+    struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialog->ui;
     struct rect list = {ui->area.x, ui->y, ui->area.w, LIST_ROWS * UI_ROW};
     bool confirmed = is_confirmed(dialog, list);
@@ -243,12 +249,12 @@ static void build_list(struct editor *editor)
     if (taken >= 0) dialog->error[0] = '\0';
     bool direct = taken >= 0 && dialog_recent_of(dialog, taken); // a recent file is opened by one click
     bool done = taken >= 0 && !confirmed && dialog_take(dialog, taken);
-    if (confirmed || (done && direct)) confirm(editor);
+    if (confirmed || (done && direct)) confirm(dialogs, core);
 }
 
-static void build_path(struct editor *editor)
+static void build_path(struct dialogs *dialogs, struct core *core)
 {
-    struct dialog *dialog = &editor->dialog;
+    struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialog->ui;
     bool saving = dialog->kind == DIALOG_SAVE_AS;
     ui_label(ui, ui_row(ui, UI_ROW), saving ? "Save the scene as" : "Open a scene", theme()->text);
@@ -258,7 +264,7 @@ static void build_path(struct editor *editor)
         dialog_match(dialog);
     }
     ui_space(ui, 8);
-    if (dialog->files.list) build_list(editor);
+    if (dialog->files.list) build_list(dialogs, core);
     const char *note = saving && dialog_exists(dialog) ? "This replaces an existing file." : "";
     if (dialog->match_count > 0 && dialog_recent_of(dialog, 0))
         note = "Recent files come first. Type a path or choose one; Tab completes.";
@@ -271,44 +277,45 @@ static void build_path(struct editor *editor)
     struct rect right = {row.x + row.w - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
     struct rect left = {right.x - UI_GAP - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
     bool cancelled = ui_button(ui, left, "dialog.cancel", "Cancel", false);
-    if (ui_button(ui, right, "dialog.confirm", saving ? "Save" : "Open", true)) confirm(editor);
-    if (cancelled) dialog_close(editor);
+    if (ui_button(ui, right, "dialog.confirm", saving ? "Save" : "Open", true)) confirm(dialogs, core);
+    if (cancelled) dialog_close(dialogs);
 }
 
-static void build(struct editor *editor, const struct editor_world *world)
+static void build(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
 {
-    struct dialog *dialog = &editor->dialog;
+    struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialog->ui;
     ui_space(ui, 8);
     if (is_question(dialog)) {
-        struct question question = question_of(editor);
-        answer(editor, world, question_build(dialog, &question));
+        struct question question = question_of(dialogs, core);
+        answer(dialogs, core, world, question_build(dialog, &question));
     } else {
         ui->focus = ui_id("dialog.path"); // the path is all there is to type in
-        build_path(editor);
+        build_path(dialogs, core);
     }
     ui_space(ui, 12);
 }
 
 /// The dialog's rectangle: as high as its content, in the middle of the window.
-static struct rect dialog_box(struct editor *editor, const struct editor_world *world)
+static struct rect dialog_box(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
 {
-    struct rect window = editor->layout.window;
-    struct ui *ui = &editor->dialog.ui;
-    float w = fminf(is_question(&editor->dialog) ? 440 : 560, window.w - 48);
+    struct rect window = core->layout.window;
+    struct ui *ui = &dialogs->dialog.ui;
+    float w = fminf(is_question(&dialogs->dialog) ? 440 : 560, window.w - 48);
     ui_begin_find(ui, (struct rect){0, 0, w, window.h}, "", NULL);
-    build(editor, world);
+    build(dialogs, core, world);
     float h = fminf(ui->y, window.h - 16);
     ui_end(ui);
     return (struct rect){roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 3), w, h};
 }
 
-bool dialog_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+bool dialog_event(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
+                  const struct event *event)
 {
-    struct dialog *dialog = &editor->dialog;
+    struct dialog *dialog = &dialogs->dialog;
     if (dialog->kind == DIALOG_NONE || event->kind == EVENT_SIZE || event->kind == EVENT_EXPOSE) return false;
     if (dialog->kind == DIALOG_RECOVER && event->kind == EVENT_CLOSE && dialog->awaited == REQUEST_NONE) {
-        dialog_close(editor);
+        dialog_close(dialogs);
         return false;
     }
     bool key = event->kind == EVENT_KEY;
@@ -318,26 +325,27 @@ bool dialog_event(struct editor *editor, const struct editor_world *world, const
     if (dialog->awaited != REQUEST_NONE || typed_by_answer) return true;
     bool chord = event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER);
     if (key && !chord) {
-        bool done = is_question(dialog) ? question_event(editor, world, event->key) : path_key(editor, event->key);
+        bool done = is_question(dialog) ? question_event(dialogs, core, world, event->key)
+                                        : path_key(dialogs, core, event->key);
         if (done) return true;
     }
-    struct rect box = dialog_box(editor, world);
+    struct rect box = dialog_box(dialogs, core, world);
     ui_begin_event(&dialog->ui, box, event);
-    build(editor, world);
+    build(dialogs, core, world);
     ui_end(&dialog->ui);
     return true;
 }
 
-void dialog_show(struct editor *editor, const struct editor_world *world)
+void dialog_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
 {
-    struct dialog *dialog = &editor->dialog;
+    struct dialog *dialog = &dialogs->dialog;
     if (dialog->kind == DIALOG_NONE) return;
-    struct drawlist *list = &editor->list;
-    struct rect box = dialog_box(editor, world);
-    drawlist_rect(list, editor->layout.window, theme()->veil);
+    struct drawlist *list = &core->list;
+    struct rect box = dialog_box(dialogs, core, world);
+    drawlist_rect(list, core->layout.window, theme()->veil);
     drawlist_rounded(list, box, 8, theme()->panel);
     drawlist_rounded_line(list, box, 8, 1, theme()->zero);
     ui_begin_draw(&dialog->ui, box, list);
-    build(editor, world);
+    build(dialogs, core, world);
     ui_end(&dialog->ui);
 }

@@ -1,7 +1,10 @@
 /// Questions before an edit that touches more than what was asked for: frames per second, a smaller range, deleting a
 /// spline that others follow.
+#include "editor/dialogs/dialog_ask.h"
 #include "editor/core/arrange.h"
 #include "editor/dialogs/dialog.h"
+#include "editor/dialogs/dialogs.h"
+#include "editor/dialogs/state.h"
 #include "scene/reference.h"
 #include <stdio.h>
 
@@ -47,39 +50,22 @@ static void ask_remove(struct question *question, const struct document *documen
              "stage stop using it.");
 }
 
-void dialog_ask(struct editor *editor, const struct editor_world *world, const struct ask *ask)
+void dialog_ask(struct dialogs *dialogs, const struct core *core, const struct editor_world *world,
+                const struct ask *ask)
 {
-    struct question *question = &editor->dialog.question;
+    struct question *question = &dialogs->dialog.question;
     *question = (struct question){0};
-    editor->dialog.ask = *ask;
+    dialogs->dialog.ask = *ask;
     if (ask->kind == ASK_FPS) ask_fps(question, world->document, ask);
     if (ask->kind == ASK_RANGE) ask_range(question, world->document, ask);
-    if (ask->kind == ASK_REMOVE) ask_remove(question, world->document, editor->active);
-    inspector_let_go(editor, world);
-    dialog_open(editor, DIALOG_ASK);
+    if (ask->kind == ASK_REMOVE) ask_remove(question, world->document, core->active);
+    dialog_open(dialogs, DIALOG_ASK);
 }
 
-void dialog_ask_answer(struct editor *editor, const struct editor_world *world, int answer)
+void dialog_ask_answer(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int answer)
 {
-    const struct ask ask = editor->dialog.ask;
-    bool cancelled = answer == editor->dialog.question.count - 1;
-    dialog_close(editor);
-    if (cancelled) return;
-    struct edit edit = editor_edit_of(ask.kind == ASK_FPS ? EDIT_FPS : EDIT_RANGE, -1);
-    switch (ask.kind) {
-    case ASK_FPS:
-        edit.number = ask.number;
-        edit.flag = answer == 1;
-        editor_step(editor, world, "Set frames per second", 0, &edit);
-        break;
-    case ASK_RANGE:
-        edit.first = ask.first;
-        edit.last = ask.last;
-        edit.fit = answer == 0 ? RANGE_MOVE : RANGE_TRIM;
-        editor_step(editor, world, "Set range", 0, &edit);
-        break;
-    case ASK_REMOVE:
-        arrange_remove_now(editor, world);
-        break;
-    }
+    const struct ask ask = dialogs->dialog.ask;
+    bool cancelled = answer == dialogs->dialog.question.count - 1;
+    dialog_close(dialogs);
+    if (!cancelled) arrange_answer(core, world, &ask, answer);
 }

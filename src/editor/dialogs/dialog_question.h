@@ -2,7 +2,7 @@
 #ifndef EDITOR_DIALOGS_DIALOG_QUESTION_H
 #define EDITOR_DIALOGS_DIALOG_QUESTION_H
 
-#include "editor/core/panels.h"
+#include "editor/dialogs/state.h"
 
 enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
 

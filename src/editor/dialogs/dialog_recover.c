@@ -1,6 +1,8 @@
 /// What to do with unsaved work that an earlier run left behind: recover it, discard it, or decide later.
-#include "editor/core/state.h"
+#include "editor/dialogs/dialog_recover.h"
 #include "editor/dialogs/dialog.h"
+#include "editor/dialogs/dialogs.h"
+#include "editor/dialogs/state.h"
 #include <stdio.h>
 
 static const struct answer answers[] = {
@@ -9,15 +11,15 @@ static const struct answer answers[] = {
     [RECOVER_LATER] = {"dialog.later", "Later", 'L'},
 };
 
-void editor_offer_recovery(struct editor *editor, const struct recovery_offer *offer)
+void dialog_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer)
 {
-    editor->dialog.offer = *offer;
-    dialog_open(editor, DIALOG_RECOVER);
+    dialogs->dialog.offer = *offer;
+    dialog_open(dialogs, DIALOG_RECOVER);
 }
 
-void dialog_recover_question(const struct editor *editor, struct question *question)
+void dialog_recover_question(const struct dialogs *dialogs, struct question *question)
 {
-    const struct recovery_offer *offer = &editor->dialog.offer;
+    const struct recovery_offer *offer = &dialogs->dialog.offer;
     char others[64] = "";
     if (offer->others > 0) {
         snprintf(others, sizeof others, "  %d older one%s after this.", offer->others, offer->others > 1 ? "s" : "");
@@ -29,11 +31,11 @@ void dialog_recover_question(const struct editor *editor, struct question *quest
              offer->when, others);
 }
 
-void dialog_recover_answer(struct editor *editor, int answer)
+void dialog_recover_answer(struct dialogs *dialogs, struct core *core, int answer)
 {
     if (answer == RECOVER_LATER) {
-        dialog_close(editor);
+        dialog_close(dialogs);
     } else {
-        dialog_await(editor, answer == RECOVER_RECOVER ? REQUEST_RECOVER : REQUEST_FORGET, NULL);
+        dialog_await(dialogs, core, answer == RECOVER_RECOVER ? REQUEST_RECOVER : REQUEST_FORGET, NULL);
     }
 }

@@ -1,7 +1,9 @@
 /// The overlay with all keys (F1): as many columns as the window has room for, rows closer together where it is low, and
 /// scrolled where that is not enough.
-#include "editor/core/state.h"
+#include "editor/dialogs/help.h"
+#include "editor/dialogs/dialogs.h"
 #include "editor/dialogs/help_rows.h"
+#include "editor/dialogs/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -117,16 +119,16 @@ static float scroll_of(const struct event *event, const struct page *page)
     }
 }
 
-bool help_event(struct editor *editor, const struct event *event)
+bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event, bool busy)
 {
     bool press = (event->kind == EVENT_KEY || event->kind == EVENT_BUTTON) && event->action == ACTION_PRESS;
-    struct help *help = &editor->help;
+    struct help *help = &dialogs->help;
     if (!help->open) {
         bool opens = press && event->kind == EVENT_KEY && event->key == KEY_F1;
-        if (opens && !inspector_is_dragging(editor)) *help = (struct help){.open = true};
+        if (opens && !busy) *help = (struct help){.open = true};
         return opens;
     }
-    const struct page page = page_of(editor->layout.window);
+    const struct page page = page_of(core->layout.window);
     float by = scroll_of(event, &page);
     if (by != 0) {
         help->offset = scrolled(&page, help->offset + by);
@@ -206,13 +208,13 @@ static void show_bar(struct drawlist *list, const struct page *page, float offse
     drawlist_rounded(list, (struct rect){page->box.x + page->box.w - 8, y, 4, length}, 2, theme()->control);
 }
 
-void help_show(struct editor *editor)
+void help_show(const struct dialogs *dialogs, struct core *core)
 {
-    if (!editor->help.open) return;
-    struct drawlist *list = &editor->list;
-    const struct page page = page_of(editor->layout.window);
-    const float offset = scrolled(&page, editor->help.offset);
-    drawlist_rect(list, editor->layout.window, theme()->veil);
+    if (!dialogs->help.open) return;
+    struct drawlist *list = &core->list;
+    const struct page page = page_of(core->layout.window);
+    const float offset = scrolled(&page, dialogs->help.offset);
+    drawlist_rect(list, core->layout.window, theme()->veil);
     drawlist_rounded(list, page.box, 8, theme()->panel);
     drawlist_rounded_line(list, page.box, 8, 1, theme()->zero);
     show_title(list, &page);

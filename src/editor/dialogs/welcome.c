@@ -1,5 +1,7 @@
 /// What to try first: a card on the stage that goes away with the first edit, the first look at the help, Esc, or a click.
-#include "editor/core/state.h"
+#include "editor/dialogs/welcome.h"
+#include "editor/dialogs/dialogs.h"
+#include "editor/dialogs/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -18,9 +20,9 @@ enum { HINTS = sizeof hints / sizeof hints[0] };
 
 static const char closing[] = "Got it", more[] = "F1 shows all keys";
 
-void editor_welcome(struct editor *editor) { editor->welcome = true; }
+void welcome_open(struct dialogs *dialogs) { dialogs->welcome = true; }
 
-bool editor_is_welcoming(const struct editor *editor) { return editor->welcome; }
+bool welcome_is_open(const struct dialogs *dialogs) { return dialogs->welcome; }
 
 static float width_of(enum font font, const char *text) { return font_width(font, THEME_TEXT_NORMAL, text); }
 
@@ -32,9 +34,9 @@ static float what_width(void)
     return ceilf(width) + GAP;
 }
 
-struct rect welcome_card(const struct editor *editor)
+struct rect welcome_card(const struct core *core)
 {
-    const struct rect *stage = &editor->layout.stage;
+    const struct rect *stage = &core->layout.stage;
     float why = width_of(FONT_LABEL, more) + GAP + width_of(FONT_LABEL_BOLD, closing) - what_width();
     for (int i = 0; i < HINTS; i++) why = fmaxf(why, width_of(FONT_LABEL, hints[i].why));
     const float height = 2 * PAD + (HINTS + 1) * LINE + 2;
@@ -42,36 +44,36 @@ struct rect welcome_card(const struct editor *editor)
                          2 * PAD + what_width() + ceilf(why), height};
 }
 
-bool welcome_event(struct editor *editor, const struct event *event)
+bool welcome_event(struct dialogs *dialogs, const struct core *core, const struct event *event)
 {
-    if (!editor->welcome || event->action != ACTION_PRESS) return false;
+    if (!dialogs->welcome || event->action != ACTION_PRESS) return false;
     bool escape = event->kind == EVENT_KEY && event->key == KEY_ESCAPE;
-    bool click = event->kind == EVENT_BUTTON && rect_contains(welcome_card(editor), event->x, event->y);
-    if (escape || click) editor->welcome = false;
+    bool click = event->kind == EVENT_BUTTON && rect_contains(welcome_card(core), event->x, event->y);
+    if (escape || click) dialogs->welcome = false;
     return escape || click;
 }
 
-static void show_text(struct editor *editor, float x, float y, enum font font, uint32_t color, const char *text)
+static void show_text(struct core *core, float x, float y, enum font font, uint32_t color, const char *text)
 {
-    drawlist_text(&editor->list, x, y, font, THEME_TEXT_NORMAL, color, text);
+    drawlist_text(&core->list, x, y, font, THEME_TEXT_NORMAL, color, text);
 }
 
-void welcome_show(struct editor *editor, const struct editor_world *world)
+void welcome_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
 {
-    if (!history_is_saved(world->history) || editor->help.open) editor->welcome = false;
-    if (!editor->welcome) return;
-    struct drawlist *list = &editor->list;
-    struct rect card = welcome_card(editor), clip = drawlist_push_clip(list, editor->layout.stage);
+    if (!history_is_saved(world->history) || dialogs->help.open) dialogs->welcome = false;
+    if (!dialogs->welcome) return;
+    struct drawlist *list = &core->list;
+    struct rect card = welcome_card(core), clip = drawlist_push_clip(list, core->layout.stage);
     drawlist_rounded(list, card, 8, theme()->panel);
     drawlist_rounded_line(list, card, 8, 1, theme()->zero);
     float left = card.x + PAD, y = card.y + PAD + 12;
     for (int i = 0; i < HINTS; i++, y += LINE) {
-        show_text(editor, left, y, FONT_LABEL_BOLD, theme()->text, hints[i].what);
-        show_text(editor, left + what_width(), y, FONT_LABEL, theme()->text_dim, hints[i].why);
+        show_text(core, left, y, FONT_LABEL_BOLD, theme()->text, hints[i].what);
+        show_text(core, left + what_width(), y, FONT_LABEL, theme()->text_dim, hints[i].why);
     }
     y += 4;
-    show_text(editor, left, y, FONT_LABEL, theme()->text_dim, more);
+    show_text(core, left, y, FONT_LABEL, theme()->text_dim, more);
     float right = card.x + card.w - PAD - width_of(FONT_LABEL_BOLD, closing);
-    show_text(editor, right, y, FONT_LABEL_BOLD, theme()->accent, closing);
+    show_text(core, right, y, FONT_LABEL_BOLD, theme()->accent, closing);
     drawlist_set_clip(list, clip);
 }

@@ -1,62 +1,42 @@
-/// What the inspector's sections share. Private to inspector*.c.
+/// The door of the inspector: what the editor asks of it.
 #ifndef EDITOR_INSPECTOR_INSPECTOR_H
 #define EDITOR_INSPECTOR_INSPECTOR_H
 
 #include "editor/core/state.h"
-#include "ui/theme.h"
+#include "ui/widgets.h"
 
-/// One run through the inspector's code: an event, a frame, or a search.
-struct inspection {
-    struct editor *editor;
-    const struct editor_world *world;
-    struct document *document;
-    struct ui *ui;
-};
+struct inspector;
 
-/// A number's limits where there are none.
-#define INSPECTOR_NO_LIMIT 1e300
-
-/// The sections; inspector.c has the table. Each builds what is below its header.
-void inspector_scene(struct inspection *in);
-void inspector_splines(struct inspection *in);
-void inspector_spline(struct inspection *in);
-void inspector_poles(struct inspection *in);
-void inspector_knot(struct inspection *in);
-void inspector_tail(struct inspection *in);
-void inspector_character(struct inspection *in);
-void inspector_history(struct inspection *in);
-
-/// The rows on the brush, below "Character".
-void inspector_brush(struct inspection *in);
-
-/// The fields of several selected knots, below "Knot".
-void inspector_knots(struct inspection *in);
-
-/// What opens over the panel, built after all else: the palette of the list of splines, the list of splines to follow.
-void inspector_palette(struct inspection *in);
-void inspector_follow_list(struct inspection *in);
-/// The list of splines that may bend a tail, and the one that its body may follow.
-void inspector_tail_lists(struct inspection *in);
-
-/// A row in which a parameter follows a spline, in place of its slider; and the button at its right that lets it follow one
-/// or lets go.
-void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r);
-void inspector_follow_button(struct inspection *in, enum parameter parameter, struct rect r);
-/// The lists that open over the section on a character; built after all else in the panel.
-void inspector_character_lists(struct inspection *in);
-
-/// While a drag runs: the document as it was at the press, until inspector_change() makes the edit anew.
-void inspector_take_back(struct inspection *in, enum ui_change change);
-
-/// What a number's change means for the history: a drag is one step, made anew at each movement; a run of nudges of `what`
-/// (the number's name, of the active spline) is one; Esc takes the drag back. `edit` says the document's new state.
-void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
-                      const struct edit *edit);
-/// The same for edits that belong together.
-void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
-                          const struct edit *edits, int count);
-
-/// A row with a label; returns what is right of it.
-struct rect inspector_labelled(struct inspection *in, const char *label);
+/// NULL where memory is short.
+struct inspector *inspector_create(void);
+/// NULL is fine.
+void inspector_destroy(struct inspector *inspector);
+/// F2: the active spline's name can be typed.
+void inspector_rename(struct inspector *inspector, const struct core *core, const struct editor_world *world);
+/// Opens the section of that name ("section.poles").
+void inspector_unfold(struct inspector *inspector, const char *name);
+/// Shows a channel of a tail under "Tail".
+void inspector_show_channel(struct inspector *inspector, int tail, int channel);
+/// What the pointer is over.
+enum ui_over inspector_over(const struct inspector *inspector);
+/// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.
+void inspector_reset(struct inspector *inspector);
+/// An event for the inspector; true where it used it up.
+bool inspector_event(struct inspector *inspector, struct core *core, const struct editor_world *world,
+                     const struct event *event);
+/// Draws it; `covered`: something lies over the panels.
+void inspector_show(struct inspector *inspector, struct core *core, const struct editor_world *world, bool covered);
+/// Ends a running drag where it is, and drops focus and typing: something opens over the panel, or the document goes.
+void inspector_let_go(struct inspector *inspector, const struct editor_world *world);
+/// Whether a slider is being dragged (a history step is open).
+bool inspector_is_dragging(const struct inspector *inspector);
+/// Whether a value is being typed.
+bool inspector_is_typing(const struct inspector *inspector);
+/// A sentence on what the pointer is over in the inspector, or NULL.
+const char *inspector_hint(const struct inspector *inspector);
+/// Where the widget `name` is: "frequency", "frequency,2.5" (where its bar shows 2.5), "mode.real", "spline.sway",
+/// "channel.0", "look.stiff", "section.knot". false where it is not shown or scrolled out of sight.
+bool inspector_target(struct inspector *inspector, struct core *core, const struct editor_world *world,
+                      const char *name, float *x, float *y);
 
 #endif

@@ -1,6 +1,9 @@
 /// Angles in the inspector: one for all joints as a slider; one for each as a slider that scales them, the first and the last
 /// to fill in between, and a list to type.
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector_tail.h"
+#include "editor/inspector/state.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,9 +44,9 @@ static void scale_angles(struct angles *angles, int joints, double value)
 /// The edit that replaces the angles of a row.
 static struct edit angles_edit(const struct inspection *in, const struct angle_row *row, const struct angles *angles)
 {
-    struct edit edit = editor_edit_of(EDIT_ANGLES, 0);
-    edit.rig = document_find_rig(in->document, RIG_TAIL, in->editor->inspector.tail);
-    edit.channel = row->kind == ANGLE_REST ? -1 : in->editor->inspector.channel;
+    struct edit edit = core_edit_of(EDIT_ANGLES, 0);
+    edit.rig = document_find_rig(in->document, RIG_TAIL, in->inspector->tail);
+    edit.channel = row->kind == ANGLE_REST ? -1 : in->inspector->channel;
     edit.angle = row->kind;
     edit.angles = angles;
     return edit;
@@ -161,17 +164,17 @@ static void build_list(struct inspection *in, const struct angle_row *row, const
     struct angles next = {.each = true};
     if (parse_list(in->ui->text.bytes, next.value, joints)) {
         struct edit edit = angles_edit(in, row, &next);
-        editor_step(in->editor, in->world, row->undo, 0, &edit);
+        core_step(in->core, in->world, row->undo, 0, &edit);
         return;
     }
     snprintf(text, sizeof text, "%s: expected %d numbers, one per joint.", row->name, joints);
-    editor_message(in->editor, true, text);
+    core_message(in->core, true, text);
 }
 
 void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
 {
     struct ui *ui = in->ui;
-    int joints = document_tail(in->document, in->editor->inspector.tail)->joints;
+    int joints = document_tail(in->document, in->inspector->tail)->joints;
     struct rect r = ui_row(ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y + 2, SWITCH, r.h - 4};
     char name[32];
     build_slider(in, row, angles, joints, (struct rect){r.x, r.y, r.w - SWITCH - 4, r.h});
@@ -180,7 +183,7 @@ void inspector_angles(struct inspection *in, const struct angle_row *row, const 
     if (ui_button(ui, right, name, angles->each ? "n" : "1", false)) {
         struct angles next = converted(angles, row->kind, joints);
         struct edit edit = angles_edit(in, row, &next);
-        editor_step(in->editor, in->world, row->undo, 0, &edit);
+        core_step(in->core, in->world, row->undo, 0, &edit);
         return;
     }
     if (!angles->each) return;

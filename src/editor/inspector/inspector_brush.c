@@ -1,12 +1,12 @@
 /// The inspector's rows on the brush that paints phase and amplitude onto a character.
-#include "editor/inspector/inspector.h"
-#include "editor/stage/brush.h"
+#include "editor/core/characters.h"
+#include "editor/inspector/inspection.h"
 
 /// Modes of one kind side by side; none is marked where the brush is set to another kind.
 static void build_modes(struct inspection *in, const char *name, const char *hint, enum brush_mode first,
                         const struct ui_choice *choices, int count)
 {
-    struct brush *brush = &in->editor->brush;
+    struct brush *brush = &in->core->brush;
     const struct rect r = ui_row(in->ui, UI_ROW);
     const int chosen = (int)brush->mode - (int)first;
     int index = chosen >= 0 && chosen < count ? chosen : -1;
@@ -39,12 +39,12 @@ void inspector_brush(struct inspection *in)
     static const struct ui_choice amplitude[] = {
         {"more", "Swing more"}, {"less", "Swing less"}, {"smooth", "Smooth"}};
     static const struct ui_choice erase[] = {{"all", "Erase"}};
-    struct brush *brush = &in->editor->brush;
+    struct brush *brush = &in->core->brush;
     struct rect r = inspector_labelled(in, "paint");
     int on = brush->on;
     if (ui_hovered(in->ui, r)) in->ui->hint = "Paint phase and amplitude onto the character (K)";
-    if (ui_segments(in->ui, r, "paint", switches, 2, &on)) brush_set(in->editor, in->world, on);
-    const struct character_rig *rig = characters_selected(in->editor, in->world);
+    if (ui_segments(in->ui, r, "paint", switches, 2, &on)) brush_set(in->core, in->world, on);
+    const struct character_rig *rig = characters_selected(in->core, in->world);
     if (brush->on) {
         build_modes(in, "phase", "Move earlier, later, or blend with the surroundings", BRUSH_ADVANCE, phase, 3);
         build_modes(in, "swing", "Swing more, less, or blend with the surroundings", BRUSH_MORE, amplitude, 3);
@@ -56,5 +56,5 @@ void inspector_brush(struct inspection *in)
     }
     if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
     if (ui_button(in->ui, ui_row(in->ui, UI_ROW), "paint.clean", "Remove all paint", false))
-        brush_clean(in->editor, in->world);
+        brush_clean(in->core, in->world);
 }

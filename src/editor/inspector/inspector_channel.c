@@ -1,6 +1,9 @@
 /// The channels of a tail: which splines bend it, how, and how much.
 #include "editor/core/arrange.h"
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector_tail.h"
+#include "editor/inspector/state.h"
 #include <stdio.h>
 
 enum { ICON = 24, MAX_SPLINES = 256 };
@@ -9,9 +12,9 @@ static const char feed_list[] = "feed";
 
 static struct edit channel_edit(const struct inspection *in, enum edit_kind kind)
 {
-    struct edit edit = editor_edit_of(kind, in->editor->active);
-    edit.rig = document_find_rig(in->document, RIG_TAIL, in->editor->inspector.tail);
-    edit.channel = in->editor->inspector.channel;
+    struct edit edit = core_edit_of(kind, in->core->active);
+    edit.rig = document_find_rig(in->document, RIG_TAIL, in->inspector->tail);
+    edit.channel = in->inspector->channel;
     return edit;
 }
 
@@ -27,8 +30,8 @@ static void build_list(struct inspection *in, const struct tail *tail)
         struct rect r = ui_row(ui, UI_ROW);
         if (ui_hovered(ui, r)) ui->hint = "One of the splines that bend this tail";
         uint32_t color = arrange_color(in->document, channel->spline);
-        if (ui_list_row(ui, r, name, text, color, c == in->editor->inspector.channel)) {
-            in->editor->inspector.channel = c;
+        if (ui_list_row(ui, r, name, text, color, c == in->inspector->channel)) {
+            in->inspector->channel = c;
         }
     }
 }
@@ -38,8 +41,8 @@ static void build_buttons(struct inspection *in, const struct tail *tail)
     struct rect r = inspector_labelled(in, "channel"), icon = {r.x - 2, r.y, ICON, r.h};
     if (ui_icon_button(in->ui, icon, "channel.add", UI_ICON_ADD, false, "Bend this tail by the active spline too")) {
         struct edit edit = channel_edit(in, EDIT_CHANNEL_ADD);
-        if (editor_step(in->editor, in->world, "Add channel", 0, &edit)) {
-            in->editor->inspector.channel = in->document->rigs[edit.rig].tail.channel_count - 1;
+        if (core_step(in->core, in->world, "Add channel", 0, &edit)) {
+            in->inspector->channel = in->document->rigs[edit.rig].tail.channel_count - 1;
         }
         return;
     }
@@ -47,7 +50,7 @@ static void build_buttons(struct inspection *in, const struct tail *tail)
     if (tail->channel_count == 0) return;
     if (ui_icon_button(in->ui, icon, "channel.delete", UI_ICON_DELETE, false, "Delete this channel")) {
         struct edit edit = channel_edit(in, EDIT_CHANNEL_REMOVE);
-        editor_step(in->editor, in->world, "Delete channel", 0, &edit);
+        core_step(in->core, in->world, "Delete channel", 0, &edit);
     }
 }
 
@@ -61,20 +64,20 @@ static void build_choices(struct inspection *in, const struct channel *channel)
     if (ui_segments(ui, inspector_labelled(in, "axis"), "axis", axes, 2, &axis)) {
         struct edit edit = channel_edit(in, EDIT_AXIS);
         edit.axis = (enum axis)axis;
-        editor_step(in->editor, in->world, "Set axis", 0, &edit);
+        core_step(in->core, in->world, "Set axis", 0, &edit);
     }
     struct rect r = inspector_labelled(in, "bends by");
     if (ui_hovered(ui, r)) ui->hint = "Total, or displacement only: use that for a tail on a moving base";
     if (ui_segments(ui, r, "part", parts, 2, &part)) {
         struct edit edit = channel_edit(in, EDIT_PART);
         edit.of = (enum channel_part)part;
-        editor_step(in->editor, in->world, "Set what bends", 0, &edit);
+        core_step(in->core, in->world, "Set what bends", 0, &edit);
     }
 }
 
 void inspector_feed_list(struct inspection *in)
 {
-    const struct inspector *inspector = &in->editor->inspector;
+    const struct inspector *inspector = in->inspector;
     const struct tail *tail = document_tail(in->document, inspector->tail);
     if (!ui_popup_is_open(in->ui, feed_list) || !tail) return;
     struct ui_item items[MAX_SPLINES];
@@ -88,12 +91,12 @@ void inspector_feed_list(struct inspection *in)
     if (picked < 0) return;
     struct edit edit = channel_edit(in, EDIT_FEED);
     edit.spline = picked;
-    editor_step(in->editor, in->world, "Set channel's spline", 0, &edit);
+    core_step(in->core, in->world, "Set channel's spline", 0, &edit);
 }
 
 void inspector_channels(struct inspection *in, const struct tail *tail)
 {
-    const struct inspector *inspector = &in->editor->inspector;
+    const struct inspector *inspector = in->inspector;
     build_list(in, tail);
     ui_space(in->ui, 4);
     if (inspector->channel >= tail->channel_count) return;
@@ -103,7 +106,7 @@ void inspector_channels(struct inspection *in, const struct tail *tail)
 
 void inspector_channel(struct inspection *in, const struct tail *tail)
 {
-    const struct inspector *inspector = &in->editor->inspector;
+    const struct inspector *inspector = in->inspector;
     build_buttons(in, tail);
     tail = document_tail(in->document, inspector->tail); // a button may have made another list of channels
     if (inspector->channel >= tail->channel_count) return;

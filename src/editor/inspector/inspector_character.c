@@ -1,7 +1,8 @@
 /// The inspector's section on a soft character: what moves each of its coordinates, and how it is looked at.
-#include "editor/core/actions.h"
 #include "editor/core/arrange.h"
-#include "editor/inspector/inspector.h"
+#include "editor/core/characters.h"
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
 #include "rig/cast.h"
 #include <stdio.h>
 #include <string.h>
@@ -12,9 +13,9 @@ static const char spline_list[] = "drive.splines", add_list[] = "drive.add";
 
 static struct edit drive_edit(const struct inspection *in, enum edit_kind kind, const struct drive *drive)
 {
-    struct edit edit = editor_edit_of(kind, 0);
-    edit.rig = document_find_rig(in->document, RIG_CHARACTER, in->editor->characters.character);
-    edit.channel = in->editor->characters.drive;
+    struct edit edit = core_edit_of(kind, 0);
+    edit.rig = document_find_rig(in->document, RIG_CHARACTER, in->core->characters.character);
+    edit.channel = in->core->characters.drive;
     edit.drive = *drive;
     return edit;
 }
@@ -26,7 +27,7 @@ static void build_characters(struct inspection *in)
     int r = document_count_rigs(document, RIG_CHARACTER) > 1 ? document_next_rig(document, RIG_CHARACTER, 0) : -1;
     for (int c = 0; r >= 0; c++, r = document_next_rig(document, RIG_CHARACTER, r + 1)) {
         const struct rig *rig = &document->rigs[r];
-        struct character_view *view = &in->editor->characters;
+        struct character_view *view = &in->core->characters;
         char name[32];
         snprintf(name, sizeof name, "character.%d", c);
         const char *text = rig->name ? rig->name : rig->character.model;
@@ -50,12 +51,11 @@ static void build_drives(struct inspection *in, const struct character_rig *rig)
         r.w -= r.h + 4;
         if (ui_hovered(ui, r)) ui->hint = "One of the ways this character swings";
         const uint32_t color = arrange_color(in->document, drive->spline);
-        if (ui_list_row(ui, r, name, text, color, k == in->editor->characters.drive))
-            in->editor->characters.drive = k;
+        if (ui_list_row(ui, r, name, text, color, k == in->core->characters.drive)) in->core->characters.drive = k;
         if (ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this coordinate")) {
             struct edit edit = drive_edit(in, EDIT_DRIVE_REMOVE, drive);
             edit.channel = k;
-            editor_step(in->editor, in->world, "Remove coordinate", 0, &edit);
+            core_step(in->core, in->world, "Remove coordinate", 0, &edit);
             return;
         }
     }
@@ -115,7 +115,7 @@ static bool is_driven(const struct character_rig *rig, const char *name)
 static int free_coordinates(const struct inspection *in, const struct character_rig *rig,
                             struct ui_item items[MAX_ITEMS])
 {
-    const struct figure *figure = cast_figure(in->world->cast, in->editor->characters.character);
+    const struct figure *figure = cast_figure(in->world->cast, in->core->characters.character);
     int count = 0;
     if (!figure || rig->drive_count == CHARACTER_MAX_DRIVES) return 0;
     for (int k = 0; k < figure->character.coordinate_count && count < MAX_ITEMS; k++) {
@@ -130,7 +130,7 @@ static void build_looks(struct inspection *in)
 {
     static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
     static const struct ui_choice pairs[] = {{"off", "Off"}, {"on", "Beside it"}};
-    struct character_view *view = &in->editor->characters;
+    struct character_view *view = &in->core->characters;
     struct rect r = inspector_labelled(in, "phases");
     int map = view->mapped ? 1 + view->axis : 0, pair = view->compare;
     if (ui_hovered(in->ui, r)) in->ui->hint = "Colour each point by its phase along x, y or z";
@@ -142,14 +142,14 @@ static void build_looks(struct inspection *in)
     if (ui_hovered(in->ui, r)) in->ui->hint = "Show the character with real parts only: every point moves in step";
     if (ui_segments(in->ui, r, "twin", pairs, 2, &pair)) {
         view->compare = pair;
-        stage_fit(in->editor, in->world);
+        in->core->refit_stage = true;
     }
 }
 
 /// What the analysis found out about the selected coordinate.
 static void build_facts(struct inspection *in)
 {
-    const struct coordinate *c = characters_coordinate(in->editor, in->world);
+    const struct coordinate *c = characters_coordinate(in->core, in->world);
     char text[160];
     if (!c) {
         ui_paragraph(in->ui, "The model lacks this coordinate.", theme()->text_dim);
@@ -163,7 +163,7 @@ static void build_facts(struct inspection *in)
 
 void inspector_character(struct inspection *in)
 {
-    struct character_view *view = &in->editor->characters;
+    struct character_view *view = &in->core->characters;
     if (!document_character(in->document, view->character)) view->character = 0;
     const struct character_rig *rig = document_character(in->document, view->character);
     struct ui_item items[MAX_ITEMS];
@@ -195,12 +195,12 @@ static void spline_popup(struct inspection *in, const struct drive *drive)
     next.spline = ui_popup_list(in->ui, spline_list, items, count, drive->spline);
     if (next.spline < 0) return;
     struct edit edit = drive_edit(in, EDIT_DRIVE, &next);
-    editor_step(in->editor, in->world, "Set spline", 0, &edit);
+    core_step(in->core, in->world, "Set spline", 0, &edit);
 }
 
 void inspector_character_lists(struct inspection *in)
 {
-    const struct character_view *view = &in->editor->characters;
+    const struct character_view *view = &in->core->characters;
     const struct character_rig *rig = document_character(in->document, view->character);
     if (!rig) return;
     if (ui_popup_is_open(in->ui, spline_list) && view->drive < rig->drive_count) {
@@ -209,10 +209,10 @@ void inspector_character_lists(struct inspection *in)
         struct ui_item items[MAX_ITEMS];
         const int picked = ui_popup_list(in->ui, add_list, items, free_coordinates(in, rig, items), -1);
         if (picked < 0) return;
-        const int spline = in->editor->active >= 0 ? in->editor->active : 0;
+        const int spline = in->core->active >= 0 ? in->core->active : 0;
         const struct drive drive = {
             .name = items[picked].name, .spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
         struct edit edit = drive_edit(in, EDIT_DRIVE_ADD, &drive);
-        editor_step(in->editor, in->world, "Add coordinate", 0, &edit);
+        core_step(in->core, in->world, "Add coordinate", 0, &edit);
     }
 }

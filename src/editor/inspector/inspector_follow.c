@@ -1,6 +1,7 @@
 /// Parameters that follow another spline: the row that says so, and the list to choose from.
 #include "editor/core/arrange.h"
-#include "editor/inspector/inspector.h"
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
 #include "scene/order.h"
 #include <stdio.h>
 
@@ -13,7 +14,7 @@ static int find_leaders(const struct inspection *in, int leaders[MAX_LEADERS])
 {
     bool followers[MAX_LEADERS];
     int count = in->document->spline_count < MAX_LEADERS ? in->document->spline_count : MAX_LEADERS, found = 0;
-    scene_followers(in->document, in->editor->active, followers, count);
+    scene_followers(in->document, in->core->active, followers, count);
     for (int s = 0; s < count; s++) {
         if (!followers[s]) leaders[found++] = s;
     }
@@ -22,11 +23,11 @@ static int find_leaders(const struct inspection *in, int leaders[MAX_LEADERS])
 
 static void follow(struct inspection *in, enum parameter parameter, struct param param)
 {
-    struct edit edit = editor_edit_of(EDIT_PARAMETER, in->editor->active);
+    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
     edit.parameter = parameter;
     edit.param = param;
     const char *label = param.track >= 0 ? "Follow spline" : "Stop following";
-    editor_step(in->editor, in->world, label, 0, &edit);
+    core_step(in->core, in->world, label, 0, &edit);
 }
 
 static void open_list(struct inspection *in, enum parameter parameter, struct rect r)
@@ -38,13 +39,13 @@ static void open_list(struct inspection *in, enum parameter parameter, struct re
     }
     char text[160];
     snprintf(text, sizeof text, "There is no other spline for %.80s to follow.",
-             in->document->splines[in->editor->active].name);
-    editor_message(in->editor, true, text);
+             in->document->splines[in->core->active].name);
+    core_message(in->core, true, text);
 }
 
 void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r)
 {
-    const struct spline *spline = &in->document->splines[in->editor->active];
+    const struct spline *spline = &in->document->splines[in->core->active];
     int track = spline->parameter[parameter].track;
     char text[160];
     ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
@@ -56,7 +57,7 @@ void inspector_track(struct inspection *in, enum parameter parameter, const char
 
 void inspector_follow_button(struct inspection *in, enum parameter parameter, struct rect r)
 {
-    int active = in->editor->active;
+    int active = in->core->active;
     bool follows = in->document->splines[active].parameter[parameter].track >= 0;
     enum ui_icon icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW;
     const char *hint = follows ? "Stop following; keep the value at the playhead" : "Follow another spline";
@@ -64,7 +65,7 @@ void inspector_follow_button(struct inspection *in, enum parameter parameter, st
     snprintf(name, sizeof name, "follow.%s", parameter_rows[parameter].name);
     if (!ui_icon_button(in->ui, r, name, icon, false, hint)) return;
     if (follows) {
-        double value = arrange_present(in->editor, in->world, active, parameter);
+        double value = arrange_present(in->core, in->world, active, parameter);
         follow(in, parameter, (struct param){value, -1});
     } else {
         struct rect row = {in->ui->area.x + UI_PAD + UI_LABEL + UI_GAP, r.y, 0, r.h};
@@ -76,7 +77,7 @@ void inspector_follow_button(struct inspection *in, enum parameter parameter, st
 void inspector_follow_list(struct inspection *in)
 {
     struct ui *ui = in->ui;
-    const struct spline *spline = editor_active_spline(in->editor, in->world);
+    const struct spline *spline = core_active_spline(in->core, in->world);
     if (!ui_popup_is_open(ui, follow_list) || !spline) return;
     int leaders[MAX_LEADERS], count = find_leaders(in, leaders), chosen = -1;
     enum parameter parameter = (enum parameter)ui->popup.which;

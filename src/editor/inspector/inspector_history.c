@@ -1,7 +1,9 @@
 /// The inspector's section on the history: its steps, the present one marked; a click goes to where a step ended.
 ///
 /// It has to be the last section: going to a step changes the document under what is laid out after it.
-#include "editor/inspector/inspector.h"
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
+#include "editor/inspector/state.h"
 #include "ui/theme.h"
 #include <stdio.h>
 
@@ -40,14 +42,14 @@ static void go_to(struct inspection *in, size_t row)
     char name[32];
     name_of(row, name);
     if (in->ui->focus) in->ui->focus = ui_id(name);
-    editor_jump(in->editor, in->world, row);
+    core_jump(in->core, in->world, row);
 }
 
 /// The wheel scrolls the list where it is longer than what is shown.
 static void scroll(struct inspection *in, struct rect list)
 {
     struct ui *ui = in->ui;
-    struct history_view *view = &in->editor->inspector.history;
+    struct history_view *view = &in->inspector->history;
     bool wheel = ui->pass == UI_PASS_EVENT && ui->event->kind == EVENT_WHEEL && !ui->used && ui_hovered(ui, list);
     if (!wheel || view->count < ROWS) return;
     bool up = ui->event->dy > 0;
@@ -63,7 +65,7 @@ static void step_by_key(struct inspection *in, size_t first, size_t end)
     struct ui *ui = in->ui;
     bool key = ui->pass == UI_PASS_EVENT && ui->event->kind == EVENT_KEY && ui->event->action != ACTION_RELEASE;
     if (!key || ui->used || (ui->event->key != KEY_UP && ui->event->key != KEY_DOWN)) return;
-    const struct history_view *view = &in->editor->inspector.history;
+    const struct history_view *view = &in->inspector->history;
     for (size_t row = first; row < end; row++) {
         char name[32];
         name_of(row, name);
@@ -78,7 +80,7 @@ static void step_by_key(struct inspection *in, size_t first, size_t end)
 static bool build_row(struct inspection *in, size_t row)
 {
     const struct history *history = in->world->history;
-    const struct history_view *view = &in->editor->inspector.history;
+    const struct history_view *view = &in->inspector->history;
     struct ui *ui = in->ui;
     struct rect r = ui_row(ui, UI_ROW);
     char name[32], text[96];
@@ -95,7 +97,7 @@ static bool build_row(struct inspection *in, size_t row)
 void inspector_history(struct inspection *in)
 {
     const struct history *history = in->world->history;
-    struct history_view *view = &in->editor->inspector.history;
+    struct history_view *view = &in->inspector->history;
     size_t count = history_count(history);
     follow(view, count, history_done(history));
     size_t first = view->top, end = first + ROWS < count + 1 ? first + ROWS : count + 1, pressed = end;

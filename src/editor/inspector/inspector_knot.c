@@ -1,13 +1,16 @@
 /// The inspector's section on the selected knot.
-#include "editor/core/actions.h"
-#include "editor/inspector/inspector.h"
+#include "editor/core/core.h"
+#include "editor/core/selection.h"
+#include "editor/core/slopes.h"
+#include "editor/core/state.h"
+#include "editor/inspector/inspection.h"
 #include <math.h>
 #include <stdio.h>
 
 static void change_knot(struct inspection *in, enum ui_change change, const char *label, const char *what,
                         const struct knot *knot)
 {
-    struct edit edit = editor_edit_of(EDIT_KNOT_SET, in->editor->active);
+    struct edit edit = core_edit_of(EDIT_KNOT_SET, in->core->active);
     edit.knot = *knot;
     inspector_change(in, change, label, what, &edit);
 }
@@ -60,7 +63,7 @@ static void build_slope(struct inspection *in, const struct knot *knot)
     struct knot next = *knot;
     if (ui_hovered(ui, r)) ui->hint = "Give the knot a slope (T); D and E turn it";
     if (ui_toggle(ui, r, "has_slope", &next.has_slope)) {
-        toggle_slope(in->editor, in->world); // the knot is the only selected one
+        toggle_slope(in->core, in->world); // the knot is the only selected one
         return;
     }
     r = (struct rect){r.x + 36, r.y, r.w - 36, r.h};
@@ -102,7 +105,7 @@ static void build_slopes(struct inspection *in)
     enum { GAP = 4 };
     static const struct {
         const char *name, *label, *hint;
-        void (*run)(struct editor *editor, const struct editor_world *world);
+        void (*run)(struct core *core, const struct editor_world *world);
     } buttons[] = {
         {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", flatten_slopes},
         {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", smooth_slopes},
@@ -113,16 +116,16 @@ static void build_slopes(struct inspection *in)
     r.w = (r.w - 2 * GAP) / 3;
     for (size_t i = 0; i < sizeof buttons / sizeof buttons[0]; i++, r.x += r.w + GAP) {
         if (ui_hovered(ui, r)) ui->hint = buttons[i].hint;
-        if (ui_button(ui, r, buttons[i].name, buttons[i].label, false)) buttons[i].run(in->editor, in->world);
+        if (ui_button(ui, r, buttons[i].name, buttons[i].label, false)) buttons[i].run(in->core, in->world);
     }
 }
 
 void inspector_knot(struct inspection *in)
 {
     struct ui *ui = in->ui;
-    const struct spline *spline = editor_active_spline(in->editor, in->world);
-    int count = selection_count(&in->editor->selection, spline);
-    int single = selection_single(&in->editor->selection, spline);
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    int count = selection_count(&in->core->selection, spline);
+    int single = selection_single(&in->core->selection, spline);
     if (count > 1) {
         char text[64];
         snprintf(text, sizeof text, "%d knots selected.", count);

@@ -1,7 +1,10 @@
 /// The inspector's fields of several selected knots at once: a typed number is all of theirs, a drag or an arrow moves each by
 /// the same. Frames keep their distances either way.
-#include "editor/core/actions.h"
-#include "editor/inspector/inspector.h"
+#include "editor/core/core.h"
+#include "editor/core/knots.h"
+#include "editor/core/selection.h"
+#include "editor/inspector/inspection.h"
+#include "editor/inspector/state.h"
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -67,14 +70,9 @@ static double *number_of(const struct knot_field *field, struct knot *knot)
 /// none is under way; how many.
 static int collect(struct inspection *in)
 {
-    const struct spline *spline = editor_active_spline(in->editor, in->world);
-    struct drag *drag = &in->editor->drag;
-    drag->count = 0;
-    for (int k = 0; k < spline->knot_count && drag->count < drag->capacity; k++) {
-        if (!selection_has(&in->editor->selection, spline->knots[k].id)) continue;
-        drag->originals[drag->count++] = spline->knots[k];
-    }
-    return drag->count;
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    selection_collect(in->core, spline);
+    return in->core->originals.count;
 }
 
 /// Gives every collected knot the number, or moves it by what the first one moves; in the order in which no knot meets
@@ -82,11 +80,11 @@ static int collect(struct inspection *in)
 static bool set_all(struct inspection *in, const struct knot_field *field, double value, bool together,
                     struct error *error)
 {
-    struct drag *drag = &in->editor->drag;
-    double by = value - *number_of(field, &drag->originals[0]);
-    for (int i = 0; i < drag->count; i++) {
-        struct edit edit = editor_edit_of(EDIT_KNOT_SET, in->editor->active);
-        edit.knot = drag->originals[by > 0 ? drag->count - 1 - i : i];
+    struct originals *originals = &in->core->originals;
+    double by = value - *number_of(field, &originals->knot[0]);
+    for (int i = 0; i < originals->count; i++) {
+        struct edit edit = core_edit_of(EDIT_KNOT_SET, in->core->active);
+        edit.knot = originals->knot[by > 0 ? originals->count - 1 - i : i];
         double *number = number_of(field, &edit.knot);
         *number = fmax(field->number.lowest, together ? *number + by : value);
         if (!history_apply(in->world->history, in->document, &edit, error)) return false;
@@ -98,14 +96,14 @@ static bool set_all(struct inspection *in, const struct knot_field *field, doubl
 static void change_all(struct inspection *in, enum ui_change change, const struct knot_field *field, double value)
 {
     struct history *history = in->world->history;
-    double *possible = &in->editor->inspector.dragged;
+    double *possible = &in->inspector->dragged;
     struct error error = {0};
     inspector_take_back(in, change);
     if ((change != UI_DRAG && history_is_open(history)) || collect(in) == 0) return;
     if (!history_is_open(history)) {
-        uint64_t merge = change == UI_NUDGE ? merge_key(in->editor, in->world, ui_id(field->number.name)) : 0;
+        uint64_t merge = change == UI_NUDGE ? merge_key(in->core, in->world, ui_id(field->number.name)) : 0;
         history_begin(history, field->undo, merge);
-        *possible = *number_of(field, &in->editor->drag.originals[0]);
+        *possible = *number_of(field, &in->core->originals.knot[0]);
     }
     bool together = change != UI_SET || field->moves;
     if (set_all(in, field, value, together, &error)) {
@@ -116,7 +114,7 @@ static void change_all(struct inspection *in, enum ui_change change, const struc
     }
     if (change == UI_DRAG) return;
     history_end(history);
-    if (error.kind != ERROR_NONE) editor_message(in->editor, true, error.text);
+    if (error.kind != ERROR_NONE) core_message(in->core, true, error.text);
 }
 
 /// What the selected knots have in a field: the first one's number, and whether others have another.
@@ -129,7 +127,7 @@ static struct numbers survey(const struct inspection *in, const struct spline *s
 {
     struct numbers numbers = {.first = NAN};
     for (int k = 0; k < spline->knot_count; k++) {
-        if (!selection_has(&in->editor->selection, spline->knots[k].id)) continue;
+        if (!selection_has(&in->core->selection, spline->knots[k].id)) continue;
         double number = *number_of(field, &spline->knots[k]);
         if (isnan(numbers.first)) numbers.first = number;
         numbers.mixed |= number != numbers.first;
@@ -160,13 +158,13 @@ static bool all_sloped(const struct inspection *in, const struct spline *spline)
 {
     bool sloped = true;
     for (int k = 0; k < spline->knot_count; k++)
-        sloped &= !selection_has(&in->editor->selection, spline->knots[k].id) || spline->knots[k].has_slope;
+        sloped &= !selection_has(&in->core->selection, spline->knots[k].id) || spline->knots[k].has_slope;
     return sloped;
 }
 
 void inspector_knots(struct inspection *in)
 {
-    const struct spline *spline = editor_active_spline(in->editor, in->world);
+    const struct spline *spline = core_active_spline(in->core, in->world);
     bool sloped = all_sloped(in, spline);
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++) {
         bool of_slope =

@@ -1,6 +1,10 @@
 /// The inspector's list of splines: which is active, what it is called, its colour, whether the curves show it, its place.
 #include "editor/core/arrange.h"
+#include "editor/core/core.h"
+#include "editor/core/selection.h"
+#include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector.h"
+#include "editor/inspector/state.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -8,38 +12,38 @@ enum { MAX_ROWS = 8, ICON = 24, SWATCH = 22 }; ///< splines listed at once; widt
 
 static const char rename_line[] = "rename";
 
-void inspector_rename(struct editor *editor, const struct editor_world *world)
+void inspector_rename(struct inspector *inspector, const struct core *core, const struct editor_world *world)
 {
-    const struct spline *spline = editor_active_spline(editor, world);
+    const struct spline *spline = core_active_spline(core, world);
     if (!spline) return;
-    inspector_unfold(editor, "section.splines");
-    editor->inspector.scroll.offset = 0; // the list is near the top
-    ui_line_begin(&editor->inspector.ui, rename_line, spline->name);
+    inspector_unfold(inspector, "section.splines");
+    inspector->scroll.offset = 0; // the list is near the top
+    ui_line_begin(&inspector->ui, rename_line, spline->name);
 }
 
-static void flip(struct editor *editor, struct selection *set, unsigned id)
+static void flip(struct core *core, struct selection *set, unsigned id)
 {
     selection_set(set, id, !selection_has(set, id));
-    editor->visibility++;
+    core->visibility++;
 }
 
 /// Solo and eye at the right end of a row.
 static void build_visibility(struct inspection *in, int s, struct rect r)
 {
-    struct editor *editor = in->editor;
+    struct core *core = in->core;
     const struct spline *spline = &in->document->splines[s];
     char name[192];
-    bool solo = selection_has(&editor->solo, spline->id), shown = arrange_shows(editor, in->document, s);
+    bool solo = selection_has(&core->solo, spline->id), shown = arrange_shows(core, in->document, s);
     struct rect icon = {r.x + r.w - 2 * ICON, r.y, ICON, r.h};
     snprintf(name, sizeof name, "solo.%s", spline->name);
     if (ui_icon_button(in->ui, icon, name, UI_ICON_SOLO, solo, "Show only this curve")) {
-        flip(editor, &editor->solo, spline->id);
+        flip(core, &core->solo, spline->id);
     }
     icon.x += ICON;
     snprintf(name, sizeof name, "eye.%s", spline->name);
     enum ui_icon eye = shown ? UI_ICON_EYE : UI_ICON_EYE_CLOSED;
     if (ui_icon_button(in->ui, icon, name, eye, false, "Show or hide this curve")) {
-        flip(editor, &editor->hidden, spline->id);
+        flip(core, &core->hidden, spline->id);
     }
 }
 
@@ -47,9 +51,9 @@ static void build_visibility(struct inspection *in, int s, struct rect r)
 static void build_rename(struct inspection *in, int s, struct rect r)
 {
     if (ui_line(in->ui, r, rename_line) != UI_LINE_DONE) return;
-    struct edit edit = editor_edit_of(EDIT_SPLINE_NAME, s);
+    struct edit edit = core_edit_of(EDIT_SPLINE_NAME, s);
     edit.text = in->ui->text.bytes;
-    editor_step(in->editor, in->world, "Rename spline", 0, &edit);
+    core_step(in->core, in->world, "Rename spline", 0, &edit);
 }
 
 /// The place where a dragged row would go, told from the pointer.
@@ -64,7 +68,7 @@ static bool build_row(struct inspection *in, int s, struct rect r)
 {
     struct ui *ui = in->ui;
     const struct spline *spline = &in->document->splines[s];
-    bool active = s == in->editor->active, dropped = false;
+    bool active = s == in->core->active, dropped = false;
     char name[192];
     snprintf(name, sizeof name, "spline.%s", spline->name);
     struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - 2 * ICON, r.h};
@@ -73,10 +77,10 @@ static bool build_row(struct inspection *in, int s, struct rect r)
     } else {
         if (ui_hovered(ui, label)) ui->hint = "Click to edit (PgUp, PgDn), F2 to rename, drag to reorder";
         enum ui_row_event event = ui_sort_row(ui, r, label, name, spline->name, active);
-        if (event == UI_ROW_PRESSED) editor_activate(in->editor, in->world, s);
+        if (event == UI_ROW_PRESSED) core_activate(in->core, in->world, s);
         if (event == UI_ROW_TWICE) {
-            editor_activate(in->editor, in->world, s);
-            inspector_rename(in->editor, in->world);
+            core_activate(in->core, in->world, s);
+            inspector_rename(in->inspector, in->core, in->world);
         }
         dropped = event == UI_ROW_DROPPED;
     }
@@ -101,16 +105,16 @@ static void build_buttons(struct inspection *in)
         {"spline.down", "Move this spline down", UI_ICON_DOWN},
     };
     struct rect r = ui_row(in->ui, UI_ROW);
-    struct editor *editor = in->editor;
+    struct core *core = in->core;
     int pressed = -1, count = sizeof buttons / sizeof buttons[0];
     for (int i = 0; i < count; i++) {
         struct rect icon = {r.x - 2 + (float)(i * (ICON + 6)), r.y, ICON, r.h};
         if (ui_icon_button(in->ui, icon, buttons[i].name, buttons[i].icon, false, buttons[i].hint)) pressed = i;
     }
-    if (pressed == 0) arrange_add(editor, in->world);
-    if (pressed == 1) arrange_copy(editor, in->world);
-    if (pressed == 2) arrange_remove(editor, in->world);
-    if (pressed >= 3) arrange_move(editor, in->world, editor->active, editor->active + (pressed == 3 ? -1 : 1));
+    if (pressed == 0) arrange_add(core, in->world);
+    if (pressed == 1) arrange_copy(core, in->world);
+    if (pressed == 2) arrange_remove(core, in->world);
+    if (pressed >= 3) arrange_move(core, in->world, core->active, core->active + (pressed == 3 ? -1 : 1));
 }
 
 /// The line between rows where a dragged one would go.
@@ -127,7 +131,7 @@ void inspector_splines(struct inspection *in)
     int count = in->document->spline_count, first = 0, from = -1, dropped = -1;
     if (count == 0) ui_paragraph(ui, "This scene has no splines yet.", theme()->text_dim);
     if (count > MAX_ROWS) {
-        first = in->editor->active - MAX_ROWS / 2;
+        first = in->core->active - MAX_ROWS / 2;
         first = first < 0 ? 0 : first > count - MAX_ROWS ? count - MAX_ROWS : first;
     }
     int rows = count < MAX_ROWS ? count : MAX_ROWS;
@@ -140,7 +144,7 @@ void inspector_splines(struct inspection *in)
     }
     int to = drop_place(in, first, rows, top);
     if (from >= 0) show_drop(in, from, to, top + (float)((to - first + (to > from ? 1 : 0)) * UI_ROW));
-    if (dropped >= 0) arrange_move(in->editor, in->world, dropped, to);
+    if (dropped >= 0) arrange_move(in->core, in->world, dropped, to);
     if (count > MAX_ROWS) {
         char text[64];
         snprintf(text, sizeof text, "%d of %d splines; PgUp and PgDn show more", MAX_ROWS, count);

@@ -1,6 +1,7 @@
 /// The palette of a spline's colour: the theme's six, a typed one, or none of its own.
 #include "editor/core/arrange.h"
-#include "editor/inspector/inspector.h"
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
 #include "scene/color.h"
 #include <stdio.h>
 
@@ -10,9 +11,9 @@ static const char palette[] = "palette", hex_line[] = "color.hex";
 
 static void set_color(struct inspection *in, int spline, int color)
 {
-    struct edit edit = editor_edit_of(EDIT_SPLINE_COLOR, spline);
+    struct edit edit = core_edit_of(EDIT_SPLINE_COLOR, spline);
     edit.color = color;
-    editor_step(in->editor, in->world, "Set colour", 0, &edit);
+    core_step(in->core, in->world, "Set colour", 0, &edit);
 }
 
 /// true where one of the theme's was picked.

@@ -1,6 +1,8 @@
 /// The inspector's view of the active spline's poles: dragged in an inset, seen on the unit circle and in their response.
-#include "editor/inspector/inspector.h"
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
 #include "editor/inspector/poles.h"
+#include "editor/inspector/state.h"
 #include <math.h>
 
 enum { CIRCLE = 112, INSET = 92, TICKS = 18, RESPONSE = 112 }; ///< heights
@@ -13,7 +15,7 @@ static double value_now(const struct inspection *in, const struct spline *spline
     double value = param->value;
     if (param->track >= 0) {
         if (!evaluation || param->track >= evaluation->count) return 0;
-        int sample = document_sample(in->document, editor_frame(in->editor, in->document));
+        int sample = document_sample(in->document, core_frame(in->core, in->document));
         if (sample < 0 || sample >= evaluation->samples) return 0;
         value = evaluation->curves[param->track].total[sample];
     }
@@ -42,7 +44,7 @@ static double rounded(double value, double steps) { return round(value * steps) 
 
 static struct edit parameter_edit(const struct inspection *in, enum parameter parameter, double value)
 {
-    struct edit edit = editor_edit_of(EDIT_PARAMETER, in->editor->active);
+    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
     edit.parameter = parameter;
     edit.param = (struct param){value, -1};
     return edit;
@@ -76,7 +78,7 @@ static int edits_of(const struct inspection *in, const struct spline *spline, co
 static struct pole_setting moved_to(const struct inspection *in, struct pole_setting setting, struct rect inset,
                                     int which, enum ui_change change, const struct ui_handle *handle)
 {
-    const struct poles_view *view = &in->editor->inspector.poles;
+    const struct poles_view *view = &in->inspector->poles;
     double highest = fmin(12, 0.5 / setting.step), most = setting.kind == FILTER_TWO_REAL ? 3 : 1;
     double hz = setting.hz, side = which == HANDLE_LOWER ? -1 : 1;
     if (change == UI_NUDGE) {
@@ -102,7 +104,7 @@ static struct pole_setting moved_to(const struct inspection *in, struct pole_set
 
 static void build_inset(struct inspection *in, const struct spline *spline, const struct pole_setting *setting)
 {
-    struct poles_view *view = &in->editor->inspector.poles;
+    struct poles_view *view = &in->inspector->poles;
     struct rect row = ui_row(in->ui, INSET + TICKS), inset = {row.x, row.y, row.w, INSET};
     float y = poles_y(view, inset, setting->damping);
     double spread = setting->hz * setting->bandwidth;
@@ -135,8 +137,8 @@ static bool is_held(const struct ui *ui)
 void inspector_poles(struct inspection *in)
 {
     struct ui *ui = in->ui;
-    struct poles_view *view = &in->editor->inspector.poles;
-    struct spline *spline = editor_active_spline(in->editor, in->world);
+    struct poles_view *view = &in->inspector->poles;
+    struct spline *spline = core_active_spline(in->core, in->world);
     struct pole_setting setting = setting_of(in, spline);
     if (spline_mode(spline) == WIGGLY_CUBIC || !(setting.hz > 0)) {
         ui_paragraph(ui, "Both poles are at 1 (frequency 0): a cubic does not swing by itself.", theme()->text_dim);

@@ -1,13 +1,15 @@
 /// The inspector's section on the scene: frames per second, range and substeps.
 #include "editor/core/arrange.h"
-#include "editor/inspector/inspector.h"
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
+#include "editor/inspector/state.h"
 #include <math.h>
 #include <stdio.h>
 
 /// A number that is taken over when it is let go of, because it may ask before. Returns whether `*value` is a new one.
 static bool build_settled(struct inspection *in, struct ui_number number, double *value)
 {
-    struct inspector *inspector = &in->editor->inspector;
+    struct inspector *inspector = in->inspector;
     char shown[64];
     bool dragged = ui_is_dragged(in->ui, number.name) && inspector->dragged_name == number.name;
     if (dragged) {
@@ -57,9 +59,9 @@ static void build_substeps(struct inspection *in)
                                .fallback = 1,
                                .step = 1};
     if (!build_whole(in, number, &substeps)) return;
-    struct edit edit = editor_edit_of(EDIT_SUBSTEPS, -1);
+    struct edit edit = core_edit_of(EDIT_SUBSTEPS, -1);
     edit.substeps = substeps;
-    editor_step(in->editor, in->world, "Set substeps", 0, &edit);
+    core_step(in->core, in->world, "Set substeps", 0, &edit);
 }
 
 void inspector_scene(struct inspection *in)
@@ -76,7 +78,7 @@ void inspector_scene(struct inspection *in)
                              .fallback = 24,
                              .step = 1,
                              .decimals = fps == floor(fps) ? 0 : 3};
-    if (build_settled(in, rate, &fps)) arrange_fps(in->editor, in->world, fps);
+    if (build_settled(in, rate, &fps)) arrange_fps(in->core, in->world, fps);
     struct ui_number end = {.name = "scene.first",
                             .label = "first",
                             .hint = "First frame of the scene",
@@ -84,10 +86,10 @@ void inspector_scene(struct inspection *in)
                             .highest = SCENE_MAX_FRAME,
                             .fallback = NAN,
                             .step = 1};
-    if (build_whole(in, end, &first)) arrange_range(in->editor, in->world, first, last);
+    if (build_whole(in, end, &first)) arrange_range(in->core, in->world, first, last);
     end.name = "scene.last";
     end.label = "last";
     end.hint = "Last frame of the scene; in a loop it repeats the first";
-    if (build_whole(in, end, &last)) arrange_range(in->editor, in->world, document->first_frame, last);
+    if (build_whole(in, end, &last)) arrange_range(in->core, in->world, document->first_frame, last);
     build_substeps(in);
 }

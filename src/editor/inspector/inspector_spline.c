@@ -1,6 +1,7 @@
 /// The active spline's mode, parameters and start.
-#include "editor/core/actions.h"
-#include "editor/inspector/inspector.h"
+#include "editor/core/core.h"
+#include "editor/core/nudge.h"
+#include "editor/inspector/inspection.h"
 #include "editor/inspector/settle.h"
 #include "scene/order.h"
 #include <math.h>
@@ -21,7 +22,7 @@ static void build_slider(struct inspection *in, const struct spline *spline, enu
         .step = row->step,
         .decimals = row->decimals,
     };
-    struct edit edit = editor_edit_of(EDIT_PARAMETER, in->editor->active);
+    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
     double value = spline->parameter[parameter].value;
     enum ui_change change = ui_value(in->ui, r, &number, &value);
     edit.parameter = parameter;
@@ -52,10 +53,10 @@ static void build_choice(struct inspection *in, const struct spline *spline, enu
     struct rect r = parameter == PARAMETER_MODE ? ui_row(in->ui, UI_ROW) : inspector_labelled(in, row->name);
     if (ui_hovered(in->ui, r)) in->ui->hint = row->hint;
     if (!ui_segments(in->ui, r, row->name, choices, count, &chosen)) return;
-    struct edit edit = editor_edit_of(EDIT_PARAMETER, in->editor->active);
+    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
     edit.parameter = parameter;
     edit.param = (struct param){chosen, -1};
-    editor_step(in->editor, in->world, row->undo, 0, &edit);
+    core_step(in->core, in->world, row->undo, 0, &edit);
 }
 
 static void build_parameter(struct inspection *in, const struct spline *spline, enum parameter parameter)
@@ -75,9 +76,9 @@ static void build_spring_toggle(struct inspection *in, const struct spline *spli
     if (ui_hovered(in->ui, r)) in->ui->hint = "Use spring constant and friction instead of frequency and damping";
     r = (struct rect){r.x + r.w - 28, r.y, 28, r.h};
     if (!ui_toggle(in->ui, r, "spring_friction", &on)) return;
-    struct edit edit = editor_edit_of(EDIT_SPRING, in->editor->active);
+    struct edit edit = core_edit_of(EDIT_SPRING, in->core->active);
     edit.flag = on;
-    editor_step(in->editor, in->world, on ? "Use spring and friction" : "Use frequency and damping", 0, &edit);
+    core_step(in->core, in->world, on ? "Use spring and friction" : "Use frequency and damping", 0, &edit);
 }
 
 /// What the parameters mean, in one plain sentence.
@@ -108,7 +109,7 @@ static void build_settling(struct inspection *in, const struct spline *spline)
 static void build_warnings(struct inspection *in, const struct spline *spline)
 {
     const struct evaluation *evaluation = in->world->evaluation;
-    int active = in->editor->active;
+    int active = in->core->active;
     if (evaluation && active < evaluation->count && evaluation->status[active] != WIGGLY_OK) {
         ui_paragraph(in->ui, wiggly_status_text(evaluation->status[active]), theme()->warning);
     }
@@ -133,7 +134,7 @@ static void build_pair(struct inspection *in, const struct spline *spline)
 
 void inspector_spline(struct inspection *in)
 {
-    struct spline *spline = editor_active_spline(in->editor, in->world);
+    struct spline *spline = core_active_spline(in->core, in->world);
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         if (!spline_uses(spline, p, false)) continue;
         build_parameter(in, spline, p);

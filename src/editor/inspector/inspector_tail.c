@@ -1,7 +1,9 @@
 /// The inspector's section on tails: which there are, where they stand, how they are built, and what is shown of their motion.
 #include "editor/inspector/inspector_tail.h"
 #include "editor/core/arrange.h"
-#include "editor/curves/curves.h"
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
+#include "editor/inspector/state.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -11,15 +13,15 @@ static const char rename_line[] = "tail.rename", place_list[] = "place";
 
 static struct edit tail_edit(const struct inspection *in, enum edit_kind kind)
 {
-    struct edit edit = editor_edit_of(kind, in->editor->active);
-    edit.rig = document_find_rig(in->document, RIG_TAIL, in->editor->inspector.tail);
+    struct edit edit = core_edit_of(kind, in->core->active);
+    edit.rig = document_find_rig(in->document, RIG_TAIL, in->inspector->tail);
     return edit;
 }
 
 /// The tail that is shown, and below it a row for each where there is a choice.
 static void build_tails(struct inspection *in)
 {
-    struct inspector *inspector = &in->editor->inspector;
+    struct inspector *inspector = in->inspector;
     int rig = document_count_rigs(in->document, RIG_TAIL) > 1 ? document_next_rig(in->document, RIG_TAIL, 0) : -1;
     for (int t = 0; rig >= 0; t++, rig = document_next_rig(in->document, RIG_TAIL, rig + 1)) {
         char name[32];
@@ -34,8 +36,7 @@ static void build_tails(struct inspection *in)
 
 static void build_name(struct inspection *in)
 {
-    const struct rig *rig =
-        &in->document->rigs[document_find_rig(in->document, RIG_TAIL, in->editor->inspector.tail)];
+    const struct rig *rig = &in->document->rigs[document_find_rig(in->document, RIG_TAIL, in->inspector->tail)];
     struct rect r = inspector_labelled(in, "name");
     if (!ui_line_is_open(in->ui, rename_line)) {
         struct rect field = {r.x, r.y + 2, r.w, r.h - 4};
@@ -44,19 +45,19 @@ static void build_name(struct inspection *in)
     } else if (ui_line(in->ui, r, rename_line) == UI_LINE_DONE) {
         struct edit edit = tail_edit(in, EDIT_TAIL_NAME);
         edit.text = in->ui->text.bytes;
-        editor_step(in->editor, in->world, "Rename tail", 0, &edit);
+        core_step(in->core, in->world, "Rename tail", 0, &edit);
     }
 }
 
 static void build_buttons(struct inspection *in)
 {
-    struct inspector *inspector = &in->editor->inspector;
+    struct inspector *inspector = in->inspector;
     struct rect r = inspector_labelled(in, "tail"), icon = {r.x - 2, r.y, ICON, r.h};
     bool any = document_tail(in->document, 0) != NULL;
     const char *hint = any ? "Duplicate this tail" : "Add a tail bent by the active spline";
     if (ui_icon_button(in->ui, icon, "tail.add", UI_ICON_ADD, false, hint)) {
         struct edit edit = tail_edit(in, EDIT_TAIL_ADD);
-        if (!editor_step(in->editor, in->world, "Add tail", 0, &edit)) return;
+        if (!core_step(in->core, in->world, "Add tail", 0, &edit)) return;
         inspector->tail = document_count_rigs(in->document, RIG_TAIL) - 1;
         inspector->channel = 0;
         return;
@@ -64,7 +65,7 @@ static void build_buttons(struct inspection *in)
     icon.x += ICON + 6;
     if (!any || !ui_icon_button(in->ui, icon, "tail.delete", UI_ICON_DELETE, false, "Delete this tail")) return;
     struct edit edit = tail_edit(in, EDIT_TAIL_REMOVE);
-    editor_step(in->editor, in->world, "Delete tail", 0, &edit);
+    core_step(in->core, in->world, "Delete tail", 0, &edit);
 }
 
 /// A coordinate: a number, or the spline that it follows, and the button from one to the other.
@@ -83,12 +84,12 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
         ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, coordinate_name(k), theme()->text_dim);
         ui_dropdown(in->ui, field, place_list, k, in->document->splines[param->track].name,
                     arrange_color(in->document, param->track));
-        wiggly_value now = curves_solved(in->world, param->track, in->editor->playback.position);
+        wiggly_value now = evaluation_at(in->world->evaluation, param->track, in->core->playback.position);
         if (!ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false,
                             "Stop following; stay at the current position"))
             return;
         edit.param = (struct param){round_value(now.y + now.re, 1e-3), -1};
-        editor_step(in->editor, in->world, "Stop following", 0, &edit);
+        core_step(in->core, in->world, "Stop following", 0, &edit);
         return;
     }
     const char *names[] = {"position.x", "position.y", "position.z"};
@@ -113,7 +114,7 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
 
 static void place_popup(struct inspection *in)
 {
-    const struct inspector *inspector = &in->editor->inspector;
+    const struct inspector *inspector = in->inspector;
     const struct tail *tail = document_tail(in->document, inspector->tail);
     if (!ui_popup_is_open(in->ui, place_list) || !tail) return;
     int k = in->ui->popup.which, count = in->document->spline_count;
@@ -129,7 +130,7 @@ static void place_popup(struct inspection *in)
     struct edit edit = tail_edit(in, EDIT_POSITION);
     edit.coordinate = k;
     edit.param = (struct param){0, picked};
-    editor_step(in->editor, in->world, "Follow spline", 0, &edit);
+    core_step(in->core, in->world, "Follow spline", 0, &edit);
 }
 
 void inspector_tail_lists(struct inspection *in)
@@ -167,7 +168,7 @@ static void build_size(struct inspection *in, const struct tail *tail)
         struct edit edit = tail_edit(in, EDIT_JOINTS);
         edit.to = (int)lround(value);
         inspector_change(in, change, "Set joints", "joints", &edit);
-        tail = document_tail(in->document, in->editor->inspector.tail);
+        tail = document_tail(in->document, in->inspector->tail);
     }
     struct edit edit = tail_edit(in, EDIT_LENGTH);
     edit.number = tail->length;
@@ -178,15 +179,15 @@ static void build_size(struct inspection *in, const struct tail *tail)
 /// What belongs to the view: the overlays, and whether the next drag of the body is recorded.
 static void build_view(struct inspection *in)
 {
-    struct editor *editor = in->editor;
+    struct core *core = in->core;
     const struct {
         const char *name, *label, *hint;
         bool *on;
     } toggles[] = {
         {"record", "record", "Record the next drag of the body as knots (or press R while dragging)",
-         &editor->record.armed},
-        {"onion", "onion skin", "Show the tail at the knots around the playhead (O)", &editor->overlays.onion},
-        {"trail", "motion arc", "Show the path of the tip, one mark per frame (P)", &editor->overlays.trail},
+         &core->record_armed},
+        {"onion", "onion skin", "Show the tail at the knots around the playhead (O)", &core->overlays.onion},
+        {"trail", "motion arc", "Show the path of the tip, one mark per frame (P)", &core->overlays.trail},
     };
     for (size_t i = 0; i < sizeof toggles / sizeof toggles[0]; i++) {
         struct rect r = inspector_labelled(in, toggles[i].label);
@@ -198,7 +199,7 @@ static void build_view(struct inspection *in)
 /// Buttons among these rows may make another list of channels, and more rigs: each looks its tail up anew.
 static void build_tail(struct inspection *in)
 {
-    struct inspector *inspector = &in->editor->inspector;
+    struct inspector *inspector = in->inspector;
     const struct document *document = in->document;
     if (inspector->channel >= document_tail(document, inspector->tail)->channel_count) inspector->channel = 0;
     inspector_channels(in, document_tail(document, inspector->tail));
@@ -212,7 +213,7 @@ static void build_tail(struct inspection *in)
 
 void inspector_tail(struct inspection *in)
 {
-    struct inspector *inspector = &in->editor->inspector;
+    struct inspector *inspector = in->inspector;
     if (!document_tail(in->document, inspector->tail)) inspector->tail = 0;
     build_tails(in);
     if (document_tail(in->document, 0)) build_tail(in);

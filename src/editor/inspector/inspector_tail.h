@@ -2,8 +2,7 @@
 #ifndef EDITOR_INSPECTOR_INSPECTOR_TAIL_H
 #define EDITOR_INSPECTOR_INSPECTOR_TAIL_H
 
-#include "editor/core/panels.h"
-#include "editor/inspector/inspector.h"
+#include "editor/inspector/inspection.h"
 
 /// One of a tail's three angles, as a slider shows it.
 struct angle_row {

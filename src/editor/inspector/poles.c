@@ -1,4 +1,5 @@
 #include "editor/inspector/poles.h"
+#include "editor/inspector/response.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -1,5 +1,5 @@
 /// What a moment of the brush does to the paint p = a + jψ at each vertex that it reaches.
-#include "editor/stage/brush.h"
+#include "editor/stage/brush_dab.h"
 #include <math.h>
 
 enum { SMOOTHINGS = 4 }; ///< passes of a frame
@@ -66,11 +66,12 @@ static bool difference(const struct brush_work *work, const struct figure *figur
 }
 
 /// One pass over all vertices from the state before it (Jacobi), so that their order means nothing.
-static void smooth_once(struct brush *brush, const struct figure *figure, int coordinate, int count, double flow)
+static void smooth_once(struct painting *painting, const struct figure *figure, int coordinate, float radius,
+                        int count, double flow)
 {
-    struct brush_work *work = &brush->work;
-    const bool phase = brush->stroke == BRUSH_SMOOTH_PHASE;
-    const float radius = brush_radius_of(brush, figure), share = (float)blend(flow);
+    struct brush_work *work = &painting->work;
+    const bool phase = painting->stroke == BRUSH_SMOOTH_PHASE;
+    const float share = (float)blend(flow);
     for (int i = 0; i < count; i++) {
         const int vertex = work->vertices[i];
         const float weight = share * falloff(work->reach.distance[vertex], radius);
@@ -90,10 +91,11 @@ static void smooth_once(struct brush *brush, const struct figure *figure, int co
     }
 }
 
-static void smooth(struct brush *brush, const struct figure *figure, int coordinate, int count, double flow)
+static void smooth(struct painting *painting, const struct figure *figure, int coordinate, float radius, int count,
+                   double flow)
 {
-    struct brush_work *work = &brush->work;
-    for (int pass = 0; pass < SMOOTHINGS; pass++) smooth_once(brush, figure, coordinate, count, flow);
+    struct brush_work *work = &painting->work;
+    for (int pass = 0; pass < SMOOTHINGS; pass++) smooth_once(painting, figure, coordinate, radius, count, flow);
     for (int i = 0; i < count; i++) {
         work->turned[work->vertices[i]][0] = 1;
         work->turned[work->vertices[i]][1] = 0;
@@ -113,12 +115,11 @@ static void change(enum brush_mode mode, double flow, float weight, float value[
     for (int k = 0; k < 2; k++) value[k] = fabsf(value[k]) < 1e-3f ? 0 : kept * value[k];
 }
 
-struct dab brush_dab(struct brush *brush, const struct paint *paint, const struct figure *figure, int coordinate,
-                     double flow)
+struct dab brush_dab(struct painting *painting, const struct paint *paint, const struct figure *figure,
+                     int coordinate, float radius, double flow)
 {
-    struct brush_work *work = &brush->work;
-    const float radius = brush_radius_of(brush, figure);
-    const bool smooths = brush->stroke == BRUSH_SMOOTH_PHASE || brush->stroke == BRUSH_SMOOTH_AMPLITUDE;
+    struct brush_work *work = &painting->work;
+    const bool smooths = painting->stroke == BRUSH_SMOOTH_PHASE || painting->stroke == BRUSH_SMOOTH_AMPLITUDE;
     int count = 0;
     for (int i = 0; i < work->reach.count; i++) {
         const int vertex = work->reach.vertices[i];
@@ -127,9 +128,9 @@ struct dab brush_dab(struct brush *brush, const struct paint *paint, const struc
         if (!(weight > 0)) continue;
         work->vertices[count] = vertex;
         for (int k = 0; k < 2; k++) work->values[count][k] = old[k];
-        change(brush->stroke, flow, weight, work->values[count]);
+        change(painting->stroke, flow, weight, work->values[count]);
         count++;
     }
-    if (smooths) smooth(brush, figure, coordinate, count, flow);
+    if (smooths) smooth(painting, figure, coordinate, radius, count, flow);
     return (struct dab){coordinate, count, work->vertices, (const float(*)[2])work->values};
 }

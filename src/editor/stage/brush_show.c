@@ -1,7 +1,10 @@
 /// The ring of the brush: where the distance over the surface from the spot under the pointer is the radius, drawn triangle
 /// by triangle, so that it lies on the posed surface as the paint will.
-#include "editor/core/state.h"
+#include "editor/stage/brush_show.h"
+#include "editor/core/characters.h"
 #include "editor/stage/brush.h"
+#include "editor/stage/characters_show.h"
+#include "editor/stage/state.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
@@ -21,11 +24,11 @@ struct ring {
     int count;
 };
 
-static bool project(const struct editor *editor, const float point[3], float xy[2])
+static bool project(const struct stage *stage, const float point[3], float xy[2])
 {
-    const struct rect *r = &editor->stage.viewport;
+    const struct rect *r = &stage->view.viewport;
     const float viewport[4] = {r->x, r->y, r->w, r->h};
-    return camera_project(editor->stage.view, editor->stage.projection, viewport, point, xy);
+    return camera_project(stage->view.view, stage->view.projection, viewport, point, xy);
 }
 
 /// Where the distance passes `radius` on the side between two corners: the same for both triangles at it, to the last bit.
@@ -39,25 +42,25 @@ static bool crosses(const struct brush_work *work, uint32_t one, uint32_t other,
     return true;
 }
 
-static bool faces_eye(const struct editor *editor, const uint32_t *corner)
+static bool faces_eye(const struct stage *stage, const uint32_t *corner)
 {
     float xy[3][2];
     for (int c = 0; c < 3; c++) {
-        if (!project(editor, editor->brush.work.posed[corner[c]], xy[c])) return false;
+        if (!project(stage, stage->painting.work.posed[corner[c]], xy[c])) return false;
     }
     return (xy[1][0] - xy[0][0]) * (xy[2][1] - xy[0][1]) < (xy[1][1] - xy[0][1]) * (xy[2][0] - xy[0][0]);
 }
 
-static void add_piece(struct editor *editor, const uint32_t *corner, float radius, struct ring *ring)
+static void add_piece(struct stage *stage, const uint32_t *corner, float radius, struct ring *ring)
 {
     float ends[3][3];
     int count = 0;
     if (ring->count == MOST_PIECES) return;
     for (int c = 0; c < 3; c++)
-        count += crosses(&editor->brush.work, corner[c], corner[(c + 1) % 3], radius, ends[count]);
-    if (count != 2 || !faces_eye(editor, corner)) return;
+        count += crosses(&stage->painting.work, corner[c], corner[(c + 1) % 3], radius, ends[count]);
+    if (count != 2 || !faces_eye(stage, corner)) return;
     float(*piece)[2] = ring->xy[ring->count];
-    ring->count += project(editor, ends[0], piece[0]) && project(editor, ends[1], piece[1]);
+    ring->count += project(stage, ends[0], piece[0]) && project(stage, ends[1], piece[1]);
 }
 
 static bool is_same(const float a[2], const float b[2]) { return a[0] == b[0] && a[1] == b[1]; }
@@ -121,27 +124,27 @@ static void smooth_line(float (*line)[2], int count)
     }
 }
 
-static void show_ring(struct editor *editor, const struct figure *figure)
+static void show_ring(struct stage *stage, struct core *core, const struct figure *figure)
 {
     struct ring ring;
     ring.count = 0;
-    const float radius = brush_radius_of(&editor->brush, figure);
+    const float radius = brush_radius_of(&core->brush, figure);
     for (int t = 0; t < figure->character.index_count; t += 3)
-        add_piece(editor, figure->character.indices + t, radius, &ring);
+        add_piece(stage, figure->character.indices + t, radius, &ring);
     while (ring.count > 0) {
         float line[2 * MOST_PIECES + 2][2];
         const int count = take_line(&ring, line);
         for (int pass = 0; pass < SMOOTHINGS; pass++) smooth_line(line, count);
-        drawlist_line(&editor->list, line[0], count, SHADE_WIDTH, SHADE);
-        drawlist_line(&editor->list, line[0], count, RING_WIDTH, RING);
+        drawlist_line(&core->list, line[0], count, SHADE_WIDTH, SHADE);
+        drawlist_line(&core->list, line[0], count, RING_WIDTH, RING);
     }
 }
 
 /// What is painted at the vertex nearest to the pointer; leaves the text alone where that is nothing.
-static void describe_spot(const struct editor *editor, const struct paint *paint, int coordinate, char *text,
+static void describe_spot(const struct stage *stage, const struct paint *paint, int coordinate, char *text,
                           size_t size)
 {
-    const struct surface_spot *spot = &editor->brush.spot;
+    const struct surface_spot *spot = &stage->painting.spot;
     int nearest = 0;
     for (int c = 1; c < 3; c++) {
         if (spot->weight[c] > spot->weight[nearest]) nearest = c;
@@ -151,30 +154,31 @@ static void describe_spot(const struct editor *editor, const struct paint *paint
     snprintf(text, size, "painted here: %+.0f°, × %.2f", (double)value[1] * DEGREES, exp((double)value[0]));
 }
 
-static void show_state(struct editor *editor, const struct paint *paint, int coordinate)
+static void show_state(const struct stage *stage, struct core *core, const struct paint *paint, int coordinate)
 {
-    const struct brush *brush = &editor->brush;
-    const struct rect legend = characters_legend(editor);
+    const struct brush *brush = &core->brush;
+    const struct painting *painting = &stage->painting;
+    const struct rect legend = characters_legend(core);
     const struct rect box = {legend.x, legend.y - STATE_HEIGHT - 8, legend.w, STATE_HEIGHT};
-    const bool paints = editor->drag.kind == DRAG_PAINT;
-    const char *label = brush_label(paints ? brush->stroke : brush_stroke(brush, editor->mods));
+    const bool paints = core->drag.kind == DRAG_PAINT;
+    const char *label = brush_label(paints ? painting->stroke : brush_stroke(brush, core->mods));
     char text[64] = "nothing painted here";
-    if (brush->covers && paint) describe_spot(editor, paint, coordinate, text, sizeof text);
-    if (!brush->covers)
+    if (painting->covers && paint) describe_spot(stage, paint, coordinate, text, sizeof text);
+    if (!painting->covers)
         snprintf(text, sizeof text, "radius %.0f %%, strength %.0f %%", 100 * brush->radius, 100 * brush->strength);
-    drawlist_rounded(&editor->list, box, 6, (theme()->panel & 0xFFFFFF00u) | 0xD8u);
-    drawlist_text_fit(&editor->list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
+    drawlist_rounded(&core->list, box, 6, (theme()->panel & 0xFFFFFF00u) | 0xD8u);
+    drawlist_text_fit(&core->list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
                       theme()->text, label);
-    drawlist_text_fit(&editor->list, box.x + 10, box.y + 35, box.w - 20, FONT_LABEL, THEME_TEXT_SMALL,
+    drawlist_text_fit(&core->list, box.x + 10, box.y + 35, box.w - 20, FONT_LABEL, THEME_TEXT_SMALL,
                       theme()->text_dim, text);
 }
 
-void brush_show(struct editor *editor, const struct editor_world *world)
+void brush_show(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     int coordinate;
-    const struct figure *figure = editor->brush.on ? brush_figure(editor, world, &coordinate) : NULL;
+    const struct figure *figure = core->brush.on ? brush_figure(core, world, &coordinate) : NULL;
     if (!figure) return;
-    const struct paint *paint = characters_selected(editor, world)->painted;
-    if (editor->brush.covers) show_ring(editor, figure);
-    show_state(editor, paint && cast_fits(paint, figure) ? paint : NULL, coordinate);
+    const struct paint *paint = characters_selected(core, world)->painted;
+    if (stage->painting.covers) show_ring(stage, core, figure);
+    show_state(stage, core, paint && cast_fits(paint, figure) ? paint : NULL, coordinate);
 }

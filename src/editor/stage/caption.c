@@ -1,4 +1,5 @@
 #include "editor/core/state.h"
+#include "editor/stage/stage.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -10,37 +11,36 @@ enum { MARGIN = 16, WIDEST = 440, LINE = 18, MAX_LINES = 6 };
 static const float SHARE = 0.4f; ///< of the stage's width; the middle is the rig's
 
 /// One line's worth of a text, at `*y`; returns what follows it.
-static const char *show_line(struct editor *editor, const char *text, enum font font, float size, uint32_t color,
+static const char *show_line(struct core *core, const char *text, enum font font, float size, uint32_t color,
                              float width, float *y)
 {
     char line[257];
     size_t length = font_line(font, size, text, width);
     snprintf(line, sizeof line, "%.*s", (int)length, text);
-    drawlist_text(&editor->list, editor->layout.stage.x + MARGIN, *y, font, size, color, line);
+    drawlist_text(&core->list, core->layout.stage.x + MARGIN, *y, font, size, color, line);
     *y += LINE;
     text += length;
     while (*text == ' ') text++;
     return text;
 }
 
-void caption_show(struct editor *editor, const struct document *document)
+void caption_show(struct core *core, const struct document *document, float bottom)
 {
     if (!document->about) return;
-    const struct rect stage = editor->layout.stage;
-    float width = fminf(WIDEST, SHARE * stage.w - MARGIN), y = stage.y + MARGIN + 10;
+    const struct rect place = core->layout.stage;
+    float width = fminf(WIDEST, SHARE * place.w - MARGIN), y = place.y + MARGIN + 10;
     char title[257];
     const char *rest = strstr(document->about, ". ");
     size_t length = rest ? (size_t)(rest - document->about) : strlen(document->about);
     rest = rest ? rest + 2 : "";
     snprintf(title, sizeof title, "%.*s", (int)fminf((float)length, 256), document->about);
-    struct rect clip = drawlist_push_clip(&editor->list, stage);
-    const float bottom = editor->welcome ? welcome_card(editor).y : stage.y + stage.h;
+    struct rect clip = drawlist_push_clip(&core->list, place);
     const char *more = title;
     for (int line = 0; line < 2 && *more && y < bottom; line++) {
-        more = show_line(editor, more, FONT_LABEL_BOLD, THEME_TEXT_NORMAL, theme()->text, width, &y);
+        more = show_line(core, more, FONT_LABEL_BOLD, THEME_TEXT_NORMAL, theme()->text, width, &y);
     }
     for (int line = 0; line < MAX_LINES && *rest && y < bottom; line++) {
-        rest = show_line(editor, rest, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, width, &y);
+        rest = show_line(core, rest, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, width, &y);
     }
-    drawlist_set_clip(&editor->list, clip);
+    drawlist_set_clip(&core->list, clip);
 }

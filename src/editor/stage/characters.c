@@ -1,8 +1,9 @@
 /// Poses soft characters and their stiff twins on the stage.
-#include "editor/stage/characters.h"
 #include "base/hash.h"
-#include "editor/core/actions.h"
 #include "editor/stage/kinds.h"
+#include "editor/stage/project.h"
+#include "editor/stage/stage.h"
+#include "editor/stage/state.h"
 #include "ui/font.h"
 #include "ui/phase_color.h"
 #include "ui/theme.h"
@@ -14,28 +15,6 @@ enum { BOUND_STEPS = 30 };
 static const float FRONT_SHARE = 0.1f; ///< of a point's depth, in what decides between front and back
 
 #define PAIR_GAP 0.58f /* from the middle to each of a pair, in widths of the character */
-
-const struct character_rig *characters_selected(const struct editor *editor, const struct editor_world *world)
-{
-    return document_character(world->document, editor->characters.character);
-}
-
-const struct coordinate *characters_coordinate(const struct editor *editor, const struct editor_world *world)
-{
-    const struct character_rig *rig = characters_selected(editor, world);
-    const struct figure *figure = cast_figure(world->cast, editor->characters.character);
-    if (!rig || !figure || editor->characters.drive >= rig->drive_count) return NULL;
-    const int at = figure_find(figure, rig->drives[editor->characters.drive].name);
-    return at >= 0 ? &figure->character.coordinates[at] : NULL;
-}
-
-void characters_open(struct editor *editor, const struct document *document)
-{
-    const struct character_rig *first = document_character(document, 0);
-    const int phases = first ? first->phases : -1;
-    editor->brush.on = false;
-    editor->characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
-}
 
 /// How far each of a pair stands from the middle.
 static float pair_offset(const struct figure *figure) { return PAIR_GAP * (figure->hi[0] - figure->lo[0]); }
@@ -59,16 +38,16 @@ static void add_soles(struct stage_view *view, const struct stage_character *sho
 }
 
 /// One figure on the stage, `aside` metres from where its rig stands.
-static void add_character(struct editor *editor, const struct editor_world *world, int rig, int n, enum look look,
-                          float aside)
+static void add_character(struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
+                          int n, enum look look, float aside)
 {
-    struct stage_view *view = &editor->stage;
-    const struct character_view *how = &editor->characters;
+    struct stage_view *view = &stage->view;
+    const struct character_view *how = &core->characters;
     const struct character_rig *character = &world->document->rigs[rig].character;
     const struct posing posing = {world->document, world->evaluation, world->cast, look};
     struct rig_pose posed;
     if (view->character_count == STAGE_MAX_CHARACTERS) return;
-    if (!rig_pose(&posing, rig, editor->playback.position, NULL, &posed)) return;
+    if (!rig_pose(&posing, rig, core->playback.position, NULL, &posed)) return;
     struct stage_character *shown = &view->characters[view->character_count++];
     *shown =
         (struct stage_character){.figure = posed.character.figure,
@@ -80,38 +59,39 @@ static void add_character(struct editor *editor, const struct editor_world *worl
                                  .map_axis = how->axis};
     for (int k = 0; k < 3; k++) shown->position[k] = posed.character.position[k] + (k == 0 ? aside : 0.0f);
     const int drive = how->drive < character->drive_count ? how->drive : 0;
-    const bool is_painted = editor->brush.on && n == how->character;
+    const bool is_painted = core->brush.on && n == how->character;
     if ((how->mapped || is_painted) && character->drive_count > 0)
         shown->map_coordinate = figure_find(shown->figure, character->drives[drive].name);
     add_soles(view, shown);
 }
 
-static void pose(struct editor *editor, const struct editor_world *world, int rig, int n)
+static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
 {
     const struct figure *figure = cast_figure(world->cast, n);
     if (!figure) return;
-    if (!editor->characters.compare) {
-        add_character(editor, world, rig, n, editor->look, 0.0f);
+    if (!core->characters.compare) {
+        add_character(stage, core, world, rig, n, core->look, 0.0f);
     } else {
-        add_character(editor, world, rig, n, editor->look, -pair_offset(figure));
-        add_character(editor, world, rig, n, LOOK_STIFF, pair_offset(figure));
+        add_character(stage, core, world, rig, n, core->look, -pair_offset(figure));
+        add_character(stage, core, world, rig, n, LOOK_STIFF, pair_offset(figure));
     }
 }
 
-static bool bounds(const struct editor *editor, const struct editor_world *world, int rig, int n, float lo[3],
-                   float hi[3])
+static bool bounds(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
+                   int n, float lo[3], float hi[3])
 {
-    const struct posing posing = stage_posing(editor, world);
+    const struct posing posing = stage_posing(core, world);
     const double last = document_samples(world->document) - 1;
     const struct figure *figure = cast_figure(world->cast, n);
     struct rig_pose posed;
+    (void)stage;
     if (!figure) return false;
     for (int step = 0; step <= BOUND_STEPS; step++) {
         float low[3], high[3];
         rig_pose(&posing, rig, last * step / BOUND_STEPS, NULL, &posed);
         rig_bounds(&posed, low, high);
         for (int k = 0; k < 3; k++) {
-            const float aside = k == 0 && editor->characters.compare ? pair_offset(figure) : 0.0f;
+            const float aside = k == 0 && core->characters.compare ? pair_offset(figure) : 0.0f;
             lo[k] = fminf(lo[k], low[k] - aside);
             hi[k] = fmaxf(hi[k], high[k] + aside);
         }
@@ -153,9 +133,9 @@ static int front_vertex(const struct figure *figure, const double uv[2])
     return found;
 }
 
-bool characters_point(const struct editor *editor, int character, const double uv[2], float xy[2])
+bool characters_point(const struct stage *stage, int character, const double uv[2], float xy[2])
 {
-    const struct stage_view *view = &editor->stage;
+    const struct stage_view *view = &stage->view;
     const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
     for (int i = 0; i < view->character_count; i++) {
         const struct stage_character *shown = &view->characters[i];

@@ -1,6 +1,7 @@
 /// What is written over the stage where characters are: the legend of the phase map, and what the two of a pair are.
-#include "editor/core/state.h"
-#include "editor/stage/characters.h"
+#include "editor/stage/characters_show.h"
+#include "editor/core/characters.h"
+#include "editor/stage/state.h"
 #include "rig/camera.h"
 #include "ui/font.h"
 #include "ui/phase_color.h"
@@ -45,21 +46,21 @@ static void show_centred(struct drawlist *list, float x, float y, const char *te
     drawlist_text(list, x - width / 2, y, FONT_LABEL, TEXT_SIZE, color, text);
 }
 
-struct rect characters_legend(const struct editor *editor)
+struct rect characters_legend(const struct core *core)
 {
-    const struct rect stage = editor->layout.stage;
+    const struct rect stage = core->layout.stage;
     return (struct rect){stage.x + 12, stage.y + stage.h - LEGEND_HEIGHT - 12, LEGEND_WIDTH, LEGEND_HEIGHT};
 }
 
 /// Angles are as in the plane: in step to the right, a quarter ahead on top.
-static void show_legend(struct editor *editor, const struct coordinate *coordinate)
+static void show_legend(struct core *core, const struct coordinate *coordinate)
 {
     static const char *const directions[] = {"left and right (x)", "up and down (y)", "back and forth (z)"};
-    struct drawlist *list = &editor->list;
-    const struct rect box = characters_legend(editor);
+    struct drawlist *list = &core->list;
+    const struct rect box = characters_legend(core);
     const float x = box.x + box.w / 2, y = box.y + 80;
     char title[96];
-    snprintf(title, sizeof title, "%.40s: %s", coordinate->name, directions[editor->characters.axis]);
+    snprintf(title, sizeof title, "%.40s: %s", coordinate->name, directions[core->characters.axis]);
     drawlist_rounded(list, box, 6, (theme()->panel & 0xFFFFFF00u) | 0xD8u);
     drawlist_text_fit(list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL, TEXT_SIZE, theme()->text, title);
     show_wheel(list, x, y);
@@ -73,24 +74,24 @@ static void show_legend(struct editor *editor, const struct coordinate *coordina
 }
 
 /// A line under the feet of each of the pair.
-static void show_pair(struct editor *editor)
+static void show_pair(const struct stage *stage, struct core *core)
 {
     static const char *const names[] = {"with their phases", "real parts only"};
-    const struct stage_view *view = &editor->stage;
-    const struct rect r = editor->layout.stage;
+    const struct stage_view *view = &stage->view;
+    const struct rect r = core->layout.stage;
     const float viewport[4] = {r.x, r.y, r.w, r.h};
     for (int i = 0; i < view->character_count; i++) {
         const struct stage_character *shown = &view->characters[i];
         const float feet[3] = {shown->position[0], shown->position[1], shown->position[2] + shown->figure->hi[2]};
         float xy[2];
         if (!camera_project(view->view, view->projection, viewport, feet, xy)) continue;
-        show_centred(&editor->list, xy[0], fminf(xy[1] + 22, r.y + r.h - 8), names[i % 2], theme()->text_dim);
+        show_centred(&core->list, xy[0], fminf(xy[1] + 22, r.y + r.h - 8), names[i % 2], theme()->text_dim);
     }
 }
 
-void characters_show(struct editor *editor, const struct editor_world *world)
+void characters_show(const struct stage *stage, struct core *core, const struct editor_world *world)
 {
-    const struct coordinate *coordinate = characters_coordinate(editor, world);
-    if ((editor->characters.mapped || editor->brush.on) && coordinate) show_legend(editor, coordinate);
-    if (editor->characters.compare) show_pair(editor);
+    const struct coordinate *coordinate = characters_coordinate(core, world);
+    if ((core->characters.mapped || core->brush.on) && coordinate) show_legend(core, coordinate);
+    if (core->characters.compare) show_pair(stage, core);
 }

@@ -1,12 +1,13 @@
 /// Tails that follow through while their body is moved by hand, outside of the document's solve and on top of it.
 #include "editor/stage/follow.h"
-#include "editor/curves/curves.h"
-#include "editor/stage/body.h"
+#include "editor/stage/body_offset.h"
+#include "editor/stage/stage.h"
+#include "editor/stage/state.h"
 #include <math.h>
 #include <string.h>
 
 /// The filter of a spline at the time shown: parameters that follow others are where those are now.
-static bool filter_now(const struct editor *editor, const struct editor_world *world, int index,
+static bool filter_now(const struct core *core, const struct editor_world *world, int index,
                        struct follow_filter *filter)
 {
     const struct spline *spline = &world->document->splines[index];
@@ -14,24 +15,25 @@ static bool filter_now(const struct editor *editor, const struct editor_world *w
     for (int p = 0; p < PARAMETER_COUNT; p++) {
         const struct param *param = &spline->parameter[p];
         wiggly_value value = {.y = param->value};
-        if (param->track >= 0) value = curves_solved(world, param->track, editor->playback.position);
+        if (param->track >= 0) value = evaluation_at(world->evaluation, param->track, core->playback.position);
         parameter[p] = value.y + value.re;
     }
     return follow_filter(spline, parameter, filter);
 }
 
 /// Drives one tail's channels by a change of its base's velocity; whether any of them still swings.
-static bool drive(struct editor *editor, const struct editor_world *world, int tail, const double kick[3], double dt)
+static bool drive(struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
+                  const double kick[3], double dt)
 {
     const struct tail *driven = document_tail(world->document, tail);
-    struct follow *follow = &editor->follow[tail];
+    struct follow *follow = &stage->follow[tail];
     bool swings = false;
     for (int c = 0; c < driven->channel_count; c++) {
         const struct channel *channel = &driven->channels[c];
         struct follow_filter filter;
         double direction[3];
         follow->scale[c] = 0;
-        if (!follow_hangs(driven, channel) || !filter_now(editor, world, channel->spline, &filter)) {
+        if (!follow_hangs(driven, channel) || !filter_now(core, world, channel->spline, &filter)) {
             follow->channel[c] = (struct follower){0};
             continue;
         }
@@ -44,12 +46,13 @@ static bool drive(struct editor *editor, const struct editor_world *world, int t
     return swings;
 }
 
-static void advance_tail(struct editor *editor, const struct editor_world *world, int tail, double dt)
+static void advance_tail(struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
+                         double dt)
 {
-    struct follow *follow = &editor->follow[tail];
+    struct follow *follow = &stage->follow[tail];
     double offset[3], kick[3];
     bool moves = false;
-    body_offset(editor, tail, offset);
+    body_offset(stage, core, tail, offset);
     for (int k = 0; k < 3; k++) {
         double velocity = (offset[k] - follow->offset[k]) / dt;
         kick[k] = velocity - follow->velocity[k];
@@ -58,45 +61,45 @@ static void advance_tail(struct editor *editor, const struct editor_world *world
         follow->offset[k] = offset[k];
     }
     if (!moves && !follow->swings) return;
-    follow->swings = drive(editor, world, tail, kick, dt) || moves;
+    follow->swings = drive(stage, core, world, tail, kick, dt) || moves;
     if (!follow->swings) memset(follow->channel, 0, sizeof follow->channel);
 }
 
-void follow_advance(struct editor *editor, const struct editor_world *world, double dt)
+void follow_advance(struct stage *stage, const struct core *core, const struct editor_world *world, double dt)
 {
     if (!(dt > 0)) return;
     const int count = document_count_rigs(world->document, RIG_TAIL);
     for (int t = 0; t < count && t < STAGE_MAX_TAILS; t++) {
-        if (editor->look == LOOK_CUBIC) {
-            follow_stop(editor, t); // nothing pulls a cubic back
+        if (core->look == LOOK_CUBIC) {
+            follow_stop(stage, t); // nothing pulls a cubic back
         } else {
-            advance_tail(editor, world, t, dt);
+            advance_tail(stage, core, world, t, dt);
         }
     }
 }
 
-void follow_land(struct editor *editor, int tail)
+void follow_land(struct stage *stage, int tail)
 {
-    memset(editor->follow[tail].offset, 0, sizeof editor->follow[tail].offset);
+    memset(stage->follow[tail].offset, 0, sizeof stage->follow[tail].offset);
 }
 
-void follow_stop(struct editor *editor, int tail)
+void follow_stop(struct stage *stage, int tail)
 {
-    if (tail < STAGE_MAX_TAILS) editor->follow[tail] = (struct follow){0};
+    if (tail < STAGE_MAX_TAILS) stage->follow[tail] = (struct follow){0};
 }
 
-bool follow_is_moving(const struct editor *editor)
+bool follow_is_moving(const struct stage *stage)
 {
     for (int t = 0; t < STAGE_MAX_TAILS; t++) {
-        if (editor->follow[t].swings) return true;
+        if (stage->follow[t].swings) return true;
     }
     return false;
 }
 
-wiggly_value follow_value(const struct editor *editor, int tail, int channel)
+wiggly_value follow_value(const struct stage *stage, int tail, int channel)
 {
-    if (tail >= STAGE_MAX_TAILS || !editor->follow[tail].swings) return (wiggly_value){0};
-    const struct follow *follow = &editor->follow[tail];
+    if (tail >= STAGE_MAX_TAILS || !stage->follow[tail].swings) return (wiggly_value){0};
+    const struct follow *follow = &stage->follow[tail];
     const struct follower *follower = &follow->channel[channel];
     return (wiggly_value){.re = follow->scale[channel] * follower->x[0],
                           .im = follow->scale[channel] * follower->x[1]};

@@ -6,9 +6,13 @@
 /// good). Then
 ///
 ///     (JᵀJ + λ) dv = Jᵀ (target − p),   in radians of bend, so that both axes count alike.
-#include "editor/core/actions.h"
-#include "editor/curves/curves.h"
+#include "editor/stage/grab.h"
+#include "editor/core/core.h"
+#include "editor/core/selection.h"
 #include "editor/stage/follow.h"
+#include "editor/stage/project.h"
+#include "editor/stage/state.h"
+#include "editor/stage/tails.h"
 #include <math.h>
 
 static const double DAMPING = 12; ///< √λ, pixels a radian: below this a channel moves the point too little to be used
@@ -24,19 +28,19 @@ static double angle_of(const struct angles *angles, int joint)
 }
 
 /// The channel of a tail for an axis: the active spline's where there is a choice. NULL where there is none.
-static const struct channel *channel_for(const struct editor *editor, const struct tail *tail, enum axis axis)
+static const struct channel *channel_for(const struct core *core, const struct tail *tail, enum axis axis)
 {
     const struct channel *found = NULL;
     for (int c = 0; c < tail->channel_count; c++) {
         const struct channel *channel = &tail->channels[c];
-        if (channel->axis == axis && (!found || channel->spline == editor->active)) found = channel;
+        if (channel->axis == axis && (!found || channel->spline == core->active)) found = channel;
     }
     return found;
 }
 
-static struct grab_axis axis_for(const struct editor *editor, const struct tail *tail, int joint, enum axis axis)
+static struct grab_axis axis_for(const struct core *core, const struct tail *tail, int joint, enum axis axis)
 {
-    const struct channel *channel = channel_for(editor, tail, axis);
+    const struct channel *channel = channel_for(core, tail, axis);
     double gain = 0;
     for (int n = 0; channel && n <= joint && n < tail->joints; n++)
         gain += fabs(angle_of(&channel->gain, n)) * DEGREE;
@@ -45,11 +49,11 @@ static struct grab_axis axis_for(const struct editor *editor, const struct tail 
 }
 
 /// The sample nearest to the playhead that may carry knots of all steered splines, on a whole frame.
-static int sample_for(const struct editor *editor, const struct document *document)
+static int sample_for(const struct stage *stage, const struct core *core, const struct document *document)
 {
-    int sample = document_sample(document, round(editor_frame(editor, document)));
+    int sample = document_sample(document, round(core_frame(core, document)));
     for (int a = 0; a < 2; a++) {
-        const struct grab_axis *axis = &editor->grab.axis[a];
+        const struct grab_axis *axis = &stage->grab.axis[a];
         if (!axis->active) continue;
         int last = document_last_knot_sample(document, &document->splines[axis->spline]);
         sample = sample > last ? last : sample;
@@ -57,31 +61,31 @@ static int sample_for(const struct editor *editor, const struct document *docume
     return sample < 0 ? 0 : sample;
 }
 
-void grab_begin(struct editor *editor, const struct editor_world *world, const struct hover *hover)
+void grab_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover)
 {
     const struct tail *tail = document_tail(world->document, hover->tail);
-    struct grab *grab = &editor->grab;
+    struct grab *grab = &stage->grab;
     *grab = (struct grab){.tail = hover->tail, .joint = hover->joint, .fraction = hover->fraction};
-    grab->axis[AXIS_SIDE] = axis_for(editor, tail, grab->joint, AXIS_SIDE);
-    grab->axis[AXIS_UP] = axis_for(editor, tail, grab->joint, AXIS_UP);
+    grab->axis[AXIS_SIDE] = axis_for(core, tail, grab->joint, AXIS_SIDE);
+    grab->axis[AXIS_UP] = axis_for(core, tail, grab->joint, AXIS_UP);
     if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
         grab->axis[AXIS_UP].active = false;
     }
-    follow_stop(editor, grab->tail);
-    grab->sample = sample_for(editor, world->document);
-    editor->playback.playing = false;
-    editor->playback.position = grab->sample;
+    follow_stop(stage, grab->tail);
+    grab->sample = sample_for(stage, core, world->document);
+    core->playback.playing = false;
+    core->playback.position = grab->sample;
     grab->start[0] = hover->x;
     grab->start[1] = hover->y;
     struct rig_pose pose;
-    stage_pose_tail(editor, world, grab->tail, editor->playback.position, NULL, &pose);
-    stage_project_pose(editor, &pose.tail, grab->joint, grab->fraction, grab->start);
+    stage_pose_tail(stage, core, world, grab->tail, core->playback.position, NULL, &pose);
+    stage_project_pose(stage, core, &pose.tail, grab->joint, grab->fraction, grab->start);
 }
 
 /// Takes the present value over and learns from the last step how Im x follows it.
 static void observe(struct grab_axis *axis, const struct editor_world *world, int sample)
 {
-    wiggly_value v = curves_solved(world, axis->spline, sample);
+    wiggly_value v = evaluation_at(world->evaluation, axis->spline, sample);
     double value = v.y + v.re;
     double change = value - axis->seen_value;
     if (axis->seen_value != axis->value && fabs(change) > 1e-3 * axis->values_per_radian) {
@@ -92,16 +96,16 @@ static void observe(struct grab_axis *axis, const struct editor_world *world, in
 }
 
 /// Derivative of the grabbed point by radians of bend through one axis.
-static void derivative(const struct editor *editor, const struct editor_world *world, const struct grab_axis *axis,
-                       const float at[2], double response[2])
+static void derivative(const struct stage *stage, const struct core *core, const struct editor_world *world,
+                       const struct grab_axis *axis, const float at[2], double response[2])
 {
-    const struct grab *grab = &editor->grab;
+    const struct grab *grab = &stage->grab;
     struct rig_pose pose;
     float moved[2] = {at[0], at[1]};
     double change = PROBE * axis->values_per_radian;
     const struct what_if what_if = {axis->spline, change, change * axis->turn};
-    stage_pose_tail(editor, world, grab->tail, editor->playback.position, &what_if, &pose);
-    stage_project_pose(editor, &pose.tail, grab->joint, grab->fraction, moved);
+    stage_pose_tail(stage, core, world, grab->tail, core->playback.position, &what_if, &pose);
+    stage_project_pose(stage, core, &pose.tail, grab->joint, grab->fraction, moved);
     response[0] = (moved[0] - at[0]) / PROBE;
     response[1] = (moved[1] - at[1]) / PROBE;
 }
@@ -125,54 +129,54 @@ static void damped_step(const double column[2][2], const double miss[2], double 
 }
 
 /// Sets the knot of one axis at the grabbed sample, or inserts it.
-static void set_knot(struct editor *editor, const struct editor_world *world, const struct grab_axis *axis)
+static void set_knot(const struct stage *stage, struct core *core, const struct editor_world *world,
+                     const struct grab_axis *axis)
 {
     const struct document *document = world->document;
     const struct spline *spline = &document->splines[axis->spline];
-    int at = spline_find_knot(document, spline, editor->grab.sample);
-    struct edit edit = editor_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, axis->spline);
+    int at = spline_find_knot(document, spline, stage->grab.sample);
+    struct edit edit = core_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, axis->spline);
     if (at < 0) {
-        edit.knot = (struct knot){.frame = document_frame(document, editor->grab.sample), .stiffness = 1000};
+        edit.knot = (struct knot){.frame = document_frame(document, stage->grab.sample), .stiffness = 1000};
     } else {
         edit.knot = spline->knots[at];
     }
     edit.knot.value = axis->value;
-    editor_edit(editor, world, &edit);
+    core_edit(core, world, &edit);
 }
 
 /// Makes the knot that is pulled the selected one.
-static void select_knot(struct editor *editor, const struct editor_world *world)
+static void select_knot(const struct stage *stage, struct core *core, const struct editor_world *world)
 {
-    const struct grab *grab = &editor->grab;
+    const struct grab *grab = &stage->grab;
     bool steered = false;
-    for (int a = 0; a < 2; a++) steered |= grab->axis[a].active && grab->axis[a].spline == editor->active;
-    if (!steered)
-        editor_activate(editor, world, grab->axis[grab->axis[AXIS_SIDE].active ? AXIS_SIDE : AXIS_UP].spline);
-    const struct spline *spline = editor_active_spline(editor, world);
+    for (int a = 0; a < 2; a++) steered |= grab->axis[a].active && grab->axis[a].spline == core->active;
+    if (!steered) core_activate(core, world, grab->axis[grab->axis[AXIS_SIDE].active ? AXIS_SIDE : AXIS_UP].spline);
+    const struct spline *spline = core_active_spline(core, world);
     int at = spline ? spline_find_knot(world->document, spline, grab->sample) : -1;
     if (at < 0) return;
-    editor_reserve(editor, world->document);
-    selection_clear(&editor->selection);
-    selection_set(&editor->selection, spline->knots[at].id, true);
+    core_reserve(core, world->document);
+    selection_clear(&core->selection);
+    selection_set(&core->selection, spline->knots[at].id, true);
 }
 
-void grab_apply(struct editor *editor, const struct editor_world *world)
+void grab_apply(struct stage *stage, struct core *core, const struct editor_world *world)
 {
-    struct grab *grab = &editor->grab;
-    const struct drag *drag = &editor->drag;
+    struct grab *grab = &stage->grab;
+    const struct drag *drag = &core->drag;
     if (drag->kind != DRAG_GRAB || !drag->moved) return;
     if (!grab->axis[AXIS_SIDE].active && !grab->axis[AXIS_UP].active) return;
     struct rig_pose pose;
     float at[2];
-    stage_pose_tail(editor, world, grab->tail, editor->playback.position, NULL, &pose);
-    if (!stage_project_pose(editor, &pose.tail, grab->joint, grab->fraction, at)) return;
+    stage_pose_tail(stage, core, world, grab->tail, core->playback.position, NULL, &pose);
+    if (!stage_project_pose(stage, core, &pose.tail, grab->joint, grab->fraction, at)) return;
     double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
     if (grab->applied && hypot(miss[0], miss[1]) < CLOSE) return;
     double column[2][2] = {{0}}, step[2];
     for (int a = 0; a < 2; a++) {
         if (!grab->axis[a].active) continue;
         observe(&grab->axis[a], world, grab->sample);
-        derivative(editor, world, &grab->axis[a], at, column[a]);
+        derivative(stage, core, world, &grab->axis[a], at, column[a]);
     }
     damped_step(column, miss, step);
     history_restart(world->history, world->document);
@@ -182,8 +186,8 @@ void grab_apply(struct editor *editor, const struct editor_world *world)
         double most = fmax(LARGEST_BEND * axis->values_per_radian, fabs(axis->value));
         double value = fmax(-most, fmin(most, axis->value + step[a] * axis->values_per_radian));
         axis->value = round_value(value, RESOLUTION * axis->values_per_radian);
-        set_knot(editor, world, axis);
+        set_knot(stage, core, world, axis);
     }
     grab->applied = true;
-    select_knot(editor, world);
+    select_knot(stage, core, world);
 }

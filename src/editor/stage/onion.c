@@ -1,7 +1,11 @@
 /// Onion skin: light proxies of the tail, an outline each, at the knots around the playhead.
-#include "editor/core/actions.h"
+#include "editor/stage/onion.h"
 #include "editor/core/arrange.h"
-#include "editor/stage/overlays.h"
+#include "editor/core/core.h"
+#include "editor/core/nudge.h"
+#include "editor/stage/project.h"
+#include "editor/stage/stage.h"
+#include "editor/stage/state.h"
 #include "model/creature.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -18,17 +22,17 @@ static const double FROM = 0.16,
                     TO = 0.985; ///< shares of the length: outside of the body, and where the rounded tip begins
 static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first and of the last skin
 
-int overlay_tail(const struct editor *editor, const struct document *document)
+int overlay_tail(const struct stage *stage, const struct core *core, const struct document *document)
 {
     int tail, channel;
-    if (!active_channel(editor, document, &tail, &channel)) tail = document_tail(document, 0) ? 0 : -1;
-    return tail < editor->stage.tail_count ? tail : -1;
+    if (!active_channel(core, document, &tail, &channel)) tail = document_tail(document, 0) ? 0 : -1;
+    return tail < stage->view.tail_count ? tail : -1;
 }
 
 /// The spline whose knots are shown: the active one, or where it has none, the one that it swings about.
-static const struct spline *keyed_spline(const struct editor *editor, const struct editor_world *world)
+static const struct spline *keyed_spline(const struct core *core, const struct editor_world *world)
 {
-    const struct spline *spline = editor_active_spline(editor, world);
+    const struct spline *spline = core_active_spline(core, world);
     if (!spline || spline->knot_count > 0) return spline;
     int track = spline->parameter[PARAMETER_EQUILIBRIUM].track;
     return track >= 0 ? &world->document->splines[track] : spline;
@@ -54,12 +58,13 @@ static int nearest_knots(const struct document *document, const struct spline *s
 }
 
 /// A point of the centre line at a share of the length, and the pixels that the tail is thick there to each side.
-static bool station(const struct editor *editor, const struct pose *pose, double share, float xy[2], float *radius)
+static bool station(const struct stage *stage, const struct core *core, const struct pose *pose, double share,
+                    float xy[2], float *radius)
 {
-    const struct stage_view *view = &editor->stage;
+    const struct stage_view *view = &stage->view;
     double at = share * (pose->count - 1);
     int joint = at >= pose->count - 1 ? pose->count - 2 : (int)at;
-    if (!stage_project_pose(editor, pose, joint, at - joint, xy)) return false;
+    if (!stage_project_pose(stage, core, pose, joint, at - joint, xy)) return false;
     const float *place = pose->matrix[joint] + 12;
     float depth = 0;
     for (int k = 0; k < 3; k++) depth += (view->eye[k] - place[k]) * view->view[4 * k + 2];
@@ -70,11 +75,12 @@ static bool station(const struct editor *editor, const struct pose *pose, double
 }
 
 /// The outline of a tail on the screen, open where it grows out of the body; false where a part of it is behind the eye.
-static bool outline(const struct editor *editor, const struct pose *pose, float out[OUTLINE][2])
+static bool outline(const struct stage *stage, const struct core *core, const struct pose *pose,
+                    float out[OUTLINE][2])
 {
     float middle[STATIONS][2], radius[STATIONS], across[2] = {0, 0};
     for (int i = 0; i < STATIONS; i++) {
-        if (!station(editor, pose, FROM + (TO - FROM) * i / (STATIONS - 1), middle[i], &radius[i])) return false;
+        if (!station(stage, core, pose, FROM + (TO - FROM) * i / (STATIONS - 1), middle[i], &radius[i])) return false;
     }
     for (int i = 0; i < STATIONS; i++) {
         const float *from = middle[i > 0 ? i - 1 : 0], *to = middle[i + 1 < STATIONS ? i + 1 : i];
@@ -93,31 +99,31 @@ static bool outline(const struct editor *editor, const struct pose *pose, float 
     return true;
 }
 
-void onion_show(struct editor *editor, const struct editor_world *world)
+void onion_show(const struct stage *stage, struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
-    const struct spline *spline = keyed_spline(editor, world);
-    int tail = overlay_tail(editor, document), samples[MAX_SKINS];
-    if (!editor->overlays.onion || !spline || tail < 0) return;
-    int count = nearest_knots(document, spline, editor->playback.position, samples);
-    uint32_t color = arrange_color(document, editor->active);
-    const struct posing posing = stage_posing(editor, world);
+    const struct spline *spline = keyed_spline(core, world);
+    int tail = overlay_tail(stage, core, document), samples[MAX_SKINS];
+    if (!core->overlays.onion || !spline || tail < 0) return;
+    int count = nearest_knots(document, spline, core->playback.position, samples);
+    uint32_t color = arrange_color(document, core->active);
+    const struct posing posing = stage_posing(core, world);
     const int rig = document_find_rig(document, RIG_TAIL, tail);
     for (int i = count - 1; i >= 0; i--) {
         struct rig_pose pose;
         float points[OUTLINE][2];
         rig_pose(&posing, rig, samples[i], NULL, &pose);
-        if (!outline(editor, &pose.tail, points)) continue;
+        if (!outline(stage, core, &pose.tail, points)) continue;
         float share = count > 1 ? (float)i / (float)(count - 1) : 0;
-        drawlist_line(&editor->list, points[0], OUTLINE, 1.25f,
+        drawlist_line(&core->list, points[0], OUTLINE, 1.25f,
                       theme_fade(color, NEAREST + (FARTHEST - NEAREST) * share));
     }
 }
 
-void onion_toggle(struct editor *editor)
+void onion_toggle(struct core *core)
 {
-    editor->overlays.onion = !editor->overlays.onion;
-    editor_message(editor, false,
-                   editor->overlays.onion ? "Onion skin on: the tail at the knots around the playhead (O)."
-                                          : "Onion skin off.");
+    core->overlays.onion = !core->overlays.onion;
+    core_message(core, false,
+                 core->overlays.onion ? "Onion skin on: the tail at the knots around the playhead (O)."
+                                      : "Onion skin off.");
 }

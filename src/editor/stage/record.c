@@ -1,27 +1,28 @@
 /// The motion of a body that is dragged while it is recorded: one place for each sample that the playhead passes.
 #include "editor/stage/record.h"
-#include "editor/core/actions.h"
-#include "editor/stage/body.h"
+#include "editor/core/core.h"
+#include "editor/stage/body_offset.h"
+#include "editor/stage/state.h"
 #include <math.h>
 #include <stdlib.h>
 
-void record_begin(struct editor *editor)
+void record_begin(struct stage *stage, struct core *core)
 {
-    struct record *record = &editor->record;
+    struct record *record = &stage->record;
     if (record->running) return;
-    *record = (struct record){.armed = record->armed, .running = true, .first = (int)ceil(editor->playback.position)};
-    editor->playback.playing = true;
-    editor_message(editor, false, "Recording the body: release to keep it.");
+    *record = (struct record){.running = true, .first = (int)ceil(core->playback.position)};
+    core->playback.playing = true;
+    core_message(core, false, "Recording the body: release to keep it.");
 }
 
-void record_advance(struct editor *editor, const struct editor_world *world)
+void record_advance(struct stage *stage, const struct core *core, const struct editor_world *world)
 {
-    struct record *record = &editor->record;
-    if (!record->running || editor->drag.kind != DRAG_BODY) return;
-    double offset[3], position = editor->playback.position;
-    body_offset(editor, editor->body.tail, offset);
+    struct record *record = &stage->record;
+    if (!record->running || core->drag.kind != DRAG_BODY) return;
+    double offset[3], position = core->playback.position;
+    body_offset(stage, core, stage->body.tail, offset);
     int next = record->first + record->count;
-    bool ended = position < next - 1 || !editor->playback.playing || record->count == RECORD_SAMPLES ||
+    bool ended = position < next - 1 || !core->playback.playing || record->count == RECORD_SAMPLES ||
                  next >= document_samples(world->document);
     if (ended) {
         record->running = false;
@@ -39,9 +40,9 @@ void record_advance(struct editor *editor, const struct editor_world *world)
     for (int k = 0; k < 3; k++) record->seen[k] = offset[k];
 }
 
-bool record_has_motion(const struct editor *editor) { return editor->record.count >= 3; }
+bool record_has_motion(const struct stage *stage) { return stage->record.count >= 3; }
 
-void record_forget(struct editor *editor) { editor->record = (struct record){.armed = editor->record.armed}; }
+void record_forget(struct stage *stage) { stage->record = (struct record){0}; }
 
 /// The cubic through some of the values, level at both ends; false where it could not be solved.
 static bool solve_through(wiggly_solver *solver, const double *values, int count, const int *knots, int knot_count,

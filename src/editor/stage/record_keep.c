@@ -3,11 +3,10 @@
 ///
 /// A channel whose spline has knots of its own stays as it is: the swing that the base causes is added by a channel of its own,
 /// on a spline with the same poles. By linearity that is the same motion, and no key of the animator's changes its meaning.
-#include "editor/core/actions.h"
-#include "editor/curves/curves.h"
-#include "editor/stage/body.h"
-#include "editor/stage/follow.h"
+#include "editor/stage/record_keep.h"
+#include "editor/core/core.h"
 #include "editor/stage/record.h"
+#include "editor/stage/state.h"
 #include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
@@ -35,53 +34,53 @@ static void free_name(const struct document *document, const char *base, char na
 }
 
 /// Adds a spline behind all others; its index, or -1.
-static int add_spline(struct editor *editor, const struct editor_world *world, const char *base)
+static int add_spline(struct core *core, const struct editor_world *world, const char *base)
 {
     char name[NAME_SIZE];
     free_name(world->document, base, name);
-    struct edit edit = editor_edit_of(EDIT_SPLINE_ADD, world->document->spline_count);
+    struct edit edit = core_edit_of(EDIT_SPLINE_ADD, world->document->spline_count);
     edit.text = name;
-    return editor_edit(editor, world, &edit) ? world->document->spline_count - 1 : -1;
+    return core_edit(core, world, &edit) ? world->document->spline_count - 1 : -1;
 }
 
-static void set_start(struct editor *editor, const struct editor_world *world, int spline, enum wiggly_start start)
+static void set_start(struct core *core, const struct editor_world *world, int spline, enum wiggly_start start)
 {
-    struct edit edit = editor_edit_of(EDIT_PARAMETER, spline);
+    struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
     edit.parameter = PARAMETER_START;
     edit.param = (struct param){start, -1};
-    editor_edit(editor, world, &edit);
+    core_edit(core, world, &edit);
 }
 
-static void put_knot(struct editor *editor, const struct editor_world *world, int spline, int sample, double value,
+static void put_knot(struct core *core, const struct editor_world *world, int spline, int sample, double value,
                      bool level)
 {
     const struct document *document = world->document;
     int at = spline_find_knot(document, &document->splines[spline], sample);
-    struct edit edit = editor_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, spline);
+    struct edit edit = core_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, spline);
     if (at >= 0) edit.knot = document->splines[spline].knots[at];
     if (at < 0) edit.knot.frame = document_frame(document, sample);
     edit.knot.value = round_value(value, RESOLUTION);
     edit.knot.has_slope = level;
     edit.knot.slope = 0;
     edit.knot.stiffness = level ? RECORD_STIFFNESS : KNOT_DEFAULT_STIFFNESS;
-    editor_edit(editor, world, &edit);
+    core_edit(core, world, &edit);
 }
 
-static void clear_knots(struct editor *editor, const struct editor_world *world, int spline, int from, int to)
+static void clear_knots(struct core *core, const struct editor_world *world, int spline, int from, int to)
 {
     const struct document *document = world->document;
     for (;;) {
         int at = spline_lower_bound(document, &document->splines[spline], from);
         const struct spline *cleared = &document->splines[spline];
         if (at == cleared->knot_count || document_sample(document, cleared->knots[at].frame) > to) return;
-        struct edit edit = editor_edit_of(EDIT_KNOT_REMOVE, spline);
+        struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, spline);
         edit.knot = cleared->knots[at];
-        if (!editor_edit(editor, world, &edit)) return;
+        if (!core_edit(core, world, &edit)) return;
     }
 }
 
 /// The spline that a coordinate follows, made where it is a number yet; -1 on failure.
-static int base_spline(struct editor *editor, const struct editor_world *world, int tail, int coordinate, bool loop)
+static int base_spline(struct core *core, const struct editor_world *world, int tail, int coordinate, bool loop)
 {
     const struct tail *moved = document_tail(world->document, tail);
     char name[NAME_SIZE];
@@ -89,139 +88,141 @@ static int base_spline(struct editor *editor, const struct editor_world *world, 
     snprintf(name, sizeof name, "%.250s %s",
              world->document->rigs[document_find_rig(world->document, RIG_TAIL, tail)].name,
              coordinate_name(coordinate));
-    int spline = add_spline(editor, world, name);
+    int spline = add_spline(core, world, name);
     if (spline < 0) return -1;
-    struct edit mode = editor_edit_of(EDIT_PARAMETER, spline);
+    struct edit mode = core_edit_of(EDIT_PARAMETER, spline);
     mode.parameter = PARAMETER_MODE;
     mode.param = (struct param){WIGGLY_CUBIC, -1};
-    editor_edit(editor, world, &mode);
-    if (loop) set_start(editor, world, spline, WIGGLY_LOOP);
+    core_edit(core, world, &mode);
+    if (loop) set_start(core, world, spline, WIGGLY_LOOP);
     return spline;
 }
 
 /// Keys a coordinate's motion. Before and after it the body stands still, unless the scene is a loop, in which it comes back by
 /// itself.
-static int key_coordinate(struct editor *editor, const struct editor_world *world, int coordinate, bool loop)
+static int key_coordinate(const struct stage *stage, struct core *core, const struct editor_world *world,
+                          int coordinate, bool loop)
 {
-    const struct record *record = &editor->record;
+    const struct record *record = &stage->record;
     const struct document *document = world->document;
-    const struct param before = document_tail(document, editor->body.tail)->position[coordinate];
+    const struct param before = document_tail(document, stage->body.tail)->position[coordinate];
     double from[RECORD_SAMPLES];
     int knots[MAX_KNOTS], last = document_samples(document) - 1;
-    int spline = base_spline(editor, world, editor->body.tail, coordinate, loop);
+    int spline = base_spline(core, world, stage->body.tail, coordinate, loop);
     if (spline < 0) return -1;
     int count = record->count, end = document_last_knot_sample(document, &document->splines[spline]);
     if (record->first + count - 1 > end) count = end - record->first + 1;
     for (int i = 0; i < count; i++) {
         wiggly_value value = {.y = before.value};
-        if (before.track >= 0) value = curves_solved(world, before.track, record->first + i);
+        if (before.track >= 0) value = evaluation_at(world->evaluation, before.track, record->first + i);
         from[i] = value.y + value.re + record->way[coordinate][i];
     }
     int made = count >= 2 ? record_simplify(from, count, TOLERANCE, knots, MAX_KNOTS) : 0;
-    if (before.track >= 0) clear_knots(editor, world, spline, record->first, record->first + count - 1);
+    if (before.track >= 0) clear_knots(core, world, spline, record->first, record->first + count - 1);
     for (int i = 0; i < made; i++) {
-        put_knot(editor, world, spline, record->first + knots[i], from[knots[i]], i == 0 || i == made - 1);
+        put_knot(core, world, spline, record->first + knots[i], from[knots[i]], i == 0 || i == made - 1);
     }
     if (before.track >= 0 || made == 0) return spline;
-    if (!loop && record->first > 1) put_knot(editor, world, spline, 0, from[0], true);
-    if (!loop && record->first + count < last) put_knot(editor, world, spline, last, from[count - 1], true);
-    struct edit edit = editor_edit_of(EDIT_POSITION, 0);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, editor->body.tail);
+    if (!loop && record->first > 1) put_knot(core, world, spline, 0, from[0], true);
+    if (!loop && record->first + count < last) put_knot(core, world, spline, last, from[count - 1], true);
+    struct edit edit = core_edit_of(EDIT_POSITION, 0);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body.tail);
     edit.coordinate = coordinate;
     edit.param.track = spline;
-    editor_edit(editor, world, &edit);
+    core_edit(core, world, &edit);
     return spline;
 }
 
-static void follow_base(struct editor *editor, const struct editor_world *world, int spline, int base)
+static void follow_base(struct core *core, const struct editor_world *world, int spline, int base)
 {
-    struct edit edit = editor_edit_of(EDIT_PARAMETER, spline);
+    struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
     edit.parameter = PARAMETER_EQUILIBRIUM;
     edit.param.track = base;
-    editor_edit(editor, world, &edit);
+    core_edit(core, world, &edit);
 }
 
-static void set_angles(struct editor *editor, const struct editor_world *world, int channel, enum angle_kind kind,
-                       const struct angles *angles)
+static void set_angles(const struct stage *stage, struct core *core, const struct editor_world *world, int channel,
+                       enum angle_kind kind, const struct angles *angles)
 {
-    struct edit edit = editor_edit_of(EDIT_ANGLES, 0);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, editor->body.tail);
+    struct edit edit = core_edit_of(EDIT_ANGLES, 0);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body.tail);
     edit.channel = channel;
     edit.angle = kind;
     edit.angles = angles;
-    editor_edit(editor, world, &edit);
+    core_edit(core, world, &edit);
 }
 
 /// A spline with the poles of another and no knots, driven by the base from rest (or round the loop); its index, or -1.
-static int add_follower(struct editor *editor, const struct editor_world *world, int model, int base)
+static int add_follower(struct core *core, const struct editor_world *world, int model, int base)
 {
     char name[NAME_SIZE];
     snprintf(name, sizeof name, "%.280s follow", world->document->splines[model].name);
-    int spline = add_spline(editor, world, name);
+    int spline = add_spline(core, world, name);
     if (spline < 0) return -1;
     const struct spline copied = world->document->splines[model];
-    struct edit mode = editor_edit_of(EDIT_PARAMETER, spline), spring = editor_edit_of(EDIT_SPRING, spline);
+    struct edit mode = core_edit_of(EDIT_PARAMETER, spline), spring = core_edit_of(EDIT_SPRING, spline);
     mode.parameter = PARAMETER_MODE;
     mode.param = copied.parameter[PARAMETER_MODE];
     spring.flag = copied.spring_friction;
-    editor_edit(editor, world, &mode);
-    if (spring.flag) editor_edit(editor, world, &spring);
+    core_edit(core, world, &mode);
+    if (spring.flag) core_edit(core, world, &spring);
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         if (p == PARAMETER_EQUILIBRIUM || p == PARAMETER_START || !spline_has(&copied, p)) continue;
-        struct edit edit = editor_edit_of(EDIT_PARAMETER, spline);
+        struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
         edit.parameter = p;
         edit.param = copied.parameter[p];
-        editor_edit(editor, world, &edit);
+        core_edit(core, world, &edit);
     }
-    set_start(editor, world, spline, spline_start(&copied) == WIGGLY_LOOP ? WIGGLY_LOOP : WIGGLY_REST);
-    follow_base(editor, world, spline, base);
+    set_start(core, world, spline, spline_start(&copied) == WIGGLY_LOOP ? WIGGLY_LOOP : WIGGLY_REST);
+    follow_base(core, world, spline, base);
     return spline;
 }
 
 /// Adds a channel of the displacement beside one of the total: as it swung by hand.
-static void add_channel(struct editor *editor, const struct editor_world *world, const struct channel *model,
-                        double scale, int base)
+static void add_channel(const struct stage *stage, struct core *core, const struct editor_world *world,
+                        const struct channel *model, double scale, int base)
 {
     const struct document *document = world->document;
-    struct edit edit = editor_edit_of(EDIT_CHANNEL_ADD, add_follower(editor, world, model->spline, base));
+    struct edit edit = core_edit_of(EDIT_CHANNEL_ADD, add_follower(core, world, model->spline, base));
     struct angles gain = model->gain;
     const struct angles lag = model->lag;
-    edit.rig = document_find_rig(world->document, RIG_TAIL, editor->body.tail);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body.tail);
     edit.axis = model->axis;
     edit.of = PART_DISPLACEMENT;
     if (edit.spline < 0) return;
     for (int n = 0; n < (gain.each ? TAIL_MAX_JOINTS : 1); n++)
         gain.value[n] = round(gain.value[n] * scale * 1e4) / 1e4;
-    if (!editor_edit(editor, world, &edit)) return;
-    int added = document_tail(document, editor->body.tail)->channel_count - 1;
-    set_angles(editor, world, added, ANGLE_LAG, &lag);
-    set_angles(editor, world, added, ANGLE_GAIN, &gain);
+    if (!core_edit(core, world, &edit)) return;
+    int added = document_tail(document, stage->body.tail)->channel_count - 1;
+    set_angles(stage, core, world, added, ANGLE_LAG, &lag);
+    set_angles(stage, core, world, added, ANGLE_GAIN, &gain);
 }
 
 /// Lets the channels that swung with a coordinate follow its spline.
-static void hang_channels(struct editor *editor, const struct editor_world *world, int coordinate, int base)
+static void hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world,
+                          int coordinate, int base)
 {
-    int index = editor->body.tail, count = document_tail(world->document, index)->channel_count;
+    int index = stage->body.tail, count = document_tail(world->document, index)->channel_count;
     for (int c = 0; c < count; c++) {
         const struct tail *tail = document_tail(world->document, index);
         const struct channel channel = tail->channels[c];
         const struct param *equilibrium = &world->document->splines[channel.spline].parameter[PARAMETER_EQUILIBRIUM];
-        double direction[3], scale = editor->follow[index].scale[c];
+        double direction[3], scale = stage->follow[index].scale[c];
         follow_direction(tail, channel.axis, direction);
-        bool swung = editor->record.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
+        bool swung = stage->record.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
         if (!swung) continue;
         if (channel.of == PART_TOTAL) {
-            add_channel(editor, world, &channel, scale * direction[coordinate], base);
+            add_channel(stage, core, world, &channel, scale * direction[coordinate], base);
         } else if (equilibrium->track < 0) {
-            follow_base(editor, world, channel.spline, base);
+            follow_base(core, world, channel.spline, base);
         }
     }
 }
 
-void record_keep(struct editor *editor, const struct editor_world *world)
+void record_keep(struct stage *stage, struct core *core, const struct editor_world *world)
 {
-    struct record *record = &editor->record;
-    const struct tail *tail = document_tail(world->document, editor->body.tail);
+    struct record *record = &stage->record;
+    const struct tail *tail = document_tail(world->document, stage->body.tail);
     bool loop = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
         record->hangs[c] = follow_hangs(tail, &tail->channels[c]);
@@ -229,8 +230,8 @@ void record_keep(struct editor *editor, const struct editor_world *world)
     }
     for (int k = 0; k < 3; k++) {
         if (largest(record->way[k], record->count) < STILL) continue;
-        int base = key_coordinate(editor, world, k, loop);
-        if (base >= 0) hang_channels(editor, world, k, base);
+        int base = key_coordinate(stage, core, world, k, loop);
+        if (base >= 0) hang_channels(stage, core, world, k, base);
     }
-    record_forget(editor);
+    record_forget(stage);
 }

@@ -1,35 +1,37 @@
 /// Tails on the stage, with what moves them by hand.
+#include "editor/stage/tails.h"
 #include "base/hash.h"
-#include "editor/core/actions.h"
-#include "editor/stage/body.h"
+#include "editor/stage/body_offset.h"
 #include "editor/stage/follow.h"
 #include "editor/stage/kinds.h"
+#include "editor/stage/project.h"
+#include "editor/stage/state.h"
 #include "rig/shadow.h"
 #include <math.h>
 
 enum { BOUND_STEPS = 120, BLOBS_OF_ONE_TAIL = 16 };
 
 /// Its body in the hand, what swings after it, and `change` (may be NULL).
-static struct by_hand by_hand(const struct editor *editor, const struct tail *shown, int tail,
+static struct by_hand by_hand(const struct stage *stage, const struct core *core, const struct tail *shown, int tail,
                               const struct what_if *change)
 {
     struct by_hand hand = {0};
     for (int c = 0; c < shown->channel_count; c++) {
-        hand.input[c] = follow_value(editor, tail, c);
+        hand.input[c] = follow_value(stage, tail, c);
         if (!change || change->spline != shown->channels[c].spline) continue;
         hand.input[c].re += change->re;
         hand.input[c].im += change->im;
     }
-    body_offset(editor, tail, hand.base);
+    body_offset(stage, core, tail, hand.base);
     return hand;
 }
 
-void stage_pose_tail(const struct editor *editor, const struct editor_world *world, int tail, double position,
-                     const struct what_if *change, struct rig_pose *pose)
+void stage_pose_tail(const struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
+                     double position, const struct what_if *change, struct rig_pose *pose)
 {
-    const struct posing posing = stage_posing(editor, world);
+    const struct posing posing = stage_posing(core, world);
     const int rig = document_find_rig(world->document, RIG_TAIL, tail);
-    const struct by_hand hand = by_hand(editor, &world->document->rigs[rig].tail, tail, change);
+    const struct by_hand hand = by_hand(stage, core, &world->document->rigs[rig].tail, tail, change);
     rig_pose(&posing, rig, position, &hand, pose);
 }
 
@@ -44,27 +46,27 @@ static void add_blobs(struct stage_view *view, const struct pose *pose)
     }
 }
 
-static void pose(struct editor *editor, const struct editor_world *world, int rig, int n)
+static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
 {
-    struct stage_view *view = &editor->stage;
+    struct stage_view *view = &stage->view;
     const struct tail *tail = &world->document->rigs[rig].tail;
     struct rig_pose posed;
     if (view->tail_count == STAGE_MAX_TAILS) return;
     struct stage_tail *shown = &view->tails[view->tail_count++];
-    stage_pose_tail(editor, world, n, editor->playback.position, NULL, &posed);
+    stage_pose_tail(stage, core, world, n, core->playback.position, NULL, &posed);
     *shown = (struct stage_tail){.joints = tail->joints, .length = (float)tail->length, .pose = posed.tail};
     add_blobs(view, &shown->pose);
 }
 
-static bool bounds(const struct editor *editor, const struct editor_world *world, int rig, int n, float lo[3],
-                   float hi[3])
+static bool bounds(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
+                   int n, float lo[3], float hi[3])
 {
     const double last = document_samples(world->document) - 1;
     (void)rig;
     for (int step = 0; step <= BOUND_STEPS && n < STAGE_MAX_TAILS; step++) {
         struct rig_pose posed;
         float low[3], high[3];
-        stage_pose_tail(editor, world, n, last * step / BOUND_STEPS, NULL, &posed);
+        stage_pose_tail(stage, core, world, n, last * step / BOUND_STEPS, NULL, &posed);
         rig_bounds(&posed, low, high);
         for (int k = 0; k < 3; k++) {
             lo[k] = fminf(lo[k], low[k]);

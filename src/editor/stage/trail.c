@@ -1,7 +1,11 @@
 /// The motion arc: where the tip of the tail goes, a mark a frame, fading with the distance from the playhead.
+#include "editor/stage/trail.h"
 #include "base/hash.h"
-#include "editor/core/actions.h"
-#include "editor/stage/overlays.h"
+#include "editor/core/core.h"
+#include "editor/stage/onion.h"
+#include "editor/stage/project.h"
+#include "editor/stage/stage.h"
+#include "editor/stage/state.h"
 #include "ui/theme.h"
 #include <math.h>
 
@@ -29,15 +33,16 @@ static bool tail_loops(const struct document *document, const struct tail *tail)
 }
 
 /// The tip at a frame counted from the first, world; from memory while nothing was edited.
-static const float *tip_at(struct editor *editor, const struct editor_world *world, int tail, int frame)
+static const float *tip_at(struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
+                           int frame)
 {
     uint64_t solved = world->evaluation ? world->evaluation->revision : 0;
     uint64_t key = hash_word(hash_word(HASH_START, history_revision(world->history)), solved);
-    key = hash_word(key, (uint64_t)tail << 8 | (uint64_t)editor->look);
-    struct trail_point *point = &editor->overlays.trail_point[(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
+    key = hash_word(key, (uint64_t)tail << 8 | (uint64_t)core->look);
+    struct trail_point *point = &stage->trail[(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
     if (point->known && point->key == key && point->frame == frame) return point->tip;
     struct rig_pose pose;
-    const struct posing posing = stage_posing(editor, world);
+    const struct posing posing = stage_posing(core, world);
     rig_pose(&posing, document_find_rig(world->document, RIG_TAIL, tail), (double)frame * world->document->substeps,
              NULL, &pose);
     *point = (struct trail_point){.known = true, .key = key, .frame = frame};
@@ -45,11 +50,11 @@ static const float *tip_at(struct editor *editor, const struct editor_world *wor
     return point->tip;
 }
 
-static bool project(const struct editor *editor, const float tip[3], float xy[2])
+static bool project(const struct stage *stage, const struct core *core, const float tip[3], float xy[2])
 {
-    const struct rect *r = &editor->layout.stage;
+    const struct rect *r = &core->layout.stage;
     const float viewport[4] = {r->x, r->y, r->w, r->h};
-    return camera_project(editor->stage.view, editor->stage.projection, viewport, tip, xy);
+    return camera_project(stage->view.view, stage->view.projection, viewport, tip, xy);
 }
 
 /// Catmull-Rom through four neighbours, on the screen.
@@ -78,42 +83,42 @@ static int lay_out(float screen[TRAIL_FRAMES][2], int count, float points[][2])
 
 static float fade_at(double frames, double reach) { return OPACITY * fmaxf(0, 1 - (float)(fabs(frames) / reach)); }
 
-static void show_marks(struct editor *editor, float screen[TRAIL_FRAMES][2], int first, int count, double now,
+static void show_marks(struct core *core, float screen[TRAIL_FRAMES][2], int first, int count, double now,
                        double reach)
 {
     for (int i = 0; i < count; i++) {
         float alpha = fade_at(first + i - now, reach);
         struct rect mark = {screen[i][0] - MARK / 2, screen[i][1] - MARK / 2, MARK, MARK};
-        if (alpha > 0.02f) drawlist_rect(&editor->list, mark, theme_fade(theme()->playhead, alpha));
+        if (alpha > 0.02f) drawlist_rect(&core->list, mark, theme_fade(theme()->playhead, alpha));
     }
 }
 
-static void show_line(struct editor *editor, float points[][2], int first, int count, double now, double reach)
+static void show_line(struct core *core, float points[][2], int first, int count, double now, double reach)
 {
     for (int i = 0; i + 1 < count; i += RUN * PIECES) {
         int length = count - i < RUN * PIECES + 1 ? count - i : RUN * PIECES + 1;
         float alpha = fade_at(first + (i + length / 2.0) / PIECES - now, reach);
         if (alpha > 0.02f)
-            drawlist_line(&editor->list, points[i], length, 1.5f, theme_fade(theme()->playhead, 0.7f * alpha));
+            drawlist_line(&core->list, points[i], length, 1.5f, theme_fade(theme()->playhead, 0.7f * alpha));
     }
 }
 
 /// A ring round the tip as it is now, which a body that is being dragged takes along.
-static void show_now(struct editor *editor, int tail)
+static void show_now(struct stage *stage, struct core *core, int tail)
 {
     float xy[2];
-    const struct pose *pose = &editor->stage.tails[tail].pose;
-    if (!stage_project(editor, tail, pose->count - 1, 0, xy)) return;
+    const struct pose *pose = &stage->view.tails[tail].pose;
+    if (!stage_project(stage, core, tail, pose->count - 1, 0, xy)) return;
     struct rect ring = {xy[0] - NOW, xy[1] - NOW, 2 * NOW, 2 * NOW};
-    drawlist_rounded_line(&editor->list, ring, NOW, 1.5f, theme()->playhead);
+    drawlist_rounded_line(&core->list, ring, NOW, 1.5f, theme()->playhead);
 }
 
-void trail_show(struct editor *editor, const struct editor_world *world)
+void trail_show(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
-    int tail = overlay_tail(editor, document);
-    if (!editor->overlays.trail || tail < 0) return;
-    double now = editor->playback.position / document->substeps;
+    int tail = overlay_tail(stage, core, document);
+    if (!core->overlays.trail || tail < 0) return;
+    double now = core->playback.position / document->substeps;
     double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
     int first = (int)ceil(now - reach), last = (int)floor(now + reach);
     if (!tail_loops(document, document_tail(document, tail))) {
@@ -124,18 +129,18 @@ void trail_show(struct editor *editor, const struct editor_world *world)
     float screen[TRAIL_FRAMES][2], points[PIECES * TRAIL_FRAMES][2];
     int count = 0;
     for (int frame = first; frame <= last; frame++) {
-        if (!project(editor, tip_at(editor, world, tail, frame), screen[count++])) return;
+        if (!project(stage, core, tip_at(stage, core, world, tail, frame), screen[count++])) return;
     }
     if (count == 0) return;
-    show_line(editor, points, first, lay_out(screen, count, points), now, reach);
-    show_marks(editor, screen, first, count, now, reach);
-    show_now(editor, tail);
+    show_line(core, points, first, lay_out(screen, count, points), now, reach);
+    show_marks(core, screen, first, count, now, reach);
+    show_now(stage, core, tail);
 }
 
-void trail_toggle(struct editor *editor)
+void trail_toggle(struct core *core)
 {
-    editor->overlays.trail = !editor->overlays.trail;
-    editor_message(editor, false,
-                   editor->overlays.trail ? "Motion arc on: the path of the tip, one mark per frame (P)."
-                                          : "Motion arc off.");
+    core->overlays.trail = !core->overlays.trail;
+    core_message(core, false,
+                 core->overlays.trail ? "Motion arc on: the path of the tip, one mark per frame (P)."
+                                      : "Motion arc off.");
 }

@@ -1,36 +1,38 @@
 /// The status line: where playback is, which scene, and one sentence: a message, or what the pointer is over.
-#include "editor/core/playback.h"
-#include "editor/core/state.h"
+#include "editor/core/core.h"
+#include "editor/transport/controls.h"
+#include "editor/transport/state.h"
+#include "editor/transport/transport.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double REFRESH = 0.5; ///< seconds between changes of the figures at the right
 static const double SOLVED = 5;    ///< µs; what took less was only a look for something to solve
 
-void status_advance(struct editor *editor, double dt)
+void status_advance(struct transport *transport, const struct core *core, double dt)
 {
-    struct status *status = &editor->status;
+    struct status *status = &transport->status;
     status->age += dt;
     if (status->fps > 0 && status->age < REFRESH) return;
     status->age = 0;
-    status->fps = editor->fps;
-    status->solve_us = editor->solve_us;
-    status->dropped = editor->playback.dropped;
+    status->fps = transport->fps;
+    status->solve_us = transport->solve_us;
+    status->dropped = core->playback.dropped;
 }
 
-static const char *hover_hint(const struct editor *editor, const struct document *document)
+static const char *hover_hint(const struct core *core, const struct document *document)
 {
-    if (editor->drag.kind == DRAG_SCALE) return editor->scaling.sentence;
-    switch (editor->hover.kind) {
+    switch (core->hover.kind) {
     case HOVER_KNOT:
         return "Drag to move (X or Y locks an axis, R moves later knots too, Shift: fine, Ctrl: between frames)";
     case HOVER_SLOPE:
         return "Drag to turn the slope, pull to make it firmer; T removes it";
     case HOVER_CURVE:
-        return editor->hover.spline == editor->active
+        return core->hover.spline == core->active
                    ? "Double-click to insert a knot without changing the curve; drag to select with a box"
                    : "Click to edit this spline";
     case HOVER_RULER:
@@ -65,34 +67,35 @@ static void paint_text(struct drawlist *list, struct rect r, enum font font, uin
 }
 
 /// Frame and time, in a column whose width does not depend on them; returns the column's right end.
-static float show_time(struct editor *editor, const struct document *document, struct rect bar, float x)
+static float show_time(struct core *core, const struct document *document, struct rect bar, float x)
 {
     char text[64];
-    double frame = editor_frame(editor, document);
+    double frame = core_frame(core, document);
     snprintf(text, sizeof text, "%5.0f  %6.2f s", round(frame), frame / document->fps);
     float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-    paint_text(&editor->list, (struct rect){x, bar.y, width, bar.h}, FONT_NUMBER, theme()->text, text);
+    paint_text(&core->list, (struct rect){x, bar.y, width, bar.h}, FONT_NUMBER, theme()->text, text);
     return x + width;
 }
 
 /// The scene's name, with a dot while it has unsaved changes; returns its right end.
-static float show_title(struct editor *editor, const struct editor_world *world, struct rect bar, float x)
+static float show_title(struct core *core, const struct editor_world *world, struct rect bar, float x)
 {
-    char text[sizeof editor->title + 8];
+    char text[sizeof core->title + 8];
     bool saved = history_is_saved(world->history);
-    snprintf(text, sizeof text, "%s%s", editor->title, saved ? "" : " •");
+    snprintf(text, sizeof text, "%s%s", core->title, saved ? "" : " •");
     float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, text), bar.w / 5);
     struct rect r = {x, bar.y, width, bar.h};
-    paint_text(&editor->list, r, FONT_LABEL, saved ? theme()->text_dim : theme()->text, text);
+    paint_text(&core->list, r, FONT_LABEL, saved ? theme()->text_dim : theme()->text, text);
     return x + width;
 }
 
 /// Frames a second only while it plays: at rest frames come as events do, and their number would say nothing.
-static void figures_text(const struct editor *editor, const struct editor_world *world, char *text, size_t size)
+static void figures_text(const struct transport *transport, const struct core *core, const struct editor_world *world,
+                         char *text, size_t size)
 {
-    const struct status *status = &editor->status;
+    const struct status *status = &transport->status;
     char stage[32] = "", fps[64] = "", solve[32] = "";
-    if (editor->playback.playing && status->fps > 0) {
+    if (core->playback.playing && status->fps > 0) {
         snprintf(fps, sizeof fps, "%.0f fps  %ld dropped", status->fps, status->dropped);
     }
     if (world->evaluation && world->evaluation->stale) {
@@ -100,30 +103,42 @@ static void figures_text(const struct editor *editor, const struct editor_world 
     } else if (status->solve_us >= SOLVED) {
         snprintf(solve, sizeof solve, "solve %.0f µs", status->solve_us);
     }
-    if (editor->stage_scale > 0 && editor->stage_scale < 1) {
-        snprintf(stage, sizeof stage, "stage at %.0f %%", 100 * (double)editor->stage_scale);
+    if (transport->stage_scale > 0 && transport->stage_scale < 1) {
+        snprintf(stage, sizeof stage, "stage at %.0f %%", 100 * (double)transport->stage_scale);
     }
     snprintf(text, size, "%s%s%s%s%s", stage, stage[0] && (fps[0] || solve[0]) ? "  " : "", fps,
              fps[0] && solve[0] ? "  " : "", solve);
 }
 
-void status_show(struct editor *editor, const struct editor_world *world)
+void status_show(const struct transport *transport, struct core *core, const struct editor_world *world,
+                 const char *hint)
 {
     enum { GAP = 24 };
-    struct rect bar = editor->layout.status;
-    const struct message *message = &editor->message;
-    drawlist_rect(&editor->list, bar, theme()->panel);
-    drawlist_rect(&editor->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
-    float x = show_time(editor, world->document, bar, transport_show(editor)) + GAP;
-    x = show_title(editor, world, bar, x) + GAP;
+    struct rect bar = core->layout.status;
+    const struct message *message = &core->message;
+    drawlist_rect(&core->list, bar, theme()->panel);
+    drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
+    float x = show_time(core, world->document, bar, transport_show(core)) + GAP;
+    x = show_title(core, world, bar, x) + GAP;
     char figures[128];
-    figures_text(editor, world, figures, sizeof figures);
+    figures_text(transport, core, world, figures, sizeof figures);
     float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
     float right = bar.x + bar.w - 12 - width;
-    paint_text(&editor->list, (struct rect){right, bar.y, width, bar.h}, FONT_NUMBER, theme()->text_dim, figures);
-    const char *hint = inspector_hint(editor);
-    const char *text = message->text[0] ? message->text : hint ? hint : hover_hint(editor, world->document);
+    paint_text(&core->list, (struct rect){right, bar.y, width, bar.h}, FONT_NUMBER, theme()->text_dim, figures);
+    const char *text = message->text[0] ? message->text : hint ? hint : hover_hint(core, world->document);
     uint32_t color = !message->text[0] ? theme()->text_dim : message->is_error ? theme()->error : theme()->text;
     struct rect middle = {x, bar.y, right - GAP - x, bar.h};
-    if (middle.w > 40) paint_text(&editor->list, middle, FONT_LABEL, color, text);
+    if (middle.w > 40) paint_text(&core->list, middle, FONT_LABEL, color, text);
 }
+
+struct transport *transport_create(void) { return calloc(1, sizeof(struct transport)); }
+
+void transport_destroy(struct transport *transport) { free(transport); }
+
+void transport_tell(struct transport *transport, double fps, double solve_us)
+{
+    transport->fps = fps;
+    transport->solve_us = solve_us;
+}
+
+void transport_tell_scale(struct transport *transport, float scale) { transport->stage_scale = scale; }

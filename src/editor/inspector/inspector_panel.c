@@ -1,4 +1,7 @@
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector.h"
+#include "editor/inspector/state.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,7 +9,7 @@
 
 enum { FOOTER = 40 }; ///< height of the look switch, which never scrolls away
 
-static bool has_spline(const struct inspection *in) { return editor_active_spline(in->editor, in->world) != NULL; }
+static bool has_spline(const struct inspection *in) { return core_active_spline(in->core, in->world) != NULL; }
 
 static bool has_tail(const struct inspection *in)
 {
@@ -39,7 +42,7 @@ static void build_sections(struct inspection *in)
 {
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
         const struct section *section = &sections[i];
-        bool *flipped = &in->editor->inspector.flipped[i];
+        bool *flipped = &in->inspector->flipped[i];
         if (section->shown && !section->shown(in)) continue;
         bool closed = *flipped != section->closed;
         bool open = ui_section(in->ui, section->name, section->title, &closed);
@@ -50,10 +53,10 @@ static void build_sections(struct inspection *in)
     }
 }
 
-void inspector_unfold(struct editor *editor, const char *name)
+void inspector_unfold(struct inspector *inspector, const char *name)
 {
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
-        if (strcmp(sections[i].name, name) == 0) editor->inspector.flipped[i] = sections[i].closed;
+        if (strcmp(sections[i].name, name) == 0) inspector->flipped[i] = sections[i].closed;
     }
 }
 
@@ -68,15 +71,15 @@ static void build_look(struct inspection *in, struct rect footer)
         drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
     }
     if (ui_hovered(ui, footer)) ui->hint = "Compare the same knots: wiggly, without lag, or as a cubic (V)";
-    int look = (int)in->editor->look;
-    if (ui_segments(ui, r, "look", looks, 3, &look)) editor_set_look(in->editor, (enum look)look);
+    int look = (int)in->core->look;
+    if (ui_segments(ui, r, "look", looks, 3, &look)) core_set_look(in->core, (enum look)look);
 }
 
 static void build(struct inspection *in, struct rect area)
 {
     struct ui *ui = in->ui;
     struct rect view = {area.x, area.y, area.w, fmaxf(0, area.h - FOOTER)};
-    ui_scroll_begin(ui, &in->editor->inspector.scroll, view);
+    ui_scroll_begin(ui, &in->inspector->scroll, view);
     build_sections(in);
     ui_space(ui, 4);
     ui_scroll_end(ui);
@@ -86,14 +89,26 @@ static void build(struct inspection *in, struct rect area)
     }
 }
 
-static struct inspection inspection_of(struct editor *editor, const struct editor_world *world)
+static struct inspection inspection_of(struct inspector *inspector, struct core *core,
+                                       const struct editor_world *world)
 {
-    return (struct inspection){editor, world, world->document, &editor->inspector.ui};
+    return (struct inspection){core, inspector, world, world->document, &inspector->ui};
 }
 
-void inspector_reset(struct editor *editor)
+struct inspector *inspector_create(void) { return calloc(1, sizeof(struct inspector)); }
+
+void inspector_destroy(struct inspector *inspector) { free(inspector); }
+
+void inspector_show_channel(struct inspector *inspector, int tail, int channel)
 {
-    struct inspector *inspector = &editor->inspector;
+    inspector->tail = tail;
+    inspector->channel = channel;
+}
+
+enum ui_over inspector_over(const struct inspector *inspector) { return inspector->ui.over; }
+
+void inspector_reset(struct inspector *inspector)
+{
     ui_release(&inspector->ui);
     inspector->scroll.offset = 0;
     inspector->tail = 0;
@@ -101,16 +116,16 @@ void inspector_reset(struct editor *editor)
 }
 
 /// Whether the panel's code has to run for the event at all; keys are the editor's where nothing here has the keyboard.
-static bool concerns(const struct editor *editor, const struct event *event)
+static bool concerns(const struct inspector *inspector, const struct core *core, const struct event *event)
 {
-    const struct ui *ui = &editor->inspector.ui;
-    struct rect area = editor->layout.inspector;
+    const struct ui *ui = &inspector->ui;
+    struct rect area = core->layout.inspector;
     bool input = event->kind <= EVENT_WHEEL;
     if (event->kind == EVENT_KEY && event->action == ACTION_RELEASE) return false;
     if (ui->popup.id) return input;
     switch (event->kind) {
     case EVENT_KEY:
-        if (editor->held_key && !ui->typing) return false; // F and an arrow is the editor's, whatever has the focus
+        if (core->held_key && !ui->typing) return false; // F and an arrow is the editor's, whatever has the focus
         return ui->held || ui->typing || ui->focus || event->key == KEY_TAB;
     case EVENT_TEXT:
         return ui->typing || ui->focus;
@@ -136,12 +151,13 @@ static void event_elsewhere(struct ui *ui, const struct event *event)
     if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) ui->focus = 0;
 }
 
-bool inspector_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+bool inspector_event(struct inspector *inspector, struct core *core, const struct editor_world *world,
+                     const struct event *event)
 {
-    struct inspection in = inspection_of(editor, world);
+    struct inspection in = inspection_of(inspector, core, world);
     struct ui *ui = in.ui;
-    struct rect area = editor->layout.inspector;
-    if (!concerns(editor, event)) {
+    struct rect area = core->layout.inspector;
+    if (!concerns(inspector, core, event)) {
         event_elsewhere(ui, event);
         return false;
     }
@@ -151,7 +167,7 @@ bool inspector_event(struct editor *editor, const struct editor_world *world, co
     bool used = ui_end(ui);
     if (was_dragging && !ui->held && history_is_open(world->history)) history_end(world->history);
     if (ui->complaint[0]) {
-        editor_message(editor, true, ui->complaint);
+        core_message(core, true, ui->complaint);
         ui->complaint[0] = '\0';
     }
     bool inside = rect_contains(area, ui->pointer_x, ui->pointer_y);
@@ -160,40 +176,37 @@ bool inspector_event(struct editor *editor, const struct editor_world *world, co
     return used || (pointer && inside);
 }
 
-void inspector_show(struct editor *editor, const struct editor_world *world)
+void inspector_show(struct inspector *inspector, struct core *core, const struct editor_world *world, bool covered)
 {
-    struct inspection in = inspection_of(editor, world);
-    struct rect area = editor->layout.inspector;
-    bool covered = editor->dialog.kind != DIALOG_NONE || editor->help.open;
+    struct inspection in = inspection_of(inspector, core, world);
+    struct rect area = core->layout.inspector;
     if (covered) in.ui->pointer_x = area.x - 1; // nothing here is under the pointer
     ui_begin_find(in.ui, area, "", NULL); // measures, so that a shorter panel is not drawn scrolled past its end
     build(&in, area);
     ui_end(in.ui);
-    drawlist_rect(&editor->list, area, theme()->panel);
-    ui_begin_draw(in.ui, area, &editor->list);
+    drawlist_rect(&core->list, area, theme()->panel);
+    ui_begin_draw(in.ui, area, &core->list);
     build(&in, area);
     ui_end(in.ui);
-    drawlist_rect(&editor->list, (struct rect){area.x, area.y, 1, area.h}, theme()->border);
+    drawlist_rect(&core->list, (struct rect){area.x, area.y, 1, area.h}, theme()->border);
 }
 
-void inspector_let_go(struct editor *editor, const struct editor_world *world)
+void inspector_let_go(struct inspector *inspector, const struct editor_world *world)
 {
-    if (inspector_is_dragging(editor) && history_is_open(world->history)) history_end(world->history);
-    ui_release(&editor->inspector.ui);
+    if (inspector_is_dragging(inspector) && history_is_open(world->history)) history_end(world->history);
+    ui_release(&inspector->ui);
 }
 
-bool inspector_is_dragging(const struct editor *editor)
+bool inspector_is_dragging(const struct inspector *inspector) { return inspector->ui.held && inspector->ui.moved; }
+
+bool inspector_is_typing(const struct inspector *inspector) { return inspector->ui.typing != 0; }
+
+const char *inspector_hint(const struct inspector *inspector) { return inspector->ui.hint; }
+
+bool inspector_target(struct inspector *inspector, struct core *core, const struct editor_world *world,
+                      const char *name, float *x, float *y)
 {
-    return editor->inspector.ui.held && editor->inspector.ui.moved;
-}
-
-bool inspector_is_typing(const struct editor *editor) { return editor->inspector.ui.typing != 0; }
-
-const char *inspector_hint(const struct editor *editor) { return editor->inspector.ui.hint; }
-
-bool inspector_target(struct editor *editor, const struct editor_world *world, const char *name, float *x, float *y)
-{
-    struct inspection in = inspection_of(editor, world);
+    struct inspection in = inspection_of(inspector, core, world);
     char widget[128];
     snprintf(widget, sizeof widget, "%s", name);
     char *comma = strrchr(widget, ',');
@@ -204,63 +217,10 @@ bool inspector_target(struct editor *editor, const struct editor_world *world, c
         if (end == comma + 1 || *end || !isfinite(value)) return false;
         *comma = '\0';
     }
-    ui_begin_find(in.ui, editor->layout.inspector, widget, comma ? &value : NULL);
-    build(&in, editor->layout.inspector);
+    ui_begin_find(in.ui, core->layout.inspector, widget, comma ? &value : NULL);
+    build(&in, core->layout.inspector);
     bool found = ui_end(in.ui);
     *x = in.ui->found_x;
     *y = in.ui->found_y;
     return found;
-}
-
-void inspector_take_back(struct inspection *in, enum ui_change change)
-{
-    struct history *history = in->world->history;
-    if (change != UI_DRAG || !history_is_open(history)) return;
-    history_restart(history, in->document);
-    editor_follow(in->editor, in->world);
-}
-
-void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
-                      const struct edit *edit)
-{
-    inspector_change_all(in, change, label, what, edit, 1);
-}
-
-void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
-                          const struct edit *edits, int count)
-{
-    struct history *history = in->world->history;
-    uint64_t merge = 0;
-    switch (change) {
-    case UI_NONE:
-        return;
-    case UI_DRAG:
-        inspector_take_back(in, change);
-        if (!history_is_open(history)) history_begin(history, label, 0);
-        for (int i = 0; i < count; i++) editor_edit(in->editor, in->world, &edits[i]);
-        return;
-    case UI_CANCEL:
-    case UI_DROP:
-        if (!history_is_open(history)) return; // nothing was moved by this drag
-        if (change == UI_CANCEL) history_restart(history, in->document);
-        history_end(history);
-        editor_follow(in->editor, in->world);
-        return;
-    case UI_NUDGE:
-        merge = (uint64_t)ui_id(what) << 32 | (uint32_t)(in->editor->active + 1);
-        break;
-    case UI_SET:
-        break;
-    }
-    if (history_is_open(history)) return; // as editor_step()
-    history_begin(history, label, merge);
-    for (int i = 0; i < count; i++) editor_edit(in->editor, in->world, &edits[i]);
-    history_end(history);
-}
-
-struct rect inspector_labelled(struct inspection *in, const char *label)
-{
-    struct rect r = ui_row(in->ui, UI_ROW);
-    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
-    return (struct rect){r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
 }

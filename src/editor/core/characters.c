@@ -1,0 +1,87 @@
+/// The character that is worked on, and the brush that paints on it: chosen in the inspector, by keys and on the stage.
+#include "editor/core/characters.h"
+#include "editor/core/core.h"
+#include "editor/core/state.h"
+#include "rig/cast.h"
+
+const struct character_rig *characters_selected(const struct core *core, const struct editor_world *world)
+{
+    return document_character(world->document, core->characters.character);
+}
+
+const struct coordinate *characters_coordinate(const struct core *core, const struct editor_world *world)
+{
+    const struct character_rig *rig = characters_selected(core, world);
+    const struct figure *figure = cast_figure(world->cast, core->characters.character);
+    if (!rig || !figure || core->characters.drive >= rig->drive_count) return NULL;
+    const int at = figure_find(figure, rig->drives[core->characters.drive].name);
+    return at >= 0 ? &figure->character.coordinates[at] : NULL;
+}
+
+void characters_open(struct core *core, const struct document *document)
+{
+    const struct character_rig *first = document_character(document, 0);
+    const int phases = first ? first->phases : -1;
+    core->brush.on = false;
+    core->characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
+}
+
+const struct figure *brush_figure(const struct core *core, const struct editor_world *world, int *coordinate)
+{
+    const struct coordinate *selected = characters_coordinate(core, world);
+    if (!selected) return NULL;
+    const struct figure *figure = cast_figure(world->cast, core->characters.character);
+    *coordinate = (int)(selected - figure->character.coordinates);
+    return figure;
+}
+
+/// Shows the phases along the axis in which the coordinate moves most, where no other was chosen.
+static void choose_axis(struct core *core, const struct figure *figure, int coordinate)
+{
+    const float *largest = figure->largest[coordinate];
+    int axis = 0;
+    if (core->characters.mapped) return;
+    for (int k = 1; k < 3; k++) {
+        if (largest[k] > largest[axis]) axis = k;
+    }
+    core->characters.axis = axis;
+}
+
+void brush_set(struct core *core, const struct editor_world *world, bool on)
+{
+    int coordinate;
+    const struct figure *figure = on ? brush_figure(core, world, &coordinate) : NULL;
+    core->brush.on = figure != NULL;
+    if (!on) return;
+    if (!figure) {
+        core_message(core, false, "This scene has no character to paint.");
+        return;
+    }
+    choose_axis(core, figure, coordinate);
+    core_message(core, false, "Drag over the character to paint. Ctrl reverses, Shift smooths, Esc ends.");
+}
+
+struct edit paint_edit(const struct core *core, const struct editor_world *world, enum edit_kind kind)
+{
+    struct edit edit = core_edit_of(kind, 0);
+    edit.rig = document_find_rig(world->document, RIG_CHARACTER, core->characters.character);
+    return edit;
+}
+
+/// Blank paint of the figure's shape.
+struct edit paint_blank(const struct core *core, const struct editor_world *world, const struct figure *figure)
+{
+    struct edit edit = paint_edit(core, world, EDIT_PAINT_NEW);
+    edit.coordinates = figure->character.coordinate_count;
+    edit.vertices = figure->character.vertex_count;
+    return edit;
+}
+
+void brush_clean(struct core *core, const struct editor_world *world)
+{
+    int coordinate;
+    const struct figure *figure = brush_figure(core, world, &coordinate);
+    if (!figure || history_is_open(world->history)) return;
+    const struct edit blank = paint_blank(core, world, figure);
+    core_step(core, world, "Remove paint", 0, &blank);
+}

@@ -1,0 +1,188 @@
+/// What all panels share, and the edits that they ask for.
+#include "editor/core/core.h"
+#include "editor/core/arrange.h"
+#include "editor/core/selection.h"
+#include "editor/core/state.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double MESSAGE_SECONDS = 5;
+
+void core_tell(const struct core *core, const struct editor_world *world, enum news news, int spline)
+{
+    const struct listener *listener = &core->listener;
+    if (listener->hear) listener->hear(listener->who, world, news, spline);
+}
+
+struct edit core_edit_of(enum edit_kind kind, int spline)
+{
+    return (struct edit){.kind = kind, .spline = spline, .param.track = -1};
+}
+
+bool core_edit(struct core *core, const struct editor_world *world, const struct edit *edit)
+{
+    struct error error = {0};
+    if (history_apply(world->history, world->document, edit, &error)) {
+        core_follow(core, world);
+        return true;
+    }
+    core_message(core, true, error.text);
+    return false;
+}
+
+bool core_step(struct core *core, const struct editor_world *world, const char *label, uint64_t merge,
+               const struct edit *edit)
+{
+    if (history_is_open(world->history))
+        return false; /* a drag is running: its step is not to be mixed with others */
+    history_begin(world->history, label, merge);
+    bool done = core_edit(core, world, edit);
+    history_end(world->history);
+    return done;
+}
+
+void core_follow(struct core *core, const struct editor_world *world)
+{
+    if (core->serial != world->document->serial) {
+        core_tell(core, world, NEWS_OPENED, -1);
+    } else {
+        arrange_follow(core, world);
+    }
+}
+
+void core_undo(struct core *core, const struct editor_world *world)
+{
+    if (history_is_open(world->history)) return;
+    const char *label = history_undo_label(world->history);
+    char text[128];
+    snprintf(text, sizeof text, label ? "Undone: %s" : "Nothing to undo", label);
+    history_undo(world->history, world->document);
+    core_follow(core, world);
+    core_message(core, false, text);
+}
+
+void core_redo(struct core *core, const struct editor_world *world)
+{
+    if (history_is_open(world->history)) return;
+    const char *label = history_redo_label(world->history);
+    char text[128];
+    snprintf(text, sizeof text, label ? "Redone: %s" : "Nothing to redo", label);
+    history_redo(world->history, world->document);
+    core_follow(core, world);
+    core_message(core, false, text);
+}
+
+void core_jump(struct core *core, const struct editor_world *world, size_t done)
+{
+    if (history_is_open(world->history)) return;
+    size_t before = history_done(world->history), steps = before > done ? before - done : done - before;
+    if (!history_jump(world->history, world->document, done)) return;
+    core_follow(core, world);
+    char text[64];
+    snprintf(text, sizeof text, "%s %zu step%s", before > done ? "Undone:" : "Redone:", steps, steps == 1 ? "" : "s");
+    core_message(core, false, text);
+}
+
+void core_request(struct core *core, enum request_kind kind, const char *path)
+{
+    if (core->request_count == EDITOR_MAX_REQUESTS) return;
+    struct request *request = &core->requests[core->request_count++];
+    request->kind = kind;
+    snprintf(request->path, sizeof request->path, "%s", path ? path : "");
+}
+
+void core_request_figure(struct core *core, int number)
+{
+    int at = core->request_count;
+    core_request(core, REQUEST_FIGURE, NULL);
+    if (core->request_count > at) core->requests[at].number = number;
+}
+
+void core_message(struct core *core, bool is_error, const char *text)
+{
+    snprintf(core->message.text, sizeof core->message.text, "%s", text);
+    core->message.is_error = is_error;
+    core->message.seconds_left = is_error ? 0 : MESSAGE_SECONDS;
+}
+
+struct spline *core_active_spline(const struct core *core, const struct editor_world *world)
+{
+    bool exists = core->active >= 0 && core->active < world->document->spline_count;
+    return exists ? &world->document->splines[core->active] : NULL;
+}
+
+void core_activate(struct core *core, const struct editor_world *world, int spline)
+{
+    if (spline == core->active || spline < 0 || spline >= world->document->spline_count) return;
+    core_tell(core, world, NEWS_ACTIVATES, spline);
+    core->active = spline;
+    core->active_id = world->document->splines[spline].id;
+    selection_clear(&core->selection);
+    core_tell(core, world, NEWS_ACTIVATED, spline);
+}
+
+void core_set_look(struct core *core, enum look look)
+{
+    static const char *const texts[] = {
+        [LOOK_WIGGLY] = "Wiggly: one spline, each joint with its own phase",
+        [LOOK_STIFF] = "Stiff: the same spline without lag",
+        [LOOK_CUBIC] = "Cubic: the same knots as a classical spline",
+    };
+    core->look = look;
+    core_message(core, false, texts[look]);
+}
+
+double core_frame(const struct core *core, const struct document *document)
+{
+    return document->first_frame + core->playback.position / document->substeps;
+}
+
+double core_position(const struct document *document, double frame)
+{
+    return (frame - document->first_frame) * document->substeps;
+}
+
+double round_value(double value, double resolution)
+{
+    double exponent = floor(log10(resolution));
+    double power = pow(10, fabs(exponent));
+    double rounded = exponent < 0 ? round(value * power) / power : round(value / power) * power;
+    return isfinite(rounded) && fabs(value) < 1e15 * resolution ? rounded : value;
+}
+
+static bool reserve_originals(struct originals *originals, int knots)
+{
+    if (originals->capacity > 0 && knots <= originals->capacity) return true;
+    int capacity = knots + knots / 2 + 64;
+    struct knot *memory = realloc(originals->knot, (size_t)capacity * sizeof *memory);
+    if (!memory) return false;
+    originals->knot = memory;
+    originals->capacity = capacity;
+    return true;
+}
+
+void selection_collect(struct core *core, const struct spline *spline)
+{
+    struct originals *originals = &core->originals;
+    originals->count = 0;
+    for (int k = 0; k < spline->knot_count && originals->count < originals->capacity; k++) {
+        if (selection_has(&core->selection, spline->knots[k].id))
+            originals->knot[originals->count++] = spline->knots[k];
+    }
+}
+
+void core_reserve(struct core *core, const struct document *document)
+{
+    int most = 0;
+    for (int s = 0; s < document->spline_count; s++) {
+        if (document->splines[s].knot_count > most) most = document->splines[s].knot_count;
+    }
+    bool enough = selection_reserve(&core->selection, document->next_id);
+    enough &= selection_reserve(&core->hidden, document->next_spline_id);
+    enough &= selection_reserve(&core->solo, document->next_spline_id);
+    if (!reserve_originals(&core->originals, most) || !enough) {
+        core_message(core, true, "Out of memory: some knots cannot be selected.");
+    }
+}

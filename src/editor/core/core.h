@@ -1,0 +1,48 @@
+/// What all panels do: edits of the document, requests to the app, messages.
+#ifndef EDITOR_CORE_CORE_H
+#define EDITOR_CORE_CORE_H
+
+#include "editor/core/state.h"
+
+/// Tells the editor what has happened.
+void core_tell(const struct core *core, const struct editor_world *world, enum news news, int spline);
+/// An edit with everything else zero (tracks -1): fill in what the kind needs.
+struct edit core_edit_of(enum edit_kind kind, int spline);
+/// Applies one edit inside the open step; on failure the sentence goes to the status line.
+bool core_edit(struct core *core, const struct editor_world *world, const struct edit *edit);
+/// One edit as a step of its own; `merge` as in history_begin().
+bool core_step(struct core *core, const struct editor_world *world, const char *label, uint64_t merge,
+               const struct edit *edit);
+/// After each edit, undo and redo: see editor_follow().
+void core_follow(struct core *core, const struct editor_world *world);
+/// Takes the last step back; what goes with it leaves the selection.
+void core_undo(struct core *core, const struct editor_world *world);
+/// The same forwards.
+void core_redo(struct core *core, const struct editor_world *world);
+/// Undoes or does again until `done` of the history's steps are done.
+void core_jump(struct core *core, const struct editor_world *world, size_t done);
+/// Queues a request to the app; `path` may be NULL.
+void core_request(struct core *core, enum request_kind kind, const char *path);
+/// The same for a figure of the paper.
+void core_request_figure(struct core *core, int number);
+/// See editor_message().
+void core_message(struct core *core, bool is_error, const char *text);
+/// The active spline, or NULL.
+struct spline *core_active_spline(const struct core *core, const struct editor_world *world);
+/// Makes a spline the active one, which drops the selection.
+void core_activate(struct core *core, const struct editor_world *world, int spline);
+/// Chooses how the knots are shown, and says so.
+void core_set_look(struct core *core, enum look look);
+/// Frame (fractional) that is shown.
+double core_frame(const struct core *core, const struct document *document);
+/// Position in samples (fractional) of a frame.
+double core_position(const struct document *document, double frame);
+/// A value with no more decimals than somebody who moves a mouse can mean: a multiple of the power of ten at or below
+/// `resolution` (> 0), so that files keep short numbers.
+double round_value(double value, double resolution);
+/// Takes the selected knots of the active spline into `originals`.
+void selection_collect(struct core *core, const struct spline *spline);
+/// Memory for the document's knots in selection and drags; allocates only where knots were added.
+void core_reserve(struct core *core, const struct document *document);
+
+#endif

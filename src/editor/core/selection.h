@@ -1,0 +1,24 @@
+/// Sets of ids: selected knots, hidden splines.
+#ifndef EDITOR_CORE_SELECTION_H
+#define EDITOR_CORE_SELECTION_H
+
+#include "editor/core/state.h"
+
+/// Whether an id is selected.
+bool selection_has(const struct selection *selection, unsigned id);
+/// Selects an id, or takes it out.
+void selection_set(struct selection *selection, unsigned id, bool selected);
+/// Nothing is selected any more.
+void selection_clear(struct selection *selection);
+/// Forgets the ids from `id` on, which are to be given again.
+void selection_drop_from(struct selection *selection, unsigned id);
+/// How many of a spline's knots are selected.
+int selection_count(const struct selection *selection, const struct spline *spline);
+/// Index of the only selected knot of the spline, or -1.
+int selection_single(const struct selection *selection, const struct spline *spline);
+/// Room for the ids below `next_id`, and for some more: ids are given in turn. false where memory is short.
+bool selection_reserve(struct selection *selection, unsigned next_id);
+/// Both have room for the same ids, unless memory was short.
+void selection_copy(struct selection *to, const struct selection *from);
+
+#endif

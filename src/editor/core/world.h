@@ -1,0 +1,53 @@
+/// What the editor is handed, and what it asks of the app. Types alone.
+#ifndef EDITOR_CORE_WORLD_H
+#define EDITOR_CORE_WORLD_H
+
+#include "rig/cast.h"
+#include "rig/pose.h"
+#include "scene/background.h"
+#include "scene/edit.h"
+#include "scene/evaluate.h"
+#include "ui/cursor.h"
+#include "ui/drawlist.h"
+#include "ui/event.h"
+#include "ui/stage.h"
+
+/// What the editor works on, owned by the app.
+struct editor_world {
+    struct document *document;
+    struct history *history;
+    const struct evaluation *evaluation; ///< as of the last solve: the frame before, until editor_show()
+    const struct cast *cast;             ///< the characters' models; NULL: none
+};
+
+/// What the editor asks of the app after a frame's events (files and windows are not its business).
+enum request_kind {
+    REQUEST_NONE,
+    REQUEST_NEW,
+    REQUEST_OPEN,    ///< path
+    REQUEST_SAVE,    ///< to the document's own path, or ask
+    REQUEST_SAVE_AS, ///< path
+    REQUEST_FIGURE,  ///< number: a figure of the paper in place of the document, as a step of the history
+    REQUEST_QUIT,
+    REQUEST_RECOVER, ///< the work that was offered
+    REQUEST_FORGET,  ///< the same, for good
+    REQUEST_SCREENSHOT,
+    REQUEST_FULLSCREEN,
+    REQUEST_COPY,  ///< editor_clipboard() onto the clipboard
+    REQUEST_PASTE, ///< an EVENT_PASTE with what is there
+};
+
+struct request {
+    enum request_kind kind;
+    int number;
+    char path[1024];
+};
+
+/// Unsaved work that an earlier run left behind.
+struct recovery_offer {
+    char name[256]; ///< what its document was called
+    char when[64];  ///< date and time, as text
+    int others;     ///< older ones there are besides
+};
+
+#endif

@@ -1,0 +1,386 @@
+/// Draws the curves panel: lines, knots, slope handles, names, playhead.
+#include "editor/curves/curves_show.h"
+#include "editor/core/arrange.h"
+#include "editor/core/core.h"
+#include "editor/core/selection.h"
+#include "editor/curves/box.h"
+#include "editor/curves/curves.h"
+#include "editor/curves/curves_cache.h"
+#include "editor/curves/curves_grid.h"
+#include "editor/curves/normal.h"
+#include "editor/curves/scale.h"
+#include "editor/curves/state.h"
+#include "editor/curves/view.h"
+#include "editor/curves/warnings.h"
+#include "editor/curves/warnings_show.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX_LABELS = CURVES_MAX_OTHERS + 2, RING_POINTS = 25 };
+
+static const float KNOT_RADIUS = 4.5f, OTHER_RADIUS = 3, HOVER_RADIUS = 6.5f, HANDLE_REACH = 130, HANDLE_RADIUS = 3;
+static const double FIRM_LENGTH = 48, DECADE_LENGTH = 12; ///< of a handle; of ten times the stiffness
+static const float LABEL_STEP = 15;
+static const float FAN_NEAR = 0.24f,
+                   FAN_STEP = 0.03f; ///< opacity of the least lagged copy, and less of each further one
+
+/// A name beside the right end of its curve.
+struct label {
+    float y;
+    enum font font;
+    uint32_t color;
+    const char *text;
+};
+
+static void show_line(const struct curves *curves, struct core *core, const polyline line, float width,
+                      uint32_t color)
+{
+    drawlist_line(&core->list, &line[0][0], curves->cache.count, width, color);
+}
+
+static void show_ghost(struct curves *curves, struct core *core)
+{
+    const struct ghost *ghost = &curves->ghost;
+    const struct drag *drag = &core->drag;
+    if (drag->kind == DRAG_NONE || !drag->moved || !drag->label || ghost->count < 2) return;
+    float *xy = curves->scratch;
+    for (int c = 0; c < ghost->count; c++) {
+        xy[2 * c] = curves_x(curves, core, ghost->frame[c]);
+        xy[2 * c + 1] = curves_y(curves, core, ghost->value[c]);
+    }
+    drawlist_line(&core->list, xy, ghost->count, 1, theme_fade(theme()->playhead, 0.25f));
+}
+
+static bool shows_imaginary(const struct core *core, const struct spline *spline)
+{
+    return spline_mode(spline) == WIGGLY_COMPLEX && core->look != LOOK_CUBIC;
+}
+
+/// Lines in painter's order, the active one last.
+static void show_lines(struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    const struct curve_cache *cache = &curves->cache;
+    const struct spline *spline = arrange_seen(core, world);
+    uint32_t color = arrange_color(world->document, core->active);
+    if (cache->count < 2) return;
+    for (int i = 0; i < cache->other_count; i++) {
+        const bool hot = core->hover.kind == HOVER_CURVE && core->hover.spline == cache->other_spline[i];
+        show_line(curves, core, cache->others[i], 1.25f,
+                  theme_fade(arrange_color(world->document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
+    }
+    if (!spline) return;
+    show_ghost(curves, core);
+    for (int i = cache->fan_count - 1; i >= 0; i--) {
+        show_line(curves, core, cache->fan[i], 1, theme_fade(color, FAN_NEAR - FAN_STEP * (float)i));
+    }
+    drawlist_dashed(&core->list, &cache->equilibrium[0][0], cache->count, 1.25f, 6, 4, theme()->equilibrium);
+    if (shows_imaginary(core, spline)) show_line(curves, core, cache->im, 1.25f, theme_fade(color, 0.45f));
+    show_line(curves, core, cache->re, 2.5f, color);
+}
+
+static void show_ring(struct drawlist *list, float x, float y, float radius, float width, uint32_t color)
+{
+    float xy[RING_POINTS][2];
+    for (int i = 0; i < RING_POINTS; i++) {
+        double angle = 2 * acos(-1.0) * i / (RING_POINTS - 1);
+        xy[i][0] = x + radius * (float)cos(angle);
+        xy[i][1] = y + radius * (float)sin(angle);
+    }
+    drawlist_line(list, &xy[0][0], RING_POINTS, width, color);
+}
+
+double handle_length(double stiffness)
+{
+    return fmin(fmax(FIRM_LENGTH + DECADE_LENGTH * log10(stiffness / KNOT_DEFAULT_STIFFNESS), 12), 120);
+}
+
+double handle_stiffness(double length)
+{
+    double stiffness = KNOT_DEFAULT_STIFFNESS * pow(10, (length - FIRM_LENGTH) / DECADE_LENGTH);
+    return round_value(stiffness, 0.05 * stiffness);
+}
+
+void curves_handle(const struct curves *curves, const struct core *core, const struct document *document,
+                   const struct knot *knot, int end, float xy[2])
+{
+    double across = curves_pixels_per_frame(curves, core) * document->fps; /* pixels a second */
+    double down = -curves_pixels_per_value(curves, core) * knot->slope;
+    double length = hypot(across, down);
+    double factor = (end ? 1 : -1) * handle_length(knot->stiffness) / (isfinite(length) && length > 0 ? length : 1);
+    int sample = document_sample(document, knot->frame);
+    xy[0] = curves_x(curves, core, document_frame(document, sample)) + (float)fmin(fmax(across * factor, -1e3), 1e3);
+    xy[1] = curves_y(curves, core, knot->value) + (float)fmin(fmax(down * factor, -1e3), 1e3);
+}
+
+static void show_handle(const struct curves *curves, struct core *core, const struct document *document,
+                        const struct knot *knot, uint32_t color)
+{
+    float ends[2][2];
+    curves_handle(curves, core, document, knot, 0, ends[0]);
+    curves_handle(curves, core, document, knot, 1, ends[1]);
+    drawlist_line(&core->list, &ends[0][0], 2, 1, theme_fade(color, 0.8f));
+    for (int end = 0; end < 2; end++) {
+        struct rect dot = {ends[end][0] - HANDLE_RADIUS, ends[end][1] - HANDLE_RADIUS, 2 * HANDLE_RADIUS,
+                           2 * HANDLE_RADIUS};
+        drawlist_rounded(&core->list, dot, HANDLE_RADIUS, color);
+        if (core->hover.kind == HOVER_SLOPE && core->hover.knot == knot->id && core->hover.handle == end) {
+            show_ring(&core->list, ends[end][0], ends[end][1], HOVER_RADIUS, 1.25f, theme()->playhead);
+        }
+    }
+}
+
+static void show_diamond(struct drawlist *list, float x, float y, bool filled, uint32_t color)
+{
+    float r = KNOT_RADIUS;
+    float xy[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
+    drawlist_convex(list, xy, 4, filled ? color : theme()->panel);
+    drawlist_line(list, xy, 5, 1.5f, filled ? theme()->playhead : color);
+}
+
+/// A short stroke that says "this knot has a slope" without the handle's length.
+static void show_tick(const struct curves *curves, struct core *core, const struct document *document,
+                      const struct knot *knot, uint32_t color)
+{
+    float ends[2][2], x = curves_x(curves, core, document_frame(document, document_sample(document, knot->frame)));
+    float y = curves_y(curves, core, knot->value);
+    for (int end = 0; end < 2; end++) {
+        curves_handle(curves, core, document, knot, end, ends[end]);
+        ends[end][0] = x + 0.3f * (ends[end][0] - x);
+        ends[end][1] = y + 0.3f * (ends[end][1] - y);
+    }
+    drawlist_line(&core->list, &ends[0][0], 2, 1.5f, theme_fade(color, 0.7f));
+}
+
+static float knot_x(const struct curves *curves, const struct core *core, const struct document *document,
+                    const struct knot *knot)
+{
+    return curves_x(curves, core, document_frame(document, document_sample(document, knot->frame)));
+}
+
+/// Which of the knots first … end − 1, all in one pixel column, stands for them: the hovered one, else a selected one.
+static int column_knot(const struct core *core, const struct spline *spline, int first, int end)
+{
+    int best = first;
+    for (int k = end - 1; k >= first; k--) {
+        unsigned id = spline->knots[k].id;
+        if (core->hover.kind == HOVER_KNOT && core->hover.knot == id) return k;
+        if (selection_has(&core->selection, id)) best = k;
+    }
+    return best;
+}
+
+/// A stroke over the values of the knots in one pixel column, so that those that are not drawn are not missed.
+static void show_column(const struct curves *curves, struct core *core, const struct spline *spline, int first,
+                        int end, float x, uint32_t color)
+{
+    double low = spline->knots[first].value, high = low;
+    for (int k = first + 1; k < end; k++) {
+        low = fmin(low, spline->knots[k].value);
+        high = fmax(high, spline->knots[k].value);
+    }
+    const float xy[] = {x, curves_y(curves, core, low), x, curves_y(curves, core, high)};
+    if (high > low) drawlist_line(&core->list, xy, 2, 1.5f, theme_fade(color, 0.7f));
+}
+
+static void show_knot(const struct curves *curves, struct core *core, const struct document *document,
+                      const struct knot *knot, float x, uint32_t color)
+{
+    bool selected = selection_has(&core->selection, knot->id);
+    float y = curves_y(curves, core, knot->value);
+    if (knot->has_slope && selected) show_handle(curves, core, document, knot, color);
+    if (knot->has_slope && !selected) show_tick(curves, core, document, knot, color);
+    show_diamond(&core->list, x, y, selected, color);
+    if (core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id) {
+        show_ring(&core->list, x, y, HOVER_RADIUS, 1.25f, theme()->playhead);
+    }
+}
+
+static void show_knots(const struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    const struct spline *spline = arrange_seen(core, world);
+    const struct rect *plot = &core->layout.plot;
+    uint32_t color = arrange_color(document, core->active);
+    for (int k = 0, end = 0; spline && k < spline->knot_count; k = end) {
+        float x = knot_x(curves, core, document, &spline->knots[k]);
+        for (end = k + 1; end < spline->knot_count; end++) {
+            if (knot_x(curves, core, document, &spline->knots[end]) - x >= 1) break;
+        }
+        if (x < plot->x - HANDLE_REACH || x > plot->x + plot->w + HANDLE_REACH) continue;
+        show_column(curves, core, spline, k, end, x, color);
+        show_knot(curves, core, document, &spline->knots[column_knot(core, spline, k, end)], x, color);
+    }
+}
+
+/// Knots of the other curves, small: a click on one makes its spline the active one.
+static void show_other_knots(const struct curves *curves, struct core *core, const struct document *document, int s)
+{
+    const struct spline *spline = &document->splines[s];
+    const struct rect *plot = &core->layout.plot;
+    uint32_t color = theme_fade(arrange_color(document, s), THEME_OTHERS);
+    float last_x = -INFINITY;
+    for (int k = 0; k < spline->knot_count; k++) {
+        const struct knot *knot = &spline->knots[k];
+        bool hovered = core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
+        float x = curves_x(curves, core, document_frame(document, document_sample(document, knot->frame)));
+        float y = curves_y_of(curves, core, s, knot->value);
+        if (x < plot->x || x > plot->x + plot->w || (x - last_x < 3 && !hovered)) continue;
+        last_x = x;
+        const float r = OTHER_RADIUS, xy[] = {x, y - r, x + r, y, x, y + r, x - r, y};
+        drawlist_convex(&core->list, xy, 4, color);
+        if (hovered) show_ring(&core->list, x, y, HOVER_RADIUS, 1.25f, theme()->playhead);
+    }
+}
+
+static void insert_label(struct label *labels, int *count, struct label label)
+{
+    int i = (*count)++;
+    for (; i > 0 && labels[i - 1].y > label.y; i--) labels[i] = labels[i - 1];
+    labels[i] = label;
+}
+
+/// Moves labels apart, downwards first and then back up from the panel's bottom.
+static void spread_labels(struct label *labels, int count, float top, float bottom)
+{
+    for (int i = 0; i < count; i++) labels[i].y = fmaxf(labels[i].y, i ? labels[i - 1].y + LABEL_STEP : top);
+    float limit = bottom;
+    for (int i = count - 1; i >= 0; i--, limit -= LABEL_STEP) labels[i].y = fminf(labels[i].y, limit);
+}
+
+/// A spline's colour, as far as it can be read as text.
+static uint32_t label_color(const struct editor_world *world, int spline)
+{
+    return theme_readable(arrange_color(world->document, spline), theme()->panel, 4.5f);
+}
+
+/// Labels of the curves that are drawn, at most `most`, the active one's first; by height. How many there are.
+static int place_labels(const struct curves *curves, const struct core *core, const struct editor_world *world,
+                        struct label *labels, int most)
+{
+    const struct curve_cache *cache = &curves->cache;
+    const struct spline *active = arrange_seen(core, world);
+    uint32_t color = label_color(world, core->active);
+    int count = 0, end = cache->count - 1;
+    if (active) {
+        insert_label(labels, &count, (struct label){cache->re[end][1], FONT_LABEL_BOLD, color, active->name});
+    }
+    if (active && shows_imaginary(core, active)) {
+        insert_label(labels, &count, (struct label){cache->im[end][1], FONT_LABEL, color, "Im"});
+    }
+    for (int i = 0; i < cache->other_count && count < most; i++) {
+        int spline = cache->other_spline[i];
+        insert_label(labels, &count,
+                     (struct label){cache->others[i][end][1], FONT_LABEL, label_color(world, spline),
+                                    world->document->splines[spline].name});
+    }
+    return count;
+}
+
+static void show_labels(const struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    const struct rect *plot = &core->layout.plot;
+    struct label labels[MAX_LABELS];
+    if (curves->cache.count < 2) return;
+    const float top = plot->y + 8, bottom = plot->y + plot->h - 8;
+    int most = (int)fmaxf(2, (bottom - top) / LABEL_STEP + 1);
+    int count = place_labels(curves, core, world, labels, most);
+    spread_labels(labels, count, top, bottom);
+    float x = plot->x + plot->w + 6;
+    float width = core->layout.curves.x + core->layout.curves.w - 6 - x;
+    for (int i = 0; i < count; i++) {
+        drawlist_text_fit(&core->list, x, roundf(labels[i].y + 4), width, labels[i].font, THEME_TEXT_SMALL,
+                          labels[i].color, labels[i].text);
+    }
+}
+
+static void tag_text(const struct curves *curves, const struct core *core, const struct document *document,
+                     char text[32])
+{
+    double frame = round(core_frame(core, document)) + 0.0; /* the one that I would insert at */
+    snprintf(text, 32, curves->options.seconds ? "%.2f" : "%.0f",
+             curves->options.seconds ? frame / document->fps : frame);
+}
+
+struct rect playhead_tag(const struct curves *curves, const struct core *core, const struct document *document)
+{
+    const struct rect *ruler = &core->layout.ruler;
+    float x = curves_x(curves, core, core_frame(core, document));
+    if (x < ruler->x || x > ruler->x + ruler->w) return (struct rect){0};
+    char text[32];
+    tag_text(curves, core, document, text);
+    float width = roundf(font_width(FONT_NUMBER, THEME_TEXT_SMALL, text)) + 10;
+    float left = fminf(fmaxf(roundf(x - width / 2), ruler->x), ruler->x + ruler->w - width);
+    return (struct rect){left, ruler->y + 3, width, 16};
+}
+
+/// The line at the time shown and its frame number; on its own, so that playing redraws nothing else.
+static void show_playhead(const struct curves *curves, struct core *core, const struct document *document)
+{
+    const struct rect *plot = &core->layout.plot;
+    float x = curves_x(curves, core, core_frame(core, document));
+    const struct rect tag = playhead_tag(curves, core, document);
+    if (tag.w <= 0) return;
+    char text[32];
+    tag_text(curves, core, document, text);
+    drawlist_rect(&core->list, (struct rect){x - 0.5f, plot->y, 1, plot->h}, theme()->playhead);
+    drawlist_rounded(&core->list, tag, 3, theme()->playhead);
+    drawlist_text(&core->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, text);
+}
+
+/// What to do where there is nothing to edit yet, and no swing of the equilibrium's that the text would cover.
+static void show_empty(struct core *core, const struct editor_world *world)
+{
+    const struct spline *spline = core_active_spline(core, world);
+    bool flat = spline && spline->knot_count == 0 && spline->parameter[PARAMETER_EQUILIBRIUM].track < 0;
+    bool hidden = spline && !arrange_seen(core, world);
+    if (spline && !flat && !hidden) return;
+    const char *text = hidden ? "This spline is hidden. Click its eye in the list to show it."
+                       : flat ? "Double-click to set the first knot."
+                              : "This scene has no splines. Click + in the list on the right to add one.";
+    const struct rect *plot = &core->layout.plot;
+    float x = plot->x + (plot->w - font_width(FONT_LABEL, THEME_TEXT_NORMAL, text)) / 2;
+    drawlist_text(&core->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, text);
+}
+
+/// Says above the curves' names where they are not shown as the document has them (V, N) and where knots do not snap (G).
+static void show_state(const struct curves *curves, struct core *core)
+{
+    static const char *const looks[] = {[LOOK_WIGGLY] = "", [LOOK_STIFF] = "Stiff", [LOOK_CUBIC] = "Cubic"};
+    const struct rect *ruler = &core->layout.ruler;
+    const char *normal = curves->options.normalise ? "fit" : "", *snap = core->no_snap ? "free" : "";
+    const char *const words[] = {looks[core->look], normal, snap};
+    char text[32] = "";
+    for (int i = 0; i < 3; i++) {
+        if (*text && *words[i]) strcat(text, ", ");
+        strcat(text, words[i]);
+    }
+    drawlist_text(&core->list, ruler->x + ruler->w + 6, ruler->y + 15, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
+                  theme()->text, text);
+}
+
+void curves_show(struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    struct rect clip = drawlist_push_clip(&core->list, core->layout.curves);
+    curves_update(curves, core, world);
+    warnings_update(curves, core, world);
+    grid_show(curves, core, world);
+    struct rect panel = drawlist_push_clip(&core->list, core->layout.plot);
+    show_lines(curves, core, world);
+    for (int i = 0; i < curves->cache.other_count; i++) {
+        show_other_knots(curves, core, world->document, curves->cache.other_spline[i]);
+    }
+    show_knots(curves, core, world);
+    warnings_show(curves, core);
+    box_show(curves, core);
+    scale_show(curves, core);
+    show_empty(core, world);
+    drawlist_set_clip(&core->list, panel);
+    show_state(curves, core);
+    show_labels(curves, core, world);
+    show_playhead(curves, core, world->document);
+    warnings_show_words(curves, core);
+    drawlist_set_clip(&core->list, clip);
+}

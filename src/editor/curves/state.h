@@ -1,0 +1,124 @@
+/// The state of the curves panel. Private to the room.
+#ifndef EDITOR_CURVES_STATE_H
+#define EDITOR_CURVES_STATE_H
+
+#include "editor/core/state.h"
+
+enum {
+    EDITOR_MAX_COLUMNS = 4096, ///< vertices of one drawn curve
+    CURVES_MAX_OTHERS = 9,     ///< splines drawn besides the active one
+    CURVES_MAX_RANGES = 256,   ///< splines that can be normalised
+    CURVES_FAN = 7,            ///< lagged copies of the active curve
+    CURVES_HIT_RADIUS = 10,
+};
+
+/// How the curves panel shows things; a view, never part of the document.
+struct curve_options {
+    bool normalise; ///< every curve as high as the active one; the axis shows the active one's values
+    bool seconds;   ///< on the ruler, in place of frames
+};
+
+/// Where a spline's values are drawn, as values of the active one: scale·value + offset.
+struct value_map {
+    double scale, offset;
+};
+
+/// Visible part of the curves panel.
+struct view {
+    double frame0, frame1; ///< at the plot's left and right edge
+    double value0, value1; ///< at its bottom and top edge
+};
+
+/// What a box does with the knots in it.
+enum box_mode { BOX_REPLACE, BOX_ADD, BOX_REMOVE };
+
+/// What a drag of knots, slopes or a box has besides what all drags have.
+struct knot_drag {
+    unsigned knot;      ///< id of the knot under the pointer at the press
+    double free_frames; ///< last shift by which no knot was hit
+    int handle;         ///< DRAG_SLOPE: which end, as in curves_handle()
+    bool collapse;      ///< a click on a selected knot selects it alone, a drag moves all
+    enum box_mode box;  ///< DRAG_BOX
+    bool ripple;        ///< DRAG_KNOTS: what comes after the first moved knot moves along in time
+    double ripple_from; ///< frame of that knot, before
+};
+
+/// Scaling of the selected knots (DRAG_SCALE), about a frame and a value.
+struct scaling {
+    bool about_playhead; ///< else about the middle of the selection
+    double frame, value; ///< the pivot
+    double free_time;    ///< last factor by which no knot was hit
+    char typed[16];      ///< a factor in place of the pointer's
+    char sentence[256];
+};
+
+enum warning_kind {
+    WARNING_SWING, ///< the curve goes further than twice its knots
+    WARNING_RATE,  ///< a frequency near half the sample rate
+    WARNING_DRIFT, ///< bandwidth times the periods between two knots
+};
+
+/// Something about the active spline that nobody wants.
+struct warning {
+    enum warning_kind kind;
+    double frame, value; ///< the place (not of a rate)
+    double from, to;     ///< frames of the knots around it
+    double amount;       ///< swing in heights of the knots; Hz; periods
+    double limit;        ///< Hz that would be fine; bandwidth as it is
+    double remedy;       ///< value of a knot at the place; substeps; bandwidth
+};
+
+enum { WARNINGS_MAX = 16 };
+
+/// How far the search for them is: a spline of millions of samples is searched over many frames.
+struct warning_search {
+    bool running;
+    int measured; ///< knots whose heights are in `highest`
+    int next;     ///< knot from whose span it goes on
+    double frequency, bandwidth, highest;
+    struct warning drift; ///< the worst; amount 0: none
+};
+
+struct warnings {
+    uint64_t key; ///< of what they were found in
+    int spline;   ///< whose they are
+    int count;
+    struct warning_search search;
+    struct warning list[WARNINGS_MAX];
+};
+
+/// A curve in logical pixels, a vertex for each column of the cache.
+typedef float polyline[EDITOR_MAX_COLUMNS][2];
+
+/// Everything that curves.c draws from the solved splines; rebuilt when `key` changes.
+struct curve_cache {
+    uint64_t key;
+    int count;                           ///< columns; 0 where the scene is out of sight
+    double by;                           ///< samples from column to column
+    double position[EDITOR_MAX_COLUMNS]; ///< in samples; knots of the active spline are hit exactly
+    polyline re, im, equilibrium, fan[CURVES_FAN], others[CURVES_MAX_OTHERS];
+    int fan_count, other_count;
+    int other_spline[CURVES_MAX_OTHERS];
+    double range[CURVES_MAX_RANGES][2]; ///< lowest and highest value of each spline, where curves are normalised
+    int range_count;
+};
+
+/// The active curve as it was before a drag, in frames and values so that it survives a change of the view.
+struct ghost {
+    int count;
+    double frame[EDITOR_MAX_COLUMNS], value[EDITOR_MAX_COLUMNS];
+};
+
+struct curves {
+    struct view view;
+    struct curve_options options;
+    struct selection before_box; ///< the selection when a box was begun
+    struct knot_drag knot_drag;
+    struct scaling scaling;
+    struct ghost ghost;
+    struct curve_cache cache;
+    struct warnings warnings;
+    float scratch[2 * EDITOR_MAX_COLUMNS]; ///< points of a line that is made while it is drawn
+};
+
+#endif

@@ -1,0 +1,61 @@
+/// The state of what lies over the panels: dialogs, help, the card for somebody who is new. Private to the room.
+#ifndef EDITOR_DIALOGS_STATE_H
+#define EDITOR_DIALOGS_STATE_H
+
+#include "editor/core/state.h"
+#include "editor/dialogs/dialog_files.h"
+#include "ui/widgets.h"
+
+struct help {
+    bool open;
+    float offset; ///< pixels that it is scrolled by, where the window is too low for all of it
+};
+
+enum dialog_kind { DIALOG_NONE, DIALOG_OPEN, DIALOG_SAVE_AS, DIALOG_UNSAVED, DIALOG_RECOVER, DIALOG_ASK };
+
+enum { DIALOG_MAX_NAMES = 256, DIALOG_NAME_SIZE = 256, DIALOG_ERROR_SIZE = 400 };
+
+struct answer {
+    const char *name;  ///< of its button
+    const char *label; ///< on it
+    int key;           ///< letter that answers as well
+};
+
+/// The last answer is the one that changes nothing; Esc gives it. The dialog's `choice` is the one Enter gives.
+struct question {
+    char title[320];
+    char note[256]; ///< below it, unless the dialog has an error to show
+    const struct answer *answers;
+    int count;
+};
+
+/// The dialog on the screen; zero is a valid start (none, no access to folders).
+struct dialog {
+    enum dialog_kind kind;
+    struct ui ui; ///< its text is the path
+    struct dialog_files files;
+    struct recovery_offer offer; ///< of DIALOG_RECOVER
+    struct ask ask;              ///< of DIALOG_ASK, and its question
+    struct question question;
+    struct request after;      ///< what to do once the work is saved or discarded; REQUEST_NONE: nothing
+    enum request_kind awaited; ///< what was requested and is not answered yet; REQUEST_NONE: nothing
+    bool skip_text;            ///< a letter has answered: the character that comes with it is no part of a path
+    char error[DIALOG_ERROR_SIZE];
+    char listed[UI_TEXT_SIZE]; ///< folder whose names are in `names`
+    char names[DIALOG_MAX_NAMES][DIALOG_NAME_SIZE];
+    int name_count; ///< -1: nothing is listed
+    struct dialog_recent recent[DIALOG_MAX_RECENT];
+    int recent_count;
+    /// Names that begin with what is typed after the folder; before them, as DIALOG_MAX_NAMES + n, recent files.
+    int match[DIALOG_MAX_NAMES + DIALOG_MAX_RECENT];
+    int match_count;
+    int choice; ///< highlighted match (-1: none), or answer of a question
+};
+
+struct dialogs {
+    struct dialog dialog;
+    struct help help;
+    bool welcome; ///< the card for somebody who is new is shown
+};
+
+#endif

@@ -1,0 +1,56 @@
+/// What the inspector's sections share: what a number's change means for the history, rows with a label.
+#include "editor/inspector/inspection.h"
+#include "editor/core/core.h"
+
+void inspector_take_back(struct inspection *in, enum ui_change change)
+{
+    struct history *history = in->world->history;
+    if (change != UI_DRAG || !history_is_open(history)) return;
+    history_restart(history, in->document);
+    core_follow(in->core, in->world);
+}
+
+void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
+                      const struct edit *edit)
+{
+    inspector_change_all(in, change, label, what, edit, 1);
+}
+
+void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
+                          const struct edit *edits, int count)
+{
+    struct history *history = in->world->history;
+    uint64_t merge = 0;
+    switch (change) {
+    case UI_NONE:
+        return;
+    case UI_DRAG:
+        inspector_take_back(in, change);
+        if (!history_is_open(history)) history_begin(history, label, 0);
+        for (int i = 0; i < count; i++) core_edit(in->core, in->world, &edits[i]);
+        return;
+    case UI_CANCEL:
+    case UI_DROP:
+        if (!history_is_open(history)) return; // nothing was moved by this drag
+        if (change == UI_CANCEL) history_restart(history, in->document);
+        history_end(history);
+        core_follow(in->core, in->world);
+        return;
+    case UI_NUDGE:
+        merge = (uint64_t)ui_id(what) << 32 | (uint32_t)(in->core->active + 1);
+        break;
+    case UI_SET:
+        break;
+    }
+    if (history_is_open(history)) return; // as core_step()
+    history_begin(history, label, merge);
+    for (int i = 0; i < count; i++) core_edit(in->core, in->world, &edits[i]);
+    history_end(history);
+}
+
+struct rect inspector_labelled(struct inspection *in, const char *label)
+{
+    struct rect r = ui_row(in->ui, UI_ROW);
+    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
+    return (struct rect){r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
+}

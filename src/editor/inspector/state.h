@@ -1,0 +1,29 @@
+/// The state of the inspector. Private to the room.
+#ifndef EDITOR_INSPECTOR_STATE_H
+#define EDITOR_INSPECTOR_STATE_H
+
+#include "editor/core/state.h"
+#include "editor/inspector/poles.h"
+#include "ui/widgets.h"
+
+enum { INSPECTOR_MAX_SECTIONS = 16 };
+
+/// What the list of the history's steps shows.
+struct history_view {
+    size_t top;         ///< its first row
+    size_t count, done; ///< of the history, when it was last laid out
+};
+
+/// The inspector's own view state; zero is a valid start.
+struct inspector {
+    struct ui ui;
+    struct ui_scroll scroll;
+    bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections that are not as they are at first, open or closed
+    int tail, channel;                    ///< shown under "Tail"
+    const char *dragged_name;             ///< number of the scene that is being dragged
+    double dragged;                       ///< what it would be; of several knots, what was last possible
+    struct poles_view poles;
+    struct history_view history;
+};
+
+#endif

@@ -1,0 +1,32 @@
+/// Where points of posed tails are on the screen.
+#include "editor/stage/project.h"
+#include "editor/stage/stage.h"
+#include "editor/stage/state.h"
+#include <assert.h>
+
+struct posing stage_posing(const struct core *core, const struct editor_world *world)
+{
+    return (struct posing){world->document, world->evaluation, world->cast, core->look};
+}
+
+bool stage_project_pose(const struct stage *stage, const struct core *core, const struct pose *pose, int joint,
+                        double fraction, float xy[2])
+{
+    const struct rect *r = &core->layout.stage;
+    const float viewport[4] = {r->x, r->y, r->w, r->h};
+    float world[3];
+    assert(joint >= 0 && joint < pose->count);
+    int next = joint + 1 < pose->count ? joint + 1 : joint;
+    for (int i = 0; i < 3; i++) {
+        float from = pose->matrix[joint][12 + i], to = pose->matrix[next][12 + i];
+        world[i] = from + (to - from) * (float)fraction;
+    }
+    return camera_project(stage->view.view, stage->view.projection, viewport, world, xy);
+}
+
+bool stage_project(const struct stage *stage, const struct core *core, int tail, int joint, double fraction,
+                   float xy[2])
+{
+    if (tail >= stage->view.tail_count || joint >= stage->view.tails[tail].pose.count) return false;
+    return stage_project_pose(stage, core, &stage->view.tails[tail].pose, joint, fraction, xy);
+}

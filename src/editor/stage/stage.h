@@ -1,0 +1,60 @@
+/// The door of the stage: what the editor asks of it.
+#ifndef EDITOR_STAGE_STAGE_H
+#define EDITOR_STAGE_STAGE_H
+
+#include "editor/core/drag.h"
+#include "editor/core/state.h"
+
+struct stage;
+
+/// NULL where memory is short.
+struct stage *stage_create(void);
+/// NULL is fine.
+void stage_destroy(struct stage *stage);
+/// A point of the screen where body_hover() finds that tail's body; false where it is hidden.
+bool body_point(const struct stage *stage, const struct core *core, int tail, float xy[2]);
+/// What the scene is about, in the upper left corner of the stage: up to the first full stop as a title.
+void caption_show(struct core *core, const struct document *document, float bottom);
+/// Where a point of its surface is on the screen: `uv` across and up its box at rest, seen from the front. false where it is not
+/// shown.
+bool characters_point(const struct stage *stage, int character, const double uv[2], float xy[2]);
+/// Whether anything still swings.
+bool follow_is_moving(const struct stage *stage);
+/// Onion skin on, off.
+void onion_toggle(struct core *core);
+/// The pointer moved in a drag.
+void stage_drag_move(struct stage *stage, struct core *core);
+/// What an event means to a drag that began here.
+enum drag_answer stage_drag_event(struct stage *stage, struct core *core, const struct editor_world *world,
+                                  const struct event *event);
+/// A drag ends: before its step is closed.
+void stage_drag_end(struct stage *stage, struct core *core, const struct editor_world *world, bool keep);
+/// Time passes: strokes, the grab and what swings go on.
+void stage_advance(struct stage *stage, struct core *core, const struct editor_world *world, double dt);
+/// A new document is on the table.
+void stage_open(struct stage *stage);
+/// What is on the stage, as of the last pose.
+const struct stage_view *stage_seen(const struct stage *stage);
+/// All of the stage in sight, from where the camera was at first.
+void stage_fit(struct stage *stage, const struct core *core, const struct editor_world *world);
+/// Turns the camera about what it looks at, radians.
+void stage_orbit(struct stage *stage, float across, float up);
+/// Comes nearer (factors below 1) or goes away.
+void stage_approach(struct stage *stage, float factor);
+/// After the solve: poses everything; `covered`: something lies over the panels.
+void stage_pose(struct stage *stage, struct core *core, const struct editor_world *world, bool covered);
+/// What is drawn over the picture.
+void stage_show(struct stage *stage, struct core *core, const struct editor_world *world);
+/// Where a point of the last pose is on the screen: `fraction` 0 … 1 of the way from joint to joint + 1.
+bool stage_project(const struct stage *stage, const struct core *core, int tail, int joint, double fraction,
+                   float xy[2]);
+/// The nearest point of a tail, where it is near enough to be held.
+struct hover stage_hover(const struct stage *stage, const struct core *core, float x, float y);
+/// A press on the stage.
+void stage_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event);
+/// The wheel over the stage.
+void stage_wheel(struct stage *stage, struct core *core, const struct event *event);
+/// Motion arc on, off.
+void trail_toggle(struct core *core);
+
+#endif

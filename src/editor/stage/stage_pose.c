@@ -1,0 +1,135 @@
+/// The stage: poses the rigs, drives the camera, finds what the pointer is over.
+#include "base/hash.h"
+#include "editor/core/drag.h"
+#include "editor/stage/body.h"
+#include "editor/stage/brush.h"
+#include "editor/stage/brush_show.h"
+#include "editor/stage/characters_show.h"
+#include "editor/stage/grab.h"
+#include "editor/stage/kinds.h"
+#include "editor/stage/onion.h"
+#include "editor/stage/stage.h"
+#include "editor/stage/state.h"
+#include "editor/stage/trail.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include <assert.h>
+#include <math.h>
+
+enum { RING_SIZE = 13 };
+
+/// Radians. Characters look towards +z; one is met from a bit aside, a pair from the front.
+static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f;
+
+/// In this order they are posed, hashed and drawn.
+static const struct stage_kind *const kinds[RIG_KINDS] = {
+    [RIG_TAIL] = &stage_tails, [RIG_CHARACTER] = &stage_characters};
+
+/// Adds all motion of a kind to the box lo … hi; false where nothing of it is to be seen.
+static bool add_bounds(const struct stage *stage, const struct core *core, const struct editor_world *world,
+                       enum rig_kind kind, float lo[3], float hi[3])
+{
+    const struct document *document = world->document;
+    bool any = false;
+    int rig = document_next_rig(document, kind, 0);
+    for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, kind, rig + 1)) {
+        any |= kinds[kind]->bounds(stage, core, world, rig, n, lo, hi);
+    }
+    return any;
+}
+
+void stage_fit(struct stage *stage, const struct core *core, const struct editor_world *world)
+{
+    float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    bool seen[RIG_KINDS], any = false;
+    for (int kind = 0; kind < RIG_KINDS; kind++) {
+        seen[kind] = add_bounds(stage, core, world, (enum rig_kind)kind, lo, hi);
+        any |= seen[kind];
+    }
+    stage->camera = camera_default();
+    if (seen[RIG_CHARACTER] && !seen[RIG_TAIL])
+        stage->camera.azimuth = core->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
+    camera_lamp(&stage->camera, stage->view.key_from); // it stays there while the camera goes round
+    if (!any) return;
+    for (int k = 0; k < 2; k++) stage->view.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
+    camera_fit(&stage->camera, lo, hi, core->layout.stage.w / core->layout.stage.h);
+}
+
+static uint64_t view_hash(const struct stage_view *view)
+{
+    uint64_t hash = hash_bytes(HASH_START, &view->viewport, sizeof view->viewport);
+    hash = hash_bytes(hash, view->view, sizeof view->view);
+    hash = hash_bytes(hash, view->projection, sizeof view->projection);
+    hash = hash_bytes(hash, view->middle, sizeof view->middle);
+    hash = hash_bytes(hash, view->key_from, sizeof view->key_from);
+    hash = hash_bytes(hash, &view->colors, sizeof view->colors);
+    for (int kind = 0; kind < RIG_KINDS; kind++) hash = kinds[kind]->hash(hash, view);
+    return hash_bytes(hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
+}
+
+void stage_orbit(struct stage *stage, float across, float up) { camera_orbit(&stage->camera, across, up); }
+
+void stage_approach(struct stage *stage, float factor) { camera_zoom(&stage->camera, factor); }
+
+void stage_pose(struct stage *stage, struct core *core, const struct editor_world *world, bool covered)
+{
+    if (core->refit_stage) stage_fit(stage, core, world);
+    core->refit_stage = false;
+    struct stage_view *view = &stage->view;
+    const struct document *document = world->document;
+    view->tail_count = view->character_count = view->blob_count = 0;
+    for (int kind = 0; kind < RIG_KINDS; kind++) {
+        int rig = document_next_rig(document, (enum rig_kind)kind, 0);
+        for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, (enum rig_kind)kind, rig + 1)) {
+            kinds[kind]->pose(stage, core, world, rig, n);
+        }
+    }
+    view->viewport = core->layout.stage;
+    view->colors = theme()->stage;
+    camera_matrices(&stage->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
+    view->hash = view_hash(view);
+    brush_pose(stage, core, world, covered);
+}
+
+/// A ring where the tail can be taken hold of.
+static void show_hold(struct stage *stage, struct core *core)
+{
+    float xy[2] = {core->hover.x, core->hover.y};
+    if (core->drag.kind == DRAG_GRAB) {
+        if (!stage_project(stage, core, stage->grab.tail, stage->grab.joint, stage->grab.fraction, xy)) return;
+    } else if (core->hover.kind != HOVER_JOINT) {
+        return;
+    }
+    struct rect ring = {xy[0] - RING_SIZE / 2.0f, xy[1] - RING_SIZE / 2.0f, RING_SIZE, RING_SIZE};
+    drawlist_rounded_line(&core->list, ring, RING_SIZE / 2.0f, 1.5f, theme()->playhead);
+}
+
+/// What an empty stage says, or NULL.
+static const char *empty_text(const struct stage *stage, const struct core *core, const struct editor_world *world)
+{
+    const struct stage_view *view = &stage->view;
+    if (view->tail_count > 0 || view->character_count > 0) return NULL;
+    if (document_character(world->document, 0))
+        return "wiggly could not read this scene's character. Its curves are below.";
+    return core->active < 0 ? "This scene is empty." : "This scene has no tail. Its curves are below.";
+}
+
+void stage_show(struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    const struct stage_view *view = &stage->view;
+    struct rect clip = drawlist_push_clip(&core->list, view->viewport);
+    const char *text = empty_text(stage, core, world);
+    if (text) {
+        float room = view->viewport.w - 16, width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, text);
+        float x = view->viewport.x + 8 + fmaxf(room - width, 0) / 2;
+        drawlist_text_fit(&core->list, x, view->viewport.y + view->viewport.h / 2, room, FONT_LABEL,
+                          THEME_TEXT_NORMAL, theme()->text_dim, text);
+    }
+    onion_show(stage, core, world);
+    trail_show(stage, core, world);
+    characters_show(stage, core, world);
+    brush_show(stage, core, world);
+    body_show(stage, core);
+    show_hold(stage, core);
+    drawlist_set_clip(&core->list, clip);
+}

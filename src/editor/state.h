@@ -1,0 +1,24 @@
+/// The editor: what its panels share, and each panel's own state. Private to the files beside this one, and to tests.
+#ifndef EDITOR_STATE_H
+#define EDITOR_STATE_H
+
+#include "editor/core/state.h"
+
+/// The last key that went down in this frame, whose character follows it.
+struct press {
+    bool used;     ///< by a dialog, a drag, a field …
+    bool repeated; ///< it is kept down
+};
+
+struct editor {
+    struct core core;
+    struct curves *curves;
+    struct stage *stage;
+    struct inspector *inspector;
+    struct dialogs *dialogs;
+    struct transport *transport;
+    struct press press;
+    bool fitted; ///< camera and curves view, at the first editor_pose() of a document
+};
+
+#endif

@@ -1,0 +1,23 @@
+/// The state of the status line. Private to the room.
+#ifndef EDITOR_TRANSPORT_STATE_H
+#define EDITOR_TRANSPORT_STATE_H
+
+#include "editor/core/state.h"
+
+/// The right end of the status line; zero is a valid start.
+struct status {
+    double age;           ///< seconds since the figures were taken over
+    double fps, solve_us; ///< as shown
+    long dropped;
+};
+
+/// The controls at the left of the status line.
+enum control { TRANSPORT_PLAY, TRANSPORT_LOOP, TRANSPORT_SPEED, TRANSPORT_COUNT };
+
+struct transport {
+    struct status status;
+    double fps, solve_us; ///< as told last
+    float stage_scale;    ///< from editor_set_stage_scale(); 0 means 1
+};
+
+#endif

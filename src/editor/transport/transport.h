@@ -1,0 +1,27 @@
+/// The door of the status line: controls of playback, what is going on.
+#ifndef EDITOR_TRANSPORT_TRANSPORT_H
+#define EDITOR_TRANSPORT_TRANSPORT_H
+
+#include "editor/core/state.h"
+
+struct transport;
+
+/// NULL where memory is short.
+struct transport *transport_create(void);
+/// NULL is fine.
+void transport_destroy(struct transport *transport);
+/// What is under a point of the status line.
+struct hover transport_hover(const struct core *core, float x, float y);
+/// A press or the wheel on a control; true where there is one.
+bool transport_event(struct core *core, const struct editor_world *world, const struct event *event);
+/// Time passes (editor_advance): the figures change at most twice a second, so that they cost no redraws.
+void status_advance(struct transport *transport, const struct core *core, double dt);
+/// Draws the status line; `hint` is what it says where there is no message, NULL: what the pointer is over.
+void status_show(const struct transport *transport, struct core *core, const struct editor_world *world,
+                 const char *hint);
+/// Figures for the status line.
+void transport_tell(struct transport *transport, double fps, double solve_us);
+/// See editor_set_stage_scale().
+void transport_tell_scale(struct transport *transport, float scale);
+
+#endif

@@ -1,0 +1,19 @@
+/// The editor's insides, for tests that look at what cannot be seen on the screen.
+#ifndef TESTS_INSIDE_H
+#define TESTS_INSIDE_H
+
+#include "editor/core/core.h"
+#include "editor/core/selection.h"
+#include "editor/curves/curves.h"
+#include "editor/curves/state.h"
+#include "editor/dialogs/dialogs.h"
+#include "editor/dialogs/state.h"
+#include "editor/inspector/inspector.h"
+#include "editor/inspector/state.h"
+#include "editor/stage/stage.h"
+#include "editor/stage/state.h"
+#include "editor/state.h"
+#include "editor/transport/state.h"
+#include "editor/transport/transport.h"
+
+#endif
