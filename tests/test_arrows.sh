@@ -1,4 +1,4 @@
-# tools/check-arrows.sh and check-lengths.sh must fail where the house is broken; a check that cannot fail proves nothing.
+# tools/check-arrows.sh, check-circles.sh and check-lengths.sh must fail where the house is broken; a check that cannot fail proves nothing.
 . tests/check.sh
 
 expect 0 "the tree itself follows the arrows" tools/check-arrows.sh
@@ -59,6 +59,14 @@ expect 1 "four may not" tools/check-arrows.sh "$tree"
 says "and all four are named" "4 files include each other in a circle: base/d base/c base/b base/a" "$out"
 
 refuses misc/a.c '#include "base/error.h"' "src/misc is not a room of the house"
+
+expect 0 "no circle of includes in the tree is larger than those that are known" tools/check-circles.sh
+plant ui/a.c '#include "ui/b.h"' ui/b.c '#include "ui/c.h"' ui/c.c '#include "ui/a.h"'
+expect 0 "three files may include each other in a circle" tools/check-circles.sh "$tree"
+says "which is named" "3 files: ui/" "$out"
+plant ui/a.c '#include "ui/b.h"' ui/b.h '#include "ui/c.h"' ui/c.c '#include "ui/d.h"' ui/d.h '#include "ui/a.h"' draw/a.c '#include "ui/a.h"'
+expect 1 "four are refused" tools/check-circles.sh "$tree"
+says "and named, without those that only look in" "src: 4 files include each other in a circle: " "$out"
 
 {
     echo 'void long_one(void)'

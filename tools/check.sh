@@ -1,5 +1,6 @@
 #!/bin/sh
-# Formatting, static analysis, include arrows, lengths and file heads over all our C. Prints what is wrong; exit status 1 where anything is.
+# Formatting, static analysis, include arrows and circles, lengths and file heads over all our C. Prints what is wrong; exit status 1
+# where anything is.
 set -u
 files=$(find src include tests tools examples -name '*.[ch]' | sort)
 failed=""
@@ -26,6 +27,7 @@ analyse() {
 # shellcheck disable=SC2086 # the list is split on purpose
 step format formatted $files
 step arrows tools/check-arrows.sh
+step circles tools/check-circles.sh
 # shellcheck disable=SC2086
 step lengths tools/check-lengths.sh $files
 # shellcheck disable=SC2086

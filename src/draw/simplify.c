@@ -1,42 +1,37 @@
 /// Drops points of a polyline that nobody would see.
 #include "draw/simplify.h"
+#include "model/vector.h"
 
 /// Device pixels. Software rasterisers pay by the triangle; from a fifteenth of a pixel on steps in slow curves show.
 static const float TOLERANCE = 0.05f;
 static const float COINCIDENT = 0.01f;
 
-struct vec {
-    float x, y;
-};
-
-static float cross(struct vec a, struct vec b) { return a.x * b.y - a.y * b.x; }
-
 /// The directions from the anchor that pass every point since within TOLERANCE: a cone that only narrows.
 struct cone {
-    struct vec anchor, low, high;
-    struct vec last; ///< newest point inside
-    float reach;     ///< its distance from the anchor
+    vec2s anchor, low, high;
+    vec2s last;  ///< newest point inside
+    float reach; ///< its distance from the anchor
     bool has_last;
 };
 
-static void restart(struct cone *cone, struct vec anchor) { *cone = (struct cone){.anchor = anchor}; }
+static void restart(struct cone *cone, vec2s anchor) { *cone = (struct cone){.anchor = anchor}; }
 
 /// Takes `p` into the cone; false where the line has to bend at the last point before it.
-static bool extend(struct cone *cone, struct vec p)
+static bool extend(struct cone *cone, vec2s p)
 {
-    struct vec d = {p.x - cone->anchor.x, p.y - cone->anchor.y};
+    vec2s d = {{p.x - cone->anchor.x, p.y - cone->anchor.y}};
     float distance = hypotf(d.x, d.y);
-    struct vec side = {-d.y / distance * TOLERANCE, d.x / distance * TOLERANCE};
-    struct vec low = {d.x - side.x, d.y - side.y}, high = {d.x + side.x, d.y + side.y};
+    vec2s side = {{-d.y / distance * TOLERANCE, d.x / distance * TOLERANCE}};
+    vec2s low = {{d.x - side.x, d.y - side.y}}, high = {{d.x + side.x, d.y + side.y}};
     if (!cone->has_last) {
         cone->low = low;
         cone->high = high;
     } else {
-        bool inside = cross(cone->low, d) >= 0.0f && cross(d, cone->high) >= 0.0f;
+        bool inside = glms_vec2_cross(cone->low, d) >= 0.0f && glms_vec2_cross(d, cone->high) >= 0.0f;
         // Past a turning point the direction may still fit: the tip must not be cut off.
         if (!inside || distance < cone->reach) return false;
-        if (cross(cone->low, low) > 0.0f) cone->low = low;
-        if (cross(high, cone->high) > 0.0f) cone->high = high;
+        if (glms_vec2_cross(cone->low, low) > 0.0f) cone->low = low;
+        if (glms_vec2_cross(high, cone->high) > 0.0f) cone->high = high;
     }
     cone->last = p;
     cone->reach = distance;
@@ -47,12 +42,12 @@ static bool extend(struct cone *cone, struct vec p)
 int simplify_line(const float *xy, int count, float scale, struct line_point *out, int capacity, int *read)
 {
     struct cone cone;
-    restart(&cone, (struct vec){xy[0] * scale, xy[1] * scale});
+    restart(&cone, (vec2s){{xy[0] * scale, xy[1] * scale}});
     out[0] = (struct line_point){.x = cone.anchor.x, .y = cone.anchor.y};
     int written = 1, i = 1;
     for (; i < count; i++) {
-        struct vec p = {xy[2 * i] * scale, xy[2 * i + 1] * scale};
-        struct vec before = cone.has_last ? cone.last : cone.anchor;
+        vec2s p = {{xy[2 * i] * scale, xy[2 * i + 1] * scale}};
+        vec2s before = cone.has_last ? cone.last : cone.anchor;
         if (hypotf(p.x - before.x, p.y - before.y) < COINCIDENT) continue;
         if (extend(&cone, p)) continue;
         out[written++] = (struct line_point){.x = cone.last.x, .y = cone.last.y};

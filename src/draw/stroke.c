@@ -11,23 +11,20 @@
 
 #include "draw/stroke.h"
 #include "draw/shape.h"
+#include "model/vector.h"
 
 /// Beyond 120° a mitre would be longer than the line is wide.
 static const float SHARPEST_MITRE = -0.5f;
 enum { FAN_STEPS = 8 };
 
-struct vec {
-    float x, y;
-};
-
 struct segment {
-    struct vec direction;
+    vec2s direction;
     float length;
 };
 
 /// Two sides of a quad's end: [0] left, [1] right.
 struct side_pair {
-    struct vec at[2];
+    vec2s at[2];
 };
 
 struct joint {
@@ -38,26 +35,26 @@ struct joint {
 
 static struct segment segment_between(struct line_point a, struct line_point b)
 {
-    struct vec d = {b.x - a.x, b.y - a.y};
+    vec2s d = {{b.x - a.x, b.y - a.y}};
     float length = fmaxf(hypotf(d.x, d.y), 1.0e-6f);
-    return (struct segment){{d.x / length, d.y / length}, length};
+    return (struct segment){glms_vec2_divs(d, length), length};
 }
 
-static struct vec offset(struct line_point p, struct vec direction, float by)
+static vec2s offset(struct line_point p, vec2s direction, float by)
 {
-    return (struct vec){p.x + direction.x * by, p.y + direction.y * by};
+    return (vec2s){{p.x + direction.x * by, p.y + direction.y * by}};
 }
 
 /// The two points beside `p` across a direction. Left of it on the screen is (y, −x), y being down.
-static struct side_pair beside(struct line_point p, struct vec direction, float reach)
+static struct side_pair beside(struct line_point p, vec2s direction, float reach)
 {
-    struct vec normal = {direction.y, -direction.x};
+    vec2s normal = {{direction.y, -direction.x}};
     return (struct side_pair){{offset(p, normal, reach), offset(p, normal, -reach)}};
 }
 
 static struct joint joint_at(struct line_point p, struct segment before, struct segment after, float reach)
 {
-    struct vec a = before.direction, b = after.direction;
+    vec2s a = before.direction, b = after.direction;
     float cosine = a.x * b.x + a.y * b.y, sine = a.x * b.y - a.y * b.x;
     // The mitre's corner lies reach · tan(angle / 2) along either segment and must not pass its other end.
     float back = cosine > -0.999f ? reach * fabsf(sine) / (1.0f + cosine) : INFINITY;
@@ -65,7 +62,7 @@ static struct joint joint_at(struct line_point p, struct segment before, struct 
     struct joint joint = {
         .in = beside(p, a, reach), .out = beside(p, b, reach), .smooth = false, .outer = sine > 0.0f ? 0 : 1};
     if (!fits) return joint;
-    struct vec mitre = {(a.y + b.y) / (1.0f + cosine), -(a.x + b.x) / (1.0f + cosine)};
+    vec2s mitre = {{(a.y + b.y) / (1.0f + cosine), -(a.x + b.x) / (1.0f + cosine)}};
     struct side_pair corners = {{offset(p, mitre, reach), offset(p, mitre, -reach)}};
     joint.smooth = cosine > SHARPEST_MITRE;
     if (joint.smooth) {
@@ -77,7 +74,7 @@ static struct joint joint_at(struct line_point p, struct segment before, struct 
     return joint;
 }
 
-static void add_vertex(const struct stroke *stroke, struct vec at, float across, float along)
+static void add_vertex(const struct stroke *stroke, vec2s at, float across, float along)
 {
     struct vertex vertex = shape_vertex(at.x, at.y, stroke->color);
     vertex.across = across;
@@ -115,17 +112,17 @@ static void add_fan(const struct stroke *stroke, struct line_point p, const stru
 {
     int outer = joint->outer, inner = 1 - outer;
     float side = outer == 0 ? 1.0f : -1.0f;
-    struct vec from = joint->in.at[outer], to = joint->out.at[outer];
+    vec2s from = joint->in.at[outer], to = joint->out.at[outer];
     float start = atan2f(from.y - p.y, from.x - p.x), end = atan2f(to.y - p.y, to.x - p.x);
     // The arc runs the way the line turns: clockwise on the screen (y down) where the outer side is the left one.
     float turn = remainderf(end - start, 2.0f * (float)M_PI);
     if (turn * side < 0.0f) turn += side * 2.0f * (float)M_PI;
     uint32_t base = batch_reserve(stroke->batch, FAN_STEPS + 4, 3 * (FAN_STEPS + 2));
-    add_vertex(stroke, (struct vec){p.x, p.y}, 0.0f, p.along);
+    add_vertex(stroke, (vec2s){{p.x, p.y}}, 0.0f, p.along);
     add_vertex(stroke, joint->in.at[inner], -side * stroke->reach, p.along);
     for (int i = 0; i <= FAN_STEPS; i++) {
         float angle = start + turn * (float)i / FAN_STEPS;
-        add_vertex(stroke, offset(p, (struct vec){cosf(angle), sinf(angle)}, stroke->reach), side * stroke->reach,
+        add_vertex(stroke, offset(p, (vec2s){{cosf(angle), sinf(angle)}}, stroke->reach), side * stroke->reach,
                    p.along);
     }
     add_vertex(stroke, joint->out.at[inner], -side * stroke->reach, p.along);
@@ -148,7 +145,7 @@ static bool is_visible(const struct stroke *stroke, struct line_point a, struct 
 }
 
 /// An end of the line, as a joint with nothing after it: half a pixel beyond the last point, where `along` is 0.
-static struct joint cap_at(struct line_point p, struct vec direction, float beyond, float reach)
+static struct joint cap_at(struct line_point p, vec2s direction, float beyond, float reach)
 {
     struct line_point end = {p.x + direction.x * beyond, p.y + direction.y * beyond, 0.0f};
     struct side_pair pair = beside(end, direction, reach);

@@ -11,7 +11,7 @@ static inline vec3s vec3_from(const float v[3]) { return (vec3s){.raw = {v[0], v
 static inline mat4s mat4_from(const float m[16])
 {
     mat4s matrix;
-    memcpy(matrix.raw, m, sizeof matrix);
+    memcpy(&matrix, m, sizeof matrix);
     return matrix;
 }
 
