@@ -112,6 +112,8 @@ static void let_go(struct editor *editor, const struct editor_world *world)
     editor->core.space_down = false;
 }
 
+/// Who is asked first: what lies over the panels, then a running drag, then the inspector. A field that is typed in takes all keys
+/// but Ctrl chords and F keys, a focused slider the arrows, Enter and digits, an open dialog all.
 void editor_event(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     note(editor, event);

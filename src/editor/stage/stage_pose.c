@@ -1,4 +1,4 @@
-/// The stage: poses the rigs, drives the camera, finds what the pointer is over.
+/// The stage: poses the rigs, drives the camera, draws over the picture.
 #include "base/hash.h"
 #include "editor/core/drag.h"
 #include "editor/stage/body.h"
