@@ -1,3 +1,4 @@
+/// Beams of cubes for the tests of the simulation.
 #include "beam.h"
 #include "near.h"
 #include <stdlib.h>

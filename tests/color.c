@@ -1,3 +1,4 @@
+/// CIEDE2000, as seen with all cones or without one kind.
 #include "color.h"
 #include <math.h>
 #include <stdbool.h>

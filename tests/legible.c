@@ -1,3 +1,4 @@
+/// Finds texts that are cut off, covered or too faint.
 #include "legible.h"
 #include "color.h"
 #include "near.h"

@@ -1,3 +1,4 @@
+/// The spline in quadruple precision.
 #include "quad.h"
 #include <assert.h>
 #include <stdlib.h>

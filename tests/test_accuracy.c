@@ -1,4 +1,4 @@
-// Long domains and long gaps against quadruple precision: within the tolerance of docs/mathematics.md, or said to be beyond it.
+/// Long domains and long gaps against quadruple precision: within the tolerance of docs/mathematics.md, or said to be beyond it.
 #include "near.h"
 
 #include "curve.h"

@@ -236,7 +236,7 @@ static void test_cannot_write(void **state)
 
 enum { KILLS = 60 };
 
-/// Saves two documents in turn for ever. The larger one takes several writes.
+/// Saves two documents in turn forever. The larger one takes several writes.
 static void save_for_ever(const char *path, struct document *small, struct document *large)
 {
     struct error error;

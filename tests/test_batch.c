@@ -1,4 +1,4 @@
-// Many splines over threads: the same bits as one at a time, statuses each its own; and what happens when memory runs out.
+/// Many splines over threads: the same bits as one at a time, statuses each its own; and what happens when memory runs out.
 #include "near.h"
 
 #include <stdlib.h>

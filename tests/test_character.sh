@@ -4,7 +4,7 @@
 WIGGLY=$(realpath "$WIGGLY")
 root=$PWD
 
-replay() { # <scene> <event>...: plays events on a scene, write the document at the end is in $scratch/deep/result.json
+replay() { # <scene> <event>...: plays events on a scene, the document at the end is in $scratch/deep/result.json
     local scene=$1
     shift
     "$WIGGLY" live --headless --frames 1 --record "$scratch/header" "$scene" >/dev/null 2>&1

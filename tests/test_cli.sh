@@ -88,7 +88,7 @@ allocations=$(awk -F, 'BEGIN { total = 0 }
 [ "$allocations" = 0 ] || echo "  allocations after frame 60: $allocations"
 [ "$allocations" = 0 ]
 ok "playing allocates nothing" $?
-expect 0 "write the document at the end is a good scene" "$WIGGLY" check "$scratch/end.json"
+expect 0 "the document at the end is a good scene" "$WIGGLY" check "$scratch/end.json"
 expect 0 "it opens again" live --frames 2 "$scratch/end.json"
 expect 0 "without a display and without --headless" "$WIGGLY" live --frames 2 --size 640x360
 says "it says that it runs headless" "headless" "$out$err"

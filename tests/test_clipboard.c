@@ -1,3 +1,4 @@
+/// Knots as text and on the clipboard: what is read, what is refused and with which words, and what pasting does.
 // Knots as text and on the clipboard: what is read, what is refused and with which words, and what pasting does.
 #include "inside.h"
 #include "panel_session.h"

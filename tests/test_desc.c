@@ -1,5 +1,5 @@
-// The list of a description's members: all are on it, and a solver that has kept the factor of one description solves the next one,
-// which differs in a single member, as a fresh solver does.
+/// The list of a description's members: all are on it, and a solver that has kept the factor of one description solves the next one,
+/// which differs in a single member, as a fresh solver does.
 #include "near.h"
 
 #include "curve.h"

@@ -1,5 +1,5 @@
-// The solver against a textbook one (dense, extended precision) and against LAPACKE on the same systems: every knot pattern of
-// small domains, and seeded random ones up to 40 samples, in every mode, start and kind of parameter.
+/// The solver against a textbook one (dense, extended precision) and against LAPACKE on the same systems: every knot pattern of
+/// small domains, and seeded random ones up to 40 samples, in every mode, start and kind of parameter.
 #include "near.h"
 
 #include "curve.h"

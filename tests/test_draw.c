@@ -1,5 +1,5 @@
-// Pixels, offscreen: what a person would see of rectangles, lines, clips and text, and that redrawing only what changed gives
-// the same picture as redrawing all. Skipped where there is no EGL.
+/// Pixels, offscreen: what a person would see of rectangles, lines, clips and text, and that redrawing only what changed gives
+/// the same picture as redrawing all. Skipped where there is no EGL.
 #include "near.h"
 
 #include "draw/draw.h"

@@ -1,4 +1,4 @@
-// The draw list (what the editor records), text layout and key names: all without a screen.
+/// The draw list (what the editor records), text layout and key names: all without a screen.
 #include "near.h"
 
 #include "ui/event.h"

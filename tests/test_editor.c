@@ -1,4 +1,4 @@
-// The editor as its user meets it: mouse and keys in, document out. Without GL.
+/// The editor as its user meets it: mouse and keys in, document out. Without GL.
 #include "session.h"
 
 #include <stdio.h>

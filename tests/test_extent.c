@@ -1,4 +1,4 @@
-// Of the stage only what moves is drawn again: every frame of every scene is the picture that drawing all of it gives.
+/// Of the stage only what moves is drawn again: every frame of every scene is the picture that drawing all of it gives.
 #include "blind.h"
 
 #include "draw/draw.h"

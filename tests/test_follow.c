@@ -91,7 +91,7 @@ static void test_frame_rate_does_not_matter(void **state)
     assert_near(at30.x[0], at144.x[0], 0.02 * 0.5 * filter.peak);
 }
 
-/// Even a spline that rings for ever lets its tail come to rest, and the base's step swings it no further than `peak`.
+/// Even a spline that rings forever lets its tail come to rest, and the base's step swings it no further than `peak`.
 static void test_comes_to_rest_within_its_peak(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// What --gl-debug counts: a wrong call is a complaint, good ones are none.
+/// What --gl-debug counts: a wrong call is a complaint, good ones are none.
 #include "near.h"
 
 #include "platform/platform.h"

@@ -1,4 +1,4 @@
-// Who keeps the time: the display where swaps wait for it, else the app, at the display's own rate.
+/// Who keeps the time: the display where swaps wait for it, else the app, at the display's own rate.
 #include "near.h"
 
 #include "app/pace.h"

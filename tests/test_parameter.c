@@ -1,5 +1,5 @@
-// The table of parameters: each is one that the solver knows, in the right place; an edit of it is seen in the curve, is saved, and is
-// loaded again; and a reader of docs/scene-format.md finds it.
+/// The table of parameters: each is one that the solver knows, in the right place; an edit of it is seen in the curve, is saved, and is
+/// loaded again; and a reader of docs/scene-format.md finds it.
 #include "near.h"
 
 #include "base/file.h"

@@ -1,4 +1,4 @@
-// When the stage is drawn at a lower resolution, and when exactly again.
+/// When the stage is drawn at a lower resolution, and when exactly again.
 #include "near.h"
 
 #include "app/resolution.h"

@@ -1,4 +1,4 @@
-// Every screen in every size, at every scale, dark and light: all text is whole, apart from other text, and can be read.
+/// Every screen in every size, at every scale, dark and light: all text is whole, apart from other text, and can be read.
 #include "base/file.h"
 #include "inside.h"
 #include "legible.h"

@@ -1,5 +1,5 @@
-// The public library as a user meets it: the corner cases of docs/mathematics.md, every status, values between samples,
-// and finite answers whatever is asked.
+/// The public library as a user meets it: the corner cases of docs/mathematics.md, every status, values between samples,
+/// and finite answers whatever is asked.
 #include "near.h"
 
 #include <stdlib.h>

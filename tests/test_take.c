@@ -1,5 +1,5 @@
-// A take (a long spline that is edited knot by knot and looked at through a window) against wiggly_solve(), and an edited one
-// against a fresh one, to the bit.
+/// A take (a long spline that is edited knot by knot and looked at through a window) against wiggly_solve(), and an edited one
+/// against a fresh one, to the bit.
 #include "near.h"
 
 #include "curve.h"

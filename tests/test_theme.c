@@ -1,5 +1,5 @@
-// Both themes: every text can be read on what it stands on, controls are seen, and splines and phases are told apart, by
-// colour-blind eyes too.
+/// Both themes: every text can be read on what it stands on, controls are seen, and splines and phases are told apart, by
+/// colour-blind eyes too.
 #include "color.h"
 #include "near.h"
 #include "ui/phase_color.h"

@@ -1,5 +1,5 @@
-// Every scene of tests/vectors against its exact answers (60-digit arithmetic), through the same path as the app:
-// scene file → document → solver. The tolerances are those of docs/mathematics.md: 1e-9 of the range for cubic splines, else 1e-8.
+/// Every scene of tests/vectors against its exact answers (60-digit arithmetic), through the same path as the app:
+/// scene file → document → solver. The tolerances are those of docs/mathematics.md: 1e-9 of the range for cubic splines, else 1e-8.
 #include "near.h"
 
 #include "base/file.h"

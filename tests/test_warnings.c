@@ -1,4 +1,4 @@
-// Warnings in the curves panel: said where something is wrong, silent where nothing is, and gone after one click.
+/// Warnings in the curves panel: said where something is wrong, silent where nothing is, and gone after one click.
 #include "base/file.h"
 #include "editor/curves/warnings.h"
 #include "inside.h"

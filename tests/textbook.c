@@ -1,3 +1,4 @@
+/// The spline by a dense textbook solver.
 #include "textbook.h"
 #include <complex.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/// A small document, and makers of edits.
 #include "world.h"
 #include "near.h"
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Formatting, static analysis, include arrows and circles, and lengths over all our C. Prints what is wrong; exit status 1 where anything is.
+# Formatting, static analysis, include arrows and circles, lengths and file heads over all our C. Prints what is wrong; exit status 1
+# where anything is.
 set -u
 files=$(find src include tests tools examples -name '*.[ch]' | sort)
 failed=""
@@ -29,5 +30,7 @@ step arrows tools/check-arrows.sh
 step circles tools/check-circles.sh
 # shellcheck disable=SC2086
 step lengths tools/check-lengths.sh $files
+# shellcheck disable=SC2086
+step heads tools/check-heads.sh $files
 step analysis analyse
 [ -z "$failed" ] || { echo "check failed:$failed" >&2; exit 1; }

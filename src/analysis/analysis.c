@@ -1,3 +1,4 @@
+/// The whole analysis of one motion: covariance, eigenproblem, coordinates.
 #include "analysis/analysis.h"
 #include "analysis/slabs.h"
 #include "analysis/spectrum.h"

@@ -1,3 +1,4 @@
+/// Fixes the gauge of a complex component and fits its frequency, damping and lags.
 #include "analysis/component.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/// Two passes over a motion in slabs of columns: one forms G = S Sᵀ, the other weights frames.
 #include "analysis/slabs.h"
 #include <stdlib.h>
 

@@ -1,3 +1,4 @@
+/// Complex and real principal components from G, by LAPACKE.
 #include "analysis/spectrum.h"
 #include "analysis/hilbert.h"
 #include <stdlib.h>

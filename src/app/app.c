@@ -1,3 +1,4 @@
+/// Starts the app, runs its frames and ends it.
 #include "app/app.h"
 #include "app/state.h"
 #include "base/clock.h"

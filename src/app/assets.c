@@ -1,3 +1,4 @@
+/// Finds the program's own scenes: in the tree it was built in or in its installation.
 #include "app/assets.h"
 #include <stdlib.h>
 #include <sys/stat.h>

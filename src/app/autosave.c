@@ -1,3 +1,4 @@
+/// Writes unsaved work to the recovery file from a thread, so no frame waits for the disk.
 #include "app/autosave.h"
 #include "scene/load.h"
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// The system's clipboard between the platform and the editor.
+/// The system's clipboard between the platform and the editor.
 #include "app/state.h"
 #include <string.h>
 

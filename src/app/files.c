@@ -1,4 +1,4 @@
-// What the editor may not do itself: files, the window, and the end of the run.
+/// What the editor may not do itself: files, the window, and the end of the run.
 #include "app/assets.h"
 #include "app/state.h"
 #include "base/embedded.h"

@@ -1,3 +1,4 @@
+/// Finds and makes the user's own folders, by the XDG rules.
 #include "app/folders.h"
 #include <errno.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/// One frame of the app: take input, work on the table, draw, log.
 #include "app/state.h"
 #include "base/clock.h"
 #include "platform/process.h"

@@ -1,3 +1,4 @@
+/// Decides when the next frame may begin.
 #include "app/pace.h"
 #include <math.h>
 

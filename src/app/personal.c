@@ -1,3 +1,4 @@
+/// The user's settings, recent files and recovery, for a window that somebody sits at.
 #include "app/personal.h"
 #include "app/autosave.h"
 #include "app/folders.h"

@@ -1,3 +1,4 @@
+/// The list of recent files in the settings.
 #include "app/recent.h"
 #include <limits.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/// Slots of recovery files, locked by the program that uses them.
 #include "app/recovery.h"
 #include "base/file.h"
 #include "scene/load.h"

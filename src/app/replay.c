@@ -1,3 +1,4 @@
+/// Reads and writes replays, and turns their lines into events.
 #include "app/replay.h"
 #include "base/file.h"
 #include <ctype.h>

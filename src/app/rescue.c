@@ -1,5 +1,5 @@
-// Unsaved work when the program cannot go on: it goes to the recovery file, which the next start offers; where there is none,
-// beside the original, which stays as it is.
+/// Unsaved work when the program cannot go on: it goes to the recovery file, which the next start offers; where there is none,
+/// beside the original, which stays as it is.
 #include "app/state.h"
 #include "scene/load.h"
 #include <stdio.h>

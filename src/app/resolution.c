@@ -1,3 +1,4 @@
+/// Chooses the stage's resolution from how long frames take.
 #include "app/resolution.h"
 #include <math.h>
 #include <stdlib.h>

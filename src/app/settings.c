@@ -1,3 +1,4 @@
+/// Reads and writes the settings file.
 #include "app/settings.h"
 #include "base/file.h"
 #include <math.h>

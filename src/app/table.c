@@ -1,3 +1,4 @@
+/// A frame of the document on the table: edit, solve, pose, show.
 #include "app/table.h"
 #include "base/clock.h"
 #include "scene/background.h"

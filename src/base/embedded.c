@@ -1,3 +1,4 @@
+/// Looks up files built into the program.
 #include "base/embedded.h"
 #include <string.h>
 
@@ -15,7 +16,8 @@ const struct embedded *embedded_find(const char *name)
 
 const struct embedded *embedded_next(const char *folder, const struct embedded *previous)
 {
-    const struct embedded *file = previous ? previous + 1 : embedded_files, *end = embedded_files + embedded_file_count;
+    const struct embedded *file = previous ? previous + 1 : embedded_files,
+                          *end = embedded_files + embedded_file_count;
     while (file < end && strncmp(file->name, folder, strlen(folder)) != 0) file++;
     return file < end ? file : NULL;
 }

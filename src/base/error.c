@@ -1,3 +1,4 @@
+/// Builds the sentence of an error.
 #include "base/error.h"
 #include <stdio.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/// Reads whole files, and writes them by a temporary file and a rename.
 #include "base/file.h"
 #include <errno.h>
 #include <fcntl.h>

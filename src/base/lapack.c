@@ -1,3 +1,4 @@
+/// Loads LAPACKE and OpenBLAS at run time.
 #include "base/lapack.h"
 #include <dlfcn.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/// Reads and writes the header of .npy files.
 #include "base/npy.h"
 #include <stdio.h>
 #include <stdlib.h>

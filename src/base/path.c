@@ -1,3 +1,4 @@
+/// Resolves paths against a folder, and makes them relative to it.
 #include "base/path.h"
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/// Writes PNG files.
 #include "base/png.h"
 #include "base/file.h"
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/// The sentences for the status codes of the library.
 #include <wiggly/wiggly.h>
 
 static const char *const status_text[WIGGLY_STATUS_COUNT] = {

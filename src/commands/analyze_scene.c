@@ -1,3 +1,4 @@
+/// Writes the scene for `wiggly analyze --scene`.
 #include "commands/analyze_scene.h"
 #include "base/file.h"
 #include "scene/document.h"

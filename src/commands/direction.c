@@ -1,3 +1,4 @@
+/// Reads up, side, front or a vector from the command line.
 #include "commands/direction.h"
 #include <math.h>
 #include <stdio.h>

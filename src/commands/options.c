@@ -1,3 +1,4 @@
+/// Parses options by a table, prints help, and suggests the nearest word.
 #include "commands/options.h"
 #include <errno.h>
 #include <limits.h>

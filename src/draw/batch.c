@@ -1,3 +1,4 @@
+/// Collects triangles and draws them in order with few calls.
 #include "draw/batch.h"
 #include "draw/timer.h"
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/// Finds the rectangles that changed since the last frame.
 #include "draw/damage.h"
 #include "base/hash.h"
 

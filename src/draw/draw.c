@@ -1,3 +1,4 @@
+/// The renderer: draws stage and draw list, only where something changed.
 #include "draw/draw.h"
 #include "base/hash.h"
 #include "draw/batch.h"

@@ -1,3 +1,4 @@
+/// Compiles and links the shaders built into the program.
 #include "draw/gl.h"
 #include "base/embedded.h"
 #include <math.h>

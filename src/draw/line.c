@@ -1,3 +1,4 @@
+/// Turns polylines into anti-aliased strips of triangles.
 #include "draw/line.h"
 #include "draw/simplify.h"
 #include "draw/stroke.h"

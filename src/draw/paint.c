@@ -1,3 +1,4 @@
+/// Turns the commands of a draw list into triangles.
 #include "draw/paint.h"
 #include "draw/shape.h"
 

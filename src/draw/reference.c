@@ -1,3 +1,4 @@
+/// Builds the fixed frame that timing logs carry as a yardstick.
 #include "draw/reference.h"
 #include "model/vector.h"
 #include "ui/theme.h"

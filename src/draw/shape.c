@@ -1,3 +1,4 @@
+/// Filled shapes as triangles with anti-aliased edges.
 #include "draw/shape.h"
 
 /// From here on a fill costs less through glClear than as two triangles (measured with llvmpipe).

@@ -1,3 +1,4 @@
+/// Drops points of a polyline that nobody would see.
 #include "draw/simplify.h"
 #include "model/vector.h"
 

@@ -1,3 +1,4 @@
+/// Draws the stage: ground, shadows, bodies and skinned tails.
 #include "draw/stage.h"
 #include "draw/gl.h"
 #include "draw/painter.h"

@@ -1,3 +1,4 @@
+/// Finds what moves on the stage, and where on the screen.
 #include "draw/stage_extent.h"
 #include "base/hash.h"
 #include "draw/stage_flat.h"

@@ -1,3 +1,4 @@
+/// Draws background, ground and contact shadows.
 #include "draw/stage_flat.h"
 #include "draw/gl.h"
 #include "draw/stage_extent.h"

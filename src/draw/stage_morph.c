@@ -1,3 +1,4 @@
+/// Moves soft characters on the GPU, by complex morphs.
 #include "draw/stage_morph.h"
 #include "draw/gl.h"
 #include "draw/painter.h"

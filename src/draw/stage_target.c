@@ -1,3 +1,4 @@
+/// Draws the stage at a lower resolution and enlarges it.
 #include "draw/stage_target.h"
 #include "draw/batch.h"
 

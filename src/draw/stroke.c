@@ -1,3 +1,5 @@
+/// Emits an anti-aliased polyline, segment by segment.
+//
 // A line is a strip of quads, one a segment, that reach half a pixel beyond the line's edge. Each vertex knows its signed
 // distance `across` from the middle; the shader turns it into coverage. Where segments meet gently, both share the mitre's
 // two corners, which lie at the same distance from either line: so coverage has no seam and nothing is drawn twice, and

@@ -1,3 +1,4 @@
+/// Emits the glyphs of a text as quads.
 #include "draw/paint.h"
 #include "draw/shape.h"
 

@@ -1,3 +1,4 @@
+/// Times drawing on the CPU's clock and, where there is one, the GPU's.
 #include "draw/timer.h"
 #include "base/clock.h"
 

@@ -1,3 +1,4 @@
+/// Keyboard actions for what the mouse does to views, selection and panels.
 #include "editor/keyboard.h"
 #include "editor/core/knots.h"
 #include "editor/curves/curves.h"

@@ -1,3 +1,4 @@
+/// Lists the neighbours of every vertex.
 #include "model/adjacency.h"
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/// The fox's body, as a union of round cones.
 #include "model/coat.h"
 #include "model/creature.h"
 #include "model/isosurface.h"

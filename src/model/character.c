@@ -1,3 +1,4 @@
+/// Makes, checks and frees characters.
 #include "model/character.h"
 #include "model/vector.h"
 #include <math.h>

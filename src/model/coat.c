@@ -1,3 +1,4 @@
+/// Colours the fox by where on its body a point is.
 #include "model/coat.h"
 #include "base/srgb.h"
 #include "model/creature.h"

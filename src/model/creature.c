@@ -1,3 +1,4 @@
+/// Meshes the fox, coarser the more of them there are.
 #include "model/creature.h"
 
 static const struct level {

@@ -1,3 +1,4 @@
+/// Prepares a character for the stage: normals, a coarser mesh, its bounds.
 #include "model/figure.h"
 #include "model/decimate.h"
 #include "model/vector.h"

@@ -1,3 +1,4 @@
+/// Reads the container of a .glb file, and numbers from its accessors.
 #include "model/glb.h"
 #include "base/file.h"
 #include <math.h>

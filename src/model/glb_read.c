@@ -1,3 +1,4 @@
+/// Reads a character from a .glb file.
 #include "model/character.h"
 #include "model/glb.h"
 #include "model/vector.h"

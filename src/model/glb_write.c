@@ -1,3 +1,4 @@
+/// Writes a character to a .glb file.
 #include "base/file.h"
 #include "model/character.h"
 #include "model/glb.h"

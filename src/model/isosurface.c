@@ -1,3 +1,4 @@
+/// Surface nets: turns a distance function into triangles.
 #include "model/isosurface.h"
 #include "model/vector.h"
 #include <math.h>

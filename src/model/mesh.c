@@ -1,3 +1,4 @@
+/// Grows and frees triangle meshes.
 #include "model/mesh.h"
 #include <limits.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/// Moves single points of a character by its morph, on the CPU.
 #include "model/morph.h"
 #include "model/vector.h"
 #include <math.h>

@@ -1,3 +1,4 @@
+/// Opens motions of any format, and reads columns of them.
 #include "model/motion.h"
 #include "base/npy.h"
 #include "model/motion_format.h"

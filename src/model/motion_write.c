@@ -1,3 +1,4 @@
+/// Writes motions frame by frame, as .npy or PC2.
 #include "base/npy.h"
 #include "model/motion.h"
 #include "model/motion_format.h"

@@ -1,3 +1,4 @@
+/// Reads and writes OBJ surfaces.
 #include "model/obj.h"
 #include "base/file.h"
 #include "base/srgb.h"

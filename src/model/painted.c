@@ -1,3 +1,4 @@
+/// Applies painted phases and amplitudes to a figure.
 #include "model/painted.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/// Distance and colour of shapes made of round cones.
 #include "model/parts.h"
 #include "model/coat.h"
 #include "model/vector.h"

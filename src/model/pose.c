@@ -1,3 +1,4 @@
+/// Moves and measures a posed tail.
 #include "model/pose.h"
 #include "model/creature.h"
 #include "model/vector.h"

@@ -1,3 +1,4 @@
+/// Distances along a surface, by Dijkstra from a few starting points.
 #include "model/reach.h"
 #include "model/vector.h"
 #include <math.h>

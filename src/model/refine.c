@@ -1,3 +1,4 @@
+/// Splits triangles that are too flat or too large.
 #include "model/refine.h"
 #include "model/vector.h"
 #include <math.h>

@@ -1,3 +1,4 @@
+/// The fox's tail, as a tube of rings with skinning weights.
 #include "model/coat.h"
 #include "model/creature.h"
 #include <math.h>

@@ -1,3 +1,4 @@
+/// Asks whether a local display answers, without waiting for it.
 #include "platform/surface.h"
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

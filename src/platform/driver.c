@@ -1,3 +1,4 @@
+/// Keeps the graphics driver loaded until the process ends.
 #include "platform/surface.h"
 #include <dlfcn.h>
 #include <link.h>

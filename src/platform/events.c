@@ -1,3 +1,4 @@
+/// The queue between callbacks and frames.
 #include "platform/events.h"
 #include <string.h>
 

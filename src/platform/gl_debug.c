@@ -1,3 +1,4 @@
+/// Collects the OpenGL driver's debug messages.
 #include "platform/gl_debug.h"
 #include "base/hash.h"
 #include "platform/platform.h"

@@ -1,3 +1,4 @@
+/// Maps GLFW keys to ours, letters by what is printed on them.
 #include "platform/keys.h"
 #include "ui/event.h"
 #define GLFW_INCLUDE_NONE

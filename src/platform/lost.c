@@ -1,3 +1,4 @@
+/// Ends the process in order when the X display is gone.
 #include "platform/platform.h"
 #include "platform/surface.h"
 #include "platform/symbol.h"

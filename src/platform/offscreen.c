@@ -1,3 +1,4 @@
+/// An EGL surface to draw on without a display.
 #include "platform/gl_debug.h"
 #include "platform/surface.h"
 #include <dlfcn.h>

@@ -1,3 +1,4 @@
+/// Hands calls on to a window or to an offscreen surface.
 #include "platform/platform.h"
 #include "platform/gl_debug.h"
 #include "platform/process.h"

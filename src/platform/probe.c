@@ -1,3 +1,4 @@
+/// Tests whether a window keeps its picture from frame to frame.
 #include "platform/surface.h"
 #include <epoxy/gl.h>
 #include <string.h>

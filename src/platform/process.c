@@ -1,3 +1,4 @@
+/// Age, memory, sleep and signals of this process.
 #include "platform/process.h"
 #include <math.h>
 #include <signal.h>

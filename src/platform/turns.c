@@ -1,3 +1,4 @@
+/// Passes turns to and from another program through pipes.
 #include "platform/turns.h"
 #include <errno.h>
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+/// Asks a Wayland compositor what GLFW does not tell.
 #include "platform/wayland.h"
 #include "platform/symbol.h"
 #include <poll.h>

@@ -1,3 +1,4 @@
+/// A GLFW window and its callbacks, which only translate and queue.
 #include "base/clock.h"
 #include "platform/gl_debug.h"
 #include "platform/keys.h"

@@ -1,3 +1,4 @@
+/// Orbits, pans, zooms and projects.
 #include "rig/camera.h"
 #include "model/vector.h"
 #include <math.h>

@@ -1,3 +1,4 @@
+/// Reads the models of a document's characters, and keeps them by path.
 #include "rig/cast.h"
 #include "base/path.h"
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/// Steps a spline's filter while its base is moved by hand.
 #include "rig/follow.h"
 #include "rig/pose.h"
 #include "spline/poles.h"

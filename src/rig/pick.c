@@ -1,3 +1,4 @@
+/// Intersects a ray with a posed figure.
 #include "rig/pick.h"
 #include "model/vector.h"
 #include <math.h>

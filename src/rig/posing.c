@@ -1,3 +1,4 @@
+/// Poses any rig at any time, by its kind.
 #include "rig/posing.h"
 #include "rig/posing_kind.h"
 

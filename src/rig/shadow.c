@@ -1,3 +1,4 @@
+/// Finds where a posed tail and its body come near the ground.
 #include "rig/shadow.h"
 #include "model/creature.h"
 #include "model/vector.h"

@@ -1,3 +1,4 @@
+/// Solves long documents in a thread, the visible part at once.
 #include "scene/background.h"
 #include "scene/window.h"
 #include "scene/worker.h"
@@ -204,7 +205,7 @@ static void give(struct evaluation *evaluation, const struct document *document,
     worker_give(b->worker, &job);
 }
 
-/// The next pending spline, in the order of dependencies from the last one on, so that none is passed over for ever; -1: none.
+/// The next pending spline, in the order of dependencies from the last one on, so that none is passed over forever; -1: none.
 static int next_pending(const struct storage *storage, int count)
 {
     struct background *b = storage->background;

@@ -1,3 +1,4 @@
+/// Swaps a change with the document's state, which both does and undoes it.
 #include "scene/change.h"
 #include "scene/reference.h"
 #include <assert.h>

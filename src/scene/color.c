@@ -1,3 +1,4 @@
+/// Reads and writes "#RRGGBB".
 #include "scene/color.h"
 #include <stdio.h>
 #include <stdlib.h>

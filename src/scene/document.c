@@ -1,3 +1,4 @@
+/// Makes, frees and searches documents.
 #include "scene/document.h"
 #include <jansson.h>
 #include <limits.h>

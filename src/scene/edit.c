@@ -1,3 +1,4 @@
+/// Checks edits and turns them into changes, by kind.
 #include "scene/edit_plan.h"
 
 bool plan_no_memory(struct error *error) { return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit"); }

@@ -1,3 +1,4 @@
+/// Solves dirty splines and their followers in the order of their dependencies.
 #include "scene/evaluate.h"
 #include "base/checked.h"
 #include "scene/background.h"

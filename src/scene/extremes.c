@@ -1,3 +1,4 @@
+/// A tree of lowest and highest samples.
 #include "scene/extremes.h"
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/// The history: steps of changes, undo and redo.
 #include "scene/change.h"
 #include "scene/edit.h"
 #include <assert.h>

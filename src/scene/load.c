@@ -1,3 +1,4 @@
+/// Loads a scene from a file or from text.
 #include "scene/load.h"
 #include "base/file.h"
 #include "base/path.h"

@@ -1,3 +1,4 @@
+/// Reads the splines of a scene.
 #include "scene/color.h"
 #include "scene/reader.h"
 #include <math.h>

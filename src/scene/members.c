@@ -1,3 +1,4 @@
+/// Writes an object's members, known keys first.
 #include "scene/members.h"
 #include <stdint.h>
 

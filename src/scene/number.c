@@ -1,3 +1,4 @@
+/// The shortest text that reads back as the same number.
 #include "scene/number.h"
 #include <assert.h>
 #include <ctype.h>

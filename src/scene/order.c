@@ -1,3 +1,4 @@
+/// Sorts splines by their dependencies, and finds cycles.
 #include "scene/order.h"
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/// Makes paint, and remembers what a stroke touched, for undo.
 #include "scene/paint.h"
 #include <assert.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/// Reads and writes paint as .npy.
 #include "scene/paint_file.h"
 #include "base/file.h"
 #include "base/npy.h"

@@ -1,3 +1,4 @@
+/// The table of parameters.
 #include "scene/parameter.h"
 #include <math.h>
 #include <string.h>

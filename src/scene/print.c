@@ -1,3 +1,4 @@
+/// Writes a document as the text of a scene file.
 #include "scene/color.h"
 #include "scene/load.h"
 #include "scene/members.h"

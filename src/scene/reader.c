@@ -1,3 +1,4 @@
+/// Readers of single values, and their complaints.
 #include "scene/reader.h"
 #include "scene/number.h"
 #include <math.h>

@@ -1,3 +1,4 @@
+/// Visits every place where a document names a spline.
 #include "scene/reference.h"
 
 void reference_each(struct document *document, reference_visitor *visit, void *context)

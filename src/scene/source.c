@@ -1,3 +1,4 @@
+/// Finds the line of every value in a scene's text.
 #include "scene/source.h"
 #include <jansson.h>
 #include <stdio.h>

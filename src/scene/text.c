@@ -1,3 +1,4 @@
+/// A growing text.
 #include "scene/text.h"
 #include "base/checked.h"
 #include "scene/number.h"

@@ -1,3 +1,4 @@
+/// Checks a loaded document as a whole: cycles, limits, aliasing.
 #include "scene/order.h"
 #include "scene/reader.h"
 #include <math.h>

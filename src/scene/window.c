@@ -1,3 +1,4 @@
+/// Keeps a take in step with the document, and reads the visible samples.
 #include "scene/window.h"
 #include "spline/desc.h"
 #include "spline/take.h"

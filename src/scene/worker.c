@@ -1,3 +1,4 @@
+/// A thread with one job at a time.
 #include "scene/worker.h"
 #include "scene/storage.h"
 #include "spline/stop.h"

@@ -1,3 +1,4 @@
+/// Assembles and applies sparse block matrices.
 #include "simulation/blocks.h"
 #include <stdint.h>
 #include <stdlib.h>

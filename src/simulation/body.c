@@ -1,3 +1,4 @@
+/// Sums energy, forces and stiffness over the elements.
 #include "simulation/body.h"
 #include "simulation/vec3.h"
 #include <stdlib.h>

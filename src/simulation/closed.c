@@ -1,3 +1,4 @@
+/// Counts the edges of a surface that lack a partner.
 #include "simulation/closed.h"
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/// Solves by preconditioned conjugate gradients.
 #include "simulation/conjugate.h"
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/// Eigenvalues by Jacobi rotations.
 #include "simulation/eigen.h"
 #include <float.h>
 #include <math.h>

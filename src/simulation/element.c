@@ -1,3 +1,4 @@
+/// Forces and stiffness of one tetrahedron.
 #include "simulation/element.h"
 #include "simulation/vec3.h"
 #include <string.h>

@@ -1,3 +1,4 @@
+/// Generalised-α steps, one Newton solve each.
 #include "simulation/integrator.h"
 #include "simulation/vec3.h"
 #include <stdlib.h>

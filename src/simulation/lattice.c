@@ -1,3 +1,4 @@
+/// Builds the lattice and embeds the surface in it.
 #include "simulation/lattice.h"
 #include "simulation/closed.h"
 #include "simulation/element.h"

@@ -1,3 +1,4 @@
+/// Stress and stiffness in principal stretches.
 #include "simulation/material.h"
 #include "simulation/eigen.h"
 #include <math.h>

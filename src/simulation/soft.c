@@ -1,3 +1,4 @@
+/// Tunes a soft body to a frequency, and pins and shakes it.
 #include "simulation/soft.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/// Cuts a solid into elements by the tetrahedra of a lattice.
 #include "simulation/tiling.h"
 #include "simulation/union.h"
 #include <math.h>

@@ -1,5 +1,5 @@
-// Many splines over threads: each thread has a solver of its own and takes the next few splines until none is left. Which thread
-// solves which spline does not matter to the bits, because neither what a solver keeps nor who is in a group does.
+/// Many splines over threads: each thread has a solver of its own and takes the next few splines until none is left. Which thread
+/// solves which spline does not matter to the bits, because neither what a solver keeps nor who is in a group does.
 #include "spline/batch.h"
 #include "spline/group.h"
 #include <stdatomic.h>

@@ -1,3 +1,5 @@
+/// The chain: solves a spline of constant parameters at its knots alone.
+//
 // With λ = a/2, the mean of the two poles, and the state s_k = (x_k, d_k), d_k = x_{k+1} − λ x_k (the envelope's step), a jet
 // row is one step of a linear system driven by the jet, whose eigenvalues λ ± δ are the poles:
 //

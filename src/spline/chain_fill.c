@@ -1,4 +1,4 @@
-// The samples inside a stretch: most of the arithmetic.
+/// The samples inside a stretch: most of the arithmetic.
 #include "spline/chain.h"
 #include "spline/wide.h"
 

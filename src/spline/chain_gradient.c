@@ -1,3 +1,5 @@
+/// The gradient at the chain's nodes, without squaring.
+//
 // −½ of the energy's gradient at the nodes, without squaring: a stretch that ends in s_q and would run freely to F s_p has the
 // mismatch ε = s_q − F s_p, which cancels to a small part of both and is summed in double-double. Its costate ν = V ε then pulls
 // with −ν at q and with +F* ν at p. (At the state where everything unknown is 0 nothing cancels: chain_pull_known().)

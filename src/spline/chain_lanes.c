@@ -1,3 +1,4 @@
+/// How many chains fit side by side in the vectors of this processor.
 #include "spline/chain_lanes.h"
 
 int chain_lanes(void)

@@ -1,4 +1,4 @@
-// 8 chains at once; compiled for avx512f where the processor has it (see chain_lanes_loop.h).
+/// 8 chains at once; compiled for avx512f where the processor has it (see chain_lanes_loop.h).
 #if defined(__x86_64__) && defined(__clang__)
 #pragma clang attribute push(__attribute__((target("avx512f"))), apply_to = function)
 #elif defined(__x86_64__) && defined(__GNUC__)

@@ -1,5 +1,5 @@
-// The nodes' systems of LANES chains, each in a lane: assembled, factored and swept forward in one pass over the rows, then swept
-// backward. Included once for each width.
+/// The nodes' systems of LANES chains, each in a lane: assembled, factored and swept forward in one pass over the rows, then swept
+/// backward. Included once for each width.
 typedef double lane __attribute__((vector_size(8 * LANES)));
 typedef long flag __attribute__((vector_size(8 * LANES)));
 #include "spline/chain_kernel.h"

@@ -1,5 +1,5 @@
-// The nodes' block-tridiagonal system of one spline: assembled from stretches, start and slopes, factored, solved (see chain.c for
-// the mathematics, chain_kernel.h for the rows).
+/// The nodes' block-tridiagonal system of one spline: assembled from stretches, start and slopes, factored, solved (see chain.c for
+/// the mathematics, chain_kernel.h for the rows).
 typedef double lane;
 typedef int flag;
 #include "spline/chain_kernel.h"

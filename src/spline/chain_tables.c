@@ -1,4 +1,4 @@
-// Powers of the filter and the condensed stretches (see chain.c for the mathematics).
+/// Powers of the filter and the condensed stretches (see chain.c for the mathematics).
 #include "spline/chain.h"
 #include "spline/wide.h"
 

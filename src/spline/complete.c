@@ -1,4 +1,4 @@
-// What follows once x is found: whether it can be meant, the samples outside the system, the total and what else a curve holds.
+/// What follows once x is found: whether it can be meant, the samples outside the system, the total and what else a curve holds.
 #include "spline/problem.h"
 #include "spline/wide.h"
 #include <math.h>

@@ -1,3 +1,4 @@
+/// The table of the members of a description.
 #include "spline/desc.h"
 
 /// X(name, kind, filters), in the order of wiggly_desc.

@@ -1,6 +1,6 @@
-// Values between samples (docs/mathematics.md, Phase): Catmull-Rom in the frame that turns with the band's centre,
-//     x(t) = e^{jω_c t} · CatmullRom(e^{−jω_c t_i} x_i),
-// so that a free oscillation is followed and not cut across; of x itself in cubic and real mode, and of y.
+/// Values between samples (docs/mathematics.md, Phase): Catmull-Rom in the frame that turns with the band's centre,
+///     x(t) = e^{jω_c t} · CatmullRom(e^{−jω_c t_i} x_i),
+/// so that a free oscillation is followed and not cut across; of x itself in cubic and real mode, and of y.
 #include "spline/poles.h"
 #include <assert.h>
 #include <math.h>

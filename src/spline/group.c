@@ -1,3 +1,4 @@
+/// Solves splines of one filter side by side, in vector lanes.
 #include "spline/group.h"
 #include "spline/problem.h"
 #include <stdint.h>

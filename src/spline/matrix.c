@@ -1,3 +1,5 @@
+/// Squares the rows into the banded matrix.
+//
 // Rᵀ W R from the rows, block by block. With A_i = 2 + m_i and B_i = 1 + m_i + p_i the jet row i is
 // (B_i, −A_i, 1) on x_{i−1}, x_i, x_{i+1}, so that
 //

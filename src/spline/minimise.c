@@ -1,3 +1,5 @@
+/// Minimises E by iterative refinement.
+//
 // min E by iterative refinement: the squared matrix is factored once in double (on a long domain the un-squared rows are, at twice
 // the cost and with the square root of the condition), the gradient is evaluated through the
 // un-squared rows in double-double, and A δ = gradient is solved until δ says that x is right to its last digits. With

@@ -1,3 +1,5 @@
+/// Solves long domains by Householder on the rows themselves.
+//
 // A row touches at most three neighbouring samples, so U is as narrow as the band:
 //
 //     | U00 U01 U02             |   Sample by sample: the rows that are left from before (they touch x_k and x_{k+1}) and those

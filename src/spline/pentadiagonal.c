@@ -1,3 +1,5 @@
+/// Block L D Lᵀ of the pentadiagonal matrix.
+//
 // The system's matrix A = Rᵀ W R couples a sample with two neighbours on each side, one block row a sample:
 //
 //     | D0 E0' F0'           |        D_k symmetric w×w, E_k = A_{k+1,k}, F_k = A_{k+2,k}; w = 1, or 2 for (Re x, Im x),

@@ -1,3 +1,4 @@
+/// From parameters to poles, coefficients and the cost of the start.
 #include "spline/poles.h"
 #include <math.h>
 

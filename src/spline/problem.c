@@ -1,4 +1,4 @@
-// From the description to a chain: which documents it serves, and their nodes.
+/// From the description to a chain: which documents it serves, and their nodes.
 #include "spline/problem.h"
 #include <math.h>
 

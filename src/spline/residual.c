@@ -1,3 +1,5 @@
+/// The gradient through the un-squared rows, in double-double.
+//
 // The gradient −½ ∇(E·h³) = −Rᵀ W (R x − d) at a given x, where the rows R are never squared.
 //
 //     r_i = [(x_{i+1} − x_i) − (x_i − x_{i−1})] − m_i (x_i − x_{i−1}) + p_i x_{i−1} + f_i

@@ -1,4 +1,4 @@
-// A solver's memory: one block, carved once, largest alignment first so that nothing needs padding.
+/// A solver's memory: one block, carved once, largest alignment first so that nothing needs padding.
 #include "spline/solver.h"
 #include <stdint.h>
 #include <stdlib.h>

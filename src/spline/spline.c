@@ -1,5 +1,5 @@
-// The rules around the minimisation (docs/mathematics.md, Constraints): where the domain starts, what is fixed, what is implied,
-// and what to do where the problem has no single answer.
+/// The rules around the minimisation (docs/mathematics.md, Constraints): where the domain starts, what is fixed, what is implied,
+/// and what to do where the problem has no single answer.
 #include "spline/problem.h"
 #include <limits.h>
 #include <math.h>

@@ -1,3 +1,5 @@
+/// Edits one knot of a long spline in O(log knots).
+//
 // A long spline under the hands of an animator: its chain of nodes with a tree over them (tree.c). Moving a knot changes two
 // stretches and three rows; the tree condenses the elements above these anew, and is descended where one looks.
 #include "spline/take.h"

@@ -1,3 +1,5 @@
+/// A tree over the chain's nodes, by nested elimination.
+//
 // Nested elimination of the nodes' system. A run of rows 0 … m−1 has its inner rows eliminated from left to right; beside the row
 // after it, each also couples to the run's first row:
 //

@@ -1,3 +1,4 @@
+/// The solver's benchmark: cases, checks and times.
 #include "timing/bench.h"
 #include "base/clock.h"
 #include "base/lapack.h"

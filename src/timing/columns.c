@@ -1,3 +1,4 @@
+/// The columns of the timing log.
 #include "timing/columns.h"
 #include <math.h>
 #include <string.h>

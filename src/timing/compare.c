@@ -1,3 +1,4 @@
+/// Compares the logs of two builds by bootstrap intervals.
 #include "timing/compare.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/// Prints how a log's frame times are distributed.
 #include "timing/distribution.h"
 #include "timing/statistics.h"
 #include <math.h>

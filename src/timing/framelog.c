@@ -1,3 +1,4 @@
+/// Collects frames, writes the log and prints the summary.
 #include "base/build.h"
 #include "timing/columns.h"
 #include "timing/statistics.h"

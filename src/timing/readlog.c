@@ -1,3 +1,4 @@
+/// Reads timing logs, several runs in a file too.
 #include "timing/readlog.h"
 #include <errno.h>
 #include <limits.h>

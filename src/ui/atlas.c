@@ -1,3 +1,4 @@
+/// Packs the glyphs of all fonts and sizes into one texture.
 #include "ui/face.h"
 #include "ui/font.h"
 #include "ui/theme.h"

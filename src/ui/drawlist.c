@@ -1,3 +1,4 @@
+/// Records draw commands.
 #include "ui/drawlist.h"
 #include "base/hash.h"
 #include "ui/font.h"

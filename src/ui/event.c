@@ -1,3 +1,4 @@
+/// The names of keys.
 #include "ui/event.h"
 #include <stddef.h>
 #include <string.h>

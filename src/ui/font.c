@@ -1,3 +1,4 @@
+/// Loads fonts, measures text and rasterises glyphs.
 #include "ui/font.h"
 #include "base/embedded.h"
 #include "ui/face.h"

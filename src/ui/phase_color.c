@@ -1,3 +1,4 @@
+/// Maps a phase and an amplitude to a colour.
 #include "ui/phase_color.h"
 #include "base/srgb.h"
 #include <math.h>

@@ -1,3 +1,4 @@
+/// Intersects and shrinks rectangles.
 #include "ui/drawlist.h"
 #include <math.h>
 

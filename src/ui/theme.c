@@ -1,3 +1,4 @@
+/// The dark and the light theme.
 #include "ui/theme.h"
 #include <math.h>
 #include <string.h>

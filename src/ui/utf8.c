@@ -1,3 +1,4 @@
+/// Steps through UTF-8 text.
 #include "ui/font.h"
 
 enum { REPLACEMENT = 0xFFFD };

@@ -1,3 +1,4 @@
+/// Focus, layout, scrolling and hit-testing of widgets.
 #include "ui/widgets.h"
 #include "ui/widgets_internal.h"
 #include <math.h>

@@ -1,3 +1,4 @@
+/// Labels, buttons, toggles, lists of choices and sections.
 #include "ui/widgets_internal.h"
 #include <math.h>
 #include <stdio.h>

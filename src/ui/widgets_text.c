@@ -1,3 +1,4 @@
+/// Editing a line of text, and the fields that hold one.
 #include "ui/widgets_internal.h"
 #include <math.h>
 #include <stdio.h>

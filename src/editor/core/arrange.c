@@ -1,3 +1,4 @@
+/// Adds, removes, reorders and retimes splines.
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"

@@ -1,3 +1,4 @@
+/// Shows a question with a few answers, and takes the answer.
 #include "editor/dialogs/dialog_question.h"
 #include "ui/theme.h"
 #include <math.h>

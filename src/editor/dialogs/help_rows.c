@@ -1,3 +1,4 @@
+/// The rows of the F1 overlay.
 #include "editor/dialogs/help_rows.h"
 #include "scene/parameter.h"
 

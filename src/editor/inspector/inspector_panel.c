@@ -1,3 +1,4 @@
+/// Lays out the inspector: its sections, from top to bottom.
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector.h"

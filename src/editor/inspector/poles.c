@@ -1,3 +1,4 @@
+/// Where poles and response are drawn, and where dragging puts them.
 #include "editor/inspector/poles.h"
 #include "editor/inspector/response.h"
 #include "ui/font.h"

@@ -1,3 +1,4 @@
+/// Evaluates the filter's frequency response.
 #include "editor/inspector/response.h"
 #include <math.h>
 

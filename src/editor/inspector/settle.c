@@ -1,3 +1,4 @@
+/// How long a spline's filter takes to settle.
 #include "editor/inspector/settle.h"
 #include <complex.h>
 #include <math.h>

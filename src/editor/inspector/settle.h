@@ -9,7 +9,7 @@ enum { SETTLE_LIMIT = 1000 }; ///< seconds; later than that nobody waits for it
 enum settle_kind {
     SETTLE_UNKNOWN,  ///< a track drives a pole: no number is true for long
     SETTLE_CUBIC,    ///< there is no filter
-    SETTLE_NEVER,    ///< it rings for ever
+    SETTLE_NEVER,    ///< it rings forever
     SETTLE_LATE,     ///< after SETTLE_LIMIT
     SETTLE_MEASURED, ///< `seconds`
 };

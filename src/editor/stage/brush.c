@@ -1,3 +1,4 @@
+/// The brush: switches it on and off, and follows strokes.
 #include "editor/stage/brush.h"
 #include "base/hash.h"
 #include "editor/core/characters.h"
