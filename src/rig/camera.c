@@ -136,6 +136,12 @@ bool camera_project(const float view[16], const float projection[16], const floa
     return true;
 }
 
+float camera_depth(const float view[16], const float eye[3], const float world[3])
+{
+    const vec3s back = {{view[2], view[6], view[10]}};
+    return glms_vec3_dot(glms_vec3_sub(vec3_from(eye), vec3_from(world)), back);
+}
+
 void camera_ray(const float view[16], const float projection[16], const float viewport[4], const float screen[2],
                 float direction[3])
 {

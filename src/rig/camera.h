@@ -35,6 +35,9 @@ void camera_fit(struct camera *camera, const float lo[3], const float hi[3], flo
 bool camera_project(const float view[16], const float projection[16], const float viewport[4], const float world[3],
                     float screen[2]);
 
+/// How far a point of the world is in front of the eye, along the middle of the picture.
+float camera_depth(const float view[16], const float eye[3], const float world[3]);
+
 /// Direction (unit length, world) from the eye through a point of the screen.
 void camera_ray(const float view[16], const float projection[16], const float viewport[4], const float screen[2],
                 float direction[3]);

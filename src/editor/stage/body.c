@@ -8,6 +8,7 @@
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "model/creature.h"
+#include "model/vector.h"
 #include "ui/theme.h"
 #include <math.h>
 
@@ -40,9 +41,8 @@ static float trace(const float from[3], const float direction[3])
         far = fminf(far, fmaxf(a, b));
     }
     for (int step = 0; step < TRACE_STEPS && near < far; step++) {
-        const float p[3] = {from[0] + near * direction[0], from[1] + near * direction[1],
-                            from[2] + near * direction[2]};
-        float distance = creature_body_distance(p);
+        const vec3s p = glms_vec3_muladds(vec3_from(direction), near, vec3_from(from));
+        float distance = creature_body_distance(p.raw);
         if (distance < TRACE_NEAR) return near;
         near += 0.9f * distance;
     }
@@ -58,9 +58,8 @@ struct hover body_hover(const struct stage *stage, float x, float y)
     camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
     for (int t = 0; t < view->tail_count; t++) {
         const float scale = scale_of(stage, t);
-        float from[3];
-        for (int k = 0; k < 3; k++) from[k] = (view->eye[k] - base_of(stage, t)[k]) / scale;
-        const float distance = scale * trace(from, direction);
+        const vec3s from = glms_vec3_divs(glms_vec3_sub(vec3_from(view->eye), vec3_from(base_of(stage, t))), scale);
+        const float distance = scale * trace(from.raw, direction);
         if (!(distance >= 0 && distance < nearest)) continue;
         nearest = distance;
         hover = (struct hover){.kind = HOVER_BODY, .tail = t, .x = x, .y = y};
@@ -80,9 +79,9 @@ bool body_point(const struct stage *stage, const struct core *core, int tail, fl
     static const float candidates[][3] = {
         {0, 0.18f, -0.45f}, {0, 0.54f, -0.385f}, {0, 0.05f, -0.25f}, {0, 0, -0.5f}}; // chest, head, rump, paws
     for (size_t i = 0; i < sizeof candidates / sizeof candidates[0]; i++) {
-        float point[3];
-        for (int k = 0; k < 3; k++) point[k] = base_of(stage, tail)[k] + scale_of(stage, tail) * candidates[i][k];
-        if (!project(stage, core, point, xy)) continue;
+        const vec3s base = vec3_from(base_of(stage, tail));
+        const vec3s point = glms_vec3_muladds(vec3_from(candidates[i]), scale_of(stage, tail), base);
+        if (!project(stage, core, point.raw, xy)) continue;
         struct hover hover = stage_hover(stage, core, xy[0], xy[1]);
         if (hover.kind == HOVER_BODY && hover.tail == tail) return true;
     }
@@ -92,11 +91,9 @@ bool body_point(const struct stage *stage, const struct core *core, int tail, fl
 void body_begin(struct stage *stage, const struct core *core, int tail)
 {
     struct body *body = &stage->body;
-    const float *eye = stage->view.eye, *base = base_of(stage, tail);
     const struct camera *camera = &stage->camera;
     *body = (struct body){.tail = tail};
-    float depth = 0;
-    for (int k = 0; k < 3; k++) depth += (eye[k] - base[k]) * stage->view.view[4 * k + 2];
+    const float depth = camera_depth(stage->view.view, stage->view.eye, base_of(stage, tail));
     body->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
     double pitch = sin((double)camera->elevation);
     body->pitch = copysign(fmax(fabs(pitch), LEAST_PITCH), pitch);

@@ -1,5 +1,6 @@
 /// What a moment of the brush does to the paint p = a + jψ at each vertex that it reaches.
 #include "editor/stage/brush_dab.h"
+#include "model/vector.h"
 #include <math.h>
 
 enum { SMOOTHINGS = 4 }; ///< passes of a frame
@@ -17,8 +18,6 @@ static float falloff(float distance, float radius)
     const float t = distance / radius;
     return t < 1 ? (1 - t * t) * (1 - t * t) : 0;
 }
-
-static float clamp(float value, float low, float high) { return fmaxf(low, fminf(high, value)); }
 
 static double blend(double flow) { return fmin(MOST_BLEND, BLENDING_FLOW * flow / SMOOTHINGS); }
 
@@ -82,8 +81,8 @@ static void smooth_once(struct painting *painting, const struct figure *figure, 
     }
     for (int i = 0; i < count; i++) {
         float *value = work->values[i], *turned = work->turned[work->vertices[i]];
-        const float swell = clamp(value[0] + work->steps[i][0], LEAST_SWELL, MOST_SWELL) - value[0];
-        const float lead = clamp(value[1] + work->steps[i][1], -MOST_LEAD, MOST_LEAD) - value[1];
+        const float swell = glm_clamp(value[0] + work->steps[i][0], LEAST_SWELL, MOST_SWELL) - value[0];
+        const float lead = glm_clamp(value[1] + work->steps[i][1], -MOST_LEAD, MOST_LEAD) - value[1];
         const float size = expf(swell);
         multiply(turned, (const float[2]){size * cosf(lead), size * sinf(lead)}, turned);
         value[0] += swell;
@@ -107,10 +106,10 @@ static void change(enum brush_mode mode, double flow, float weight, float value[
 {
     const float lead = weight * (float)(PHASE_FLOW * flow), swell = weight * (float)(AMPLITUDE_FLOW * flow);
     const float kept = 1 - weight * (float)fmin(1, BLENDING_FLOW * flow);
-    if (mode == BRUSH_ADVANCE) value[1] = clamp(value[1] + lead, -MOST_LEAD, MOST_LEAD);
-    if (mode == BRUSH_DELAY) value[1] = clamp(value[1] - lead, -MOST_LEAD, MOST_LEAD);
-    if (mode == BRUSH_MORE) value[0] = clamp(value[0] + swell, LEAST_SWELL, MOST_SWELL);
-    if (mode == BRUSH_LESS) value[0] = clamp(value[0] - swell, LEAST_SWELL, MOST_SWELL);
+    if (mode == BRUSH_ADVANCE) value[1] = glm_clamp(value[1] + lead, -MOST_LEAD, MOST_LEAD);
+    if (mode == BRUSH_DELAY) value[1] = glm_clamp(value[1] - lead, -MOST_LEAD, MOST_LEAD);
+    if (mode == BRUSH_MORE) value[0] = glm_clamp(value[0] + swell, LEAST_SWELL, MOST_SWELL);
+    if (mode == BRUSH_LESS) value[0] = glm_clamp(value[0] - swell, LEAST_SWELL, MOST_SWELL);
     if (mode != BRUSH_ERASE) return;
     for (int k = 0; k < 2; k++) value[k] = fabsf(value[k]) < 1e-3f ? 0 : kept * value[k];
 }

@@ -5,6 +5,7 @@
 #include "editor/stage/brush.h"
 #include "editor/stage/characters_show.h"
 #include "editor/stage/state.h"
+#include "model/vector.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
@@ -38,7 +39,7 @@ static bool crosses(const struct brush_work *work, uint32_t one, uint32_t other,
     const float from = work->reach.distance[a], to = work->reach.distance[b];
     if ((from < radius) == (to < radius) || !(from < INFINITY) || !(to < INFINITY)) return false;
     const float share = (radius - from) / (to - from);
-    for (int k = 0; k < 3; k++) point[k] = work->posed[a][k] + share * (work->posed[b][k] - work->posed[a][k]);
+    glm_vec3_lerp(work->posed[a], work->posed[b], share, point);
     return true;
 }
 

@@ -65,9 +65,7 @@ static bool station(const struct stage *stage, const struct core *core, const st
     double at = share * (pose->count - 1);
     int joint = at >= pose->count - 1 ? pose->count - 2 : (int)at;
     if (!stage_project_pose(stage, core, pose, joint, at - joint, xy)) return false;
-    const float *place = pose->matrix[joint] + 12;
-    float depth = 0;
-    for (int k = 0; k < 3; k++) depth += (view->eye[k] - place[k]) * view->view[4 * k + 2];
+    const float depth = camera_depth(view->view, view->eye, pose->matrix[joint] + 12);
     float metres =
         creature_tail_radius((float)share * CREATURE_TAIL_LENGTH) * pose_length(pose) / CREATURE_TAIL_LENGTH;
     *radius = metres * 0.5f * view->viewport.h * view->projection[5] / fmaxf(depth, 0.1f);

@@ -2,6 +2,7 @@
 #include "editor/stage/project.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
+#include "model/vector.h"
 #include <assert.h>
 
 struct posing stage_posing(const struct core *core, const struct editor_world *world)
@@ -14,14 +15,11 @@ bool stage_project_pose(const struct stage *stage, const struct core *core, cons
 {
     const struct rect *r = &core->layout.stage;
     const float viewport[4] = {r->x, r->y, r->w, r->h};
-    float world[3];
     assert(joint >= 0 && joint < pose->count);
     int next = joint + 1 < pose->count ? joint + 1 : joint;
-    for (int i = 0; i < 3; i++) {
-        float from = pose->matrix[joint][12 + i], to = pose->matrix[next][12 + i];
-        world[i] = from + (to - from) * (float)fraction;
-    }
-    return camera_project(stage->view.view, stage->view.projection, viewport, world, xy);
+    const vec3s from = vec3_from(pose->matrix[joint] + 12), to = vec3_from(pose->matrix[next] + 12);
+    const vec3s world = glms_vec3_lerp(from, to, (float)fraction);
+    return camera_project(stage->view.view, stage->view.projection, viewport, world.raw, xy);
 }
 
 bool stage_project(const struct stage *stage, const struct core *core, int tail, int joint, double fraction,

@@ -6,6 +6,7 @@
 #include "editor/stage/kinds.h"
 #include "editor/stage/project.h"
 #include "editor/stage/state.h"
+#include "model/vector.h"
 #include "rig/shadow.h"
 #include <math.h>
 
@@ -68,10 +69,8 @@ static bool bounds(const struct stage *stage, const struct core *core, const str
         float low[3], high[3];
         stage_pose_tail(stage, core, world, n, last * step / BOUND_STEPS, NULL, &posed);
         rig_bounds(&posed, low, high);
-        for (int k = 0; k < 3; k++) {
-            lo[k] = fminf(lo[k], low[k]);
-            hi[k] = fmaxf(hi[k], high[k]);
-        }
+        glm_vec3_minv(low, lo, lo);
+        glm_vec3_maxv(high, hi, hi);
     }
     return true;
 }
