@@ -4,7 +4,7 @@
 set -eu
 cd "${1:-.}"
 grep -rE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' --include='*.[ch]' src |
-    awk -v most="${CIRCLE:-3}" -v larger="${LARGER-editor=14 scene=9}" '
+    awk -v most="${CIRCLE:-3}" -v larger="${LARGER-scene=9}" '
 BEGIN {
     for (n = split(larger, entry, " "); n > 0; n--) {
         split(entry[n], part, "=")
