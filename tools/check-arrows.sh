@@ -2,8 +2,7 @@
 # Proves that includes follow the arrows of the house, headers' own includes among them: no file reaches a folder that is not
 # listed here for its own. GL stays in draw and platform, JSON in scene and the glTF files of model, cglm comes through
 # model/vector.h, and the spline core does no I/O. Between the rooms of the editor are walls: a panel sees core and itself, core
-# sees no panel, the editor's own files see the panels' doors (curves/curves.h) alone; and no include circle, a header and the .c
-# file of its name taken as one, holds more than 3. Usage: tools/check-arrows.sh [root of the tree]
+# sees no panel, the editor's own files see the panels' doors (curves/curves.h) alone. Usage: tools/check-arrows.sh [root of the tree]
 set -eu
 cd "${1:-.}"
 grep -rnE '^[[:space:]]*#[[:space:]]*include' --include='*.[ch]' src include | awk '
@@ -63,33 +62,6 @@ function wall(file, header,    from, to) {
         return short(header) " is private to editor/" to ": the way in is editor/" to "/" to ".h"
     return ""
 }
-function unit_of(file) {
-    sub(/\.[ch]$/, "", file)
-    return file
-}
-# Finds circles (Tarjan): units that reach each other are popped together.
-function visit(unit,    i, other, size, names) {
-    index_of[unit] = low[unit] = ++visited
-    stack[++depth_of_stack] = unit
-    on_stack[unit] = 1
-    for (i = 1; i <= arrows[unit]; i++) {
-        other = arrow[unit, i]
-        if (!(other in index_of)) {
-            visit(other)
-            if (low[other] < low[unit]) low[unit] = low[other]
-        } else if (on_stack[other] && index_of[other] < low[unit]) low[unit] = index_of[other]
-    }
-    if (low[unit] != index_of[unit]) return
-    do {
-        other = stack[depth_of_stack--]
-        on_stack[other] = 0
-        size++
-        names = names " " short(other)
-    } while (other != unit)
-    if (size <= (names ~ / scene\// ? 9 : 3)) return # scene has two that are larger, and may get no larger one
-    printf "%d files include each other in a circle:%s\n", size, names
-    bad = 1
-}
 # What is wrong with all that a header includes, unless its own folder is told so already.
 function reason_through(file, header,    queue, count, next_one, seen, i, why) {
     queue[count = 1] = header
@@ -136,12 +108,7 @@ END {
             if (why == "") why = wall(file, header)
             if (why != "") complain(why)
             else if ((why = reason_through(file, header)) != "") complain(why " (through " short(header) ")")
-            if (header ~ /^src\// && unit_of(header) != unit_of(file))
-                arrow[unit_of(file), ++arrows[unit_of(file)]] = unit_of(header)
         }
-    }
-    for (f = 1; f <= file_count; f++) {
-        if (!(unit_of(files[f]) in index_of)) visit(unit_of(files[f]))
     }
     exit bad
 }'
