@@ -99,6 +99,23 @@ static void test_escape_takes_it_back(void **state)
     session_close(&s);
 }
 
+/// A held body may lose its tail, to an edit made meanwhile; letting go of it then changes nothing.
+static void test_a_tail_that_goes_while_held(void **state)
+{
+    (void)state;
+    struct session s;
+    struct error error;
+    session_open(&s, scene);
+    hold_and_drag(&s, 80, 30, 6);
+    assert_true(history_apply(s.history, s.document, &(struct edit){.kind = EDIT_TAIL_REMOVE}, &error));
+    char *without = session_saved(&s);
+    session_button(&s, BUTTON_LEFT, ACTION_RELEASE, 1);
+    session_frame(&s);
+    assert_saved(&s, without);
+    free(without);
+    session_close(&s);
+}
+
 static void test_axes_lock_and_shift_is_fine(void **state)
 {
     (void)state;
@@ -171,6 +188,7 @@ int main(void)
         cmocka_unit_test(test_tail_follows_through_and_settles),
         cmocka_unit_test(test_swing_runs_along_the_tail),
         cmocka_unit_test(test_escape_takes_it_back),
+        cmocka_unit_test(test_a_tail_that_goes_while_held),
         cmocka_unit_test(test_axes_lock_and_shift_is_fine),
         cmocka_unit_test(test_a_tracked_body_gets_a_knot),
         cmocka_unit_test(test_clicks_leave_the_body_alone),

@@ -139,6 +139,7 @@ void body_release(struct stage *stage, struct core *core, const struct editor_wo
 {
     int tail = stage->body.tail;
     double offset[3];
+    keep = keep && document_tail(world->document, tail); // an edit may have taken the tail out of the hand
     body_offset(stage, core, tail, offset);
     if (keep && record_has_motion(stage)) {
         record_keep(stage, core, world);

@@ -120,7 +120,7 @@ void status_show(const struct transport *transport, struct core *core, const str
     drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
     float x = show_time(core, world->document, bar, transport_show(core)) + GAP;
     x = show_title(core, world, bar, x) + GAP;
-    char figures[128];
+    char figures[160];
     figures_text(transport, core, world, figures, sizeof figures);
     float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
     float right = bar.x + bar.w - 12 - width;
