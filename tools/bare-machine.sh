@@ -10,9 +10,9 @@ shift
 cd "$(dirname "$0")/.."
 
 case $suite in
-bookworm | trixie) mirror=http://deb.debian.org/debian components=main script="" ;;
+bookworm | trixie) components=main script="" ;;
 # Debian's debootstrap may be older than the suite; all of Ubuntu's share one script.
-jammy | noble) mirror=http://archive.ubuntu.com/ubuntu components=main,universe script=/usr/share/debootstrap/scripts/gutsy ;;
+jammy | noble) components=main,universe script=/usr/share/debootstrap/scripts/gutsy ;;
 *)
     echo "bare-machine: unknown suite '$suite'; expected bookworm, trixie, jammy or noble" >&2
     exit 2
@@ -26,8 +26,11 @@ base=build/bare/$suite.tar
 root=$(mktemp -d "$PWD/build/bare/$suite.XXXXXX")
 trap 'rm -rf "$root"' EXIT INT TERM
 if [ ! -s "$base" ]; then
+    # debootstrap's own mirror of the suite, which it takes by itself only for Debian's.
+    mirror=""
+    [ -z "$script" ] || mirror=$(sed -n 's/.*default_mirror \(.*archive.*\)/\1/p' "$script" | head -n 1)
     # shellcheck disable=SC2086 # script may be empty
-    debootstrap --variant=minbase --include=make --components="$components" "$suite" "$root" $mirror $script \
+    debootstrap --variant=minbase --include=make --components="$components" "$suite" "$root" "$mirror" $script \
         >"build/bare/$suite.log" 2>&1 || {
         tail -n 5 "build/bare/$suite.log" >&2
         echo "bare-machine: debootstrap could not make $suite; all it said is in build/bare/$suite.log" >&2
