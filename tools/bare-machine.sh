@@ -43,6 +43,7 @@ else
     tar -C "$root" -xf "$base"
 fi
 
+chmod 755 "$root" # mktemp keeps it from everybody else, who live there too
 mkdir "$root/wiggly"
 # Root may run it in somebody else's clone.
 git -c safe.directory='*' ls-files -z --cached --others --exclude-standard | tar --null -T - -cf - | tar -C "$root/wiggly" -xf -
