@@ -213,7 +213,7 @@ static void test_scrubbing(void **state)
 
 static void click_on(struct session *session, enum control control, enum event_button button)
 {
-    struct rect r = transport_rect(&session->editor->core, control);
+    struct rect r = controls_rect(&session->editor->core, control);
     session_move(session, r.x + r.w / 2, r.y + r.h / 2);
     session_press(session, button, 1);
     session_release(session, button);

@@ -11,7 +11,7 @@ static void move_divider(struct editor *editor, const struct event *event)
 {
     enum drag_kind kind = editor->core.drag.kind;
     if (kind == DRAG_STAGE_DIVIDER || kind == DRAG_INSPECTOR_DIVIDER)
-        divider_move(&editor->core, kind, event->x, event->y);
+        core_divider_move(&editor->core, kind, event->x, event->y);
 }
 
 void drags_end(struct editor *editor, const struct editor_world *world, bool keep)

@@ -16,7 +16,7 @@ void editor_open(struct editor *editor, const struct editor_world *world);
 /// Looks whether another document has come in its place (a figure, or its undo: document.serial), and starts anew with it as
 /// editor_open() does; else the active spline and the shown frame stay what they were, wherever they are now. Called after each
 /// edit, undo and redo, before anything else is done with the document.
-void editor_follow(struct editor *editor, const struct editor_world *world);
+void editor_refresh(struct editor *editor, const struct editor_world *world);
 
 /// Ends what is being dragged where it is: before the app itself makes an edit.
 void editor_let_go(struct editor *editor, const struct editor_world *world);

@@ -18,7 +18,7 @@
 
 static void press(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
-    enum drag_kind divider = divider_at(&editor->core, event->x, event->y);
+    enum drag_kind divider = core_divider_at(&editor->core, event->x, event->y);
     if (divider != DRAG_NONE && event->button == BUTTON_LEFT) {
         drag_begin(&editor->core, divider, NULL, event);
     } else if (rect_contains(editor->core.layout.curves, event->x, event->y)) {
@@ -34,7 +34,7 @@ static void press(struct editor *editor, const struct editor_world *world, const
 void editor_leave(struct editor *editor, const struct editor_world *world, const struct request *request)
 {
     inspector_let_go(editor->inspector, world);
-    dialog_leave(editor->dialogs, &editor->core, world, request);
+    dialogs_leave(editor->dialogs, &editor->core, world, request);
 }
 
 /// Events that neither a dialog nor a running drag nor the inspector wanted.
@@ -58,7 +58,7 @@ static void dispatch(struct editor *editor, const struct editor_world *world, co
             stage_wheel(editor->stage, &editor->core, event);
         break;
     case EVENT_PASTE:
-        paste_knots(&editor->core, world, event->text);
+        core_paste_knots(&editor->core, world, event->text);
         break;
     case EVENT_CLOSE:
         editor_leave(editor, world, &request);
@@ -98,7 +98,7 @@ void editor_let_go(struct editor *editor, const struct editor_world *world)
 static void ask(struct editor *editor, const struct editor_world *world)
 {
     if (editor->core.ask.kind == ASK_NOTHING) return;
-    dialog_ask(editor->dialogs, &editor->core, world, &editor->core.ask);
+    dialogs_ask(editor->dialogs, &editor->core, world, &editor->core.ask);
     editor->core.ask.kind = ASK_NOTHING;
     inspector_let_go(editor->inspector, world);
 }
@@ -139,7 +139,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
         message->seconds_left -= dt;
         if (message->seconds_left <= 0) message->text[0] = 0;
     }
-    status_advance(editor->transport, &editor->core, dt);
+    transport_advance(editor->transport, &editor->core, dt);
     playback_advance(&editor->core, world, dt);
     curves_drag_apply(editor->curves, &editor->core, world);
     stage_advance(editor->stage, &editor->core, world, dt);
@@ -149,7 +149,7 @@ void editor_pose(struct editor *editor, const struct editor_world *world)
 {
     if (!editor->fitted) {
         editor->fitted = true;
-        view_frame_all(editor->curves, &editor->core, world);
+        curves_frame_all(editor->curves, &editor->core, world);
         stage_fit(editor->stage, &editor->core, world);
     }
     stage_pose(editor->stage, &editor->core, world, dialogs_cover(editor->dialogs));
@@ -161,7 +161,7 @@ static void update_hover(struct editor *editor, const struct editor_world *world
     if (editor->core.drag.kind != DRAG_NONE) return;
     float x = editor->core.pointer_x, y = editor->core.pointer_y;
     editor->core.hover = (struct hover){.kind = HOVER_NONE};
-    if (dialogs_cover(editor->dialogs) || divider_at(&editor->core, x, y) != DRAG_NONE) return;
+    if (dialogs_cover(editor->dialogs) || core_divider_at(&editor->core, x, y) != DRAG_NONE) return;
     if (rect_contains(editor->core.layout.curves, x, y))
         editor->core.hover = curves_hover(editor->curves, &editor->core, world, x, y);
     if (rect_contains(editor->core.layout.stage, x, y))
@@ -177,7 +177,7 @@ static void show_grip(struct editor *editor, enum drag_kind divider, float x, fl
     const float w = across ? LENGTH : THICKNESS, h = across ? THICKNESS : LENGTH;
     const bool held = editor->core.drag.kind == divider;
     const bool hot = editor->core.drag.kind == DRAG_NONE &&
-                     divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y) == divider;
+                     core_divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y) == divider;
     const uint32_t color = held ? theme()->accent : hot ? theme()->text : theme()->text_dim;
     drawlist_rounded(&editor->core.list, (struct rect){roundf(x - w / 2), roundf(y - h / 2), w, h}, THICKNESS / 2.0f,
                      color);
@@ -197,13 +197,13 @@ void editor_show(struct editor *editor, const struct editor_world *world)
     drawlist_clear(&editor->core.list, editor->core.layout.window);
     update_hover(editor, world);
     stage_show(editor->stage, &editor->core, world);
-    caption_show(&editor->core, world->document, dialogs_bottom(editor->dialogs, &editor->core));
-    welcome_show(editor->dialogs, &editor->core, world);
+    stage_show_caption(&editor->core, world->document, dialogs_bottom(editor->dialogs, &editor->core));
+    dialogs_show_welcome(editor->dialogs, &editor->core, world);
     curves_show(editor->curves, &editor->core, world);
     inspector_show(editor->inspector, &editor->core, world, dialogs_cover(editor->dialogs));
     show_dividers(editor);
     const char *hint = inspector_hint(editor->inspector);
-    status_show(editor->transport, &editor->core, world, hint ? hint : curves_hint(editor->curves, &editor->core));
+    transport_show(editor->transport, &editor->core, world, hint ? hint : curves_hint(editor->curves, &editor->core));
     help_show(editor->dialogs, &editor->core);
     dialog_show(editor->dialogs, &editor->core, world);
 }
@@ -236,7 +236,7 @@ enum cursor editor_cursor(const struct editor *editor)
     enum ui_over over;
     if (dialogs_over(editor->dialogs, &over)) return of_widget[over];
     if (editor->core.drag.kind != DRAG_NONE) return of_drag[editor->core.drag.kind];
-    enum drag_kind divider = divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y);
+    enum drag_kind divider = core_divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y);
     if (divider != DRAG_NONE) return of_drag[divider];
     if (inspector_over(editor->inspector) != UI_OVER_NOTHING) return of_widget[inspector_over(editor->inspector)];
     if (editor->core.hover.kind == HOVER_CURVE && editor->core.hover.spline == editor->core.active)

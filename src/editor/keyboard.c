@@ -16,7 +16,7 @@ void keyboard_pan(struct editor *editor, const struct editor_world *world, int w
 {
     const struct rect *plot = &editor->core.layout.plot;
     (void)world;
-    view_pan(editor->curves, &editor->core, -PAN * way_sign[way][0] * plot->w, -PAN * way_sign[way][1] * plot->h);
+    curves_pan(editor->curves, &editor->core, -PAN * way_sign[way][0] * plot->w, -PAN * way_sign[way][1] * plot->h);
 }
 
 void keyboard_zoom(struct editor *editor, const struct editor_world *world, int direction)
@@ -24,7 +24,7 @@ void keyboard_zoom(struct editor *editor, const struct editor_world *world, int 
     const struct rect *plot = &editor->core.layout.plot;
     double factor = direction > 0 ? ZOOM : 1 / ZOOM;
     (void)world;
-    view_zoom(editor->curves, &editor->core, plot->x + plot->w / 2, plot->y + plot->h / 2, factor, factor);
+    curves_zoom(editor->curves, &editor->core, plot->x + plot->w / 2, plot->y + plot->h / 2, factor, factor);
 }
 
 void keyboard_orbit(struct editor *editor, const struct editor_world *world, int way)
@@ -54,17 +54,17 @@ void keyboard_remedy(struct editor *editor, const struct editor_world *world, in
 /// What was selected is to be seen.
 static void reveal(struct editor *editor, const struct knot *knot)
 {
-    if (knot) view_reveal(editor->curves, &editor->core, knot->frame, knot->value);
+    if (knot) curves_reveal(editor->curves, &editor->core, knot->frame, knot->value);
 }
 
 void keyboard_neighbour(struct editor *editor, const struct editor_world *world, int direction)
 {
-    reveal(editor, select_neighbour(&editor->core, world, direction));
+    reveal(editor, core_select_neighbour(&editor->core, world, direction));
 }
 
 void keyboard_extend(struct editor *editor, const struct editor_world *world, int direction)
 {
-    reveal(editor, extend_selection(&editor->core, world, direction));
+    reveal(editor, core_extend_selection(&editor->core, world, direction));
 }
 
 /// The first of the sizes that is clearly larger than the present one, round the end.

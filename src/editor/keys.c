@@ -40,7 +40,7 @@ static void run_save(struct editor *e, const struct editor_world *w, int argumen
     if (argument == REQUEST_SAVE && e->core.path[0]) {
         core_request(&e->core, REQUEST_SAVE, NULL);
     } else {
-        dialog_ask_save_as(e->dialogs, &e->core);
+        dialogs_save_as(e->dialogs, &e->core);
     }
 }
 
@@ -59,19 +59,19 @@ static void run_figure(struct editor *e, const struct editor_world *w, int argum
 
 static void run_insert(struct editor *e, const struct editor_world *w, int argument)
 {
-    insert_on_curve(&e->core, w, core_frame(&e->core, w->document), true, argument);
+    core_insert_on_curve(&e->core, w, core_frame(&e->core, w->document), true, argument);
 }
 
 static void run_delete(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    delete_knots(&e->core, w);
+    core_delete_knots(&e->core, w);
 }
 
 static void run_select_all(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    select_all(&e->core, w);
+    core_select_all(&e->core, w);
 }
 
 /// Puts the brush away; without one nothing is selected any more.
@@ -79,7 +79,7 @@ static void run_select_none(struct editor *e, const struct editor_world *w, int 
 {
     (void)argument;
     if (e->core.brush.on) {
-        brush_set(&e->core, w, false);
+        characters_set_brush(&e->core, w, false);
     } else {
         selection_clear(&e->core.selection);
     }
@@ -88,35 +88,35 @@ static void run_select_none(struct editor *e, const struct editor_world *w, int 
 static void run_toggle_slope(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    toggle_slope(&e->core, w);
+    slopes_toggle(&e->core, w);
 }
 
 static void run_flatten(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    flatten_slopes(&e->core, w);
+    slopes_flatten(&e->core, w);
 }
 
 static void run_smooth(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    smooth_slopes(&e->core, w);
+    slopes_smooth(&e->core, w);
 }
 
 static void run_slope(struct editor *e, const struct editor_world *w, int argument)
 {
-    nudge_slope(&e->core, w, 0.05 * argument);
+    slopes_turn(&e->core, w, 0.05 * argument);
 }
 
 static void run_stiffness(struct editor *e, const struct editor_world *w, int argument)
 {
-    nudge_stiffness(&e->core, w, pow(1.25, argument));
+    slopes_stiffen(&e->core, w, pow(1.25, argument));
 }
 
 static void run_mode(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    cycle_mode(&e->core, w);
+    core_cycle_mode(&e->core, w);
 }
 
 static void run_frame(struct editor *e, const struct editor_world *w, int argument)
@@ -124,9 +124,9 @@ static void run_frame(struct editor *e, const struct editor_world *w, int argume
     if (!argument && rect_contains(e->core.layout.stage, e->core.pointer_x, e->core.pointer_y)) {
         stage_fit(e->stage, &e->core, w);
     } else if (argument) {
-        view_frame_selection(e->curves, &e->core, w);
+        curves_frame_selection(e->curves, &e->core, w);
     } else {
-        view_frame_all(e->curves, &e->core, w);
+        curves_frame_all(e->curves, &e->core, w);
     }
 }
 
@@ -146,10 +146,10 @@ static void run_clipboard(struct editor *e, const struct editor_world *w, int ar
 {
     if (inspector_is_typing(e->inspector)) return;
     if (argument == CLIPBOARD_DUPLICATE) {
-        duplicate_knots(&e->core, w);
+        core_duplicate_knots(&e->core, w);
     } else if (argument == CLIPBOARD_PASTE) {
         core_request(&e->core, REQUEST_PASTE, NULL);
-    } else if (copy_knots(&e->core, w, argument == CLIPBOARD_CUT)) {
+    } else if (core_copy_knots(&e->core, w, argument == CLIPBOARD_CUT)) {
         core_request(&e->core, REQUEST_COPY, NULL);
     }
 }
@@ -157,14 +157,14 @@ static void run_clipboard(struct editor *e, const struct editor_world *w, int ar
 static void run_normalise(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    normal_toggle(e->curves, &e->core, w);
+    curves_toggle_normal(e->curves, &e->core, w);
 }
 
 static void run_units(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
     (void)argument;
-    ruler_toggle(e->curves, &e->core);
+    curves_toggle_units(e->curves, &e->core);
 }
 
 static void run_snap(struct editor *e, const struct editor_world *w, int argument)
@@ -180,23 +180,23 @@ static void run_snap(struct editor *e, const struct editor_world *w, int argumen
 static void run_scale(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    scale_begin(e->curves, &e->core, w);
+    curves_scale(e->curves, &e->core, w);
 }
 
 static void run_overlay(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
     if (argument == 'O') {
-        onion_toggle(&e->core);
+        stage_toggle_onion(&e->core);
     } else {
-        trail_toggle(&e->core);
+        stage_toggle_trail(&e->core);
     }
 }
 
 static void run_brush(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    brush_set(&e->core, w, !e->core.brush.on);
+    characters_set_brush(&e->core, w, !e->core.brush.on);
     if (e->core.brush.on) inspector_unfold(e->inspector, "section.character");
 }
 
@@ -217,12 +217,12 @@ static void run_theme(struct editor *e, const struct editor_world *w, int argume
 /// ↑ and ↓ while a letter is held: that parameter.
 static void run_held(struct editor *e, const struct editor_world *w, int argument)
 {
-    if (e->core.held_key) nudge_parameter(&e->core, w, e->core.held_key, argument);
+    if (e->core.held_key) core_nudge_parameter(&e->core, w, e->core.held_key, argument);
 }
 
 static void run_activate_neighbour(struct editor *e, const struct editor_world *w, int direction)
 {
-    activate_neighbour(&e->core, w, direction);
+    core_activate_neighbour(&e->core, w, direction);
 }
 
 static void run_step(struct editor *e, const struct editor_world *w, int direction)
@@ -235,7 +235,10 @@ static void run_end(struct editor *e, const struct editor_world *w, int directio
     playback_end(&e->core, w, direction);
 }
 
-static void run_range_mark(struct editor *e, const struct editor_world *w, int end) { range_mark(&e->core, w, end); }
+static void run_range_mark(struct editor *e, const struct editor_world *w, int end)
+{
+    playback_mark(&e->core, w, end);
+}
 
 static void run_toggle_loop(struct editor *e, const struct editor_world *w, int unused)
 {
@@ -365,8 +368,8 @@ static bool nudge_event(struct editor *editor, const struct editor_world *world,
     double factor = event->mods & MOD_SHIFT ? 10 : event->mods & MOD_CTRL ? 0.1 : 1;
     for (size_t i = 0; i < sizeof nudge_keys / sizeof nudge_keys[0]; i++) {
         if (nudge_keys[i].key != event->key) continue;
-        nudge_knots(&editor->core, world, nudge_keys[i].frames * factor,
-                    nudge_keys[i].values * factor * editor->core.visible);
+        core_nudge_knots(&editor->core, world, nudge_keys[i].frames * factor,
+                         nudge_keys[i].values * factor * editor->core.visible);
         return true;
     }
     return false;

@@ -142,7 +142,7 @@ static bool find_body(struct place *place, struct error *error)
          t++, rig = document_next_rig(document, RIG_TAIL, rig + 1)) {
         float xy[2];
         if (strcmp(document->rigs[rig].name, place->target->name) != 0) continue;
-        if (!body_point(place->editor->stage, &place->editor->core, t, xy)) break;
+        if (!stage_body_point(place->editor->stage, &place->editor->core, t, xy)) break;
         place->x = xy[0];
         place->y = xy[1];
         return true;
@@ -160,7 +160,7 @@ static bool find_character(struct place *place, struct error *error)
         const struct rig *rig = &document->rigs[r];
         float xy[2];
         if (strcmp(rig->name ? rig->name : rig->character.model, place->target->name) != 0) continue;
-        if (!characters_point(place->editor->stage, c, place->target->number, xy)) break;
+        if (!stage_character_point(place->editor->stage, c, place->target->number, xy)) break;
         place->x = xy[0];
         place->y = xy[1];
         return true;

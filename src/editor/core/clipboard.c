@@ -22,12 +22,12 @@ static int collect(struct core *core, const struct editor_world *world)
 {
     const struct spline *spline = core_active_spline(core, world);
     if (!spline || history_is_open(world->history)) return 0;
-    selection_collect(core, spline);
+    core_collect(core, spline);
     if (core->originals.count == 0) core_message(core, false, "No knots are selected.");
     return core->originals.count;
 }
 
-bool copy_knots(struct core *core, const struct editor_world *world, bool cut)
+bool core_copy_knots(struct core *core, const struct editor_world *world, bool cut)
 {
     int count = collect(core, world);
     if (count == 0) return false;
@@ -38,7 +38,7 @@ bool copy_knots(struct core *core, const struct editor_world *world, bool cut)
     }
     free(core->clipboard);
     core->clipboard = text;
-    if (cut) remove_knots(core, world, count == 1 ? "Cut knot" : "Cut knots");
+    if (cut) core_remove_knots(core, world, count == 1 ? "Cut knot" : "Cut knots");
     say_count(core, cut ? "Cut" : "Copied", count);
     return true;
 }
@@ -67,7 +67,7 @@ static bool insert_all(struct core *core, const struct editor_world *world, cons
     return true;
 }
 
-void paste_knots(struct core *core, const struct editor_world *world, const char *text)
+void core_paste_knots(struct core *core, const struct editor_world *world, const char *text)
 {
     struct knot_list list;
     struct error error;
@@ -100,7 +100,7 @@ static bool has_room(const struct core *core, const struct document *document, c
     return true;
 }
 
-void duplicate_knots(struct core *core, const struct editor_world *world)
+void core_duplicate_knots(struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
     const struct spline *spline = core_active_spline(core, world);

@@ -5,11 +5,11 @@
 #include "editor/core/state.h"
 
 /// The selected knots as text for the clipboard; `cut` also deletes them. false where there is nothing to copy.
-bool copy_knots(struct core *core, const struct editor_world *world, bool cut);
+bool core_copy_knots(struct core *core, const struct editor_world *world, bool cut);
 /// Knots from text: the first one at the playhead, the others as far behind it as they are in the text; selected. All or, where
 /// one would not fit, none.
-void paste_knots(struct core *core, const struct editor_world *world, const char *text);
+void core_paste_knots(struct core *core, const struct editor_world *world, const char *text);
 /// Copies of the selected knots behind them, selected.
-void duplicate_knots(struct core *core, const struct editor_world *world);
+void core_duplicate_knots(struct core *core, const struct editor_world *world);
 
 #endif

@@ -25,7 +25,7 @@ bool core_edit(struct core *core, const struct editor_world *world, const struct
 {
     struct error error = {0};
     if (history_apply(world->history, world->document, edit, &error)) {
-        core_follow(core, world);
+        core_refresh(core, world);
         return true;
     }
     core_message(core, true, error.text);
@@ -43,12 +43,12 @@ bool core_step(struct core *core, const struct editor_world *world, const char *
     return done;
 }
 
-void core_follow(struct core *core, const struct editor_world *world)
+void core_refresh(struct core *core, const struct editor_world *world)
 {
     if (core->serial != world->document->serial) {
         core_tell(core, world, NEWS_OPENED, -1);
     } else {
-        arrange_follow(core, world);
+        arrange_refresh(core, world);
     }
 }
 
@@ -59,7 +59,7 @@ void core_undo(struct core *core, const struct editor_world *world)
     char text[128];
     snprintf(text, sizeof text, label ? "Undone: %s" : "Nothing to undo", label);
     history_undo(world->history, world->document);
-    core_follow(core, world);
+    core_refresh(core, world);
     core_message(core, false, text);
 }
 
@@ -70,7 +70,7 @@ void core_redo(struct core *core, const struct editor_world *world)
     char text[128];
     snprintf(text, sizeof text, label ? "Redone: %s" : "Nothing to redo", label);
     history_redo(world->history, world->document);
-    core_follow(core, world);
+    core_refresh(core, world);
     core_message(core, false, text);
 }
 
@@ -79,7 +79,7 @@ void core_jump(struct core *core, const struct editor_world *world, size_t done)
     if (history_is_open(world->history)) return;
     size_t before = history_done(world->history), steps = before > done ? before - done : done - before;
     if (!history_jump(world->history, world->document, done)) return;
-    core_follow(core, world);
+    core_refresh(core, world);
     char text[64];
     snprintf(text, sizeof text, "%s %zu step%s", before > done ? "Undone:" : "Redone:", steps, steps == 1 ? "" : "s");
     core_message(core, false, text);
@@ -144,7 +144,7 @@ double core_position(const struct document *document, double frame)
     return (frame - document->first_frame) * document->substeps;
 }
 
-double round_value(double value, double resolution)
+double core_round(double value, double resolution)
 {
     double exponent = floor(log10(resolution));
     double power = pow(10, fabs(exponent));
@@ -163,7 +163,7 @@ static bool reserve_originals(struct originals *originals, int knots)
     return true;
 }
 
-void selection_collect(struct core *core, const struct spline *spline)
+void core_collect(struct core *core, const struct spline *spline)
 {
     struct originals *originals = &core->originals;
     originals->count = 0;

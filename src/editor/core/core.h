@@ -13,8 +13,8 @@ bool core_edit(struct core *core, const struct editor_world *world, const struct
 /// One edit as a step of its own; `merge` as in history_begin().
 bool core_step(struct core *core, const struct editor_world *world, const char *label, uint64_t merge,
                const struct edit *edit);
-/// After each edit, undo and redo: see editor_follow().
-void core_follow(struct core *core, const struct editor_world *world);
+/// After each edit, undo and redo: see editor_refresh().
+void core_refresh(struct core *core, const struct editor_world *world);
 /// Takes the last step back; what goes with it leaves the selection.
 void core_undo(struct core *core, const struct editor_world *world);
 /// The same forwards.
@@ -39,9 +39,9 @@ double core_frame(const struct core *core, const struct document *document);
 double core_position(const struct document *document, double frame);
 /// A value with no more decimals than somebody who moves a mouse can mean: a multiple of the power of ten at or below
 /// `resolution` (> 0), so that files keep short numbers.
-double round_value(double value, double resolution);
+double core_round(double value, double resolution);
 /// Takes the selected knots of the active spline into `originals`.
-void selection_collect(struct core *core, const struct spline *spline);
+void core_collect(struct core *core, const struct spline *spline);
 /// Memory for the document's knots in selection and drags; allocates only where knots were added.
 void core_reserve(struct core *core, const struct document *document);
 

@@ -46,7 +46,7 @@ void playback_say_range(struct core *core, const struct document *document)
     core_message(core, false, text);
 }
 
-void range_mark(struct core *core, const struct editor_world *world, int end)
+void playback_mark(struct core *core, const struct editor_world *world, int end)
 {
     const struct document *document = world->document;
     double range[2], frame = round(core_frame(core, document));

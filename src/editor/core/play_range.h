@@ -13,6 +13,6 @@ void playback_choose(struct core *core, const struct document *document, double 
 /// Says which part is played.
 void playback_say_range(struct core *core, const struct document *document);
 /// The part begins (end 0) or ends (1) at the playhead's frame.
-void range_mark(struct core *core, const struct editor_world *world, int end);
+void playback_mark(struct core *core, const struct editor_world *world, int end);
 
 #endif

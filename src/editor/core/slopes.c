@@ -6,7 +6,7 @@
 #include "editor/core/state.h"
 #include <math.h>
 
-/// Kinds of nudges for merge_key(), apart from those of nudge.c.
+/// Kinds of nudges for core_merge_key(), apart from those of nudge.c.
 enum nudge_kind { NUDGE_SLOPE = 50, NUDGE_STIFFNESS };
 
 static const double FIRM = 1000;             ///< stiffness where a knot has none yet, 1/s (the default)
@@ -62,7 +62,7 @@ static void change_knots(struct core *core, const struct editor_world *world, co
 {
     struct spline *spline = core_active_spline(core, world);
     if (selection_count(&core->selection, spline) == 0 || history_is_open(world->history)) return;
-    history_begin(world->history, change->label, change->kind ? merge_key(core, world, change->kind) : 0);
+    history_begin(world->history, change->label, change->kind ? core_merge_key(core, world, change->kind) : 0);
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         if (!selection_has(&core->selection, knot->id)) continue;
@@ -73,28 +73,28 @@ static void change_knots(struct core *core, const struct editor_world *world, co
         edit.knot.has_slope = change->on;
         if (change->rule) edit.knot.slope = change->rule(world->document, spline, k);
         bool changes = change->rule || change->slope != 0 || (change->on && !knot->has_slope);
-        if (changes) edit.knot.slope = round_value(edit.knot.slope + change->slope, SLOPE_RESOLUTION * core->visible);
+        if (changes) edit.knot.slope = core_round(edit.knot.slope + change->slope, SLOPE_RESOLUTION * core->visible);
         edit.knot.stiffness = fmin(fmax(edit.knot.stiffness * change->stiffness, 1e-3), 1e9);
         core_edit(core, world, &edit);
     }
     history_end(world->history);
 }
 
-void nudge_slope(struct core *core, const struct editor_world *world, double share)
+void slopes_turn(struct core *core, const struct editor_world *world, double share)
 {
     struct knot_change change = {
         .label = "Change slope", .kind = NUDGE_SLOPE, .on = true, .slope = share * core->visible, .stiffness = 1};
     change_knots(core, world, &change);
 }
 
-void nudge_stiffness(struct core *core, const struct editor_world *world, double factor)
+void slopes_stiffen(struct core *core, const struct editor_world *world, double factor)
 {
     struct knot_change change = {
         .label = "Change stiffness", .kind = NUDGE_STIFFNESS, .on = true, .stiffness = factor};
     change_knots(core, world, &change);
 }
 
-void toggle_slope(struct core *core, const struct editor_world *world)
+void slopes_toggle(struct core *core, const struct editor_world *world)
 {
     const struct spline *spline = core_active_spline(core, world);
     bool all = true;
@@ -105,13 +105,13 @@ void toggle_slope(struct core *core, const struct editor_world *world)
     change_knots(core, world, &change);
 }
 
-void flatten_slopes(struct core *core, const struct editor_world *world)
+void slopes_flatten(struct core *core, const struct editor_world *world)
 {
     const struct knot_change change = {.label = "Slope flat", .on = true, .rule = flat, .stiffness = 1};
     change_knots(core, world, &change);
 }
 
-void smooth_slopes(struct core *core, const struct editor_world *world)
+void slopes_smooth(struct core *core, const struct editor_world *world)
 {
     const struct knot_change change = {.label = "Slope smooth", .on = true, .rule = catmull_rom, .stiffness = 1};
     change_knots(core, world, &change);

@@ -144,7 +144,7 @@ void curves_update(struct curves *curves, struct core *core, const struct editor
     draw_others(curves, core, world);
 }
 
-void ghost_capture(struct curves *curves, const struct core *core, const struct editor_world *world)
+void curves_capture_ghost(struct curves *curves, const struct core *core, const struct editor_world *world)
 {
     struct ghost *ghost = &curves->ghost;
     const struct curve_cache *cache = &curves->cache;

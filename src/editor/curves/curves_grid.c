@@ -113,7 +113,7 @@ struct rect ruler_corner(const struct core *core)
     return (struct rect){layout->value_axis.x, layout->ruler.y, layout->value_axis.w, layout->ruler.h};
 }
 
-void ruler_toggle(struct curves *curves, struct core *core)
+void curves_toggle_units(struct curves *curves, struct core *core)
 {
     curves->options.seconds = !curves->options.seconds;
     core_message(core, false, curves->options.seconds ? "The ruler shows seconds." : "The ruler shows frames.");

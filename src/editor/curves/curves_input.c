@@ -135,14 +135,13 @@ static void press_empty(struct curves *curves, struct core *core, const struct e
                         const struct hover *hover, const struct event *event)
 {
     if (event->clicks == 2 && hover->kind == HOVER_CURVE) {
-        insert_on_curve(core, world, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
-                        event->mods & MOD_SHIFT);
+        core_insert_on_curve(core, world, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
+                             event->mods & MOD_SHIFT);
         return;
     }
     if (event->clicks == 2) {
-        double value =
-            round_value(curves_value(curves, core, event->y), 0.01 / curves_pixels_per_value(curves, core));
-        insert_knot(core, world, curves_frame(curves, core, event->x), value, drag_snaps(core, event->mods));
+        double value = core_round(curves_value(curves, core, event->y), 0.01 / curves_pixels_per_value(curves, core));
+        core_insert_knot(core, world, curves_frame(curves, core, event->x), value, drag_snaps(core, event->mods));
         return;
     }
     if (hover->kind == HOVER_CURVE) core_activate(core, world, hover->spline);
@@ -180,7 +179,7 @@ void curves_press(struct curves *curves, struct core *core, const struct editor_
         warning_remedy(curves, core, world, &curves->warnings.list[hover.handle]);
         break;
     case HOVER_UNITS:
-        ruler_toggle(curves, core);
+        curves_toggle_units(curves, core);
         break;
     case HOVER_KNOT:
         press_knot(curves, core, world, &hover, event);
@@ -199,5 +198,5 @@ void curves_wheel(struct curves *curves, struct core *core, const struct event *
     double factor = exp(-ZOOM_STEP * fmin(fmax(notches, -20), 20));
     double time = event->mods & MOD_SHIFT && !(event->mods & MOD_CTRL) ? 1 : factor;
     double value = event->mods & MOD_CTRL && !(event->mods & MOD_SHIFT) ? 1 : factor;
-    view_zoom(curves, core, event->x, event->y, time, value);
+    curves_zoom(curves, core, event->x, event->y, time, value);
 }

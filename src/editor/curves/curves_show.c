@@ -100,7 +100,7 @@ double handle_length(double stiffness)
 double handle_stiffness(double length)
 {
     double stiffness = KNOT_DEFAULT_STIFFNESS * pow(10, (length - FIRM_LENGTH) / DECADE_LENGTH);
-    return round_value(stiffness, 0.05 * stiffness);
+    return core_round(stiffness, 0.05 * stiffness);
 }
 
 void curves_handle(const struct curves *curves, const struct core *core, const struct document *document,

@@ -97,7 +97,7 @@ static bool move_knots(const struct curves *curves, const struct core *core, con
         edit.knot = *original;
         edit.knot.frame += frames;
         if (value != 0 && selection_has(&core->selection, original->id)) {
-            edit.knot.value = round_value(original->value + value, resolution);
+            edit.knot.value = core_round(original->value + value, resolution);
         }
         if (!history_apply(world->history, world->document, &edit, NULL)) return false;
     }
@@ -136,7 +136,7 @@ static void apply_slope(const struct curves *curves, struct core *core, const st
     struct edit edit = core_edit_of(EDIT_KNOT_SET, core->active);
     edit.knot = *knot;
     edit.knot.slope =
-        round_value(-down / curves_pixels_per_value(curves, core) / seconds, SLOPE_RESOLUTION * core->visible);
+        core_round(-down / curves_pixels_per_value(curves, core) / seconds, SLOPE_RESOLUTION * core->visible);
     double length = handle_length(knot->stiffness), longer = hypot(across, down) - length;
     if (fabs(longer) > LENGTH_SLACK) {
         edit.knot.stiffness = handle_stiffness(length + longer - copysign(LENGTH_SLACK, longer));
@@ -168,7 +168,7 @@ void curves_drag_move(struct curves *curves, struct core *core, const struct edi
 {
     const struct drag *drag = &core->drag;
     double frame = curves_frame(curves, core, event->x);
-    if (drag->kind == DRAG_PAN) view_pan(curves, core, drag->moved_x, drag->moved_y);
+    if (drag->kind == DRAG_PAN) curves_pan(curves, core, drag->moved_x, drag->moved_y);
     if (drag->kind == DRAG_SCRUB) playback_seek(core, world->document, drag->snap ? round(frame) : frame);
     if (drag->kind == DRAG_RANGE) range_drag(curves, core, world->document, event->x);
     if (drag->kind == DRAG_BOX) box_update(curves, core, world);

@@ -45,11 +45,11 @@ void normal_update(struct curves *curves, const struct core *core, const struct 
     }
 }
 
-void normal_toggle(struct curves *curves, struct core *core, const struct editor_world *world)
+void curves_toggle_normal(struct curves *curves, struct core *core, const struct editor_world *world)
 {
     curves->options.normalise = !curves->options.normalise;
     normal_update(curves, core, world);
-    view_frame_all(curves, core, world);
+    curves_frame_all(curves, core, world);
     core_message(
         core, false,
         curves->options.normalise
@@ -57,7 +57,7 @@ void normal_toggle(struct curves *curves, struct core *core, const struct editor
             : "All curves share one axis again.");
 }
 
-void normal_activate(struct curves *curves, struct core *core, int spline)
+void curves_activate(struct curves *curves, struct core *core, int spline)
 {
     struct value_map map = normal_map(curves, core, spline);
     view_rescale(curves, core, map.scale, map.offset);

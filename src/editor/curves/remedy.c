@@ -55,7 +55,7 @@ static bool lower_frequency(const struct core *core, const struct editor_world *
     double value = frequency->value;
     if (frequency->track >= 0 || spline->spring_friction) return false;
     for (int i = 0; i < LOWER_STEPS; i++) {
-        value = round_value(value * LOWER, 0.01);
+        value = core_round(value * LOWER, 0.01);
         struct edit edit = parameter_edit(core, PARAMETER_FREQUENCY, value);
         if (!helps(core, world, &edit, before)) continue;
         snprintf(text, 96, "Lowered the frequency to %.3g Hz to tame the swing.", value);
@@ -73,7 +73,7 @@ static bool tame(const struct curves *curves, const struct core *core, const str
     struct edit hold = core_edit_of(EDIT_KNOT_INSERT, core->active);
     double resolution = 0.01 / curves_pixels_per_value(curves, core);
     hold.knot = (struct knot){.frame = warning->frame,
-                              .value = round_value(warning->remedy, resolution),
+                              .value = core_round(warning->remedy, resolution),
                               .stiffness = KNOT_DEFAULT_STIFFNESS};
     if (spline->parameter[PARAMETER_CALM].value < 1 && helps(core, world, &calm, before)) {
         snprintf(text, 96, "Raised calm to 1 to tame the swing.");
@@ -98,7 +98,7 @@ static bool resolve_rate(struct core *core, const struct editor_world *world, co
     }
     const struct spline *spline = core_active_spline(core, world);
     double value = spline->parameter[PARAMETER_FREQUENCY].value * warning->limit / warning->amount;
-    edit = parameter_edit(core, PARAMETER_FREQUENCY, round_value(0.99 * value, 0.01));
+    edit = parameter_edit(core, PARAMETER_FREQUENCY, core_round(0.99 * value, 0.01));
     snprintf(text, 96, "%.3g Hz.", edit.param.value);
     return core_edit(core, world, &edit);
 }

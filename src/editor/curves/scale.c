@@ -57,7 +57,7 @@ static void say(struct curves *curves, const struct core *core, struct factors b
              pivots[scaling->about_playhead], pivots[!scaling->about_playhead]);
 }
 
-void scale_begin(struct curves *curves, struct core *core, const struct editor_world *world)
+void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world)
 {
     const struct spline *spline = core_active_spline(core, world);
     int count = selection_count(&core->selection, spline);
@@ -67,7 +67,7 @@ void scale_begin(struct curves *curves, struct core *core, const struct editor_w
     }
     const struct event event = {.button = BUTTON_LEFT, .x = core->pointer_x, .y = core->pointer_y};
     drag_begin(core, DRAG_SCALE, "Scale knots", &event);
-    selection_collect(core, spline);
+    core_collect(core, spline);
     curves->scaling = (struct scaling){.about_playhead = count == 1, .free_time = 1};
     core->message.text[0] = 0;
     core->hover = (struct hover){.kind = HOVER_NONE};
@@ -134,9 +134,9 @@ static struct knot scaled(const struct curves *curves, const struct core *core, 
     to.frame = scaled_frame(curves, core, knot, by.time);
     if (by.value != 1) {
         double value = curves->scaling.value + by.value * (knot->value - curves->scaling.value);
-        to.value = round_value(value, 0.01 / curves_pixels_per_value(curves, core));
+        to.value = core_round(value, 0.01 / curves_pixels_per_value(curves, core));
     }
-    if (steeper != 1) to.slope = round_value(knot->slope * steeper, SLOPE_RESOLUTION * visible);
+    if (steeper != 1) to.slope = core_round(knot->slope * steeper, SLOPE_RESOLUTION * visible);
     return to;
 }
 

@@ -1,11 +1,11 @@
 /// The dialogs: open, save as, and the questions.
 #include "editor/dialogs/dialog.h"
 #include "editor/core/core.h"
-#include "editor/dialogs/dialog_ask.h"
 #include "editor/dialogs/dialog_path.h"
 #include "editor/dialogs/dialog_question.h"
 #include "editor/dialogs/dialog_recover.h"
 #include "editor/dialogs/dialogs.h"
+#include "editor/dialogs/dialog_ask.h"
 #include "editor/dialogs/state.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -51,7 +51,7 @@ void dialog_close(struct dialogs *dialogs)
 
 void dialog_ask_open(struct dialogs *dialogs) { open_dialog(dialogs, DIALOG_OPEN, ""); }
 
-void dialog_ask_save_as(struct dialogs *dialogs, const struct core *core)
+void dialogs_save_as(struct dialogs *dialogs, const struct core *core)
 {
     size_t length = strlen(core->title);
     bool named = length > 5 && strcmp(core->title + length - 5, ".json") == 0;
@@ -68,8 +68,8 @@ static void go_on(struct dialogs *dialogs, struct core *core, const struct reque
     }
 }
 
-void dialog_leave(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
-                  const struct request *after)
+void dialogs_leave(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
+                   const struct request *after)
 {
     if (history_is_saved(world->history)) {
         go_on(dialogs, core, after);
@@ -86,8 +86,8 @@ void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind 
     core_request(core, kind, path);
 }
 
-bool dialog_answer(struct dialogs *dialogs, struct core *core, const struct request *request, bool ok,
-                   const char *text)
+bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct request *request, bool ok,
+                    const char *text)
 {
     struct dialog *dialog = &dialogs->dialog;
     if (dialog->awaited == REQUEST_NONE || dialog->awaited != request->kind) return false;
@@ -109,7 +109,7 @@ static void decide(struct dialogs *dialogs, struct core *core, int choice)
     if (choice == ANSWER_SAVE && core->path[0]) {
         dialog_await(dialogs, core, REQUEST_SAVE, NULL);
     } else if (choice == ANSWER_SAVE) {
-        dialog_ask_save_as(dialogs, core);
+        dialogs_save_as(dialogs, core);
     } else {
         dialog_close(dialogs);
         if (choice == ANSWER_DISCARD) go_on(dialogs, core, &after);

@@ -1,9 +1,9 @@
 /// Questions before an edit that touches more than what was asked for: frames per second, a smaller range, deleting a
 /// spline that others follow.
-#include "editor/dialogs/dialog_ask.h"
 #include "editor/core/arrange.h"
 #include "editor/dialogs/dialog.h"
 #include "editor/dialogs/dialogs.h"
+#include "editor/dialogs/dialog_ask.h"
 #include "editor/dialogs/state.h"
 #include "scene/reference.h"
 #include <stdio.h>
@@ -50,8 +50,8 @@ static void ask_remove(struct question *question, const struct document *documen
              "stage stop using it.");
 }
 
-void dialog_ask(struct dialogs *dialogs, const struct core *core, const struct editor_world *world,
-                const struct ask *ask)
+void dialogs_ask(struct dialogs *dialogs, const struct core *core, const struct editor_world *world,
+                 const struct ask *ask)
 {
     struct question *question = &dialogs->dialog.question;
     *question = (struct question){0};

@@ -11,7 +11,7 @@ static const struct answer answers[] = {
     [RECOVER_LATER] = {"dialog.later", "Later", 'L'},
 };
 
-void dialog_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer)
+void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer)
 {
     dialogs->dialog.offer = *offer;
     dialog_open(dialogs, DIALOG_RECOVER);

@@ -7,7 +7,7 @@ void inspector_take_back(struct inspection *in, enum ui_change change)
     struct history *history = in->world->history;
     if (change != UI_DRAG || !history_is_open(history)) return;
     history_restart(history, in->document);
-    core_follow(in->core, in->world);
+    core_refresh(in->core, in->world);
 }
 
 void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
@@ -34,7 +34,7 @@ void inspector_change_all(struct inspection *in, enum ui_change change, const ch
         if (!history_is_open(history)) return; // nothing was moved by this drag
         if (change == UI_CANCEL) history_restart(history, in->document);
         history_end(history);
-        core_follow(in->core, in->world);
+        core_refresh(in->core, in->world);
         return;
     case UI_NUDGE:
         merge = (uint64_t)ui_id(what) << 32 | (uint32_t)(in->core->active + 1);

@@ -35,14 +35,14 @@ void inspector_knots(struct inspection *in);
 
 /// What opens over the panel, built after all else: the palette of the list of splines, the list of splines to follow.
 void inspector_palette(struct inspection *in);
-void inspector_follow_list(struct inspection *in);
+void inspector_track_list(struct inspection *in);
 /// The list of splines that may bend a tail, and the one that its body may follow.
 void inspector_tail_lists(struct inspection *in);
 
 /// A row in which a parameter follows a spline, in place of its slider; and the button at its right that lets it follow one
 /// or lets go.
 void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r);
-void inspector_follow_button(struct inspection *in, enum parameter parameter, struct rect r);
+void inspector_track_button(struct inspection *in, enum parameter parameter, struct rect r);
 /// The lists that open over the section on a character; built after all else in the panel.
 void inspector_character_lists(struct inspection *in);
 

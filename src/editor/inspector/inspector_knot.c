@@ -63,7 +63,7 @@ static void build_slope(struct inspection *in, const struct knot *knot)
     struct knot next = *knot;
     if (ui_hovered(ui, r)) ui->hint = "Give the knot a slope (T); D and E turn it";
     if (ui_toggle(ui, r, "has_slope", &next.has_slope)) {
-        toggle_slope(in->core, in->world); // the knot is the only selected one
+        slopes_toggle(in->core, in->world); // the knot is the only selected one
         return;
     }
     r = (struct rect){r.x + 36, r.y, r.w - 36, r.h};
@@ -107,9 +107,9 @@ static void build_slopes(struct inspection *in)
         const char *name, *label, *hint;
         void (*run)(struct core *core, const struct editor_world *world);
     } buttons[] = {
-        {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", flatten_slopes},
-        {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", smooth_slopes},
-        {"slope.switch", "On, off", "Switch slopes on, along the curve, or off (T)", toggle_slope},
+        {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", slopes_flatten},
+        {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", slopes_smooth},
+        {"slope.switch", "On, off", "Switch slopes on, along the curve, or off (T)", slopes_toggle},
     };
     struct ui *ui = in->ui;
     struct rect r = ui_row(ui, UI_ROW);

@@ -71,7 +71,7 @@ static double *number_of(const struct knot_field *field, struct knot *knot)
 static int collect(struct inspection *in)
 {
     const struct spline *spline = core_active_spline(in->core, in->world);
-    selection_collect(in->core, spline);
+    core_collect(in->core, spline);
     return in->core->originals.count;
 }
 
@@ -101,7 +101,7 @@ static void change_all(struct inspection *in, enum ui_change change, const struc
     inspector_take_back(in, change);
     if ((change != UI_DRAG && history_is_open(history)) || collect(in) == 0) return;
     if (!history_is_open(history)) {
-        uint64_t merge = change == UI_NUDGE ? merge_key(in->core, in->world, ui_id(field->number.name)) : 0;
+        uint64_t merge = change == UI_NUDGE ? core_merge_key(in->core, in->world, ui_id(field->number.name)) : 0;
         history_begin(history, field->undo, merge);
         *possible = *number_of(field, &in->core->originals.knot[0]);
     }

@@ -29,7 +29,7 @@ static const struct section {
 } sections[] = {
     {"section.scene", "Scene", inspector_scene, NULL, NULL, true},
     {"section.splines", "Splines", inspector_splines, inspector_palette, NULL, false},
-    {"section.spline", "Spline", inspector_spline, inspector_follow_list, has_spline, false},
+    {"section.spline", "Spline", inspector_spline, inspector_track_list, has_spline, false},
     {"section.poles", "Poles and response", inspector_poles, NULL, has_spline, true},
     {"section.knot", "Knot", inspector_knot, NULL, has_spline, false},
     {"section.tail", "Tail", inspector_tail, inspector_tail_lists, has_tail, false},

@@ -15,7 +15,7 @@ static void build_slider(struct inspection *in, const struct spline *spline, enu
         .label = row->name,
         .unit = row->unit,
         .hint = row->hint,
-        .maximum = slider_end(in->document, spline, parameter),
+        .maximum = core_slider_end(in->document, spline, parameter),
         .lowest = row->minimum,
         .highest = parameter_maximum(parameter, spline_mode(spline)),
         .fallback = row->fresh,
@@ -41,7 +41,7 @@ static void build_number(struct inspection *in, const struct spline *spline, enu
         inspector_track(in, parameter, parameter_rows[parameter].name, r);
     }
     struct rect button = {r.x + r.w + 2, r.y, UI_ROW, UI_ROW};
-    if (may_follow) inspector_follow_button(in, parameter, button);
+    if (may_follow) inspector_track_button(in, parameter, button);
 }
 
 static void build_choice(struct inspection *in, const struct spline *spline, enum parameter parameter)

@@ -88,7 +88,7 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
         if (!ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false,
                             "Stop following; stay at the current position"))
             return;
-        edit.param = (struct param){round_value(now.y + now.re, 1e-3), -1};
+        edit.param = (struct param){core_round(now.y + now.re, 1e-3), -1};
         core_step(in->core, in->world, "Stop following", 0, &edit);
         return;
     }

@@ -74,7 +74,7 @@ static bool project(const struct stage *stage, const struct core *core, const fl
     return camera_project(stage->view.view, stage->view.projection, viewport, point, xy);
 }
 
-bool body_point(const struct stage *stage, const struct core *core, int tail, float xy[2])
+bool stage_body_point(const struct stage *stage, const struct core *core, int tail, float xy[2])
 {
     static const float candidates[][3] = {
         {0, 0.18f, -0.45f}, {0, 0.54f, -0.385f}, {0, 0.05f, -0.25f}, {0, 0, -0.5f}}; // chest, head, rump, paws
@@ -90,9 +90,9 @@ bool body_point(const struct stage *stage, const struct core *core, int tail, fl
 
 void body_begin(struct stage *stage, const struct core *core, int tail)
 {
-    struct body *body = &stage->body;
+    struct body_drag *body = &stage->body_drag;
     const struct camera *camera = &stage->camera;
-    *body = (struct body){.tail = tail};
+    *body = (struct body_drag){.tail = tail};
     const float depth = camera_depth(stage->view.view, stage->view.eye, base_of(stage, tail));
     body->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
     double pitch = sin((double)camera->elevation);
@@ -114,7 +114,7 @@ static void key_position(struct core *core, const struct editor_world *world, in
     wiggly_value value = evaluation_at(world->evaluation, track, sample);
     edit.knot = at < 0 ? (struct knot){.frame = document_frame(document, sample), .stiffness = KNOT_DEFAULT_STIFFNESS}
                        : spline->knots[at];
-    edit.knot.value = round_value(value.y + value.re + by, RESOLUTION);
+    edit.knot.value = core_round(value.y + value.re + by, RESOLUTION);
     core_edit(core, world, &edit);
 }
 
@@ -130,14 +130,14 @@ static void key_offset(struct core *core, const struct editor_world *world, int 
         struct edit edit = core_edit_of(EDIT_POSITION, 0);
         edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
         edit.coordinate = k;
-        edit.param.value = round_value(param->value + offset[k], RESOLUTION);
+        edit.param.value = core_round(param->value + offset[k], RESOLUTION);
         core_edit(core, world, &edit);
     }
 }
 
 void body_release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
 {
-    int tail = stage->body.tail;
+    int tail = stage->body_drag.tail;
     double offset[3];
     keep = keep && document_tail(world->document, tail); // an edit may have taken the tail out of the hand
     body_offset(stage, core, tail, offset);
@@ -163,7 +163,7 @@ void body_show(struct stage *stage, struct core *core)
 {
     bool held = core->drag.kind == DRAG_BODY;
     if (!held && core->hover.kind != HOVER_BODY) return;
-    int tail = held ? stage->body.tail : core->hover.tail;
+    int tail = held ? stage->body_drag.tail : core->hover.tail;
     if (tail >= stage->view.tail_count) return;
     const float scale = scale_of(stage, tail), *base = base_of(stage, tail);
     const uint32_t color = held ? theme()->accent : theme()->playhead;

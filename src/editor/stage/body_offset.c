@@ -5,7 +5,7 @@
 static const double LEAST_AXIS = 0.3; ///< pixels of an axis in a pixel across, below which it is as slow as that
 
 /// Along one axis of the ground, so that the body stays under the pointer: the axis' own direction on the screen counts.
-static double along_axis(const struct body *body, const double axis[2], double dx, double dy)
+static double along_axis(const struct body_drag *body, const double axis[2], double dx, double dy)
 {
     double across = axis[0] * body->right[0] + axis[1] * body->right[1];
     double away = (axis[0] * body->right[1] - axis[1] * body->right[0]) * body->pitch;
@@ -16,7 +16,7 @@ static double along_axis(const struct body *body, const double axis[2], double d
 void body_offset(const struct stage *stage, const struct core *core, int tail, double offset[3])
 {
     const struct drag *drag = &core->drag;
-    const struct body *body = &stage->body;
+    const struct body_drag *body = &stage->body_drag;
     offset[0] = offset[1] = offset[2] = 0;
     if (drag->kind != DRAG_BODY || !drag->moved || body->tail != tail) return;
     const double x_axis[2] = {1, 0}, z_axis[2] = {0, 1};

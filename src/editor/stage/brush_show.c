@@ -67,7 +67,7 @@ static void add_piece(struct stage *stage, const uint32_t *corner, float radius,
 static bool is_same(const float a[2], const float b[2]) { return a[0] == b[0] && a[1] == b[1]; }
 
 /// Takes a piece that begins or ends at a point out of the ring, and moves the point to its other end.
-static bool follow(struct ring *ring, float at[2])
+static bool take_piece(struct ring *ring, float at[2])
 {
     for (int i = 0; i < ring->count; i++) {
         for (int end = 0; end < 2; end++) {
@@ -84,7 +84,7 @@ static bool follow(struct ring *ring, float at[2])
 static int extend(struct ring *ring, const float from[2], float (*line)[2], int count)
 {
     float at[2] = {from[0], from[1]};
-    while (follow(ring, at)) {
+    while (take_piece(ring, at)) {
         const bool is_last = ring->count == 0;
         if (!is_last && hypotf(at[0] - line[count - 1][0], at[1] - line[count - 1][1]) < CLOSE) continue;
         memcpy(line[count++], at, sizeof at);
@@ -177,7 +177,7 @@ static void show_state(const struct stage *stage, struct core *core, const struc
 void brush_show(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     int coordinate;
-    const struct figure *figure = core->brush.on ? brush_figure(core, world, &coordinate) : NULL;
+    const struct figure *figure = core->brush.on ? characters_figure(core, world, &coordinate) : NULL;
     if (!figure) return;
     const struct paint *paint = characters_selected(core, world)->painted;
     if (stage->painting.covers) show_ring(stage, core, figure);

@@ -25,7 +25,7 @@ static const char *show_line(struct core *core, const char *text, enum font font
     return text;
 }
 
-void caption_show(struct core *core, const struct document *document, float bottom)
+void stage_show_caption(struct core *core, const struct document *document, float bottom)
 {
     if (!document->about) return;
     const struct rect place = core->layout.stage;

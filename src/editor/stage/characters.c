@@ -133,7 +133,7 @@ static int front_vertex(const struct figure *figure, const double uv[2])
     return found;
 }
 
-bool characters_point(const struct stage *stage, int character, const double uv[2], float xy[2])
+bool stage_character_point(const struct stage *stage, int character, const double uv[2], float xy[2])
 {
     const struct stage_view *view = &stage->view;
     const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};

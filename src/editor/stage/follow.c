@@ -88,7 +88,7 @@ void follow_stop(struct stage *stage, int tail)
     if (tail < STAGE_MAX_TAILS) stage->follow[tail] = (struct follow){0};
 }
 
-bool follow_is_moving(const struct stage *stage)
+bool stage_is_moving(const struct stage *stage)
 {
     for (int t = 0; t < STAGE_MAX_TAILS; t++) {
         if (stage->follow[t].swings) return true;

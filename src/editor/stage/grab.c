@@ -185,7 +185,7 @@ void grab_apply(struct stage *stage, struct core *core, const struct editor_worl
         if (!axis->active) continue;
         double most = fmax(LARGEST_BEND * axis->values_per_radian, fabs(axis->value));
         double value = fmax(-most, fmin(most, axis->value + step[a] * axis->values_per_radian));
-        axis->value = round_value(value, RESOLUTION * axis->values_per_radian);
+        axis->value = core_round(value, RESOLUTION * axis->values_per_radian);
         set_knot(stage, core, world, axis);
     }
     grab->applied = true;

@@ -59,7 +59,7 @@ static void put_knot(struct core *core, const struct editor_world *world, int sp
     struct edit edit = core_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, spline);
     if (at >= 0) edit.knot = document->splines[spline].knots[at];
     if (at < 0) edit.knot.frame = document_frame(document, sample);
-    edit.knot.value = round_value(value, RESOLUTION);
+    edit.knot.value = core_round(value, RESOLUTION);
     edit.knot.has_slope = level;
     edit.knot.slope = 0;
     edit.knot.stiffness = level ? RECORD_STIFFNESS : KNOT_DEFAULT_STIFFNESS;
@@ -105,10 +105,10 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
 {
     const struct record *record = &stage->record;
     const struct document *document = world->document;
-    const struct param before = document_tail(document, stage->body.tail)->position[coordinate];
+    const struct param before = document_tail(document, stage->body_drag.tail)->position[coordinate];
     double from[RECORD_SAMPLES];
     int knots[MAX_KNOTS], last = document_samples(document) - 1;
-    int spline = base_spline(core, world, stage->body.tail, coordinate, loop);
+    int spline = base_spline(core, world, stage->body_drag.tail, coordinate, loop);
     if (spline < 0) return -1;
     int count = record->count, end = document_last_knot_sample(document, &document->splines[spline]);
     if (record->first + count - 1 > end) count = end - record->first + 1;
@@ -126,7 +126,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     if (!loop && record->first > 1) put_knot(core, world, spline, 0, from[0], true);
     if (!loop && record->first + count < last) put_knot(core, world, spline, last, from[count - 1], true);
     struct edit edit = core_edit_of(EDIT_POSITION, 0);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body.tail);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
     edit.coordinate = coordinate;
     edit.param.track = spline;
     core_edit(core, world, &edit);
@@ -145,7 +145,7 @@ static void set_angles(const struct stage *stage, struct core *core, const struc
                        enum angle_kind kind, const struct angles *angles)
 {
     struct edit edit = core_edit_of(EDIT_ANGLES, 0);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body.tail);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
     edit.channel = channel;
     edit.angle = kind;
     edit.angles = angles;
@@ -186,14 +186,14 @@ static void add_channel(const struct stage *stage, struct core *core, const stru
     struct edit edit = core_edit_of(EDIT_CHANNEL_ADD, add_follower(core, world, model->spline, base));
     struct angles gain = model->gain;
     const struct angles lag = model->lag;
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body.tail);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
     edit.axis = model->axis;
     edit.of = PART_DISPLACEMENT;
     if (edit.spline < 0) return;
     for (int n = 0; n < (gain.each ? TAIL_MAX_JOINTS : 1); n++)
         gain.value[n] = round(gain.value[n] * scale * 1e4) / 1e4;
     if (!core_edit(core, world, &edit)) return;
-    int added = document_tail(document, stage->body.tail)->channel_count - 1;
+    int added = document_tail(document, stage->body_drag.tail)->channel_count - 1;
     set_angles(stage, core, world, added, ANGLE_LAG, &lag);
     set_angles(stage, core, world, added, ANGLE_GAIN, &gain);
 }
@@ -202,7 +202,7 @@ static void add_channel(const struct stage *stage, struct core *core, const stru
 static void hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world,
                           int coordinate, int base)
 {
-    int index = stage->body.tail, count = document_tail(world->document, index)->channel_count;
+    int index = stage->body_drag.tail, count = document_tail(world->document, index)->channel_count;
     for (int c = 0; c < count; c++) {
         const struct tail *tail = document_tail(world->document, index);
         const struct channel channel = tail->channels[c];
@@ -222,7 +222,7 @@ static void hang_channels(const struct stage *stage, struct core *core, const st
 void record_keep(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     struct record *record = &stage->record;
-    const struct tail *tail = document_tail(world->document, stage->body.tail);
+    const struct tail *tail = document_tail(world->document, stage->body_drag.tail);
     bool loop = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
         record->hangs[c] = follow_hangs(tail, &tail->channels[c]);

@@ -13,8 +13,8 @@ static const float ORBIT_SPEED = 0.008f; ///< radians a pixel
 /// A body that is to be recorded is so from the first movement on.
 static void start_recording(struct stage *stage, struct core *core)
 {
-    if (core->drag.kind != DRAG_BODY || stage->body.begun) return;
-    stage->body.begun = true;
+    if (core->drag.kind != DRAG_BODY || stage->body_drag.begun) return;
+    stage->body_drag.begun = true;
     if (core->record_armed) record_begin(stage, core);
 }
 

@@ -137,7 +137,7 @@ void trail_show(struct stage *stage, struct core *core, const struct editor_worl
     show_now(stage, core, tail);
 }
 
-void trail_toggle(struct core *core)
+void stage_toggle_trail(struct core *core)
 {
     core->overlays.trail = !core->overlays.trail;
     core_message(core, false,

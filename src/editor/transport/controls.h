@@ -5,8 +5,8 @@
 #include "editor/transport/state.h"
 
 /// Where a control is.
-struct rect transport_rect(const struct core *core, enum control control);
+struct rect controls_rect(const struct core *core, enum control control);
 /// Returns the controls' right end.
-float transport_show(struct core *core);
+float controls_show(struct core *core);
 
 #endif

@@ -13,7 +13,7 @@
 static const double REFRESH = 0.5; ///< seconds between changes of the figures at the right
 static const double SOLVED = 5;    ///< µs; what took less was only a look for something to solve
 
-void status_advance(struct transport *transport, const struct core *core, double dt)
+void transport_advance(struct transport *transport, const struct core *core, double dt)
 {
     struct status *status = &transport->status;
     status->age += dt;
@@ -110,15 +110,15 @@ static void figures_text(const struct transport *transport, const struct core *c
              fps[0] && solve[0] ? "  " : "", solve);
 }
 
-void status_show(const struct transport *transport, struct core *core, const struct editor_world *world,
-                 const char *hint)
+void transport_show(const struct transport *transport, struct core *core, const struct editor_world *world,
+                    const char *hint)
 {
     enum { GAP = 24 };
     struct rect bar = core->layout.status;
     const struct message *message = &core->message;
     drawlist_rect(&core->list, bar, theme()->panel);
     drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
-    float x = show_time(core, world->document, bar, transport_show(core)) + GAP;
+    float x = show_time(core, world->document, bar, controls_show(core)) + GAP;
     x = show_title(core, world, bar, x) + GAP;
     char figures[160];
     figures_text(transport, core, world, figures, sizeof figures);
