@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <string.h>
 
 struct knot_field {
     struct ui_number number;
@@ -61,9 +62,16 @@ static const struct knot_field fields[] = {
      .offset = offsetof(struct knot, stiffness)},
 };
 
-static double *number_of(const struct knot_field *field, struct knot *knot)
+static double number_of(const struct knot_field *field, const struct knot *knot)
 {
-    return (double *)(void *)((char *)knot + field->offset);
+    double number;
+    memcpy(&number, (const char *)knot + field->offset, sizeof number);
+    return number;
+}
+
+static void set_number(const struct knot_field *field, struct knot *knot, double number)
+{
+    memcpy((char *)knot + field->offset, &number, sizeof number);
 }
 
 /// The selected knots as the document has them, in the memory that a drag of knots has for the same: for an edit alone, while
@@ -81,12 +89,12 @@ static bool set_all(struct inspection *in, const struct knot_field *field, doubl
                     struct error *error)
 {
     struct originals *originals = &in->core->originals;
-    double by = value - *number_of(field, &originals->knot[0]);
+    double by = value - number_of(field, &originals->knot[0]);
     for (int i = 0; i < originals->count; i++) {
         struct edit edit = core_edit_of(EDIT_KNOT_SET, in->core->active);
         edit.knot = originals->knot[by > 0 ? originals->count - 1 - i : i];
-        double *number = number_of(field, &edit.knot);
-        *number = fmax(field->number.lowest, together ? *number + by : value);
+        double number = together ? number_of(field, &edit.knot) + by : value;
+        set_number(field, &edit.knot, fmax(field->number.lowest, number));
         if (!history_apply(in->world->history, in->document, &edit, error)) return false;
     }
     return true;
@@ -103,7 +111,7 @@ static void change_all(struct inspection *in, enum ui_change change, const struc
     if (!history_is_open(history)) {
         uint64_t merge = change == UI_NUDGE ? core_merge_key(in->core, in->world, ui_id(field->number.name)) : 0;
         history_begin(history, field->undo, merge);
-        *possible = *number_of(field, &in->core->originals.knot[0]);
+        *possible = number_of(field, &in->core->originals.knot[0]);
     }
     bool together = change != UI_SET || field->moves;
     if (set_all(in, field, value, together, &error)) {
@@ -128,7 +136,7 @@ static struct numbers survey(const struct inspection *in, const struct spline *s
     struct numbers numbers = {.first = NAN};
     for (int k = 0; k < spline->knot_count; k++) {
         if (!selection_has(&in->core->selection, spline->knots[k].id)) continue;
-        double number = *number_of(field, &spline->knots[k]);
+        double number = number_of(field, &spline->knots[k]);
         if (isnan(numbers.first)) numbers.first = number;
         numbers.mixed |= number != numbers.first;
     }
