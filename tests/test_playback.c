@@ -1,7 +1,6 @@
 /// Playback: the real clock, speed, the part that is played, and scrubbing.
-#include "editor/core/play_range.h"
 #include "editor/core/playback.h"
-#include "editor/transport/controls.h"
+#include "editor/transport/state.h"
 #include "inside.h"
 #include "panel_session.h"
 

@@ -1,11 +1,10 @@
-/// One frame of the editor: events are handed to who wants them, time passes, everything is shown.
-#include "editor/core/clipboard.h"
+/// One frame of the editor: events go to whoever wants them, time passes, everything is shown.
+#include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "editor/core/layout.h"
+#include "editor/core/knots.h"
 #include "editor/core/playback.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
-#include "editor/drags.h"
 #include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "editor/keys.h"
@@ -15,6 +14,38 @@
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
+
+/// A divider between the panels follows the pointer.
+static void move_divider(struct editor *editor, const struct event *event)
+{
+    enum drag_kind kind = editor->core.drag.kind;
+    if (kind == DRAG_STAGE_DIVIDER || kind == DRAG_INSPECTOR_DIVIDER)
+        core_divider_move(&editor->core, kind, event->x, event->y);
+}
+
+void drags_end(struct editor *editor, const struct editor_world *world, bool keep)
+{
+    curves_drag_end(editor->curves, &editor->core, world, keep);
+    stage_drag_end(editor->stage, &editor->core, world, keep);
+    drag_end(&editor->core, world, keep);
+}
+
+bool drags_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    if (editor->core.drag.kind == DRAG_NONE) return false;
+    if (event->kind == EVENT_POINTER) {
+        if (!drag_move(&editor->core, world, event)) return true;
+        curves_drag_move(editor->curves, &editor->core, world, event);
+        stage_drag_move(editor->stage, &editor->core);
+        move_divider(editor, event);
+        return true;
+    }
+    enum drag_answer answer = curves_drag_event(editor->curves, &editor->core, world, event);
+    if (answer == DRAG_PASSES) answer = stage_drag_event(editor->stage, &editor->core, world, event);
+    if (answer == DRAG_PASSES) answer = drag_event(&editor->core.drag, event);
+    if (answer == DRAG_KEEP || answer == DRAG_TAKE_BACK) drags_end(editor, world, answer == DRAG_KEEP);
+    return answer != DRAG_PASSES;
+}
 
 static void press(struct editor *editor, const struct editor_world *world, const struct event *event)
 {

@@ -1,8 +1,8 @@
 /// Keyboard actions for what the mouse does to views, selection and panels.
-#include "editor/keyboard.h"
 #include "editor/core/knots.h"
 #include "editor/curves/curves.h"
 #include "editor/editor.h"
+#include "editor/keys.h"
 #include "editor/stage/stage.h"
 #include "editor/state.h"
 

@@ -1,7 +1,6 @@
 /// The character that is worked on, and the brush that paints on it: chosen in the inspector, by keys and on the stage.
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
-#include "editor/core/state.h"
 #include "rig/cast.h"
 
 const struct character_rig *characters_selected(const struct core *core, const struct editor_world *world)

@@ -1,9 +1,7 @@
 /// Knots on the clipboard and twice: copy, cut, paste at the playhead, duplicate.
-#include "editor/core/clipboard.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
-#include "editor/core/state.h"
 #include "scene/knots.h"
 #include <math.h>
 #include <stdio.h>

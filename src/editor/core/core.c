@@ -2,7 +2,6 @@
 #include "editor/core/core.h"
 #include "editor/core/arrange.h"
 #include "editor/core/selection.h"
-#include "editor/core/state.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

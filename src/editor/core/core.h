@@ -1,4 +1,4 @@
-/// What all panels do: edits of the document, requests to the app, messages.
+/// The core of the editor: edits, messages, requests to the app, the active spline, where the panels are.
 #ifndef EDITOR_CORE_CORE_H
 #define EDITOR_CORE_CORE_H
 
@@ -44,5 +44,12 @@ double core_round(double value, double resolution);
 void core_collect(struct core *core, const struct spline *spline);
 /// Memory for the document's knots in selection and drags; allocates only where knots were added.
 void core_reserve(struct core *core, const struct document *document);
+
+/// Rectangles of all panels for the window's size.
+void core_layout(struct core *core);
+/// Which divider is under a point, or DRAG_NONE.
+enum drag_kind core_divider_at(const struct core *core, float x, float y);
+/// Moves a divider to a point.
+void core_divider_move(struct core *core, enum drag_kind kind, float x, float y);
 
 #endif

@@ -2,7 +2,6 @@
 #include "editor/core/drag.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
-#include "editor/core/state.h"
 #include <math.h>
 
 static const float CLICK_REACH = 3; ///< pixels that a click may wander

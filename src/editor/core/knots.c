@@ -3,7 +3,6 @@
 #include "base/hash.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
-#include "editor/core/state.h"
 #include <math.h>
 
 uint64_t core_merge_key(const struct core *core, const struct editor_world *world, uint64_t kind)

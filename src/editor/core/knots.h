@@ -1,4 +1,4 @@
-/// Inserting, deleting and choosing knots.
+/// What is done to the active spline: to its selected knots, their slopes, and its parameters.
 #ifndef EDITOR_CORE_KNOTS_H
 #define EDITOR_CORE_KNOTS_H
 
@@ -22,5 +22,36 @@ const struct knot *core_select_neighbour(struct core *core, const struct editor_
 const struct knot *core_extend_selection(struct core *core, const struct editor_world *world, int direction);
 /// The next spline in the list (1) or the one before (-1) becomes active, round the end.
 void core_activate_neighbour(struct core *core, const struct editor_world *world, int direction);
+
+/// Adds `share` of the visible values a second to the slopes of the selected knots.
+void slopes_turn(struct core *core, const struct editor_world *world, double share);
+/// Makes the slopes of the selected knots firmer.
+void slopes_stiffen(struct core *core, const struct editor_world *world, double factor);
+/// Switches slopes on (as the curve runs there) or off.
+void slopes_toggle(struct core *core, const struct editor_world *world);
+/// Level slopes for the selected knots.
+void slopes_flatten(struct core *core, const struct editor_world *world);
+/// Slopes towards the neighbours' as Catmull and Rom have it.
+void slopes_smooth(struct core *core, const struct editor_world *world);
+
+/// Moves the selected knots by frames and values, as one step with equal nudges before.
+void core_nudge_knots(struct core *core, const struct editor_world *world, double frames, double value);
+/// The channel that the active spline moves, the first of all where it moves none; NULL where there is none at all.
+const struct channel *core_active_channel(const struct core *core, const struct document *document, int *tail,
+                                          int *channel);
+/// Where a parameter's slider ends; 0: it has none.
+double core_slider_end(const struct document *document, const struct spline *spline, enum parameter parameter);
+/// Changes the parameter that a held letter stands for, or with L the lag, by its step.
+void core_nudge_parameter(struct core *core, const struct editor_world *world, int letter, int direction);
+/// The next of complex, real and cubic.
+void core_cycle_mode(struct core *core, const struct editor_world *world);
+
+/// The selected knots as text for the clipboard; `cut` also deletes them. false where there is nothing to copy.
+bool core_copy_knots(struct core *core, const struct editor_world *world, bool cut);
+/// Knots from text: the first one at the playhead, the others as far behind it as they are in the text; selected. All or, where
+/// one would not fit, none.
+void core_paste_knots(struct core *core, const struct editor_world *world, const char *text);
+/// Copies of the selected knots behind them, selected.
+void core_duplicate_knots(struct core *core, const struct editor_world *world);
 
 #endif

@@ -1,6 +1,5 @@
 /// Where the panels are: stage over curves at the left, inspector at the right, status line below.
-#include "editor/core/layout.h"
-#include "editor/core/state.h"
+#include "editor/core/core.h"
 #include "ui/theme.h"
 #include <math.h>
 

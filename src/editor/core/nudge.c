@@ -1,9 +1,7 @@
 /// Changes by key: knots and parameters in small steps. Equal nudges of the same knots are one undo step.
-#include "editor/core/nudge.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
-#include "editor/core/state.h"
 #include "scene/order.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/// Playing, stepping and scrubbing.
+/// Playing, stepping and scrubbing, and the part of the scene that is played.
 #ifndef EDITOR_CORE_PLAYBACK_H
 #define EDITOR_CORE_PLAYBACK_H
 
@@ -18,5 +18,16 @@ void playback_end(struct core *core, const struct editor_world *world, int direc
 void playback_change_speed(struct core *core, const struct editor_world *world, int direction);
 /// Loop on, off.
 void playback_toggle_loop(struct core *core, const struct editor_world *world, int unused);
+
+/// First and last frame that are played: the part that was chosen, as far as the scene has it, else all.
+void playback_range(const struct core *core, const struct document *document, double range[2]);
+/// Whether less than the whole scene is played.
+bool playback_is_part(const struct core *core, const struct document *document);
+/// Sets the part; one that is empty or holds everything is none.
+void playback_choose(struct core *core, const struct document *document, double first, double last);
+/// Says which part is played.
+void playback_say_range(struct core *core, const struct document *document);
+/// The part begins (end 0) or ends (1) at the playhead's frame.
+void playback_mark(struct core *core, const struct editor_world *world, int end);
 
 #endif

@@ -1,10 +1,9 @@
 /// Selecting knots by a box that is dragged on empty, shown while it grows.
-#include "editor/curves/box.h"
 #include "editor/core/arrange.h"
 #include "editor/core/drag.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/state.h"
+#include "editor/curves/gestures.h"
 #include "ui/theme.h"
 #include <math.h>
 

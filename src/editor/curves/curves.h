@@ -3,7 +3,6 @@
 #define EDITOR_CURVES_CURVES_H
 
 #include "editor/core/drag.h"
-#include "editor/core/state.h"
 
 struct curves;
 

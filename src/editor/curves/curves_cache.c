@@ -1,11 +1,8 @@
 /// Solved splines → polylines: one vertex a pixel column, and one of them on each knot.
-#include "editor/curves/curves_cache.h"
 #include "base/hash.h"
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/normal.h"
-#include "editor/curves/state.h"
 #include "editor/curves/view.h"
 #include <math.h>
 #include <string.h>

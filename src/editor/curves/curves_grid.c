@@ -1,10 +1,8 @@
 /// The curves panel's background: grids with round steps, numbers at the left, frames on top.
-#include "editor/curves/curves_grid.h"
 #include "editor/core/core.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/curves_show.h"
-#include "editor/curves/range.h"
-#include "editor/curves/state.h"
+#include "editor/curves/gestures.h"
+#include "editor/curves/show.h"
 #include "editor/curves/view.h"
 #include "ui/font.h"
 #include "ui/theme.h"

@@ -2,10 +2,8 @@
 ///
 /// Let a … b be the values that the active curve takes and c … d those of another: the other's value v is drawn where the
 /// active one's a + (v − c)·(b − a)/(d − c) is.
-#include "editor/curves/normal.h"
 #include "editor/core/core.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/state.h"
 #include "editor/curves/view.h"
 #include <math.h>
 

@@ -1,9 +1,7 @@
 /// One click against a warning. What could help against a swing is tried on the solved document, and the first that does is
 /// kept.
-#include "editor/curves/remedy.h"
 #include "editor/core/core.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/state.h"
 #include "editor/curves/view.h"
 #include "editor/curves/warnings.h"
 #include <math.h>

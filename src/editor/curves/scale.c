@@ -2,12 +2,11 @@
 ///
 /// A knot (t, v) goes to (p + a·(t − p), q + b·(v − q)) about the pivot (p, q), its slope to slope·b/a, so that the shape
 /// between the knots scales with them.
-#include "editor/curves/scale.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/state.h"
+#include "editor/curves/gestures.h"
 #include "editor/curves/view.h"
 #include "ui/theme.h"
 #include <math.h>

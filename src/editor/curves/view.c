@@ -3,7 +3,6 @@
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/state.h"
 #include <math.h>
 
 /// Pixels further from the plot than this are the same to the eye, and bounded ones are safe as floats.

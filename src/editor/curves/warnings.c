@@ -3,7 +3,6 @@
 #include "editor/curves/warnings.h"
 #include "base/hash.h"
 #include "editor/core/arrange.h"
-#include "editor/curves/state.h"
 #include <limits.h>
 #include <math.h>
 

@@ -1,12 +1,7 @@
 /// The dialogs: open, save as, and the questions.
 #include "editor/dialogs/dialog.h"
 #include "editor/core/core.h"
-#include "editor/dialogs/dialog_path.h"
-#include "editor/dialogs/dialog_question.h"
-#include "editor/dialogs/dialog_recover.h"
 #include "editor/dialogs/dialogs.h"
-#include "editor/dialogs/dialog_ask.h"
-#include "editor/dialogs/state.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>

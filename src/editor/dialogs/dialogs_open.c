@@ -2,8 +2,6 @@
 #include "editor/dialogs/dialog.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/dialogs/help.h"
-#include "editor/dialogs/state.h"
-#include "editor/dialogs/welcome.h"
 #include <stdlib.h>
 
 struct dialogs *dialogs_create(void) { return calloc(1, sizeof(struct dialogs)); }

@@ -2,8 +2,6 @@
 /// scrolled where that is not enough.
 #include "editor/dialogs/help.h"
 #include "editor/dialogs/dialogs.h"
-#include "editor/dialogs/help_rows.h"
-#include "editor/dialogs/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -2,8 +2,6 @@
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
-#include "editor/inspector/inspector_tail.h"
-#include "editor/inspector/state.h"
 #include <stdio.h>
 
 enum { ICON = 24, MAX_SPLINES = 256 };

@@ -3,7 +3,6 @@
 /// It has to be the last section: going to a step changes the document under what is laid out after it.
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
-#include "editor/inspector/state.h"
 #include "ui/theme.h"
 #include <stdio.h>
 

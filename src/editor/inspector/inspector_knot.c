@@ -1,8 +1,7 @@
 /// The inspector's section on the selected knot.
 #include "editor/core/core.h"
+#include "editor/core/knots.h"
 #include "editor/core/selection.h"
-#include "editor/core/slopes.h"
-#include "editor/core/state.h"
 #include "editor/inspector/inspection.h"
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,6 @@
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector.h"
-#include "editor/inspector/state.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,6 @@
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
 #include "editor/inspector/poles.h"
-#include "editor/inspector/state.h"
 #include <math.h>
 
 enum { CIRCLE = 112, INSET = 92, TICKS = 18, RESPONSE = 112 }; ///< heights

@@ -1,6 +1,6 @@
 /// The active spline's mode, parameters and start.
 #include "editor/core/core.h"
-#include "editor/core/nudge.h"
+#include "editor/core/knots.h"
 #include "editor/inspector/inspection.h"
 #include "editor/inspector/settle.h"
 #include "scene/order.h"

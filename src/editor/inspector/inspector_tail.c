@@ -1,9 +1,7 @@
 /// The inspector's section on tails: which there are, where they stand, how they are built, and what is shown of their motion.
-#include "editor/inspector/inspector_tail.h"
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
-#include "editor/inspector/state.h"
 #include <math.h>
 #include <stdio.h>
 

@@ -4,8 +4,6 @@
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "editor/stage/brush_dab.h"
-#include "editor/stage/state.h"
 #include "rig/pick.h"
 #include <math.h>
 #include <stdio.h>

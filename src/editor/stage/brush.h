@@ -1,5 +1,4 @@
-/// The brush at work: as an airbrush, what it reaches from the way of the pointer changes by its flow times the time.
-/// A stroke is one step of the history.
+/// The brush at work. A stroke is one step of the history.
 #ifndef EDITOR_STAGE_BRUSH_H
 #define EDITOR_STAGE_BRUSH_H
 
@@ -21,5 +20,12 @@ void brush_end(struct stage *stage, struct core *core, const struct editor_world
 bool brush_wheel(struct core *core, const struct event *event);
 /// Finds what is under the pointer once the stage is posed, and what the brush reaches from there.
 void brush_pose(struct stage *stage, struct core *core, const struct editor_world *world, bool covered);
+
+/// A dab for what work.reach holds: `flow` is the strength times the time. Its arrays are the brush's own.
+struct dab brush_dab(struct painting *painting, const struct paint *paint, const struct figure *figure,
+                     int coordinate, float radius, double flow);
+
+/// The ring on the surface, and above the legend what the brush does and what is painted at the pointer.
+void brush_show(struct stage *stage, struct core *core, const struct editor_world *world);
 
 #endif

@@ -1,10 +1,8 @@
 /// The ring of the brush: where the distance over the surface from the spot under the pointer is the radius, drawn triangle
 /// by triangle, so that it lies on the posed surface as the paint will.
-#include "editor/stage/brush_show.h"
 #include "editor/core/characters.h"
 #include "editor/stage/brush.h"
-#include "editor/stage/characters_show.h"
-#include "editor/stage/state.h"
+#include "editor/stage/overlays.h"
 #include "model/vector.h"
 #include "ui/theme.h"
 #include <math.h>

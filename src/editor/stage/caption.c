@@ -1,5 +1,4 @@
 /// Shows the scene's description on the stage.
-#include "editor/core/state.h"
 #include "editor/stage/stage.h"
 #include "ui/font.h"
 #include "ui/theme.h"

@@ -1,9 +1,7 @@
 /// Poses soft characters and their stiff twins on the stage.
 #include "base/hash.h"
-#include "editor/stage/kinds.h"
-#include "editor/stage/project.h"
+#include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/state.h"
 #include "ui/font.h"
 #include "ui/phase_color.h"
 #include "ui/theme.h"

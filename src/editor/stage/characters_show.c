@@ -1,7 +1,6 @@
 /// What is written over the stage where characters are: the legend of the phase map, and what the two of a pair are.
-#include "editor/stage/characters_show.h"
 #include "editor/core/characters.h"
-#include "editor/stage/state.h"
+#include "editor/stage/overlays.h"
 #include "rig/camera.h"
 #include "ui/font.h"
 #include "ui/phase_color.h"

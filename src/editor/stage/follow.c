@@ -1,8 +1,6 @@
 /// Tails that follow through while their body is moved by hand, outside of the document's solve and on top of it.
-#include "editor/stage/follow.h"
-#include "editor/stage/body_offset.h"
+#include "editor/stage/hold.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/state.h"
 #include <math.h>
 #include <string.h>
 

@@ -6,13 +6,10 @@
 /// good). Then
 ///
 ///     (JᵀJ + λ) dv = Jᵀ (target − p),   in radians of bend, so that both axes count alike.
-#include "editor/stage/grab.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
-#include "editor/stage/follow.h"
-#include "editor/stage/project.h"
-#include "editor/stage/state.h"
-#include "editor/stage/tails.h"
+#include "editor/stage/hold.h"
+#include "editor/stage/rigs.h"
 #include <math.h>
 
 static const double DAMPING = 12; ///< √λ, pixels a radian: below this a channel moves the point too little to be used

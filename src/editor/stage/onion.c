@@ -1,11 +1,10 @@
 /// Onion skin: light proxies of the tail, an outline each, at the knots around the playhead.
-#include "editor/stage/onion.h"
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
-#include "editor/core/nudge.h"
-#include "editor/stage/project.h"
+#include "editor/core/knots.h"
+#include "editor/stage/overlays.h"
+#include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/state.h"
 #include "model/creature.h"
 #include "ui/theme.h"
 #include <math.h>

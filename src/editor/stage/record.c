@@ -1,8 +1,6 @@
 /// The motion of a body that is dragged while it is recorded: one place for each sample that the playhead passes.
-#include "editor/stage/record.h"
 #include "editor/core/core.h"
-#include "editor/stage/body_offset.h"
-#include "editor/stage/state.h"
+#include "editor/stage/hold.h"
 #include <math.h>
 #include <stdlib.h>
 

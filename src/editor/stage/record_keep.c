@@ -3,10 +3,8 @@
 ///
 /// A channel whose spline has knots of its own stays as it is: the swing that the base causes is added by a channel of its own,
 /// on a spline with the same poles. By linearity that is the same motion, and no key of the animator's changes its meaning.
-#include "editor/stage/record_keep.h"
 #include "editor/core/core.h"
-#include "editor/stage/record.h"
-#include "editor/stage/state.h"
+#include "editor/stage/hold.h"
 #include "scene/order.h"
 #include <math.h>
 #include <stdio.h>

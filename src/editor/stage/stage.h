@@ -3,7 +3,6 @@
 #define EDITOR_STAGE_STAGE_H
 
 #include "editor/core/drag.h"
-#include "editor/core/state.h"
 
 struct stage;
 

@@ -1,11 +1,9 @@
 /// The motion arc: where the tip of the tail goes, a mark a frame, fading with the distance from the playhead.
-#include "editor/stage/trail.h"
 #include "base/hash.h"
 #include "editor/core/core.h"
-#include "editor/stage/onion.h"
-#include "editor/stage/project.h"
+#include "editor/stage/overlays.h"
+#include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/state.h"
 #include "ui/theme.h"
 #include <math.h>
 

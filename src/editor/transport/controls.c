@@ -1,7 +1,6 @@
 /// The controls for playback at the left of the status line: play, loop, speed.
-#include "editor/transport/controls.h"
 #include "editor/core/playback.h"
-#include "editor/core/state.h"
+#include "editor/transport/state.h"
 #include "editor/transport/transport.h"
 #include "ui/font.h"
 #include "ui/theme.h"

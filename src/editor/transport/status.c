@@ -1,6 +1,5 @@
 /// The status line: where playback is, which scene, and one sentence: a message, or what the pointer is over.
 #include "editor/core/core.h"
-#include "editor/transport/controls.h"
 #include "editor/transport/state.h"
 #include "editor/transport/transport.h"
 #include "ui/font.h"

@@ -1,21 +1,57 @@
-/// The mouse in the curves panel: what is under it, presses and the wheel.
+/// The curves panel: its beginning and end, what is under the pointer, presses and the wheel.
+#include "editor/curves/curves.h"
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/knots.h"
 #include "editor/core/playback.h"
 #include "editor/core/selection.h"
-#include "editor/curves/box.h"
-#include "editor/curves/curves.h"
-#include "editor/curves/curves_grid.h"
-#include "editor/curves/knot_drag.h"
-#include "editor/curves/normal.h"
-#include "editor/curves/range.h"
-#include "editor/curves/remedy.h"
-#include "editor/curves/state.h"
+#include "editor/curves/gestures.h"
+#include "editor/curves/show.h"
 #include "editor/curves/view.h"
-#include "editor/curves/warnings_show.h"
+#include "editor/curves/warnings.h"
 #include <math.h>
+#include <stdlib.h>
+
+struct curves *curves_create(void)
+{
+    struct curves *curves = calloc(1, sizeof *curves);
+    if (curves) curves->view = (struct view){0, 120, -1, 1};
+    return curves;
+}
+
+void curves_destroy(struct curves *curves)
+{
+    if (!curves) return;
+    free(curves->before_box.bits);
+    free(curves);
+}
+
+void curves_open(struct curves *curves)
+{
+    curves->cache.key = 0;
+    curves->cache.range_count = 0;
+    curves->warnings = (struct warnings){0};
+}
+
+bool curves_reserve(struct curves *curves, const struct core *core)
+{
+    unsigned ids = core->selection.capacity;
+    return curves->before_box.capacity >= ids || selection_reserve(&curves->before_box, ids);
+}
+
+void curves_forget(struct curves *curves)
+{
+    curves->cache.key = 0;
+    curves->cache.other_count = curves->cache.count = 0;
+}
+
+bool curves_wants_frames(const struct curves *curves) { return curves->warnings.search.running; }
+
+const char *curves_hint(const struct curves *curves, const struct core *core)
+{
+    return core->drag.kind == DRAG_SCALE ? curves->scaling.sentence : NULL;
+}
 
 static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9;
 static const double ZOOM_STEP = 0.15; ///< of a wheel's notch, as a power of e
