@@ -23,14 +23,16 @@ static void move_divider(struct editor *editor, const struct event *event)
         core_divider_move(&editor->core, kind, event->x, event->y);
 }
 
-void drags_end(struct editor *editor, const struct editor_world *world, bool keep)
+/// Ends the running drag; `keep` false takes everything back.
+static void end_drag(struct editor *editor, const struct editor_world *world, bool keep)
 {
     curves_drag_end(editor->curves, &editor->core, world, keep);
     stage_drag_end(editor->stage, &editor->core, world, keep);
     drag_end(&editor->core, world, keep);
 }
 
-bool drags_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+/// A running drag's events go to the panel that began it; true where the event is used up.
+static bool drag_takes(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     if (editor->core.drag.kind == DRAG_NONE) return false;
     if (event->kind == EVENT_POINTER) {
@@ -43,7 +45,7 @@ bool drags_event(struct editor *editor, const struct editor_world *world, const 
     enum drag_answer answer = curves_drag_event(editor->curves, &editor->core, world, event);
     if (answer == DRAG_PASSES) answer = stage_drag_event(editor->stage, &editor->core, world, event);
     if (answer == DRAG_PASSES) answer = drag_event(&editor->core.drag, event);
-    if (answer == DRAG_KEEP || answer == DRAG_TAKE_BACK) drags_end(editor, world, answer == DRAG_KEEP);
+    if (answer == DRAG_KEEP || answer == DRAG_TAKE_BACK) end_drag(editor, world, answer == DRAG_KEEP);
     return answer != DRAG_PASSES;
 }
 
@@ -121,7 +123,7 @@ static void note(struct editor *editor, const struct event *event)
 
 void editor_let_go(struct editor *editor, const struct editor_world *world)
 {
-    if (editor->core.drag.kind != DRAG_NONE) drags_end(editor, world, true);
+    if (editor->core.drag.kind != DRAG_NONE) end_drag(editor, world, true);
     inspector_let_go(editor->inspector, world);
 }
 
@@ -138,7 +140,7 @@ static void ask(struct editor *editor, const struct editor_world *world)
 static void let_go(struct editor *editor, const struct editor_world *world)
 {
     if (!dialogs_cover(editor->dialogs)) return;
-    if (editor->core.drag.kind != DRAG_NONE) drags_end(editor, world, true);
+    if (editor->core.drag.kind != DRAG_NONE) end_drag(editor, world, true);
     editor->core.held_key = 0;
     editor->core.space_down = false;
 }
@@ -152,7 +154,7 @@ void editor_event(struct editor *editor, const struct editor_world *world, const
     editor_reserve(editor, world->document);
     bool used =
         dialogs_event(editor->dialogs, &editor->core, world, event, inspector_is_dragging(editor->inspector)) ||
-        drags_event(editor, world, event) ||
+        drag_takes(editor, world, event) ||
         (editor->core.drag.kind == DRAG_NONE && inspector_event(editor->inspector, &editor->core, world, event));
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};

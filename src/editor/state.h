@@ -21,10 +21,6 @@ struct editor {
     bool fitted; ///< camera and curves view, at the first editor_pose() of a document
 };
 
-/// Events of a running drag; true where the event is used up.
-bool drags_event(struct editor *editor, const struct editor_world *world, const struct event *event);
-/// Ends it; `keep` false takes everything back.
-void drags_end(struct editor *editor, const struct editor_world *world, bool keep);
 /// Does what leaves the document, but asks first where work would be lost.
 void editor_leave(struct editor *editor, const struct editor_world *world, const struct request *request);
 /// Memory for the document's knots in selection and drags; allocates only where knots were added.

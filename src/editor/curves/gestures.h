@@ -5,24 +5,12 @@
 #include "editor/core/drag.h"
 #include "editor/curves/state.h"
 
-/// The copies of all knots that move, which the edits of the drag start from.
-void drag_collect(struct curves *curves, struct core *core, const struct spline *spline);
 /// Starts to move the selected knots of the active spline; `knot` is the one under the pointer.
 void drag_begin_knots(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
                       const struct event *event);
 /// Starts to turn the slope of a knot by an end of its handle.
 void drag_begin_slope(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
                       int handle, const struct event *event);
-
-/// Whether a knot moves along, as it was before the drag.
-bool ripple_moves(const struct knot_drag *drag, const struct knot *knot);
-/// Retiming (R while knots are dragged): the later knots of the spline keep their distances to the dragged ones.
-void ripple_toggle(struct curves *curves, struct core *core, const struct editor_world *world);
-/// The furthest shift to the left, in frames: to the first frame, or with ripple to behind the knot that stays.
-double ripple_least(const struct curves *curves, const struct core *core, const struct document *document,
-                    const struct spline *spline);
-/// Says why the knots go no further to the right.
-void ripple_stopped(struct core *core);
 
 /// Makes the edits for where the pointer is now.
 void scale_apply(struct curves *curves, struct core *core, const struct editor_world *world);

@@ -10,53 +10,18 @@
 #include <assert.h>
 #include <math.h>
 
-bool ripple_moves(const struct knot_drag *drag, const struct knot *knot)
-{
-    return drag->ripple && knot->frame >= drag->ripple_from;
-}
-
-void ripple_toggle(struct curves *curves, struct core *core, const struct editor_world *world)
-{
-    struct knot_drag *drag = &curves->knot_drag;
-    const struct spline *spline = core_active_spline(core, world);
-    assert(spline && core->originals.count > 0);
-    if (core->drag.moved) history_restart(world->history, world->document);
-    drag->ripple = !drag->ripple;
-    drag->ripple_from = core->originals.knot[0].frame;
-    drag->free_frames = 0;
-    core->drag.stale = true;
-    drag_collect(curves, core, spline);
-    core_message(core, false,
-                 drag->ripple ? "Ripple on: later knots move too (R turns it off)."
-                              : "Ripple off: later knots stay.");
-}
-
-double ripple_least(const struct curves *curves, const struct core *core, const struct document *document,
-                    const struct spline *spline)
-{
-    const struct knot *first = &core->originals.knot[0];
-    int sample = document_sample(document, first->frame);
-    int before = spline_lower_bound(document, spline, sample) - 1;
-    if (!curves->knot_drag.ripple || before < 0) return document->first_frame - first->frame;
-    int least = document_sample(document, spline->knots[before].frame) + 1;
-    return document_frame(document, least) - document_frame(document, sample);
-}
-
-void ripple_stopped(struct core *core)
-{
-    core_message(core, false, "The last knot has reached the end of the range. Extend the range to make room.");
-}
-
 static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
 static const double LENGTH_SLACK = 8; ///< pixels by which a handle may be pulled before it says more than a slope
 
 /// Whether a knot, as it was before the drag, moves with it.
 static bool moves_along(const struct curves *curves, const struct core *core, const struct knot *knot)
 {
-    return selection_has(&core->selection, knot->id) || ripple_moves(&curves->knot_drag, knot);
+    const struct knot_drag *drag = &curves->knot_drag;
+    return selection_has(&core->selection, knot->id) || (drag->ripple && knot->frame >= drag->ripple_from);
 }
 
-void drag_collect(struct curves *curves, struct core *core, const struct spline *spline)
+/// Copies all knots that move: the edits of the drag start from them.
+static void collect(struct curves *curves, struct core *core, const struct spline *spline)
 {
     struct originals *originals = &core->originals;
     originals->count = 0;
@@ -66,6 +31,35 @@ void drag_collect(struct curves *curves, struct core *core, const struct spline 
     core->drag.label = originals->count == 1 ? "Move knot" : "Move knots";
 }
 
+/// R: the later knots keep their distances to the dragged ones.
+static void toggle_ripple(struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    struct knot_drag *drag = &curves->knot_drag;
+    const struct spline *spline = core_active_spline(core, world);
+    assert(spline && core->originals.count > 0);
+    if (core->drag.moved) history_restart(world->history, world->document);
+    drag->ripple = !drag->ripple;
+    drag->ripple_from = core->originals.knot[0].frame;
+    drag->free_frames = 0;
+    core->drag.stale = true;
+    collect(curves, core, spline);
+    core_message(core, false,
+                 drag->ripple ? "Ripple on: later knots move too (R turns it off)."
+                              : "Ripple off: later knots stay.");
+}
+
+/// The furthest shift to the left, in frames: to the first frame, or with ripple to just after the knot that stays.
+static double least_frames(const struct curves *curves, const struct core *core, const struct document *document,
+                           const struct spline *spline)
+{
+    const struct knot *first = &core->originals.knot[0];
+    int sample = document_sample(document, first->frame);
+    int before = spline_lower_bound(document, spline, sample) - 1;
+    if (!curves->knot_drag.ripple || before < 0) return document->first_frame - first->frame;
+    int least = document_sample(document, spline->knots[before].frame) + 1;
+    return document_frame(document, least) - document_frame(document, sample);
+}
+
 void drag_begin_knots(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
                       const struct event *event)
 {
@@ -73,7 +67,7 @@ void drag_begin_knots(struct curves *curves, struct core *core, const struct edi
     assert(spline);
     drag_begin(core, DRAG_KNOTS, NULL, event);
     curves->knot_drag = (struct knot_drag){.knot = knot};
-    drag_collect(curves, core, spline);
+    collect(curves, core, spline);
 }
 
 void drag_begin_slope(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
@@ -101,8 +95,10 @@ static double wanted_frames(const struct curves *curves, struct core *core, cons
     }
     if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->frame + frames) - held->frame;
     double end = document_frame(document, document_last_knot_sample(document, spline));
-    double most = end - last->frame, least = ripple_least(curves, core, document, spline);
-    if (curves->knot_drag.ripple && frames > most) ripple_stopped(core);
+    double most = end - last->frame, least = least_frames(curves, core, document, spline);
+    if (curves->knot_drag.ripple && frames > most) {
+        core_message(core, false, "The last knot has reached the end of the range. Extend the range to make room.");
+    }
     return fmax(fmin(frames, most), least);
 }
 
@@ -213,7 +209,7 @@ enum drag_answer curves_drag_event(struct curves *curves, struct core *core, con
     if (drag->kind == DRAG_SCALE) return scale_event(curves, core, world, event);
     bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & (MOD_CTRL | MOD_ALT));
     if (drag->kind != DRAG_KNOTS || !key) return DRAG_PASSES;
-    if (event->key == 'R') ripple_toggle(curves, core, world);
+    if (event->key == 'R') toggle_ripple(curves, core, world);
     return event->key == 'R' || drag_lock(drag, event->key) ? DRAG_USED : DRAG_PASSES;
 }
 
