@@ -118,7 +118,7 @@ static void check_dialogs(struct session *f)
             editor_offer_recovery(f->editor, &(struct recovery_offer){"walk.json", "1 May 2026, 10:00", 2});
         for (int failed = 0; failed < 2; failed++) {
             show(f);
-            dialog_show(f->editor->dialogs, &f->editor->core, &f->world);
+            dialogs_show(f->editor->dialogs, &f->editor->core, &f->world);
             assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.window) >= 4);
             f->editor->dialogs->dialog.awaited = REQUEST_SAVE;
             panel_answer(

@@ -237,8 +237,7 @@ void editor_show(struct editor *editor, const struct editor_world *world)
     show_dividers(editor);
     const char *hint = inspector_hint(editor->inspector);
     transport_show(editor->transport, &editor->core, world, hint ? hint : curves_hint(editor->curves, &editor->core));
-    help_show(editor->dialogs, &editor->core);
-    dialog_show(editor->dialogs, &editor->core, world);
+    dialogs_show(editor->dialogs, &editor->core, world);
 }
 
 enum cursor editor_cursor(const struct editor *editor)

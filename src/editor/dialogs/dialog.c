@@ -8,9 +8,6 @@
 #include <string.h>
 
 enum { LIST_ROWS = 8, BUTTON_WIDTH = 104 };
-enum { ANSWER_SAVE, ANSWER_DISCARD, ANSWER_CANCEL };
-
-void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files) { dialogs->dialog.files = *files; }
 
 static bool is_question(const struct dialog *dialog)
 {
@@ -70,7 +67,7 @@ void dialogs_leave(struct dialogs *dialogs, struct core *core, const struct edit
         go_on(dialogs, core, after);
         return;
     }
-    open_dialog(dialogs, DIALOG_UNSAVED, "");
+    dialog_ask_unsaved(dialogs, core);
     dialogs->dialog.after = *after;
 }
 
@@ -101,13 +98,13 @@ static void decide(struct dialogs *dialogs, struct core *core, int choice)
 {
     struct dialog *dialog = &dialogs->dialog;
     struct request after = dialog->after;
-    if (choice == ANSWER_SAVE && core->path[0]) {
+    if (choice == UNSAVED_SAVE && core->path[0]) {
         dialog_await(dialogs, core, REQUEST_SAVE, NULL);
-    } else if (choice == ANSWER_SAVE) {
+    } else if (choice == UNSAVED_SAVE) {
         dialogs_save_as(dialogs, core);
     } else {
         dialog_close(dialogs);
-        if (choice == ANSWER_DISCARD) go_on(dialogs, core, &after);
+        if (choice == UNSAVED_DISCARD) go_on(dialogs, core, &after);
     }
 }
 
@@ -137,34 +134,6 @@ static void confirm(struct dialogs *dialogs, struct core *core)
     dialog_await(dialogs, core, saving ? REQUEST_SAVE_AS : REQUEST_OPEN, path);
 }
 
-static void unsaved_question(const struct core *core, struct question *question)
-{
-    static const struct answer answers[] = {
-        [ANSWER_SAVE] = {"dialog.save", "Save", 'S'},
-        [ANSWER_DISCARD] = {"dialog.discard", "Discard", 'D'},
-        [ANSWER_CANCEL] = {"dialog.cancel", "Cancel", 'C'},
-    };
-    question->answers = answers;
-    question->count = sizeof answers / sizeof answers[0];
-    snprintf(question->title, sizeof question->title, "%s has unsaved changes", core->title);
-    snprintf(question->note, sizeof question->note,
-             "Save them, or they will be lost. S saves, D discards, Esc cancels.");
-}
-
-/// The question that is on the screen.
-static struct question question_of(const struct dialogs *dialogs, const struct core *core)
-{
-    struct question question = {0};
-    if (dialogs->dialog.kind == DIALOG_ASK) {
-        question = dialogs->dialog.question;
-    } else if (dialogs->dialog.kind == DIALOG_UNSAVED) {
-        unsaved_question(core, &question);
-    } else {
-        dialog_recover_question(dialogs, &question);
-    }
-    return question;
-}
-
 static void answer(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int given)
 {
     if (given < 0) return;
@@ -180,8 +149,7 @@ static void answer(struct dialogs *dialogs, struct core *core, const struct edit
 /// A letter that answers brings its character along, which is no part of a path that is typed next.
 static bool question_event(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int key)
 {
-    struct question question = question_of(dialogs, core);
-    int given = question_key(&dialogs->dialog, &question, key);
+    int given = question_key(&dialogs->dialog, key);
     if (given == QUESTION_UNUSED) return false;
     dialogs->dialog.skip_text = true;
     answer(dialogs, core, world, given);
@@ -282,8 +250,7 @@ static void build(struct dialogs *dialogs, struct core *core, const struct edito
     struct ui *ui = &dialog->ui;
     ui_space(ui, 8);
     if (is_question(dialog)) {
-        struct question question = question_of(dialogs, core);
-        answer(dialogs, core, world, question_build(dialog, &question));
+        answer(dialogs, core, world, question_build(dialog));
     } else {
         ui->focus = ui_id("dialog.path"); // the path is all there is to type in
         build_path(dialogs, core);

@@ -15,6 +15,8 @@ void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind 
 /// true for every event while a dialog is open, but for EVENT_SIZE and EVENT_EXPOSE.
 bool dialog_event(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
                   const struct event *event);
+/// Draws the dialog, where one is open.
+void dialog_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
 
 /// Lists the folder of the path where it is a new one, and picks the names that fit what is typed after it.
 void dialog_match(struct dialog *dialog);
@@ -31,20 +33,19 @@ bool dialog_row(struct dialog *dialog, struct rect r, int match);
 
 enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
 
-/// Lays the question out; returns the answer that was pressed, or QUESTION_OPEN.
-int question_build(struct dialog *dialog, const struct question *question);
-
+/// Lays the dialog's question out; returns the answer that was pressed, or QUESTION_OPEN.
+int question_build(struct dialog *dialog);
 /// What a key does: an answer, QUESTION_OPEN where it moved the choice, or QUESTION_UNUSED.
-int question_key(struct dialog *dialog, const struct question *question, int key);
+int question_key(struct dialog *dialog, int key);
 
 /// DIALOG_ASK: does what was asked about as the answer says.
 void dialog_ask_answer(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int answer);
 
-enum recover_answer { RECOVER_RECOVER, RECOVER_DISCARD, RECOVER_LATER };
+enum unsaved_answer { UNSAVED_SAVE, UNSAVED_DISCARD, UNSAVED_CANCEL };
 
-/// What DIALOG_RECOVER asks.
-void dialog_recover_question(const struct dialogs *dialogs, struct question *question);
-/// What an answer (enum recover_answer) to it does.
+/// DIALOG_UNSAVED: asks what to do with unsaved changes.
+void dialog_ask_unsaved(struct dialogs *dialogs, const struct core *core);
+/// DIALOG_RECOVER: what an answer does.
 void dialog_recover_answer(struct dialogs *dialogs, struct core *core, int answer);
 
 #endif

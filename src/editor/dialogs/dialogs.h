@@ -24,8 +24,8 @@ void dialogs_leave(struct dialogs *dialogs, struct core *core, const struct edit
 /// where it waits for no such answer.
 bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct request *request, bool ok,
                     const char *text);
-/// Draws the dialog.
-void dialog_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
+/// Draws the help and the dialog.
+void dialogs_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
 /// Asks before an edit.
 void dialogs_ask(struct dialogs *dialogs, const struct core *core, const struct editor_world *world,
                  const struct ask *ask);
@@ -40,8 +40,6 @@ bool dialogs_cover(const struct dialogs *dialogs);
 bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over);
 /// Down to where the stage is free at its left.
 float dialogs_bottom(const struct dialogs *dialogs, const struct core *core);
-/// Draws the help.
-void help_show(const struct dialogs *dialogs, struct core *core);
 /// Shows the card for new users.
 void dialogs_welcome(struct dialogs *dialogs);
 /// Whether it is still to be seen.

@@ -8,11 +8,19 @@ struct dialogs *dialogs_create(void) { return calloc(1, sizeof(struct dialogs));
 
 void dialogs_destroy(struct dialogs *dialogs) { free(dialogs); }
 
+void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files) { dialogs->dialog.files = *files; }
+
 bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
                    const struct event *event, bool busy)
 {
     return dialog_event(dialogs, core, world, event) || help_event(dialogs, core, event, busy) ||
            welcome_event(dialogs, core, event);
+}
+
+void dialogs_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
+{
+    help_show(dialogs, core);
+    dialog_show(dialogs, core, world);
 }
 
 bool dialogs_cover(const struct dialogs *dialogs)

@@ -7,6 +7,8 @@
 /// F1 opens it; wheel, ↑ ↓ and PgUp PgDn scroll it; any other key or a click closes it. While it is open help_event() is true
 /// for keys, text, buttons and the wheel.
 bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event, bool busy);
+/// Draws it, where it is open.
+void help_show(const struct dialogs *dialogs, struct core *core);
 
 enum { HELP_MAX_ROWS = 12, HELP_GROUPS = 10, HELP_HELD = 5 };
 
