@@ -123,7 +123,10 @@ bool help_event(struct dialogs *dialogs, const struct core *core, const struct e
     struct help *help = &dialogs->help;
     if (!help->open) {
         bool opens = press && event->kind == EVENT_KEY && event->key == KEY_F1;
-        if (opens && !busy) *help = (struct help){.open = true};
+        if (opens && !busy) {
+            *help = (struct help){.open = true};
+            dialogs->welcome = false;
+        }
         return opens;
     }
     const struct page page = page_of(core->layout.window);

@@ -59,7 +59,7 @@ static void show_text(struct core *core, float x, float y, enum font font, uint3
 
 void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
 {
-    if (!history_is_saved(world->history) || dialogs->help.open) dialogs->welcome = false;
+    if (!history_is_saved(world->history)) dialogs->welcome = false;
     if (!dialogs->welcome) return;
     struct drawlist *list = &core->list;
     struct rect card = welcome_card(core), clip = drawlist_push_clip(list, core->layout.stage);
