@@ -13,15 +13,6 @@
 #include "ui/theme.h"
 #include <math.h>
 
-static void run_undo(struct editor *e, const struct editor_world *w, int argument)
-{
-    if (argument < 0) {
-        core_undo(&e->core, w);
-    } else {
-        core_redo(&e->core, w);
-    }
-}
-
 static void run_leave(struct editor *e, const struct editor_world *w, int argument)
 {
     struct request request = {.kind = (enum request_kind)argument};
@@ -56,18 +47,6 @@ static void run_insert(struct editor *e, const struct editor_world *w, int argum
     core_insert_on_curve(&e->core, w, core_frame(&e->core, w->document), true, argument);
 }
 
-static void run_delete(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)argument;
-    core_delete_knots(&e->core, w);
-}
-
-static void run_select_all(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)argument;
-    core_select_all(&e->core, w);
-}
-
 /// Puts the brush away; without one nothing is selected any more.
 static void run_select_none(struct editor *e, const struct editor_world *w, int argument)
 {
@@ -77,40 +56,6 @@ static void run_select_none(struct editor *e, const struct editor_world *w, int 
     } else {
         selection_clear(&e->core.selection);
     }
-}
-
-static void run_toggle_slope(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)argument;
-    slopes_toggle(&e->core, w);
-}
-
-static void run_flatten(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)argument;
-    slopes_flatten(&e->core, w);
-}
-
-static void run_smooth(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)argument;
-    slopes_smooth(&e->core, w);
-}
-
-static void run_slope(struct editor *e, const struct editor_world *w, int argument)
-{
-    slopes_turn(&e->core, w, 0.05 * argument);
-}
-
-static void run_stiffness(struct editor *e, const struct editor_world *w, int argument)
-{
-    slopes_stiffen(&e->core, w, pow(1.25, argument));
-}
-
-static void run_mode(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)argument;
-    core_cycle_mode(&e->core, w);
 }
 
 static void run_frame(struct editor *e, const struct editor_world *w, int argument)
@@ -161,16 +106,6 @@ static void run_units(struct editor *e, const struct editor_world *w, int argume
     curves_toggle_units(e->curves, &e->core);
 }
 
-static void run_snap(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)w;
-    (void)argument;
-    e->core.no_snap = !e->core.no_snap;
-    core_message(&e->core, false,
-                 e->core.no_snap ? "Snapping off: hold Ctrl to snap to frames."
-                                 : "Snapping on: hold Ctrl to place knots between frames.");
-}
-
 static void run_scale(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
@@ -208,48 +143,12 @@ static void run_theme(struct editor *e, const struct editor_world *w, int argume
     theme_use((theme_in_use() + 1) % THEME_COUNT);
 }
 
-/// ↑ and ↓ while a letter is held: that parameter.
-static void run_held(struct editor *e, const struct editor_world *w, int argument)
-{
-    if (e->core.held_key) core_nudge_parameter(&e->core, w, e->core.held_key, argument);
-}
-
-static void run_activate_neighbour(struct editor *e, const struct editor_world *w, int direction)
-{
-    core_activate_neighbour(&e->core, w, direction);
-}
-
-static void run_step(struct editor *e, const struct editor_world *w, int direction)
-{
-    playback_step(&e->core, w, direction);
-}
-
-static void run_end(struct editor *e, const struct editor_world *w, int direction)
-{
-    playback_end(&e->core, w, direction);
-}
-
-static void run_range_mark(struct editor *e, const struct editor_world *w, int end)
-{
-    playback_mark(&e->core, w, end);
-}
-
-static void run_toggle_loop(struct editor *e, const struct editor_world *w, int unused)
-{
-    playback_toggle_loop(&e->core, w, unused);
-}
-
-static void run_change_speed(struct editor *e, const struct editor_world *w, int direction)
-{
-    playback_change_speed(&e->core, w, direction);
-}
-
 enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT };
 
 const struct binding key_bindings[] = {
-    {.key = 'Z', .mods = MOD_CTRL, .repeats = true, .run = run_undo, .argument = -1},
-    {.key = 'Z', .mods = MOD_CTRL | MOD_SHIFT, .repeats = true, .run = run_undo, .argument = 1},
-    {.key = 'Y', .mods = MOD_CTRL, .repeats = true, .run = run_undo, .argument = 1},
+    {.key = 'Z', .mods = MOD_CTRL, .repeats = true, .core = core_undo, .argument = -1},
+    {.key = 'Z', .mods = MOD_CTRL | MOD_SHIFT, .repeats = true, .core = core_undo, .argument = 1},
+    {.key = 'Y', .mods = MOD_CTRL, .repeats = true, .core = core_undo, .argument = 1},
     {.key = 'N', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_NEW},
     {.key = 'O', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_OPEN},
     {.key = 'Q', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_QUIT},
@@ -267,40 +166,40 @@ const struct binding key_bindings[] = {
     {.key = KEY_F12, .any_time = true, .run = run_request, .argument = REQUEST_SCREENSHOT},
     {.key = 'I', .run = run_insert, .argument = false},
     {.key = 'I', .mods = MOD_SHIFT, .run = run_insert, .argument = true},
-    {.key = KEY_DELETE, .run = run_delete},
-    {.key = KEY_BACKSPACE, .run = run_delete},
-    {.key = 'A', .mods = MOD_CTRL, .run = run_select_all},
+    {.key = KEY_DELETE, .core = core_delete_knots},
+    {.key = KEY_BACKSPACE, .core = core_delete_knots},
+    {.key = 'A', .mods = MOD_CTRL, .core = core_select_all},
     {.key = KEY_ESCAPE, .run = run_select_none},
     {.key = 'C', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_COPY},
     {.key = 'X', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_CUT},
     {.key = 'V', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_PASTE},
     {.key = 'D', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_DUPLICATE},
-    {.key = KEY_PAGE_UP, .repeats = true, .run = run_activate_neighbour, .argument = -1},
-    {.key = KEY_PAGE_DOWN, .repeats = true, .run = run_activate_neighbour, .argument = 1},
+    {.key = KEY_PAGE_UP, .repeats = true, .core = core_activate_neighbour, .argument = -1},
+    {.key = KEY_PAGE_DOWN, .repeats = true, .core = core_activate_neighbour, .argument = 1},
     {.key = KEY_PAGE_UP, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = -1},
     {.key = KEY_PAGE_DOWN, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = 1},
-    {.key = 'T', .run = run_toggle_slope},
-    {.key = 'T', .mods = MOD_SHIFT, .run = run_flatten},
-    {.key = 'T', .mods = MOD_CTRL, .run = run_smooth},
-    {.key = 'D', .repeats = true, .run = run_slope, .argument = -1},
-    {.key = 'E', .repeats = true, .run = run_slope, .argument = 1},
-    {.key = 'D', .mods = MOD_SHIFT, .repeats = true, .run = run_stiffness, .argument = -1},
-    {.key = 'E', .mods = MOD_SHIFT, .repeats = true, .run = run_stiffness, .argument = 1},
-    {.key = 'M', .run = run_mode},
+    {.key = 'T', .core = slopes_set, .argument = SLOPES_TOGGLE},
+    {.key = 'T', .mods = MOD_SHIFT, .core = slopes_set, .argument = SLOPES_FLAT},
+    {.key = 'T', .mods = MOD_CTRL, .core = slopes_set, .argument = SLOPES_SMOOTH},
+    {.key = 'D', .repeats = true, .core = slopes_turn, .argument = -1},
+    {.key = 'E', .repeats = true, .core = slopes_turn, .argument = 1},
+    {.key = 'D', .mods = MOD_SHIFT, .repeats = true, .core = slopes_stiffen, .argument = -1},
+    {.key = 'E', .mods = MOD_SHIFT, .repeats = true, .core = slopes_stiffen, .argument = 1},
+    {.key = 'M', .core = core_cycle_mode},
     {.key = KEY_F2, .run = run_rename},
     {.key = 'S', .run = run_scale},
     {.key = 'N', .run = run_normalise},
     {.key = 'U', .any_time = true, .run = run_units},
-    {.key = 'G', .any_time = true, .run = run_snap},
-    {.key = KEY_UP, .repeats = true, .run = run_held, .argument = 1},
-    {.key = KEY_DOWN, .repeats = true, .run = run_held, .argument = -1},
-    {.key = KEY_LEFT, .repeats = true, .run = run_step, .argument = -1},
-    {.key = KEY_RIGHT, .repeats = true, .run = run_step, .argument = 1},
-    {.key = KEY_LEFT, .mods = MOD_SHIFT, .run = run_end, .argument = -1},
-    {.key = KEY_RIGHT, .mods = MOD_SHIFT, .run = run_end, .argument = 1},
-    {.key = 'L', .mods = MOD_CTRL, .run = run_toggle_loop},
-    {.key = KEY_HOME, .mods = MOD_CTRL, .run = run_range_mark, .argument = 0},
-    {.key = KEY_END, .mods = MOD_CTRL, .run = run_range_mark, .argument = 1},
+    {.key = 'G', .any_time = true, .core = drag_toggle_snap},
+    {.key = KEY_UP, .repeats = true, .core = core_nudge_parameter, .argument = 1},
+    {.key = KEY_DOWN, .repeats = true, .core = core_nudge_parameter, .argument = -1},
+    {.key = KEY_LEFT, .repeats = true, .core = playback_step, .argument = -1},
+    {.key = KEY_RIGHT, .repeats = true, .core = playback_step, .argument = 1},
+    {.key = KEY_LEFT, .mods = MOD_SHIFT, .core = playback_end, .argument = -1},
+    {.key = KEY_RIGHT, .mods = MOD_SHIFT, .core = playback_end, .argument = 1},
+    {.key = 'L', .mods = MOD_CTRL, .core = playback_toggle_loop},
+    {.key = KEY_HOME, .mods = MOD_CTRL, .core = playback_mark, .argument = 0},
+    {.key = KEY_END, .mods = MOD_CTRL, .core = playback_mark, .argument = 1},
     {.key = KEY_LEFT, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_LEFT},
     {.key = KEY_RIGHT, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_RIGHT},
     {.key = KEY_UP, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_UP},
@@ -329,7 +228,7 @@ const struct binding key_bindings[] = {
     {.key = 'O', .any_time = true, .run = run_overlay, .argument = 'O'},
     {.key = 'P', .any_time = true, .run = run_overlay, .argument = 'P'},
     {.key = 'K', .run = run_brush},
-    {.run = NULL},
+    {.key = 0},
 };
 
 const struct binding character_bindings[] = {
@@ -337,12 +236,12 @@ const struct binding character_bindings[] = {
     {.key = '.', .repeats = true, .run = keyboard_neighbour, .argument = 1},
     {.key = '<', .repeats = true, .run = keyboard_extend, .argument = -1},
     {.key = '>', .repeats = true, .run = keyboard_extend, .argument = 1},
-    {.key = '[', .run = run_range_mark, .argument = 0},
-    {.key = ']', .run = run_range_mark, .argument = 1},
-    {.key = '-', .any_time = true, .run = run_change_speed, .argument = -1},
-    {.key = '=', .any_time = true, .run = run_change_speed, .argument = 1},
-    {.key = '+', .any_time = true, .run = run_change_speed, .argument = 1},
-    {.run = NULL},
+    {.key = '[', .core = playback_mark, .argument = 0},
+    {.key = ']', .core = playback_mark, .argument = 1},
+    {.key = '-', .any_time = true, .core = playback_change_speed, .argument = -1},
+    {.key = '=', .any_time = true, .core = playback_change_speed, .argument = 1},
+    {.key = '+', .any_time = true, .core = playback_change_speed, .argument = 1},
+    {.key = 0},
 };
 
 static const struct nudge_key {
@@ -388,11 +287,11 @@ static bool run(struct editor *editor, const struct editor_world *world, const s
                 unsigned mods, bool repeated)
 {
     const struct binding *binding = list;
-    while (binding->run && (binding->key != key || binding->mods != mods)) binding++;
-    if (!binding->run) return false;
+    while (binding->key && (binding->key != key || binding->mods != mods)) binding++;
     bool idle = (repeated && !binding->repeats) || (history_is_open(world->history) && !binding->any_time);
-    if (!idle) binding->run(editor, world, binding->argument);
-    return true;
+    if (!idle && binding->run) binding->run(editor, world, binding->argument);
+    if (!idle && binding->core) binding->core(&editor->core, world, binding->argument);
+    return binding->key != 0;
 }
 
 /// What a key types that somebody else has used, as one that closes the help, is no command.

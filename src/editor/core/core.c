@@ -51,24 +51,22 @@ void core_refresh(struct core *core, const struct editor_world *world)
     }
 }
 
-void core_undo(struct core *core, const struct editor_world *world)
+void core_undo(struct core *core, const struct editor_world *world, int direction)
 {
-    if (history_is_open(world->history)) return;
-    const char *label = history_undo_label(world->history);
+    struct history *history = world->history;
+    if (history_is_open(history)) return;
+    const char *label = direction < 0 ? history_undo_label(history) : history_redo_label(history);
     char text[128];
-    snprintf(text, sizeof text, label ? "Undone: %s" : "Nothing to undo", label);
-    history_undo(world->history, world->document);
-    core_refresh(core, world);
-    core_message(core, false, text);
-}
-
-void core_redo(struct core *core, const struct editor_world *world)
-{
-    if (history_is_open(world->history)) return;
-    const char *label = history_redo_label(world->history);
-    char text[128];
-    snprintf(text, sizeof text, label ? "Redone: %s" : "Nothing to redo", label);
-    history_redo(world->history, world->document);
+    if (label) {
+        snprintf(text, sizeof text, "%s: %s", direction < 0 ? "Undone" : "Redone", label);
+    } else {
+        snprintf(text, sizeof text, "Nothing to %s", direction < 0 ? "undo" : "redo");
+    }
+    if (direction < 0) {
+        history_undo(history, world->document);
+    } else {
+        history_redo(history, world->document);
+    }
     core_refresh(core, world);
     core_message(core, false, text);
 }

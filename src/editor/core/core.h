@@ -15,10 +15,8 @@ bool core_step(struct core *core, const struct editor_world *world, const char *
                const struct edit *edit);
 /// After each edit, undo and redo: see editor_refresh().
 void core_refresh(struct core *core, const struct editor_world *world);
-/// Takes the last step back; what goes with it leaves the selection.
-void core_undo(struct core *core, const struct editor_world *world);
-/// The same forwards.
-void core_redo(struct core *core, const struct editor_world *world);
+/// Undoes the last step (direction -1), or does the next one again (1).
+void core_undo(struct core *core, const struct editor_world *world, int direction);
 /// Undoes or does again until `done` of the history's steps are done.
 void core_jump(struct core *core, const struct editor_world *world, size_t done);
 /// Queues a request to the app; `path` may be NULL.

@@ -89,14 +89,16 @@ void core_remove_knots(struct core *core, const struct editor_world *world, cons
     selection_clear(&core->selection);
 }
 
-void core_delete_knots(struct core *core, const struct editor_world *world)
+void core_delete_knots(struct core *core, const struct editor_world *world, int unused)
 {
+    (void)unused;
     int count = selection_count(&core->selection, core_active_spline(core, world));
     core_remove_knots(core, world, count == 1 ? "Delete knot" : "Delete knots");
 }
 
-void core_select_all(struct core *core, const struct editor_world *world)
+void core_select_all(struct core *core, const struct editor_world *world, int unused)
 {
+    (void)unused;
     const struct spline *spline = core_active_spline(core, world);
     for (int k = 0; spline && k < spline->knot_count; k++) selection_set(&core->selection, spline->knots[k].id, true);
 }

@@ -13,9 +13,9 @@ void core_insert_on_curve(struct core *core, const struct editor_world *world, d
 /// Removes the selected knots as a step of that name.
 void core_remove_knots(struct core *core, const struct editor_world *world, const char *label);
 /// Removes the selected knots.
-void core_delete_knots(struct core *core, const struct editor_world *world);
+void core_delete_knots(struct core *core, const struct editor_world *world, int unused);
 /// Selects all knots of the active spline.
-void core_select_all(struct core *core, const struct editor_world *world);
+void core_select_all(struct core *core, const struct editor_world *world, int unused);
 /// Selects the selected knot's neighbour (from the playhead where not just one is selected); NULL where there is none.
 const struct knot *core_select_neighbour(struct core *core, const struct editor_world *world, int direction);
 /// The knot after the last selected one (1), or before the first one (-1), is selected besides; NULL where there is none.
@@ -23,16 +23,15 @@ const struct knot *core_extend_selection(struct core *core, const struct editor_
 /// The next spline in the list (1) or the one before (-1) becomes active, round the end.
 void core_activate_neighbour(struct core *core, const struct editor_world *world, int direction);
 
-/// Adds `share` of the visible values a second to the slopes of the selected knots.
-void slopes_turn(struct core *core, const struct editor_world *world, double share);
-/// Makes the slopes of the selected knots firmer.
-void slopes_stiffen(struct core *core, const struct editor_world *world, double factor);
-/// Switches slopes on (as the curve runs there) or off.
-void slopes_toggle(struct core *core, const struct editor_world *world);
-/// Level slopes for the selected knots.
-void slopes_flatten(struct core *core, const struct editor_world *world);
-/// Slopes towards the neighbours' as Catmull and Rom have it.
-void slopes_smooth(struct core *core, const struct editor_world *world);
+/// Turns the slopes of the selected knots up (1) or down (-1), in proportion to the values in sight.
+void slopes_turn(struct core *core, const struct editor_world *world, int direction);
+/// Makes them firmer (1) or softer (-1).
+void slopes_stiffen(struct core *core, const struct editor_world *world, int direction);
+
+enum slopes { SLOPES_TOGGLE, SLOPES_FLAT, SLOPES_SMOOTH };
+
+/// Switches them on, as the curve runs there, or off; makes them level; or aims them at the neighbours (Catmull-Rom).
+void slopes_set(struct core *core, const struct editor_world *world, int how);
 
 /// Moves the selected knots by frames and values, as one step with equal nudges before.
 void core_nudge_knots(struct core *core, const struct editor_world *world, double frames, double value);
@@ -41,10 +40,10 @@ const struct channel *core_active_channel(const struct core *core, const struct 
                                           int *channel);
 /// Where a parameter's slider ends; 0: it has none.
 double core_slider_end(const struct document *document, const struct spline *spline, enum parameter parameter);
-/// Changes the parameter that a held letter stands for, or with L the lag, by its step.
-void core_nudge_parameter(struct core *core, const struct editor_world *world, int letter, int direction);
+/// Changes the parameter whose letter is held, or with L the lag, by its step.
+void core_nudge_parameter(struct core *core, const struct editor_world *world, int direction);
 /// The next of complex, real and cubic.
-void core_cycle_mode(struct core *core, const struct editor_world *world);
+void core_cycle_mode(struct core *core, const struct editor_world *world, int unused);
 
 /// The selected knots as text for the clipboard; `cut` also deletes them. false where there is nothing to copy.
 bool core_copy_knots(struct core *core, const struct editor_world *world, bool cut);

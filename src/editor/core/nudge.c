@@ -164,17 +164,19 @@ static void nudge_one(struct core *core, const struct editor_world *world, const
     core_step(core, world, "Change parameter", core_merge_key(core, world, NUDGE_PARAMETER + edit.parameter), &edit);
 }
 
-void core_nudge_parameter(struct core *core, const struct editor_world *world, int letter, int direction)
+void core_nudge_parameter(struct core *core, const struct editor_world *world, int direction)
 {
     const struct spline *spline = core_active_spline(core, world);
-    if (letter == 'L') nudge_lag(core, world, 0.5 * direction);
-    enum parameter parameter = parameter_of_letter(letter);
+    if (core->held_key == 0) return;
+    if (core->held_key == 'L') nudge_lag(core, world, 0.5 * direction);
+    enum parameter parameter = parameter_of_letter(core->held_key);
     if (!spline || parameter == PARAMETER_COUNT) return;
     nudge_one(core, world, spline, parameter, parameter_rows[parameter].step * direction);
 }
 
-void core_cycle_mode(struct core *core, const struct editor_world *world)
+void core_cycle_mode(struct core *core, const struct editor_world *world, int unused)
 {
+    (void)unused;
     const struct spline *spline = core_active_spline(core, world);
     if (!spline) return;
     struct edit edit = core_edit_of(EDIT_PARAMETER, core->active);

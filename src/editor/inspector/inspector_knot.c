@@ -62,7 +62,7 @@ static void build_slope(struct inspection *in, const struct knot *knot)
     struct knot next = *knot;
     if (ui_hovered(ui, r)) ui->hint = "Give the knot a slope (T); D and E turn it";
     if (ui_toggle(ui, r, "has_slope", &next.has_slope)) {
-        slopes_toggle(in->core, in->world); // the knot is the only selected one
+        slopes_set(in->core, in->world, SLOPES_TOGGLE); // the knot is the only selected one
         return;
     }
     r = (struct rect){r.x + 36, r.y, r.w - 36, r.h};
@@ -104,18 +104,19 @@ static void build_slopes(struct inspection *in)
     enum { GAP = 4 };
     static const struct {
         const char *name, *label, *hint;
-        void (*run)(struct core *core, const struct editor_world *world);
+        enum slopes how;
     } buttons[] = {
-        {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", slopes_flatten},
-        {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", slopes_smooth},
-        {"slope.switch", "On, off", "Switch slopes on, along the curve, or off (T)", slopes_toggle},
+        {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", SLOPES_FLAT},
+        {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", SLOPES_SMOOTH},
+        {"slope.switch", "On, off", "Switch slopes on, along the curve, or off (T)", SLOPES_TOGGLE},
     };
     struct ui *ui = in->ui;
     struct rect r = ui_row(ui, UI_ROW);
     r.w = (r.w - 2 * GAP) / 3;
     for (size_t i = 0; i < sizeof buttons / sizeof buttons[0]; i++, r.x += r.w + GAP) {
         if (ui_hovered(ui, r)) ui->hint = buttons[i].hint;
-        if (ui_button(ui, r, buttons[i].name, buttons[i].label, false)) buttons[i].run(in->core, in->world);
+        if (ui_button(ui, r, buttons[i].name, buttons[i].label, false))
+            slopes_set(in->core, in->world, buttons[i].how);
     }
 }
 
