@@ -20,6 +20,22 @@ struct edit core_edit_of(enum edit_kind kind, int spline)
     return (struct edit){.kind = kind, .spline = spline, .param.track = -1};
 }
 
+struct edit core_parameter_edit(int spline, enum parameter parameter, double value)
+{
+    return (struct edit){
+        .kind = EDIT_PARAMETER, .spline = spline, .parameter = parameter, .param = {.value = value, .track = -1}};
+}
+
+struct edit core_knot_edit(const struct document *document, int spline, int sample)
+{
+    const struct spline *edited = &document->splines[spline];
+    int at = spline_find_knot(document, edited, sample);
+    struct edit edit = core_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, spline);
+    edit.knot = at < 0 ? (struct knot){.frame = document_frame(document, sample), .stiffness = KNOT_DEFAULT_STIFFNESS}
+                       : edited->knots[at];
+    return edit;
+}
+
 bool core_edit(struct core *core, const struct editor_world *world, const struct edit *edit)
 {
     struct error error = {0};

@@ -8,6 +8,10 @@
 void core_tell(const struct core *core, const struct editor_world *world, enum news news, int spline);
 /// An edit with everything else zero (tracks -1): fill in what the kind needs.
 struct edit core_edit_of(enum edit_kind kind, int spline);
+/// The edit that gives a parameter of a spline a value, which stops it from following another.
+struct edit core_parameter_edit(int spline, enum parameter parameter, double value);
+/// The edit for a knot on a sample: sets the one there, or inserts one. Fill in its value.
+struct edit core_knot_edit(const struct document *document, int spline, int sample);
 /// Applies one edit inside the open step; on failure the sentence goes to the status line.
 bool core_edit(struct core *core, const struct editor_world *world, const struct edit *edit);
 /// One edit as a step of its own; `merge` as in history_begin().

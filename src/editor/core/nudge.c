@@ -179,8 +179,6 @@ void core_cycle_mode(struct core *core, const struct editor_world *world, int un
     (void)unused;
     const struct spline *spline = core_active_spline(core, world);
     if (!spline) return;
-    struct edit edit = core_edit_of(EDIT_PARAMETER, core->active);
-    edit.parameter = PARAMETER_MODE;
-    edit.param = (struct param){(spline_mode(spline) + 1) % 3, -1};
+    struct edit edit = core_parameter_edit(core->active, PARAMETER_MODE, (spline_mode(spline) + 1) % 3);
     core_step(core, world, parameter_rows[PARAMETER_MODE].undo, 0, &edit);
 }

@@ -17,6 +17,8 @@ struct inspection {
 /// A number's limits where there are none.
 #define INSPECTOR_NO_LIMIT 1e300
 
+enum { INSPECTOR_MAX_SPLINES = 256 }; ///< in a list to choose from, from the top
+
 /// The sections; inspector.c has the table. Each builds what is below its header.
 void inspector_scene(struct inspection *in);
 void inspector_splines(struct inspection *in);
@@ -56,6 +58,9 @@ void inspector_change(struct inspection *in, enum ui_change change, const char *
 /// The same for edits that belong together.
 void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
                           const struct edit *edits, int count);
+
+/// The open list of splines, without those that are left out (by index; NULL: none); the one that was picked, or -1.
+int inspector_spline_list(struct inspection *in, const char *list, const bool *left_out, int chosen);
 
 /// A row with a label; returns what is right of it.
 struct rect inspector_labelled(struct inspection *in, const char *label);

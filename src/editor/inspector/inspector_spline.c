@@ -22,11 +22,9 @@ static void build_slider(struct inspection *in, const struct spline *spline, enu
         .step = row->step,
         .decimals = row->decimals,
     };
-    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
     double value = spline->parameter[parameter].value;
     enum ui_change change = ui_value(in->ui, r, &number, &value);
-    edit.parameter = parameter;
-    edit.param = (struct param){value, -1};
+    struct edit edit = core_parameter_edit(in->core->active, parameter, value);
     inspector_change(in, change, row->undo, number.name, &edit);
 }
 
@@ -53,9 +51,7 @@ static void build_choice(struct inspection *in, const struct spline *spline, enu
     struct rect r = parameter == PARAMETER_MODE ? ui_row(in->ui, UI_ROW) : inspector_labelled(in, row->name);
     if (ui_hovered(in->ui, r)) in->ui->hint = row->hint;
     if (!ui_segments(in->ui, r, row->name, choices, count, &chosen)) return;
-    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
-    edit.parameter = parameter;
-    edit.param = (struct param){chosen, -1};
+    struct edit edit = core_parameter_edit(in->core->active, parameter, chosen);
     core_step(in->core, in->world, row->undo, 0, &edit);
 }
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { ICON = 24, MAX_SPLINES = 256 };
+enum { ICON = 24 };
 
 static const char rename_line[] = "tail.rename", place_list[] = "place";
 
@@ -115,15 +115,8 @@ static void place_popup(struct inspection *in)
     const struct inspector *inspector = in->inspector;
     const struct tail *tail = document_tail(in->document, inspector->tail);
     if (!ui_popup_is_open(in->ui, place_list) || !tail) return;
-    int k = in->ui->popup.which, count = in->document->spline_count;
-    struct ui_item items[MAX_SPLINES];
-    if (count > MAX_SPLINES) count = MAX_SPLINES;
-    for (int s = 0; s < count; s++) {
-        const char *name = in->document->splines[s].name;
-        items[s] = (struct ui_item){name, name, arrange_color(in->document, s)};
-    }
-    int chosen = tail->position[k].track;
-    int picked = ui_popup_list(in->ui, place_list, items, count, chosen);
+    int k = in->ui->popup.which;
+    int picked = inspector_spline_list(in, place_list, NULL, tail->position[k].track);
     if (picked < 0) return;
     struct edit edit = tail_edit(in, EDIT_POSITION);
     edit.coordinate = k;

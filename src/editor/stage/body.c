@@ -130,15 +130,11 @@ void body_begin(struct stage *stage, const struct core *core, int tail)
 static void key_position(struct core *core, const struct editor_world *world, int track, double by)
 {
     const struct document *document = world->document;
-    const struct spline *spline = &document->splines[track];
     int sample = document_sample(document, round(core_frame(core, document)));
-    int last = document_last_knot_sample(document, spline);
+    int last = document_last_knot_sample(document, &document->splines[track]);
     sample = sample > last ? last : sample < 0 ? 0 : sample;
-    int at = spline_find_knot(document, spline, sample);
-    struct edit edit = core_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, track);
+    struct edit edit = core_knot_edit(document, track, sample);
     wiggly_value value = evaluation_at(world->evaluation, track, sample);
-    edit.knot = at < 0 ? (struct knot){.frame = document_frame(document, sample), .stiffness = KNOT_DEFAULT_STIFFNESS}
-                       : spline->knots[at];
     edit.knot.value = core_round(value.y + value.re + by, RESOLUTION);
     core_edit(core, world, &edit);
 }

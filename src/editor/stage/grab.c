@@ -129,15 +129,7 @@ static void damped_step(const double column[2][2], const double miss[2], double 
 static void set_knot(const struct stage *stage, struct core *core, const struct editor_world *world,
                      const struct grab_axis *axis)
 {
-    const struct document *document = world->document;
-    const struct spline *spline = &document->splines[axis->spline];
-    int at = spline_find_knot(document, spline, stage->grab.sample);
-    struct edit edit = core_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, axis->spline);
-    if (at < 0) {
-        edit.knot = (struct knot){.frame = document_frame(document, stage->grab.sample), .stiffness = 1000};
-    } else {
-        edit.knot = spline->knots[at];
-    }
+    struct edit edit = core_knot_edit(world->document, axis->spline, stage->grab.sample);
     edit.knot.value = axis->value;
     core_edit(core, world, &edit);
 }

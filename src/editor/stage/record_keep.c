@@ -43,20 +43,14 @@ static int add_spline(struct core *core, const struct editor_world *world, const
 
 static void set_start(struct core *core, const struct editor_world *world, int spline, enum wiggly_start start)
 {
-    struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
-    edit.parameter = PARAMETER_START;
-    edit.param = (struct param){start, -1};
+    struct edit edit = core_parameter_edit(spline, PARAMETER_START, start);
     core_edit(core, world, &edit);
 }
 
 static void put_knot(struct core *core, const struct editor_world *world, int spline, int sample, double value,
                      bool level)
 {
-    const struct document *document = world->document;
-    int at = spline_find_knot(document, &document->splines[spline], sample);
-    struct edit edit = core_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, spline);
-    if (at >= 0) edit.knot = document->splines[spline].knots[at];
-    if (at < 0) edit.knot.frame = document_frame(document, sample);
+    struct edit edit = core_knot_edit(world->document, spline, sample);
     edit.knot.value = core_round(value, RESOLUTION);
     edit.knot.has_slope = level;
     edit.knot.slope = 0;
@@ -88,9 +82,7 @@ static int base_spline(struct core *core, const struct editor_world *world, int 
              coordinate_name(coordinate));
     int spline = add_spline(core, world, name);
     if (spline < 0) return -1;
-    struct edit mode = core_edit_of(EDIT_PARAMETER, spline);
-    mode.parameter = PARAMETER_MODE;
-    mode.param = (struct param){WIGGLY_CUBIC, -1};
+    struct edit mode = core_parameter_edit(spline, PARAMETER_MODE, WIGGLY_CUBIC);
     core_edit(core, world, &mode);
     if (loop) set_start(core, world, spline, WIGGLY_LOOP);
     return spline;
