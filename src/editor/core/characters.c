@@ -67,7 +67,6 @@ struct edit characters_paint_edit(const struct core *core, const struct editor_w
     return edit;
 }
 
-/// Blank paint of the figure's shape.
 struct edit characters_blank_paint(const struct core *core, const struct editor_world *world,
                                    const struct figure *figure)
 {

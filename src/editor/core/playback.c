@@ -24,7 +24,6 @@ bool playback_is_part(const struct core *core, const struct document *document)
     return range[0] > document->first_frame || range[1] < document->last_frame;
 }
 
-/// Sets the part; one that is empty or holds everything is none.
 void playback_choose(struct core *core, const struct document *document, double first, double last)
 {
     struct playback *playback = &core->playback;

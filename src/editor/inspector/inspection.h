@@ -32,9 +32,6 @@ void inspector_history(struct inspection *in);
 /// The rows on the brush, below "Character".
 void inspector_brush(struct inspection *in);
 
-/// The fields of several selected knots, below "Knot".
-void inspector_knots(struct inspection *in);
-
 /// What opens over the panel, built after all else: the palette of the list of splines, the list of splines to follow.
 void inspector_palette(struct inspection *in);
 void inspector_track_list(struct inspection *in);
