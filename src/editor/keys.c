@@ -7,6 +7,7 @@
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
+#include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
 #include "editor/state.h"
@@ -143,6 +144,92 @@ static void run_theme(struct editor *e, const struct editor_world *w, int argume
     theme_use((theme_in_use() + 1) % THEME_COUNT);
 }
 
+/// Arguments of run_pan() and run_orbit().
+enum way { WAY_LEFT, WAY_RIGHT, WAY_UP, WAY_DOWN };
+
+static const double PAN = 0.1;  ///< of the panel's size
+static const double ZOOM = 0.8; ///< of what is seen, a step
+static const float TURN = 0.1f; ///< radians
+static const int way_sign[][2] = {
+    [WAY_LEFT] = {-1, 0}, [WAY_RIGHT] = {1, 0}, [WAY_UP] = {0, -1}, [WAY_DOWN] = {0, 1}};
+
+static void run_pan(struct editor *editor, const struct editor_world *world, int way)
+{
+    const struct rect *plot = &editor->core.layout.plot;
+    (void)world;
+    curves_pan(editor->curves, &editor->core, -PAN * way_sign[way][0] * plot->w, -PAN * way_sign[way][1] * plot->h);
+}
+
+static void run_zoom(struct editor *editor, const struct editor_world *world, int direction)
+{
+    const struct rect *plot = &editor->core.layout.plot;
+    double factor = direction > 0 ? ZOOM : 1 / ZOOM;
+    (void)world;
+    curves_zoom(editor->curves, &editor->core, plot->x + plot->w / 2, plot->y + plot->h / 2, factor, factor);
+}
+
+static void run_orbit(struct editor *editor, const struct editor_world *world, int way)
+{
+    (void)world;
+    stage_orbit(editor->stage, TURN * (float)way_sign[way][0], -TURN * (float)way_sign[way][1]);
+}
+
+static void run_approach(struct editor *editor, const struct editor_world *world, int direction)
+{
+    (void)world;
+    stage_approach(editor->stage, (float)(direction > 0 ? ZOOM : 1 / ZOOM));
+}
+
+static void run_fit_stage(struct editor *editor, const struct editor_world *world, int argument)
+{
+    (void)argument;
+    stage_fit(editor->stage, &editor->core, world);
+}
+
+static void run_remedy(struct editor *editor, const struct editor_world *world, int argument)
+{
+    (void)argument;
+    curves_remedy_first(editor->curves, &editor->core, world);
+}
+
+/// What was selected is to be seen.
+static void reveal(struct editor *editor, const struct knot *knot)
+{
+    if (knot) curves_reveal(editor->curves, &editor->core, knot->frame, knot->value);
+}
+
+static void run_neighbour(struct editor *editor, const struct editor_world *world, int direction)
+{
+    reveal(editor, core_select_neighbour(&editor->core, world, direction));
+}
+
+static void run_extend(struct editor *editor, const struct editor_world *world, int direction)
+{
+    reveal(editor, core_extend_selection(&editor->core, world, direction));
+}
+
+/// The first of the sizes that is clearly larger than the present one, round the end.
+static double next_size(const double sizes[3], double present)
+{
+    int next = 0;
+    while (next < 3 && sizes[next] <= present * 1.01) next++;
+    return sizes[next % 3];
+}
+
+static void run_panel(struct editor *editor, const struct editor_world *world, int inspector)
+{
+    static const double shares[3] = {0.35, 0.575, 0.75}, widths[3] = {280, 360, 440};
+    double share, width;
+    (void)world;
+    editor_panels(editor, &share, &width);
+    if (inspector) {
+        width = next_size(widths, width);
+    } else {
+        share = next_size(shares, share);
+    }
+    editor_set_panels(editor, share, width);
+}
+
 enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT };
 
 const struct binding key_bindings[] = {
@@ -176,8 +263,8 @@ const struct binding key_bindings[] = {
     {.key = 'D', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_DUPLICATE},
     {.key = KEY_PAGE_UP, .repeats = true, .core = core_activate_neighbour, .argument = -1},
     {.key = KEY_PAGE_DOWN, .repeats = true, .core = core_activate_neighbour, .argument = 1},
-    {.key = KEY_PAGE_UP, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = -1},
-    {.key = KEY_PAGE_DOWN, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = 1},
+    {.key = KEY_PAGE_UP, .mods = MOD_SHIFT, .repeats = true, .run = run_extend, .argument = -1},
+    {.key = KEY_PAGE_DOWN, .mods = MOD_SHIFT, .repeats = true, .run = run_extend, .argument = 1},
     {.key = 'T', .core = slopes_set, .argument = SLOPES_TOGGLE},
     {.key = 'T', .mods = MOD_SHIFT, .core = slopes_set, .argument = SLOPES_FLAT},
     {.key = 'T', .mods = MOD_CTRL, .core = slopes_set, .argument = SLOPES_SMOOTH},
@@ -200,28 +287,28 @@ const struct binding key_bindings[] = {
     {.key = 'L', .mods = MOD_CTRL, .core = playback_toggle_loop},
     {.key = KEY_HOME, .mods = MOD_CTRL, .core = playback_mark, .argument = 0},
     {.key = KEY_END, .mods = MOD_CTRL, .core = playback_mark, .argument = 1},
-    {.key = KEY_LEFT, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_LEFT},
-    {.key = KEY_RIGHT, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_RIGHT},
-    {.key = KEY_UP, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_UP},
-    {.key = KEY_DOWN, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_DOWN},
-    {.key = KEY_PAGE_UP, .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = 1},
-    {.key = KEY_PAGE_DOWN, .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = -1},
-    {.key = '=', .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = 1},
-    {.key = '+', .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = 1},
-    {.key = '-', .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = -1},
-    {.key = KEY_LEFT, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_LEFT},
-    {.key = KEY_RIGHT, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_RIGHT},
-    {.key = KEY_UP, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_UP},
-    {.key = KEY_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_DOWN},
-    {.key = KEY_PAGE_UP, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = 1},
-    {.key = KEY_PAGE_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = -1},
-    {.key = '=', .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = 1},
-    {.key = '+', .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = 1},
-    {.key = '-', .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = -1},
-    {.key = KEY_HOME, .mods = MOD_SHIFT, .run = keyboard_fit_stage},
-    {.key = 'W', .run = keyboard_remedy},
-    {.key = KEY_F6, .run = keyboard_panel, .argument = 0},
-    {.key = KEY_F6, .mods = MOD_SHIFT, .run = keyboard_panel, .argument = 1},
+    {.key = KEY_LEFT, .mods = MOD_CTRL, .repeats = true, .run = run_pan, .argument = WAY_LEFT},
+    {.key = KEY_RIGHT, .mods = MOD_CTRL, .repeats = true, .run = run_pan, .argument = WAY_RIGHT},
+    {.key = KEY_UP, .mods = MOD_CTRL, .repeats = true, .run = run_pan, .argument = WAY_UP},
+    {.key = KEY_DOWN, .mods = MOD_CTRL, .repeats = true, .run = run_pan, .argument = WAY_DOWN},
+    {.key = KEY_PAGE_UP, .mods = MOD_CTRL, .repeats = true, .run = run_zoom, .argument = 1},
+    {.key = KEY_PAGE_DOWN, .mods = MOD_CTRL, .repeats = true, .run = run_zoom, .argument = -1},
+    {.key = '=', .mods = MOD_CTRL, .repeats = true, .run = run_zoom, .argument = 1},
+    {.key = '+', .mods = MOD_CTRL, .repeats = true, .run = run_zoom, .argument = 1},
+    {.key = '-', .mods = MOD_CTRL, .repeats = true, .run = run_zoom, .argument = -1},
+    {.key = KEY_LEFT, .mods = CTRL_SHIFT, .repeats = true, .run = run_orbit, .argument = WAY_LEFT},
+    {.key = KEY_RIGHT, .mods = CTRL_SHIFT, .repeats = true, .run = run_orbit, .argument = WAY_RIGHT},
+    {.key = KEY_UP, .mods = CTRL_SHIFT, .repeats = true, .run = run_orbit, .argument = WAY_UP},
+    {.key = KEY_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = run_orbit, .argument = WAY_DOWN},
+    {.key = KEY_PAGE_UP, .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = 1},
+    {.key = KEY_PAGE_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = -1},
+    {.key = '=', .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = 1},
+    {.key = '+', .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = 1},
+    {.key = '-', .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = -1},
+    {.key = KEY_HOME, .mods = MOD_SHIFT, .run = run_fit_stage},
+    {.key = 'W', .run = run_remedy},
+    {.key = KEY_F6, .run = run_panel, .argument = 0},
+    {.key = KEY_F6, .mods = MOD_SHIFT, .run = run_panel, .argument = 1},
     {.key = KEY_HOME, .run = run_frame, .argument = 0},
     {.key = KEY_END, .run = run_frame, .argument = 1},
     {.key = 'V', .any_time = true, .run = run_look},
@@ -232,10 +319,10 @@ const struct binding key_bindings[] = {
 };
 
 const struct binding character_bindings[] = {
-    {.key = ',', .repeats = true, .run = keyboard_neighbour, .argument = -1},
-    {.key = '.', .repeats = true, .run = keyboard_neighbour, .argument = 1},
-    {.key = '<', .repeats = true, .run = keyboard_extend, .argument = -1},
-    {.key = '>', .repeats = true, .run = keyboard_extend, .argument = 1},
+    {.key = ',', .repeats = true, .run = run_neighbour, .argument = -1},
+    {.key = '.', .repeats = true, .run = run_neighbour, .argument = 1},
+    {.key = '<', .repeats = true, .run = run_extend, .argument = -1},
+    {.key = '>', .repeats = true, .run = run_extend, .argument = 1},
     {.key = '[', .core = playback_mark, .argument = 0},
     {.key = ']', .core = playback_mark, .argument = 1},
     {.key = '-', .any_time = true, .core = playback_change_speed, .argument = -1},

@@ -64,7 +64,7 @@ static float nearest_knot(const struct curves *curves, const struct core *core, 
     float best = reach;
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
-        float at = curves_x(curves, core, document_frame(document, document_sample(document, knot->frame)));
+        float at = curves_knot_x(curves, core, document, knot);
         float distance = hypotf(x - at, y - curves_y_of(curves, core, of, knot->value));
         if (distance > best) continue;
         best = distance;

@@ -156,7 +156,7 @@ static void apply_slope(const struct curves *curves, struct core *core, const st
     const struct knot *knot = &core->originals.knot[0];
     float end[2];
     curves_handle(curves, core, world->document, knot, curves->knot_drag.handle, end);
-    double x = curves_x(curves, core, document_frame(world->document, document_sample(world->document, knot->frame)));
+    double x = curves_knot_x(curves, core, world->document, knot);
     double across = end[0] + drag->moved_x - x;
     double down = end[1] + drag->moved_y - curves_y(curves, core, knot->value);
     across = curves->knot_drag.handle ? fmax(across, 2) : fmin(across, -2);

@@ -30,6 +30,12 @@ float curves_x(const struct curves *curves, const struct core *core, double fram
     return (float)bounded(x, plot->x, plot->x + plot->w);
 }
 
+float curves_knot_x(const struct curves *curves, const struct core *core, const struct document *document,
+                    const struct knot *knot)
+{
+    return curves_x(curves, core, document_frame(document, document_sample(document, knot->frame)));
+}
+
 float curves_y(const struct curves *curves, const struct core *core, double value)
 {
     const struct rect *plot = &core->layout.plot;

@@ -4,6 +4,7 @@
 #include "editor/dialogs/dialogs.h"
 #include "ui/font.h"
 #include "ui/theme.h"
+#include "ui/widgets.h"
 #include <math.h>
 
 enum {
@@ -143,7 +144,7 @@ bool help_event(struct dialogs *dialogs, const struct core *core, const struct e
 
 static void paint_line(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
 {
-    float y = roundf(r.y + (r.h + font_cap_height(font, THEME_TEXT_NORMAL)) / 2);
+    float y = ui_baseline(r, font, THEME_TEXT_NORMAL);
     drawlist_text_fit(list, r.x, y, r.w, font, THEME_TEXT_NORMAL, color, text);
 }
 

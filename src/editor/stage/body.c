@@ -1,6 +1,7 @@
 /// The body, taken hold of and moved over the ground.
 #include "editor/core/core.h"
 #include "editor/stage/hold.h"
+#include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
 #include "model/creature.h"
 #include "model/vector.h"
@@ -92,13 +93,6 @@ struct hover body_hover(const struct stage *stage, float x, float y)
     return hover;
 }
 
-static bool project(const struct stage *stage, const struct core *core, const float point[3], float xy[2])
-{
-    const struct rect *r = &core->layout.stage;
-    const float viewport[4] = {r->x, r->y, r->w, r->h};
-    return camera_project(stage->view.view, stage->view.projection, viewport, point, xy);
-}
-
 bool stage_body_point(const struct stage *stage, const struct core *core, int tail, float xy[2])
 {
     static const float candidates[][3] = {
@@ -106,7 +100,7 @@ bool stage_body_point(const struct stage *stage, const struct core *core, int ta
     for (size_t i = 0; i < sizeof candidates / sizeof candidates[0]; i++) {
         const vec3s base = vec3_from(base_of(stage, tail));
         const vec3s point = glms_vec3_muladds(vec3_from(candidates[i]), scale_of(stage, tail), base);
-        if (!project(stage, core, point.raw, xy)) continue;
+        if (!stage_project_point(stage, core->layout.stage, point.raw, xy)) continue;
         struct hover hover = stage_hover(stage, core, xy[0], xy[1]);
         if (hover.kind == HOVER_BODY && hover.tail == tail) return true;
     }
@@ -194,7 +188,7 @@ void body_show(struct stage *stage, struct core *core)
         const float world[3] = {base[0] + scale * (ring_middle[0] - RING_RADIUS * sinf(-angle)),
                                 stage->view.tails[tail].pose.ground,
                                 base[2] + scale * (ring_middle[1] - RING_RADIUS * cosf(-angle))};
-        if (!project(stage, core, world, point[i])) return;
+        if (!stage_project_point(stage, core->layout.stage, world, point[i])) return;
     }
     show_arc(core, (const float(*)[2])point, 0, RING_POINTS / 2, color);
     show_arc(core, (const float(*)[2])point, RING_POINTS / 2, RING_POINTS, theme_fade(color, 0.3f));

@@ -3,6 +3,7 @@
 #include "editor/core/characters.h"
 #include "editor/stage/brush.h"
 #include "editor/stage/overlays.h"
+#include "editor/stage/rigs.h"
 #include "model/vector.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -23,13 +24,6 @@ struct ring {
     int count;
 };
 
-static bool project(const struct stage *stage, const float point[3], float xy[2])
-{
-    const struct rect *r = &stage->view.viewport;
-    const float viewport[4] = {r->x, r->y, r->w, r->h};
-    return camera_project(stage->view.view, stage->view.projection, viewport, point, xy);
-}
-
 /// Where the distance passes `radius` on the side between two corners: the same for both triangles at it, to the last bit.
 static bool crosses(const struct brush_work *work, uint32_t one, uint32_t other, float radius, float point[3])
 {
@@ -45,7 +39,8 @@ static bool faces_eye(const struct stage *stage, const uint32_t *corner)
 {
     float xy[3][2];
     for (int c = 0; c < 3; c++) {
-        if (!project(stage, stage->painting.work.posed[corner[c]], xy[c])) return false;
+        if (!stage_project_point(stage, stage->view.viewport, stage->painting.work.posed[corner[c]], xy[c]))
+            return false;
     }
     return (xy[1][0] - xy[0][0]) * (xy[2][1] - xy[0][1]) < (xy[1][1] - xy[0][1]) * (xy[2][0] - xy[0][0]);
 }
@@ -59,7 +54,8 @@ static void add_piece(struct stage *stage, const uint32_t *corner, float radius,
         count += crosses(&stage->painting.work, corner[c], corner[(c + 1) % 3], radius, ends[count]);
     if (count != 2 || !faces_eye(stage, corner)) return;
     float(*piece)[2] = ring->xy[ring->count];
-    ring->count += project(stage, ends[0], piece[0]) && project(stage, ends[1], piece[1]);
+    ring->count += stage_project_point(stage, stage->view.viewport, ends[0], piece[0]) &&
+                   stage_project_point(stage, stage->view.viewport, ends[1], piece[1]);
 }
 
 static bool is_same(const float a[2], const float b[2]) { return a[0] == b[0] && a[1] == b[1]; }

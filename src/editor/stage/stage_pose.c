@@ -17,16 +17,20 @@ struct posing stage_posing(const struct core *core, const struct editor_world *w
     return (struct posing){world->document, world->evaluation, world->cast, core->look};
 }
 
+bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2])
+{
+    const float viewport[4] = {r.x, r.y, r.w, r.h};
+    return camera_project(stage->view.view, stage->view.projection, viewport, point, xy);
+}
+
 bool stage_project_pose(const struct stage *stage, const struct core *core, const struct pose *pose, int joint,
                         double fraction, float xy[2])
 {
-    const struct rect *r = &core->layout.stage;
-    const float viewport[4] = {r->x, r->y, r->w, r->h};
     assert(joint >= 0 && joint < pose->count);
     int next = joint + 1 < pose->count ? joint + 1 : joint;
     const vec3s from = vec3_from(pose->matrix[joint] + 12), to = vec3_from(pose->matrix[next] + 12);
     const vec3s world = glms_vec3_lerp(from, to, (float)fraction);
-    return camera_project(stage->view.view, stage->view.projection, viewport, world.raw, xy);
+    return stage_project_point(stage, core->layout.stage, world.raw, xy);
 }
 
 bool stage_project(const struct stage *stage, const struct core *core, int tail, int joint, double fraction,

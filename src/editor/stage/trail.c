@@ -48,13 +48,6 @@ static const float *tip_at(struct stage *stage, const struct core *core, const s
     return point->tip;
 }
 
-static bool project(const struct stage *stage, const struct core *core, const float tip[3], float xy[2])
-{
-    const struct rect *r = &core->layout.stage;
-    const float viewport[4] = {r->x, r->y, r->w, r->h};
-    return camera_project(stage->view.view, stage->view.projection, viewport, tip, xy);
-}
-
 /// Catmull-Rom through four neighbours, on the screen.
 static void between(const float a[2], const float b[2], const float c[2], const float d[2], float u, float out[2])
 {
@@ -127,7 +120,8 @@ void trail_show(struct stage *stage, struct core *core, const struct editor_worl
     float screen[TRAIL_FRAMES][2], points[PIECES * TRAIL_FRAMES][2];
     int count = 0;
     for (int frame = first; frame <= last; frame++) {
-        if (!project(stage, core, tip_at(stage, core, world, tail, frame), screen[count++])) return;
+        if (!stage_project_point(stage, core->layout.stage, tip_at(stage, core, world, tail, frame), screen[count++]))
+            return;
     }
     if (count == 0) return;
     show_line(core, points, first, lay_out(screen, count, points), now, reach);

@@ -4,6 +4,7 @@
 #include "editor/transport/transport.h"
 #include "ui/font.h"
 #include "ui/theme.h"
+#include "ui/widgets.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -67,7 +68,7 @@ static void paint_word(struct core *core, struct rect r, enum font font, const c
     float size = font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
     uint32_t color = on ? theme()->accent : hot ? theme()->text : theme()->text_dim;
     float x = roundf(r.x + (r.w - font_width(font, size, text)) / 2);
-    float y = roundf(r.y + (r.h + font_cap_height(font, size)) / 2);
+    float y = ui_baseline(r, font, size);
     drawlist_text(&core->list, x, y, font, size, color, text);
 }
 

@@ -4,6 +4,7 @@
 #include "editor/transport/transport.h"
 #include "ui/font.h"
 #include "ui/theme.h"
+#include "ui/widgets.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -61,7 +62,7 @@ static const char *hover_hint(const struct core *core, const struct document *do
 static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
 {
     float size = font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
-    float y = roundf(r.y + (r.h + font_cap_height(font, size)) / 2);
+    float y = ui_baseline(r, font, size);
     drawlist_text_fit(list, r.x, y, r.w, font, size, color, text);
 }
 
