@@ -19,7 +19,7 @@
 
 enum { MAX_COMMANDS = 16384, MAX_POINTS = 1 << 18, MAX_TEXT = 1 << 16 };
 
-/// Panels hear of what happens in core.
+/// Passes core's news on to the panels.
 static void hear(void *who, const struct editor_world *world, enum news news, int spline)
 {
     struct editor *editor = who;
@@ -109,7 +109,7 @@ void editor_set_panels(struct editor *editor, double stage_share, double inspect
     core_layout(&editor->core);
 }
 
-/// The spline to begin with: the first that moves something, else the first; -1 where there is none.
+/// The spline that is active first: the first that moves something, else the first; -1 if there is none.
 static int first_spline(const struct document *document)
 {
     for (int kind = 0; kind < RIG_KINDS; kind++) {

@@ -63,7 +63,7 @@ static void press(struct editor *editor, const struct editor_world *world, const
     }
 }
 
-/// What asks for another document, or for the end, ends what the inspector is in the middle of.
+/// Ends what the inspector is in the middle of, before the document changes or the app quits.
 void editor_leave(struct editor *editor, const struct editor_world *world, const struct request *request)
 {
     inspector_let_go(editor->inspector, world);
@@ -105,7 +105,7 @@ static void dispatch(struct editor *editor, const struct editor_world *world, co
     }
 }
 
-/// Pointer and modifiers, and errors that were read.
+/// Remembers pointer and modifiers; a press dismisses an error.
 static void note(struct editor *editor, const struct event *event)
 {
     bool has_pointer = event->kind == EVENT_POINTER || event->kind == EVENT_BUTTON || event->kind == EVENT_WHEEL;
@@ -127,7 +127,7 @@ void editor_let_go(struct editor *editor, const struct editor_world *world)
     inspector_let_go(editor->inspector, world);
 }
 
-/// An edit that core wants to be asked about first.
+/// Asks about an edit that core wants confirmed.
 static void ask(struct editor *editor, const struct editor_world *world)
 {
     if (editor->core.ask.kind == ASK_NOTHING) return;
@@ -136,7 +136,7 @@ static void ask(struct editor *editor, const struct editor_world *world)
     inspector_let_go(editor->inspector, world);
 }
 
-/// What opened over the panels ends whatever the pointer and the keys were in the middle of.
+/// When something opens over the panels, ends any drag and lets go of held keys.
 static void let_go(struct editor *editor, const struct editor_world *world)
 {
     if (!dialogs_cover(editor->dialogs)) return;
@@ -145,8 +145,8 @@ static void let_go(struct editor *editor, const struct editor_world *world)
     editor->core.space_down = false;
 }
 
-/// Who is asked first: what lies over the panels, then a running drag, then the inspector. A field that is typed in takes all keys
-/// but Ctrl chords and F keys, a focused slider the arrows, Enter and digits, an open dialog all.
+/// Events go to what lies over the panels first, then to a running drag, then to the inspector. A field that is typed in takes
+/// all keys but Ctrl chords and F keys, a focused slider the arrows, Enter and digits, an open dialog all.
 void editor_event(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     note(editor, event);
@@ -188,7 +188,7 @@ void editor_pose(struct editor *editor, const struct editor_world *world)
     stage_pose(editor->stage, &editor->core, world, dialogs_cover(editor->dialogs));
 }
 
-/// What the pointer is over now: things move under it.
+/// Finds what the pointer is over now, because things move under it.
 static void update_hover(struct editor *editor, const struct editor_world *world)
 {
     if (editor->core.drag.kind != DRAG_NONE) return;
@@ -202,7 +202,7 @@ static void update_hover(struct editor *editor, const struct editor_world *world
     if (rect_contains(editor->core.layout.status, x, y)) editor->core.hover = transport_hover(&editor->core, x, y);
 }
 
-/// A short thick piece in the middle of a divider: the line alone does not look as if it could be dragged.
+/// The grip in the middle of a divider shows that it can be dragged.
 static void show_grip(struct editor *editor, enum drag_kind divider, float x, float y)
 {
     enum { LENGTH = 36, THICKNESS = 3 };

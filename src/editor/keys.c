@@ -48,7 +48,7 @@ static void run_insert(struct editor *e, const struct editor_world *w, int argum
     core_insert_on_curve(&e->core, w, core_frame(&e->core, w->document), true, argument);
 }
 
-/// Puts the brush away; without one nothing is selected any more.
+/// Puts the brush away; without one, clears the selection.
 static void run_select_none(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
@@ -355,7 +355,7 @@ static bool nudge_event(struct editor *editor, const struct editor_world *world,
     return false;
 }
 
-/// Space plays when it is released, unless it served to pan meanwhile.
+/// Space plays on release, unless it was used to pan.
 static void space_event(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     if (event->action == ACTION_PRESS) {
@@ -369,7 +369,7 @@ static void space_event(struct editor *editor, const struct editor_world *world,
 
 static bool is_held_letter(int key) { return key == 'L' || parameter_of_letter(key) != PARAMETER_COUNT; }
 
-/// Does what is bound, unless the key is kept down or a drag is on and it is not for that; true where anything is bound.
+/// Runs what is bound, unless it excludes key repeats or running drags; true if anything is bound.
 static bool run(struct editor *editor, const struct editor_world *world, const struct binding *list, int key,
                 unsigned mods, bool repeated)
 {
@@ -381,7 +381,7 @@ static bool run(struct editor *editor, const struct editor_world *world, const s
     return binding->key != 0;
 }
 
-/// What a key types that somebody else has used, as one that closes the help, is no command.
+/// The character of a key that was used elsewhere, say to close the help, is no command.
 static bool text_event(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     const struct press *press = &editor->press;

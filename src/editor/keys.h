@@ -20,8 +20,8 @@ struct binding {
 
 /// Up to one that does nothing. Letters are what is printed on a key, digits a place.
 extern const struct binding key_bindings[];
-/// Punctuation, by what is typed: every layout has it on other keys, and some need Shift for it. What AZERTY, QWERTZ or
-/// Nordic layouts cannot type without AltGr has a key as well.
+/// Punctuation, by the character typed: every layout has it on other keys. What AZERTY, QWERTZ or Nordic layouts type only with
+/// AltGr has a key as well.
 extern const struct binding character_bindings[];
 
 /// Keys and characters; true where the event is used up.

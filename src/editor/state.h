@@ -4,9 +4,9 @@
 
 #include "editor/core/state.h"
 
-/// The last key that went down in this frame, whose character follows it.
+/// The last key pressed in this frame; its character comes next.
 struct press {
-    bool used;     ///< by a dialog, a drag, a field …
+    bool used;     ///< a dialog, a drag or a field has used it
     bool repeated; ///< it is kept down
 };
 

@@ -1,4 +1,4 @@
-/// Names for places on the screen that survive a new layout, for replays: "knot(sway,2)", "tail(tail,0.9)".
+/// Names for places on the screen, for replays; they survive a new layout: "knot(sway,2)", "tail(tail,0.9)".
 #include "editor/curves/curves.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"

@@ -21,7 +21,7 @@ bool core_step(struct core *core, const struct editor_world *world, const char *
 void core_refresh(struct core *core, const struct editor_world *world);
 /// Undoes the last step (direction -1), or does the next one again (1).
 void core_undo(struct core *core, const struct editor_world *world, int direction);
-/// Undoes or does again until `done` of the history's steps are done.
+/// Undoes or redoes until `done` of the history's steps are done.
 void core_jump(struct core *core, const struct editor_world *world, size_t done);
 /// Queues a request to the app; `path` may be NULL.
 void core_request(struct core *core, enum request_kind kind, const char *path);
@@ -39,8 +39,8 @@ void core_set_look(struct core *core, enum look look);
 double core_frame(const struct core *core, const struct document *document);
 /// Position in samples (fractional) of a frame.
 double core_position(const struct document *document, double frame);
-/// A value with no more decimals than somebody who moves a mouse can mean: a multiple of the power of ten at or below
-/// `resolution` (> 0), so that files keep short numbers.
+/// Rounds to a multiple of the power of ten at or below `resolution` (> 0): no more decimals than a mouse can mean, so that
+/// files keep short numbers.
 double core_round(double value, double resolution);
 /// Takes the selected knots of the active spline into `originals`.
 void core_collect(struct core *core, const struct spline *spline);

@@ -4,7 +4,7 @@
 
 #include "editor/core/state.h"
 
-/// A number for history_begin(): the same for the same kind of nudge of the same knots.
+/// The merge key for history_begin(): equal for equal kinds of nudges of the same knots, so that these are one undo step.
 uint64_t core_merge_key(const struct core *core, const struct editor_world *world, uint64_t kind);
 /// A knot on a frame (whole frames when `snap`), selected; where there is one already, that one is selected.
 void core_insert_knot(struct core *core, const struct editor_world *world, double frame, double value, bool snap);
@@ -18,9 +18,9 @@ void core_delete_knots(struct core *core, const struct editor_world *world, int 
 void core_select_all(struct core *core, const struct editor_world *world, int unused);
 /// Selects the selected knot's neighbour (from the playhead where not just one is selected); NULL where there is none.
 const struct knot *core_select_neighbour(struct core *core, const struct editor_world *world, int direction);
-/// The knot after the last selected one (1), or before the first one (-1), is selected besides; NULL where there is none.
+/// Also selects the knot after the last selected one (1) or before the first one (-1); NULL if there is none.
 const struct knot *core_extend_selection(struct core *core, const struct editor_world *world, int direction);
-/// The next spline in the list (1) or the one before (-1) becomes active, round the end.
+/// Activates the next spline in the list (1) or the previous one (-1), wrapping round.
 void core_activate_neighbour(struct core *core, const struct editor_world *world, int direction);
 
 /// Turns the slopes of the selected knots up (1) or down (-1), in proportion to the values in sight.
@@ -33,7 +33,7 @@ enum slopes { SLOPES_TOGGLE, SLOPES_FLAT, SLOPES_SMOOTH };
 /// Switches them on, as the curve runs there, or off; makes them level; or aims them at the neighbours (Catmull-Rom).
 void slopes_set(struct core *core, const struct editor_world *world, int how);
 
-/// Moves the selected knots by frames and values, as one step with equal nudges before.
+/// Moves the selected knots by frames and values; repeated nudges are one undo step.
 void core_nudge_knots(struct core *core, const struct editor_world *world, double frames, double value);
 /// The channel that the active spline moves, the first of all where it moves none; NULL where there is none at all.
 const struct channel *core_active_channel(const struct core *core, const struct document *document, int *tail,
@@ -50,7 +50,7 @@ bool core_copy_knots(struct core *core, const struct editor_world *world, bool c
 /// Knots from text: the first one at the playhead, the others as far behind it as they are in the text; selected. All or, where
 /// one would not fit, none.
 void core_paste_knots(struct core *core, const struct editor_world *world, const char *text);
-/// Copies of the selected knots behind them, selected.
+/// Inserts copies of the selected knots after them, and selects the copies.
 void core_duplicate_knots(struct core *core, const struct editor_world *world);
 
 #endif

@@ -6,9 +6,9 @@
 
 /// Plays or pauses.
 void playback_toggle(struct core *core, const struct editor_world *world);
-/// Time passes: `dt` seconds of the real clock. Scene frames that no picture showed because one came late are counted.
+/// Advances by `dt` seconds of the real clock. Counts the scene frames that a late picture skipped.
 void playback_advance(struct core *core, const struct editor_world *world, double dt);
-/// Stops and shows a frame.
+/// Stops at a frame.
 void playback_seek(struct core *core, const struct document *document, double frame);
 /// Stops and goes to the next whole frame in a direction.
 void playback_step(struct core *core, const struct editor_world *world, int direction);
@@ -23,11 +23,11 @@ void playback_toggle_loop(struct core *core, const struct editor_world *world, i
 void playback_range(const struct core *core, const struct document *document, double range[2]);
 /// Whether less than the whole scene is played.
 bool playback_is_part(const struct core *core, const struct document *document);
-/// Sets the part; one that is empty or holds everything is none.
+/// Sets the part; an empty one, or one that holds everything, is none.
 void playback_choose(struct core *core, const struct document *document, double first, double last);
 /// Says which part is played.
 void playback_say_range(struct core *core, const struct document *document);
-/// The part begins (end 0) or ends (1) at the playhead's frame.
+/// Sets the part's beginning (0) or end (1) to the playhead's frame.
 void playback_mark(struct core *core, const struct editor_world *world, int end);
 
 #endif

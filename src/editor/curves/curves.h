@@ -10,7 +10,7 @@ struct curves;
 struct curves *curves_create(void);
 /// NULL is fine.
 void curves_destroy(struct curves *curves);
-/// Remembers the active curve as it is now, to be shown behind a drag.
+/// Keeps a copy of the active curve to show behind a drag.
 void curves_capture_ghost(struct curves *curves, const struct core *core, const struct editor_world *world);
 /// The ruler counts frames or seconds.
 void curves_toggle_units(struct curves *curves, struct core *core);
@@ -26,7 +26,7 @@ void curves_wheel(struct curves *curves, struct core *core, const struct event *
 void curves_open(struct curves *curves);
 /// Room for as many selected knots as core has; allocates only where knots were added. false where memory is short.
 bool curves_reserve(struct curves *curves, const struct core *core);
-/// Splines have other indices: the polylines name them by these.
+/// Splines have new indices: drops the polylines, which use them.
 void curves_forget(struct curves *curves);
 /// Whether a search for warnings goes on.
 bool curves_wants_frames(const struct curves *curves);
@@ -49,9 +49,9 @@ enum drag_answer curves_drag_event(struct curves *curves, struct core *core, con
 void curves_drag_end(struct curves *curves, struct core *core, const struct editor_world *world, bool keep);
 /// Switches normalisation.
 void curves_toggle_normal(struct curves *curves, struct core *core, const struct editor_world *world);
-/// Another spline becomes the active one, without a change of the picture.
+/// Another spline becomes active: keeps the picture as it is.
 void curves_activate(struct curves *curves, struct core *core, int spline);
-/// Does away with the first warning.
+/// Fixes the first warning.
 void curves_remedy_first(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Starts to scale the selected knots with the pointer, about the middle of the selection (P: about the
 /// equilibrium at the playhead).
@@ -64,7 +64,7 @@ float curves_y(const struct curves *curves, const struct core *core, double valu
 void curves_frame_all(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Shows the selected knots with room around them (everything where none is selected).
 void curves_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world);
-/// Pans so that a frame and value can be seen, and no further.
+/// Pans just far enough to show a frame and value.
 void curves_reveal(struct curves *curves, struct core *core, double frame, double value);
 /// Moves the view with the pointer, by logical pixels.
 void curves_pan(struct curves *curves, struct core *core, double dx, double dy);

@@ -147,7 +147,7 @@ static void show_tick(const struct curves *curves, struct core *core, const stru
     drawlist_line(&core->list, &ends[0][0], 2, 1.5f, theme_fade(color, 0.7f));
 }
 
-/// Which of the knots first … end − 1, all in one pixel column, stands for them: the hovered one, else a selected one.
+/// The knot to draw of first … end − 1, all in one pixel column: the hovered one, else a selected one.
 static int column_knot(const struct core *core, const struct spline *spline, int first, int end)
 {
     int best = first;
@@ -159,7 +159,7 @@ static int column_knot(const struct core *core, const struct spline *spline, int
     return best;
 }
 
-/// A stroke over the values of the knots in one pixel column, so that those that are not drawn are not missed.
+/// A stroke over the values of all knots in one pixel column, for those that are not drawn.
 static void show_column(const struct curves *curves, struct core *core, const struct spline *spline, int first,
                         int end, float x, uint32_t color)
 {
@@ -303,7 +303,7 @@ struct rect playhead_tag(const struct curves *curves, const struct core *core, c
     return (struct rect){left, ruler->y + 3, width, 16};
 }
 
-/// The line at the time shown and its frame number; on its own, so that playing redraws nothing else.
+/// The line at the playhead and its frame number; drawn alone, so that playing redraws nothing else.
 static void show_playhead(const struct curves *curves, struct core *core, const struct document *document)
 {
     const struct rect *plot = &core->layout.plot;

@@ -12,7 +12,7 @@ void drag_begin_knots(struct curves *curves, struct core *core, const struct edi
 void drag_begin_slope(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
                       int handle, const struct event *event);
 
-/// Makes the edits for where the pointer is now.
+/// Makes the edits for the pointer's present place.
 void scale_apply(struct curves *curves, struct core *core, const struct editor_world *world);
 /// The pivot, and the line from it to the pointer.
 void scale_show(const struct curves *curves, struct core *core);

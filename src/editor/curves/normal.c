@@ -1,4 +1,4 @@
-/// Curves of unlike sizes in one panel: the others are scaled to the height of the active one.
+/// Normalises curves of different sizes: the others are scaled to the height of the active one.
 ///
 /// Let a … b be the values that the active curve takes and c … d those of another: the other's value v is drawn where the
 /// active one's a + (v − c)·(b − a)/(d − c) is.

@@ -1,5 +1,4 @@
-/// One click against a warning. What could help against a swing is tried on the solved document, and the first that does is
-/// kept.
+/// Fixes warnings. Against a swing, each remedy is tried on the solved document, and the first that helps is kept.
 #include "editor/core/core.h"
 #include "editor/curves/curves.h"
 #include "editor/curves/view.h"

@@ -193,7 +193,7 @@ static bool type(struct scaling *scaling, uint32_t c)
     return true;
 }
 
-/// Takes the last character back.
+/// Deletes the last character.
 static void erase(struct scaling *scaling)
 {
     size_t length = strlen(scaling->typed);

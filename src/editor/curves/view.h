@@ -17,9 +17,9 @@ void view_rescale(struct curves *curves, struct core *core, double scale, double
 
 /// Where a spline's values are drawn.
 struct value_map normal_map(const struct curves *curves, const struct core *core, int spline);
-/// Height of a value of any spline that is drawn: the others are scaled where curves are normalised.
+/// Height of a value of any spline in logical pixels; normalised curves are scaled.
 float curves_y_of(const struct curves *curves, const struct core *core, int spline, double value);
-/// Measures the curves that are to be normalised; while a drag runs nothing is, so that what is not touched stays.
+/// Measures the curves to normalise, but not during a drag, so that other curves keep still.
 void normal_update(struct curves *curves, const struct core *core, const struct editor_world *world);
 
 /// Rebuilds the polylines where document, view or layout changed since; allocates nothing.

@@ -17,7 +17,7 @@ void warnings_show(const struct curves *curves, struct core *core);
 /// Words under the pointer; after everything else, so that nothing lies over them.
 void warnings_show_words(const struct curves *curves, struct core *core);
 
-/// Does away with a warning, as one undo step; of several remedies the first that helps when it is tried.
+/// Fixes a warning, as one undo step: tries the remedies in turn and keeps the first that helps.
 void warning_remedy(const struct curves *curves, struct core *core, const struct editor_world *world,
                     const struct warning *warning);
 

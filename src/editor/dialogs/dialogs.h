@@ -36,9 +36,9 @@ bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct edit
                    const struct event *event, bool busy);
 /// Whether something lies over the panels.
 bool dialogs_cover(const struct dialogs *dialogs);
-/// The same, and what the pointer is over in it.
+/// The same, and what the pointer is over there.
 bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over);
-/// Down to where the stage is free at its left.
+/// How far down the left side of the stage is free.
 float dialogs_bottom(const struct dialogs *dialogs, const struct core *core);
 /// Shows the card for new users.
 void dialogs_welcome(struct dialogs *dialogs);

@@ -32,7 +32,7 @@ void inspector_history(struct inspection *in);
 /// The rows on the brush, below "Character".
 void inspector_brush(struct inspection *in);
 
-/// What opens over the panel, built after all else: the palette of the list of splines, the list of splines to follow.
+/// The lists that open over the panel, built after all else: the splines' palette, and the splines that a parameter may follow.
 void inspector_palette(struct inspection *in);
 void inspector_track_list(struct inspection *in);
 /// The list of splines that may bend a tail, and the one that its body may follow.

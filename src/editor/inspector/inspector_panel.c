@@ -140,7 +140,7 @@ static bool concerns(const struct inspector *inspector, const struct core *core,
     }
 }
 
-/// What passes the inspector by still ends hovering and, for a press, the keyboard focus.
+/// An event elsewhere still ends hovering; a press also ends the keyboard focus.
 static void event_elsewhere(struct ui *ui, const struct event *event)
 {
     if (event->kind == EVENT_SIZE) ui->popup.id = 0; // what it hangs on is elsewhere now

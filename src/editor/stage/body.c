@@ -1,4 +1,4 @@
-/// The body, taken hold of and moved over the ground.
+/// Dragging the body over the ground: where the pointer takes it, and what the document makes of that.
 #include "editor/core/core.h"
 #include "editor/stage/hold.h"
 #include "editor/stage/rigs.h"

@@ -1,4 +1,4 @@
-/// The brush: switches it on and off, and follows strokes.
+/// The brush: strokes as an airbrush makes them. A stroke adds flow × time to every vertex under it.
 #include "editor/stage/brush.h"
 #include "base/hash.h"
 #include "editor/core/characters.h"
