@@ -52,7 +52,7 @@ void inspector_change_all(struct inspection *in, enum ui_change change, const ch
 int inspector_spline_list(struct inspection *in, const char *list, const bool *left_out, int chosen)
 {
     struct ui_item items[INSPECTOR_MAX_SPLINES];
-    int splines[INSPECTOR_MAX_SPLINES], count = 0, row = -1;
+    int splines[INSPECTOR_MAX_SPLINES] = {0}, count = 0, row = -1;
     for (int s = 0; s < in->document->spline_count && s < INSPECTOR_MAX_SPLINES; s++) {
         if (left_out && left_out[s]) continue;
         const char *name = in->document->splines[s].name;
