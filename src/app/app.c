@@ -145,7 +145,7 @@ static bool start(struct app *app, struct error *error)
     float scale;
     platform_size(app->platform, &width, &height, &scale);
     if (!(app->draw = draw_create(scale, error)) || !(app->table.editor = editor_create(error))) return false;
-    if (!(app->table.history = history_create()) || !(app->table.cast = cast_create()))
+    if (!(app->table.history = history_create()) || !(app->table.models = models_create()))
         return fail(error, ERROR_ENVIRONMENT, "out of memory");
     app_connect_files(app);
     app_resize(app, (float)width / scale, (float)height / scale, scale);

@@ -128,10 +128,10 @@ static void on_advanced(void *user)
 static void check_sizes(struct app *app)
 {
     struct error error, full;
-    app->sized_serial = app->table.cast_serial;
+    app->sized_serial = app->table.models_serial;
     int r = document_next_rig(app->table.document, RIG_CHARACTER, 0);
     for (int c = 0; app->draw && r >= 0; c++, r = document_next_rig(app->table.document, RIG_CHARACTER, r + 1)) {
-        const struct figure *figure = cast_figure(app->table.cast, c);
+        const struct figure *figure = models_figure(app->table.models, c);
         if (!figure || draw_can_move(figure, &error)) continue;
         const struct rig *rig = &app->table.document->rigs[r];
         fail(&full, error.kind, "%s: %s", rig->name ? rig->name : rig->character.model, error.text);
@@ -143,7 +143,7 @@ static void on_posed(void *user)
 {
     struct app *app = user;
     struct editor *editor = app->table.editor;
-    if (app->sized_serial != app->table.cast_serial) check_sizes(app);
+    if (app->sized_serial != app->table.models_serial) check_sizes(app);
     float scale = resolution_choose(&app->resolution, editor_stage(editor)->hash, resolution_now(app));
     editor_set_stage_scale(editor, scale);
 }

@@ -10,10 +10,10 @@ struct table {
     struct editor *editor;
     struct document *document;
     struct history *history;
-    struct cast *cast; ///< NULL: the characters have no models
+    struct models *models; ///< NULL: the characters have no models
     struct evaluation evaluation;
     bool threaded;            ///< what takes longer than a frame is solved in the background
-    unsigned cast_serial;     ///< of the document whose models were read last
+    unsigned models_serial;   ///< of the document whose models were read last
     uint64_t solved_revision; ///< 0: nothing is solved
     bool solved_cubic;
     bool *dirty; ///< one a spline
@@ -28,7 +28,7 @@ struct table_hooks {
 
 static inline struct editor_world table_world(const struct table *table)
 {
-    return (struct editor_world){table->document, table->history, &table->evaluation, table->cast};
+    return (struct editor_world){table->document, table->history, &table->evaluation, table->models};
 }
 
 /// One frame, after its events: `dt` seconds of playback, the hooks' work, and what is to be drawn. Enters times and counts in the

@@ -1,7 +1,7 @@
 /// wiggly check: prints every problem of a scene, its solution and its models.
 #include "commands/commands.h"
 #include "commands/options.h"
-#include "rig/cast.h"
+#include "rig/models.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
 #include <stdio.h>
@@ -57,10 +57,10 @@ static bool check_solution(const char *path, const struct document *document, st
 static bool check_models(const char *path, struct document *document, struct problems *problems)
 {
     struct error error = {0};
-    struct cast *cast = cast_create();
+    struct models *models = models_create();
     bool good = scene_read_paint(document, &error);
-    if (good) good = cast ? cast_update(cast, document, &error) : fail_no_memory(&error, "characters");
-    cast_destroy(cast);
+    if (good) good = models ? models_update(models, document, &error) : fail_no_memory(&error, "characters");
+    models_destroy(models);
     if (good) return true;
     struct error problem;
     fail(&problem, error.kind, "%s: %s", path, error.text);

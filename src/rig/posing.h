@@ -4,15 +4,15 @@
 
 #include "model/morph.h"
 #include "model/pose.h"
-#include "rig/cast.h"
 #include "rig/look.h"
+#include "rig/models.h"
 #include "scene/evaluate.h"
 
 /// What rigs are posed from.
 struct posing {
     const struct document *document;
     const struct evaluation *evaluation; ///< NULL: all splines are 0
-    const struct cast *cast;             ///< the characters' models; NULL: none
+    const struct models *models;         ///< the characters' models; NULL: none
     enum look look;
 };
 

@@ -7,7 +7,7 @@
 
 struct posing stage_posing(const struct core *core, const struct editor_world *world)
 {
-    return (struct posing){world->document, world->evaluation, world->cast, core->look};
+    return (struct posing){world->document, world->evaluation, world->models, core->look};
 }
 
 bool stage_project_pose(const struct stage *stage, const struct core *core, const struct pose *pose, int joint,
