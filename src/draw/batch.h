@@ -9,7 +9,7 @@
 
 /// Position in device pixels from the top left; texel in the glyph atlas; colour as bytes R, G, B, A. Coverage is
 /// clamp(reach − |across|) · clamp(along) · texel.
-struct vertex {
+struct batch_vertex {
     float x, y;
     float u, v;
     unsigned char color[4];
@@ -29,7 +29,7 @@ struct batch_part {
 struct batch {
     GLuint program, array, vertex_buffer, index_buffer;
     GLint framebuffer_uniform, atlas_size_uniform;
-    struct vertex *vertices;
+    struct batch_vertex *vertices;
     uint32_t *indices;
     struct batch_part *parts;
     int vertex_count, index_count, part_count;
@@ -57,7 +57,7 @@ void batch_fill(struct batch *batch, struct area area, uint32_t color);
 /// Makes room for that many more (drawing what is there if need be) and returns the index of the next vertex.
 uint32_t batch_reserve(struct batch *batch, int vertices, int indices);
 
-static inline void batch_vertex(struct batch *batch, struct vertex vertex)
+static inline void batch_add(struct batch *batch, struct batch_vertex vertex)
 {
     batch->vertices[batch->vertex_count++] = vertex;
 }

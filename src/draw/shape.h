@@ -5,7 +5,7 @@
 #include "draw/batch.h"
 
 /// A vertex of something that is no line: fully covered, white texel.
-struct vertex shape_vertex(float x, float y, uint32_t color);
+struct batch_vertex shape_vertex(float x, float y, uint32_t color);
 
 /// The rectangle from (x0, y0) to (x1, y1), device pixels, cut off at `clip`. A pixel that it covers in part gets exactly
 /// that part of the colour.

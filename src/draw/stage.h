@@ -1,4 +1,4 @@
-/// The stage's own renderer: background, ground, contact shadow, body and skinned tail. Part of draw/; used by draw.c
+/// The stage's own renderer: background, ground, contact shadow, torso and skinned tail. Part of draw/; used by draw.c
 /// alone.
 #ifndef DRAW_STAGE_H
 #define DRAW_STAGE_H

@@ -76,11 +76,11 @@ static struct joint joint_at(struct line_point p, struct segment before, struct 
 
 static void add_vertex(const struct stroke *stroke, vec2s at, float across, float along)
 {
-    struct vertex vertex = shape_vertex(at.x, at.y, stroke->color);
+    struct batch_vertex vertex = shape_vertex(at.x, at.y, stroke->color);
     vertex.across = across;
     vertex.reach = stroke->reach;
     vertex.along = along;
-    batch_vertex(stroke->batch, vertex);
+    batch_add(stroke->batch, vertex);
 }
 
 static void add_pair(const struct stroke *stroke, struct side_pair pair, float along)

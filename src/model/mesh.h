@@ -10,7 +10,7 @@ struct vertex {
     float position[3];
     float normal[3];
     float color[3]; ///< linear RGB
-    float bend;     ///< how far it follows the joints: 1 on the tail, 0 on the body, between where they join
+    float bend;     ///< how far it follows the joints: 1 on the tail, 0 on the torso, between where they join
 };
 
 struct mesh {

@@ -318,10 +318,10 @@ static bool run_crowds(const struct bench_result *single, double *times,
 static bool run_edit(double *times, void (*done)(void *, const struct bench_result *), void *user,
                      struct error *error)
 {
-    enum { SAMPLES = 1000000, GAP = 100, WINDOW = 1000, EDITED = SAMPLES / GAP / 2 };
+    enum { SAMPLES = 1000000, GAP = 100, PART = 1000, EDITED = SAMPLES / GAP / 2 };
     struct work *w = malloc(sizeof *w);
     wiggly_take *take = NULL;
-    double window[WINDOW], worst = 0;
+    double part[PART], worst = 0;
     struct bench_result result = {.name = "edit/complex/1000000",
                                   .mode = "complex",
                                   .samples = SAMPLES,
@@ -338,19 +338,19 @@ static bool run_edit(double *times, void (*done)(void *, const struct bench_resu
         wiggly_knot knot = w->knots[EDITED];
         knot.value += 1e-3;
         knot.sample = EDITED * GAP + (13 * run) % 41 - 20;
-        int from = knot.sample - WINDOW / 2;
+        int from = knot.sample - PART / 2;
         double start = clock_now();
         good = wiggly_take_set_knot(take, EDITED, knot) == WIGGLY_OK &&
-               wiggly_take_read(take, from, WINDOW, window, NULL) == WIGGLY_OK;
+               wiggly_take_read(take, from, PART, part, NULL) == WIGGLY_OK;
         times[run] = clock_now() - start;
         w->knots[EDITED] = knot;
         if (run > 0) continue;
         good = good && wiggly_solve(w->solver, &w->desc, &w->curve) == WIGGLY_OK;
-        for (int i = 0; good && i < WINDOW; i++) worst = fmax(worst, fabs(window[i] - w->curve.total[from + i]));
+        for (int i = 0; good && i < PART; i++) worst = fmax(worst, fabs(part[i] - w->curve.total[from + i]));
     }
     if (good) {
         statistics_sort(times, MAX_RUNS);
-        result.ns_per_sample = 1e9 * times[0] / WINDOW;
+        result.ns_per_sample = 1e9 * times[0] / PART;
         result.p50_us = 1e6 * statistics_quantile(times, MAX_RUNS, 0.5);
         result.p99_us = 1e6 * statistics_quantile(times, MAX_RUNS, 0.99);
         result.error = worst;
