@@ -1,14 +1,8 @@
 /// Draws the stage: ground, shadows, bodies and skinned tails.
 #include "draw/stage.h"
-#include "draw/gl.h"
 #include "draw/painter.h"
 #include "draw/stage_flat.h"
 #include <stdlib.h>
-
-/// One a kind of rigs, in the order in which they are drawn.
-static const struct painter *const painters[] = {&tail_painter, &character_painter};
-
-enum { PAINTERS = sizeof painters / sizeof painters[0] };
 
 struct stage_renderer {
     struct stage_flat *flat;

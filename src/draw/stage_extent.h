@@ -14,4 +14,8 @@ struct area stage_extent(const struct stage_view *view, struct area viewport, in
 /// Height of the ground that the lowest rig stands on.
 float stage_lowest_ground(const struct stage_view *view);
 
+/// Adds a box of the world to what a painter covers.
+struct extent;
+void extent_add_box(struct extent *extent, const float lo[3], const float hi[3]);
+
 #endif

@@ -2,10 +2,12 @@
 #ifndef UI_STAGE_H
 #define UI_STAGE_H
 
+#include "base/hash.h"
 #include "model/morph.h"
 #include "model/pose.h"
 #include "ui/drawlist.h"
 #include "ui/stage_colors.h"
+#include <stddef.h>
 
 enum {
     STAGE_MAX_TAILS = 8,
@@ -53,5 +55,11 @@ struct stage_view {
     int blob_count;
     uint64_t hash; ///< of everything above: equal hash, equal pixels
 };
+
+/// Of all but the rigs and their shadows: equal hash, equal background and ground, their height apart.
+static inline uint64_t stage_setting_hash(const struct stage_view *view)
+{
+    return hash_bytes(HASH_START, view, offsetof(struct stage_view, tails));
+}
 
 #endif

@@ -57,12 +57,7 @@ void stage_fit(struct stage *stage, const struct core *core, const struct editor
 
 static uint64_t view_hash(const struct stage_view *view)
 {
-    uint64_t hash = hash_bytes(HASH_START, &view->viewport, sizeof view->viewport);
-    hash = hash_bytes(hash, view->view, sizeof view->view);
-    hash = hash_bytes(hash, view->projection, sizeof view->projection);
-    hash = hash_bytes(hash, view->middle, sizeof view->middle);
-    hash = hash_bytes(hash, view->key_from, sizeof view->key_from);
-    hash = hash_bytes(hash, &view->colors, sizeof view->colors);
+    uint64_t hash = stage_setting_hash(view);
     for (int kind = 0; kind < RIG_KINDS; kind++) hash = kinds[kind]->hash(hash, view);
     return hash_bytes(hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
 }
