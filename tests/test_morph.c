@@ -1,7 +1,7 @@
 /// Soft characters: equations 29 and 30, normals, the coarse mesh, phases as colours, and models that are not there.
 #include "puppet.h"
 #include "rig/models.h"
-#include "rig/morph.h"
+#include "rig/posing.h"
 #include "scene/load.h"
 #include "ui/phase_color.h"
 #include <complex.h>

@@ -4,7 +4,7 @@
 #include "base/npy.h"
 #include "puppet.h"
 #include "rig/models.h"
-#include "rig/morph.h"
+#include "rig/posing.h"
 #include "scene/edit.h"
 #include "scene/load.h"
 #include "temporary.h"

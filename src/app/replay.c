@@ -242,7 +242,7 @@ static const struct verb {
 enum { VERB_COUNT = sizeof verbs / sizeof verbs[0] };
 
 /// Reading position within one event's words.
-struct cursor {
+struct event_line {
     struct replay *replay;
     struct words words;
     int next;
@@ -251,9 +251,9 @@ struct cursor {
     struct error *error;
 };
 
-static char *take_word(struct cursor *c) { return c->next < c->words.count ? c->words.word[c->next++] : NULL; }
+static char *take_word(struct event_line *c) { return c->next < c->words.count ? c->words.word[c->next++] : NULL; }
 
-static bool read_float(struct cursor *c, float *value)
+static bool read_float(struct event_line *c, float *value)
 {
     char *word = take_word(c);
     double number;
@@ -263,7 +263,7 @@ static bool read_float(struct cursor *c, float *value)
 }
 
 /// "@knot(sway,2)+4,-3": where it is now, plus an offset in logical pixels.
-static bool read_target(struct cursor *c, char *word, struct event *event)
+static bool read_target(struct event_line *c, char *word, struct event *event)
 {
     char *end = strrchr(word, ')');
     if (!end) return bad_line(c->replay, c->error, "a target such as @knot(sway,2)", word);
@@ -282,13 +282,13 @@ static bool read_target(struct cursor *c, char *word, struct event *event)
     return true;
 }
 
-static bool read_position(struct cursor *c, struct event *event)
+static bool read_position(struct event_line *c, struct event *event)
 {
     if (c->next < c->words.count && c->words.word[c->next][0] == '@') return read_target(c, take_word(c), event);
     return read_float(c, &event->x) && read_float(c, &event->y);
 }
 
-static bool read_button(struct cursor *c, struct event *event)
+static bool read_button(struct event_line *c, struct event *event)
 {
     char *word = take_word(c);
     for (int b = 0; word && b <= BUTTON_MIDDLE; b++) {
@@ -300,7 +300,7 @@ static bool read_button(struct cursor *c, struct event *event)
     return bad_line(c->replay, c->error, "left, right or middle", word);
 }
 
-static bool read_mods(struct cursor *c, struct event *event)
+static bool read_mods(struct event_line *c, struct event *event)
 {
     for (char *word = take_word(c); word; word = take_word(c)) {
         int m = 0;
@@ -311,14 +311,14 @@ static bool read_mods(struct cursor *c, struct event *event)
     return true;
 }
 
-static bool read_key(struct cursor *c, struct event *event)
+static bool read_key(struct event_line *c, struct event *event)
 {
     char *word = take_word(c);
     event->key = word ? key_from_name(word) : KEY_NONE;
     return event->key != KEY_NONE || bad_line(c->replay, c->error, "the name of a key", word);
 }
 
-static bool read_code(struct cursor *c, struct event *event)
+static bool read_code(struct event_line *c, struct event *event)
 {
     char *word = take_word(c);
     return (word && sscanf(word, "U+%" SCNx32, &event->codepoint) == 1) ||
@@ -326,7 +326,7 @@ static bool read_code(struct cursor *c, struct event *event)
 }
 
 /// Spaces, percent signs and the like are written as %20 and %25, so that a text stays one word. Decoded in place.
-static bool read_escaped(struct cursor *c, const char *expected, const char **text)
+static bool read_escaped(struct event_line *c, const char *expected, const char **text)
 {
     char *word = take_word(c), *out = word;
     *text = word;
@@ -342,7 +342,7 @@ static bool read_escaped(struct cursor *c, const char *expected, const char **te
     return true;
 }
 
-static bool read_operands(struct cursor *c, const struct verb *verb, struct event *event)
+static bool read_operands(struct event_line *c, const struct verb *verb, struct event *event)
 {
     unsigned with = verb->operands;
     return (!(with & WITH_KEY) || read_key(c, event)) && (!(with & WITH_BUTTON) || read_button(c, event)) &&
@@ -353,7 +353,7 @@ static bool read_operands(struct cursor *c, const struct verb *verb, struct even
            (!(with & WITH_MODS) || read_mods(c, event));
 }
 
-static bool read_event(struct cursor *c, struct event *event)
+static bool read_event(struct event_line *c, struct event *event)
 {
     char *word = take_word(c);
     for (int v = 0; word && v < VERB_COUNT; v++) {
@@ -375,12 +375,12 @@ bool replay_next(struct replay *replay, long frame, replay_locate *locate, void 
 {
     char *line = seek_line(replay);
     if (!line || strtol(line, NULL, 10) > frame) return false;
-    struct cursor c = {.replay = replay,
-                       .words = split(take_line(replay)),
-                       .next = 1,
-                       .locate = locate,
-                       .user = user,
-                       .error = error};
+    struct event_line c = {.replay = replay,
+                           .words = split(take_line(replay)),
+                           .next = 1,
+                           .locate = locate,
+                           .user = user,
+                           .error = error};
     return read_event(&c, event);
 }
 

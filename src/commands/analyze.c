@@ -2,7 +2,6 @@
 #include "analysis/analysis.h"
 #include "commands/analyze_scene.h"
 #include "commands/commands.h"
-#include "commands/direction.h"
 #include "commands/options.h"
 #include "model/character.h"
 #include <stdio.h>
@@ -33,7 +32,7 @@ static bool read_directions(struct job *job, int files)
         if (length >= sizeof part) return false;
         memcpy(part, at, length);
         part[length] = '\0';
-        if (!direction_read(part, job->directions[job->direction_count++])) return false;
+        if (!options_direction(part, job->directions[job->direction_count++])) return false;
         at = at[length] ? at + length + 1 : NULL;
     }
     return !at && (job->direction_count <= 1 || job->direction_count == files);

@@ -51,4 +51,7 @@ enum options_result options_wrong(const struct usage *usage, const char *format,
 /// The candidate with the smallest edit distance to `word`, or NULL where none is near enough to be meant.
 const char *options_nearest(const char *word, const char *const *candidates, int count);
 
+/// "up", "side", "front" or "x,y,z" as a vector of length 1 (y is up, z is to the front); false where it is none of these.
+bool options_direction(const char *text, double direction[3]);
+
 #endif

@@ -2,7 +2,6 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "commands/commands.h"
-#include "commands/direction.h"
 #include "commands/options.h"
 #include "model/motion.h"
 #include "simulation/soft.h"
@@ -181,7 +180,7 @@ static const char *check(struct job *job)
     if (!ends_in(job->output, ".npy") && !ends_in(job->output, ".pc2"))
         return "--output: expected a name ending in .npy or .pc2";
     if (strlen(job->output) + 16 > sizeof job->rest) return "--output: the name is too long";
-    if (!direction_read(job->shake_text, job->shake.direction))
+    if (!options_direction(job->shake_text, job->shake.direction))
         return "--shake: expected up, side, front or a vector x,y,z";
     snprintf(job->rest, sizeof job->rest, "%.*s.rest.obj", (int)strlen(job->output) - 4, job->output);
     return set_material(&job->soft);

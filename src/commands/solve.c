@@ -98,12 +98,7 @@ int command_solve(int argc, char **argv)
 {
     const char *scene, *out = NULL;
     const struct option_spec options[] = {
-        {.name = "--output",
-         .alias = "-o",
-         .argument = "FILE",
-         .help = "file to write (default: standard output)",
-         .kind = OPTION_TEXT,
-         .target = &out},
+        {"--output", "-o", "FILE", "file to write (default: standard output)", OPTION_TEXT, &out, 0, 0},
     };
     const struct usage usage = {
         .command = "solve",

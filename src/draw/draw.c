@@ -7,7 +7,6 @@
 #include "draw/reference.h"
 #include "draw/stage.h"
 #include "draw/stage_extent.h"
-#include "draw/stage_morph.h"
 #include "draw/stage_target.h"
 #include "draw/timer.h"
 #include "ui/font.h"

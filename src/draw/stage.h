@@ -19,4 +19,8 @@ void stage_upload(struct stage_renderer *renderer, const struct stage_view *view
 /// it), scissored by the caller. Clears depth itself. Leaves depth test, culling and blending off.
 void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, int x, int y, int width, int height);
 
+/// Whether what moves a figure fits into a texture of at most `largest` texels a side; false with a sentence that has the
+/// figures.
+bool stage_morph_fits(const struct figure *figure, int largest, struct error *error);
+
 #endif

@@ -1,6 +1,6 @@
 /// Moves soft characters on the GPU, by complex morphs.
-#include "draw/stage_morph.h"
 #include "draw/painter.h"
+#include "draw/stage.h"
 #include "draw/stage_extent.h"
 #include <math.h>
 #include <stdlib.h>

@@ -19,4 +19,16 @@ bool adjacency_create(struct adjacency *adjacency, const float (*position)[3], i
 /// Leaves an empty one, all zero.
 void adjacency_free(struct adjacency *adjacency);
 
+/// A vertex, by its place.
+struct spot {
+    float position[3];
+    uint32_t vertex;
+};
+
+/// All vertices by place, those at one place in ascending order; to be freed. NULL where memory is short.
+struct spot *spots_sort(const float (*position)[3], int count);
+
+/// Whether two are at the very same place.
+bool spots_meet(const struct spot *a, const struct spot *b);
+
 #endif

@@ -3,7 +3,6 @@
 #define PLATFORM_PLATFORM_H
 
 #include "base/error.h"
-#include "ui/cursor.h"
 #include "ui/event.h"
 
 struct platform;
@@ -46,7 +45,7 @@ bool platform_is_fullscreen(const struct platform *platform);
 /// call.
 const char *platform_clipboard(struct platform *platform);
 void platform_set_clipboard(struct platform *platform, const char *text);
-void platform_cursor(struct platform *platform, enum cursor cursor);
+void platform_cursor(struct platform *platform, enum mouse_cursor cursor);
 
 /// Called when the connection to the display is lost, or the window was destroyed by somebody else; after that the process ends with exit status 3, because nothing of
 /// the window can be used any more. Register it once the window is open.

@@ -42,7 +42,7 @@ void window_check(const struct window *window, bool idle);
 void window_title(struct window *window, const char *title);
 void window_fullscreen(struct window *window, bool on);
 bool window_is_fullscreen(const struct window *window);
-void window_cursor(struct window *window, enum cursor cursor);
+void window_cursor(struct window *window, enum mouse_cursor cursor);
 const char *window_clipboard(struct window *window);
 void window_set_clipboard(struct window *window, const char *text);
 

@@ -18,7 +18,7 @@ struct window {
     GLFWwindow *handle;
     struct event_queue *queue;
     GLFWcursor *cursors[CURSOR_KINDS];
-    enum cursor cursor;
+    enum mouse_cursor cursor;
     struct surface_size size;
     float units;       ///< logical pixels a unit of GLFW's window coordinates
     double click_time; ///< of the last press that may become a double click; -1 where there is none
@@ -355,7 +355,7 @@ void window_fullscreen(struct window *window, bool on)
 
 bool window_is_fullscreen(const struct window *window) { return window->is_fullscreen; }
 
-void window_cursor(struct window *window, enum cursor cursor)
+void window_cursor(struct window *window, enum mouse_cursor cursor)
 {
     if (cursor == window->cursor) return;
     window->cursor = cursor;

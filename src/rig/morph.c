@@ -1,5 +1,4 @@
 /// Turns the values of splines into the weights of a character.
-#include "rig/morph.h"
 #include "rig/posing_kind.h"
 #include <math.h>
 

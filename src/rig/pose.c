@@ -1,5 +1,4 @@
 /// Bends a tail's joints by the values of its channels.
-#include "rig/pose.h"
 #include "model/creature.h"
 #include "rig/posing_kind.h"
 #include <math.h>

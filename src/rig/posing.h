@@ -4,9 +4,11 @@
 
 #include "model/morph.h"
 #include "model/pose.h"
-#include "rig/look.h"
 #include "rig/models.h"
 #include "scene/evaluate.h"
+
+/// How the same knots are shown: by the paper's method, without lag, or as classical cubics (the splines are then solved so).
+enum look { LOOK_WIGGLY, LOOK_STIFF, LOOK_CUBIC };
 
 /// What rigs are posed from.
 struct posing {
@@ -41,5 +43,26 @@ bool rig_pose(const struct posing *posing, int rig, double position, const struc
 
 /// The box around a posed rig, metres.
 void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]);
+
+/// Poses a tail at its position, coordinates that follow a spline being 0 (see pose_move()). `values[c]` is the spline value of
+/// channel c at the time shown. Joint n bends by gain·(y + Re(e^{−j·n·lag} x)) about each channel's axis, without y for
+/// PART_DISPLACEMENT, over rest (which bends up about the `up` axis, positive lifts). LOOK_STIFF takes every lag as 0.
+/// The ground is right below the body; one whose height follows a spline has it at 0.
+/// `side` turns before `up`. Allocates nothing.
+void pose_tail(const struct tail *tail, const wiggly_value *values, enum look look, struct pose *pose);
+
+/// Poses a soft character: its complex normal coordinates, each turned and scaled by its own drive (the paper's
+/// section 7.2, eq. 29 and 30).
+///
+///     D(j) = Re(Σ_k z_k Ñ_{k,j}),   z_k = A_k (y + e^{−j·lag_k} x)
+///
+/// The paper writes e^{iφ} for the turn; what lags has φ = −lag. Where the drive's spline has an equilibrium y, the
+/// character rests in the shape that y gives it.
+///
+/// `values[k]` is the spline value of drive k at the time shown. Drives whose coordinate the figure does not have are left
+/// out. LOOK_STIFF is the stiff motion that the paper warns of: the real part of x moves the real part of Ñ, all points in
+/// step. Allocates nothing.
+void pose_character(const struct character_rig *rig, const struct figure *figure, const wiggly_value *values,
+                    enum look look, struct morph *morph);
 
 #endif

@@ -1,6 +1,6 @@
 /// Steps a spline's filter while its base is moved by hand.
 #include "rig/swing.h"
-#include "rig/pose.h"
+#include "rig/posing.h"
 #include "spline/poles.h"
 #include <math.h>
 

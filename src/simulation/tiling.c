@@ -1,10 +1,30 @@
 /// Cuts a solid into elements by the tetrahedra of a lattice.
 #include "simulation/tiling.h"
-#include "simulation/union.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+/// Disjoint sets (union by index, paths halved): the least member of i's set. parent[i] = i at the start.
+static int union_root(int *parent, int i)
+{
+    while (parent[i] != i) {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    return i;
+}
+
+static void union_join(int *parent, int i, int j)
+{
+    i = union_root(parent, i);
+    j = union_root(parent, j);
+    if (i < j) {
+        parent[j] = i;
+    } else {
+        parent[i] = j;
+    }
+}
 
 /// The half of a voxel's 26 neighbours that come later.
 static const int neighbours[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1, 1}, {1, -1, -1},

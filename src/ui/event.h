@@ -5,6 +5,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/// The mouse cursors that the editor asks for and the platform shows.
+enum mouse_cursor { CURSOR_ARROW, CURSOR_HAND, CURSOR_HORIZONTAL, CURSOR_VERTICAL, CURSOR_MOVE, CURSOR_TEXT };
+
 enum event_kind {
     EVENT_KEY,     ///< key, action, mods
     EVENT_TEXT,    ///< codepoint

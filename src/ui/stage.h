@@ -6,7 +6,7 @@
 #include "model/morph.h"
 #include "model/pose.h"
 #include "ui/drawlist.h"
-#include "ui/stage_colors.h"
+#include "ui/theme.h"
 #include <stddef.h>
 
 enum {

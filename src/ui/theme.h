@@ -6,7 +6,6 @@
 #ifndef UI_THEME_H
 #define UI_THEME_H
 
-#include "ui/stage_colors.h"
 #include <stdint.h>
 
 /// Spline colours are taken in turn. Under each of the three kinds of colour blindness every two are a ΔE2000 of 10 or more apart.
@@ -14,6 +13,13 @@ enum { THEME_SPLINE_COLORS = 6 };
 
 /// Opacity of the curves and knots that are not of the active spline; they keep 3:1 and their distance.
 #define THEME_OTHERS 0.8f
+
+/// What the stage is made of besides what stands on it. Opaque.
+struct stage_colors {
+    uint32_t top, bottom; ///< of the background
+    uint32_t ground, shadow;
+    uint32_t bounce; ///< light from the ground
+};
 
 /// Every text colour (text, text_dim, accent, warning, error) has a contrast of 4.5:1 or more on panel and raised, `text` and
 /// `text_dim` on fill, hover and the stage too; `control`, spline colours, and what else has to be seen without being read have

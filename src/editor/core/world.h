@@ -3,11 +3,10 @@
 #define EDITOR_CORE_WORLD_H
 
 #include "rig/models.h"
-#include "rig/pose.h"
+#include "rig/posing.h"
 #include "scene/background.h"
 #include "scene/edit.h"
 #include "scene/evaluate.h"
-#include "ui/cursor.h"
 #include "ui/drawlist.h"
 #include "ui/event.h"
 #include "ui/stage.h"
