@@ -130,7 +130,7 @@ static void upload(struct batch *batch)
     double start = timer_now_us();
     size_t vertex_bytes = (size_t)batch->vertex_count * sizeof *batch->vertices;
     size_t index_bytes = (size_t)batch->index_count * sizeof *batch->indices;
-    // New storage each time: the driver need not wait for what still reads the old one.
+    // New storage each time: the driver need not wait until the old one is no longer read.
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)vertex_bytes, batch->vertices, GL_STREAM_DRAW);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)index_bytes, batch->indices, GL_STREAM_DRAW);
     batch->uploaded_bytes += (long)(vertex_bytes + index_bytes);

@@ -18,13 +18,13 @@ struct batch_vertex shape_vertex(float x, float y, uint32_t color)
     };
 }
 
-/// A run of pixels that are all covered by the same part.
+/// A run of pixels with equal coverage.
 struct span {
     int from, to;
     float coverage;
 };
 
-/// Cuts [from, to] into the pixels it covers in part and those it covers whole; returns how many runs (at most 3).
+/// Splits [from, to] into runs of partly and of fully covered pixels; returns how many (at most 3).
 static int cut_spans(float from, float to, int clip_from, int clip_to, struct span spans[3])
 {
     from = fmaxf(from, (float)clip_from);
@@ -95,7 +95,7 @@ static int device_points(const float *xy, int count, float scale, struct point *
     return kept;
 }
 
-/// Twice the signed area; the sign says which way round the points run.
+/// Twice the signed area; its sign gives the winding.
 static float twice_area(const struct point *points, int count)
 {
     float sum = 0.0f;

@@ -4,11 +4,11 @@
 #include "draw/painter.h"
 #include <math.h>
 
-/// A box on the screen that grows: −1 … 1 over the viewport.
+/// A growing box on the screen: −1 … 1 over the viewport.
 struct extent {
     mat4s clip_from_world;
     float lo[2], hi[2];
-    bool is_everywhere; ///< something is too near to the camera to say where it is
+    bool is_everywhere; ///< something is too near the camera to project
 };
 
 float stage_lowest_ground(const struct stage_view *view)

@@ -1,4 +1,4 @@
-/// What lies flat on the stage: background, ground and contact shadows, as a few quads of one shader. Used by stage.c
+/// What lies flat on the stage: background, ground and contact shadows, as a few quads of one shader. For stage.c
 /// alone.
 #ifndef DRAW_STAGE_FLAT_H
 #define DRAW_STAGE_FLAT_H

@@ -10,7 +10,7 @@ enum {
     TEXELS = 5,                  ///< of one vertex and coordinate, four floats each
     ROW_VERTICES = FIGURE_BLOCK, ///< in one row of the texture
     ROW_FLOATS = 4 * TEXELS * ROW_VERTICES,
-    MAX_KEPT = 4, ///< figures on the GPU; more take turns
+    MAX_KEPT = 4, ///< figures kept on the GPU; the least recently used goes
     SLOPE_FLOATS = sizeof(struct slope) / sizeof(float),
 };
 
@@ -115,7 +115,7 @@ static long upload_coordinates(struct model *model, const struct figure *figure)
     const int height = model->rows * c->coordinate_count;
     const size_t bytes = (size_t)width * (size_t)(height + 1) * 4 * sizeof(float);
     float *texels = calloc(1, bytes);
-    if (!texels || !stage_morph_fits(figure, gl_largest_texture(), NULL)) { // it stands still
+    if (!texels || !stage_morph_fits(figure, gl_largest_texture(), NULL)) { // drawn at rest
         free(texels);
         return 0;
     }
@@ -130,7 +130,7 @@ static long upload_coordinates(struct model *model, const struct figure *figure)
     return (long)bytes;
 }
 
-/// The rows of a painted figure that have changed since they were uploaded.
+/// Uploads the rows of a painted figure that changed since the last time.
 static long upload_changes(struct model *model, const struct figure *figure)
 {
     float texels[ROW_FLOATS];
@@ -156,7 +156,7 @@ static GLuint upload_buffer(GLenum target, size_t bytes, const void *data)
     return buffer;
 }
 
-/// The four arrays of vectors one behind the other.
+/// Uploads the four arrays of vectors one after the other.
 static long upload_vertices(struct model *model, const struct figure *figure)
 {
     const struct character *c = &figure->character;
@@ -192,7 +192,7 @@ static long model_upload(struct model *model, const struct figure *figure)
     return bytes + (long)(fine + coarse);
 }
 
-/// The figure's model, or where it is not there the one that was drawn longest ago.
+/// The figure's model or, if it has none, the least recently drawn one.
 static struct model *find_model(struct stage_morph *morph, const struct figure *figure)
 {
     struct model *oldest = &morph->models[0];
@@ -266,7 +266,7 @@ static float ground(const struct stage_view *view)
     return lowest;
 }
 
-/// The box at rest, larger by the amplitudes of what moves it.
+/// The box at rest, grown by the amplitudes.
 static void add_extent(const struct stage_view *view, struct extent *extent)
 {
     for (int c = 0; c < view->character_count; c++) {

@@ -1,4 +1,4 @@
-/// Tails and the animals that they grow out of, skinned.
+/// Draws tails and their animals, skinned.
 #include "draw/painter.h"
 #include "draw/stage_extent.h"
 #include "model/creature.h"
@@ -107,8 +107,8 @@ static void *create(struct error *error)
     return NULL;
 }
 
-/// matrix · translation by −along on z, as three rows: what takes a point of the straight tail to where its joint is
-/// now.
+/// matrix · translation by −along on z, as three rows: takes a point of the straight tail to its place on
+/// the posed one.
 static void slot_rows(mat4s matrix, float along, float rows[3][4])
 {
     glm_translate_z(matrix.raw, -along);

@@ -7,7 +7,7 @@ struct quad {
     float x0, y0, x1, y1, u0, v0, u1, v1;
 };
 
-/// Cuts an interval off at [low, high] and its texels in proportion; false where nothing is left.
+/// Clips an interval to [low, high], its texels in proportion; false if nothing is left.
 static bool clip_axis(float *from, float *to, float *texel_from, float *texel_to, int low, int high)
 {
     float slope = (*texel_to - *texel_from) / (*to - *from);

@@ -28,7 +28,7 @@ struct spot *spots_sort(const float (*position)[3], int count)
     return spots;
 }
 
-/// Both directions of an edge: counted into `fill` where there is no room yet, else entered at it.
+/// Both directions of an edge: only counted while there is no list yet, else entered at `fill`.
 static void add_edge(struct adjacency *adjacency, int *fill, uint32_t i, uint32_t j)
 {
     if (adjacency->other) {
@@ -63,7 +63,7 @@ static int compare_vertices(const void *a, const void *b)
     return *p < *q ? -1 : *p > *q;
 }
 
-/// Sorts each vertex's neighbours and leaves one of each; most edges are sides of two triangles.
+/// Sorts each vertex's neighbours and removes duplicates: most edges belong to two triangles.
 static void tidy(struct adjacency *adjacency, int vertex_count)
 {
     int kept = 0;

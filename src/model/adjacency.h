@@ -6,13 +6,13 @@
 #include <stdint.h>
 
 /// The neighbours of vertex i are other[first[i]] … other[first[i + 1] − 1], in ascending order. Vertices at the very same place
-/// (the seams of a mesh with several normals or colours at a corner) are neighbours too, in a chain.
+/// (the seams of a mesh with several normals or colours at a corner) count as neighbours too, in a chain.
 struct adjacency {
     int *first;
     uint32_t *other;
 };
 
-/// false where memory is short: nothing is left to be freed.
+/// false if memory is short; then there is nothing to free.
 bool adjacency_create(struct adjacency *adjacency, const float (*position)[3], int vertex_count,
                       const uint32_t *indices, int index_count);
 
@@ -25,10 +25,10 @@ struct spot {
     uint32_t vertex;
 };
 
-/// All vertices by place, those at one place in ascending order; to be freed. NULL where memory is short.
+/// All vertices sorted by place, then by number; the caller frees it. NULL if memory is short.
 struct spot *spots_sort(const float (*position)[3], int count);
 
-/// Whether two are at the very same place.
+/// Whether two vertices are at the very same place.
 bool spots_meet(const struct spot *a, const struct spot *b);
 
 #endif

@@ -12,7 +12,7 @@ struct pose {
     float matrix[POSE_MAX_JOINTS + 1][16];
 };
 
-/// Moves a posed tail, metres: where its position follows splines, and while it is dragged.
+/// Moves a posed tail, metres: for a position that follows splines, and for a drag.
 void pose_move(struct pose *pose, const double by[3]);
 
 /// Length of the tail that was posed, in metres.

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/// The body is a smooth union of round cones. Metres, bind size, but with y = 0 on the ground. The animal looks towards
+/// The torso is a smooth union of round cones. Metres, bind size, but with y = 0 on the ground. The animal looks towards
 /// −z. Parts of the head are relative to its middle and also look towards −z: the head is turned afterwards.
 ///
 /// Later parts lie on top of earlier ones with their colours and fillets.
@@ -47,7 +47,7 @@ static const float head_middle[3] = {0.01f, 0.80f, -0.385f};
 #define REFINE_ROUNDS 3
 #define LID_WIDTH 0.016f
 
-/// Direction, in the standing body, in which eyes and nose shine.
+/// Direction in which eyes and nose shine, standing coordinates.
 static const float glint[3] = {0.68f, 0.69f, -0.25f};
 
 const float creature_torso_lo[3] = {-0.36f, -CREATURE_BASE_HEIGHT, -0.68f};
@@ -63,8 +63,8 @@ static void into_head(const float p[3], float q[3])
     q[2] = z * cosf(HEAD_TURN) - x * sinf(HEAD_TURN);
 }
 
-/// The tail's stump: as thick as the tail and a hair more while its fillet lasts, then sinking below the tail's own
-/// skin at so flat an angle that the line where they cross cannot be seen.
+/// The tail's stump: a hair thicker than the tail along the fillet, then sinking below the tail's own
+/// skin at so flat an angle that the seam cannot be seen.
 static float stump_distance(const float p[3])
 {
     const float z = fminf(fmaxf(p[2], -0.14f), 0.25f);
@@ -72,7 +72,7 @@ static float stump_distance(const float p[3])
     return sqrtf(p[0] * p[0] + p[1] * p[1] + (p[2] - z) * (p[2] - z)) - radius;
 }
 
-/// Distance to the body at a point in bind space, and its colour where `rgb` is not NULL.
+/// Distance to the torso at a point in bind space, and its colour if `rgb` is not NULL.
 static float torso_distance_color(const float p[3], float rgb[3])
 {
     const float standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
@@ -97,7 +97,7 @@ static float face_distance(const float p[3])
     return parts_add(face, sizeof face / sizeof *face, in_head, 1e3f, NULL);
 }
 
-/// The fur is the parts' own; round the stump it is the tail's, which also takes over the bending there.
+/// Each part has its own colour; around the stump colour and bending go over into the tail's.
 static void torso_paint(struct vertex *vertex)
 {
     const float *p = vertex->position;
@@ -113,7 +113,7 @@ static void torso_paint(struct vertex *vertex)
     vertex->bend = near * glm_smoothstep(-0.25f, -0.05f, p[2]);
 }
 
-/// Dark, with a glint where a window above would be mirrored.
+/// Dark, with a glint as of a lamp above.
 static void face_paint(struct vertex *vertex)
 {
     const float shine = glms_vec3_dot(vec3_from(vertex->normal), vec3_from(glint));
