@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/// A file that was read, and what it was like then.
+/// A file that was read, and its state at that time.
 struct model_file {
     char *path; ///< absolute
     struct timespec changed;
@@ -14,17 +14,17 @@ struct model_file {
     struct figure figure;
 };
 
-/// What a character is played by.
+/// The model of one character.
 struct character_model {
-    const struct figure *plain; ///< in the files; NULL where it could not be read
-    struct painted *painted;    ///< NULL as long as nobody has painted on it
-    uint64_t version;           ///< of the paint that it has, 0: none
+    const struct figure *plain; ///< one of the files'; NULL: it could not be read
+    struct painted *painted;    ///< NULL until somebody paints on it
+    uint64_t version;           ///< of the paint on it, 0: none
 };
 
 struct models {
     struct model_file **files;
     int file_count;
-    struct character_model *characters; ///< one a character
+    struct character_model *characters; ///< in the order of the document
     int character_count;
 };
 
@@ -89,7 +89,7 @@ static struct model_file *read_file(const char *path, struct error *error)
     return file;
 }
 
-/// The figure in a file: the one read before, or read now in its place; NULL with a sentence.
+/// The figure in a file, read again only if the file has changed; NULL with a sentence.
 static const struct figure *obtain(struct models *models, const char *path, struct error *error)
 {
     struct stat about = {0};
@@ -117,7 +117,7 @@ static const struct figure *obtain(struct models *models, const char *path, stru
     return &file->figure;
 }
 
-/// Coordinates that the scene asks for and the model does not have.
+/// Whether the model has all coordinates that the scene names.
 static bool check_names(const struct character_rig *rig, const struct figure *figure, struct error *error)
 {
     for (int k = 0; k < rig->drive_count; k++) {
@@ -145,7 +145,7 @@ static bool check_paint(const struct character_rig *rig, const struct figure *fi
                 rig->model, paint->coordinates, paint->vertices);
 }
 
-/// The model of one rig, or NULL with a sentence; also with one where it does not suit the rig.
+/// The model of one rig, or NULL with a sentence; `error` is also set if the model does not suit the rig.
 static const struct figure *find_figure(struct models *models, const struct document *document,
                                         const struct character_rig *rig, struct error *error)
 {

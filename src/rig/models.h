@@ -1,5 +1,5 @@
-/// The models of a document's characters: read from their files when a document is opened, and kept by path, so that
-/// opening another scene with the same ones reads nothing.
+/// The models of a document's characters: read when a document is opened, and kept by path, so that
+/// another scene with the same models reads nothing.
 #ifndef RIG_MODELS_H
 #define RIG_MODELS_H
 
@@ -8,24 +8,24 @@
 
 struct models;
 
-/// NULL where memory is short.
+/// NULL if memory is short.
 struct models *models_create(void);
 void models_destroy(struct models *models);
 
-/// Reads what the document's characters need and is not there yet, or has changed on disk; the pointers given out before
-/// are stale after it. false with the first sentence where a model is missing or broken, or lacks a coordinate that is
-/// asked for; the others are there all the same.
+/// Reads the models that are missing or have changed on disk; figures handed out before are stale afterwards. false with the
+/// first sentence if a model is missing or broken, or lacks a coordinate that the scene names; the others are loaded
+/// all the same.
 bool models_update(struct models *models, const struct document *document, struct error *error);
 
-/// Puts the document's paint onto the figures of its characters: after models_update() did, to be called once a frame, before they
-/// are posed. Only what has changed costs anything, and only the first paint on a character allocates; where there is
-/// no memory for that, or the paint is for another model, the character stays plain.
+/// Applies the document's paint to the figures of its characters: call it once a frame after models_update(), before posing.
+/// Only changes cost time, and only the first paint on a character allocates; if memory is short, or the paint is for
+/// another model, the character stays plain.
 void models_paint(struct models *models, const struct document *document);
 
-/// Whether paint is for a figure: it has as many coordinates and vertices.
+/// Whether paint suits a figure: it has as many coordinates and vertices.
 bool models_paint_fits(const struct paint *paint, const struct figure *figure);
 
-/// The figure of the document's i-th character, painted; NULL where it could not be read. `models` may be NULL.
+/// The figure of the document's i-th character, painted; NULL if it could not be read. `models` may be NULL.
 const struct figure *models_figure(const struct models *models, int character);
 
 #endif

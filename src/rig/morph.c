@@ -24,7 +24,7 @@ void pose_character(const struct character_rig *rig, const struct figure *figure
     }
 }
 
-/// Its number among the document's characters, as struct models counts them.
+/// The rig's number among the document's characters.
 static int number_of(const struct document *document, int rig)
 {
     int number = 0;

@@ -23,8 +23,8 @@ static cplx response(const struct swing_filter *filter, double t)
     return divide(cplx_sub(first, exp_complex(cplx_scale(t, pole(filter, 1)))), apart);
 }
 
-/// A step of the base is answered by φ̇, about ω_n φ at its largest. Two complex poles at −σ + j(ω ± β) ring up together:
-/// |φ| = e^{−σt} sin(βt)/β is largest at t = atan(β/σ)/β, and where they are one at 1/σ. A damped spring stays below 1/ω_n.
+/// The response to a step of the base is φ̇, at most about ω_n φ. Two complex poles at −σ + j(ω ± β) ring up together:
+/// |φ| = e^{−σt} sin(βt)/β is largest at t = atan(β/σ)/β, and or, where they coincide, at 1/σ. A damped spring stays below 1/ω_n.
 static double step_peak(const struct swing_filter *filter)
 {
     const double sigma = -filter->s[0][0], beta = 0.5 * fabs(filter->s[0][1] - filter->s[1][1]);

@@ -31,7 +31,7 @@ static const int neighbours[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1,
                                       {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0}, {1, 0, 1},
                                       {1, 1, -1}, {1, 1, 0},  {1, 1, 1}};
 
-/// Cubes along a side of the surface's box: those that cover it and one more or less at either end.
+/// Cubes along a side of the surface's box: those that cover it, and a margin.
 static double cells_along(double side, double cell) { return ceil(side / cell) + 2; }
 
 double tiling_voxels(const struct surface *surface, double cell)
@@ -155,7 +155,7 @@ static bool number_elements(struct tiling *t, int *set)
     return true;
 }
 
-/// Each voxel's tetrahedron as one number: the middle of its face and the middle of its edge (twice) tell it from others.
+/// Each voxel's tetrahedron as one number: its face's middle and twice its edge's middle identify it.
 static void name_tetrahedra(const struct voxels *voxels, uint64_t *tetrahedron, int *set)
 {
     int count = (int)voxels_count(voxels);
@@ -213,7 +213,7 @@ static bool find_parts(struct tiling *t)
     return true;
 }
 
-/// Leaves out the parts below a hundredth of the whole, but never the largest.
+/// Drops parts below a hundredth of the whole, but never the largest.
 static bool drop_crumbs(struct tiling *t)
 {
     int *voxels = calloc((size_t)t->count + 1, sizeof *voxels), total = 0, largest = 0;

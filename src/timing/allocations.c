@@ -1,5 +1,5 @@
-/// Counts the allocations of our own objects: the linker (-Wl,--wrap=malloc and kin) sends their calls here, while libraries
-/// and the driver call the C library directly and are not counted.
+/// Counts the allocations of our own objects: the linker (-Wl,--wrap=malloc …) redirects their calls here, while libraries
+/// and the driver call the C library directly.
 #include "timing/framelog.h"
 #include <stdatomic.h>
 #include <stdlib.h>

@@ -131,7 +131,7 @@ static double run_dpbsv(struct work *w, const struct lapack *lapack, int n)
     return info == 0 ? time : NAN;
 }
 
-/// The Hermitian system that would be left if knots fixed both parts: between knots it is the same one.
+/// The Hermitian system if knots fixed both parts: between knots it is the same.
 static double run_zpbsv(struct work *w, const struct lapack *lapack)
 {
     const system_rows *rows = &w->solver->rows;
@@ -166,7 +166,7 @@ static double compare(struct work *w, const struct lapack *lapack)
     return worst / largest;
 }
 
-/// Fastest of several runs of one of LAPACK's solvers, per sample.
+/// Fastest of several runs of one LAPACK solver, per sample.
 static double time_lapack(struct work *w, const struct lapack *lapack, bool is_complex, int n)
 {
     double best = INFINITY, end = clock_now() + seconds_a_case / 4;
@@ -224,7 +224,7 @@ static bool run_case(struct work *w, const struct bench_case *c, const struct la
     return true;
 }
 
-/// 10,000 splines of 240 samples, every knot changed from run to run; total and Im x are asked for.
+/// 10,000 splines of 240 samples, every knot changed between runs, for total and Im x.
 struct crowd {
     wiggly_desc *desc;
     wiggly_curve *curve;
@@ -268,7 +268,7 @@ static void crowd_destroy(struct crowd *crowd)
     free(crowd->numbers);
 }
 
-/// Times the crowd on some threads; `single` is the line to whose LAPACK figures it is compared.
+/// Times the crowd on several threads; `single` is the line with the LAPACK figures to compare with.
 static bool run_crowd(struct crowd *crowd, int threads, int lanes, const struct bench_result *single, double *times,
                       struct bench_result *result)
 {

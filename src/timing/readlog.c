@@ -1,4 +1,4 @@
-/// Reads timing logs, several runs in a file too.
+/// Reads timing logs of one or several runs.
 #include "timing/readlog.h"
 #include <errno.h>
 #include <limits.h>
@@ -49,7 +49,7 @@ static int find_column(const char *name, size_t length)
     return -1;
 }
 
-/// Columns are found by name, so that a log from before a column was added can be read, too.
+/// Columns are found by name, so that logs older than a column can be read.
 static bool read_names(struct log_reader *at, const char *text)
 {
     if (at->log->runs == 0) return bad(at, "a timing log's '# schema:' line first", text);
