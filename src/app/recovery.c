@@ -14,7 +14,7 @@
 static const char first_line[] = "wiggly-recovery 1";
 static const size_t LARGEST = (size_t)1 << 30;
 
-/// Takes slot `n`. The lock file stays for good: removing it would let two programs hold two locks of one name.
+/// The lock file is never removed: that would let two programs hold two locks of one name.
 static bool claim_slot(const char *folder, int n, struct recovery_slot *slot)
 {
     char lock[RECOVERY_PATH + 16];
@@ -54,7 +54,7 @@ void recovery_release(struct recovery_slot *slot)
     slot->lock = -1;
 }
 
-/// The document in the text after the first line: scene, and where there is a NUL the paint behind it.
+/// The document in the text after the first line: the scene and, after a NUL, its paint.
 static struct document *parse_work(const char *path, const char *text, size_t size, struct error *error)
 {
     const char *end = memchr(text, '\0', size);
@@ -65,7 +65,7 @@ static struct document *parse_work(const char *path, const char *text, size_t si
     return NULL;
 }
 
-/// The path in a file's first line; "" where it has none.
+/// The path in a file's first line; "" if there is none.
 static void read_original(const char *path, char original[RECOVERY_PATH])
 {
     char line[RECOVERY_PATH + sizeof first_line] = "";

@@ -33,8 +33,7 @@ static bool bad_line(const struct replay *replay, struct error *error, const cha
                 got ? "\"" : "", got ? got : "the end of the line", got ? "\"" : "");
 }
 
-/// Goes to the next line that says something and returns where it begins; NULL at the end of the text. Blank lines and
-/// `#` comments are passed over.
+/// Skips blank lines and `#` comments and returns where the next line begins; NULL at the end of the text.
 static char *seek_line(struct replay *replay)
 {
     for (; *replay->at; replay->at++, replay->next_line++) {
@@ -47,7 +46,7 @@ static char *seek_line(struct replay *replay)
     return *replay->at ? replay->at : NULL;
 }
 
-/// Behind the line that seek_line() found; returns where that one ends.
+/// Goes past the line that seek_line() found; returns where it ends.
 static char *pass_line(struct replay *replay)
 {
     char *end = strchrnul(replay->at, '\n');
@@ -140,8 +139,8 @@ static bool read_header(struct replay *replay, struct error *error)
     return fail(error, ERROR_INPUT, "%s:%d: expected a header with size and frames", replay->path, replay->line);
 }
 
-/// Whether the events' frames are in order and within the length, so that a replay is refused before it starts. One that
-/// was cut short while it was recorded has no length yet (0) and ends with its last event.
+/// Checks that the events' frames are in order and within the length, so that a broken replay is refused before it starts.
+/// A recording that was cut short has no length (0) and ends with its last event.
 static bool check_frames(struct replay *replay, struct error *error)
 {
     char *at = replay->at;
@@ -205,7 +204,7 @@ static const struct {
 
 enum { MOD_COUNT = sizeof mod_names / sizeof mod_names[0] };
 
-/// What an event's line consists of, after the frame: a verb and its operands.
+/// An event's line after the frame number: a verb and its operands.
 enum operands {
     WITH_KEY = 1,
     WITH_BUTTON = 2,
@@ -262,7 +261,7 @@ static bool read_float(struct event_line *c, float *value)
     return true;
 }
 
-/// "@knot(sway,2)+4,-3": where it is now, plus an offset in logical pixels.
+/// "@knot(sway,2)+4,-3": its place now, plus an offset in logical pixels.
 static bool read_target(struct event_line *c, char *word, struct event *event)
 {
     char *end = strrchr(word, ')');
@@ -325,7 +324,7 @@ static bool read_code(struct event_line *c, struct event *event)
            bad_line(c->replay, c->error, "U+ and a code", word);
 }
 
-/// Spaces, percent signs and the like are written as %20 and %25, so that a text stays one word. Decoded in place.
+/// Decodes in place: spaces, percent signs and the like are written as %20 and %25, so that a text stays one word.
 static bool read_escaped(struct event_line *c, const char *expected, const char **text)
 {
     char *word = take_word(c), *out = word;
@@ -406,7 +405,7 @@ struct recording *recording_open(const char *path, const struct replay_header *h
         free(recording);
         return NULL;
     }
-    setvbuf(recording->file, NULL, _IOLBF, 0); // whatever ends the program, the events up to then are there
+    setvbuf(recording->file, NULL, _IOLBF, 0); // so that no crash loses events
     fprintf(recording->file, "%s\nversion %s\nsize %d %d\nscale %g\nscene %016" PRIx64 "\ndt 1/60\nframes ",
             first_line, WIGGLY_VERSION, header->width, header->height, header->scale, header->scene_hash);
     recording->length_at = ftell(recording->file);
@@ -426,7 +425,7 @@ static const struct verb *verb_of(const struct event *event)
     return NULL;
 }
 
-/// What would end a word or open a target's brackets is escaped.
+/// Escapes what would end a word or open a target's brackets.
 static void write_escaped(FILE *f, const char *text)
 {
     fputc(' ', f);

@@ -14,7 +14,7 @@ static void advance(struct table *table, double dt, const struct table_hooks *ho
     if (hooks->advanced) hooks->advanced(hooks->user);
 }
 
-/// Room for the document's splines and knots after an edit; `resized`: the number or length of splines has changed.
+/// Makes room for the document's splines and knots after an edit; `resized`: the number or length of splines has changed.
 static bool fit_evaluation(struct table *table, bool resized, struct error *error)
 {
     if (!evaluation_resize(&table->evaluation, table->document, error)) return false;
@@ -60,7 +60,7 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
     return true;
 }
 
-/// The models of a document that has come to the table, or come back by undo.
+/// Reads the models of a document that is new on the table, or back by undo.
 static void read_models(struct table *table)
 {
     struct error error;

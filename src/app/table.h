@@ -1,11 +1,11 @@
-/// The document on the table, and what a frame makes of it: edit, solve, pose, show. No window, no files, no GL.
+/// The document on the table, and its part of a frame: edit, solve, pose, show. No window, no files, no GL.
 #ifndef APP_TABLE_H
 #define APP_TABLE_H
 
 #include "editor/editor.h"
 #include "timing/framelog.h"
 
-/// Zero but for what table_frame() works on.
+/// All zero but what table_frame() works on.
 struct table {
     struct editor *editor;
     struct document *document;
@@ -31,12 +31,12 @@ static inline struct editor_world table_world(const struct table *table)
     return (struct editor_world){table->document, table->history, &table->evaluation, table->models};
 }
 
-/// One frame, after its events: `dt` seconds of playback, the hooks' work, and what is to be drawn. Enters times and counts in the
-/// row. false where there is no memory for an edit.
+/// One frame, after its events: `dt` seconds of playback, the hooks' work, and the draw list. Enters times and counts in the
+/// row. false if memory is short for an edit.
 bool table_frame(struct table *table, double dt, const struct table_hooks *hooks, struct frame_row *row,
                  struct error *error);
 
-/// Frees all that is on it.
+/// Frees everything on it.
 void table_free(struct table *table);
 
 #endif

@@ -39,7 +39,7 @@ static int edit_distance(const char *a, const char *b)
 const char *options_nearest(const char *word, const char *const *candidates, int count)
 {
     const char *nearest = NULL;
-    int best = (int)strnlen(word, WORD_MAX) / 3 + 1; // as far as that it is another word
+    int best = (int)strnlen(word, WORD_MAX) / 3 + 1; // farther away is another word
     for (int i = 0; i < count; i++) {
         int distance = edit_distance(word, candidates[i]);
         if (distance < best) {

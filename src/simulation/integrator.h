@@ -25,7 +25,7 @@ struct integrator {
     double stiffness_damping; ///< Rayleigh's β, s
     double tolerance;         ///< Newton's method stops once no node moves farther than this, m
     double (*x)[3];           ///< positions, m: the caller sets them at the start
-    double (*v)[3];           ///< velocities, m/s: so these
+    double (*v)[3];           ///< velocities, m/s: likewise
     long newton, gradients;   ///< iterations so far, of Newton's method and of conjugate gradients
     long calmed;              ///< steps so far that backward Euler took
     struct integrator_work *work;

@@ -1,4 +1,4 @@
-/// What is to be seen on the stage: a camera, posed tails and characters, and their shadows. Made by the editor, drawn by draw/.
+/// The stage's contents: a camera, posed tails and characters, and their shadows. Made by the editor, drawn by draw/.
 #ifndef UI_STAGE_H
 #define UI_STAGE_H
 
@@ -56,7 +56,7 @@ struct stage_view {
     uint64_t hash; ///< of everything above: equal hash, equal pixels
 };
 
-/// Of all but the rigs and their shadows: equal hash, equal background and ground, their height apart.
+/// Hash of everything but rigs and shadows: equal hash, equal background and ground, except for the ground's height.
 static inline uint64_t stage_setting_hash(const struct stage_view *view)
 {
     return hash_bytes(HASH_START, view, offsetof(struct stage_view, tails));

@@ -63,7 +63,7 @@ static const struct theme themes[THEME_COUNT] = {
         },
 };
 
-/// Of the first dark theme. Documents have these, so they never change.
+/// From the first dark theme. Documents store these, so they never change.
 static const uint32_t stored[THEME_SPLINE_COLORS] = {0xFFB000, 0x4FA3E3, 0xE39AC8, 0x1F9E7A, 0xF4F1E8, 0xC8502A};
 
 static enum theme_kind in_use = THEME_DARK;
