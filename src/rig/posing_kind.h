@@ -11,6 +11,9 @@ struct posing_functions {
     void (*bounds)(const struct rig_pose *pose, float lo[3], float hi[3]);
 };
 
-extern const struct posing_functions tail_posing, character_posing;
+/// tail_posing …
+#define POSING_FUNCTIONS(constant, name) extern const struct posing_functions name##_posing;
+RIG_KIND_LIST(POSING_FUNCTIONS)
+#undef POSING_FUNCTIONS
 
 #endif
