@@ -36,7 +36,8 @@ static float trace(const float from[3], const float direction[3])
 {
     float near = 0, far = INFINITY;
     for (int k = 0; k < 3; k++) {
-        float a = (creature_torso_lo[k] - from[k]) / direction[k], b = (creature_torso_hi[k] - from[k]) / direction[k];
+        float a = (creature_torso_lo[k] - from[k]) / direction[k],
+              b = (creature_torso_hi[k] - from[k]) / direction[k];
         near = fmaxf(near, fminf(a, b));
         far = fminf(far, fmaxf(a, b));
     }
