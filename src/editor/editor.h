@@ -80,7 +80,7 @@ bool editor_is_playing(const struct editor *editor);
 /// Whether something moves by itself, so that the next frame must not wait for an event.
 bool editor_wants_frames(const struct editor *editor);
 /// Mouse cursor for where the pointer is.
-enum cursor editor_cursor(const struct editor *editor);
+enum mouse_cursor editor_cursor(const struct editor *editor);
 
 /// Finds a replay's target on the screen: "knot(sway,2)", "curve(sway,36,1)", "slider(frequency)",
 /// "stage(0.5,0.5)", "tail(tail,0.9)", "warning(0)". false where there is no such thing (with a sentence).

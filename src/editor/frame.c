@@ -240,9 +240,9 @@ void editor_show(struct editor *editor, const struct editor_world *world)
     dialogs_show(editor->dialogs, &editor->core, world);
 }
 
-enum cursor editor_cursor(const struct editor *editor)
+enum mouse_cursor editor_cursor(const struct editor *editor)
 {
-    static const enum cursor of_drag[] = {
+    static const enum mouse_cursor of_drag[] = {
         [DRAG_KNOTS] = CURSOR_MOVE,
         [DRAG_SLOPE] = CURSOR_MOVE,
         [DRAG_PAN] = CURSOR_MOVE,
@@ -257,13 +257,13 @@ enum cursor editor_cursor(const struct editor *editor)
         [DRAG_STAGE_DIVIDER] = CURSOR_VERTICAL,
         [DRAG_INSPECTOR_DIVIDER] = CURSOR_HORIZONTAL,
     };
-    static const enum cursor of_hover[] = {
+    static const enum mouse_cursor of_hover[] = {
         [HOVER_NONE] = CURSOR_ARROW, [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
         [HOVER_CURVE] = CURSOR_HAND, [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
         [HOVER_UNITS] = CURSOR_HAND, [HOVER_BODY] = CURSOR_MOVE,        [HOVER_PLAY] = CURSOR_HAND,
         [HOVER_LOOP] = CURSOR_HAND,  [HOVER_SPEED] = CURSOR_HAND,       [HOVER_WARNING] = CURSOR_HAND,
     };
-    static const enum cursor of_widget[] = {
+    static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};
     enum ui_over over;
     if (dialogs_over(editor->dialogs, &over)) return of_widget[over];

@@ -7,7 +7,12 @@
 #include "scene/tail.h"
 #include <stddef.h>
 
-enum rig_kind { RIG_TAIL, RIG_CHARACTER, RIG_KINDS };
+/// Every kind: its constant RIG_… and the name that its rows of functions begin with. Layers make their tables from this list.
+#define RIG_KIND_LIST(KIND) KIND(RIG_TAIL, tail) KIND(RIG_CHARACTER, character)
+
+#define RIG_CONSTANT(constant, name) constant,
+enum rig_kind { RIG_KIND_LIST(RIG_CONSTANT) RIG_KINDS };
+#undef RIG_CONSTANT
 
 enum { RIG_MAX_INPUTS = 64 }; ///< of a rig of any kind
 

@@ -1,7 +1,7 @@
 /// The character that is worked on, and the brush that paints on it: chosen in the inspector, by keys and on the stage.
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
-#include "rig/cast.h"
+#include "rig/models.h"
 
 const struct character_rig *characters_selected(const struct core *core, const struct editor_world *world)
 {
@@ -11,7 +11,7 @@ const struct character_rig *characters_selected(const struct core *core, const s
 const struct coordinate *characters_coordinate(const struct core *core, const struct editor_world *world)
 {
     const struct character_rig *rig = characters_selected(core, world);
-    const struct figure *figure = cast_figure(world->cast, core->characters.character);
+    const struct figure *figure = models_figure(world->models, core->characters.character);
     if (!rig || !figure || core->characters.drive >= rig->drive_count) return NULL;
     const int at = figure_find(figure, rig->drives[core->characters.drive].name);
     return at >= 0 ? &figure->character.coordinates[at] : NULL;
@@ -29,7 +29,7 @@ const struct figure *characters_figure(const struct core *core, const struct edi
 {
     const struct coordinate *selected = characters_coordinate(core, world);
     if (!selected) return NULL;
-    const struct figure *figure = cast_figure(world->cast, core->characters.character);
+    const struct figure *figure = models_figure(world->models, core->characters.character);
     *coordinate = (int)(selected - figure->character.coordinates);
     return figure;
 }

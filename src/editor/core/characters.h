@@ -3,7 +3,7 @@
 #define EDITOR_CORE_CHARACTERS_H
 
 #include "editor/core/state.h"
-#include "rig/cast.h"
+#include "rig/models.h"
 
 /// The rig that is selected, or NULL; and its coordinate.
 const struct character_rig *characters_selected(const struct core *core, const struct editor_world *world);

@@ -3,7 +3,7 @@
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
-#include "rig/cast.h"
+#include "rig/models.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -115,7 +115,7 @@ static bool is_driven(const struct character_rig *rig, const char *name)
 static int free_coordinates(const struct inspection *in, const struct character_rig *rig,
                             struct ui_item items[MAX_ITEMS])
 {
-    const struct figure *figure = cast_figure(in->world->cast, in->core->characters.character);
+    const struct figure *figure = models_figure(in->world->models, in->core->characters.character);
     int count = 0;
     if (!figure || rig->drive_count == CHARACTER_MAX_DRIVES) return 0;
     for (int k = 0; k < figure->character.coordinate_count && count < MAX_ITEMS; k++) {

@@ -62,13 +62,14 @@ static float trace(const float from[3], const float direction[3])
 {
     float near = 0, far = INFINITY;
     for (int k = 0; k < 3; k++) {
-        float a = (creature_body_lo[k] - from[k]) / direction[k], b = (creature_body_hi[k] - from[k]) / direction[k];
+        float a = (creature_torso_lo[k] - from[k]) / direction[k],
+              b = (creature_torso_hi[k] - from[k]) / direction[k];
         near = fmaxf(near, fminf(a, b));
         far = fminf(far, fmaxf(a, b));
     }
     for (int step = 0; step < TRACE_STEPS && near < far; step++) {
         const vec3s p = glms_vec3_muladds(vec3_from(direction), near, vec3_from(from));
-        float distance = creature_body_distance(p.raw);
+        float distance = creature_torso_distance(p.raw);
         if (distance < TRACE_NEAR) return near;
         near += 0.9f * distance;
     }

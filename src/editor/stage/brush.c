@@ -130,7 +130,7 @@ bool brush_press(struct stage *stage, struct core *core, const struct editor_wor
     const struct figure *figure = pose_figure(stage, core, world, &coordinate);
     if (!figure || !find_spot(stage, figure, event->x, event->y, &painting->spot)) return false;
     const struct paint *paint = characters_selected(core, world)->painted;
-    if (paint && !cast_fits(paint, figure)) {
+    if (paint && !models_paint_fits(paint, figure)) {
         core_message(core, true, "The paint in this scene belongs to another model. Remove it first.");
         return true;
     }
@@ -171,7 +171,7 @@ void brush_advance(struct stage *stage, struct core *core, const struct editor_w
     if (core->drag.kind != DRAG_PAINT) return;
     const struct figure *figure = pose_figure(stage, core, world, &coordinate);
     const struct paint *paint = figure ? characters_selected(core, world)->painted : NULL;
-    if (!paint || !cast_fits(paint, figure)) return;
+    if (!paint || !models_paint_fits(paint, figure)) return;
     const int count = find_way(stage, core, figure, spots);
     painting->x = core->pointer_x;
     painting->y = core->pointer_y;

@@ -175,5 +175,5 @@ void brush_show(struct stage *stage, struct core *core, const struct editor_worl
     if (!figure) return;
     const struct paint *paint = characters_selected(core, world)->painted;
     if (stage->painting.covers) show_ring(stage, core, figure);
-    show_state(stage, core, paint && cast_fits(paint, figure) ? paint : NULL, coordinate);
+    show_state(stage, core, paint && models_paint_fits(paint, figure) ? paint : NULL, coordinate);
 }

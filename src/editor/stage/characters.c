@@ -42,7 +42,7 @@ static void add_character(struct stage *stage, const struct core *core, const st
     struct stage_view *view = &stage->view;
     const struct character_view *how = &core->characters;
     const struct character_rig *character = &world->document->rigs[rig].character;
-    const struct posing posing = {world->document, world->evaluation, world->cast, look};
+    const struct posing posing = {world->document, world->evaluation, world->models, look};
     struct rig_pose posed;
     if (view->character_count == STAGE_MAX_CHARACTERS) return;
     if (!rig_pose(&posing, rig, core->playback.position, NULL, &posed)) return;
@@ -65,7 +65,7 @@ static void add_character(struct stage *stage, const struct core *core, const st
 
 static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
 {
-    const struct figure *figure = cast_figure(world->cast, n);
+    const struct figure *figure = models_figure(world->models, n);
     if (!figure) return;
     if (!core->characters.compare) {
         add_character(stage, core, world, rig, n, core->look, 0.0f);
@@ -80,7 +80,7 @@ static bool bounds(const struct stage *stage, const struct core *core, const str
 {
     const struct posing posing = stage_posing(core, world);
     const double last = document_samples(world->document) - 1;
-    const struct figure *figure = cast_figure(world->cast, n);
+    const struct figure *figure = models_figure(world->models, n);
     struct rig_pose posed;
     (void)stage;
     if (!figure) return false;

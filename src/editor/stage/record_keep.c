@@ -198,7 +198,7 @@ static void hang_channels(const struct stage *stage, struct core *core, const st
         const struct channel channel = tail->channels[c];
         const struct param *equilibrium = &world->document->splines[channel.spline].parameter[PARAMETER_EQUILIBRIUM];
         double direction[3], scale = stage->follow[index].scale[c];
-        follow_direction(tail, channel.axis, direction);
+        swing_direction(tail, channel.axis, direction);
         bool swung = stage->record.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
         if (!swung) continue;
         if (channel.of == PART_TOTAL) {
@@ -215,7 +215,7 @@ void record_keep(struct stage *stage, struct core *core, const struct editor_wor
     const struct tail *tail = document_tail(world->document, stage->body_drag.tail);
     bool loop = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
-        record->hangs[c] = follow_hangs(tail, &tail->channels[c]);
+        record->hangs[c] = swing_hangs(tail, &tail->channels[c]);
         loop &= spline_start(&world->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
     }
     for (int k = 0; k < 3; k++) {

@@ -14,7 +14,7 @@
 
 struct posing stage_posing(const struct core *core, const struct editor_world *world)
 {
-    return (struct posing){world->document, world->evaluation, world->cast, core->look};
+    return (struct posing){world->document, world->evaluation, world->models, core->look};
 }
 
 bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2])

@@ -1,4 +1,4 @@
-/// The fox's body, as a union of round cones.
+/// The fox without its tail, as a union of round cones.
 #include "model/coat.h"
 #include "model/creature.h"
 #include "model/isosurface.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/// The body is a smooth union of round cones. Metres, bind size, but with y = 0 on the ground. The animal looks towards
+/// The torso is a smooth union of round cones. Metres, bind size, but with y = 0 on the ground. The animal looks towards
 /// −z. Parts of the head are relative to its middle and also look towards −z: the head is turned afterwards.
 ///
 /// Later parts lie on top of earlier ones with their colours and fillets.
@@ -47,11 +47,11 @@ static const float head_middle[3] = {0.01f, 0.80f, -0.385f};
 #define REFINE_ROUNDS 3
 #define LID_WIDTH 0.016f
 
-/// Direction, in the standing body, in which eyes and nose shine.
+/// Direction in which eyes and nose shine, standing coordinates.
 static const float glint[3] = {0.68f, 0.69f, -0.25f};
 
-const float creature_body_lo[3] = {-0.36f, -CREATURE_BASE_HEIGHT, -0.68f};
-const float creature_body_hi[3] = {0.36f, 1.16f - CREATURE_BASE_HEIGHT, 0.38f};
+const float creature_torso_lo[3] = {-0.36f, -CREATURE_BASE_HEIGHT, -0.68f};
+const float creature_torso_hi[3] = {0.36f, 1.16f - CREATURE_BASE_HEIGHT, 0.38f};
 
 /// Standing coordinates → the head's own, before it was turned and tilted.
 static void into_head(const float p[3], float q[3])
@@ -63,8 +63,8 @@ static void into_head(const float p[3], float q[3])
     q[2] = z * cosf(HEAD_TURN) - x * sinf(HEAD_TURN);
 }
 
-/// The tail's stump: as thick as the tail and a hair more while its fillet lasts, then sinking below the tail's own
-/// skin at so flat an angle that the line where they cross cannot be seen.
+/// The tail's stump: a hair thicker than the tail along the fillet, then sinking below the tail's own
+/// skin at so flat an angle that the seam cannot be seen.
 static float stump_distance(const float p[3])
 {
     const float z = fminf(fmaxf(p[2], -0.14f), 0.25f);
@@ -72,8 +72,8 @@ static float stump_distance(const float p[3])
     return sqrtf(p[0] * p[0] + p[1] * p[1] + (p[2] - z) * (p[2] - z)) - radius;
 }
 
-/// Distance to the body at a point in bind space, and its colour where `rgb` is not NULL.
-static float body_distance_color(const float p[3], float rgb[3])
+/// Distance to the torso at a point in bind space, and its colour if `rgb` is not NULL.
+static float torso_distance_color(const float p[3], float rgb[3])
 {
     const float standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
     float distance = parts_add(trunk, sizeof trunk / sizeof *trunk, standing, 1e3f, rgb);
@@ -87,7 +87,7 @@ static float body_distance_color(const float p[3], float rgb[3])
     return parts_union(distance, head_distance, NECK_BLEND, rgb, head_rgb);
 }
 
-float creature_body_distance(const float p[3]) { return body_distance_color(p, NULL); }
+float creature_torso_distance(const float p[3]) { return torso_distance_color(p, NULL); }
 
 static float face_distance(const float p[3])
 {
@@ -97,11 +97,11 @@ static float face_distance(const float p[3])
     return parts_add(face, sizeof face / sizeof *face, in_head, 1e3f, NULL);
 }
 
-/// The fur is the parts' own; round the stump it is the tail's, which also takes over the bending there.
-static void body_paint(struct vertex *vertex)
+/// Each part has its own colour; around the stump colour and bending go over into the tail's.
+static void torso_paint(struct vertex *vertex)
 {
     const float *p = vertex->position;
-    body_distance_color(p, vertex->color);
+    torso_distance_color(p, vertex->color);
     const float from_axis = hypotf(p[0], p[1]) / CREATURE_TAIL_RADIUS;
     const float near = glm_smoothstep(2.4f, 1.3f, from_axis);
     float tail_rgb[3];
@@ -113,7 +113,7 @@ static void body_paint(struct vertex *vertex)
     vertex->bend = near * glm_smoothstep(-0.25f, -0.05f, p[2]);
 }
 
-/// Dark, with a glint where a window above would be mirrored.
+/// Dark, with a glint as of a lamp above.
 static void face_paint(struct vertex *vertex)
 {
     const float shine = glms_vec3_dot(vec3_from(vertex->normal), vec3_from(glint));
@@ -121,12 +121,12 @@ static void face_paint(struct vertex *vertex)
     coat_mix(vertex->color, COAT_TIP, glm_smoothstep(0.87f, 0.95f, shine));
 }
 
-void mesh_body(float cell, float tolerance, struct mesh *mesh)
+void mesh_torso(float cell, float tolerance, struct mesh *mesh)
 {
-    const struct solid body = {creature_body_distance, body_paint};
+    const struct solid torso = {creature_torso_distance, torso_paint};
     const int first_index = mesh->index_count;
-    isosurface(&body, creature_body_lo, creature_body_hi, cell, mesh);
-    refine(&body, tolerance, REFINE_ROUNDS, first_index, mesh);
+    isosurface(&torso, creature_torso_lo, creature_torso_hi, cell, mesh);
+    refine(&torso, tolerance, REFINE_ROUNDS, first_index, mesh);
     const struct solid features = {face_distance, face_paint};
     float lo[3], hi[3];
     for (int k = 0; k < 3; k++) {

@@ -1,19 +1,19 @@
 /// The filter that a tail follows a dragged body by: the solver's own, whatever the frame rate, and it comes to rest.
 #include "near.h"
 
-#include "rig/follow.h"
+#include "rig/swing.h"
 #include "spline_of.h"
 #include <math.h>
 #include <string.h>
 
 static const double turn = 6.283185307179586;
 
-static struct follow_filter filter_of(const struct spline *spline)
+static struct swing_filter filter_of(const struct spline *spline)
 {
-    struct follow_filter filter;
+    struct swing_filter filter;
     double parameter[PARAMETER_COUNT];
     for (int p = 0; p < PARAMETER_COUNT; p++) parameter[p] = spline->parameter[p].value;
-    assert_true(follow_filter(spline, parameter, &filter));
+    assert_true(swing_filter(spline, parameter, &filter));
     return filter;
 }
 
@@ -25,16 +25,16 @@ static double base_at(double t)
 }
 
 /// Follows base_at(), looked at `rate` times a second, for 3 s.
-static struct follower follow(const struct follow_filter *filter, double rate)
+static struct swing shaken(const struct swing_filter *filter, double rate)
 {
-    struct follower follower = {{0}, {0}};
+    struct swing swing = {{0}, {0}};
     double velocity = 0;
     for (int i = 0; i < (int)lround(3 * rate); i++) {
         double next = (base_at((i + 1) / rate) - base_at(i / rate)) * rate;
-        follow_step(&follower, filter, next - velocity, 1 / rate);
+        swing_step(&swing, filter, next - velocity, 1 / rate);
         velocity = next;
     }
-    return follower;
+    return swing;
 }
 
 /// The forward response of Figure 5: from rest, no knots, the base's motion as equilibrium.
@@ -67,12 +67,12 @@ static void test_is_the_solvers_filter(void **state)
                                      spline_of(WIGGLY_REAL, 1.5, 0.1, 0), spline_of(WIGGLY_REAL, 1, 1, 0),
                                      spline_of(WIGGLY_REAL, 1, 3, 0)};
     for (size_t s = 0; s < sizeof splines / sizeof splines[0]; s++) {
-        struct follow_filter filter = filter_of(&splines[s]);
-        struct follower follower = follow(&filter, 960);
+        struct swing_filter filter = filter_of(&splines[s]);
+        struct swing swing = shaken(&filter, 960);
         wiggly_value value = solved(&splines[s]);
         double size = 0.5 * filter.peak;
-        assert_near(follower.x[0], value.re, 2e-3 * size);
-        assert_near(follower.x[1], value.im, 2e-3 * size);
+        assert_near(swing.x[0], value.re, 2e-3 * size);
+        assert_near(swing.x[1], value.im, 2e-3 * size);
     }
 }
 
@@ -81,13 +81,13 @@ static void test_frame_rate_does_not_matter(void **state)
 {
     (void)state;
     const struct spline spline = spline_of(WIGGLY_COMPLEX, 1.2, 0.1, 0.1);
-    struct follow_filter filter = filter_of(&spline);
-    struct follower slow = {{0}, {0}}, fast = slow;
-    follow_step(&slow, &filter, 0.7, 0.4);
-    for (int i = 0; i < 100; i++) follow_step(&fast, &filter, i == 0 ? 0.7 : 0, 0.004);
+    struct swing_filter filter = filter_of(&spline);
+    struct swing slow = {{0}, {0}}, fast = slow;
+    swing_step(&slow, &filter, 0.7, 0.4);
+    for (int i = 0; i < 100; i++) swing_step(&fast, &filter, i == 0 ? 0.7 : 0, 0.004);
     assert_near(fast.x[0], slow.x[0], 1e-13);
     assert_near(fast.x[1], slow.x[1], 1e-13);
-    struct follower at30 = follow(&filter, 30), at144 = follow(&filter, 144);
+    struct swing at30 = shaken(&filter, 30), at144 = shaken(&filter, 144);
     assert_near(at30.x[0], at144.x[0], 0.02 * 0.5 * filter.peak);
 }
 
@@ -98,14 +98,14 @@ static void test_comes_to_rest_within_its_peak(void **state)
     const struct spline splines[] = {spline_of(WIGGLY_COMPLEX, 1, 0, 0.1), spline_of(WIGGLY_COMPLEX, 3, 0.3, 0.2),
                                      spline_of(WIGGLY_REAL, 1, 0.1, 0)};
     for (size_t s = 0; s < sizeof splines / sizeof splines[0]; s++) {
-        struct follow_filter filter = filter_of(&splines[s]);
-        struct follower follower = {{0}, {0}};
+        struct swing_filter filter = filter_of(&splines[s]);
+        struct swing swing = {{0}, {0}};
         double largest = 0, seconds = 0;
-        follow_step(&follower, &filter, 1000, 0.001); // a metre in a millisecond
-        follow_step(&follower, &filter, -1000, 0.001);
-        while (!follow_settled(&follower, &filter)) {
-            follow_step(&follower, &filter, 0, 0.01);
-            largest = fmax(largest, hypot(follower.x[0], follower.x[1]));
+        swing_step(&swing, &filter, 1000, 0.001); // a metre in a millisecond
+        swing_step(&swing, &filter, -1000, 0.001);
+        while (!swing_settled(&swing, &filter)) {
+            swing_step(&swing, &filter, 0, 0.01);
+            largest = fmax(largest, hypot(swing.x[0], swing.x[1]));
             seconds += 0.01;
             assert_true(seconds < 120);
         }
@@ -116,12 +116,12 @@ static void test_comes_to_rest_within_its_peak(void **state)
 static void test_nothing_pulls_a_cubic_back(void **state)
 {
     (void)state;
-    struct follow_filter filter;
+    struct swing_filter filter;
     const double parameter[PARAMETER_COUNT] = {0};
     struct spline spline = spline_of(WIGGLY_CUBIC, 1, 0.1, 0.1);
-    assert_false(follow_filter(&spline, parameter, &filter));
+    assert_false(swing_filter(&spline, parameter, &filter));
     spline.parameter[PARAMETER_MODE].value = WIGGLY_COMPLEX;
-    assert_false(follow_filter(&spline, parameter, &filter));
+    assert_false(swing_filter(&spline, parameter, &filter));
 }
 
 /// A channel of the total swings its tip about as far as the base goes; one of the displacement says itself how far, and then it
@@ -135,21 +135,21 @@ static void test_scale_and_direction(void **state)
     channels[1].of = PART_DISPLACEMENT;
     struct tail tail = {.joints = 40, .length = 1.6, .channels = channels, .channel_count = 1};
     const struct spline spline = spline_of(WIGGLY_COMPLEX, 1, 0.1, 0.1);
-    struct follow_filter filter = filter_of(&spline);
-    double scale = follow_scale(&tail, &channels[0], &filter), bend = 4 * turn / 360 * scale * filter.peak, tip = 0;
+    struct swing_filter filter = filter_of(&spline);
+    double scale = swing_scale(&tail, &channels[0], &filter), bend = 4 * turn / 360 * scale * filter.peak, tip = 0;
     for (int n = 0; n < 40; n++) tip += bend * 1.6 * (40 - n) / 40;
     assert_near(tip, 1, 1e-12);
-    assert_true(follow_hangs(&tail, &channels[0]));
+    assert_true(swing_hangs(&tail, &channels[0]));
     tail.channel_count = 2;
-    assert_false(follow_hangs(&tail, &channels[0]));
-    assert_true(follow_hangs(&tail, &channels[1]));
-    assert_near(follow_scale(&tail, &channels[1], &filter), 1, 0);
+    assert_false(swing_hangs(&tail, &channels[0]));
+    assert_true(swing_hangs(&tail, &channels[1]));
+    assert_near(swing_scale(&tail, &channels[1], &filter), 1, 0);
     double direction[3];
-    follow_direction(&tail, AXIS_SIDE, direction);
+    swing_direction(&tail, AXIS_SIDE, direction);
     assert_near(direction[0], 1, 0);
     tail.rest.each = true;
     tail.rest.value[0] = 30; // lifted by 30 degrees: moving away in front of it presses it down
-    follow_direction(&tail, AXIS_UP, direction);
+    swing_direction(&tail, AXIS_UP, direction);
     assert_near(direction[1], cos(turn / 12), 1e-6);
     assert_near(direction[2], -sin(turn / 12), 1e-6);
 }

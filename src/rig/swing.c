@@ -1,6 +1,6 @@
 /// Steps a spline's filter while its base is moved by hand.
-#include "rig/follow.h"
-#include "rig/pose.h"
+#include "rig/swing.h"
+#include "rig/posing.h"
 #include "spline/poles.h"
 #include <math.h>
 
@@ -12,10 +12,10 @@ static cplx exp_complex(cplx z) { return (cplx){exp(z.re) * cos(z.im), exp(z.re)
 
 static cplx divide(cplx a, cplx b) { return cplx_scale(1 / cplx_norm(b), cplx_mul(a, cplx_conj(b))); }
 
-static cplx pole(const struct follow_filter *filter, int k) { return (cplx){filter->s[k][0], filter->s[k][1]}; }
+static cplx pole(const struct swing_filter *filter, int k) { return (cplx){filter->s[k][0], filter->s[k][1]}; }
 
 /// φ(t); where the poles are one, its limit t·e^{st}.
-static cplx response(const struct follow_filter *filter, double t)
+static cplx response(const struct swing_filter *filter, double t)
 {
     const cplx apart = cplx_sub(pole(filter, 0), pole(filter, 1));
     const cplx first = exp_complex(cplx_scale(t, pole(filter, 0)));
@@ -23,9 +23,9 @@ static cplx response(const struct follow_filter *filter, double t)
     return divide(cplx_sub(first, exp_complex(cplx_scale(t, pole(filter, 1)))), apart);
 }
 
-/// A step of the base is answered by φ̇, about ω_n φ at its largest. Two complex poles at −σ + j(ω ± β) ring up together:
-/// |φ| = e^{−σt} sin(βt)/β is largest at t = atan(β/σ)/β, and where they are one at 1/σ. A damped spring stays below 1/ω_n.
-static double step_peak(const struct follow_filter *filter)
+/// The response to a step of the base is φ̇, at most about ω_n φ. Two complex poles at −σ + j(ω ± β) ring up together:
+/// |φ| = e^{−σt} sin(βt)/β is largest at t = atan(β/σ)/β, and or, where they coincide, at 1/σ. A damped spring stays below 1/ω_n.
+static double step_peak(const struct swing_filter *filter)
 {
     const double sigma = -filter->s[0][0], beta = 0.5 * fabs(filter->s[0][1] - filter->s[1][1]);
     if (!filter->is_complex) return 1;
@@ -33,40 +33,40 @@ static double step_peak(const struct follow_filter *filter)
     return fmax(1, filter->natural * sqrt(cplx_norm(response(filter, t))));
 }
 
-bool follow_filter(const struct spline *spline, const double parameter[PARAMETER_COUNT], struct follow_filter *filter)
+bool swing_filter(const struct spline *spline, const double parameter[PARAMETER_COUNT], struct swing_filter *filter)
 {
     wiggly_desc desc = wiggly_default_desc();
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) parameter_describe(p, parameter[p], NULL, &desc);
     desc.mode = spline_mode(spline);
     desc.spring_friction = spline->spring_friction && desc.mode == WIGGLY_REAL;
     const poles at = poles_at(&desc, 0, LEAST_DAMPING);
-    *filter = (struct follow_filter){.s = {{at.s[0].re, at.s[0].im}, {at.s[1].re, at.s[1].im}},
-                                     .natural = at.natural,
-                                     .is_complex = spline_mode(spline) == WIGGLY_COMPLEX};
+    *filter = (struct swing_filter){.s = {{at.s[0].re, at.s[0].im}, {at.s[1].re, at.s[1].im}},
+                                    .natural = at.natural,
+                                    .is_complex = spline_mode(spline) == WIGGLY_COMPLEX};
     if (!(at.natural > 0)) return false;
     filter->peak = step_peak(filter);
     return true;
 }
 
-void follow_step(struct follower *follower, const struct follow_filter *filter, double kick, double dt)
+void swing_step(struct swing *swing, const struct swing_filter *filter, double kick, double dt)
 {
-    const cplx x = {follower->x[0], follower->x[1]}, z = {follower->z[0] - kick, follower->z[1]};
+    const cplx x = {swing->x[0], swing->x[1]}, z = {swing->z[0] - kick, swing->z[1]};
     const cplx later =
         cplx_add(cplx_mul(exp_complex(cplx_scale(dt, pole(filter, 1))), x), cplx_mul(response(filter, dt), z));
     const cplx kept = cplx_mul(exp_complex(cplx_scale(dt, pole(filter, 0))), z);
-    follower->x[0] = later.re;
-    follower->x[1] = filter->is_complex ? later.im : 0;
-    follower->z[0] = kept.re;
-    follower->z[1] = kept.im;
+    swing->x[0] = later.re;
+    swing->x[1] = filter->is_complex ? later.im : 0;
+    swing->z[0] = kept.re;
+    swing->z[1] = kept.im;
 }
 
-bool follow_settled(const struct follower *follower, const struct follow_filter *filter)
+bool swing_settled(const struct swing *swing, const struct swing_filter *filter)
 {
-    const double to_come = hypot(follower->z[0], follower->z[1]) * filter->peak / filter->natural;
-    return hypot(follower->x[0], follower->x[1]) + to_come < STILL;
+    const double to_come = hypot(swing->z[0], swing->z[1]) * filter->peak / filter->natural;
+    return hypot(swing->x[0], swing->x[1]) + to_come < STILL;
 }
 
-bool follow_hangs(const struct tail *tail, const struct channel *channel)
+bool swing_hangs(const struct tail *tail, const struct channel *channel)
 {
     if (channel->of == PART_DISPLACEMENT) return true;
     for (int c = 0; c < tail->channel_count; c++) {
@@ -85,14 +85,14 @@ static double lever(const struct tail *tail, const struct channel *channel)
     return sum * tail->length;
 }
 
-double follow_scale(const struct tail *tail, const struct channel *channel, const struct follow_filter *filter)
+double swing_scale(const struct tail *tail, const struct channel *channel, const struct swing_filter *filter)
 {
     if (channel->of == PART_DISPLACEMENT) return 1;
     const double metres = lever(tail, channel);
     return fabs(metres) > 1e-6 ? 1 / (metres * filter->peak) : 0;
 }
 
-void follow_direction(const struct tail *tail, enum axis axis, double direction[3])
+void swing_direction(const struct tail *tail, enum axis axis, double direction[3])
 {
     struct tail still = *tail;
     struct pose pose;
