@@ -1,5 +1,6 @@
 /// Solves long documents in a thread, the visible part at once.
 #include "scene/background.h"
+#include "scene/storage.h"
 #include "scene/window.h"
 #include "scene/worker.h"
 #include "spline/desc.h"
@@ -159,19 +160,19 @@ static void show_solved(struct evaluation *evaluation, const struct document *do
 
 static void adopt_take(struct evaluation *evaluation, const struct document *document, const struct job *job)
 {
-    struct background *b = ((struct storage *)evaluation->storage)->background;
+    struct background *b = evaluation->storage->background;
     b->window = (struct window){.take = job->take, .spline = b->condensing, .moved = -1};
     if (!job->take) b->unfit = b->condensing;
     b->condensing = -1;
     if (!job->take) return;
-    wiggly_desc desc = storage_describe(evaluation, document, b->window.spline, evaluation->cubic);
+    wiggly_desc desc = storage_describe(evaluation->curves, document, b->window.spline, evaluation->cubic);
     window_follow(&b->window, document, &desc);
 }
 
 /// Takes over what the thread has finished within `seconds`.
 static bool collect(struct evaluation *evaluation, const struct document *document, double seconds)
 {
-    struct background *b = ((struct storage *)evaluation->storage)->background;
+    struct background *b = evaluation->storage->background;
     struct job job;
     if (!worker_collect(b->worker, seconds, &job)) return false;
     if (job.kind == WORK_SOLVE) {
@@ -186,7 +187,7 @@ static void give(struct evaluation *evaluation, const struct document *document,
 {
     struct storage *storage = evaluation->storage;
     struct background *b = storage->background;
-    wiggly_desc desc = storage_describe(evaluation, document, spline, evaluation->cubic);
+    wiggly_desc desc = storage_describe(evaluation->curves, document, spline, evaluation->cubic);
     storage_add_knots(&desc, document, spline, storage->knots);
     struct job job = {.kind = kind, .desc = desc, .solver = storage->solver};
     if (kind == WORK_SOLVE) {
@@ -222,10 +223,10 @@ static int next_pending(const struct storage *storage, int count)
 static bool wants_take(const struct evaluation *evaluation, const struct document *document,
                        const struct focus *focus)
 {
-    const struct background *b = ((struct storage *)evaluation->storage)->background;
+    const struct background *b = evaluation->storage->background;
     bool has = b->window.take && b->window.spline == focus->spline && b->window.is_current;
     if (focus->spline < 0 || has || focus->spline == b->unfit) return false;
-    wiggly_desc desc = storage_describe(evaluation, document, focus->spline, evaluation->cubic);
+    wiggly_desc desc = storage_describe(evaluation->curves, document, focus->spline, evaluation->cubic);
     return window_serves(&desc);
 }
 
@@ -280,7 +281,7 @@ static bool show_windows(struct evaluation *evaluation, const struct focus *focu
 /// Ends a long solve of what was edited again, or of what follows it: it would come late, and keep newer windows from being shown.
 static void drop_superseded(const struct evaluation *evaluation, const struct document *document)
 {
-    const struct background *b = ((struct storage *)evaluation->storage)->background;
+    const struct background *b = evaluation->storage->background;
     if (b->solving < 0 || worker_seconds(b->worker) < WORTH_SHOWING) return;
     bool superseded = b->pending[b->solving];
     for (int s = 0; s < evaluation->count; s++) {
@@ -292,7 +293,7 @@ static void drop_superseded(const struct evaluation *evaluation, const struct do
 /// Notes what an edit made out of date; false where nothing was edited.
 static bool mark(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic)
 {
-    struct background *b = ((struct storage *)evaluation->storage)->background;
+    struct background *b = evaluation->storage->background;
     bool all = cubic != evaluation->cubic, any = false;
     evaluation->cubic = cubic;
     for (int s = 0; s < evaluation->count; s++) {
@@ -300,7 +301,7 @@ static bool mark(struct evaluation *evaluation, const struct document *document,
         b->pending[s] = any = true;
         if (s == b->unfit) b->unfit = -1;
         if (s != b->window.spline || !b->window.take) continue;
-        wiggly_desc desc = storage_describe(evaluation, document, s, cubic);
+        wiggly_desc desc = storage_describe(evaluation->curves, document, s, cubic);
         window_follow(&b->window, document, &desc);
     }
     return any;

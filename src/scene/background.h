@@ -27,15 +27,4 @@ void background_update(struct evaluation *evaluation, const struct document *doc
 /// Goes on until no curve is stale and what is looked at is ready to be edited.
 void background_settle(struct evaluation *evaluation, const struct document *document, const struct focus *focus);
 
-/// Waits for the thread, whose memory is about to change; what it was at is to be done again.
-void background_halt(struct evaluation *evaluation);
-
-/// The same where all that is stale will be solved otherwise.
-void background_forget(struct evaluation *evaluation);
-
-struct background;
-
-/// NULL is fine.
-void background_destroy(struct background *background);
-
 #endif

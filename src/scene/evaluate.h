@@ -16,7 +16,7 @@ struct evaluation {
     long solved_splines;   ///< in the last evaluate(): splines and samples solved
     long solved_samples;
     long solved_knots;
-    void *storage; ///< private
+    struct storage *storage; ///< private (storage.h)
 };
 
 /// Memory for a document's splines; to be called again when the number of splines, samples or knots has changed,

@@ -1,8 +1,9 @@
-/// What evaluate.c and background.c share: memory of the curves, and how a spline is described to the solver.
+/// What evaluate.c and background.c share: the curves' memory, the thread that may be using it, and how a spline is described to
+/// the solver. Private to src/scene.
 #ifndef SCENE_STORAGE_H
 #define SCENE_STORAGE_H
 
-#include "scene/evaluate.h"
+#include "scene/document.h"
 #include "scene/extremes.h"
 #include "scene/order.h"
 
@@ -36,9 +37,8 @@ struct extremes storage_extremes(double *marks, int samples);
 /// Whether curves of that many samples have extremes.
 bool storage_wants_extremes(int samples);
 
-/// What is to be solved for one spline, its knots left out; tracks point into the evaluation.
-wiggly_desc storage_describe(const struct evaluation *evaluation, const struct document *document, int spline,
-                             bool cubic);
+/// What is to be solved for one spline, its knots left out; tracks point into `curves`, which has one for each spline.
+wiggly_desc storage_describe(const wiggly_curve *curves, const struct document *document, int spline, bool cubic);
 
 /// A knot as the solver has it.
 wiggly_knot storage_knot(const struct document *document, const struct knot *knot);
@@ -48,5 +48,16 @@ void storage_add_knots(wiggly_desc *desc, const struct document *document, int s
 
 /// What is shown where there is no solution: nothing moves.
 void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc);
+
+struct evaluation;
+
+/// Stops the thread because memory that it uses is about to change; what it was solving stays to be done.
+void background_halt(struct evaluation *evaluation);
+
+/// The same where everything stale is about to be solved anyway.
+void background_forget(struct evaluation *evaluation);
+
+/// NULL is fine.
+void background_destroy(struct background *background);
 
 #endif
