@@ -1,4 +1,4 @@
-/// Solves dirty splines and their followers in the order of their dependencies.
+/// Solves dirty splines and their followers in dependency order.
 #include "scene/evaluate.h"
 #include "base/checked.h"
 #include "scene/storage.h"
@@ -92,8 +92,7 @@ static bool resize_solver(struct storage *storage, int samples, int knots)
     return true;
 }
 
-/// Where each curve's numbers are. Until they are solved they are zeros or what another layout left: finite in any
-/// case.
+/// Gives each curve its place. Until it is solved, its numbers are zeros or left over from another layout: finite in any case.
 static void lay_out(struct evaluation *evaluation, struct storage *storage, int splines, int samples)
 {
     evaluation->count = splines;
@@ -109,7 +108,7 @@ static void lay_out(struct evaluation *evaluation, struct storage *storage, int 
     }
 }
 
-/// Whether the memory is right as it is.
+/// Whether the layout can stay as it is.
 static bool fits(const struct evaluation *evaluation, const struct document *document, int knots)
 {
     const struct storage *storage = evaluation->storage;
@@ -152,7 +151,7 @@ void evaluation_free(struct evaluation *evaluation)
     *evaluation = (struct evaluation){0};
 }
 
-/// Whether a spline that was solved now is one that this one depends on.
+/// Whether the spline depends on one that was just solved.
 static bool follows_solved(const struct storage *storage, const struct spline *spline, bool cubic)
 {
     for (int i = 0; i < PARAMETER_COUNT; i++) {
@@ -189,11 +188,11 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     struct order_cycle cycle;
     evaluation->solved_splines = evaluation->solved_samples = evaluation->solved_knots = 0;
     if (evaluation->count != document->spline_count || evaluation->samples != document_samples(document))
-        return; // evaluation_resize() failed, and said so
+        return; // evaluation_resize() failed and reported it
     background_forget(evaluation);
     bool all = !dirty || storage->is_new || cubic != evaluation->cubic || evaluation->stale;
     evaluation->cubic = cubic;
-    if (!scene_order(document, storage->space, storage->order, &cycle)) return; // no document has one
+    if (!scene_order(document, storage->space, storage->order, &cycle)) return; // a document has no cycles
     for (int i = 0; i < evaluation->count; i++) storage->solved[i] = false;
     for (int i = 0; i < evaluation->count; i++) {
         int spline = storage->order[i];

@@ -2,7 +2,7 @@
 #include "scene/storage.h"
 #include <string.h>
 
-/// Samples from which on the highest of a stretch is looked up: a view of all of them takes 1 ms in a frame.
+/// Curves of at least that many samples have extremes: scanning them all takes 1 ms of a frame.
 enum { MANY_SAMPLES = 250000 };
 
 void storage_place(wiggly_curve *curve, double *numbers, int samples)

@@ -7,7 +7,7 @@
 #include "scene/extremes.h"
 #include "scene/order.h"
 
-enum { ROWS = 5 }; ///< rows of numbers a curve: total, y, re, im, omega
+enum { ROWS = 5 }; ///< of each curve: total, y, re, im, omega
 
 struct storage {
     double *numbers; ///< ROWS · N for each spline
@@ -17,21 +17,21 @@ struct storage {
     wiggly_solver *solver;
     int solver_samples, solver_knots;
     wiggly_knot *knots; ///< of the spline being solved; solver_knots
-    int *order;         ///< one a spline each, as the next four
+    int *order;         ///< one for each spline, as the next four
     bool *solved;
     struct order_space space;
     struct extremes *extremes;
     int spline_capacity;
-    bool is_new;                   ///< curves were laid out anew, and none is solved
-    unsigned layout;               ///< counts them
-    unsigned threaded_layout;      ///< the last one that was shared with a thread, or could not be
-    struct background *background; ///< NULL: every solve is done where it is asked for
+    bool is_new;                   ///< the curves have a new layout, and none is solved
+    unsigned layout;               ///< counts the layouts
+    unsigned threaded_layout;      ///< the last one offered to a thread
+    struct background *background; ///< NULL: no thread
 };
 
-/// Puts a curve's rows into ROWS · samples numbers.
+/// Lays a curve's rows out in ROWS · samples numbers.
 void storage_place(wiggly_curve *curve, double *numbers, int samples);
 
-/// The same for extremes in 2 · extremes_blocks(samples) marks; none where marks is NULL.
+/// Extremes laid out in 2 · extremes_blocks(samples) marks; NULL: none.
 struct extremes storage_extremes(double *marks, int samples);
 
 /// Whether curves of that many samples have extremes.
@@ -43,10 +43,10 @@ wiggly_desc storage_describe(const wiggly_curve *curves, const struct document *
 /// A knot as the solver has it.
 wiggly_knot storage_knot(const struct document *document, const struct knot *knot);
 
-/// Adds the knots, for which there is room.
+/// Adds the spline's knots, for which `knots` must have room.
 void storage_add_knots(wiggly_desc *desc, const struct document *document, int spline, wiggly_knot *knots);
 
-/// What is shown where there is no solution: nothing moves.
+/// A curve at rest, for where there is no solution.
 void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc);
 
 struct evaluation;
