@@ -137,19 +137,20 @@ static int moved_index(int index, int from, int to)
 }
 
 struct moving {
+    struct document *document;
     int from, to;
 };
 
 static void move_reference(const struct reference *reference, void *context)
 {
     const struct moving *moving = context;
-    *reference->spline = moved_index(*reference->spline, moving->from, moving->to);
+    reference_set(moving->document, reference, moved_index(reference->spline, moving->from, moving->to));
 }
 
 /// Gives every reference its spline's new index. INT_MAX as `from` or `to` is a place beyond the list.
 static void move_references(struct document *document, int from, int to)
 {
-    struct moving moving = {from, to};
+    struct moving moving = {document, from, to};
     reference_each(document, move_reference, &moving);
 }
 

@@ -13,7 +13,7 @@ struct drive {
     int spline;       ///< index
     double amplitude; ///< A
     double lag;       ///< degrees
-    const void *extra;
+    struct json_t *extra;
 };
 
 struct character_rig {

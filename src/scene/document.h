@@ -21,14 +21,16 @@ enum {
     SCENE_MAX_RIGS = 1024,
 };
 
+struct json_t;
+
 struct knot {
     double frame; ///< as written; may be fractional
     double value;
     double slope;     ///< value per second
     double stiffness; ///< 1/s
     bool has_slope;
-    unsigned id;       ///< unique in the document, kept through edits and undo; not saved
-    const void *extra; ///< unknown keys of the file (a jansson object that the document owns), or NULL
+    unsigned id;          ///< unique in the document, kept through edits and undo; not saved
+    struct json_t *extra; ///< unknown keys of the file, owned by the document, or NULL
 };
 
 struct spline {
@@ -39,7 +41,7 @@ struct spline {
     int knot_count, knot_capacity;
     int color;   ///< 0xRRGGBB, or -1: the theme's colours in turn
     unsigned id; ///< unique among the splines, kept through edits and undo; not saved
-    const void *extra;
+    struct json_t *extra;
 };
 
 static inline enum wiggly_mode spline_mode(const struct spline *spline)
@@ -66,8 +68,8 @@ struct document {
     char *folder;            ///< that paths in it are relative to; NULL: the working folder
     unsigned next_id;        ///< of a knot
     unsigned next_spline_id; ///< of a spline
-    const void *extra;
-    void *owned; ///< what `extra` pointers point into; freed with the document
+    struct json_t *extra;
+    struct json_t *owned; ///< what `extra` pointers point into; freed with the document
 };
 
 /// Sets the path of the document's own file; "" or NULL: untitled. false where memory is short.

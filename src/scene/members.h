@@ -18,14 +18,11 @@ void member(struct members *members, const char *key);
 void member_number(struct members *members, const char *key, double value);
 void member_string(struct members *members, const char *key, const char *string);
 
-/// The unknown keys of an object, or those of a track inside of it.
-json_t *extra_of(const void *extra);
-
 /// Whether a key of an object's extra one holds the unknown keys of tracks inside of it, and is none of its own.
 typedef bool holds_tracks(const char *key);
 
 /// Writes the unknown keys, but for those that `skips` (may be NULL) says.
-void members_extra(struct members *members, const void *extra, holds_tracks *skips);
+void members_extra(struct members *members, json_t *extra, holds_tracks *skips);
 
 /// A knot on one line.
 void print_knot(struct text *text, const struct knot *knot);

@@ -36,7 +36,7 @@ static void print_spline(struct text *text, const struct document *document, con
             continue;
         }
         member(&members, name);
-        print_param(text, document, &spline->parameter[p], extra_of(spline->extra), name);
+        print_param(text, document, &spline->parameter[p], spline->extra, name);
     }
     member(&members, "knots");
     for (int i = 0; i < spline->knot_count; i++) {

@@ -294,7 +294,7 @@ void reader_param(struct reader *reader, const struct where *at, json_t *value, 
     }
 }
 
-const void *reader_keep(struct reader *reader, json_t *extra)
+json_t *reader_keep(struct reader *reader, json_t *extra)
 {
     struct document *document = reader->document;
     if (!extra) return NULL;

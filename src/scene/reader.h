@@ -101,7 +101,7 @@ void reader_param(struct reader *reader, const struct where *at, json_t *value, 
                   struct param *param, json_t **extra);
 
 /// Gives an object of unknown keys (or NULL) to the document.
-const void *reader_keep(struct reader *reader, json_t *extra);
+json_t *reader_keep(struct reader *reader, json_t *extra);
 
 /// The parts of a scene, each into reader->document. Splines come first: rigs name them.
 void load_splines(struct reader *reader, const struct where *scene_at, const json_t *scene);

@@ -1,4 +1,4 @@
-/// A rig: what splines move. A kind of rigs is a row in each layer: how it is read, written and copied (rig.c here), posed
+/// A rig: what splines move. A kind of rigs is a row in each layer: how it is read, written and copied (rig_kind.c here), posed
 /// (rig/posing.c), put on the stage (editor/stage/stage.c), drawn (draw/stage.c) and edited (editor/inspector/inspector.c).
 #ifndef SCENE_RIG_H
 #define SCENE_RIG_H
@@ -18,7 +18,7 @@ struct rig {
         struct tail tail;
         struct character_rig character;
     };
-    const void *extra;
+    struct json_t *extra;
 };
 
 /// The file's word for a kind: "tail" …

@@ -15,10 +15,10 @@ struct rig_functions {
                   const char *folder);
     holds_tracks *has_tracks; ///< which of its unknown keys are those of tracks inside of it; NULL: none
     int (*input_count)(const struct rig *rig);
-    int *(*input)(struct rig *rig, int input);
-    enum reference_kind input_reference;
-    /// Visits the splines that it names besides its inputs; NULL: none.
-    void (*references)(struct rig *rig, struct reference reference, reference_visitor *visit, void *context);
+    int (*input)(const struct rig *rig, int input);
+    /// Visits the splines that the rig at `index` in the list names.
+    void (*references)(const struct rig *rig, int index, reference_visitor *visit, void *context);
+    void (*set_reference)(struct rig *rig, const struct reference *reference, int spline);
     bool (*copy)(struct rig *copy); ///< gives a shallow copy memory of its own; NULL: no edit needs one
     void (*release)(struct rig *rig);
     size_t (*bytes)(const struct rig *rig);                            ///< of what it holds
@@ -26,5 +26,9 @@ struct rig_functions {
 };
 
 extern const struct rig_functions tail_functions, character_functions;
+
+/// Visits the references of the rig at `index` in the list, and sets one.
+void rig_references(const struct rig *rig, int index, reference_visitor *visit, void *context);
+void rig_set_reference(struct rig *rig, const struct reference *reference, int spline);
 
 #endif

@@ -28,7 +28,7 @@ struct channel {
     enum channel_part of;
     struct angles lag;  ///< n·lag at joint n, or each joint's own lag
     struct angles gain; ///< degrees per unit of the spline
-    const void *extra;
+    struct json_t *extra;
 };
 
 struct tail {

@@ -1,5 +1,4 @@
 /// The rigs of a scene, in the order of the file, whatever kinds they are.
-#include "scene/rig.h"
 #include "scene/rig_kind.h"
 #include <stdlib.h>
 #include <string.h>
@@ -11,21 +10,16 @@ const char *rig_word(enum rig_kind kind) { return kinds[kind]->word; }
 
 int rig_input_count(const struct rig *rig) { return kinds[rig->kind]->input_count(rig); }
 
-static int *input_of(const struct rig *rig, int input)
+int rig_input(const struct rig *rig, int input) { return kinds[rig->kind]->input(rig, input); }
+
+void rig_references(const struct rig *rig, int index, reference_visitor *visit, void *context)
 {
-    return kinds[rig->kind]->input((struct rig *)(uintptr_t)rig, input);
+    kinds[rig->kind]->references(rig, index, visit, context);
 }
 
-int rig_input(const struct rig *rig, int input) { return *input_of(rig, input); }
-
-void rig_references(struct rig *rig, int index, reference_visitor *visit, void *context)
+void rig_set_reference(struct rig *rig, const struct reference *reference, int spline)
 {
-    const struct rig_functions *kind = kinds[rig->kind];
-    if (kind->references) kind->references(rig, (struct reference){.owner = index}, visit, context);
-    for (int i = 0; i < kind->input_count(rig); i++) {
-        struct reference reference = {kind->input_reference, index, i, kind->input(rig, i)};
-        visit(&reference, context);
-    }
+    kinds[rig->kind]->set_reference(rig, reference, spline);
 }
 
 bool rig_copy(const struct rig *rig, struct rig *copy)

@@ -106,7 +106,19 @@ static void print(struct members *members, const struct document *document, cons
 
 static int input_count(const struct rig *rig) { return rig->character.drive_count; }
 
-static int *input(struct rig *rig, int input) { return &rig->character.drives[input].spline; }
+static int input(const struct rig *rig, int input) { return rig->character.drives[input].spline; }
+
+static void references(const struct rig *rig, int index, reference_visitor *visit, void *context)
+{
+    for (int i = 0; i < rig->character.drive_count; i++) {
+        visit(&(struct reference){REFERENCE_DRIVE, index, i, rig->character.drives[i].spline}, context);
+    }
+}
+
+static void set_reference(struct rig *rig, const struct reference *reference, int spline)
+{
+    rig->character.drives[reference->which].spline = spline;
+}
 
 static void release(struct rig *rig)
 {
@@ -143,7 +155,8 @@ const struct rig_functions character_functions = {.word = "character",
                                                   .print = print,
                                                   .input_count = input_count,
                                                   .input = input,
-                                                  .input_reference = REFERENCE_DRIVE,
+                                                  .references = references,
+                                                  .set_reference = set_reference,
                                                   .release = release,
                                                   .bytes = bytes,
                                                   .rebase = rebase};

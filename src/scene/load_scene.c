@@ -1,7 +1,7 @@
 /// Loads a scene from a file or from text.
-#include "scene/load.h"
 #include "base/file.h"
 #include "base/path.h"
+#include "scene/load.h"
 #include "scene/reader.h"
 #include <stdlib.h>
 #include <string.h>

@@ -150,7 +150,7 @@ static void print_channel(struct text *text, const struct document *document, co
 
 static void print_position(struct text *text, const struct document *document, const struct rig *rig)
 {
-    json_t *extras = json_object_get(extra_of(rig->extra), "position");
+    json_t *extras = json_object_get(rig->extra, "position");
     for (int i = 0; i < 3; i++) {
         text_string(text, i > 0 ? ", " : "[");
         print_param(text, document, &rig->tail.position[i], extras, coordinate_name(i));
@@ -180,16 +180,25 @@ static bool is_position(const char *key) { return strcmp(key, "position") == 0; 
 
 static int input_count(const struct rig *rig) { return rig->tail.channel_count; }
 
-static int *input(struct rig *rig, int input) { return &rig->tail.channels[input].spline; }
+static int input(const struct rig *rig, int input) { return rig->tail.channels[input].spline; }
 
-static void references(struct rig *rig, struct reference reference, reference_visitor *visit, void *context)
+static void references(const struct rig *rig, int index, reference_visitor *visit, void *context)
 {
-    reference.kind = REFERENCE_POSITION;
     for (int i = 0; i < 3; i++) {
-        struct param *param = &rig->tail.position[i];
-        reference.which = i;
-        reference.spline = &param->track;
-        if (param->track >= 0) visit(&reference, context);
+        struct reference reference = {REFERENCE_POSITION, index, i, rig->tail.position[i].track};
+        if (reference.spline >= 0) visit(&reference, context);
+    }
+    for (int i = 0; i < rig->tail.channel_count; i++) {
+        visit(&(struct reference){REFERENCE_CHANNEL, index, i, rig->tail.channels[i].spline}, context);
+    }
+}
+
+static void set_reference(struct rig *rig, const struct reference *reference, int spline)
+{
+    if (reference->kind == REFERENCE_POSITION) {
+        rig->tail.position[reference->which].track = spline;
+    } else {
+        rig->tail.channels[reference->which].spline = spline;
     }
 }
 
@@ -213,8 +222,8 @@ const struct rig_functions tail_functions = {.word = "tail",
                                              .has_tracks = is_position,
                                              .input_count = input_count,
                                              .input = input,
-                                             .input_reference = REFERENCE_CHANNEL,
                                              .references = references,
+                                             .set_reference = set_reference,
                                              .copy = copy,
                                              .release = release,
                                              .bytes = bytes};
