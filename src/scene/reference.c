@@ -1,6 +1,5 @@
 /// Visits and sets every place where a document names a spline.
 #include "scene/reference.h"
-#include "scene/rig_kind.h"
 
 void reference_each(const struct document *document, reference_visitor *visit, void *context)
 {

@@ -26,6 +26,10 @@ void reference_each(const struct document *document, reference_visitor *visit, v
 /// Makes a reference name another spline.
 void reference_set(struct document *document, const struct reference *reference, int spline);
 
+/// The same for one rig, the one at `index` in the list.
+void rig_references(const struct rig *rig, int index, reference_visitor *visit, void *context);
+void rig_set_reference(struct rig *rig, const struct reference *reference, int spline);
+
 /// How many references there are to a spline.
 int reference_count(const struct document *document, int spline);
 

@@ -27,8 +27,4 @@ struct rig_functions {
 
 extern const struct rig_functions tail_functions, character_functions;
 
-/// Visits the references of the rig at `index` in the list, and sets one.
-void rig_references(const struct rig *rig, int index, reference_visitor *visit, void *context);
-void rig_set_reference(struct rig *rig, const struct reference *reference, int spline);
-
 #endif
