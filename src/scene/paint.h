@@ -27,9 +27,6 @@ void paint_destroy(struct paint *paint);
 /// Whether it changes nothing at all.
 bool paint_is_plain(const struct paint *paint);
 
-/// Gives it another version: its values have changed.
-void paint_touch(struct paint *paint);
-
 /// Memory that it takes; of NULL none.
 size_t paint_bytes(const struct paint *paint);
 

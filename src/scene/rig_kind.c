@@ -62,20 +62,17 @@ static void check_name(struct reader *reader, const struct where *rig_at, int in
 }
 
 /// Which kind a rig is, -1 after an error.
-static int load_kind(struct reader *reader, const struct where *at, const json_t *object)
+static int load_kind(struct reader *reader, struct value type)
 {
     const char *words[RIG_KINDS + 1] = {NULL};
-    struct where type_at;
-    const json_t *type = reader_member(at, object, "type", &type_at);
     for (int k = 0; k < RIG_KINDS; k++) words[k] = kinds[k]->word;
-    return reader_word(reader, &type_at, type, words, -1);
+    return reader_word(reader, type, words, -1);
 }
 
-void load_rigs(struct reader *reader, const struct where *scene_at, const json_t *scene)
+void load_rigs(struct reader *reader, const struct value *scene)
 {
-    struct where rigs_at;
-    const json_t *rigs = reader_member(scene_at, scene, "rigs", &rigs_at);
-    int count = reader_objects(reader, &rigs_at, rigs, SCENE_MAX_RIGS);
+    const struct value rigs = reader_member(scene, "rigs");
+    int count = reader_objects(reader, rigs, SCENE_MAX_RIGS);
     struct document *document = reader->document;
     if (count <= 0) return;
     if (!document_reserve_rigs(document, count)) {
@@ -83,14 +80,13 @@ void load_rigs(struct reader *reader, const struct where *scene_at, const json_t
         return;
     }
     for (int i = 0; i < count; i++) {
-        struct where at = {.parent = &rigs_at, .index = (size_t)i};
-        json_t *object = json_array_get(rigs, (size_t)i);
-        int kind = load_kind(reader, &at, object);
+        const struct value object = reader_element(&rigs, i);
+        int kind = load_kind(reader, reader_member(&object, "type"));
         struct rig *rig = &document->rigs[document->rig_count++];
         memset(rig, 0, sizeof *rig);
-        rig->kind = kind < 0 ? RIG_TAIL : (enum rig_kind)kind; // any kind will do for a scene that is refused
-        if (kind >= 0) kinds[kind]->load(reader, &at, object, rig);
-        check_name(reader, &at, i);
+        rig->kind = kind < 0 ? RIG_TAIL : (enum rig_kind)kind; // any will do: the scene is refused
+        if (kind >= 0) kinds[kind]->load(reader, &object, rig);
+        check_name(reader, &object.at, i);
     }
 }
 

@@ -9,7 +9,7 @@
 struct rig_functions {
     const char *word; ///< in the file
     /// Reads all but the type.
-    void (*load)(struct reader *reader, const struct where *at, json_t *object, struct rig *rig);
+    void (*load)(struct reader *reader, const struct value *object, struct rig *rig);
     /// Writes all but type, name and unknown keys. `folder` is that of the file that the text is for.
     void (*print)(struct members *members, const struct document *document, const struct rig *rig,
                   const char *folder);
