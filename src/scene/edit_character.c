@@ -27,9 +27,7 @@ static bool has_drive(const struct document *document, const struct edit *edit, 
 
 static bool check_drive(const struct document *document, const struct drive *drive, struct error *error)
 {
-    if (drive->spline < 0 || drive->spline >= document->spline_count) {
-        return fail(error, ERROR_INPUT, "there is no such spline");
-    }
+    if (!plan_has_spline(document, drive->spline, error)) return false;
     if (isfinite(drive->amplitude) && isfinite(drive->lag)) return true;
     return fail(error, ERROR_INPUT, "amplitude and lag must be finite");
 }

@@ -78,11 +78,6 @@ static bool append_channel(struct tail *tail, const struct edit *edit)
     return true;
 }
 
-static bool has_spline(const struct document *document, const struct edit *edit)
-{
-    return edit->spline >= 0 && edit->spline < document->spline_count;
-}
-
 static bool is_tail(const struct document *document, int rig)
 {
     return rig >= 0 && rig < document->rig_count && document->rigs[rig].kind == RIG_TAIL;
@@ -102,7 +97,7 @@ static bool fill_new(const struct document *document, const struct edit *edit, s
         added->extra = NULL;
         struct tail *tail = &added->tail;
         if (tail->position[0].track < 0) tail->position[0].value += ASIDE * tail->length;
-    } else if (has_spline(document, edit) && !append_channel(&added->tail, edit)) {
+    } else if (plan_has_spline(document, edit->spline, NULL) && !append_channel(&added->tail, edit)) {
         return false;
     }
     added->name = free_name(document);
@@ -185,7 +180,7 @@ bool plan_channel_add(struct document *document, const struct edit *edit, struct
                       struct error *error)
 {
     const struct rig *old = &document->rigs[edit->rig];
-    if (!has_spline(document, edit)) return fail(error, ERROR_INPUT, "there is no such spline");
+    if (!plan_has_spline(document, edit->spline, error)) return false;
     if (old->tail.channel_count >= SCENE_MAX_CHANNELS) {
         return fail(error, ERROR_INPUT, "%s: there are %d channels, and no more fit", old->name, SCENE_MAX_CHANNELS);
     }

@@ -64,9 +64,7 @@ bool plan_feed(struct document *document, const struct edit *edit, struct change
 {
     const struct channel *channel = find_channel(document, edit);
     if (!channel) return no_channel(error);
-    if (edit->spline < 0 || edit->spline >= document->spline_count) {
-        return fail(error, ERROR_INPUT, "there is no such spline");
-    }
+    if (!plan_has_spline(document, edit->spline, error)) return false;
     struct change change = channel_change(edit, channel);
     change.channel.spline = edit->spline;
     return channel->spline == edit->spline || plan_add(list, &change, error);

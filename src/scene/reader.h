@@ -1,6 +1,6 @@
 /// What the parts of the loader share: the file being read, its problems, and readers of single values.
 ///
-/// A reader that meets a problem reports it, leaves its target alone and lets the loader go on to find the next one.
+/// A reader that finds a problem reports it, leaves its target alone and lets the loader carry on to find the next one.
 #ifndef SCENE_READER_H
 #define SCENE_READER_H
 
@@ -19,22 +19,22 @@ struct name_index {
 
 struct reader {
     struct source source;
-    struct problems *problems; ///< NULL: the first error is enough
+    struct problems *problems; ///< NULL: only the first error counts
     struct error *error;       ///< the first error
     bool failed;
     struct document *document;
-    bool has_domain;          ///< frames, fps and substeps are good
+    bool has_domain;          ///< frames, fps and substeps are valid
     long long knot_count;     ///< over all splines
     struct name_index *names; ///< sorted; one a spline
     int name_count;
-    const char *warned[READER_MAX_WARNED]; ///< unknown keys, so that each is warned about once
+    const char *warned[READER_MAX_WARNED]; ///< unknown keys that were warned about: once each
     int warned_count;
 };
 
 /// Where a number may lie.
 struct range {
     double minimum, maximum;
-    bool above; ///< the minimum itself is out
+    bool above; ///< the minimum itself is excluded
 };
 
 extern const struct range range_any;
@@ -43,10 +43,10 @@ extern const struct range range_any;
 bool reader_fail(struct reader *reader, const struct where *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/// The same with a sentence that is whole already.
+/// The same with a complete sentence.
 bool reader_report(struct reader *reader, const struct error *error);
 
-/// The same as reader_fail() as a warning; nothing where nobody listens.
+/// Like reader_fail(), but a warning; does nothing without `problems`.
 void reader_warn(struct reader *reader, const struct where *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -63,7 +63,7 @@ struct value reader_element(const struct value *array, int index);
 /// Fails with "expected …, got …", naming the kind of value that is there.
 bool reader_unexpected(struct reader *reader, struct value value, const char *expected);
 
-/// Fails for want of memory.
+/// Fails because memory ran out.
 bool reader_no_memory(struct reader *reader);
 
 /// Reads a number in a range. A missing one leaves `*target` alone, and is an error only if it is required.
@@ -108,7 +108,7 @@ json_t *reader_keep(struct reader *reader, json_t *extra);
 void load_splines(struct reader *reader, const struct value *scene);
 void load_rigs(struct reader *reader, const struct value *scene);
 
-/// What is wrong or odd only in the whole: cycles of tracks, frequencies that alias.
+/// Checks what only the whole scene shows: cycles of tracks, frequencies that alias.
 void validate_scene(struct reader *reader, const struct where *scene_at);
 
 #endif

@@ -1,4 +1,4 @@
-/// What the scene layer knows of each kind of rigs. Private to src/scene.
+/// What the scene layer knows of each kind of rig. Private to src/scene.
 #ifndef SCENE_RIG_KIND_H
 #define SCENE_RIG_KIND_H
 
@@ -13,7 +13,7 @@ struct rig_functions {
     /// Writes all but type, name and unknown keys. `folder` is that of the file that the text is for.
     void (*print)(struct members *members, const struct document *document, const struct rig *rig,
                   const char *folder);
-    holds_tracks *has_tracks; ///< which of its unknown keys are those of tracks inside of it; NULL: none
+    holds_tracks *has_tracks; ///< which keys of its extra object belong to tracks; NULL: none
     int (*input_count)(const struct rig *rig);
     int (*input)(const struct rig *rig, int input);
     /// Visits the splines that the rig at `index` in the list names.
@@ -21,7 +21,7 @@ struct rig_functions {
     void (*set_reference)(struct rig *rig, const struct reference *reference, int spline);
     bool (*copy)(struct rig *copy); ///< gives a shallow copy memory of its own; NULL: no edit needs one
     void (*release)(struct rig *rig);
-    size_t (*bytes)(const struct rig *rig);                            ///< of what it holds
+    size_t (*bytes)(const struct rig *rig);                            ///< that it owns
     bool (*rebase)(struct rig *rig, const char *from, const char *to); ///< NULL: it names no files
 };
 

@@ -67,7 +67,7 @@ static bool name_file(struct document *document, struct character_rig *rig, stru
     const char *name = slash ? slash + 1 : sheet->file;
     if (!path_folder(sheet->file, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", name);
     char *path = strdup(path_rebase(name, folder, document->folder, moved) ? moved : name);
-    if (!path) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", sheet->file);
+    if (!path) return fail_no_memory(error, sheet->file);
     sheet->old_path = rig->paint;
     rig->paint = path;
     return true;
@@ -115,7 +115,7 @@ static bool save_scene(const struct document *document, const char *path, struct
     if (!path_folder(path, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", path);
     const bool saved = scene_print_into(document, folder, &data, &capacity, &size)
                            ? file_write_atomic(path, data, size, error)
-                           : fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
+                           : fail_no_memory(error, path);
     free(data);
     return saved;
 }
@@ -124,7 +124,7 @@ bool scene_save(struct document *document, const char *path, struct error *error
 {
     const int count = document->rig_count;
     struct sheet *sheets = calloc((size_t)count + 1, sizeof *sheets);
-    if (!sheets) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
+    if (!sheets) return fail_no_memory(error, path);
     bool saved = true;
     for (int i = 0; saved && i < count; i++) saved = save_sheet(document, i, path, &sheets[i], error);
     saved = saved && save_scene(document, path, error);
