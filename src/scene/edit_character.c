@@ -8,7 +8,7 @@ static const struct character_rig *rig_of(const struct document *document, const
     return &document->rigs[edit->rig].character;
 }
 
-/// The change that leaves a character as it is, to be filled in.
+/// A change that leaves the character as it is, for the caller to fill in.
 static struct change unchanged(const struct document *document, const struct edit *edit)
 {
     const struct character_rig *rig = rig_of(document, edit);

@@ -19,7 +19,7 @@ bool plan_add(struct change_list *list, const struct change *change, struct erro
     return true;
 }
 
-/// Which index of an edit must name something that exists.
+/// What an edit's index must name.
 enum target { TARGET_SCENE, TARGET_SPLINE, TARGET_RIG };
 
 static const struct {

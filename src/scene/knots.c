@@ -1,4 +1,4 @@
-/// Knots as JSON text and back.
+/// Reads and writes knots as JSON.
 #include "scene/knots.h"
 #include "scene/members.h"
 #include "scene/reader.h"

@@ -10,7 +10,7 @@ enum { FORMAT_VERSION = 1 };
 
 static const char *const scene_keys[] = {"wiggly", "about", "fps", "substeps", "frames", "splines", "rigs", NULL};
 
-/// A sentence of jansson's, "X expected near Y" or "Z near Y", in our words.
+/// Rewords jansson's "X expected near Y" or "Z near Y".
 static void compose_syntax(const char *text, char *sentence, size_t size)
 {
     const char *near = strstr(text, " near ");
@@ -91,7 +91,7 @@ static bool load_frames(struct reader *reader, struct value value, int frames[2]
     return good;
 }
 
-/// fps, substeps and frames; all splines together must not have too many samples.
+/// Reads fps, substeps and frames, and checks the number of samples over all splines.
 static void load_domain(struct reader *reader, const struct value *scene)
 {
     struct document *document = reader->document;
@@ -130,7 +130,7 @@ static void load_scene(struct reader *reader, json_t *json)
     if (!reader->failed) validate_scene(reader, &scene.at);
 }
 
-/// Whole numbers stay such, so that unknown keys are kept exactly, unless one is too long for that.
+/// Keeps whole numbers as integers, so that unknown keys stay exact, unless one is too large.
 static json_t *parse_json(const struct source *source, json_error_t *syntax)
 {
     json_t *json = json_loadb(source->text, source->size, JSON_REJECT_DUPLICATES, syntax);
@@ -177,7 +177,7 @@ static struct document *parse_document(const char *name, const char *text, size_
     return NULL;
 }
 
-/// Paths in the document start at the folder of its file.
+/// Makes paths in the document relative to its file's folder.
 static struct document *set_folder(struct document *document, const char *path, struct error *error)
 {
     char folder[PATH_LIMIT];

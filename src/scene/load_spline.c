@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Beside the parameters.
+/// Keys that are no parameters.
 static const char *const spline_keys[] = {"name", "knots", "color", NULL};
 static const char *const knot_keys[] = {"frame", "value", "slope", "stiffness", NULL};
 
-/// false where a word is none of those it may be.
+/// false if a word is not one of the choices.
 static bool load_parameter(struct reader *reader, const struct value *object, struct spline *spline,
                            enum parameter parameter, json_t **extra)
 {
@@ -62,7 +62,7 @@ bool reader_knot(struct reader *reader, struct value object, struct knot *knot)
     return good;
 }
 
-/// By sample, then as in the file (ids rise in the file's order).
+/// By sample, then in file order, in which ids rise.
 static int compare_knots(const void *a, const void *b, void *document)
 {
     const struct knot *left = a, *right = b;
@@ -86,7 +86,7 @@ static void check_domain(struct reader *reader, const struct where *at, const st
     }
 }
 
-/// Whether the other sample that a knot's slope is measured to (eq. 9) is fixed too.
+/// Whether the neighbouring sample that a knot's slope is measured to (eq. 9) has a knot, too.
 static bool slope_is_fixed(const struct document *document, const struct spline *spline, int at)
 {
     int sample = document_sample(document, spline->knots[at].frame), samples = document_samples(document);
@@ -99,7 +99,7 @@ static bool slope_is_fixed(const struct document *document, const struct spline 
     return other != sample && spline_find_knot(document, spline, other) >= 0;
 }
 
-/// Sorts the knots and checks what they are to each other. `first_id` is that of the file's first one.
+/// Sorts the knots and checks them against each other. `first_id` belongs to the first one in the file.
 static void check_knots(struct reader *reader, const struct where *knots_at, struct spline *spline, unsigned first_id)
 {
     struct document *document = reader->document;

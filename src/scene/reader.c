@@ -1,4 +1,4 @@
-/// Readers of single values, and their complaints.
+/// Reads single values and reports what is wrong with them.
 #include "scene/reader.h"
 #include "scene/number.h"
 #include <math.h>

@@ -1,4 +1,4 @@
-/// Characters in the file, in memory and among the references to splines.
+/// Characters as a kind of rig: loading, printing, references and memory.
 #include "base/path.h"
 #include "scene/rig_kind.h"
 #include <stdlib.h>
@@ -64,7 +64,7 @@ static void print_drive(struct text *text, const struct document *document, cons
     text_string(text, " }");
 }
 
-/// Paint that was taken away again, or that does nothing, needs no file; one that could not be read stays named.
+/// Whether the scene names a paint file: not for paint that changes nothing, but still for a file that could not be read.
 static bool is_painted(const struct character_rig *character)
 {
     if (!character->paint) return false;
@@ -116,7 +116,7 @@ static size_t bytes(const struct rig *rig)
     return strlen(rig->character.model) + 1 + paint_bytes(rig->character.painted);
 }
 
-/// Replaces a path by the one from the new folder.
+/// Rewrites a path for the new folder.
 static bool rebase_path(char **path, const char *from, const char *to)
 {
     char moved[PATH_LIMIT];

@@ -1,4 +1,4 @@
-/// The rigs of a scene, in the order of the file, whatever kinds they are.
+/// The table of rig kinds, and what all kinds share.
 #include "scene/rig_kind.h"
 #include <stdlib.h>
 #include <string.h>
@@ -49,7 +49,7 @@ bool rig_rebase(struct rig *rig, const char *from, const char *to)
     return !kind->rebase || kind->rebase(rig, from, to);
 }
 
-/// Complains where a rig before this one has the same name.
+/// Reports an earlier rig with the same name.
 static void check_name(struct reader *reader, const struct where *rig_at, int index)
 {
     const struct rig *rigs = reader->document->rigs;

@@ -1,4 +1,4 @@
-/// Tails in the file, in memory and among the references to splines.
+/// Tails as a kind of rig: loading, printing, references and memory.
 #include "scene/rig_kind.h"
 #include <math.h>
 #include <stdlib.h>
@@ -31,7 +31,7 @@ static void load_angles(struct reader *reader, struct value value, int joints, s
     }
 }
 
-/// Each coordinate in metres, or a spline to follow. Unknown keys of the tracks are kept under "position" among the tail's.
+/// Each coordinate is in metres or follows a spline. Unknown keys of tracks are kept under the tail's extra key "position".
 static void load_position(struct reader *reader, struct value value, struct param position[3], json_t **extra)
 {
     json_t *tracks = NULL;
