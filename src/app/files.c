@@ -104,7 +104,7 @@ static bool open_figure(struct app *app, int number, struct error *error)
     history_begin(app->table.history, "Open a figure", 0);
     bool done = history_apply(app->table.history, app->table.document, &edit, error);
     history_end(app->table.history);
-    editor_follow(app->table.editor, &world);
+    editor_refresh(app->table.editor, &world);
     show_title(app);
     return done;
 }

@@ -22,13 +22,7 @@ float stage_lowest_ground(const struct stage_view *view)
 uint64_t stage_backdrop_hash(const struct stage_view *view)
 {
     const float ground = stage_lowest_ground(view);
-    uint64_t hash = hash_bytes(HASH_START, &view->viewport, sizeof view->viewport);
-    hash = hash_bytes(hash, view->view, sizeof view->view);
-    hash = hash_bytes(hash, view->projection, sizeof view->projection);
-    hash = hash_bytes(hash, view->middle, sizeof view->middle);
-    hash = hash_bytes(hash, view->key_from, sizeof view->key_from);
-    hash = hash_bytes(hash, &view->colors, sizeof view->colors);
-    return hash_bytes(hash, &ground, sizeof ground);
+    return hash_bytes(stage_scenery_hash(view), &ground, sizeof ground);
 }
 
 static void add_point(struct extent *extent, const float world[3])

@@ -54,4 +54,7 @@ struct stage_view {
     uint64_t hash; ///< of everything above: equal hash, equal pixels
 };
 
+/// Hash of what all pictures of the stage share: viewport, camera, light and colours.
+uint64_t stage_scenery_hash(const struct stage_view *view);
+
 #endif

@@ -117,6 +117,8 @@ void ui_space(struct ui *ui, float height);
 void ui_scroll_begin(struct ui *ui, struct ui_scroll *scroll, struct rect view);
 void ui_scroll_end(struct ui *ui);
 
+/// Baseline that centres capitals in `r`.
+float ui_baseline(struct rect r, enum font font, float size);
 /// One line of text, cut with "…" where it does not fit; vertically centred.
 void ui_label(struct ui *ui, struct rect r, const char *text, uint32_t color);
 void ui_label_right(struct ui *ui, struct rect r, const char *text, uint32_t color);

@@ -25,8 +25,6 @@ bool ui_activated(struct ui *ui, uint32_t id);
 /// The line around a control by which it is seen; `hot`: under the pointer.
 void ui_outline(struct ui *ui, struct rect r, float radius, bool hot);
 void ui_focus_ring(struct ui *ui, uint32_t id, struct rect r);
-/// Baseline that centres capitals in `r`.
-float ui_baseline(struct rect r, enum font font, float size);
 void ui_number_text(struct ui *ui, struct rect r, const char *text, uint32_t color);
 /// The line that is being typed, with its caret, inside `r`.
 void ui_paint_text(struct ui *ui, struct rect r, const struct ui_text *text, enum font font, float size,

@@ -1,8 +1,6 @@
 /// Tails that follow through while their body is moved by hand, outside of the document's solve and on top of it.
-#include "editor/stage/follow.h"
-#include "editor/stage/body_offset.h"
+#include "editor/stage/hold.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/state.h"
 #include <math.h>
 #include <string.h>
 
@@ -88,7 +86,7 @@ void follow_stop(struct stage *stage, int tail)
     if (tail < STAGE_MAX_TAILS) stage->follow[tail] = (struct follow){0};
 }
 
-bool follow_is_moving(const struct stage *stage)
+bool stage_is_moving(const struct stage *stage)
 {
     for (int t = 0; t < STAGE_MAX_TAILS; t++) {
         if (stage->follow[t].swings) return true;

@@ -38,7 +38,7 @@ struct grab {
 };
 
 /// The body held by the pointer, and how the pointer's way becomes one over the ground.
-struct body {
+struct body_drag {
     int tail;
     bool begun;              ///< the pointer has moved
     double pixels_per_metre; ///< at the body
@@ -101,7 +101,7 @@ struct stage {
     struct stage_view view;
     struct camera camera;
     struct grab grab;
-    struct body body;
+    struct body_drag body_drag;
     struct record record;
     struct follow follow[STAGE_MAX_TAILS];
     struct trail_point trail[TRAIL_FRAMES];

@@ -5,23 +5,20 @@
 #include "scene/order.h"
 #include <stdio.h>
 
-enum { MAX_LEADERS = 256 }; ///< splines that are looked at, from the top of the list
+static const char track_list[] = "follow";
 
-static const char follow_list[] = "follow";
-
-/// Splines that the active one may follow without a cycle; how many there are.
-static int find_leaders(const struct inspection *in, int leaders[MAX_LEADERS])
+/// Marks the splines that the active one cannot follow without a cycle; whether any is left.
+static bool find_leaders(const struct inspection *in, bool left_out[INSPECTOR_MAX_SPLINES])
 {
-    bool followers[MAX_LEADERS];
-    int count = in->document->spline_count < MAX_LEADERS ? in->document->spline_count : MAX_LEADERS, found = 0;
-    scene_followers(in->document, in->core->active, followers, count);
-    for (int s = 0; s < count; s++) {
-        if (!followers[s]) leaders[found++] = s;
-    }
-    return found;
+    int count =
+        in->document->spline_count < INSPECTOR_MAX_SPLINES ? in->document->spline_count : INSPECTOR_MAX_SPLINES;
+    bool any = false;
+    scene_followers(in->document, in->core->active, left_out, count);
+    for (int s = 0; s < count; s++) any |= !left_out[s];
+    return any;
 }
 
-static void follow(struct inspection *in, enum parameter parameter, struct param param)
+static void set_track(struct inspection *in, enum parameter parameter, struct param param)
 {
     struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
     edit.parameter = parameter;
@@ -32,9 +29,9 @@ static void follow(struct inspection *in, enum parameter parameter, struct param
 
 static void open_list(struct inspection *in, enum parameter parameter, struct rect r)
 {
-    int leaders[MAX_LEADERS];
-    if (find_leaders(in, leaders) > 0) {
-        ui_popup_open(in->ui, follow_list, (int)parameter, r);
+    bool left_out[INSPECTOR_MAX_SPLINES];
+    if (find_leaders(in, left_out)) {
+        ui_popup_open(in->ui, track_list, (int)parameter, r);
         return;
     }
     char text[160];
@@ -52,10 +49,10 @@ void inspector_track(struct inspection *in, enum parameter parameter, const char
     snprintf(text, sizeof text, "%s", in->document->splines[track].name);
     struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
     if (ui_hovered(in->ui, field)) in->ui->hint = "The spline it follows, sample by sample";
-    ui_dropdown(in->ui, field, follow_list, (int)parameter, text, arrange_color(in->document, track));
+    ui_dropdown(in->ui, field, track_list, (int)parameter, text, arrange_color(in->document, track));
 }
 
-void inspector_follow_button(struct inspection *in, enum parameter parameter, struct rect r)
+void inspector_track_button(struct inspection *in, enum parameter parameter, struct rect r)
 {
     int active = in->core->active;
     bool follows = in->document->splines[active].parameter[parameter].track >= 0;
@@ -66,7 +63,7 @@ void inspector_follow_button(struct inspection *in, enum parameter parameter, st
     if (!ui_icon_button(in->ui, r, name, icon, false, hint)) return;
     if (follows) {
         double value = arrange_present(in->core, in->world, active, parameter);
-        follow(in, parameter, (struct param){value, -1});
+        set_track(in, parameter, (struct param){value, -1});
     } else {
         struct rect row = {in->ui->area.x + UI_PAD + UI_LABEL + UI_GAP, r.y, 0, r.h};
         row.w = r.x - 2 - row.x;
@@ -74,19 +71,14 @@ void inspector_follow_button(struct inspection *in, enum parameter parameter, st
     }
 }
 
-void inspector_follow_list(struct inspection *in)
+void inspector_track_list(struct inspection *in)
 {
     struct ui *ui = in->ui;
     const struct spline *spline = core_active_spline(in->core, in->world);
-    if (!ui_popup_is_open(ui, follow_list) || !spline) return;
-    int leaders[MAX_LEADERS], count = find_leaders(in, leaders), chosen = -1;
+    if (!ui_popup_is_open(ui, track_list) || !spline) return;
     enum parameter parameter = (enum parameter)ui->popup.which;
-    struct ui_item items[MAX_LEADERS];
-    for (int i = 0; i < count; i++) {
-        const char *name = in->document->splines[leaders[i]].name;
-        items[i] = (struct ui_item){name, name, arrange_color(in->document, leaders[i])};
-        if (leaders[i] == spline->parameter[parameter].track) chosen = i;
-    }
-    int picked = ui_popup_list(ui, follow_list, items, count, chosen);
-    if (picked >= 0) follow(in, parameter, (struct param){0, leaders[picked]});
+    bool left_out[INSPECTOR_MAX_SPLINES];
+    find_leaders(in, left_out);
+    int picked = inspector_spline_list(in, track_list, left_out, spline->parameter[parameter].track);
+    if (picked >= 0) set_track(in, parameter, (struct param){0, picked});
 }

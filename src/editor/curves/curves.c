@@ -1,21 +1,57 @@
-/// The mouse in the curves panel: what is under it, presses and the wheel.
+/// The curves panel: its beginning and end, what is under the pointer, presses and the wheel.
+#include "editor/curves/curves.h"
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/knots.h"
 #include "editor/core/playback.h"
 #include "editor/core/selection.h"
-#include "editor/curves/box.h"
-#include "editor/curves/curves.h"
-#include "editor/curves/curves_grid.h"
-#include "editor/curves/knot_drag.h"
-#include "editor/curves/normal.h"
-#include "editor/curves/range.h"
-#include "editor/curves/remedy.h"
-#include "editor/curves/state.h"
+#include "editor/curves/gestures.h"
+#include "editor/curves/show.h"
 #include "editor/curves/view.h"
-#include "editor/curves/warnings_show.h"
+#include "editor/curves/warnings.h"
 #include <math.h>
+#include <stdlib.h>
+
+struct curves *curves_create(void)
+{
+    struct curves *curves = calloc(1, sizeof *curves);
+    if (curves) curves->view = (struct view){0, 120, -1, 1};
+    return curves;
+}
+
+void curves_destroy(struct curves *curves)
+{
+    if (!curves) return;
+    free(curves->before_box.bits);
+    free(curves);
+}
+
+void curves_open(struct curves *curves)
+{
+    curves->cache.key = 0;
+    curves->cache.range_count = 0;
+    curves->warnings = (struct warnings){0};
+}
+
+bool curves_reserve(struct curves *curves, const struct core *core)
+{
+    unsigned ids = core->selection.capacity;
+    return curves->before_box.capacity >= ids || selection_reserve(&curves->before_box, ids);
+}
+
+void curves_forget(struct curves *curves)
+{
+    curves->cache.key = 0;
+    curves->cache.other_count = curves->cache.count = 0;
+}
+
+bool curves_wants_frames(const struct curves *curves) { return curves->warnings.search.running; }
+
+const char *curves_hint(const struct curves *curves, const struct core *core)
+{
+    return core->drag.kind == DRAG_SCALE ? curves->scaling.sentence : NULL;
+}
 
 static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9;
 static const double ZOOM_STEP = 0.15; ///< of a wheel's notch, as a power of e
@@ -28,7 +64,7 @@ static float nearest_knot(const struct curves *curves, const struct core *core, 
     float best = reach;
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
-        float at = curves_x(curves, core, document_frame(document, document_sample(document, knot->frame)));
+        float at = curves_knot_x(curves, core, document, knot);
         float distance = hypotf(x - at, y - curves_y_of(curves, core, of, knot->value));
         if (distance > best) continue;
         best = distance;
@@ -135,14 +171,13 @@ static void press_empty(struct curves *curves, struct core *core, const struct e
                         const struct hover *hover, const struct event *event)
 {
     if (event->clicks == 2 && hover->kind == HOVER_CURVE) {
-        insert_on_curve(core, world, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
-                        event->mods & MOD_SHIFT);
+        core_insert_on_curve(core, world, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
+                             event->mods & MOD_SHIFT);
         return;
     }
     if (event->clicks == 2) {
-        double value =
-            round_value(curves_value(curves, core, event->y), 0.01 / curves_pixels_per_value(curves, core));
-        insert_knot(core, world, curves_frame(curves, core, event->x), value, drag_snaps(core, event->mods));
+        double value = core_round(curves_value(curves, core, event->y), 0.01 / curves_pixels_per_value(curves, core));
+        core_insert_knot(core, world, curves_frame(curves, core, event->x), value, drag_snaps(core, event->mods));
         return;
     }
     if (hover->kind == HOVER_CURVE) core_activate(core, world, hover->spline);
@@ -180,7 +215,7 @@ void curves_press(struct curves *curves, struct core *core, const struct editor_
         warning_remedy(curves, core, world, &curves->warnings.list[hover.handle]);
         break;
     case HOVER_UNITS:
-        ruler_toggle(curves, core);
+        curves_toggle_units(curves, core);
         break;
     case HOVER_KNOT:
         press_knot(curves, core, world, &hover, event);
@@ -199,5 +234,5 @@ void curves_wheel(struct curves *curves, struct core *core, const struct event *
     double factor = exp(-ZOOM_STEP * fmin(fmax(notches, -20), 20));
     double time = event->mods & MOD_SHIFT && !(event->mods & MOD_CTRL) ? 1 : factor;
     double value = event->mods & MOD_CTRL && !(event->mods & MOD_SHIFT) ? 1 : factor;
-    view_zoom(curves, core, event->x, event->y, time, value);
+    curves_zoom(curves, core, event->x, event->y, time, value);
 }

@@ -1,6 +1,6 @@
-/// What of the drawn panel its mouse has to know.
-#ifndef EDITOR_CURVES_CURVES_SHOW_H
-#define EDITOR_CURVES_CURVES_SHOW_H
+/// What is drawn in the curves panel, as far as its mouse has to know.
+#ifndef EDITOR_CURVES_SHOW_H
+#define EDITOR_CURVES_SHOW_H
 
 #include "editor/curves/state.h"
 
@@ -10,5 +10,10 @@ double handle_length(double stiffness);
 double handle_stiffness(double length);
 /// Where the playhead's frame number is, on the ruler; empty where the playhead is out of sight.
 struct rect playhead_tag(const struct curves *curves, const struct core *core, const struct document *document);
+
+/// The corner left of the ruler, which says what it counts.
+struct rect ruler_corner(const struct core *core);
+/// Grids, numbers and ruler; part of curves_show().
+void grid_show(const struct curves *curves, struct core *core, const struct editor_world *world);
 
 #endif
