@@ -112,7 +112,7 @@ struct search {
 static void find_reference(const struct reference *reference, void *context)
 {
     struct search *search = context;
-    if (*reference->spline != search->spline) return;
+    if (reference->spline != search->spline) return;
     search->found = true;
     search->reference = *reference;
 }

@@ -1,4 +1,4 @@
-/// Characters in the file, in memory and among the references to splines.
+/// Characters as a kind of rig: loading, printing, references and memory.
 #include "base/path.h"
 #include "scene/rig_kind.h"
 #include <stdlib.h>
@@ -11,55 +11,39 @@ static const char *const character_keys[] = {"type",        "name",   "model", "
 static const char *const axes[] = {"x", "y", "z", NULL};
 static const char *const drive_keys[] = {"name", "spline", "amplitude", "lag", NULL};
 
-static void load_position(struct reader *reader, const struct where *at, const json_t *value, double position[3])
+static void load_position(struct reader *reader, struct value value, double position[3])
 {
-    if (!value || !reader_array(reader, at, value, 3, "[x, y, z]")) return;
-    for (size_t i = 0; i < 3; i++) {
-        struct where element_at = {.parent = at, .index = i};
-        reader_number(reader, &element_at, json_array_get(value, i), true, range_any, &position[i]);
-    }
+    if (!value.json || !reader_array(reader, value, 3, "[x, y, z]")) return;
+    for (int i = 0; i < 3; i++) reader_number(reader, reader_element(&value, i), true, range_any, &position[i]);
 }
 
-static void load_drive(struct reader *reader, const struct where *at, json_t *object, struct drive *drive)
+static void load_drive(struct reader *reader, struct value object, struct drive *drive)
 {
-    struct where name_at, spline_at, amplitude_at, lag_at;
-    const json_t *name = reader_member(at, object, "name", &name_at);
-    const json_t *spline = reader_member(at, object, "spline", &spline_at);
-    const json_t *amplitude = reader_member(at, object, "amplitude", &amplitude_at);
-    const json_t *lag = reader_member(at, object, "lag", &lag_at);
     drive->amplitude = DRIVE_DEFAULT_AMPLITUDE;
-    char *text = reader_name(reader, &name_at, name);
-    if (text) drive->name = document_keep_text(reader->document, text);
-    if (text && !drive->name) reader_no_memory(reader);
-    free(text);
-    drive->spline = reader_spline_name(reader, &spline_at, spline);
-    reader_number(reader, &amplitude_at, amplitude, false, range_any, &drive->amplitude);
-    reader_number(reader, &lag_at, lag, false, range_any, &drive->lag);
-    drive->extra = reader_keep(reader, reader_extra(reader, at, object, drive_keys));
+    char *name = reader_name(reader, reader_member(&object, "name"));
+    if (name) drive->name = document_keep_text(reader->document, name);
+    if (name && !drive->name) reader_no_memory(reader);
+    free(name);
+    drive->spline = reader_spline_name(reader, reader_member(&object, "spline"));
+    reader_number(reader, reader_member(&object, "amplitude"), false, range_any, &drive->amplitude);
+    reader_number(reader, reader_member(&object, "lag"), false, range_any, &drive->lag);
+    drive->extra = reader_keep(reader, reader_extra(reader, &object, drive_keys));
 }
 
-static void load(struct reader *reader, const struct where *at, json_t *object, struct rig *rig)
+static void load(struct reader *reader, const struct value *object, struct rig *rig)
 {
     struct character_rig *character = &rig->character;
-    struct where name_at, model_at, position_at, coordinates_at, phases_at, paint_at;
-    const json_t *name = reader_member(at, object, "name", &name_at);
-    const json_t *model = reader_member(at, object, "model", &model_at);
-    const json_t *position = reader_member(at, object, "position", &position_at);
-    const json_t *coordinates = reader_member(at, object, "coordinates", &coordinates_at);
-    const json_t *phases = reader_member(at, object, "phases", &phases_at);
-    const json_t *paint = reader_member(at, object, "paint", &paint_at);
-    if (name) rig->name = reader_name(reader, &name_at, name);
-    character->model = reader_name(reader, &model_at, model);
-    if (paint) character->paint = reader_name(reader, &paint_at, paint);
-    load_position(reader, &position_at, position, character->position);
-    character->phases = phases ? reader_word(reader, &phases_at, phases, axes, -1) : -1;
-    int count = reader_objects(reader, &coordinates_at, coordinates, CHARACTER_MAX_DRIVES);
-    for (int i = 0; i < count; i++) {
-        struct where drive_at = {.parent = &coordinates_at, .index = (size_t)i};
-        load_drive(reader, &drive_at, json_array_get(coordinates, (size_t)i), &character->drives[i]);
-    }
+    const struct value name = reader_member(object, "name"), coordinates = reader_member(object, "coordinates");
+    const struct value phases = reader_member(object, "phases"), paint = reader_member(object, "paint");
+    if (name.json) rig->name = reader_name(reader, name);
+    character->model = reader_name(reader, reader_member(object, "model"));
+    if (paint.json) character->paint = reader_name(reader, paint);
+    load_position(reader, reader_member(object, "position"), character->position);
+    character->phases = phases.json ? reader_word(reader, phases, axes, -1) : -1;
+    int count = reader_objects(reader, coordinates, CHARACTER_MAX_DRIVES);
+    for (int i = 0; i < count; i++) load_drive(reader, reader_element(&coordinates, i), &character->drives[i]);
     character->drive_count = count > 0 ? count : 0;
-    rig->extra = reader_keep(reader, reader_extra(reader, at, object, character_keys));
+    rig->extra = reader_keep(reader, reader_extra(reader, object, character_keys));
 }
 
 static void member_path(struct members *members, const char *key, const struct document *document, const char *path,
@@ -80,7 +64,7 @@ static void print_drive(struct text *text, const struct document *document, cons
     text_string(text, " }");
 }
 
-/// Paint that was taken away again, or that does nothing, needs no file; one that could not be read stays named.
+/// Whether the scene names a paint file: not for paint that changes nothing, but still for a file that could not be read.
 static bool is_painted(const struct character_rig *character)
 {
     if (!character->paint) return false;
@@ -106,7 +90,19 @@ static void print(struct members *members, const struct document *document, cons
 
 static int input_count(const struct rig *rig) { return rig->character.drive_count; }
 
-static int *input(struct rig *rig, int input) { return &rig->character.drives[input].spline; }
+static int input(const struct rig *rig, int input) { return rig->character.drives[input].spline; }
+
+static void references(const struct rig *rig, int index, reference_visitor *visit, void *context)
+{
+    for (int i = 0; i < rig->character.drive_count; i++) {
+        visit(&(struct reference){REFERENCE_DRIVE, index, i, rig->character.drives[i].spline}, context);
+    }
+}
+
+static void set_reference(struct rig *rig, const struct reference *reference, int spline)
+{
+    rig->character.drives[reference->which].spline = spline;
+}
 
 static void release(struct rig *rig)
 {
@@ -120,7 +116,7 @@ static size_t bytes(const struct rig *rig)
     return strlen(rig->character.model) + 1 + paint_bytes(rig->character.painted);
 }
 
-/// Replaces a path by the one from the new folder.
+/// Rewrites a path for the new folder.
 static bool rebase_path(char **path, const char *from, const char *to)
 {
     char moved[PATH_LIMIT];
@@ -143,7 +139,8 @@ const struct rig_functions character_functions = {.word = "character",
                                                   .print = print,
                                                   .input_count = input_count,
                                                   .input = input,
-                                                  .input_reference = REFERENCE_DRIVE,
+                                                  .references = references,
+                                                  .set_reference = set_reference,
                                                   .release = release,
                                                   .bytes = bytes,
                                                   .rebase = rebase};

@@ -1,7 +1,7 @@
 /// Loads a scene from a file or from text.
-#include "scene/load.h"
 #include "base/file.h"
 #include "base/path.h"
+#include "scene/load.h"
 #include "scene/reader.h"
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,7 @@ enum { FORMAT_VERSION = 1 };
 
 static const char *const scene_keys[] = {"wiggly", "about", "fps", "substeps", "frames", "splines", "rigs", NULL};
 
-/// A sentence of jansson's, "X expected near Y" or "Z near Y", in our words.
+/// Rewords jansson's "X expected near Y" or "Z near Y".
 static void compose_syntax(const char *text, char *sentence, size_t size)
 {
     const char *near = strstr(text, " near ");
@@ -54,65 +54,58 @@ static void fail_syntax(struct reader *reader, const json_error_t *syntax)
     reader_report(reader, &error);
 }
 
-static bool load_version(struct reader *reader, const struct where *scene_at, const json_t *scene)
+static bool load_version(struct reader *reader, const struct value *scene)
 {
-    struct where at;
-    const json_t *value = reader_member(scene_at, scene, "wiggly", &at);
+    const struct value value = reader_member(scene, "wiggly");
     int version = FORMAT_VERSION;
-    if (!reader_integer(reader, &at, value, 1, 1000000, &version)) return false;
+    if (!reader_integer(reader, value, 1, 1000000, &version)) return false;
     if (version <= FORMAT_VERSION) return true;
-    return reader_fail(reader, &at, "expected version %d, got %d: this file was made by a newer wiggly",
+    return reader_fail(reader, &value.at, "expected version %d, got %d: this file was made by a newer wiggly",
                        FORMAT_VERSION, version);
 }
 
-/// A missing one is none; an empty one too.
-static void load_about(struct reader *reader, const struct where *scene_at, const json_t *scene)
+/// An empty text counts as none.
+static void load_about(struct reader *reader, const struct value *scene)
 {
-    struct where at;
-    const json_t *value = reader_member(scene_at, scene, "about", &at);
-    if (!value) return;
-    if (!json_is_string(value)) {
-        reader_unexpected(reader, &at, "a string", value);
-    } else if (json_string_length(value) > 0) {
-        reader->document->about = strdup(json_string_value(value));
+    const struct value value = reader_member(scene, "about");
+    if (!value.json) return;
+    if (!json_is_string(value.json)) {
+        reader_unexpected(reader, value, "a string");
+    } else if (json_string_length(value.json) > 0) {
+        reader->document->about = strdup(json_string_value(value.json));
         if (!reader->document->about) reader_no_memory(reader);
     }
 }
 
-static bool load_frames(struct reader *reader, const struct where *at, const json_t *value, int frames[2])
+static bool load_frames(struct reader *reader, struct value value, int frames[2])
 {
-    if (!reader_array(reader, at, value, 2, "[first, last]")) return false;
+    if (!reader_array(reader, value, 2, "[first, last]")) return false;
     bool good = true;
-    for (size_t i = 0; i < 2; i++) {
-        struct where element_at = {.parent = at, .index = i};
-        good &= reader_integer(reader, &element_at, json_array_get(value, i), -SCENE_MAX_FRAME, SCENE_MAX_FRAME,
-                               &frames[i]);
+    for (int i = 0; i < 2; i++) {
+        good &= reader_integer(reader, reader_element(&value, i), -SCENE_MAX_FRAME, SCENE_MAX_FRAME, &frames[i]);
     }
     if (good && frames[1] < frames[0]) {
-        return reader_fail(reader, at, "expected the last frame not before the first, got [%d, %d]", frames[0],
+        return reader_fail(reader, &value.at, "expected the last frame not before the first, got [%d, %d]", frames[0],
                            frames[1]);
     }
     return good;
 }
 
-/// fps, substeps and frames; all splines together must not have too many samples.
-static void load_domain(struct reader *reader, const struct where *scene_at, const json_t *scene)
+/// Reads fps, substeps and frames, and checks the number of samples over all splines.
+static void load_domain(struct reader *reader, const struct value *scene)
 {
     struct document *document = reader->document;
-    struct where fps_at, substeps_at, frames_at;
-    const json_t *fps = reader_member(scene_at, scene, "fps", &fps_at);
-    const json_t *substeps = reader_member(scene_at, scene, "substeps", &substeps_at);
-    const json_t *frames_value = reader_member(scene_at, scene, "frames", &frames_at);
+    const struct value range = reader_member(scene, "frames");
     struct range fps_range = {0, SCENE_MAX_FPS, true};
     int frames[2];
-    bool good = reader_number(reader, &fps_at, fps, false, fps_range, &document->fps);
-    good &= reader_integer(reader, &substeps_at, substeps, 1, SCENE_MAX_SUBSTEPS, &document->substeps);
-    good &= load_frames(reader, &frames_at, frames_value, frames);
+    bool good = reader_number(reader, reader_member(scene, "fps"), false, fps_range, &document->fps);
+    good &= reader_integer(reader, reader_member(scene, "substeps"), 1, SCENE_MAX_SUBSTEPS, &document->substeps);
+    good &= load_frames(reader, range, frames);
     if (!good) return;
     long long samples = ((long long)frames[1] - frames[0]) * document->substeps + 1;
-    size_t splines = json_array_size(json_object_get(scene, "splines"));
+    size_t splines = json_array_size(json_object_get(scene->json, "splines"));
     if (samples > SCENE_MAX_SAMPLES || samples * (long long)splines > SCENE_MAX_SAMPLES) {
-        reader_fail(reader, &frames_at, "expected at most %d samples over all splines, got %zu times %lld",
+        reader_fail(reader, &range.at, "expected at most %d samples over all splines, got %zu times %lld",
                     SCENE_MAX_SAMPLES, splines > 0 ? splines : 1, samples);
         return;
     }
@@ -121,23 +114,23 @@ static void load_domain(struct reader *reader, const struct where *scene_at, con
     reader->has_domain = true;
 }
 
-static void load_scene(struct reader *reader, json_t *scene)
+static void load_scene(struct reader *reader, json_t *json)
 {
-    const struct where scene_at = {0};
-    if (!json_is_object(scene)) {
-        reader_unexpected(reader, &scene_at, "an object", scene);
+    const struct value scene = {.json = json};
+    if (!json_is_object(json)) {
+        reader_unexpected(reader, scene, "an object");
         return;
     }
-    if (!load_version(reader, &scene_at, scene)) return;
-    load_about(reader, &scene_at, scene);
-    load_domain(reader, &scene_at, scene);
-    load_splines(reader, &scene_at, scene);
-    load_rigs(reader, &scene_at, scene);
-    reader->document->extra = reader_keep(reader, reader_extra(reader, &scene_at, scene, scene_keys));
-    if (!reader->failed) validate_scene(reader, &scene_at);
+    if (!load_version(reader, &scene)) return;
+    load_about(reader, &scene);
+    load_domain(reader, &scene);
+    load_splines(reader, &scene);
+    load_rigs(reader, &scene);
+    reader->document->extra = reader_keep(reader, reader_extra(reader, &scene, scene_keys));
+    if (!reader->failed) validate_scene(reader, &scene.at);
 }
 
-/// Whole numbers stay such, so that unknown keys are kept exactly, unless one is too long for that.
+/// Keeps whole numbers as integers, so that unknown keys stay exact, unless one is too large.
 static json_t *parse_json(const struct source *source, json_error_t *syntax)
 {
     json_t *json = json_loadb(source->text, source->size, JSON_REJECT_DUPLICATES, syntax);
@@ -184,7 +177,7 @@ static struct document *parse_document(const char *name, const char *text, size_
     return NULL;
 }
 
-/// Paths in the document start at the folder of its file.
+/// Makes paths in the document relative to its file's folder.
 static struct document *set_folder(struct document *document, const char *path, struct error *error)
 {
     char folder[PATH_LIMIT];

@@ -3,6 +3,11 @@
 
 bool plan_no_memory(struct error *error) { return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit"); }
 
+bool plan_has_spline(const struct document *document, int spline, struct error *error)
+{
+    return (spline >= 0 && spline < document->spline_count) || fail(error, ERROR_INPUT, "there is no such spline");
+}
+
 bool plan_add(struct change_list *list, const struct change *change, struct error *error)
 {
     if (!change_list_reserve(list, 1)) {
@@ -14,7 +19,7 @@ bool plan_add(struct change_list *list, const struct change *change, struct erro
     return true;
 }
 
-/// Which index of an edit must name something that exists.
+/// What an edit's index must name.
 enum target { TARGET_SCENE, TARGET_SPLINE, TARGET_RIG };
 
 static const struct {
@@ -59,9 +64,7 @@ static const struct {
 bool edit_plan(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
     enum target target = planners[edit->kind].target;
-    if (target == TARGET_SPLINE && (edit->spline < 0 || edit->spline >= document->spline_count)) {
-        return fail(error, ERROR_INPUT, "there is no such spline");
-    }
+    if (target == TARGET_SPLINE && !plan_has_spline(document, edit->spline, error)) return false;
     if (target == TARGET_RIG && (edit->rig < 0 || edit->rig >= document->rig_count ||
                                  document->rigs[edit->rig].kind != planners[edit->kind].kind)) {
         return fail(error, ERROR_INPUT, "there is no such %s", rig_word(planners[edit->kind].kind));

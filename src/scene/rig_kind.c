@@ -1,5 +1,4 @@
-/// The rigs of a scene, in the order of the file, whatever kinds they are.
-#include "scene/rig.h"
+/// The table of rig kinds, and what all kinds share.
 #include "scene/rig_kind.h"
 #include <stdlib.h>
 #include <string.h>
@@ -11,21 +10,16 @@ const char *rig_word(enum rig_kind kind) { return kinds[kind]->word; }
 
 int rig_input_count(const struct rig *rig) { return kinds[rig->kind]->input_count(rig); }
 
-static int *input_of(const struct rig *rig, int input)
+int rig_input(const struct rig *rig, int input) { return kinds[rig->kind]->input(rig, input); }
+
+void rig_references(const struct rig *rig, int index, reference_visitor *visit, void *context)
 {
-    return kinds[rig->kind]->input((struct rig *)(uintptr_t)rig, input);
+    kinds[rig->kind]->references(rig, index, visit, context);
 }
 
-int rig_input(const struct rig *rig, int input) { return *input_of(rig, input); }
-
-void rig_references(struct rig *rig, int index, reference_visitor *visit, void *context)
+void rig_set_reference(struct rig *rig, const struct reference *reference, int spline)
 {
-    const struct rig_functions *kind = kinds[rig->kind];
-    if (kind->references) kind->references(rig, (struct reference){.owner = index}, visit, context);
-    for (int i = 0; i < kind->input_count(rig); i++) {
-        struct reference reference = {kind->input_reference, index, i, kind->input(rig, i)};
-        visit(&reference, context);
-    }
+    kinds[rig->kind]->set_reference(rig, reference, spline);
 }
 
 bool rig_copy(const struct rig *rig, struct rig *copy)
@@ -55,7 +49,7 @@ bool rig_rebase(struct rig *rig, const char *from, const char *to)
     return !kind->rebase || kind->rebase(rig, from, to);
 }
 
-/// Complains where a rig before this one has the same name.
+/// Reports an earlier rig with the same name.
 static void check_name(struct reader *reader, const struct where *rig_at, int index)
 {
     const struct rig *rigs = reader->document->rigs;
@@ -68,20 +62,17 @@ static void check_name(struct reader *reader, const struct where *rig_at, int in
 }
 
 /// Which kind a rig is, -1 after an error.
-static int load_kind(struct reader *reader, const struct where *at, const json_t *object)
+static int load_kind(struct reader *reader, struct value type)
 {
     const char *words[RIG_KINDS + 1] = {NULL};
-    struct where type_at;
-    const json_t *type = reader_member(at, object, "type", &type_at);
     for (int k = 0; k < RIG_KINDS; k++) words[k] = kinds[k]->word;
-    return reader_word(reader, &type_at, type, words, -1);
+    return reader_word(reader, type, words, -1);
 }
 
-void load_rigs(struct reader *reader, const struct where *scene_at, const json_t *scene)
+void load_rigs(struct reader *reader, const struct value *scene)
 {
-    struct where rigs_at;
-    const json_t *rigs = reader_member(scene_at, scene, "rigs", &rigs_at);
-    int count = reader_objects(reader, &rigs_at, rigs, SCENE_MAX_RIGS);
+    const struct value rigs = reader_member(scene, "rigs");
+    int count = reader_objects(reader, rigs, SCENE_MAX_RIGS);
     struct document *document = reader->document;
     if (count <= 0) return;
     if (!document_reserve_rigs(document, count)) {
@@ -89,14 +80,13 @@ void load_rigs(struct reader *reader, const struct where *scene_at, const json_t
         return;
     }
     for (int i = 0; i < count; i++) {
-        struct where at = {.parent = &rigs_at, .index = (size_t)i};
-        json_t *object = json_array_get(rigs, (size_t)i);
-        int kind = load_kind(reader, &at, object);
+        const struct value object = reader_element(&rigs, i);
+        int kind = load_kind(reader, reader_member(&object, "type"));
         struct rig *rig = &document->rigs[document->rig_count++];
         memset(rig, 0, sizeof *rig);
-        rig->kind = kind < 0 ? RIG_TAIL : (enum rig_kind)kind; // any kind will do for a scene that is refused
-        if (kind >= 0) kinds[kind]->load(reader, &at, object, rig);
-        check_name(reader, &at, i);
+        rig->kind = kind < 0 ? RIG_TAIL : (enum rig_kind)kind; // any will do: the scene is refused
+        if (kind >= 0) kinds[kind]->load(reader, &object, rig);
+        check_name(reader, &object.at, i);
     }
 }
 
