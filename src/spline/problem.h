@@ -63,7 +63,11 @@ cplx problem_tail(const problem *p);
 /// c·H of the start, for the calm that the problem has now.
 void problem_set_start(wiggly_solver *solver, problem *p);
 
-/// w of all samples behind the latest knot, from w there.
+/// w of `count` samples of the tail, the first of them `from` ≥ 1 samples behind the latest knot, from w there; im outside complex mode
+/// is not written.
+void problem_fill_tail(const problem *p, cplx w, int from, int count, double *re, double *im);
+
+/// The same for all samples behind the latest knot; arrays of the whole spline.
 void problem_settle(const problem *p, double *re, double *im);
 
 /// Whether the document is one for the chain: constant parameters, a constant equilibrium, no seam.
