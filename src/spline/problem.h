@@ -48,6 +48,18 @@ static inline int problem_rows(const problem *p)
     return p->settles ? p->latest - p->first + 1 : p->count;
 }
 
+/// The least damping ratio that the problem takes.
+static inline double problem_least_damping(const problem *p)
+{
+    return p->start == WIGGLY_LOOP ? LEAST_DAMPING * p->calm : 0;
+}
+
+/// The filter of a problem without pole tracks.
+static inline const constant_filter *problem_filter(wiggly_solver *solver, const problem *p)
+{
+    return solver_filter(solver, p->desc, problem_least_damping(p));
+}
+
 /// Whether the oscillator's rules hold: jets weighed by |g|⁻², speeds that the poles see, the tail.
 static inline bool problem_oscillates(const problem *p) { return p->desc->passive == WIGGLY_OSCILLATOR; }
 

@@ -272,7 +272,7 @@ static wiggly_status look(wiggly_take *take, const sink *s)
         pour(take, s, i, 1, &c->nodes[0].value, &c->nodes[0].x_im);
     for (int j = p; j < q; j++) {
         const chain_node *node = &c->nodes[j];
-        chain_fill_stretch(c, node, node + 1, take->re, im);
+        chain_fill_stretch(c, node, node + 1, take->re - node->sample, im ? im - node->sample : NULL);
         pour(take, s, take->problem.first + node->sample, node[1].sample - node->sample, take->re, im);
     }
     if (q == last && to >= c->nodes[last].sample) look_behind(take, s, to);
