@@ -156,15 +156,14 @@ static chain_speed speed_of(speed_form form, cplx lambda, double jet)
 
 static void set_speeds(chain *c, const problem *p, const constant_filter *f)
 {
-    bool oscillates = problem_oscillates(p);
     speed_form form = {{0, 0}, {1, 0}};
-    if (oscillates) form = poles_speed(&f->at, p->desc->step, false);
+    if (problem_oscillates(p)) form = f->ahead;
     c->speed[VIEW_AHEAD] = speed_of(form, f->lambda, 0);
     c->speed[VIEW_BOTH] = speed_of(form, f->lambda, 0.5);
     c->speed[VIEW_BEHIND] = speed_of(form, f->lambda, 1);
-    c->speed[VIEW_TAIL] = (chain_speed){.on_x = cplx_scale(p->desc->step, poles_passive(&f->at))};
-    cplx tail = problem_tail(p);
-    c->tail = cplx_sub((cplx){1 + tail.re, tail.im}, f->lambda);
+    c->speed[VIEW_TAIL] = (chain_speed){.on_x = f->passive};
+    c->tail = cplx_sub((cplx){1 + f->tail.re, f->tail.im}, f->lambda);
+    if (!c->is_complex) c->tail = (cplx){0, 0};
 }
 
 /// Sets filter, start and end, and forgets what was made for others.
@@ -227,6 +226,6 @@ bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, 
     bool same_nodes = problem_make_chain(solver, p);
     c->kept = c->kept && same_nodes;
     if (!is_held(c) || !chain_solve(c, x_re, x_im)) return false;
-    problem_settle(p, x_re - p->first, x_im - p->first);
+    problem_settle(solver, p, x_re - p->first, x_im - p->first);
     return true;
 }

@@ -171,15 +171,9 @@ static void set_tail(system_rows *rows, const problem *p)
     if (rows->count > 1) rows->jet_weight[rows->count - 1] *= 2;
     if (rows->count == 1) rows->jet_to = -1;
     if (!rows->is_complex) return;
-    rows->tail = problem_tail(p);
-}
-
-cplx problem_tail(const problem *p)
-{
-    if (p->desc->mode != WIGGLY_COMPLEX) return (cplx){0, 0};
     poles at = poles_at(p->desc, p->latest, 0);
-    speed_form form = poles_speed(&at, p->desc->step, false);
-    return cplx_divide(cplx_sub(cplx_scale(p->desc->step, poles_passive(&at)), form.on_x), form.on_e);
+    speed_form ahead = poles_speed(&at, p->desc->step, false);
+    rows->tail = poles_tail(&at, &ahead, p->desc->step);
 }
 
 void problem_set_rows(wiggly_solver *solver, const problem *p)

@@ -132,6 +132,9 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
         exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&f->at, desc->step));
     for (int i = 0; i < 2; i++) f->start[1].row[i].weight *= weight;
     poles_mean(&f->at, desc->step, &f->lambda, &f->delta2);
+    f->ahead = poles_speed(&f->at, desc->step, false);
+    f->passive = cplx_scale(desc->step, poles_passive(&f->at));
+    f->tail = poles_tail(&f->at, &f->ahead, desc->step);
     return f;
 }
 

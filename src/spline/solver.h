@@ -19,6 +19,9 @@ typedef struct constant_filter {
     poles at;
     start_cost start[2]; ///< at calm 1: the filter's; the oscillator's, in units of the jets' weight
     cplx lambda, delta2;
+    speed_form ahead; ///< the speed that the poles see in a sample and the one ahead
+    cplx passive;     ///< h p of what moves by itself
+    cplx tail;        ///< what one sample of that adds, as the poles see it
 } constant_filter;
 
 struct wiggly_solver {

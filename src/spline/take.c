@@ -252,7 +252,7 @@ static void look_behind(wiggly_take *take, const sink *s, int to)
     const problem *p = &take->problem;
     const cplx w = {re[own - 1], im ? im[own - 1] : 0};
     int begin = s->from > p->latest ? s->from : p->latest + 1, rest = s->from + s->count - begin;
-    problem_fill_tail(p, w, begin - p->latest, rest, re, im);
+    problem_fill_tail(take->solver, p, w, begin - p->latest, rest, re, im);
     pour(take, s, begin, rest, re, im);
 }
 
