@@ -52,6 +52,12 @@ typedef enum wiggly_start {
     WIGGLY_LOOP  ///< the last sample is the first one again
 } wiggly_start;
 
+/// What happens where no knot asks for anything: after the last one, and as the equilibrium moves.
+typedef enum wiggly_passive {
+    WIGGLY_OSCILLATOR = 0, ///< what a damped oscillator does, of one pole: it swings on and dies away
+    WIGGLY_FILTER          ///< what the paper's filter does, of two: in complex mode they ring up together first
+} wiggly_passive;
+
 /// A parameter: a number, or where `track` is set one number a sample (N of them, caller's, read during the solve only).
 /// Values out of range are clamped.
 typedef struct wiggly_param {
@@ -82,6 +88,7 @@ typedef struct wiggly_desc {
     wiggly_param friction;    ///< gamma, 1/s (eq. 12)
     wiggly_param equilibrium; ///< y (eq. 25)
     double calm;              ///< 0 … 1; 0 is the paper's formula to the letter
+    wiggly_passive passive;   ///< the oscillator, unless it says the filter
     const wiggly_knot *knots; ///< any order
     int knot_count;
 } wiggly_desc;
@@ -99,7 +106,8 @@ typedef struct wiggly_curve {
     double *omega; ///< band centre, rad/s, for values between samples
     int samples;   ///< N of the last solve
     double step;   ///< h, seconds
-    int first;     ///< before this sample x is constant
+    int first;     ///< before this sample no knot moves x: it is constant but for what the equilibrium's motion adds
+    double before[2]; ///< that constant, re and im
     wiggly_mode mode;
     wiggly_start start;
     double error;    ///< estimated largest error, relative to the larger of the total's range and magnitude

@@ -14,7 +14,13 @@
 //
 //     x_{p+i} = [F^i s_p]_x + [W_i F*^{L−i} ν]_x,     ν = W_L⁻¹ (s_q − F^L s_p),
 //
-// a sum of four tabled columns a sample, the same for all stretches of one length. After the last knot x runs free.
+// a sum of four tabled columns a sample, the same for all stretches of one length. After the last knot x runs free, or, where it
+// settles, d_L is a multiple of x_L and the last jet counts twice: as the last input's share of W is then a half, W_L − ½ B B*.
+//
+// A slope at s_q sees h times a speed, φ = Re(on_x x_q + on_d d_q − on_r r_q), where r_q is the last jet of the stretch before. Given
+// both ends that jet is ν_d = B* ν ± √(1 − V₁₁), so that with s = weight / (1 + weight |on_r|² (1 − V₁₁)) what the slope costs is
+// s (Re(on_x x_q + on_d d_q − on_r ν_d) − target)², a row of the two nodes alone. In the stretch it pulls r_q away from B* ν by
+// η = s (φ − target) on_r*, and the samples follow the costate ν − V B η.
 #include "spline/chain.h"
 #include <math.h>
 
@@ -28,41 +34,85 @@ static bool is_tame(cplx z) { return fabs(z.re) < 1e250 && fabs(z.im) < 1e250; }
 /// The same for a real sum; NaN is not tame.
 static bool is_tame_real(double size) { return size < 1e250; }
 
-static bool fill_real(const chain *c, const chain_node *p, const chain_node *q, double *re)
+/// What a slope at the stretch's last node pulls on the jet there beside the costate ν_d (see the top of this file).
+static cplx slope_pull(const chain *c, const chain_stretch *s, const chain_node *q, cplx nu_d)
+{
+    const chain_speed *speed = &c->speed[q->view];
+    cplx seen = cplx_sub(cplx_add(cplx_mul(speed->on_x, (cplx){q->value, q->x_im}),
+                                  cplx_mul(speed->on_d, (cplx){q->d_re, q->d_im})),
+                         cplx_mul(speed->on_r, nu_d));
+    double weight = chain_slope_weight(q->slope_weight, speed, s->form[FORM_V11]);
+    return cplx_scale(weight * (seen.re - q->slope), cplx_conj(speed->on_r));
+}
+
+/// What the columns of a stretch are weighted with; false where sums might overflow.
+static bool weigh_real(const chain *c, const chain_node *p, const chain_node *q, double weight[4])
 {
     const chain_stretch *s = &c->stretches[p->stretch];
     const double *f = s->form;
-    const double weight[4] = {
-        p->value,
-        p->d_re,
-        f[FORM_V00] * q->value + f[FORM_V01] * q->d_re - (f[FORM_C00] * p->value + f[FORM_C01] * p->d_re),
-        f[FORM_V01] * q->value + f[FORM_V11] * q->d_re - (f[FORM_C10] * p->value + f[FORM_C11] * p->d_re),
-    };
-    chain_fill_real(c, s, weight, re);
+    weight[0] = p->value;
+    weight[1] = p->d_re;
+    weight[2] = f[FORM_V00] * q->value + f[FORM_V01] * q->d_re - (f[FORM_C00] * p->value + f[FORM_C01] * p->d_re);
+    weight[3] = f[FORM_V01] * q->value + f[FORM_V11] * q->d_re - (f[FORM_C10] * p->value + f[FORM_C11] * p->d_re);
+    if (q->slope_weight > 0) {
+        double eta = slope_pull(c, s, q, (cplx){weight[3], 0}).re;
+        weight[2] -= f[FORM_V01] * eta, weight[3] -= f[FORM_V11] * eta;
+    }
     return is_tame_real(fabs(weight[0]) + fabs(weight[1]) + fabs(weight[2]) + fabs(weight[3]));
 }
 
-static bool fill_complex(const chain *c, const chain_node *p, const chain_node *q, double *re, double *im)
+static bool weigh_complex(const chain *c, const chain_node *p, const chain_node *q, cplx weight[4])
 {
     const chain_stretch *s = &c->stretches[p->stretch];
     cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, dq = {q->d_re, q->d_im};
     cplx v01 = chain_entry(s, FORM_V01), c00 = chain_entry(s, FORM_C00), c01 = chain_entry(s, FORM_C01),
          c10 = chain_entry(s, FORM_C10), c11 = chain_entry(s, FORM_C11);
-    cplx weight[4] = {
-        xp,
-        dp,
-        cplx_sub(cplx_add(cplx_scale(s->form[FORM_V00], xq), cplx_mul(v01, dq)),
-                 cplx_add(cplx_mul(c00, xp), cplx_mul(c01, dp))),
-        cplx_sub(cplx_add(cplx_mul(cplx_conj(v01), xq), cplx_scale(s->form[FORM_V11], dq)),
-                 cplx_add(cplx_mul(c10, xp), cplx_mul(c11, dp))),
-    };
-    chain_fill_complex(c, s, weight, re, im);
+    weight[0] = xp;
+    weight[1] = dp;
+    weight[2] = cplx_sub(cplx_add(cplx_scale(s->form[FORM_V00], xq), cplx_mul(v01, dq)),
+                         cplx_add(cplx_mul(c00, xp), cplx_mul(c01, dp)));
+    weight[3] = cplx_sub(cplx_add(cplx_mul(cplx_conj(v01), xq), cplx_scale(s->form[FORM_V11], dq)),
+                         cplx_add(cplx_mul(c10, xp), cplx_mul(c11, dp)));
+    if (q->slope_weight > 0) {
+        cplx eta = slope_pull(c, s, q, weight[3]);
+        weight[2] = cplx_sub(weight[2], cplx_mul(v01, eta));
+        weight[3] = cplx_sub(weight[3], cplx_scale(s->form[FORM_V11], eta));
+    }
     return is_tame(weight[0]) && is_tame(weight[1]) && is_tame(weight[2]) && is_tame(weight[3]);
+}
+
+int chain_length_after(const chain *c, int j)
+{
+    int ahead = j + 1 < c->node_count ? c->nodes[j + 1].sample : c->count;
+    return ahead - c->nodes[j].sample;
+}
+
+/// Samples of a loop are counted from its first node on: what reaches beyond the end goes on at sample 0.
+static int part_before_seam(const chain *c, const chain_node *p, int length, int *at)
+{
+    *at = p->sample + c->turned;
+    if (c->cyclic && *at >= c->count) *at -= c->count;
+    return c->cyclic && *at + length > c->count ? c->count - *at : length;
 }
 
 bool chain_fill_stretch(const chain *c, const chain_node *p, const chain_node *q, double *re, double *im)
 {
-    return c->is_complex ? fill_complex(c, p, q, re, im) : fill_real(c, p, q, re);
+    const chain_stretch *s = &c->stretches[p->stretch];
+    const int n = s->length;
+    int at;
+    const int part = part_before_seam(c, p, n, &at);
+    if (c->is_complex) {
+        cplx weight[4];
+        bool tame = weigh_complex(c, p, q, weight);
+        chain_fill_complex(c, s, weight, 0, part, re + at, im + at);
+        chain_fill_complex(c, s, weight, part, n - part, re, im);
+        return tame;
+    }
+    double weight[4];
+    bool tame = weigh_real(c, p, q, weight);
+    chain_fill_real(c, s, weight, 0, part, re + at);
+    chain_fill_real(c, s, weight, part, n - part, re);
+    return tame;
 }
 
 bool chain_run_free(const chain *c, const chain_node *last, int count, double *re, double *im)
@@ -87,9 +137,12 @@ bool chain_run_free(const chain *c, const chain_node *last, int count, double *r
 
 double chain_add_to_node(const chain *c, chain_node *node, const double *solved)
 {
-    double x_im = c->is_complex ? solved[0] : 0, d_re = solved[c->is_complex ? 1 : 0],
-           d_im = c->is_complex ? solved[2] : 0;
-    if (c->is_complex && node->fixed & NODE_FIXED_E) d_re += c->lambda.im * x_im;
+    if (!c->is_complex) {
+        node->d_re += solved[0];
+        return fabs(solved[0]);
+    }
+    cplx tie = chain_node_tie(c, node);
+    double x_im = solved[0], d_re = solved[1] + tie.re * x_im, d_im = solved[2] + tie.im * x_im;
     node->x_im += x_im, node->d_re += d_re, node->d_im += d_im;
     return fabs(x_im) + fabs(d_re) + fabs(d_im);
 }
@@ -134,18 +187,19 @@ void chain_reset_nodes(chain *c)
 {
     for (int j = 0; j < c->node_count; j++) {
         chain_node *node = &c->nodes[j];
-        bool known = node->fixed & NODE_FIXED_E;
-        node->x_im = node->d_im = 0;
-        node->d_re = known ? node->e - (c->lambda.re - 1) * node->value : 0;
+        bool known = node->fixed & (NODE_FIXED_E | NODE_AT_REST), settled = node->fixed & NODE_SETTLED;
+        node->x_im = 0;
+        node->d_re = known ? node->e - (c->lambda.re - 1) * node->value : settled ? c->tail.re * node->value : 0;
+        node->d_im = settled && c->is_complex ? c->tail.im * node->value : 0;
     }
 }
 
 /// What |x| of a cubic stays below from one node to the next: there, L samples apart, x is a cubic polynomial, its ends' line and
 /// r with r(0) = r(L) = 0, and |r| ≤ L (|u| + |v|) where u, v are the differences at the ends less the line's.
-static double bound_of_piece(const chain_node *from, const chain_node *to)
+static double bound_of_piece(const chain_node *from, const chain_node *to, int length)
 {
     return 5 * (fabs(from->value) + fabs(to->value)) +
-           (to->sample - from->sample) * (fabs(from->d_re) + fabs(to->d_re));
+           length * (fabs(from->d_re) + fabs(to->d_re));
 }
 
 bool chain_fill(chain *c, double *x_re, double *x_im)
@@ -154,11 +208,13 @@ bool chain_fill(chain *c, double *x_re, double *x_im)
     double *im = c->is_complex ? x_im : NULL;
     bool tame = true;
     c->cubic_bound = fabs(last->value) + (c->count - last->sample) * fabs(last->d_re);
-    for (const chain_node *p = c->nodes; p < last; p++) {
-        double piece = bound_of_piece(p, p + 1);
+    for (int j = 0; j < chain_stretches(c); j++) {
+        const chain_node *p = &c->nodes[j], *q = &c->nodes[chain_next(c, j)];
+        double piece = bound_of_piece(p, q, chain_length_after(c, j));
         c->cubic_bound = piece > c->cubic_bound ? piece : c->cubic_bound;
-        tame = chain_fill_stretch(c, p, p + 1, x_re + p->sample, im ? im + p->sample : NULL) && tame;
+        tame = chain_fill_stretch(c, p, q, x_re, im) && tame;
     }
+    if (c->cyclic) return tame;
     im = im ? im + last->sample : NULL;
     return chain_run_free(c, last, c->count - last->sample, x_re + last->sample, im) && tame;
 }

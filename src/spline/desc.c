@@ -14,7 +14,8 @@
     X(spring, PARAM, true)                                                                                           \
     X(friction, PARAM, true)                                                                                         \
     X(equilibrium, PARAM, false)                                                                                     \
-    X(calm, NUMBER, false)
+    X(calm, NUMBER, false)                                                                                           \
+    X(passive, CHOICE, false)
 
 #define ROW(member, kind, filters)                                                                                   \
     {#member, DESC_##kind, filters, offsetof(wiggly_desc, member), sizeof(((wiggly_desc *)0)->member)},

@@ -6,98 +6,195 @@
 /// what they change is about 1e-14 of x, and below 1e-9 where x hangs on the start alone.
 static const double least_phase = 48;
 
-/// No slope may act between two nodes: on a knot beside the one before, or on the last sample.
-bool problem_fits_chain(wiggly_solver *solver, const problem *p)
+/// The jet at a sample and what is behind it are far apart where a row's b all but vanishes: speeds seen from there are not for the chain.
+static const double least_b = 1e-3;
+
+/// A knot in order of samples.
+static const wiggly_knot *knot_at(const wiggly_solver *solver, const problem *p, int n)
+{
+    return &p->desc->knots[solver->order[n]];
+}
+
+/// Whether knot n has one on the sample after it; in a loop the first comes after the last.
+static bool has_company(const wiggly_solver *solver, const problem *p, int n)
+{
+    int knots = p->desc->knot_count, sample = knot_at(solver, p, n)->sample + 1;
+    if (n + 1 < knots) return knot_at(solver, p, n + 1)->sample == sample;
+    return p->start == WIGGLY_LOOP && knots > 1 && sample == p->count && knot_at(solver, p, 0)->sample == 0;
+}
+
+/// The knot that the chain begins with: the first, in a loop the first that has none on the sample before. -1 where there is none.
+static int first_of_chain(const wiggly_solver *solver, const problem *p)
+{
+    int knots = p->desc->knot_count;
+    if (p->start != WIGGLY_LOOP) return 0;
+    for (int n = 0; n < knots; n++) {
+        if (!has_company(solver, p, n > 0 ? n - 1 : knots - 1)) return n;
+    }
+    return -1;
+}
+
+/// No slope may act inside a pair of knots side by side, but at its first; nor may the paper's at the domain's last sample.
+static bool slopes_fit(wiggly_solver *solver, const problem *p, int begin)
 {
     const wiggly_desc *desc = p->desc;
-    const system_rows *rows = &solver->rows;
-    if (rows->loop || p->level || !poles_are_constant(desc) || desc->equilibrium.track) return false;
-    double t = (rows->count - 1) * desc->step;
-    if (rows->is_complex && solver_filter(solver, desc)->at.natural * t < least_phase) return false;
-    for (int n = 0; n < desc->knot_count; n++) {
-        const wiggly_knot *knot = &desc->knots[solver->order[n]];
-        bool beside = n > 0 && desc->knots[solver->order[n - 1]].sample == knot->sample - 1;
-        if (knot->has_slope && (beside || knot->sample == desc->samples - 1)) return false;
+    const poles *at = &problem_filter(solver, p)->at;
+    bool oscillates = problem_oscillates(p), faint = exp(2 * desc->step * (at->s[0].re + at->s[1].re)) < least_b;
+    bool second = false;
+    for (int i = 0; i < desc->knot_count; i++) {
+        int n = (begin + i) % desc->knot_count;
+        const wiggly_knot *knot = knot_at(solver, p, n);
+        bool on_last = !oscillates && p->start != WIGGLY_LOOP && knot->sample == desc->samples - 1;
+        if (knot->has_slope && (second || on_last || (oscillates && faint))) return false;
+        second = !second && has_company(solver, p, n);
     }
     return true;
 }
 
-/// Writes what a knot says into a node, field by field; true where the node there differed in nothing but its values.
-static bool put_node(chain_node *at, int sample, unsigned fixed, double slope, double slope_weight)
+bool problem_fits_chain(wiggly_solver *solver, const problem *p)
 {
-    bool same = at->sample == sample && at->fixed == fixed && at->slope_weight == slope_weight;
+    const wiggly_desc *desc = p->desc;
+    if (p->level_slope || !poles_are_constant(desc)) return false;
+    if (p->about && !problem_oscillates(p)) return false; // the paper's filter is driven by a moving equilibrium
+    double t = (p->start == WIGGLY_LOOP ? p->count : p->count - 1) * desc->step;
+    if (desc->mode == WIGGLY_COMPLEX && problem_filter(solver, p)->at.natural * t < least_phase) return false;
+    int begin = first_of_chain(solver, p);
+    return begin >= 0 && slopes_fit(solver, p, begin);
+}
+
+/// Writes what a knot says into a node, field by field; true where the node there differed in nothing but its values.
+static bool put_node(chain_node *at, int sample, unsigned fixed, chain_view view, double slope, double slope_weight)
+{
+    bool same = at->sample == sample && at->fixed == fixed && at->view == view && at->slope_weight == slope_weight;
     at->sample = sample;
     at->fixed = fixed;
+    at->view = view;
     at->slope = slope;
     at->slope_weight = slope_weight;
     return same;
 }
 
+/// From where the speed at a knot is seen.
+static chain_view view_of(const problem *p, int sample)
+{
+    if (!problem_oscillates(p)) return VIEW_AHEAD;
+    if (p->start == WIGGLY_LOOP) return VIEW_BOTH;
+    if (p->settles && sample == p->latest) return VIEW_TAIL;
+    bool ahead = sample + 1 < p->first + p->count, behind = sample > p->first;
+    return ahead && behind ? VIEW_BOTH : ahead ? VIEW_AHEAD : VIEW_BEHIND;
+}
+
+bool problem_put_knot(const problem *p, chain_node *node, const wiggly_knot *knot, const wiggly_knot *pair)
+{
+    slope_row slope = {0};
+    if (knot->has_slope) slope = problem_slope(p, knot->sample, knot->slope, knot->stiffness);
+    bool settled = p->settles && knot->sample == p->latest;
+    unsigned fixed = pair ? NODE_FIXED_E : settled ? NODE_SETTLED : 0;
+    node->value = knot->value - problem_about(p, knot->sample);
+    node->e = pair ? (pair->value - problem_about(p, pair->sample)) - node->value : 0;
+    return put_node(node, knot->sample - p->first, fixed, view_of(p, knot->sample), slope.target, slope.weight);
+}
+
 /// Two keyed samples side by side are one node, whose e is known. true where only values differ from the nodes before.
 static bool make_nodes(wiggly_solver *solver, const problem *p)
 {
-    const wiggly_desc *desc = p->desc;
+    const int knots = p->desc->knot_count, begin = first_of_chain(solver, p);
     chain *c = &solver->chain;
     chain_node *node = c->nodes;
     bool same = true;
+    int turned = p->start == WIGGLY_LOOP ? knot_at(solver, p, begin)->sample : 0;
     if (p->start == WIGGLY_REST) {
-        same = put_node(node, 0, NODE_AT_REST, 0, 0);
-        node->value = node->e = 0;
+        same = put_node(node, 0, problem_oscillates(p) ? NODE_FROM_REST : NODE_AT_REST, VIEW_AHEAD, 0, 0);
+        node->value = 0;
+        node->e = p->y && !p->about ? p->y[1] - p->level : 0;
         node++;
     }
-    for (int n = 0; n < desc->knot_count; n++, node++) {
-        const wiggly_knot *knot = &desc->knots[solver->order[n]];
-        const wiggly_knot *next = n + 1 < desc->knot_count ? &desc->knots[solver->order[n + 1]] : NULL;
-        double y = problem_y(p, knot->sample);
-        bool pair = next && next->sample == knot->sample + 1;
-        double slope = knot->has_slope ? desc->step * knot->slope : 0;
-        double weight = knot->has_slope ? fmin(knot->stiffness * desc->step, STIFFEST) : 0;
-        same = put_node(node, knot->sample - p->first, pair ? NODE_FIXED_E : 0, slope, weight) && same;
-        node->value = knot->value - y;
-        node->e = pair ? (next->value - y) - node->value : 0;
-        if (pair) n++;
+    for (int i = 0; i < knots; i++, node++) {
+        int n = (begin + i) % knots;
+        bool pair = has_company(solver, p, n);
+        same = problem_put_knot(p, node, knot_at(solver, p, n), pair ? knot_at(solver, p, (n + 1) % knots) : NULL) && same;
+        if (p->start == WIGGLY_LOOP) node->sample = (node->sample - turned + p->count) % p->count;
+        if (pair) i++;
     }
     int count = (int)(node - c->nodes);
-    same = same && count == c->node_count;
+    same = same && count == c->node_count && turned == c->turned;
     c->node_count = count;
+    c->turned = turned;
     return same;
 }
 
 static bool same_cplx(cplx a, cplx b) { return a.re == b.re && a.im == b.im; }
 
-static bool same_start(start_cost a, start_cost b) { return a.h00 == b.h00 && a.d == b.d && same_cplx(a.e, b.e); }
+static bool same_row(struct start_row a, struct start_row b)
+{
+    return a.weight == b.weight && same_cplx(a.on_x, b.on_x) && same_cplx(a.on_e, b.on_e);
+}
 
-static bool same_filter(const wiggly_solver *solver)
+static bool same_start(start_cost a, start_cost b) { return same_row(a.row[0], b.row[0]) && same_row(a.row[1], b.row[1]); }
+
+static bool same_filter(const wiggly_solver *solver, const problem *p)
 {
     const chain *c = &solver->chain;
     const constant_filter *f = &solver->filter;
-    return solver->rows.is_complex == c->is_complex && same_cplx(f->lambda, c->lambda) &&
+    return (p->desc->mode == WIGGLY_COMPLEX) == c->is_complex && same_cplx(f->lambda, c->lambda) &&
            same_cplx(f->delta2, c->delta2);
 }
 
-/// Sets filter and start, and forgets what was made for another.
+/// From rest the oscillator's jet at sample 0, which is d, counts twice.
+static start_cost start_of(const problem *p)
+{
+    if (p->start == WIGGLY_REST && problem_oscillates(p)) return (start_cost){{{.weight = 2, .on_e = {1, 0}}}};
+    return p->cost;
+}
+
+/// h times the speed as it is seen from a node with d = e − (λ−1) x; behind it is as ahead but for the jet between.
+static chain_speed speed_of(speed_form form, cplx lambda, double jet)
+{
+    cplx growth = {lambda.re - 1, lambda.im};
+    return (chain_speed){cplx_add(form.on_x, cplx_mul(form.on_e, growth)), form.on_e, cplx_scale(jet, form.on_e)};
+}
+
+static void set_speeds(chain *c, const problem *p, const constant_filter *f)
+{
+    speed_form form = {{0, 0}, {1, 0}};
+    if (problem_oscillates(p)) form = f->ahead;
+    c->speed[VIEW_AHEAD] = speed_of(form, f->lambda, 0);
+    c->speed[VIEW_BOTH] = speed_of(form, f->lambda, 0.5);
+    c->speed[VIEW_BEHIND] = speed_of(form, f->lambda, 1);
+    c->speed[VIEW_TAIL] = (chain_speed){.on_x = f->passive};
+    c->tail = cplx_sub((cplx){1 + f->tail.re, f->tail.im}, f->lambda);
+    if (!c->is_complex) c->tail = (cplx){0, 0};
+}
+
+/// Sets filter, start and end, and forgets what was made for others.
 static void set_chain(wiggly_solver *solver, const problem *p)
 {
     chain *c = &solver->chain;
-    const system_rows *rows = &solver->rows;
-    const constant_filter *f = solver_filter(solver, p->desc);
-    if (!same_filter(solver)) chain_forget(c);
-    if (!same_start(rows->start, c->start)) c->kept = false;
-    c->is_complex = rows->is_complex;
-    c->count = rows->count;
-    c->start = rows->start;
+    const constant_filter *f = problem_filter(solver, p);
+    if (!same_filter(solver, p)) chain_forget(c);
+    start_cost start = start_of(p);
+    if (!same_start(start, c->start)) c->kept = false;
+    if (c->settles != p->settles || c->cyclic != (p->start == WIGGLY_LOOP) || c->oscillates != problem_oscillates(p)) c->kept = false;
+    c->is_complex = p->desc->mode == WIGGLY_COMPLEX;
+    c->count = problem_rows(p);
+    c->start = start;
+    c->settles = p->settles;
+    c->cyclic = p->start == WIGGLY_LOOP;
+    c->oscillates = problem_oscillates(p);
     c->lambda = f->lambda;
     c->delta2 = f->delta2;
+    set_speeds(c, p, f);
 }
 
 bool problem_shares_chain(wiggly_solver *solver, const problem *p)
 {
-    solver_filter(solver, p->desc);
-    return same_filter(solver) && same_start(solver->rows.start, solver->chain.start);
+    problem_filter(solver, p);
+    return same_filter(solver, p) && same_start(start_of(p), solver->chain.start) &&
+           solver->chain.settles == p->settles && !solver->chain.cyclic && solver->chain.oscillates == problem_oscillates(p);
 }
 
 /// One knot without any hold has no single answer.
-static bool is_held(const chain *c) { return c->node_count >= 2 || c->start.h00 > 0; }
+static bool is_held(const chain *c) { return c->cyclic || c->node_count >= 2 || c->start.row[0].weight > 0; }
 
 bool problem_join(wiggly_solver *solver, const problem *p)
 {
@@ -108,6 +205,13 @@ bool problem_join(wiggly_solver *solver, const problem *p)
     chain_make_tables(c);
     chain_reset_nodes(c);
     return true;
+}
+
+bool problem_ends_in_pair(const wiggly_solver *solver, const problem *p)
+{
+    int paired = 0, n = p->desc->knot_count - 1;
+    for (; n > 0 && has_company(solver, p, n - 1); n--) paired++;
+    return p->settles && paired % 2 == 1;
 }
 
 bool problem_make_chain(wiggly_solver *solver, const problem *p)
@@ -121,6 +225,7 @@ bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, 
     chain *c = &solver->chain;
     bool same_nodes = problem_make_chain(solver, p);
     c->kept = c->kept && same_nodes;
-    if (!is_held(c)) return false;
-    return chain_solve(c, x_re, x_im);
+    if (!is_held(c) || !chain_solve(c, x_re, x_im)) return false;
+    problem_settle(solver, p, x_re - p->first, x_im - p->first);
+    return true;
 }
