@@ -1,5 +1,6 @@
 /// A solver's memory: one block, carved once, largest alignment first so that nothing needs padding.
 #include "spline/solver.h"
+#include <limits.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -14,9 +15,6 @@ enum {
     BYTES_PER_KNOT =
         (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) + 9 * sizeof(double) + sizeof(int)),
 };
-
-/// Samples; beyond, a domain without knots would cost the squared matrix half its digits (N⁴ ε).
-enum { LONGEST_SQUARED = 1000 };
 
 _Static_assert((int)CHAIN_DOUBLES <= (int)MATRIX_DOUBLES, "the chain's tables lie over the matrix");
 
@@ -87,7 +85,7 @@ static wiggly_solver *lay_out(void *memory, int samples, int knots)
     wiggly_solver *solver = memory;
     solver->samples = samples;
     solver->knots = knots;
-    solver->longest_squared = LONGEST_SQUARED;
+    solver->longest_squared = INT_MAX;
     solver->chain.forced_capacity = samples;
     solver->chain.stretch_capacity = knots + 1;
     carve(solver);

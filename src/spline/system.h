@@ -52,6 +52,9 @@ stencil system_slope_stencil(const system_rows *rows, const slope_row *slope);
 /// the last digits of x even where the squared matrix has lost them.
 void system_gradient(const system_rows *rows);
 
+/// The same where x holds nothing but what is known: all of it is small sums, and plain double will do.
+void system_right_side(const system_rows *rows);
+
 /// The squared matrix Rᵀ W R with fixed unknowns as rows of the identity, ready to be factored.
 void system_matrix(const system_rows *rows, pentadiagonal *matrix);
 
