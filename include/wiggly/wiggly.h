@@ -106,7 +106,8 @@ typedef struct wiggly_curve {
     double *omega; ///< band centre, rad/s, for values between samples
     int samples;   ///< N of the last solve
     double step;   ///< h, seconds
-    int first;     ///< before this sample x is constant
+    int first;     ///< before this sample no knot moves x: it is constant but for what the equilibrium's motion adds
+    double before[2]; ///< that constant, re and im
     wiggly_mode mode;
     wiggly_start start;
     double error;    ///< estimated largest error, relative to the larger of the total's range and magnitude

@@ -49,17 +49,16 @@ static void pull_stretch(const chain *c, int j)
          cplx_add(cplx_mul(cplx_conj(f01), n0), cplx_mul(cplx_conj(f11), n1)));
 }
 
-/// The start's two rows: on_x x + (e−1) d and λ x + d.
 static void pull_start(const chain *c)
 {
     const chain_node *node = &c->nodes[0];
-    const start_cost *h = &c->start;
-    cplx e1 = {h->e.re - 1, h->e.im}, l1 = {c->lambda.re - 1, c->lambda.im};
-    cplx on_x = cplx_add(cplx_mul(e1, l1), h->e), x = {node->value, node->x_im}, d = {node->d_re, node->d_im};
-    cplx first = cplx_scale(-h->h00, cplx_add(cplx_mul(on_x, x), cplx_mul(e1, d)));
-    cplx second = cplx_scale(-h->d, cplx_add(cplx_mul(c->lambda, x), d));
-    pull(c, 0, cplx_add(cplx_mul(cplx_conj(on_x), first), cplx_mul(cplx_conj(c->lambda), second)),
-         cplx_add(cplx_mul(cplx_conj(e1), first), second));
+    const cplx growth = {c->lambda.re - 1, c->lambda.im}, x = {node->value, node->x_im}, d = {node->d_re, node->d_im};
+    for (int i = 0; i < 2; i++) {
+        const struct start_row *row = &c->start.row[i];
+        cplx on_x = cplx_add(row->on_x, cplx_mul(row->on_e, growth)), on_d = row->on_e;
+        cplx miss = cplx_scale(-row->weight, cplx_add(cplx_mul(on_x, x), cplx_mul(on_d, d)));
+        pull(c, 0, cplx_mul(cplx_conj(on_x), miss), cplx_mul(cplx_conj(on_d), miss));
+    }
 }
 
 static void pull_slope(const chain *c, int j)

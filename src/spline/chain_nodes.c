@@ -4,17 +4,19 @@ typedef double lane;
 typedef int flag;
 #include "spline/chain_kernel.h"
 
-/// Of |x + e_0| and |e_0 − e (x + e_0)|, with e_0 = x_1 − x_0 = d + (λ−1) x.
+/// Each row's |on_x x + on_e e|² with e = x_1 − x_0 = d + (λ−1) x.
 start_form chain_start_form(const chain *c)
 {
-    const start_cost *h = &c->start;
-    const cplx l1 = {c->lambda.re - 1, c->lambda.im}, e1 = {h->e.re - 1, h->e.im};
-    cplx on_x = cplx_add(cplx_mul(e1, l1), h->e);
-    return (start_form){
-        .h00 = h->h00 * cplx_norm(on_x) + h->d * cplx_norm(c->lambda),
-        .h01 = cplx_add(cplx_scale(h->h00, cplx_mul(cplx_conj(on_x), e1)), cplx_scale(h->d, cplx_conj(c->lambda))),
-        .h11 = h->h00 * cplx_norm(e1) + h->d,
-    };
+    start_form form = {0};
+    const cplx growth = {c->lambda.re - 1, c->lambda.im};
+    for (int i = 0; i < 2; i++) {
+        const struct start_row *row = &c->start.row[i];
+        cplx on_x = cplx_add(row->on_x, cplx_mul(row->on_e, growth)), on_d = row->on_e;
+        form.h00 += row->weight * cplx_norm(on_x);
+        form.h01 = cplx_add(form.h01, cplx_scale(row->weight, cplx_mul(cplx_conj(on_x), on_d)));
+        form.h11 += row->weight * cplx_norm(on_d);
+    }
+    return form;
 }
 
 static kernel_node kernel_node_of(const chain *c, const chain_node *node)

@@ -24,7 +24,7 @@ static double problem_scale(const problem *p)
     double t = (p->start == WIGGLY_LOOP ? p->count : p->count - 1) * p->desc->step;
     for (int k = 0; k < p->desc->knot_count; k++) {
         const wiggly_knot *knot = &p->desc->knots[k];
-        double size = fabs(knot->value - problem_y(p, knot->sample));
+        double size = fabs(knot->value - problem_about(p, knot->sample));
         if (size > scale) scale = size;
         if (knot->has_slope && t * fabs(knot->slope) > scale) scale = t * fabs(knot->slope);
     }
@@ -69,20 +69,21 @@ WIDEST static void add_constant(double *restrict total, double y, const double *
     for (int i = 0; i < count; i++) total[i] = y + re[i];
 }
 
-/// y, where it is asked for, and the total.
+/// The total, about + w; x, w + u, where that is something else; y, where it is asked for.
 static void add_equilibrium(const problem *p, wiggly_curve *curve)
 {
     int n = p->desc->samples;
-    if (!p->y) {
-        double y = p->desc->equilibrium.value;
-        if (curve->y) fill(curve->y, y, n);
-        add_constant(curve->total, y, curve->re, n);
+    if (curve->y && !p->y) fill(curve->y, p->level, n);
+    if (curve->y && p->y && curve->y != p->y) memcpy(curve->y, p->y, sizeof *p->y * (size_t)n);
+    if (!p->about) {
+        add_constant(curve->total, p->level, curve->re, n);
     } else {
-        if (curve->y && curve->y != p->y) memcpy(curve->y, p->y, sizeof *p->y * (size_t)n);
-        for (int i = 0; i < n; i++) curve->total[i] = p->y[i] + curve->re[i];
+        for (int i = 0; i < n; i++) curve->total[i] = p->about[i] + curve->re[i];
     }
     for (int k = 0; k < p->desc->knot_count; k++) curve->total[p->desc->knots[k].sample] = p->desc->knots[k].value;
     if (p->start == WIGGLY_LOOP) curve->total[n - 1] = curve->total[0];
+    for (int i = 0; p->y && i < n && p->about != p->y; i++) curve->re[i] += problem_about(p, i) - p->y[i];
+    for (int i = 0; p->swing.im && i < n; i++) curve->im[i] += p->swing.im[i];
 }
 
 static void set_centre(wiggly_solver *solver, const problem *p, double *omega)
@@ -98,12 +99,25 @@ static void set_centre(wiggly_solver *solver, const problem *p, double *omega)
     }
 }
 
+/// Before the first knot w is constant; of a cubic that is solved for its total, x is.
+static void hold_before_first(const problem *p, wiggly_curve *curve)
+{
+    int first = p->first;
+    bool total = p->y && !p->about;
+    curve->before[0] = total ? curve->re[first] + (p->level - p->y[first]) : curve->re[first];
+    curve->before[1] = curve->im[first];
+    for (int i = 0; i < first; i++) {
+        curve->re[i] = total ? curve->re[first] + (p->y[i] - p->y[first]) : curve->re[first];
+        curve->im[i] = curve->im[first];
+    }
+}
+
 void problem_complete(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     const wiggly_desc *desc = p->desc;
     int n = desc->samples;
     if (desc->mode != WIGGLY_COMPLEX) fill(curve->im, 0, n);
-    for (int i = 0; i < p->first; i++) curve->re[i] = curve->re[p->first], curve->im[i] = curve->im[p->first];
+    hold_before_first(p, curve);
     if (p->start == WIGGLY_LOOP) curve->re[n - 1] = curve->re[0], curve->im[n - 1] = curve->im[0];
     add_equilibrium(p, curve);
     if (curve->omega) set_centre(solver, p, curve->omega);

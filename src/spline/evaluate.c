@@ -21,29 +21,39 @@ static double catmull_rom(double before, double from, double to, double after, d
     return from + u * (c0 + u * ((3 * step - 2 * c0 - c1) + u * (c0 + c1 - 2 * step)));
 }
 
-/// Interpolates array[i … i+1] at u with neighbours, extrapolated linearly where missing.
-static double interpolate(const wiggly_curve *curve, const double *array, int i, double u)
+/// The sample after the next; -1 where there is none, or where it is beyond a first knot that the interval is before: there x is
+/// what the equilibrium's motion adds to a constant, behind it is not.
+static int beyond(const wiggly_curve *curve, int i)
 {
-    int b = neighbour(curve, i - 1), a = neighbour(curve, i + 2);
+    return i < curve->first && i + 2 > curve->first ? -1 : neighbour(curve, i + 2);
+}
+
+/// Interpolates array[i … i+1] at u with neighbours, extrapolated linearly where missing.
+static double interpolate(const wiggly_curve *curve, const double *array, int i, int a, double u)
+{
+    int b = neighbour(curve, i - 1);
     double from = array[i], to = array[i + 1];
     return catmull_rom(b < 0 ? 2 * from - to : array[b], from, to, a < 0 ? 2 * to - from : array[a], u);
 }
 
-static cplx turned(const wiggly_curve *curve, int i, double angle)
+/// x of a sample less `base`, turned.
+static cplx turned(const wiggly_curve *curve, int i, cplx base, double angle)
 {
-    return cplx_mul((cplx){cos(angle), sin(angle)}, (cplx){curve->re[i], curve->im[i]});
+    return cplx_mul((cplx){cos(angle), sin(angle)}, (cplx){curve->re[i] - base.re, curve->im[i] - base.im});
 }
 
 static cplx interpolate_complex(const wiggly_curve *curve, int i, double u)
 {
-    int b = neighbour(curve, i - 1), a = neighbour(curve, i + 2);
+    int b = neighbour(curve, i - 1), a = beyond(curve, i);
     double turn = 0.5 * (curve->omega[i] + curve->omega[i + 1]) * curve->step;
-    cplx from = {curve->re[i], curve->im[i]}, to = turned(curve, i + 1, -turn);
-    cplx before = b < 0 ? (cplx){2 * from.re - to.re, 2 * from.im - to.im} : turned(curve, b, turn);
-    cplx after = a < 0 ? (cplx){2 * to.re - from.re, 2 * to.im - from.im} : turned(curve, a, -2 * turn);
+    cplx base = {0, 0};
+    if (i < curve->first) base = (cplx){curve->before[0], curve->before[1]};
+    cplx from = turned(curve, i, base, 0), to = turned(curve, i + 1, base, -turn);
+    cplx before = b < 0 ? (cplx){2 * from.re - to.re, 2 * from.im - to.im} : turned(curve, b, base, turn);
+    cplx after = a < 0 ? (cplx){2 * to.re - from.re, 2 * to.im - from.im} : turned(curve, a, base, -2 * turn);
     cplx z = {catmull_rom(before.re, from.re, to.re, after.re, u),
               catmull_rom(before.im, from.im, to.im, after.im, u)};
-    return cplx_mul((cplx){cos(turn * u), sin(turn * u)}, z);
+    return cplx_add(base, cplx_mul((cplx){cos(turn * u), sin(turn * u)}, z));
 }
 
 wiggly_value wiggly_evaluate(const wiggly_curve *curve, double position)
@@ -59,9 +69,8 @@ wiggly_value wiggly_evaluate(const wiggly_curve *curve, double position)
     int i = (int)position;
     double u = position - i;
     if (u == 0 || i >= curve->samples - 1) return (wiggly_value){curve->y[i], curve->re[i], curve->im[i]};
-    double y = interpolate(curve, curve->y, i, u);
-    if (i < curve->first) return (wiggly_value){y, curve->re[curve->first], curve->im[curve->first]};
-    if (curve->mode != WIGGLY_COMPLEX) return (wiggly_value){y, interpolate(curve, curve->re, i, u), 0};
+    double y = interpolate(curve, curve->y, i, neighbour(curve, i + 2), u);
+    if (curve->mode != WIGGLY_COMPLEX) return (wiggly_value){y, interpolate(curve, curve->re, i, beyond(curve, i), u), 0};
     cplx x = interpolate_complex(curve, i, u);
     return (wiggly_value){y, x.re, x.im};
 }

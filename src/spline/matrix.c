@@ -11,64 +11,131 @@
 
 static void add_complex(double *at, cplx z) { at[0] += z.re, at[1] -= z.im, at[2] += z.im, at[3] += z.re; }
 
-static void jet_rows_complex(const system_rows *rows, pentadiagonal *m, int from, int to)
+/// Adds w c* c of a complex row's coefficients to the blocks of its neighbours before … at … after.
+static void jet_rows_complex(const system_rows *rows, pentadiagonal *m)
 {
     int n = rows->count;
-    for (int i = from; i <= to; i++) {
-        int before = i > 0 ? i - 1 : n - 1, after = i < n - 1 ? i + 1 : 0;
+    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
+        double w = rows->jet_weight[i];
         cplx a = {2 + rows->at[i].m.re, rows->at[i].m.im};
         cplx b = {a.re - 1 + rows->at[i].p.re, a.im + rows->at[i].p.im};
-        double aa = cplx_norm(a), bb = cplx_norm(b);
-        m->diagonal[3 * before] += bb, m->diagonal[3 * before + 2] += bb;
-        m->diagonal[3 * i] += aa, m->diagonal[3 * i + 2] += aa;
-        m->diagonal[3 * after] += 1, m->diagonal[3 * after + 2] += 1;
+        bool has_after = rows->loop || i < n - 1, has_before = rows->loop || i > 0;
+        if (!has_after) a = (cplx){a.re - 1 - rows->tail.re, a.im - rows->tail.im};
+        double aa = w * cplx_norm(a), bb = w * cplx_norm(b);
         cplx ab = cplx_mul(cplx_conj(a), b);
-        add_complex(m->below + 4 * before, (cplx){-ab.re, -ab.im});
-        add_complex(m->below + 4 * i, (cplx){-a.re, -a.im});
-        add_complex(m->below2 + 4 * before, b);
+        m->diagonal[3 * i] += aa, m->diagonal[3 * i + 2] += aa;
+        if (has_before) {
+            int before = i > 0 ? i - 1 : n - 1;
+            m->diagonal[3 * before] += bb, m->diagonal[3 * before + 2] += bb;
+            add_complex(m->below + 4 * before, cplx_scale(-w, ab));
+            if (has_after) add_complex(m->below2 + 4 * before, cplx_scale(w, b));
+        }
+        if (has_after) {
+            int after = i < n - 1 ? i + 1 : 0;
+            m->diagonal[3 * after] += w, m->diagonal[3 * after + 2] += w;
+            add_complex(m->below + 4 * i, cplx_scale(-w, a));
+        }
     }
 }
 
-static void jet_rows_real(const system_rows *rows, pentadiagonal *m, int from, int to)
+static void jet_rows_real(const system_rows *rows, pentadiagonal *m)
 {
     int n = rows->count;
-    for (int i = from; i <= to; i++) {
-        int before = i > 0 ? i - 1 : n - 1, after = i < n - 1 ? i + 1 : 0;
-        double a = 2 + rows->at[i].m.re, b = a - 1 + rows->at[i].p.re;
-        m->diagonal[before] += b * b;
-        m->diagonal[i] += a * a;
-        m->diagonal[after] += 1;
-        m->below[before] -= a * b;
-        m->below[i] -= a;
-        m->below2[before] += b;
+    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
+        double w = rows->jet_weight[i], a = 2 + rows->at[i].m.re, b = a - 1 + rows->at[i].p.re;
+        bool has_after = rows->loop || i < n - 1, has_before = rows->loop || i > 0;
+        if (!has_after) a -= 1 + rows->tail.re;
+        m->diagonal[i] += w * (a * a);
+        if (has_before) {
+            int before = i > 0 ? i - 1 : n - 1;
+            m->diagonal[before] += w * (b * b);
+            m->below[before] -= w * (a * b);
+            if (has_after) m->below2[before] += w * b;
+        }
+        if (has_after) {
+            m->diagonal[i < n - 1 ? i + 1 : 0] += w;
+            m->below[i] -= w * a;
+        }
+    }
+}
+
+stencil system_slope_stencil(const system_rows *rows, const slope_row *slope)
+{
+    int n = rows->count, k = slope->sample;
+    stencil s = {.before = k > 0 ? k - 1 : rows->loop ? n - 1 : -1,
+                 .at = k,
+                 .after = k < n - 1 ? k + 1 : rows->loop ? 0 : -1,
+                 .c = {cplx_scale(-1, slope->behind),
+                       cplx_add(slope->here, cplx_sub(slope->behind, slope->ahead)), slope->ahead}};
+    if (s.after < 0) s.c[1] = cplx_add(s.c[1], cplx_mul(slope->ahead, (cplx){1 + rows->tail.re, rows->tail.im}));
+    return s;
+}
+
+/// Adds w (Re c z)² of a complex number z: c as the row (c.re, −c.im) of its parts.
+static void add_square(double *diagonal, double w, cplx c)
+{
+    diagonal[0] += w * (c.re * c.re), diagonal[1] -= w * (c.re * c.im), diagonal[2] += w * (c.im * c.im);
+}
+
+/// The block of w (Re to·z')(Re from·z), rows z', columns z.
+static void add_product(double *block, double w, cplx to, cplx from)
+{
+    block[0] += w * (to.re * from.re), block[1] -= w * (to.re * from.im);
+    block[2] -= w * (to.im * from.re), block[3] += w * (to.im * from.im);
+}
+
+static void slope_rows(const system_rows *rows, pentadiagonal *m)
+{
+    for (int r = 0; r < rows->slope_count; r++) {
+        const stencil s = system_slope_stencil(rows, &rows->slopes[r]);
+        const double w = rows->slopes[r].weight;
+        const int at[3] = {s.before, s.at, s.after};
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; at[i] >= 0 && j <= i; j++) {
+                if (at[j] < 0) continue;
+                double *coupling = i - j == 2 ? m->below2 : m->below;
+                if (i == j && rows->is_complex) {
+                    add_square(m->diagonal + 3 * at[i], w, s.c[i]);
+                } else if (i == j) {
+                    m->diagonal[at[i]] += w * (s.c[i].re * s.c[i].re);
+                } else if (rows->is_complex) {
+                    add_product(coupling + 4 * at[j], w, s.c[i], s.c[j]);
+                } else {
+                    coupling[at[j]] += w * (s.c[i].re * s.c[j].re);
+                }
+            }
+        }
+    }
+}
+
+static void start_rows(const system_rows *rows, pentadiagonal *m)
+{
+    for (int i = 0; i < 2; i++) {
+        const struct start_row *row = &rows->start.row[i];
+        if (!(row->weight > 0)) continue;
+        cplx on_x1 = row->on_e, on_x0 = cplx_sub(row->on_x, row->on_e);
+        bool alone = rows->count == 1;
+        if (alone) on_x0 = cplx_add(row->on_x, cplx_mul(row->on_e, rows->tail));
+        double w = row->weight, first = w * cplx_norm(on_x0), second = w * cplx_norm(on_x1);
+        cplx both = cplx_scale(w, cplx_mul(cplx_conj(on_x1), on_x0));
+        m->diagonal[0] += first;
+        if (rows->is_complex) m->diagonal[2] += first;
+        if (alone) continue;
+        m->diagonal[rows->is_complex ? 3 : 1] += second;
+        if (rows->is_complex) {
+            m->diagonal[5] += second;
+            add_complex(m->below, both);
+        } else {
+            m->below[0] += both.re;
+        }
     }
 }
 
 static void other_rows(const system_rows *rows, pentadiagonal *m)
 {
-    int diagonal = rows->is_complex ? 3 : 1, block = rows->is_complex ? 4 : 1;
-    for (int s = 0; s < rows->slope_count; s++) {
-        const slope_row *row = &rows->slopes[s];
-        m->diagonal[diagonal * row->p] += row->weight;
-        m->diagonal[diagonal * row->q] += row->weight;
-        m->below[block * row->p] -= row->weight;
-    }
-    if (rows->start.h00 > 0) {
-        cplx l = {rows->start.e.re - 1, rows->start.e.im}; // h00 |x0 + l x1|² + d |x1|²
-        double h00 = rows->start.h00, h11 = h00 * cplx_norm(l) + rows->start.d;
-        m->diagonal[0] += h00;
-        m->diagonal[diagonal] += h11;
-        if (rows->is_complex) {
-            m->diagonal[2] += h00;
-            m->diagonal[diagonal + 2] += h11;
-            add_complex(m->below, (cplx){h00 * l.re, -h00 * l.im});
-        } else {
-            m->below[0] += h00 * l.re;
-        }
-    }
-    if (rows->is_complex) {
-        for (int k = 0; k < rows->count; k++) m->diagonal[3 * k + 2] += rows->im_weight[k];
-    }
+    slope_rows(rows, m);
+    start_rows(rows, m);
+    for (int k = 0; k < rows->count && rows->is_complex; k++) m->diagonal[3 * k + 2] += rows->im_weight[k];
 }
 
 /// Clears row or column `part` (0 re, 1 im) of a 2×2 block.
@@ -105,11 +172,10 @@ void system_matrix(const system_rows *rows, pentadiagonal *m)
     memset(m->diagonal, 0, n * sizeof(double) * (rows->is_complex ? 3 : 1));
     memset(m->below, 0, n * sizeof(double) * (rows->is_complex ? 4 : 1));
     memset(m->below2, 0, n * sizeof(double) * (rows->is_complex ? 4 : 1));
-    int from = rows->loop ? 0 : 1, to = rows->loop ? rows->count - 1 : rows->count - 2;
     if (rows->is_complex) {
-        jet_rows_complex(rows, m, from, to);
+        jet_rows_complex(rows, m);
     } else {
-        jet_rows_real(rows, m, from, to);
+        jet_rows_real(rows, m);
     }
     other_rows(rows, m);
     for (int k = 0; k < rows->count; k++) {

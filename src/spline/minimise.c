@@ -7,7 +7,6 @@
 #include "spline/orthogonal.h"
 #include "spline/solver.h"
 #include <math.h>
-#include <string.h>
 
 enum { MAX_SWEEPS = 16 };
 
@@ -64,9 +63,8 @@ void solver_run_forward(wiggly_solver *solver)
 {
     system_rows *rows = &solver->rows;
     int width = rows->is_complex ? 2 : 1;
-    memset(rows->x, 0, sizeof(double) * (size_t)(width * rows->count));
     // x is a double sum of small steps: extended precision keeps the rounding of N² additions below the last digit of x.
-    long double x_re = 0, x_im = 0, step_re = 0, step_im = 0;
+    long double x_re = rows->x[width], x_im = 0, step_re = x_re, step_im = 0;
     for (int i = 1; i < rows->count - 1; i++) {
         coefficients at = rows->at[i];
         long double before_re = x_re - step_re, before_im = x_im - step_im;

@@ -66,16 +66,31 @@ static void add_row(walk *w, double root, int n, const int *samples, const cplx 
 
 static void add_jet(walk *w, int i)
 {
-    cplx a = {2 + w->rows->at[i].m.re, w->rows->at[i].m.im};
-    cplx b = {a.re - 1 + w->rows->at[i].p.re, a.im + w->rows->at[i].p.im};
-    add_row(w, 1, 3, (int[]){i - 1, i, i + 1}, (cplx[]){b, {-a.re, -a.im}, {1, 0}});
+    const system_rows *rows = w->rows;
+    int n = rows->count;
+    cplx a = {2 + rows->at[i].m.re, rows->at[i].m.im};
+    cplx b = {a.re - 1 + rows->at[i].p.re, a.im + rows->at[i].p.im};
+    double root = sqrt(rows->jet_weight[i]);
+    bool has_before = rows->loop || i > 0, has_after = rows->loop || i < n - 1;
+    if (!has_after) a = (cplx){a.re - 1 - rows->tail.re, a.im - rows->tail.im};
+    int samples[3] = {i}, count = 1;
+    cplx c[3] = {{-a.re, -a.im}};
+    if (has_before) samples[count] = i - 1, c[count++] = b;
+    if (has_after) samples[count] = i + 1, c[count++] = (cplx){1, 0};
+    add_row(w, root, count, samples, c);
 }
 
 static void add_slope(walk *w, const slope_row *slope)
 {
+    const stencil s = system_slope_stencil(w->rows, slope);
+    const int at[3] = {s.before, s.at, s.after};
     double *row = new_row(w), root = sqrt(slope->weight);
-    row[column_of(w, slope->p)] -= root;
-    row[column_of(w, slope->q)] += root;
+    for (int i = 0; i < 3; i++) {
+        if (at[i] < 0 || (s.c[i].re == 0 && s.c[i].im == 0)) continue;
+        int column = column_of(w, at[i]);
+        row[column] += root * s.c[i].re;
+        if (w->width == 2) row[column + 1] -= root * s.c[i].im;
+    }
 }
 
 static void add_imaginary(walk *w, int sample)
@@ -85,16 +100,23 @@ static void add_imaginary(walk *w, int sample)
 
 static void add_start(walk *w)
 {
-    const start_cost *start = &w->rows->start;
-    if (!(start->h00 > 0)) return;
-    add_row(w, sqrt(start->h00), 2, (int[]){0, 1}, (cplx[]){{1, 0}, {start->e.re - 1, start->e.im}});
-    add_row(w, sqrt(start->d), 1, (int[]){1}, (cplx[]){{1, 0}});
+    for (int i = 0; i < 2; i++) {
+        const struct start_row *row = &w->rows->start.row[i];
+        if (row->weight > 0)
+            add_row(w, sqrt(row->weight), 2, (int[]){0, 1}, (cplx[]){cplx_sub(row->on_x, row->on_e), row->on_e});
+    }
 }
 
-/// Whether a slope row belongs to the first step though it does not come first in the list: implied ones, or across the seam.
-static bool is_out_of_order(const walk *w, const slope_row *slope)
+/// The first sample that a slope row touches.
+static int first_of(const slope_row *slope)
 {
-    return slope->p == 0 || (slope->p >= w->interior && slope->q == 0);
+    return slope->behind.re == 0 && slope->behind.im == 0 ? slope->sample : slope->sample - 1;
+}
+
+/// Whether a slope row reaches across the seam: then it belongs to the first step.
+static bool crosses_seam(const walk *w, const slope_row *slope)
+{
+    return w->rows->loop && (first_of(slope) < 0 || slope->sample == w->rows->count - 1);
 }
 
 /// All rows whose first interior sample is x_k.
@@ -103,15 +125,16 @@ static void add_rows(walk *w)
     const system_rows *rows = w->rows;
     if (w->k == 0) {
         add_start(w);
-        if (rows->loop) add_jet(w, 0), add_jet(w, rows->count - 1);
+        if (rows->jet_from == 0) add_jet(w, 0);
+        if (rows->loop) add_jet(w, rows->count - 1);
         for (int s = 0; s < rows->slope_count; s++) {
-            if (is_out_of_order(w, &rows->slopes[s])) add_slope(w, &rows->slopes[s]);
+            if (crosses_seam(w, &rows->slopes[s])) add_slope(w, &rows->slopes[s]);
         }
     }
-    if (w->k + 2 < rows->count) add_jet(w, w->k + 1);
+    if (w->k + 1 <= rows->jet_to && w->k + 1 < rows->count - (rows->loop ? 1 : 0)) add_jet(w, w->k + 1);
     add_imaginary(w, w->k);
-    for (; w->slope < rows->slope_count && rows->slopes[w->slope].p <= w->k; w->slope++) {
-        if (!is_out_of_order(w, &rows->slopes[w->slope])) add_slope(w, &rows->slopes[w->slope]);
+    for (; w->slope < rows->slope_count && first_of(&rows->slopes[w->slope]) <= w->k; w->slope++) {
+        if (!crosses_seam(w, &rows->slopes[w->slope])) add_slope(w, &rows->slopes[w->slope]);
     }
 }
 
@@ -230,7 +253,7 @@ static pentadiagonal_rank eliminate_seam(walk *w, pentadiagonal *m)
     int width = w->width, top = 0;
     for (int sample = w->interior; sample < w->rows->count; sample++) add_imaginary(w, sample);
     for (int s = w->slope; s < w->rows->slope_count; s++) {
-        if (!is_out_of_order(w, &w->rows->slopes[s])) add_slope(w, &w->rows->slopes[s]);
+        if (!crosses_seam(w, &w->rows->slopes[s])) add_slope(w, &w->rows->slopes[s]);
     }
     clear_fixed(w);
     for (int s = 0; s < 2; s++) {

@@ -19,7 +19,7 @@ static double at_sample(wiggly_param param, int sample, double maximum)
 /// Roots of s² + 2σs + ω² = 0.
 static poles real_poles(double sigma, double omega)
 {
-    poles at = {.natural = omega};
+    poles at = {.natural = omega, .decay = sigma};
     if (sigma <= omega) {
         double d = sqrt(omega - sigma) * sqrt(omega + sigma);
         at.s[0] = (cplx){-sigma, d};
@@ -51,6 +51,7 @@ poles poles_at(const wiggly_desc *desc, int sample, double floor)
         .s = {{-zeta * omega, centre + turn}, {-zeta * omega, centre - turn}},
         .natural = omega,
         .centre = centre,
+        .decay = zeta * omega,
     };
 }
 
@@ -61,8 +62,20 @@ bool poles_are_constant(const wiggly_desc *desc)
     return !desc->frequency.track && !desc->damping.track && (desc->mode == WIGGLY_REAL || !desc->bandwidth.track);
 }
 
+cplx cplx_exp(cplx z)
+{
+    double size = exp(z.re);
+    return (cplx){size * cos(z.im), size * sin(z.im)};
+}
+
+cplx cplx_divide(cplx a, cplx b)
+{
+    double size = cplx_norm(b);
+    return (cplx){(a.re * b.re + a.im * b.im) / size, (a.im * b.re - a.re * b.im) / size};
+}
+
 /// exp(z) − 1 without cancellation.
-static cplx expm1_complex(cplx z)
+cplx cplx_expm1(cplx z)
 {
     if (z.re == 0 && z.im == 0) return z;
     double s = sin(z.im), c = cos(z.im);
@@ -74,21 +87,19 @@ static cplx expm1_complex(cplx z)
 static void distances(const poles *at, double step, cplx mu[2])
 {
     const cplx *s = at->s;
-    mu[0] = expm1_complex((cplx){s[0].re * step, s[0].im * step});
+    mu[0] = cplx_expm1((cplx){s[0].re * step, s[0].im * step});
     bool conjugate = s[1].re == s[0].re && s[1].im == -s[0].im;
-    mu[1] = conjugate ? cplx_conj(mu[0]) : expm1_complex((cplx){s[1].re * step, s[1].im * step});
+    mu[1] = conjugate ? cplx_conj(mu[0]) : cplx_expm1((cplx){s[1].re * step, s[1].im * step});
 }
 
 coefficients poles_coefficients(const poles *at, double step)
 {
     cplx mu[2];
     distances(at, step, mu);
-    double size = exp(0.5 * step * (at->s[0].re + at->s[1].re));
-    double angle = 0.5 * step * (at->s[0].im + at->s[1].im);
     return (coefficients){
         .m = cplx_add(mu[0], mu[1]),
         .p = cplx_mul(mu[0], mu[1]),
-        .g = {size * cos(angle), size * sin(angle)},
+        .g = cplx_exp(cplx_scale(0.5 * step, cplx_add(at->s[0], at->s[1]))),
     };
 }
 
@@ -102,7 +113,7 @@ void poles_mean(const poles *at, double step, cplx *lambda, cplx *delta2)
 }
 
 /// |1 − exp(z)|².
-static double distance_from_one(cplx z) { return cplx_norm(expm1_complex(z)); }
+static double distance_from_one(cplx z) { return cplx_norm(cplx_expm1(z)); }
 
 start_cost poles_start_cost(const poles *at, double step)
 {
@@ -116,7 +127,53 @@ start_cost poles_start_cost(const poles *at, double step)
     cplx sum = {-mp.re - cplx_norm(p), 2 * p.im - mp.im};
     double decay = -expm1(2 * step * s[0].re), other = s[1].re == s[0].re ? decay : -expm1(2 * step * s[1].re);
     double det = decay * other * distance_from_one((cplx){step * (s[0].re + s[1].re), step * (s[0].im - s[1].im)});
-    return (start_cost){.h00 = h00, .d = det / h00, .e = {sum.re / h00, -sum.im / h00}};
+    cplx e = {sum.re / h00, -sum.im / h00}; // |x₀ + (e−1) x₁|², x₁ = x₀ + e₀
+    return (start_cost){{{h00, e, {e.re - 1, e.im}}, {det / h00, {1, 0}, {1, 0}}}};
+}
+
+/// Fading below what a double tells apart, so that weights and their products stay finite.
+static const double deepest = 100;
+
+double poles_weight_exponent(const poles *at, double step)
+{
+    return fmin(-step * (at->s[0].re + at->s[1].re), deepest);
+}
+
+/// z / sinh z of a z whose square is real.
+static double z_over_sinh(double z2)
+{
+    if (fabs(z2) < 1e-4) return 1 - z2 * (1.0 / 6 - z2 * (7.0 / 360 - z2 * (31.0 / 15120)));
+    double z = sqrt(fabs(z2));
+    return z2 > 0 ? z / sinh(z) : z / sin(z);
+}
+
+/// Steepest coefficient of a speed: where two poles alias to the same λ it would be infinite.
+static const double steepest = 1e8;
+
+// With μ = λ − 1, w' = s₀ w + Q (w₁ − λ₀ w) = (s₀ − Q μ₀) w + Q e, and Q = (s₀−s₁)/(λ₀−λ₁) = z / sinh z · exp(−(s₀+s₁)h/2) / h with
+// z = (s₀−s₁)h/2, which is real or imaginary.
+speed_form poles_speed(const poles *at, double step, bool backwards)
+{
+    double h = backwards ? -step : step;
+    cplx s0 = {fmax(at->s[0].re * step, -deepest) / step, at->s[0].im};
+    cplx s1 = {fmax(at->s[1].re * step, -deepest) / step, at->s[1].im};
+    cplx z = cplx_scale(0.5 * h, cplx_sub(s0, s1)), mean = cplx_scale(0.5 * h, cplx_add(s0, s1));
+    double ratio = fmin(fmax(z_over_sinh(z.re * z.re - z.im * z.im), -steepest), steepest);
+    cplx q = cplx_scale(ratio, cplx_exp(cplx_scale(-1, mean)));
+    cplx on_x = cplx_sub(cplx_scale(h, s0), cplx_mul(q, cplx_expm1(cplx_scale(h, s0))));
+    return backwards ? (speed_form){cplx_scale(-1, on_x), q} : (speed_form){on_x, q};
+}
+
+start_cost poles_start_seen_from(start_cost cost, const poles *damped, const poles *at, double step)
+{
+    speed_form here = poles_speed(at, step, false), there = poles_speed(damped, step, false);
+    cplx on_x = cplx_divide(cplx_sub(here.on_x, there.on_x), there.on_e), on_e = cplx_divide(here.on_e, there.on_e);
+    for (int i = 0; i < 2; i++) {
+        struct start_row *row = &cost.row[i];
+        row->on_x = cplx_add(row->on_x, cplx_mul(row->on_e, on_x));
+        row->on_e = cplx_mul(row->on_e, on_e);
+    }
+    return cost;
 }
 
 wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample)

@@ -20,6 +20,7 @@ typedef struct poles {
     cplx s[2];
     double natural; ///< ω_n
     double centre;  ///< ω_c
+    double decay;   ///< ζω_n
 } poles;
 
 /// Coefficients of r_i = x_{i+1} − a x_i − b x_{i−1} + g ÿ, kept as distances from the cubic's a = 2, b = −1:
@@ -30,12 +31,25 @@ typedef struct coefficients {
     cplx g;    ///< exp((s₀+s₁)h/2): the drive in phase with the filter
 } coefficients;
 
-/// What swing at the start costs, as |√h00 (x₀ + (−1+e) x₁)|² + d |x₁|²: the factored information matrix H of the stationary
-/// process, without the cancellation of its plain form. All 0 where both poles are 0.
+/// What swing at the start costs: two squares of the first state, taken as (x₀, e₀) with e₀ = x₁ − x₀,
+///     Σ weight |on_x x₀ + on_e e₀|²,
+/// the factored information matrix H of the stationary process, without the cancellation of its plain form. Weights are 0 where
+/// both poles are 0.
 typedef struct start_cost {
-    double h00, d;
-    cplx e;
+    struct start_row {
+        double weight;
+        cplx on_x, on_e;
+    } row[2];
 } start_cost;
+
+/// h times the speed that two poles see in a sample and the difference to its neighbour: on_x x_j + on_e (x_{j+1} − x_j), or with
+/// (x_j − x_{j−1}) where it is taken backwards.
+typedef struct speed_form {
+    cplx on_x, on_e;
+} speed_form;
+
+/// ln |g|⁻² of a sample, by which its jet row is weighed; no more than a double can hold the square of.
+double poles_weight_exponent(const poles *at, double step);
 
 /// Poles at a sample. `floor` is the least damping ratio (0 but for loops and the start's cost).
 poles poles_at(const wiggly_desc *desc, int sample, double floor);
@@ -47,5 +61,13 @@ coefficients poles_coefficients(const poles *at, double step);
 /// λ = (λ₀ + λ₁)/2 and δ² = (λ₀ − λ₁)²/4 of the discrete poles.
 void poles_mean(const poles *at, double step, cplx *lambda, cplx *delta2);
 start_cost poles_start_cost(const poles *at, double step);
+speed_form poles_speed(const poles *at, double step, bool backwards);
+/// The start's cost at the poles `damped` on the state that has the same x and x' as (x₀, e₀) has with the poles `at`.
+start_cost poles_start_seen_from(start_cost cost, const poles *damped, const poles *at, double step);
+/// The one pole of what moves by itself, −ζω_n + jω_n√(1−ζ²).
+static inline cplx poles_passive(const poles *at) { return (cplx){-at->decay, at->centre}; }
+cplx cplx_exp(cplx z);
+cplx cplx_expm1(cplx z);
+cplx cplx_divide(cplx a, cplx b);
 
 #endif

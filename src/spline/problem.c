@@ -10,10 +10,10 @@ static const double least_phase = 48;
 bool problem_fits_chain(wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    const system_rows *rows = &solver->rows;
-    if (rows->loop || p->level || !poles_are_constant(desc) || desc->equilibrium.track) return false;
-    double t = (rows->count - 1) * desc->step;
-    if (rows->is_complex && solver_filter(solver, desc)->at.natural * t < least_phase) return false;
+    if (p->start == WIGGLY_LOOP || p->level_slope || !poles_are_constant(desc) || desc->equilibrium.track) return false;
+    if (problem_oscillates(p)) return false;
+    double t = (p->count - 1) * desc->step;
+    if (desc->mode == WIGGLY_COMPLEX && solver_filter(solver, desc)->at.natural * t < least_phase) return false;
     for (int n = 0; n < desc->knot_count; n++) {
         const wiggly_knot *knot = &desc->knots[solver->order[n]];
         bool beside = n > 0 && desc->knots[solver->order[n - 1]].sample == knot->sample - 1;
@@ -65,13 +65,18 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
 
 static bool same_cplx(cplx a, cplx b) { return a.re == b.re && a.im == b.im; }
 
-static bool same_start(start_cost a, start_cost b) { return a.h00 == b.h00 && a.d == b.d && same_cplx(a.e, b.e); }
+static bool same_row(struct start_row a, struct start_row b)
+{
+    return a.weight == b.weight && same_cplx(a.on_x, b.on_x) && same_cplx(a.on_e, b.on_e);
+}
 
-static bool same_filter(const wiggly_solver *solver)
+static bool same_start(start_cost a, start_cost b) { return same_row(a.row[0], b.row[0]) && same_row(a.row[1], b.row[1]); }
+
+static bool same_filter(const wiggly_solver *solver, const problem *p)
 {
     const chain *c = &solver->chain;
     const constant_filter *f = &solver->filter;
-    return solver->rows.is_complex == c->is_complex && same_cplx(f->lambda, c->lambda) &&
+    return (p->desc->mode == WIGGLY_COMPLEX) == c->is_complex && same_cplx(f->lambda, c->lambda) &&
            same_cplx(f->delta2, c->delta2);
 }
 
@@ -79,13 +84,12 @@ static bool same_filter(const wiggly_solver *solver)
 static void set_chain(wiggly_solver *solver, const problem *p)
 {
     chain *c = &solver->chain;
-    const system_rows *rows = &solver->rows;
     const constant_filter *f = solver_filter(solver, p->desc);
-    if (!same_filter(solver)) chain_forget(c);
-    if (!same_start(rows->start, c->start)) c->kept = false;
-    c->is_complex = rows->is_complex;
-    c->count = rows->count;
-    c->start = rows->start;
+    if (!same_filter(solver, p)) chain_forget(c);
+    if (!same_start(p->cost, c->start)) c->kept = false;
+    c->is_complex = p->desc->mode == WIGGLY_COMPLEX;
+    c->count = problem_rows(p);
+    c->start = p->cost;
     c->lambda = f->lambda;
     c->delta2 = f->delta2;
 }
@@ -93,11 +97,11 @@ static void set_chain(wiggly_solver *solver, const problem *p)
 bool problem_shares_chain(wiggly_solver *solver, const problem *p)
 {
     solver_filter(solver, p->desc);
-    return same_filter(solver) && same_start(solver->rows.start, solver->chain.start);
+    return same_filter(solver, p) && same_start(p->cost, solver->chain.start);
 }
 
 /// One knot without any hold has no single answer.
-static bool is_held(const chain *c) { return c->node_count >= 2 || c->start.h00 > 0; }
+static bool is_held(const chain *c) { return c->node_count >= 2 || c->start.row[0].weight > 0; }
 
 bool problem_join(wiggly_solver *solver, const problem *p)
 {

@@ -3,6 +3,7 @@
 #define SPLINE_PROBLEM_H
 
 #include "spline/solver.h"
+#include "spline/swing.h"
 
 /// Values and equilibria beyond this are refused: sums of them must not overflow.
 #define LARGEST_VALUE 1e300
@@ -10,23 +11,60 @@
 /// A slope row heavier than this is met to the last digit anyway, and could overflow.
 #define STIFFEST 1e20
 
-/// One solve in progress: the description with the rules of the start applied.
+/// What a singular document is solved with in place of calm 0.
+#define FALLBACK_CALM 0.05
+
+/// One solve in progress: the description with the rules of start and end applied. x = u + w: u is what moves by itself as the
+/// equilibrium does, w what is solved for. A cubic on a moving equilibrium is solved for its total.
 typedef struct problem {
     const wiggly_desc *desc;
-    const double *y; ///< equilibrium of the whole domain, where it moves; a loop's last is its first
+    const double *y;     ///< equilibrium of the whole domain, where it moves; a loop's last is its first
+    const double *about; ///< y + Re u of every sample, which w is measured from; NULL where that is `level`
+    double level;
+    swing swing; ///< u, where there is one; else its arrays are NULL
     wiggly_start start;
     double calm;
-    int first;     ///< sample of the system's row 0
-    int count;     ///< rows of the system
-    int earliest;  ///< sample of the earliest knot, or -1
-    bool level;    ///< a level slope is implied at the earliest knot
-    bool free_end; ///< c·H = 0
+    wiggly_status status; ///< WIGGLY_CALMED where u is not that of the calm as asked
+    int first;            ///< sample of the system's row 0
+    int count;            ///< samples from there to the domain's end (in a loop, round it)
+    int earliest, latest; ///< samples of the earliest and of the latest knot, or -1
+    bool settles;         ///< behind the latest knot w moves by itself: the system ends there
+    bool level_slope;     ///< a level slope is implied at the earliest knot
+    bool free_end;        ///< c·H = 0
+    start_cost cost;      ///< of the start's swing, times calm; weights 0 where it is free
 } problem;
 
 static inline double problem_y(const problem *p, int sample)
 {
     return p->y ? p->y[sample] : p->desc->equilibrium.value;
 }
+
+/// What w is measured from: a knot's w is its value less this.
+static inline double problem_about(const problem *p, int sample) { return p->about ? p->about[sample] : p->level; }
+
+/// Rows of the system: the samples that are solved for.
+static inline int problem_rows(const problem *p)
+{
+    return p->settles ? p->latest - p->first + 1 : p->count;
+}
+
+/// Whether the oscillator's rules hold: jets weighed by |g|⁻², speeds that the poles see, the tail.
+static inline bool problem_oscillates(const problem *p) { return p->desc->passive == WIGGLY_OSCILLATOR; }
+
+/// Puts everything of the system into the solver's rows; x holds the fixed values and 0 elsewhere.
+void problem_set_rows(wiggly_solver *solver, const problem *p);
+
+/// Slope row of a knot that has one, or of the implied one; weight 0 where it is without effect.
+slope_row problem_slope(const problem *p, int sample, double slope, double stiffness);
+
+/// What one sample of moving by itself adds to w at the latest knot, as a part of it: w_{L+1} = (1 + tail) w_L as the poles see it.
+cplx problem_tail(const problem *p);
+
+/// c·H of the start, for the calm that the problem has now.
+void problem_set_start(wiggly_solver *solver, problem *p);
+
+/// w of all samples behind the latest knot, from w there.
+void problem_settle(const problem *p, double *re, double *im);
 
 /// Whether the document is one for the chain: constant parameters, a constant equilibrium, no seam.
 bool problem_fits_chain(wiggly_solver *solver, const problem *p);

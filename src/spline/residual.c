@@ -3,7 +3,7 @@
 // The gradient −½ ∇(E·h³) = −Rᵀ W (R x − d) at a given x, where the rows R are never squared.
 //
 //     r_i = [(x_{i+1} − x_i) − (x_i − x_{i−1})] − m_i (x_i − x_{i−1}) + p_i x_{i−1} + f_i
-//     g_k = −[r_{k−1} − 2r_k + r_{k+1}] + m_k* r_k − (m_{k+1} + p_{k+1})* r_{k+1}
+//     g_k = −[j_{k−1} − 2j_k + j_{k+1}] + m_k* j_k − (m_{k+1} + p_{k+1})* j_{k+1},   j = w r
 //
 // Both are sums of nearly equal numbers: over a gap of G samples r is G² times smaller than x, and g again than r. In
 // double-double the cancellation leaves full double precision for any G that a double can count.
@@ -24,22 +24,38 @@ static inline ddc ddc_scale(cplx z, ddc w)
 static inline ddc ddc_add(ddc a, ddc b) { return (ddc){dd_add(a.re, b.re), dd_add(a.im, b.im)}; }
 static inline ddc ddc_subtract(ddc a, ddc b) { return (ddc){dd_subtract(a.re, b.re), dd_subtract(a.im, b.im)}; }
 
-static inline ddc complex_jet(const system_rows *rows, int before, int i, int after)
+/// A sample of x; before the first there is 0, behind the last the tail.
+static inline cplx complex_sample(const system_rows *rows, int k)
 {
-    const double *x = rows->x;
-    ddc step = {dd_difference(x[2 * i], x[2 * before]), dd_difference(x[2 * i + 1], x[2 * before + 1])};
-    ddc next = {dd_difference(x[2 * after], x[2 * i]), dd_difference(x[2 * after + 1], x[2 * i + 1])};
-    ddc base = {dd_from(x[2 * before]), dd_from(x[2 * before + 1])};
+    int last = rows->count - 1;
+    if (rows->loop) k = k < 0 ? last : k > last ? 0 : k;
+    if (k < 0) return (cplx){0, 0};
+    const double *x = rows->x + 2 * (k > last ? last : k);
+    return (cplx){x[0], x[1]};
+}
+
+static inline ddc complex_jet(const system_rows *rows, int i)
+{
+    cplx before = complex_sample(rows, i - 1), here = complex_sample(rows, i), after = complex_sample(rows, i + 1);
+    ddc step = {dd_difference(here.re, before.re), dd_difference(here.im, before.im)};
+    ddc next = {dd_difference(after.re, here.re), dd_difference(after.im, here.im)};
+    if (!rows->loop && i == rows->count - 1) next = ddc_scale(rows->tail, (ddc){dd_from(here.re), dd_from(here.im)});
+    ddc base = {dd_from(before.re), dd_from(before.im)};
     ddc spring = ddc_subtract(ddc_scale(rows->at[i].p, base), ddc_scale(rows->at[i].m, step));
     ddc drive = {dd_from(rows->drive[i].re), dd_from(rows->drive[i].im)};
     return ddc_add(ddc_subtract(next, step), ddc_add(spring, drive));
 }
 
-static inline dd real_jet(const system_rows *rows, int before, int i, int after)
+static inline dd real_jet(const system_rows *rows, int i)
 {
     const double *x = rows->x;
-    dd step = dd_difference(x[i], x[before]), next = dd_difference(x[after], x[i]);
-    dd spring = dd_subtract(dd_product(rows->at[i].p.re, x[before]), dd_scale(rows->at[i].m.re, step));
+    int last = rows->count - 1;
+    double before = i > 0 ? x[i - 1] : rows->loop ? x[last] : 0, here = x[i];
+    dd step = dd_difference(here, before);
+    dd next = i < last      ? dd_difference(x[i + 1], here)
+              : rows->loop ? dd_difference(x[0], here)
+                           : dd_product(rows->tail.re, here);
+    dd spring = dd_subtract(dd_product(rows->at[i].p.re, before), dd_scale(rows->at[i].m.re, step));
     return dd_add(dd_subtract(next, step), dd_add(spring, dd_from(rows->drive[i].re)));
 }
 
@@ -53,100 +69,133 @@ static inline ddc complex_jet_at(const system_rows *rows, int i)
 
 static inline dd real_jet_at(const system_rows *rows, int i) { return (dd){rows->jet[2 * i], rows->jet[2 * i + 1]}; }
 
-static void complex_jets(const system_rows *rows, int from, int to)
+static void complex_jets(const system_rows *rows)
 {
-    int last = rows->count - 1;
-    for (int i = from; i <= to; i++) {
-        ddc r = complex_jet(rows, i > 0 ? i - 1 : last, i, i < last ? i + 1 : 0);
+    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
+        ddc r = ddc_scale((cplx){rows->jet_weight[i], 0}, complex_jet(rows, i));
         double *j = rows->jet + 4 * i;
         j[0] = r.re.hi, j[1] = r.re.lo, j[2] = r.im.hi, j[3] = r.im.lo;
     }
 }
 
-static void real_jets(const system_rows *rows, int from, int to)
+static void real_jets(const system_rows *rows)
 {
-    int last = rows->count - 1;
-    for (int i = from; i <= to; i++) {
-        dd r = real_jet(rows, i > 0 ? i - 1 : last, i, i < last ? i + 1 : 0);
+    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
+        dd r = dd_scale(rows->jet_weight[i], real_jet(rows, i));
         rows->jet[2 * i] = r.hi;
         rows->jet[2 * i + 1] = r.lo;
     }
 }
 
-/// g = −(before − 2·here + after) + m* here − (m+p)* after, where the neighbours' rows exist.
-static void complex_adjoint(const system_rows *rows, int from, int to)
+/// Number of the jet beside k, or -1 where there is none.
+static inline int jet_beside(const system_rows *rows, int i)
 {
-    int last = rows->count - 1;
-    for (int k = 0; k <= last; k++) {
-        int b = k > 0 ? k - 1 : last, a = k < last ? k + 1 : 0;
-        bool has_b = rows->loop || (k > 0 && b >= from && b <= to),
-             has_a = rows->loop || (k < last && a >= from && a <= to);
-        ddc before = has_b ? complex_jet_at(rows, b) : no_jet, after = has_a ? complex_jet_at(rows, a) : no_jet;
-        ddc here = k >= from && k <= to ? complex_jet_at(rows, k) : no_jet;
+    if (rows->loop) return i < 0 ? rows->count - 1 : i >= rows->count ? 0 : i;
+    return i >= rows->jet_from && i <= rows->jet_to ? i : -1;
+}
+
+/// g = −(before − 2·here + after) + m* here − (m+p)* after, where there are such rows; the tail's row asks less of the last sample.
+static void complex_adjoint(const system_rows *rows)
+{
+    for (int k = 0; k < rows->count; k++) {
+        int b = jet_beside(rows, k - 1), a = jet_beside(rows, k + 1), h = jet_beside(rows, k);
+        ddc before = b >= 0 ? complex_jet_at(rows, b) : no_jet, after = a >= 0 ? complex_jet_at(rows, a) : no_jet;
+        ddc here = h >= 0 ? complex_jet_at(rows, h) : no_jet;
         ddc second = ddc_subtract(ddc_subtract(before, here), ddc_subtract(here, after));
         ddc g = ddc_subtract(ddc_scale(cplx_conj(rows->at[k].m), here), second);
-        if (has_a) {
+        if (a >= 0) {
             g = ddc_subtract(
                 g, ddc_add(ddc_scale(cplx_conj(rows->at[a].m), after), ddc_scale(cplx_conj(rows->at[a].p), after)));
         }
+        if (!rows->loop && k == rows->count - 1)
+            g = ddc_subtract(g, ddc_add(here, ddc_scale(cplx_conj(rows->tail), here)));
         rows->gradient[2 * k] = g.re.hi + g.re.lo;
         rows->gradient[2 * k + 1] = g.im.hi + g.im.lo;
     }
 }
 
-static void real_adjoint(const system_rows *rows, int from, int to)
+static void real_adjoint(const system_rows *rows)
 {
-    int last = rows->count - 1;
-    for (int k = 0; k <= last; k++) {
-        int b = k > 0 ? k - 1 : last, a = k < last ? k + 1 : 0;
-        bool has_b = rows->loop || (k > 0 && b >= from && b <= to),
-             has_a = rows->loop || (k < last && a >= from && a <= to);
-        dd before = has_b ? real_jet_at(rows, b) : no_jet.re, after = has_a ? real_jet_at(rows, a) : no_jet.re;
-        dd here = k >= from && k <= to ? real_jet_at(rows, k) : no_jet.re;
+    for (int k = 0; k < rows->count; k++) {
+        int b = jet_beside(rows, k - 1), a = jet_beside(rows, k + 1), h = jet_beside(rows, k);
+        dd before = b >= 0 ? real_jet_at(rows, b) : no_jet.re, after = a >= 0 ? real_jet_at(rows, a) : no_jet.re;
+        dd here = h >= 0 ? real_jet_at(rows, h) : no_jet.re;
         dd second = dd_subtract(dd_subtract(before, here), dd_subtract(here, after));
         dd g = dd_subtract(dd_scale(rows->at[k].m.re, here), second);
-        if (has_a) g = dd_subtract(g, dd_add(dd_scale(rows->at[a].m.re, after), dd_scale(rows->at[a].p.re, after)));
+        if (a >= 0) g = dd_subtract(g, dd_add(dd_scale(rows->at[a].m.re, after), dd_scale(rows->at[a].p.re, after)));
+        if (!rows->loop && k == rows->count - 1) g = dd_subtract(g, dd_add(here, dd_scale(rows->tail.re, here)));
         rows->gradient[k] = g.hi + g.lo;
+    }
+}
+
+/// Re(c x_j), or c.re x_j.
+static double part_of(const system_rows *rows, cplx c, int j)
+{
+    if (j < 0) return 0;
+    return rows->is_complex ? c.re * rows->x[2 * j] - c.im * rows->x[2 * j + 1] : c.re * rows->x[j];
+}
+
+/// Takes w Re(c* …) off the gradient at a sample.
+static void pull_back(const system_rows *rows, cplx c, int j, double miss)
+{
+    if (j < 0) return;
+    double *g = rows->gradient + (rows->is_complex ? 2 * j : j);
+    g[0] -= c.re * miss;
+    if (rows->is_complex) g[1] += c.im * miss;
+}
+
+static void add_slopes(const system_rows *rows)
+{
+    for (int r = 0; r < rows->slope_count; r++) {
+        const slope_row *slope = &rows->slopes[r];
+        const stencil s = system_slope_stencil(rows, slope);
+        double seen = part_of(rows, s.c[0], s.before) + part_of(rows, s.c[1], s.at) + part_of(rows, s.c[2], s.after);
+        double miss = slope->weight * (seen - slope->target);
+        pull_back(rows, s.c[0], s.before, miss);
+        pull_back(rows, s.c[1], s.at, miss);
+        pull_back(rows, s.c[2], s.after, miss);
+    }
+}
+
+static void add_start(const system_rows *rows)
+{
+    int width = rows->is_complex ? 2 : 1;
+    bool alone = rows->count == 1;
+    const double *x = rows->x;
+    double *g = rows->gradient;
+    cplx x0 = {x[0], rows->is_complex ? x[1] : 0}, e0 = cplx_mul(rows->tail, x0);
+    if (!alone) e0 = cplx_sub((cplx){x[width], rows->is_complex ? x[3] : 0}, x0);
+    for (int i = 0; i < 2; i++) {
+        const struct start_row *row = &rows->start.row[i];
+        if (!(row->weight > 0)) continue;
+        cplx cost = cplx_scale(row->weight, cplx_add(cplx_mul(row->on_x, x0), cplx_mul(row->on_e, e0)));
+        cplx on_x = cplx_mul(cplx_conj(row->on_x), cost), on_e = cplx_mul(cplx_conj(row->on_e), cost);
+        cplx back = alone ? cplx_mul(cplx_conj(rows->tail), on_e) : cplx_scale(-1, on_e);
+        g[0] -= on_x.re + back.re;
+        if (rows->is_complex) g[1] -= on_x.im + back.im;
+        if (alone) continue;
+        g[width] -= on_e.re;
+        if (rows->is_complex) g[3] -= on_e.im;
     }
 }
 
 /// Slope, start and imaginary rows: a handful of terms without cancellation between samples.
 static void add_other_rows(const system_rows *rows)
 {
-    int width = rows->is_complex ? 2 : 1;
-    double *g = rows->gradient, *x = rows->x;
-    for (int s = 0; s < rows->slope_count; s++) {
-        const slope_row *row = &rows->slopes[s];
-        double miss = row->weight * (x[width * row->q] - x[width * row->p] - row->target);
-        g[width * row->q] -= miss;
-        g[width * row->p] += miss;
-    }
-    if (rows->start.h00 > 0) {
-        cplx x0 = {x[0], rows->is_complex ? x[1] : 0}, x1 = {x[width], rows->is_complex ? x[3] : 0};
-        cplx ex = cplx_mul(rows->start.e, x1);
-        cplx cost = {rows->start.h00 * (x0.re - x1.re + ex.re), rows->start.h00 * (x0.im - x1.im + ex.im)};
-        cplx back = cplx_mul(cplx_conj(rows->start.e), cost);
-        g[0] -= cost.re;
-        g[width] += cost.re - back.re - rows->start.d * x1.re;
-        if (rows->is_complex) {
-            g[1] -= cost.im;
-            g[3] += cost.im - back.im - rows->start.d * x1.im;
-        }
-    }
-    if (rows->is_complex) {
-        for (int k = 0; k < rows->count; k++) g[2 * k + 1] -= rows->im_weight[k] * x[2 * k + 1];
-    }
+    add_slopes(rows);
+    add_start(rows);
+    for (int k = 0; k < rows->count && rows->is_complex; k++)
+        rows->gradient[2 * k + 1] -= rows->im_weight[k] * rows->x[2 * k + 1];
 }
 
 void system_gradient(const system_rows *rows)
 {
-    int from = rows->loop ? 0 : 1, to = rows->loop ? rows->count - 1 : rows->count - 2;
     if (rows->is_complex) {
-        complex_jets(rows, from, to);
-        complex_adjoint(rows, from, to);
+        complex_jets(rows);
+        complex_adjoint(rows);
     } else {
-        real_jets(rows, from, to);
-        real_adjoint(rows, from, to);
+        real_jets(rows);
+        real_adjoint(rows);
     }
     add_other_rows(rows);
     for (int k = 0; k < rows->count; k++) {

@@ -1,5 +1,6 @@
 /// A solver's memory: one block, carved once, largest alignment first so that nothing needs padding.
 #include "spline/solver.h"
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +9,7 @@
 enum {
     MATRIX_DOUBLES = 3 + 4 + 4 + 2 * BORDER_MAX,
     CHAIN_DOUBLES = 12,
-    BYTES_PER_SAMPLE = (int)((MATRIX_DOUBLES + 1 + 2 + 2 + 4 + 1) * sizeof(double) + sizeof(coefficients) +
+    BYTES_PER_SAMPLE = (int)((MATRIX_DOUBLES + 2 + 2 + 2 + 4 + 4) * sizeof(double) + sizeof(coefficients) +
                              sizeof(cplx) + 2 * sizeof(int) + sizeof(unsigned char)),
     BYTES_PER_KNOT =
         (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) + sizeof(int)),
@@ -51,11 +52,15 @@ static void carve(wiggly_solver *solver)
     m->below = take(&at, 4 * n * sizeof(double));
     m->below2 = take(&at, 4 * n * sizeof(double));
     m->border = take(&at, 2 * BORDER_MAX * n * sizeof(double));
+    rows->jet_weight = take(&at, n * sizeof(double));
     rows->im_weight = take(&at, n * sizeof(double));
     rows->x = take(&at, 2 * n * sizeof(double));
     rows->gradient = take(&at, 2 * n * sizeof(double));
     rows->jet = take(&at, 4 * n * sizeof(double));
     solver->y = take(&at, n * sizeof(double));
+    solver->swing.total = take(&at, n * sizeof(double));
+    solver->swing.im = take(&at, n * sizeof(double));
+    solver->swing.speed = take(&at, n * sizeof(double));
     size_t k = (size_t)solver->knots + 1;
     chain *c = &solver->chain;
     rows->slopes = take(&at, k * sizeof(slope_row));
@@ -118,10 +123,12 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
     constant_filter *f = &solver->filter;
     if (f->known && desc_same_filter(&f->desc, desc)) return f;
     poles damped = poles_at(desc, 0, LEAST_DAMPING);
-    *f = (constant_filter){.known = true,
-                           .desc = desc_settings(desc),
-                           .at = poles_at(desc, 0, 0),
-                           .start = poles_start_cost(&damped, desc->step)};
+    *f = (constant_filter){.known = true, .desc = desc_settings(desc), .at = poles_at(desc, 0, 0)};
+    f->start[0] = poles_start_cost(&damped, desc->step);
+    f->start[1] = poles_start_seen_from(f->start[0], &damped, &f->at, desc->step);
+    double weight =
+        exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&f->at, desc->step));
+    for (int i = 0; i < 2; i++) f->start[1].row[i].weight *= weight;
     poles_mean(&f->at, desc->step, &f->lambda, &f->delta2);
     return f;
 }

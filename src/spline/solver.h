@@ -5,6 +5,7 @@
 #include "spline/chain.h"
 #include "spline/desc.h"
 #include "spline/stop.h"
+#include "spline/swing.h"
 #include "spline/system.h"
 
 /// The least damping ratio of the start's cost, and times calm of a loop.
@@ -15,7 +16,7 @@ typedef struct constant_filter {
     bool known;
     wiggly_desc desc; ///< that it is of, without knots
     poles at;
-    start_cost start; ///< at calm 1
+    start_cost start[2]; ///< at calm 1: the filter's; the oscillator's, in units of the jets' weight
     cplx lambda, delta2;
 } constant_filter;
 
@@ -28,6 +29,7 @@ struct wiggly_solver {
     pentadiagonal matrix;
     constant_filter filter;
     chain chain;  ///< its large arrays lie over the matrix's: a solve uses one of the two
+    swing swing;  ///< what moves by itself as the equilibrium does
     double *y;    ///< equilibrium, where the curve has no array for it
     int *order;   ///< indices of the description's knots by sample
     int *knot_at; ///< scratch: index of the knot on each sample, or -1

@@ -2,11 +2,11 @@
 ///
 /// Unknowns are x_0 … x_{M−1}, M = `count`, sample k of the system being sample first + k of the spline; in a loop indices
 /// are taken modulo M. Rows, each with the weight by which its square enters E·h³:
-///     jet     1       r_i = x_{i+1} − a_i x_i − b_i x_{i−1} + f_i        i = 1 … M−2, in a loop 0 … M−1      (eq. 25)
-///     slope   c_t h   Re(x_q − x_p) − target                              q = p + 1                           (eq. 9)
-///     start   c H₀₀   x_0 + (−1+e) x_1   and   c d   x_1
+///     jet     w_i     r_i = x_{i+1} − a_i x_i − b_i x_{i−1} + f_i        i = jet_from … jet_to                (eq. 25)
+///     slope   w       Re(here x_j + ahead (x_{j+1} − x_j) + behind (x_j − x_{j−1})) − target                  (eq. 9)
+///     start   w       on_x x_0 + on_e (x_1 − x_0), twice
 ///     im      w_k     Im x_k                                              complex mode
-/// Fixed unknowns (knots on Re x, rest on both) keep the value that x holds.
+/// Outside a loop x_{−1} is 0 and x_M is (1 + tail) x_{M−1}. Fixed unknowns (knots on Re x, rest on both) keep the value that x holds.
 #ifndef SPLINE_SYSTEM_H
 #define SPLINE_SYSTEM_H
 
@@ -16,24 +16,37 @@
 enum { FIXED_RE = 1, FIXED_IM = 2 };
 
 typedef struct slope_row {
-    int p, q;
+    int sample;
+    cplx here, ahead, behind;
     double weight, target;
 } slope_row;
 
 typedef struct system_rows {
     int count; ///< M
     bool loop, is_complex;
-    coefficients *at; ///< of row i; g is folded into `drive` and not kept
-    cplx *drive;      ///< f_i
+    int jet_from, jet_to; ///< a loop has a jet at every sample
+    coefficients *at;     ///< of row i; g is folded into `drive` and not kept
+    cplx *drive;          ///< f_i
+    double *jet_weight;
     double *im_weight;
     unsigned char *fixed;
-    slope_row *slopes;
+    slope_row *slopes; ///< by sample
     int slope_count;
-    start_cost start; ///< times calm; h00 = 0 where it is free
+    start_cost start; ///< times calm; weights 0 where it is free
+    cplx tail;        ///< x_M / x_{M−1} − 1: what moves by itself behind the last sample
     double *x;        ///< 2M: re, im; in cubic and real mode M
     double *gradient; ///< like x
-    double *jet;      ///< scratch of the residual: r as double-doubles, 4M or 2M
+    double *jet;      ///< scratch of the residual: w r as double-doubles, 4M or 2M
 } system_rows;
+
+/// A row's coefficients on the samples j − 1, j and j + 1 that there are: `before` and `after` are their numbers or -1.
+typedef struct stencil {
+    int before, at, after;
+    cplx c[3];
+} stencil;
+
+/// A slope row as coefficients, with a sample behind the last folded into the last.
+stencil system_slope_stencil(const system_rows *rows, const slope_row *slope);
 
 /// gradient = −½ ∇(E·h³) at x, 0 at fixed unknowns; jets in double-double through the un-squared rows, so that it is right to
 /// the last digits of x even where the squared matrix has lost them.

@@ -1,0 +1,162 @@
+/// From the description to the problem (docs/mathematics.md, Constraints): where the domain starts and ends, what knots are measured
+/// from, what the start costs.
+#include "spline/problem.h"
+#include <math.h>
+#include <string.h>
+
+/// Below this part of ω_n a last knot's slope is met by the jets, and not by what moves by itself.
+static const double slowest_settling = 0.3;
+
+static bool param_is_finite(wiggly_param param, int samples)
+{
+    if (!param.track) return isfinite(param.value);
+    for (int i = 0; i < samples; i++) {
+        if (!isfinite(param.track[i])) return false;
+    }
+    return true;
+}
+
+static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *desc)
+{
+    if (!solver || !desc) return WIGGLY_ERROR_ARGUMENT;
+    if (desc->samples < 1 || desc->knot_count < 0 || (desc->knot_count > 0 && !desc->knots))
+        return WIGGLY_ERROR_ARGUMENT;
+    if (desc->samples > solver->samples || desc->knot_count > solver->knots) return WIGGLY_ERROR_CAPACITY;
+    if (desc->mode == WIGGLY_COMPLEX && desc->spring_friction) return WIGGLY_ERROR_SPRING;
+    if (desc->start == WIGGLY_LOOP && desc->samples < 2) return WIGGLY_ERROR_LOOP;
+    if (!(desc->step > 0 && desc->step < INFINITY) || !(desc->calm >= 0 && desc->calm <= 1))
+        return WIGGLY_ERROR_NUMBER;
+    for (const desc_member *m = desc_members; m->name; m++) {
+        if (m->kind == DESC_PARAM && !param_is_finite(*desc_param(desc, m), desc->samples))
+            return WIGGLY_ERROR_NUMBER;
+    }
+    for (int i = 0; desc->equilibrium.track && i < desc->samples; i++) {
+        if (!(fabs(desc->equilibrium.track[i]) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;
+    }
+    if (!(fabs(desc->equilibrium.value) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;
+    for (int k = 0; k < desc->knot_count; k++) {
+        const wiggly_knot *knot = &desc->knots[k];
+        if (!(fabs(knot->value) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;
+        if (knot->has_slope && !(isfinite(knot->slope) && knot->stiffness > 0 && knot->stiffness < INFINITY)) {
+            return WIGGLY_ERROR_NUMBER;
+        }
+    }
+    return WIGGLY_OK;
+}
+
+/// Fills `order`; knots that are in order already, as a document's are, cost one look each.
+static wiggly_status order_knots(wiggly_solver *solver, const wiggly_desc *desc)
+{
+    int end = desc->samples - (desc->start == WIGGLY_LOOP ? 1 : 0);
+    bool ordered = true;
+    for (int k = 0; k < desc->knot_count; k++) {
+        int sample = desc->knots[k].sample;
+        if (sample < 0 || sample >= end) return WIGGLY_ERROR_KNOT;
+        ordered = ordered && (k == 0 || sample > desc->knots[k - 1].sample);
+        solver->order[k] = k;
+    }
+    if (ordered) return WIGGLY_OK;
+    for (int i = 0; i < desc->samples; i++) solver->knot_at[i] = -1;
+    for (int k = 0; k < desc->knot_count; k++) {
+        if (solver->knot_at[desc->knots[k].sample] >= 0) return WIGGLY_ERROR_KNOT;
+        solver->knot_at[desc->knots[k].sample] = k;
+    }
+    for (int i = 0, n = 0; i < desc->samples; i++) {
+        if (solver->knot_at[i] >= 0) solver->order[n++] = solver->knot_at[i];
+    }
+    return WIGGLY_OK;
+}
+
+/// Whether w moves by itself behind the latest knot.
+static bool is_settling(const wiggly_solver *solver, const problem *p)
+{
+    const wiggly_desc *desc = p->desc;
+    if (!problem_oscillates(p) || p->start == WIGGLY_LOOP || p->latest < 0 || p->count < 3) return false;
+    if (desc->mode == WIGGLY_REAL) return false;
+    if (!desc->knots[solver->order[desc->knot_count - 1]].has_slope) return true;
+    poles at = poles_at(desc, p->latest, 0);
+    return desc->mode == WIGGLY_COMPLEX && at.centre > slowest_settling * at.natural;
+}
+
+static void set_domain(wiggly_solver *solver, problem *p)
+{
+    const wiggly_desc *desc = p->desc;
+    int knots = desc->knot_count;
+    p->earliest = knots > 0 ? desc->knots[solver->order[0]].sample : -1;
+    p->latest = knots > 0 ? desc->knots[solver->order[knots - 1]].sample : -1;
+    bool on_rest = p->earliest == 0 || p->earliest == 1;
+    p->start = desc->start == WIGGLY_REST && on_rest ? WIGGLY_FREE : desc->start;
+    p->first = p->start == WIGGLY_FREE && p->earliest > 0 ? p->earliest : 0;
+    p->count = p->start == WIGGLY_LOOP ? desc->samples - 1 : desc->samples - p->first;
+    p->settles = is_settling(solver, p);
+}
+
+/// What knots are measured from.
+static void set_about(wiggly_solver *solver, problem *p)
+{
+    const wiggly_desc *desc = p->desc;
+    p->level = desc->equilibrium.value;
+    if (!p->y) return;
+    if (desc->mode == WIGGLY_CUBIC) {
+        p->level = p->y[0];
+    } else if (!problem_oscillates(p)) {
+        p->about = p->y;
+    } else {
+        p->swing = solver->swing;
+        p->about = p->swing.total;
+        p->status = swing_answer(desc, p->y, p->calm, &p->swing);
+    }
+}
+
+/// The sample of [first, latest] with the largest natural frequency, the first of equals.
+static int fastest_sample(const problem *p)
+{
+    int fastest = p->first;
+    double largest = -1;
+    for (int i = p->first; i <= p->latest; i++) {
+        double natural = poles_at(p->desc, i, 0).natural;
+        if (natural > largest) largest = natural, fastest = i;
+    }
+    return fastest;
+}
+
+/// The filter's start is that of the first sample; the oscillator's that of the fastest, seen from the first.
+static start_cost cost_of_start(wiggly_solver *solver, const problem *p)
+{
+    const wiggly_desc *desc = p->desc;
+    if (poles_are_constant(desc)) return solver_filter(solver, desc)->start[problem_oscillates(p)];
+    int at = problem_oscillates(p) ? fastest_sample(p) : p->first;
+    poles damped = poles_at(desc, at, LEAST_DAMPING), here = poles_at(desc, p->first, 0);
+    start_cost cost = poles_start_cost(&damped, desc->step);
+    if (!problem_oscillates(p)) return cost;
+    double weight = exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&here, desc->step));
+    for (int i = 0; i < 2; i++) cost.row[i].weight *= weight;
+    return poles_start_seen_from(cost, &damped, &here, desc->step);
+}
+
+void problem_set_start(wiggly_solver *solver, problem *p)
+{
+    p->cost = (start_cost){0};
+    if (p->start == WIGGLY_FREE && p->latest >= 0) {
+        p->cost = cost_of_start(solver, p);
+        for (int i = 0; i < 2; i++) p->cost.row[i].weight *= p->calm;
+    }
+    p->free_end = p->start == WIGGLY_FREE && !(p->cost.row[0].weight > 0);
+}
+
+wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p)
+{
+    wiggly_status status = check_desc(solver, desc);
+    if (status == WIGGLY_OK) status = order_knots(solver, desc);
+    if (status != WIGGLY_OK) return status;
+    *p = (problem){.desc = desc, .calm = desc->calm};
+    if (desc->equilibrium.track) {
+        memmove(y, desc->equilibrium.track, sizeof *y * (size_t)desc->samples);
+        if (desc->start == WIGGLY_LOOP) y[desc->samples - 1] = y[0];
+        p->y = y;
+    }
+    set_domain(solver, p);
+    set_about(solver, p);
+    problem_set_start(solver, p);
+    return WIGGLY_OK;
+}

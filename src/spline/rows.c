@@ -1,0 +1,222 @@
+/// From the problem to its rows, one after the other (system.h), for the solvers of the band.
+#include "spline/problem.h"
+#include <math.h>
+#include <string.h>
+
+static const double implied_stiffness = 1000;
+
+/// Where the oscillator's frequency is below this part of the fastest one's, Im x is held.
+static const double slow_part = 0.1;
+
+static double least_damping(const problem *p) { return p->start == WIGGLY_LOOP ? LEAST_DAMPING * p->calm : 0; }
+
+/// y + Re u of a row of the system.
+static double about_at(const problem *p, int k)
+{
+    if (p->start == WIGGLY_LOOP) k = (k + p->count) % p->count;
+    return problem_about(p, p->first + k);
+}
+
+/// The filter's drive g ÿ, where the equilibrium moves.
+static cplx drive_at(const problem *p, int k, cplx g)
+{
+    bool inner = p->start == WIGGLY_LOOP || (k > 0 && k < p->count - 1);
+    if (problem_oscillates(p) || !p->about || !inner) return (cplx){0, 0};
+    double here = about_at(p, k), bend = (about_at(p, k + 1) - here) - (here - about_at(p, k - 1));
+    return cplx_scale(bend, g);
+}
+
+/// h⁴ of what an oscillator's Im x costs at a sample where its frequency is so much lower than the highest.
+static double slowness(double natural, double highest, double step)
+{
+    if (!(natural < slow_part * highest)) return 0;
+    double ratio = natural / (slow_part * highest), lack = 1 - ratio * ratio;
+    return pow(highest * step, 4) * lack * lack;
+}
+
+static double highest_frequency(const problem *p, int rows)
+{
+    double highest = 0;
+    for (int k = 0; k < rows; k++) highest = fmax(highest, poles_at(p->desc, p->first + k, 0).natural);
+    return highest;
+}
+
+/// Coefficients, drive, weights of jets and of Im x of every row. Weights are relative to the first sample's |g|⁻².
+static void set_filter(wiggly_solver *solver, const problem *p)
+{
+    chain_forget(&solver->chain); // its tables lie where the matrix will be
+    system_rows *rows = &solver->rows;
+    const wiggly_desc *desc = p->desc;
+    double h = desc->step, intervals = p->start == WIGGLY_LOOP ? p->count : p->count - 1, t = intervals * h;
+    bool constant = poles_are_constant(desc), weighted = p->start != WIGGLY_REST || desc->knot_count > 0;
+    bool oscillates = problem_oscillates(p);
+    double highest = oscillates && !constant ? highest_frequency(p, rows->count) : 0;
+    double reference = 0, im_weight = 0, jet_weight = 1;
+    for (int k = 0; k < rows->count; k++) {
+        if (k == 0 || !constant) {
+            poles at = poles_at(desc, p->first + k, least_damping(p));
+            rows->at[k] = poles_coefficients(&at, h);
+            im_weight = weighted ? 1 / (pow(intervals, 4) * (1 + pow(at.natural * t, 8))) : 0;
+            if (oscillates) {
+                double exponent = poles_weight_exponent(&at, h);
+                if (k == 0) reference = exponent;
+                jet_weight = exp(exponent - reference);
+                im_weight = (im_weight + slowness(at.natural, highest, h)) * exp(-reference);
+            }
+        } else {
+            rows->at[k] = rows->at[0];
+        }
+        rows->jet_weight[k] = jet_weight;
+        rows->im_weight[k] = im_weight;
+        rows->drive[k] = drive_at(p, k, rows->at[k].g);
+    }
+}
+
+/// The paper's: a difference of the total.
+static slope_row filter_slope(const problem *p, int k, double slope, double stiffness)
+{
+    bool last = p->start != WIGGLY_LOOP && k == p->count - 1;
+    double h = p->desc->step, from = about_at(p, last ? k - 1 : k), to = about_at(p, last ? k : k + 1);
+    return (slope_row){.sample = k,
+                       .ahead.re = last ? 0 : 1,
+                       .behind.re = last ? 1 : 0,
+                       .weight = fmin(stiffness * h, STIFFEST),
+                       .target = h * slope - (to - from)};
+}
+
+/// The oscillator's: the speed that the poles see from both sides, or the one there is; on the tail that of the tail.
+static slope_row oscillator_slope(const problem *p, int k, double slope, double stiffness)
+{
+    const wiggly_desc *desc = p->desc;
+    bool loop = p->start == WIGGLY_LOOP, tied = p->settles && p->first + k == p->latest;
+    bool ahead = loop || (k + 1 < p->count && !tied), behind = loop || k > 0;
+    double h = desc->step, known = p->swing.speed ? swing_speed(desc, p->y, &p->swing, p->first + k) : 0;
+    poles at = poles_at(desc, p->first + k, least_damping(p));
+    slope_row row = {.sample = k, .target = h * (slope - known), .weight = stiffness * h};
+    if (tied && desc->mode == WIGGLY_COMPLEX) {
+        row.here = cplx_scale(h, poles_passive(&at));
+    } else {
+        int sides = ahead + behind;
+        if (sides == 0) return (slope_row){.sample = k};
+        speed_form forward = poles_speed(&at, h, false), backward = poles_speed(&at, h, true);
+        if (ahead) row.here = cplx_scale(1.0 / sides, forward.on_x), row.ahead = cplx_scale(1.0 / sides, forward.on_e);
+        if (behind) {
+            row.here = cplx_add(row.here, cplx_scale(1.0 / sides, backward.on_x));
+            row.behind = cplx_scale(1.0 / sides, backward.on_e);
+        }
+        row.weight /= 1 + row.weight / (2 * sides);
+    }
+    poles first = poles_at(desc, p->first, least_damping(p));
+    row.weight = fmin(row.weight, STIFFEST) * exp(-poles_weight_exponent(&first, h));
+    return row;
+}
+
+slope_row problem_slope(const problem *p, int sample, double slope, double stiffness)
+{
+    int k = sample - p->first;
+    return problem_oscillates(p) ? oscillator_slope(p, k, slope, stiffness) : filter_slope(p, k, slope, stiffness);
+}
+
+static void add_slope(system_rows *rows, const problem *p, int sample, double slope, double stiffness)
+{
+    slope_row row = problem_slope(p, sample, slope, stiffness);
+    if (row.weight > 0) rows->slopes[rows->slope_count++] = row;
+}
+
+/// One knot without any hold: a level slope is implied.
+static bool implies_slope(const problem *p)
+{
+    if (p->level_slope) return true;
+    bool alone = p->desc->knot_count == 1 && !p->desc->knots[0].has_slope;
+    return alone && p->free_end && !(p->settles && p->desc->mode == WIGGLY_COMPLEX);
+}
+
+/// From rest w_0 is 0; the filter's w_1 is, too, and the oscillator's costs what brought it there.
+static void set_rest(wiggly_solver *solver, const problem *p)
+{
+    system_rows *rows = &solver->rows;
+    rows->fixed[0] = FIXED_RE | FIXED_IM;
+    if (problem_oscillates(p)) {
+        rows->jet_from = 0;
+        rows->jet_weight[0] *= 2;
+    } else {
+        rows->fixed[1] = FIXED_RE | FIXED_IM;
+        if (p->y && !p->about) rows->x[rows->is_complex ? 2 : 1] = p->y[1] - p->level;
+    }
+}
+
+/// Slopes (also implied ones) and fixed unknowns.
+static void set_constraints(wiggly_solver *solver, const problem *p)
+{
+    system_rows *rows = &solver->rows;
+    rows->slope_count = 0;
+    int width = rows->is_complex ? 2 : 1;
+    memset(rows->x, 0, sizeof(double) * (size_t)(width * rows->count));
+    memset(rows->fixed, 0, (size_t)rows->count);
+    if (p->start == WIGGLY_REST) set_rest(solver, p);
+    if (implies_slope(p)) add_slope(rows, p, p->earliest, 0, implied_stiffness);
+    for (int n = 0; n < p->desc->knot_count; n++) {
+        const wiggly_knot *knot = &p->desc->knots[solver->order[n]];
+        int k = knot->sample - p->first;
+        rows->fixed[k] |= FIXED_RE;
+        rows->x[width * k] = knot->value - problem_about(p, knot->sample);
+        if (knot->has_slope) add_slope(rows, p, knot->sample, knot->slope, knot->stiffness);
+    }
+}
+
+/// The last knot's jet, twice, with what moves by itself behind it.
+static void set_tail(system_rows *rows, const problem *p)
+{
+    rows->tail = (cplx){0, 0};
+    if (!p->settles) return;
+    rows->jet_to = rows->count - 1;
+    if (rows->count > 1) rows->jet_weight[rows->count - 1] *= 2;
+    if (rows->count == 1) rows->jet_to = -1;
+    if (!rows->is_complex) return;
+    rows->tail = problem_tail(p);
+}
+
+cplx problem_tail(const problem *p)
+{
+    if (p->desc->mode != WIGGLY_COMPLEX) return (cplx){0, 0};
+    poles at = poles_at(p->desc, p->latest, 0);
+    speed_form form = poles_speed(&at, p->desc->step, false);
+    return cplx_divide(cplx_sub(cplx_scale(p->desc->step, poles_passive(&at)), form.on_x), form.on_e);
+}
+
+void problem_set_rows(wiggly_solver *solver, const problem *p)
+{
+    system_rows *rows = &solver->rows;
+    rows->loop = p->start == WIGGLY_LOOP;
+    rows->is_complex = p->desc->mode == WIGGLY_COMPLEX;
+    rows->count = problem_rows(p);
+    rows->jet_from = rows->loop ? 0 : 1;
+    rows->jet_to = rows->loop ? rows->count - 1 : rows->count - 2;
+    rows->start = p->cost;
+    set_filter(solver, p);
+    set_tail(rows, p);
+    set_constraints(solver, p);
+}
+
+void problem_settle(const problem *p, double *re, double *im)
+{
+    const wiggly_desc *desc = p->desc;
+    bool constant = poles_are_constant(desc);
+    if (!p->settles) return;
+    if (desc->mode != WIGGLY_COMPLEX) {
+        for (int i = p->latest + 1; i < desc->samples; i++) re[i] = re[p->latest];
+        return;
+    }
+    poles here = poles_at(desc, p->latest, 0);
+    cplx s = poles_passive(&here), turn = cplx_exp(cplx_scale(desc->step, s)), w = {re[p->latest], im[p->latest]};
+    for (int i = p->latest; i + 1 < desc->samples; i++) {
+        if (!constant) {
+            poles at = poles_at(desc, i + 1, 0);
+            cplx next = poles_passive(&at);
+            turn = cplx_exp(cplx_scale(0.5 * desc->step, cplx_add(s, next)));
+            s = next;
+        }
+        w = cplx_mul(turn, w);
+        re[i + 1] = w.re, im[i + 1] = w.im;
+    }
+}

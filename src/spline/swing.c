@@ -1,0 +1,211 @@
+/// Solves q'' + 2d q' + k q = −y'' for an equilibrium y that is linear between samples, in closed form from sample to sample.
+//
+// At a sample q' jumps by −(y_{i+1} − 2 y_i + y_{i−1}) / h; over an interval, with r = √(d² − k) and the mean d, k of its ends,
+//
+//     q  ← e^{−dh} ((cosh rh + d sinh(rh)/r) q + (sinh(rh)/r) q')
+//     q' ← e^{−dh} (−k (sinh(rh)/r) q + (cosh rh − d sinh(rh)/r) q').
+//
+// u is q with the imaginary part that an oscillation on one side of the axis has, u' = p u: Im u = −(q' + d q)/ω_d.
+#include "spline/swing.h"
+#include "spline/problem.h"
+#include <math.h>
+
+static const double blow_up = 1e4;
+
+/// The same step for all state: [q q'] ← m [q q'].
+typedef struct step_matrix {
+    double q_q, q_v, v_q, v_v;
+} step_matrix;
+
+/// d and k of an interval.
+typedef struct oscillator {
+    double d, k;
+} oscillator;
+
+static oscillator oscillator_at(const wiggly_desc *desc, int sample, double floor)
+{
+    poles at = poles_at(desc, sample, floor);
+    return (oscillator){at.decay, at.natural * at.natural};
+}
+
+static step_matrix step_over(oscillator o, double h)
+{
+    double r2 = (o.d - sqrt(o.k)) * (o.d + sqrt(o.k)), r = sqrt(fabs(r2)), c, s; // s: sinh(rh)/r times e^{−dh}
+    double decay = exp(-o.d * h);
+    if (r2 > 0) {
+        double slow = exp((r - o.d) * h), fast = exp(-(r + o.d) * h);
+        c = 0.5 * (slow + fast);
+        s = r * h < 1e-3 ? decay * h * (1 + r2 * h * h / 6) : 0.5 * (slow - fast) / r;
+    } else {
+        c = decay * cos(r * h);
+        s = decay * (r * h < 1e-3 ? h * (1 + r2 * h * h / 6) : sin(r * h) / r);
+    }
+    return (step_matrix){c + o.d * s, s, -o.k * s, c - o.d * s};
+}
+
+/// y at a sample, and beyond the ends: y₀ before, straight on behind; a loop wraps.
+static double y_beyond(const wiggly_desc *desc, const double *y, int i)
+{
+    int n = desc->samples;
+    if (desc->start == WIGGLY_LOOP) return y[(i + n - 1) % (n - 1)];
+    if (i < 0) return y[0];
+    return i < n ? y[i] : 2 * y[n - 1] - y[n > 1 ? n - 2 : 0];
+}
+
+static double kick_at(const wiggly_desc *desc, const double *y, int i)
+{
+    if (desc->samples < 2) return 0;
+    return ((y[i] - y_beyond(desc, y, i - 1)) - (y_beyond(desc, y, i + 1) - y[i])) / desc->step;
+}
+
+/// Where the state goes sample by sample: constant parameters have one step.
+typedef struct path {
+    const wiggly_desc *desc;
+    double floor;
+    bool constant;
+    oscillator here; ///< of the sample that is left, where they vary
+    step_matrix step;
+} path;
+
+static path begin(const wiggly_desc *desc, double floor)
+{
+    path p = {.desc = desc, .floor = floor, .constant = poles_are_constant(desc), .here = oscillator_at(desc, 0, floor)};
+    p.step = step_over(p.here, desc->step);
+    return p;
+}
+
+/// The step over the interval after sample i.
+static step_matrix next_step(path *p, int i)
+{
+    if (p->constant) return p->step;
+    oscillator next = oscillator_at(p->desc, i + 1, p->floor);
+    oscillator mean = {0.5 * (p->here.d + next.d), 0.5 * (p->here.k + next.k)};
+    p->here = next;
+    return step_over(mean, p->desc->step);
+}
+
+/// q into `total` and q' in the middle of its jumps into `speed`, from a state before sample 0; returns the state after the last step.
+static void run(const wiggly_desc *desc, const double *y, double floor, double q, double v, const swing *u, double end[2])
+{
+    path p = begin(desc, floor);
+    int n = desc->samples;
+    for (int i = 0; i < n; i++) {
+        double kick = kick_at(desc, y, i);
+        u->total[i] = q;
+        u->speed[i] = v + 0.5 * kick;
+        if (i + 1 == n) break;
+        step_matrix m = next_step(&p, i);
+        v += kick;
+        double moved = m.q_q * q + m.q_v * v;
+        v = m.v_q * q + m.v_v * v;
+        q = moved;
+    }
+    end[0] = q, end[1] = v;
+}
+
+/// I − the product of a loop's steps, in extended precision: its entries are what slow poles leave of 1.
+static void around(const wiggly_desc *desc, double floor, long double a[2][2])
+{
+    path p = begin(desc, floor);
+    long double m[2][2] = {{1, 0}, {0, 1}};
+    for (int i = 0; i + 1 < desc->samples; i++) {
+        step_matrix s = next_step(&p, i);
+        for (int c = 0; c < 2; c++) {
+            long double q = m[0][c], v = m[1][c];
+            m[0][c] = s.q_q * q + s.q_v * v;
+            m[1][c] = s.v_q * q + s.v_v * v;
+        }
+    }
+    for (int r = 0; r < 2; r++) {
+        for (int c = 0; c < 2; c++) a[r][c] = (r == c) - m[r][c];
+    }
+}
+
+/// Whether nothing ever pulls q back, and whether nothing brakes it.
+static void look_for_forces(const wiggly_desc *desc, double floor, bool *pulled, bool *braked)
+{
+    bool constant = poles_are_constant(desc);
+    *pulled = *braked = false;
+    for (int i = 0; i < (constant ? 1 : desc->samples); i++) {
+        oscillator o = oscillator_at(desc, i, floor);
+        *pulled = *pulled || o.k > 0;
+        *braked = *braked || o.d > 0;
+    }
+}
+
+/// The periodic q, by the state that comes back to itself. false where there is none or one that is far too large.
+static bool run_loop(const wiggly_desc *desc, const double *y, double floor, const swing *u)
+{
+    bool pulled, braked;
+    int period = desc->samples - 1;
+    double end[2];
+    look_for_forces(desc, floor, &pulled, &braked);
+    run(desc, y, floor, 0, 0, u, end);
+    if (!pulled) { // of a family that differs by constants the one of mean 0
+        long double a[2][2], mean = 0;
+        around(desc, floor, a);
+        double v = braked ? end[1] / (double)a[1][1] : -end[0] / (period * desc->step);
+        run(desc, y, floor, 0, v, u, end);
+        for (int i = 0; i < period; i++) mean += u->total[i];
+        for (int i = 0; i <= period; i++) u->total[i] -= (double)(mean / period);
+        return true;
+    }
+    long double a[2][2];
+    around(desc, floor, a);
+    long double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    if (!(fabsl(det) > 1e-16L * (fabsl(a[0][0] * a[1][1]) + fabsl(a[0][1] * a[1][0])))) return false;
+    double q = (double)((a[1][1] * end[0] - a[0][1] * end[1]) / det);
+    double v = (double)((a[0][0] * end[1] - a[1][0] * end[0]) / det);
+    run(desc, y, floor, q, v, u, end);
+    double largest = 0, low = y[0], high = y[0];
+    for (int i = 0; i < period; i++) {
+        largest = fmax(largest, fabs(u->total[i]));
+        low = fmin(low, y[i]), high = fmax(high, y[i]);
+    }
+    return largest <= blow_up * (high - low);
+}
+
+/// Im u: the one-sided form, faded out where ω_d is so slow or so small a part of ω_n that it would diverge.
+static void set_imaginary(const wiggly_desc *desc, double floor, const swing *u)
+{
+    bool constant = poles_are_constant(desc);
+    double t = (desc->samples - 1) * desc->step, gain = 0, d = 0;
+    for (int i = 0; i < desc->samples; i++) {
+        if (i == 0 || !constant) {
+            oscillator o = oscillator_at(desc, i, floor);
+            double omega = sqrt(fmax(0, o.k - o.d * o.d)), turns = pow(omega * t, 8);
+            double ratio = o.k > 0 ? pow(omega * omega / o.k, 4) : 0;
+            d = o.d;
+            gain = omega > 0 ? -ratio / (ratio + 1e-8) / (1 + 1 / turns) / omega : 0;
+        }
+        u->im[i] = gain * (u->speed[i] + d * u->total[i]);
+    }
+}
+
+wiggly_status swing_answer(const wiggly_desc *desc, const double *y, double calm, const swing *u)
+{
+    wiggly_status status = WIGGLY_OK;
+    double end[2], floor = desc->start == WIGGLY_LOOP ? LEAST_DAMPING * calm : 0;
+    if (desc->start != WIGGLY_LOOP) {
+        run(desc, y, floor, 0, 0, u, end);
+    } else if (!run_loop(desc, y, floor, u) && calm == 0) {
+        floor = LEAST_DAMPING * FALLBACK_CALM;
+        run_loop(desc, y, floor, u);
+        status = WIGGLY_CALMED;
+    }
+    if (desc->mode == WIGGLY_COMPLEX) {
+        set_imaginary(desc, floor, u);
+    } else {
+        for (int i = 0; i < desc->samples; i++) u->im[i] = 0;
+    }
+    for (int i = 0; i < desc->samples; i++) u->total[i] += y[i];
+    return status;
+}
+
+double swing_speed(const wiggly_desc *desc, const double *y, const swing *u, int sample)
+{
+    int n = desc->samples;
+    if (n < 2) return 0;
+    double before = sample > 0 || desc->start == WIGGLY_LOOP ? y_beyond(desc, y, sample - 1) : 2 * y[0] - y[1];
+    return u->speed[sample] + (y_beyond(desc, y, sample + 1) - before) / (2 * desc->step);
+}
