@@ -37,6 +37,7 @@ static wiggly_param make_track(struct problem *p, uint64_t *seed, double from, d
         double way = shape == 0 ? s * s * (3 - 2 * s) : shape == 1 ? i >= at : sin(6.3 * s);
         track[i] = from + (to - from) * way;
     }
+    if (p->desc.start == WIGGLY_LOOP) track[n - 1] = track[0];
     return (wiggly_param){.track = track};
 }
 
@@ -72,7 +73,7 @@ static void make_poles(struct problem *p, uint64_t *seed)
 {
     wiggly_desc *d = &p->desc;
     double t = (d->samples - 1) * d->step;
-    double f = some_periods(seed) / t, other = some_periods(seed) / t;
+    double f = fmin(some_periods(seed) / t, 1 / d->step), other = fmin(some_periods(seed) / t, 1 / d->step);
     if (d->mode == WIGGLY_REAL && pick(seed, 4) == 0) {
         double k = 39.5 * f * f, friction = between(seed, 0, 8);
         d->spring_friction = true;
@@ -87,11 +88,11 @@ static void make_poles(struct problem *p, uint64_t *seed)
 }
 
 /// Few or many, adjacent or apart, on the first and the last sample too.
-static void make_knots(struct problem *p, uint64_t *seed)
+static void make_knots(struct problem *p, uint64_t *seed, double size)
 {
     wiggly_desc *d = &p->desc;
     int end = d->samples - (d->start == WIGGLY_LOOP ? 1 : 0), run = pick(seed, 3) == 0 ? pick(seed, end) : -9;
-    double density = uniform(seed) * uniform(seed), size = (double[]){1, 1, 1, 1e-6, 1e6}[pick(seed, 5)];
+    double density = uniform(seed) * uniform(seed);
     bool ends = pick(seed, 3) == 0, flat = pick(seed, 12) == 0;
     d->knots = p->knots;
     for (int i = 0; i < end; i++) {
@@ -120,9 +121,10 @@ static void make_problem(struct problem *p, uint64_t seed, wiggly_passive passiv
     d->start = (wiggly_start)pick(&seed, 3);
     d->calm = (double[]){0, 0.001, 1}[pick(&seed, 3)];
     make_poles(p, &seed);
-    if (pick(&seed, 3) == 0) d->equilibrium = make_param(p, &seed, between(&seed, -1, 1), between(&seed, -1, 1));
-    if (pick(&seed, 6) == 0) d->equilibrium = make_track(p, &seed, between(&seed, -1, 1), between(&seed, -9, 9));
-    make_knots(p, &seed);
+    double size = (double[]){1, 1, 1, 1e-6, 1e6}[pick(&seed, 5)], y = size * between(&seed, -1, 1);
+    if (pick(&seed, 3) == 0) d->equilibrium = make_param(p, &seed, y, size * between(&seed, -1, 1));
+    if (pick(&seed, 6) == 0) d->equilibrium = make_track(p, &seed, y, size * between(&seed, -9, 9));
+    make_knots(p, &seed, size);
 }
 
 /// An answer of the textbook's, or the solver's, in arrays of its own.
@@ -137,16 +139,18 @@ static double size_of(const struct answer *a, int n)
     return fmax(high - low, fmax(fabs(low), fabs(high)));
 }
 
-/// The largest difference in any column, relative to the larger of the total's range and magnitude.
+/// The largest difference in any column, relative to the larger of the total's range and magnitude; the last digits of the parts that the
+/// total is the sum of do not count.
 static double error_of(const struct answer *a, const struct answer *exact, int n)
 {
-    double worst = 0, size = size_of(exact, n);
+    double worst = 0, parts = 0;
     for (int i = 0; i < n; i++) {
         double off = fmax(fabs(a->total[i] - exact->total[i]), fabs(a->re[i] - exact->re[i]));
         off = fmax(off, fabs(a->im[i] - exact->im[i]));
         if (!(off <= worst)) worst = off;
+        parts = fmax(parts, fmax(fabs(exact->re[i]), fabs(exact->total[i] - exact->re[i])));
     }
-    return worst > 0 ? worst / size : 0;
+    return worst <= 0x1p-50 * parts ? 0 : worst / size_of(exact, n);
 }
 
 static struct textbook book;
@@ -179,7 +183,7 @@ struct verdict {
     wiggly_status status;
     bool exists;     ///< there is an answer for the status that the solver gave
     bool borderline; ///< whether it is singular depends on the last digits
-    double pivot, growth;
+    double pivot, growth, condition;
     struct answer exact;
 };
 
@@ -204,7 +208,7 @@ static const char *find_fault(const struct problem *p, wiggly_solver *solver, st
 {
     struct answer got;
     wiggly_curve curve = {.total = got.total, .re = got.re, .im = got.im};
-    *error = 0;
+    *error = v->condition = 0;
     *said = wiggly_solve(solver, &p->desc, &curve);
     *estimate = curve.error;
     judge(p, *said, v);
@@ -214,10 +218,11 @@ static const char *find_fault(const struct problem *p, wiggly_solver *solver, st
     *error = error_of(&got, &v->exact, p->desc.samples);
     if (!(curve.error >= 0)) return "an estimate that is no number";
     if (*said == WIGGLY_OK && !(*error <= tolerance(&p->desc))) return "OK, and off";
-    double condition = *said == WIGGLY_INEXACT || *error > 1e-12 ? condition_of(p, v->status, &v->exact) : 1;
-    if (!(*error <= 10 * fmax(curve.error, fmax(1e-13, 1e-16 * condition)))) return "an estimate far below the error";
+    v->condition = *said == WIGGLY_INEXACT || *error > 1e-12 ? condition_of(p, v->status, &v->exact) : 1;
+    if (!(*error <= 10 * fmax(curve.error, fmax(1e-13, 1e-16 * v->condition))))
+        return "an estimate far below the error";
     if (*said == WIGGLY_INEXACT && !(curve.error > tolerance(&p->desc))) return "INEXACT by no estimate";
-    if (*said == WIGGLY_INEXACT && condition < 1e5 && v->pivot > 1e-9) return "INEXACT, and easy";
+    if (*said == WIGGLY_INEXACT && v->condition < 1e5 && v->pivot > 1e-9) return "INEXACT, and easy";
     return NULL;
 }
 
@@ -259,8 +264,8 @@ static bool stands(const struct problem *p, wiggly_solver *solver, const char *n
     wiggly_status said;
     const char *fault = find_fault(p, solver, &v, &error, &said, &estimate);
     if (!fault) return true;
-    print_error("%s: %s: said %d, is %d, off by %.3g, estimate %.3g, pivot %.3g, growth %.3g\n", name, fault, said,
-                v.status, error, estimate, v.pivot, v.growth);
+    print_error("%s: %s: said %d, is %d, off by %.3g, estimate %.3g, pivot %.3g, growth %.3g, condition %.2g\n", name,
+                fault, said, v.status, error, estimate, v.pivot, v.growth, v.condition);
     print_problem(&p->desc);
     return false;
 }
