@@ -14,7 +14,13 @@
 //
 //     x_{p+i} = [F^i s_p]_x + [W_i F*^{L−i} ν]_x,     ν = W_L⁻¹ (s_q − F^L s_p),
 //
-// a sum of four tabled columns a sample, the same for all stretches of one length. After the last knot x runs free.
+// a sum of four tabled columns a sample, the same for all stretches of one length. After the last knot x runs free, or, where it
+// settles, d_L is a multiple of x_L and the last jet counts twice: as the last input's share of W is then a half, W_L − ½ B B*.
+//
+// A slope at s_q sees h times a speed, φ = Re(on_x x_q + on_d d_q − on_r r_q), where r_q is the last jet of the stretch before. Given
+// both ends that jet is ν_d = B* ν ± √(1 − V₁₁), so that with s = weight / (1 + weight |on_r|² (1 − V₁₁)) what the slope costs is
+// s (Re(on_x x_q + on_d d_q − on_r ν_d) − target)², a row of the two nodes alone. In the stretch it pulls r_q away from B* ν by
+// η = s (φ − target) on_r*, and the samples follow the costate ν − V B η.
 #include "spline/chain.h"
 #include <math.h>
 
@@ -28,16 +34,31 @@ static bool is_tame(cplx z) { return fabs(z.re) < 1e250 && fabs(z.im) < 1e250; }
 /// The same for a real sum; NaN is not tame.
 static bool is_tame_real(double size) { return size < 1e250; }
 
+/// What a slope at the stretch's last node pulls on the jet there beside the costate ν_d (see the top of this file).
+static cplx slope_pull(const chain *c, const chain_stretch *s, const chain_node *q, cplx nu_d)
+{
+    const chain_speed *speed = &c->speed[q->view];
+    cplx seen = cplx_sub(cplx_add(cplx_mul(speed->on_x, (cplx){q->value, q->x_im}),
+                                  cplx_mul(speed->on_d, (cplx){q->d_re, q->d_im})),
+                         cplx_mul(speed->on_r, nu_d));
+    double weight = chain_slope_weight(q->slope_weight, speed, s->form[FORM_V11]);
+    return cplx_scale(weight * (seen.re - q->slope), cplx_conj(speed->on_r));
+}
+
 static bool fill_real(const chain *c, const chain_node *p, const chain_node *q, double *re)
 {
     const chain_stretch *s = &c->stretches[p->stretch];
     const double *f = s->form;
-    const double weight[4] = {
+    double weight[4] = {
         p->value,
         p->d_re,
         f[FORM_V00] * q->value + f[FORM_V01] * q->d_re - (f[FORM_C00] * p->value + f[FORM_C01] * p->d_re),
         f[FORM_V01] * q->value + f[FORM_V11] * q->d_re - (f[FORM_C10] * p->value + f[FORM_C11] * p->d_re),
     };
+    if (q->slope_weight > 0) {
+        double eta = slope_pull(c, s, q, (cplx){weight[3], 0}).re;
+        weight[2] -= f[FORM_V01] * eta, weight[3] -= f[FORM_V11] * eta;
+    }
     chain_fill_real(c, s, weight, re);
     return is_tame_real(fabs(weight[0]) + fabs(weight[1]) + fabs(weight[2]) + fabs(weight[3]));
 }
@@ -56,6 +77,11 @@ static bool fill_complex(const chain *c, const chain_node *p, const chain_node *
         cplx_sub(cplx_add(cplx_mul(cplx_conj(v01), xq), cplx_scale(s->form[FORM_V11], dq)),
                  cplx_add(cplx_mul(c10, xp), cplx_mul(c11, dp))),
     };
+    if (q->slope_weight > 0) {
+        cplx eta = slope_pull(c, s, q, weight[3]);
+        weight[2] = cplx_sub(weight[2], cplx_mul(v01, eta));
+        weight[3] = cplx_sub(weight[3], cplx_scale(s->form[FORM_V11], eta));
+    }
     chain_fill_complex(c, s, weight, re, im);
     return is_tame(weight[0]) && is_tame(weight[1]) && is_tame(weight[2]) && is_tame(weight[3]);
 }
@@ -87,9 +113,12 @@ bool chain_run_free(const chain *c, const chain_node *last, int count, double *r
 
 double chain_add_to_node(const chain *c, chain_node *node, const double *solved)
 {
-    double x_im = c->is_complex ? solved[0] : 0, d_re = solved[c->is_complex ? 1 : 0],
-           d_im = c->is_complex ? solved[2] : 0;
-    if (c->is_complex && node->fixed & NODE_FIXED_E) d_re += c->lambda.im * x_im;
+    if (!c->is_complex) {
+        node->d_re += solved[0];
+        return fabs(solved[0]);
+    }
+    cplx tie = chain_node_tie(c, node);
+    double x_im = solved[0], d_re = solved[1] + tie.re * x_im, d_im = solved[2] + tie.im * x_im;
     node->x_im += x_im, node->d_re += d_re, node->d_im += d_im;
     return fabs(x_im) + fabs(d_re) + fabs(d_im);
 }
@@ -134,9 +163,10 @@ void chain_reset_nodes(chain *c)
 {
     for (int j = 0; j < c->node_count; j++) {
         chain_node *node = &c->nodes[j];
-        bool known = node->fixed & NODE_FIXED_E;
-        node->x_im = node->d_im = 0;
-        node->d_re = known ? node->e - (c->lambda.re - 1) * node->value : 0;
+        bool known = node->fixed & (NODE_FIXED_E | NODE_AT_REST), settled = node->fixed & NODE_SETTLED;
+        node->x_im = 0;
+        node->d_re = known ? node->e - (c->lambda.re - 1) * node->value : settled ? c->tail.re * node->value : 0;
+        node->d_im = settled && c->is_complex ? c->tail.im * node->value : 0;
     }
 }
 

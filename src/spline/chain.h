@@ -1,4 +1,4 @@
-/// Splines with constant parameters on a constant equilibrium: a chain of knot-free stretches, each condensed to its end states.
+/// Splines with constant parameters: a chain of knot-free stretches, each condensed to its end states.
 #ifndef SPLINE_CHAIN_H
 #define SPLINE_CHAIN_H
 
@@ -33,19 +33,41 @@ enum {
 /// A stretch of a given length, condensed: s_q* V s_q − 2 Re s_q* C s_p + s_p* P s_p.
 typedef struct chain_stretch {
     int length;
-    int first; ///< where its part of `forced` begins
+    bool settles; ///< the jet of its last sample counts twice
+    int first;    ///< where its part of `forced` begins
     double form[FORM_SIZE];
 } chain_stretch;
 
-enum { NODE_FIXED_E = 1, NODE_AT_REST = 2 };
+/// What is known of a node's state (x, d) beside Re x.
+enum {
+    NODE_FIXED_E = 1, ///< Re e: the next sample is keyed
+    NODE_AT_REST = 2, ///< all of it
+    NODE_FROM_REST = 4, ///< x
+    NODE_SETTLED = 8, ///< that d follows x: what is behind moves by itself
+};
+
+/// From where a node's speed is seen: the sample ahead, both neighbours, the sample behind, or what moves by itself.
+typedef enum chain_view {
+    VIEW_AHEAD,
+    VIEW_BOTH,
+    VIEW_BEHIND,
+    VIEW_TAIL,
+    VIEW_COUNT
+} chain_view;
+
+/// h times a speed: Re(on_x x + on_d d − on_r r), r the jet at the node itself.
+typedef struct chain_speed {
+    cplx on_x, on_d, on_r;
+} chain_speed;
 
 /// A node: the state (x, d) at a sample k of the system, of which Re x is known. e is x_{k+1} − x_k.
 typedef struct chain_node {
     int sample;
-    unsigned fixed;             ///< Re e is known too (the next sample is keyed), or the whole state is 0
-    double value;               ///< Re x
-    double e;                   ///< Re e where it is known
-    double slope, slope_weight; ///< slope_weight (Re e − slope)²
+    unsigned fixed;
+    double value; ///< Re x
+    double e;     ///< Re e where it is known
+    chain_view view;
+    double slope, slope_weight; ///< slope_weight (h speed − slope)²
     int stretch;                ///< to the next node
     double x_im, d_re, d_im;    ///< solution
 } chain_node;
@@ -70,9 +92,13 @@ typedef struct chain {
     int count;           ///< samples of the system
     cplx lambda, delta2; ///< mean of the poles, square of half their difference
     start_cost start;    ///< times calm; on the first node
+    chain_speed speed[VIEW_COUNT];
+    cplx tail;   ///< d / x of a settled node
+    bool oscillates; ///< whether the speeds are those that the poles see
+    bool settles;    ///< the last node is settled, or the second sample of a last pair is
     chain_powers powers;
     cplx_array forced[2]; ///< (first row of W_i F*^{L−i}) for each stretch, i = 0 … L − 1
-    int *stretch_of;      ///< 1 + index of the stretch of each length, 0 where there is none yet
+    int *stretch_of[2]; ///< 1 + index of the stretch of each length, 0 where there is none yet; the second are those that settle
     chain_stretch *stretches;
     int stretch_count, stretch_capacity;
     unsigned forgotten; ///< how often all stretches were forgotten
@@ -98,18 +124,27 @@ bool chain_fill(chain *chain, double *x_re, double *x_im);
 /// Forgets tables and factor: another filter, or their memory was used for something else.
 void chain_forget(chain *chain);
 
-/// The start's cost as a form [h00 h01; h01* h11] of the first state.
-typedef struct start_form {
+/// A form [h00 h01; h01* h11] of a state.
+typedef struct state_form {
     double h00, h11;
     cplx h01;
-} start_form;
+} state_form;
 
-start_form chain_start_form(const chain *chain);
+/// The start's cost on the first state; and what the jet of a settled sample costs that is the second of the last node's pair: 0 elsewhere.
+state_form chain_start_form(const chain *chain);
+state_form chain_end_form(const chain *chain);
 
-/// By how much Re d follows Im x at a node whose Re e is known.
-static inline double chain_node_tie(const chain *c, const chain_node *node)
+/// By how much Re d and Im d follow Im x at a node.
+static inline cplx chain_node_tie(const chain *c, const chain_node *node)
 {
-    return node->fixed == NODE_FIXED_E && c->is_complex ? c->lambda.im : 0;
+    if (node->fixed & NODE_SETTLED) return (cplx){-c->tail.im, c->tail.re};
+    return (cplx){node->fixed & NODE_FIXED_E && c->is_complex ? c->lambda.im : 0, 0};
+}
+
+/// A slope's weight where the jet at its node is what the stretch before it (V₁₁ of its form, or 1) makes of it.
+static inline double chain_slope_weight(double weight, const chain_speed *speed, double v11)
+{
+    return weight / (1 + weight * cplx_norm(speed->on_r) * (1 - v11));
 }
 
 /// An entry of a table of powers.

@@ -31,6 +31,7 @@ static void pull(const chain *c, int j, cplx on_x, cplx on_d)
     right[0] += on_x.im, right[1] += on_d.re, right[2] += on_d.im;
 }
 
+/// What the stretch from node j pulls, and the slope at its end, whose jet is the costate's second part.
 static void pull_stretch(const chain *c, int j)
 {
     const chain_node *p = &c->nodes[j], *q = p + 1;
@@ -42,8 +43,20 @@ static void pull_stretch(const chain *c, int j)
     cplx e0 = mismatch((cplx){q->value, q->x_im}, f00, xp, f01, dp);
     cplx e1 = mismatch((cplx){q->d_re, q->d_im}, f10, xp, f11, dp);
     cplx v01 = chain_entry(s, FORM_V01);
+    double v11 = s->form[FORM_V11];
     cplx n0 = cplx_add(cplx_scale(s->form[FORM_V00], e0), cplx_mul(v01, e1));
-    cplx n1 = cplx_add(cplx_mul(cplx_conj(v01), e0), cplx_scale(s->form[FORM_V11], e1));
+    cplx n1 = cplx_add(cplx_mul(cplx_conj(v01), e0), cplx_scale(v11, e1));
+    if (q->slope_weight > 0) {
+        const chain_speed *speed = &c->speed[q->view];
+        cplx seen = cplx_add(cplx_mul(speed->on_x, (cplx){q->value, q->x_im}),
+                             cplx_mul(speed->on_d, (cplx){q->d_re, q->d_im}));
+        seen = cplx_sub(seen, cplx_mul(speed->on_r, n1));
+        double pulled = -chain_slope_weight(q->slope_weight, speed, v11) * (seen.re - q->slope);
+        pull(c, j + 1, cplx_scale(pulled, cplx_conj(speed->on_x)), cplx_scale(pulled, cplx_conj(speed->on_d)));
+        cplx eta = cplx_scale(-pulled, cplx_conj(speed->on_r)); // ν − V B η
+        n0 = cplx_sub(n0, cplx_mul(v01, eta));
+        n1 = cplx_sub(n1, cplx_scale(v11, eta));
+    }
     pull(c, j + 1, cplx_scale(-1, n0), cplx_scale(-1, n1));
     pull(c, j, cplx_add(cplx_mul(cplx_conj(f00), n0), cplx_mul(cplx_conj(f10), n1)),
          cplx_add(cplx_mul(cplx_conj(f01), n0), cplx_mul(cplx_conj(f11), n1)));
@@ -61,36 +74,52 @@ static void pull_start(const chain *c)
     }
 }
 
-static void pull_slope(const chain *c, int j)
+static void pull_form(const chain *c, int j, const state_form *h)
 {
     const chain_node *node = &c->nodes[j];
-    double e = node->d_re + (c->lambda.re - 1) * node->value - c->lambda.im * node->x_im;
-    double miss = -node->slope_weight * (e - node->slope);
-    pull(c, j, (cplx){0, -c->lambda.im * miss}, (cplx){miss, 0});
+    cplx x = {node->value, node->x_im}, d = {node->d_re, node->d_im};
+    cplx on_x = cplx_add(cplx_scale(h->h00, x), cplx_mul(h->h01, d));
+    cplx on_d = cplx_add(cplx_mul(cplx_conj(h->h01), x), cplx_scale(h->h11, d));
+    pull(c, j, cplx_scale(-1, on_x), cplx_scale(-1, on_d));
 }
 
-/// Known unknowns take no correction; where Re e is known, Re d follows Im x.
-static void hold_fixed(const chain *c, int j)
+/// The first node's slope, where there is no jet.
+static void pull_first_slope(const chain *c)
+{
+    const chain_node *node = &c->nodes[0];
+    const chain_speed *speed = &c->speed[node->view];
+    cplx seen = cplx_add(cplx_mul(speed->on_x, (cplx){node->value, node->x_im}),
+                         cplx_mul(speed->on_d, (cplx){node->d_re, node->d_im}));
+    double pulled = -node->slope_weight * (seen.re - node->slope);
+    pull(c, 0, cplx_scale(pulled, cplx_conj(speed->on_x)), cplx_scale(pulled, cplx_conj(speed->on_d)));
+}
+
+/// Known unknowns take no correction; a tied d follows Im x.
+static void hold_known(const chain *c, int j)
 {
     double *right = c->rows[j].right;
-    int width = c->is_complex ? 3 : 1;
-    if (c->nodes[j].fixed & NODE_AT_REST) {
-        for (int u = 0; u < width; u++) right[u] = 0;
-    } else if (c->nodes[j].fixed & NODE_FIXED_E) {
-        if (c->is_complex) right[0] += c->lambda.im * right[1];
-        right[c->is_complex ? 1 : 0] = 0;
+    const unsigned fixed = c->nodes[j].fixed;
+    const cplx tie = chain_node_tie(c, &c->nodes[j]);
+    bool holds_d = fixed & (NODE_AT_REST | NODE_FIXED_E | NODE_SETTLED);
+    if (!c->is_complex) {
+        if (holds_d) right[0] = 0;
+        return;
     }
+    right[0] += tie.re * right[1] + tie.im * right[2];
+    if (fixed & (NODE_AT_REST | NODE_FROM_REST)) right[0] = 0;
+    if (holds_d) right[1] = 0;
+    if (fixed & (NODE_AT_REST | NODE_SETTLED)) right[2] = 0;
 }
 
 void chain_gradient(chain *c)
 {
     for (int j = 0; j < c->node_count; j++) c->rows[j].right[0] = c->rows[j].right[1] = c->rows[j].right[2] = 0;
     pull_start(c);
+    if (c->nodes[0].slope_weight > 0) pull_first_slope(c);
+    for (int j = 0; j + 1 < c->node_count; j++) pull_stretch(c, j);
+    const state_form end = chain_end_form(c);
+    pull_form(c, c->node_count - 1, &end);
     for (int j = 0; j < c->node_count; j++) {
-        if (c->nodes[j].slope_weight > 0) pull_slope(c, j);
-        if (j + 1 < c->node_count) pull_stretch(c, j);
-    }
-    for (int j = 0; j < c->node_count; j++) {
-        if (c->nodes[j].fixed) hold_fixed(c, j);
+        if (c->nodes[j].fixed) hold_known(c, j);
     }
 }

@@ -16,11 +16,21 @@
 
 /// What a row takes from its node. A known unknown is kept out of the system by 0 in place of 1.
 typedef struct kernel_node {
-    lane x, d; ///< Re x, and Re d as far as it is known
-    lane slope, weight;
-    lane tie;            ///< Re d follows Im x by this much where Re e is known
-    lane keep_x, keep_d; ///< whether Im x and Im d, whether Re d is unknown
+    lane x, d, d_im;            ///< Re x, and d as far as it is known
+    lane tie, tie_im;           ///< Re d and Im d follow Im x by this much
+    lane keep_x, keep_d, keep_i; ///< whether Im x, Re d, Im d is unknown
 } kernel_node;
+
+/// A node's slope: (h speed − target)², the speed as chain_speed has it. Weight 0 where there is none.
+typedef struct kernel_slope {
+    lane target, weight;
+    lane x_re, x_im, d_re, d_im, r_re, r_im;
+} kernel_slope;
+
+/// It as a row of the unknowns before and at the node, and what it lacks with all of these 0.
+typedef struct kernel_link {
+    lane before[3], at[3], weight, miss;
+} kernel_link;
 
 /// Which lanes have positive pivots, and which have lost no digits.
 typedef struct kernel_rank {
@@ -63,9 +73,9 @@ static inline void kernel_enter(lane *d, const lane *f)
 /// C* s_q − P s_p at the first node.
 static inline void kernel_leave_pull(lane *r, const lane *f, const kernel_node *p, const kernel_node *q)
 {
-    r[0] -= f[FORM_C00 + 1] * q->x + f[FORM_C10 + 1] * q->d;
-    r[1] += f[FORM_C01] * q->x + f[FORM_C11] * q->d;
-    r[2] -= f[FORM_C01 + 1] * q->x + f[FORM_C11 + 1] * q->d;
+    r[0] += f[FORM_C10] * q->d_im - (f[FORM_C00 + 1] * q->x + f[FORM_C10 + 1] * q->d);
+    r[1] += f[FORM_C01] * q->x + f[FORM_C11] * q->d + f[FORM_C11 + 1] * q->d_im;
+    r[2] += f[FORM_C11] * q->d_im - (f[FORM_C01 + 1] * q->x + f[FORM_C11 + 1] * q->d);
     kernel_form_pull(r, f[FORM_P01], f[FORM_P01 + 1], f[FORM_P11], p->x, p->d);
 }
 
@@ -76,48 +86,75 @@ static inline void kernel_enter_pull(lane *r, const lane *f, const kernel_node *
     r[1] += f[FORM_C10] * p->x + f[FORM_C11] * p->d;
     r[2] += f[FORM_C10 + 1] * p->x + f[FORM_C11 + 1] * p->d;
     kernel_form_pull(r, f[FORM_V01], f[FORM_V01 + 1], f[FORM_V11], q->x, q->d);
+    r[0] -= f[FORM_V01] * q->d_im;
+    r[2] -= f[FORM_V11] * q->d_im;
 }
 
-/// weight (Re e − slope)², Re e = Re d + Re (λ−1) Re x − Im λ Im x.
-static inline void kernel_slope(lane *d, const kernel_node *node, double turn)
+/// The slope at node q, the jet there being ν_d = V₁₀ x_q + V₁₁ d_q − C₁₀ x_p − C₁₁ d_p of the stretch from p (see chain.c).
+static inline kernel_link kernel_link_of(const kernel_slope *s, const lane *f, const kernel_node *p,
+                                         const kernel_node *q)
 {
-    lane across = node->weight * turn;
-    d[0] += across * turn;
-    d[1] -= across;
-    d[3] += node->weight;
+    lane a_re = s->x_re - (s->r_re * f[FORM_V01] + s->r_im * f[FORM_V01 + 1]);
+    lane a_im = s->x_im - (s->r_im * f[FORM_V01] - s->r_re * f[FORM_V01 + 1]);
+    lane b_re = s->d_re - s->r_re * f[FORM_V11], b_im = s->d_im - s->r_im * f[FORM_V11];
+    lane c_re = s->r_re * f[FORM_C10] - s->r_im * f[FORM_C10 + 1], c_im = s->r_re * f[FORM_C10 + 1] + s->r_im * f[FORM_C10];
+    lane e_re = s->r_re * f[FORM_C11] - s->r_im * f[FORM_C11 + 1], e_im = s->r_re * f[FORM_C11 + 1] + s->r_im * f[FORM_C11];
+    lane seen = (a_re * q->x + (b_re * q->d - b_im * q->d_im)) + (c_re * p->x + e_re * p->d);
+    lane size = s->r_re * s->r_re + s->r_im * s->r_im;
+    lane weight = s->weight / (1.0 + s->weight * size * (1.0 - f[FORM_V11]));
+    return (kernel_link){{-c_im, e_re, -e_im}, {-a_im, b_re, -b_im}, weight, weight * (s->target - seen)};
 }
 
-static inline lane kernel_slope_miss(const kernel_node *node, double growth)
+/// The slope at the first node, where there is no jet.
+static inline kernel_link kernel_link_first(const kernel_slope *s, const kernel_node *q)
 {
-    return node->weight * (node->slope - (node->d + growth * node->x));
+    lane seen = s->x_re * q->x + (s->d_re * q->d - s->d_im * q->d_im);
+    lane none = s->weight * 0.0;
+    return (kernel_link){{none, none, none}, {-s->x_im, s->d_re, -s->d_im}, s->weight, s->weight * (s->target - seen)};
 }
 
-static inline void kernel_slope_pull(lane *r, const kernel_node *node, double growth, double turn)
+/// w g g* into a diagonal block.
+static inline void kernel_add_square(lane *d, lane w, const lane *g)
 {
-    lane miss = kernel_slope_miss(node, growth);
-    r[0] -= turn * miss;
-    r[1] += miss;
+    lane w0 = w * g[0], w1 = w * g[1];
+    d[0] += w0 * g[0], d[1] += w0 * g[1], d[2] += w0 * g[2];
+    d[3] += w1 * g[1], d[4] += w1 * g[2], d[5] += w * g[2] * g[2];
 }
 
-/// Folds a tied Re d into Im x, and takes what is known out of the block; 1 on its diagonal.
+/// The coupling's part of a link.
+static inline void kernel_add_coupling(lane *n, const kernel_link *l)
+{
+    for (int v = 0; v < 3; v++) {
+        lane w = l->weight * l->at[v];
+        n[3 * v] += w * l->before[0], n[3 * v + 1] += w * l->before[1], n[3 * v + 2] += w * l->before[2];
+    }
+}
+
+static inline void kernel_add_pull(lane *r, lane miss, const lane *g)
+{
+    for (int v = 0; v < 3; v++) r[v] += miss * g[v];
+}
+
+/// Folds a tied d into Im x, and takes what is known out of the block; 1 on its diagonal.
 static inline void kernel_hold(lane *d, const kernel_node *node)
 {
-    lane kx = node->keep_x, kd = node->keep_d, t = node->tie;
-    d[0] = (d[0] + t * (2.0 * d[1] + t * d[3])) * kx + (1.0 - kx);
-    d[1] = (d[1] + t * d[3]) * (kx * kd);
-    d[2] = (d[2] + t * d[4]) * kx;
+    lane kx = node->keep_x, kd = node->keep_d, ki = node->keep_i, t = node->tie, s = node->tie_im;
+    lane d1 = d[1] + t * d[3] + s * d[4], d2 = d[2] + t * d[4] + s * d[5];
+    d[0] = (d[0] + (t * (d[1] + d1) + s * (d[2] + d2))) * kx + (1.0 - kx);
+    d[1] = d1 * (kx * kd);
+    d[2] = d2 * (kx * ki);
     d[3] = d[3] * kd + (1.0 - kd);
-    d[4] = d[4] * (kx * kd);
-    d[5] = d[5] * kx + (1.0 - kx);
+    d[4] = d[4] * (kd * ki);
+    d[5] = d[5] * ki + (1.0 - ki);
 }
 
 /// The same in the columns of the coupling to the next node.
 static inline void kernel_hold_columns(lane *n, const kernel_node *node)
 {
     for (int v = 0; v < 9; v += 3) {
-        n[v] = (n[v] + node->tie * n[v + 1]) * node->keep_x;
+        n[v] = (n[v] + (node->tie * n[v + 1] + node->tie_im * n[v + 2])) * node->keep_x;
         n[v + 1] *= node->keep_d;
-        n[v + 2] *= node->keep_x;
+        n[v + 2] *= node->keep_i;
     }
 }
 
@@ -125,17 +162,17 @@ static inline void kernel_hold_columns(lane *n, const kernel_node *node)
 static inline void kernel_hold_rows(lane *n, const kernel_node *node)
 {
     for (int v = 0; v < 3; v++) {
-        n[v] = (n[v] + node->tie * n[3 + v]) * node->keep_x;
+        n[v] = (n[v] + (node->tie * n[3 + v] + node->tie_im * n[6 + v])) * node->keep_x;
         n[3 + v] *= node->keep_d;
-        n[6 + v] *= node->keep_x;
+        n[6 + v] *= node->keep_i;
     }
 }
 
 static inline void kernel_hold_pull(lane *r, const kernel_node *node)
 {
-    r[0] = (r[0] + node->tie * r[1]) * node->keep_x;
+    r[0] = (r[0] + (node->tie * r[1] + node->tie_im * r[2])) * node->keep_x;
     r[1] *= node->keep_d;
-    r[2] *= node->keep_x;
+    r[2] *= node->keep_i;
 }
 
 /// p ← inverse of the symmetric s.
@@ -202,6 +239,21 @@ static inline lane kernel_leave_pull_one(const lane *f, const kernel_node *p, co
 static inline lane kernel_enter_pull_one(const lane *f, const kernel_node *p, const kernel_node *q)
 {
     return f[FORM_C10] * p->x + f[FORM_C11] * p->d - (f[FORM_V01] * q->x + f[FORM_V11] * q->d);
+}
+
+/// A slope as a row of the one unknown before and the one at the node.
+typedef struct kernel_link_one {
+    lane before, at, weight, miss;
+} kernel_link_one;
+
+static inline kernel_link_one kernel_link_of_one(const kernel_slope *s, const lane *f, const kernel_node *p,
+                                                 const kernel_node *q)
+{
+    lane a = s->x_re - s->r_re * f[FORM_V01], at = s->d_re - s->r_re * f[FORM_V11];
+    lane c = s->r_re * f[FORM_C10], before = s->r_re * f[FORM_C11];
+    lane seen = (a * q->x + at * q->d) + (c * p->x + before * p->d);
+    lane weight = s->weight / (1.0 + s->weight * (s->r_re * s->r_re) * (1.0 - f[FORM_V11]));
+    return (kernel_link_one){before, at, weight, weight * (s->target - seen)};
 }
 
 static inline lane kernel_hold_one(lane d, const kernel_node *node)

@@ -22,24 +22,54 @@ _Static_assert(sizeof(lane_row) <= sizeof(double) * DOUBLES_PER_LANE_ROW, "rows 
 static const chain_node no_node = {.fixed = NODE_AT_REST};
 static const double no_form[FORM_SIZE];
 
+/// Nodes j of all lanes.
+static void node_row(const chain_group *g, int j, const chain_node *n[LANES])
+{
+    for (int k = 0; k < LANES; k++) n[k] = k < g->count && j < g->node_count[k] ? &g->nodes[k][j] : &no_node;
+}
+
 static kernel_node gather_node(const chain_group *g, int j)
 {
     const chain_node *n[LANES];
-    double tie[LANES];
-    for (int k = 0; k < LANES; k++) {
-        n[k] = k < g->count && j < g->node_count[k] ? &g->nodes[k][j] : &no_node;
-        tie[k] = chain_node_tie(g->common, n[k]);
-    }
+    cplx tie[LANES];
+    node_row(g, j, n);
+    for (int k = 0; k < LANES; k++) tie[k] = chain_node_tie(g->common, n[k]);
 #define X(k) n[k]->value
 #define D(k) n[k]->d_re
-#define SLOPE(k) n[k]->slope
-#define WEIGHT(k) n[k]->slope_weight
-#define TIE(k) tie[k]
-#define KEEP_X(k) (n[k]->fixed & NODE_AT_REST ? 0.0 : 1.0)
-#define KEEP_D(k) (n[k]->fixed ? 0.0 : 1.0)
+#define D_IM(k) n[k]->d_im
+#define TIE(k) tie[k].re
+#define TIE_IM(k) tie[k].im
+#define KEEP_X(k) (n[k]->fixed & (NODE_AT_REST | NODE_FROM_REST) ? 0.0 : 1.0)
+#define KEEP_D(k) (n[k]->fixed & (NODE_AT_REST | NODE_FIXED_E | NODE_SETTLED) ? 0.0 : 1.0)
+#define KEEP_I(k) (n[k]->fixed & (NODE_AT_REST | NODE_SETTLED) ? 0.0 : 1.0)
     return (kernel_node){
-        GATHER(X), GATHER(D), GATHER(SLOPE), GATHER(WEIGHT), GATHER(TIE), GATHER(KEEP_X), GATHER(KEEP_D),
+        GATHER(X), GATHER(D), GATHER(D_IM), GATHER(TIE), GATHER(TIE_IM), GATHER(KEEP_X), GATHER(KEEP_D), GATHER(KEEP_I),
     };
+}
+
+/// The slopes at nodes j; false where there are none.
+static bool gather_slope(const chain_group *g, int j, kernel_slope *slope)
+{
+    const chain_node *n[LANES];
+    chain_speed s[LANES];
+    bool any = false;
+    node_row(g, j, n);
+    for (int k = 0; k < LANES; k++) any = any || n[k]->slope_weight > 0;
+    if (!any) return false;
+    for (int k = 0; k < LANES; k++) s[k] = g->common->speed[n[k]->view];
+#define TARGET(k) n[k]->slope
+#define WEIGHT(k) n[k]->slope_weight
+#define ON_X_RE(k) s[k].on_x.re
+#define ON_X_IM(k) s[k].on_x.im
+#define ON_D_RE(k) s[k].on_d.re
+#define ON_D_IM(k) s[k].on_d.im
+#define ON_R_RE(k) s[k].on_r.re
+#define ON_R_IM(k) s[k].on_r.im
+    *slope = (kernel_slope){
+        GATHER(TARGET),  GATHER(WEIGHT),  GATHER(ON_X_RE), GATHER(ON_X_IM),
+        GATHER(ON_D_RE), GATHER(ON_D_IM), GATHER(ON_R_RE), GATHER(ON_R_IM),
+    };
+    return true;
 }
 
 /// The forms of the stretches after node j.
@@ -57,30 +87,41 @@ static void gather_form(const chain_group *g, int j, lane *form)
 /// Assembles, factors, sweeps forward.
 static kernel_rank forward_blocks(const chain_group *g, lane_row *rows, int count)
 {
-    const start_form h = chain_start_form(g->common);
-    const double growth = g->common->lambda.re - 1, turn = g->common->lambda.im;
+    const state_form h = chain_start_form(g->common);
     const lane zero = {0};
     const lane h11 = zero + h.h11, h01_re = zero + h.h01.re, h01_im = zero + h.h01.im;
     kernel_rank all = {(flag){0} - 1, (flag){0} - 1};
     kernel_node node = gather_node(g, 0);
+    kernel_slope slope;
     lane_row before = {0}, row = {0};
     lane n_before[9] = {0};
     kernel_form(row.pivot, zero + h.h00, h01_re, h01_im, h11);
     kernel_form_pull(row.right, h01_re, h01_im, h11, node.x, node.d);
+    if (gather_slope(g, 0, &slope)) {
+        const kernel_link link = kernel_link_first(&slope, &node);
+        kernel_add_square(row.pivot, link.weight, link.at);
+        kernel_add_pull(row.right, link.miss, link.at);
+    }
     for (int j = 0; j < count; j++) {
         lane form[FORM_SIZE], n[9];
         lane_row after = {0};
         kernel_node next = gather_node(g, j + 1);
         gather_form(g, j, form);
-        kernel_slope(row.pivot, &node, turn);
         kernel_leave(row.pivot, n, form);
-        kernel_hold_columns(n, &node);
         kernel_enter(after.pivot, form);
-        kernel_hold(row.pivot, &node);
-        kernel_hold_rows(n, &next);
-        kernel_slope_pull(row.right, &node, growth, turn);
         kernel_leave_pull(row.right, form, &node, &next);
         kernel_enter_pull(after.right, form, &node, &next);
+        if (gather_slope(g, j + 1, &slope)) {
+            const kernel_link link = kernel_link_of(&slope, form, &node, &next);
+            kernel_add_square(row.pivot, link.weight, link.before);
+            kernel_add_square(after.pivot, link.weight, link.at);
+            kernel_add_coupling(n, &link);
+            kernel_add_pull(row.right, link.miss, link.before);
+            kernel_add_pull(after.right, link.miss, link.at);
+        }
+        kernel_hold_columns(n, &node);
+        kernel_hold(row.pivot, &node);
+        kernel_hold_rows(n, &next);
         kernel_hold_pull(row.right, &node);
 
         kernel_rank rank = kernel_pivot(row.pivot, before.lower, n_before);
@@ -97,30 +138,43 @@ static kernel_rank forward_blocks(const chain_group *g, lane_row *rows, int coun
 
 static kernel_rank forward_scalars(const chain_group *g, lane_row *rows, int count)
 {
-    const start_form h = chain_start_form(g->common);
-    const double growth = g->common->lambda.re - 1;
+    const state_form h = chain_start_form(g->common);
     const lane zero = {0};
     kernel_rank all = {(flag){0} - 1, (flag){0} - 1};
     kernel_node node = gather_node(g, 0);
+    kernel_slope slope;
     lane n_before = zero, l_before = zero, z_before = zero, s = zero + 1.0;
-    lane entering = zero + h.h11, pull = -(h.h01.re * node.x + h.h11 * node.d);
+    lane d = zero + h.h11, right = -(h.h01.re * node.x + h.h11 * node.d);
+    if (gather_slope(g, 0, &slope)) {
+        d += slope.weight * slope.d_re * slope.d_re;
+        right += slope.weight * (slope.target - (slope.x_re * node.x + slope.d_re * node.d)) * slope.d_re;
+    }
     for (int j = 0; j < count; j++) {
         lane form[FORM_SIZE];
         kernel_node next = gather_node(g, j + 1);
         gather_form(g, j, form);
         lane_row *row = &rows[j];
-        lane d = kernel_hold_one(entering + node.weight + form[FORM_P11], &node);
-        lane n = -form[FORM_C11] * (next.keep_d * node.keep_d);
-        lane r = pull + kernel_slope_miss(&node, growth) + kernel_leave_pull_one(form, &node, &next);
-        entering = form[FORM_V11];
-        pull = kernel_enter_pull_one(form, &node, &next);
+        lane entering = form[FORM_V11], n = -form[FORM_C11];
+        d += form[FORM_P11];
+        right += kernel_leave_pull_one(form, &node, &next);
+        lane pull = kernel_enter_pull_one(form, &node, &next);
+        if (gather_slope(g, j + 1, &slope)) {
+            const kernel_link_one link = kernel_link_of_one(&slope, form, &node, &next);
+            d += link.weight * link.before * link.before;
+            entering += link.weight * link.at * link.at;
+            n += link.weight * link.at * link.before;
+            right += link.miss * link.before;
+            pull += link.miss * link.at;
+        }
+        n *= node.keep_d * next.keep_d;
 
-        kernel_rank rank = kernel_pivot_one(&s, d, n_before);
+        kernel_rank rank = kernel_pivot_one(&s, kernel_hold_one(d, &node), n_before);
         all.sound &= rank.sound, all.firm &= rank.firm;
         row->pivot[0] = 1.0 / s;
         row->lower[0] = n * row->pivot[0];
-        row->right[0] = r * node.keep_d - l_before * z_before;
+        row->right[0] = right * node.keep_d - l_before * z_before;
         l_before = row->lower[0], z_before = row->right[0], n_before = n;
+        d = entering, right = pull;
         node = next;
     }
     return all;

@@ -5,9 +5,9 @@ typedef int flag;
 #include "spline/chain_kernel.h"
 
 /// Each row's |on_x x + on_e e|² with e = x_1 − x_0 = d + (λ−1) x.
-start_form chain_start_form(const chain *c)
+state_form chain_start_form(const chain *c)
 {
-    start_form form = {0};
+    state_form form = {0};
     const cplx growth = {c->lambda.re - 1, c->lambda.im};
     for (int i = 0; i < 2; i++) {
         const struct start_row *row = &c->start.row[i];
@@ -19,15 +19,35 @@ start_form chain_start_form(const chain *c)
     return form;
 }
 
+/// r_L = x_{L+1} − a x_L − b x_{L−1} of a pair (x_{L−1}, x_L) = (x, λ x + d) whose x_{L+1} is (λ + tail) x_L, twice.
+state_form chain_end_form(const chain *c)
+{
+    const chain_node *last = &c->nodes[c->node_count - 1];
+    if (!c->settles || last->fixed & NODE_SETTLED) return (state_form){0};
+    cplx on_x = cplx_sub(cplx_mul(c->tail, c->lambda), c->delta2), on_d = cplx_sub(c->tail, c->lambda);
+    return (state_form){
+        .h00 = 2 * cplx_norm(on_x), .h01 = cplx_scale(2, cplx_mul(cplx_conj(on_x), on_d)), .h11 = 2 * cplx_norm(on_d)};
+}
+
 static kernel_node kernel_node_of(const chain *c, const chain_node *node)
 {
+    const unsigned fixed = node->fixed;
+    const cplx tie = chain_node_tie(c, node);
     return (kernel_node){.x = node->value,
                          .d = node->d_re,
-                         .slope = node->slope,
-                         .weight = node->slope_weight,
-                         .tie = chain_node_tie(c, node),
-                         .keep_x = node->fixed & NODE_AT_REST ? 0 : 1,
-                         .keep_d = node->fixed ? 0 : 1};
+                         .d_im = node->d_im,
+                         .tie = tie.re,
+                         .tie_im = tie.im,
+                         .keep_x = fixed & (NODE_AT_REST | NODE_FROM_REST) ? 0 : 1,
+                         .keep_d = fixed & (NODE_AT_REST | NODE_FIXED_E | NODE_SETTLED) ? 0 : 1,
+                         .keep_i = fixed & (NODE_AT_REST | NODE_SETTLED) ? 0 : 1};
+}
+
+static kernel_slope kernel_slope_of(const chain *c, const chain_node *node)
+{
+    const chain_speed *s = &c->speed[node->view];
+    return (kernel_slope){node->slope, node->slope_weight, s->on_x.re, s->on_x.im,
+                          s->on_d.re,  s->on_d.im,         s->on_r.re, s->on_r.im};
 }
 
 static const double *form_after(const chain *c, int j) { return c->stretches[c->nodes[j].stretch].form; }
@@ -35,23 +55,35 @@ static const double *form_after(const chain *c, int j) { return c->stretches[c->
 /// Row by row in local arrays, which the compiler keeps in registers.
 static void assemble_blocks(chain *c)
 {
-    const start_form h = chain_start_form(c);
-    const double turn = c->lambda.im;
+    const state_form h = chain_start_form(c), end = chain_end_form(c);
     const int last = c->node_count - 1;
     kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
     double d[6] = {0};
     kernel_form(d, h.h00, h.h01.re, h.h01.im, h.h11);
+    if (c->nodes[0].slope_weight > 0) {
+        const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
+        const kernel_link link = kernel_link_first(&slope, &node);
+        kernel_add_square(d, link.weight, link.at);
+    }
     for (int j = 0; j <= last; j++, node = next) {
         double n[9] = {0}, entering[6] = {0};
-        kernel_slope(d, &node, turn);
         next = node;
         if (j < last) {
             const double *form = form_after(c, j);
             next = kernel_node_of(c, &c->nodes[j + 1]);
             kernel_leave(d, n, form);
             kernel_enter(entering, form);
+            if (c->nodes[j + 1].slope_weight > 0) {
+                const kernel_slope slope = kernel_slope_of(c, &c->nodes[j + 1]);
+                const kernel_link link = kernel_link_of(&slope, form, &node, &next);
+                kernel_add_square(d, link.weight, link.before);
+                kernel_add_square(entering, link.weight, link.at);
+                kernel_add_coupling(n, &link);
+            }
             kernel_hold_columns(n, &node);
             kernel_hold_rows(n, &next);
+        } else {
+            kernel_form(d, end.h00, end.h01.re, end.h01.im, end.h11);
         }
         kernel_hold(d, &node);
         for (int i = 0; i < 6; i++) c->rows[j].diagonal[i] = d[i], d[i] = entering[i];
@@ -61,21 +93,35 @@ static void assemble_blocks(chain *c)
 
 static void assemble_scalars(chain *c)
 {
-    double entering = chain_start_form(c).h11, keep_before = 0;
-    for (int j = 0; j < c->node_count; j++) {
-        chain_row *row = &c->rows[j];
-        const kernel_node node = kernel_node_of(c, &c->nodes[j]);
-        row->diagonal[0] = entering + node.weight;
-        row->below[0] = 0;
-        if (j > 0) row[-1].below[0] *= node.keep_d * keep_before;
-        keep_before = node.keep_d;
-        if (j + 1 < c->node_count) {
+    const int last = c->node_count - 1;
+    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
+    double d = chain_start_form(c).h11;
+    if (c->nodes[0].slope_weight > 0) {
+        const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
+        d += slope.weight * slope.d_re * slope.d_re;
+    }
+    for (int j = 0; j <= last; j++, node = next) {
+        double n = 0, entering = 0;
+        next = node;
+        if (j < last) {
             const double *form = form_after(c, j);
-            row->diagonal[0] += form[FORM_P11];
-            row->below[0] = -form[FORM_C11];
+            next = kernel_node_of(c, &c->nodes[j + 1]);
+            d += form[FORM_P11];
+            n = -form[FORM_C11];
             entering = form[FORM_V11];
+            if (c->nodes[j + 1].slope_weight > 0) {
+                const kernel_slope slope = kernel_slope_of(c, &c->nodes[j + 1]);
+                const kernel_link_one link = kernel_link_of_one(&slope, form, &node, &next);
+                d += link.weight * link.before * link.before;
+                entering += link.weight * link.at * link.at;
+                n += link.weight * link.at * link.before;
+            }
+        } else {
+            d += chain_end_form(c).h11;
         }
-        row->diagonal[0] = kernel_hold_one(row->diagonal[0], &node);
+        c->rows[j].diagonal[0] = kernel_hold_one(d, &node);
+        c->rows[j].below[0] = n * (node.keep_d * next.keep_d);
+        d = entering;
     }
 }
 
@@ -153,20 +199,33 @@ void chain_solve_nodes(chain *c)
 
 static void pull_blocks(chain *c)
 {
-    const start_form h = chain_start_form(c);
-    const double growth = c->lambda.re - 1, turn = c->lambda.im;
+    const state_form h = chain_start_form(c), end = chain_end_form(c);
+    const int last = c->node_count - 1;
     kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
     double entering[3] = {0};
     kernel_form_pull(entering, h.h01.re, h.h01.im, h.h11, node.x, node.d);
-    for (int j = 0; j < c->node_count; j++, node = next) {
+    if (c->nodes[0].slope_weight > 0) {
+        const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
+        const kernel_link link = kernel_link_first(&slope, &node);
+        kernel_add_pull(entering, link.miss, link.at);
+    }
+    for (int j = 0; j <= last; j++, node = next) {
         double *right = c->rows[j].right;
         for (int i = 0; i < 3; i++) right[i] = entering[i], entering[i] = 0;
-        kernel_slope_pull(right, &node, growth, turn);
         next = node;
-        if (j + 1 < c->node_count) {
+        if (j < last) {
+            const double *form = form_after(c, j);
             next = kernel_node_of(c, &c->nodes[j + 1]);
-            kernel_leave_pull(right, form_after(c, j), &node, &next);
-            kernel_enter_pull(entering, form_after(c, j), &node, &next);
+            kernel_leave_pull(right, form, &node, &next);
+            kernel_enter_pull(entering, form, &node, &next);
+            if (c->nodes[j + 1].slope_weight > 0) {
+                const kernel_slope slope = kernel_slope_of(c, &c->nodes[j + 1]);
+                const kernel_link link = kernel_link_of(&slope, form, &node, &next);
+                kernel_add_pull(right, link.miss, link.before);
+                kernel_add_pull(entering, link.miss, link.at);
+            }
+        } else {
+            kernel_form_pull(right, end.h01.re, end.h01.im, end.h11, node.x, node.d);
         }
         kernel_hold_pull(right, &node);
     }
@@ -174,19 +233,33 @@ static void pull_blocks(chain *c)
 
 static void pull_scalars(chain *c)
 {
-    const start_form h = chain_start_form(c);
-    const double growth = c->lambda.re - 1;
+    const state_form h = chain_start_form(c), end = chain_end_form(c);
+    const int last = c->node_count - 1;
     kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
-    double entering = -(h.h01.re * node.x + h.h11 * node.d);
-    for (int j = 0; j < c->node_count; j++, node = next) {
-        double right = entering + kernel_slope_miss(&node, growth);
+    double right = -(h.h01.re * node.x + h.h11 * node.d);
+    if (c->nodes[0].slope_weight > 0) {
+        const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
+        right += slope.weight * (slope.target - (slope.x_re * node.x + slope.d_re * node.d)) * slope.d_re;
+    }
+    for (int j = 0; j <= last; j++, node = next) {
+        double entering = 0;
         next = node;
-        if (j + 1 < c->node_count) {
+        if (j < last) {
+            const double *form = form_after(c, j);
             next = kernel_node_of(c, &c->nodes[j + 1]);
-            right += kernel_leave_pull_one(form_after(c, j), &node, &next);
-            entering = kernel_enter_pull_one(form_after(c, j), &node, &next);
+            right += kernel_leave_pull_one(form, &node, &next);
+            entering = kernel_enter_pull_one(form, &node, &next);
+            if (c->nodes[j + 1].slope_weight > 0) {
+                const kernel_slope slope = kernel_slope_of(c, &c->nodes[j + 1]);
+                const kernel_link_one link = kernel_link_of_one(&slope, form, &node, &next);
+                right += link.miss * link.before;
+                entering += link.miss * link.at;
+            }
+        } else {
+            right -= end.h01.re * node.x + end.h11 * node.d;
         }
         c->rows[j].right[0] = right * node.keep_d;
+        right = entering;
     }
 }
 

@@ -56,15 +56,15 @@ static void extend_powers(chain *c, int longest)
 
 static void put_entry(chain_stretch *s, int at, cplx value) { s->form[at] = value.re, s->form[at + 1] = value.im; }
 
-/// V = W⁻¹, C = V F, P = F* V F at the stretch's length.
+/// V = W⁻¹, C = V F, P = F* V F at the stretch's length; the last input counts half where it settles.
 static void set_form(const chain *c, chain_stretch *s)
 {
     const chain_powers *t = &c->powers;
     int n = s->length;
     cplx p = chain_power(c, &t->p, n), q = chain_power(c, &t->q, n), r = cplx_mul(c->delta2, q);
     cplx w01 = chain_power(c, &t->w01, n);
-    double det = t->w00[n] * t->w11[n] - cplx_norm(w01);
-    double v00 = t->w11[n] / det, v11 = t->w00[n] / det;
+    double w11 = t->w11[n] - (s->settles ? 0.5 : 0), det = t->w00[n] * w11 - cplx_norm(w01);
+    double v00 = w11 / det, v11 = t->w00[n] / det;
     cplx v01 = cplx_scale(-1 / det, w01), v10 = cplx_conj(v01);
     cplx c00 = cplx_add(cplx_scale(v00, p), cplx_mul(v01, r)), c01 = cplx_add(cplx_scale(v00, q), cplx_mul(v01, p));
     cplx c10 = cplx_add(cplx_mul(v10, p), cplx_scale(v11, r)), c11 = cplx_add(cplx_mul(v10, q), cplx_scale(v11, p));
@@ -112,7 +112,7 @@ WIDEST static void set_forced_real(const chain *c, const chain_stretch *s)
 
 static void forget_stretches(chain *c)
 {
-    for (int s = 0; s < c->stretch_count; s++) c->stretch_of[c->stretches[s].length] = 0;
+    for (int s = 0; s < c->stretch_count; s++) c->stretch_of[c->stretches[s].settles][c->stretches[s].length] = 0;
     c->stretch_count = c->forced_count = 0;
     c->forgotten++;
 }
@@ -125,21 +125,25 @@ void chain_forget(chain *c)
 }
 
 /// The stretch of a length, made where it is not there yet; -1 where there is no room for it.
-static int find_stretch(chain *c, int length)
+static int find_stretch(chain *c, int length, bool settles)
 {
-    if (c->stretch_of[length] > 0) return c->stretch_of[length] - 1;
-    if (c->stretch_count == c->stretch_capacity || c->forced_count + length > c->forced_capacity) return -1;
+    int *at = &c->stretch_of[settles][length], twin = c->stretch_of[!settles][length];
+    if (*at > 0) return *at - 1;
+    int columns = twin > 0 ? 0 : length; // the samples inside are the same
+    if (c->stretch_count == c->stretch_capacity || c->forced_count + columns > c->forced_capacity) return -1;
     extend_powers(c, length);
     chain_stretch *s = &c->stretches[c->stretch_count++];
-    *s = (chain_stretch){.length = length, .first = c->forced_count};
-    c->forced_count += length;
+    *s = (chain_stretch){.length = length, .settles = settles, .first = c->forced_count};
+    c->forced_count += columns;
     set_form(c, s);
-    if (c->is_complex) {
+    if (twin > 0) {
+        s->first = c->stretches[twin - 1].first;
+    } else if (c->is_complex) {
         set_forced_complex(c, s);
     } else {
         set_forced_real(c, s);
     }
-    c->stretch_of[length] = c->stretch_count;
+    *at = c->stretch_count;
     return c->stretch_count - 1;
 }
 
@@ -148,7 +152,8 @@ void chain_make_tables(chain *c)
     int after = c->count - 1 - c->nodes[c->node_count - 1].sample;
     extend_powers(c, after < CHAIN_RUN ? after : CHAIN_RUN);
     for (int j = 0; j + 1 < c->node_count; j++) {
-        int stretch = find_stretch(c, c->nodes[j + 1].sample - c->nodes[j].sample);
+        bool settles = c->nodes[j + 1].fixed & NODE_SETTLED;
+        int stretch = find_stretch(c, c->nodes[j + 1].sample - c->nodes[j].sample, settles);
         if (stretch <
             0) { // full of lengths of earlier solves; those of this one fit, their sum is at most the domain
             forget_stretches(c);

@@ -6,31 +6,60 @@
 /// what they change is about 1e-14 of x, and below 1e-9 where x hangs on the start alone.
 static const double least_phase = 48;
 
-/// No slope may act between two nodes: on a knot beside the one before, or on the last sample.
+/// The jet at a sample and what is behind it are far apart where a row's b all but vanishes: speeds seen from there are not for the chain.
+static const double least_b = 1e-3;
+
+/// No slope may act inside a pair of knots side by side, but at its first.
 bool problem_fits_chain(wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    if (p->start == WIGGLY_LOOP || p->level_slope || !poles_are_constant(desc) || desc->equilibrium.track) return false;
-    if (problem_oscillates(p)) return false;
+    if (p->start == WIGGLY_LOOP || p->level_slope || !poles_are_constant(desc)) return false;
+    if (p->about && !problem_oscillates(p)) return false; // the paper's filter is driven by a moving equilibrium
+    const constant_filter *f = solver_filter(solver, desc);
     double t = (p->count - 1) * desc->step;
-    if (desc->mode == WIGGLY_COMPLEX && solver_filter(solver, desc)->at.natural * t < least_phase) return false;
+    if (desc->mode == WIGGLY_COMPLEX && f->at.natural * t < least_phase) return false;
+    bool slopes_ahead = !problem_oscillates(p), paired = false;
     for (int n = 0; n < desc->knot_count; n++) {
         const wiggly_knot *knot = &desc->knots[solver->order[n]];
         bool beside = n > 0 && desc->knots[solver->order[n - 1]].sample == knot->sample - 1;
-        if (knot->has_slope && (beside || knot->sample == desc->samples - 1)) return false;
+        paired = beside && !paired;
+        if (!knot->has_slope) continue;
+        if (paired || (slopes_ahead && knot->sample == desc->samples - 1)) return false;
+        if (!slopes_ahead && exp(2 * desc->step * (f->at.s[0].re + f->at.s[1].re)) < least_b) return false;
     }
     return true;
 }
 
 /// Writes what a knot says into a node, field by field; true where the node there differed in nothing but its values.
-static bool put_node(chain_node *at, int sample, unsigned fixed, double slope, double slope_weight)
+static bool put_node(chain_node *at, int sample, unsigned fixed, chain_view view, double slope, double slope_weight)
 {
-    bool same = at->sample == sample && at->fixed == fixed && at->slope_weight == slope_weight;
+    bool same = at->sample == sample && at->fixed == fixed && at->view == view && at->slope_weight == slope_weight;
     at->sample = sample;
     at->fixed = fixed;
+    at->view = view;
     at->slope = slope;
     at->slope_weight = slope_weight;
     return same;
+}
+
+/// From where the speed at a knot is seen.
+static chain_view view_of(const problem *p, int sample)
+{
+    if (!problem_oscillates(p)) return VIEW_AHEAD;
+    if (p->settles && sample == p->latest) return VIEW_TAIL;
+    bool ahead = sample + 1 < p->first + p->count, behind = sample > p->first;
+    return ahead && behind ? VIEW_BOTH : ahead ? VIEW_AHEAD : VIEW_BEHIND;
+}
+
+bool problem_put_knot(const problem *p, chain_node *node, const wiggly_knot *knot, const wiggly_knot *pair)
+{
+    slope_row slope = {0};
+    if (knot->has_slope) slope = problem_slope(p, knot->sample, knot->slope, knot->stiffness);
+    bool settled = p->settles && knot->sample == p->latest;
+    unsigned fixed = pair ? NODE_FIXED_E : settled ? NODE_SETTLED : 0;
+    node->value = knot->value - problem_about(p, knot->sample);
+    node->e = pair ? (pair->value - problem_about(p, pair->sample)) - node->value : 0;
+    return put_node(node, knot->sample - p->first, fixed, view_of(p, knot->sample), slope.target, slope.weight);
 }
 
 /// Two keyed samples side by side are one node, whose e is known. true where only values differ from the nodes before.
@@ -41,20 +70,16 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
     chain_node *node = c->nodes;
     bool same = true;
     if (p->start == WIGGLY_REST) {
-        same = put_node(node, 0, NODE_AT_REST, 0, 0);
-        node->value = node->e = 0;
+        same = put_node(node, 0, problem_oscillates(p) ? NODE_FROM_REST : NODE_AT_REST, VIEW_AHEAD, 0, 0);
+        node->value = 0;
+        node->e = p->y && !p->about ? p->y[1] - p->level : 0;
         node++;
     }
     for (int n = 0; n < desc->knot_count; n++, node++) {
         const wiggly_knot *knot = &desc->knots[solver->order[n]];
         const wiggly_knot *next = n + 1 < desc->knot_count ? &desc->knots[solver->order[n + 1]] : NULL;
-        double y = problem_y(p, knot->sample);
         bool pair = next && next->sample == knot->sample + 1;
-        double slope = knot->has_slope ? desc->step * knot->slope : 0;
-        double weight = knot->has_slope ? fmin(knot->stiffness * desc->step, STIFFEST) : 0;
-        same = put_node(node, knot->sample - p->first, pair ? NODE_FIXED_E : 0, slope, weight) && same;
-        node->value = knot->value - y;
-        node->e = pair ? (next->value - y) - node->value : 0;
+        same = problem_put_knot(p, node, knot, pair ? next : NULL) && same;
         if (pair) n++;
     }
     int count = (int)(node - c->nodes);
@@ -80,24 +105,57 @@ static bool same_filter(const wiggly_solver *solver, const problem *p)
            same_cplx(f->delta2, c->delta2);
 }
 
-/// Sets filter and start, and forgets what was made for another.
+/// From rest the oscillator's jet at sample 0, which is d, counts twice.
+static start_cost start_of(const problem *p)
+{
+    if (p->start == WIGGLY_REST && problem_oscillates(p)) return (start_cost){{{.weight = 2, .on_e = {1, 0}}}};
+    return p->cost;
+}
+
+/// h times the speed as it is seen from a node with d = e − (λ−1) x; behind it is as ahead but for the jet between.
+static chain_speed speed_of(speed_form form, cplx lambda, double jet)
+{
+    cplx growth = {lambda.re - 1, lambda.im};
+    return (chain_speed){cplx_add(form.on_x, cplx_mul(form.on_e, growth)), form.on_e, cplx_scale(jet, form.on_e)};
+}
+
+static void set_speeds(chain *c, const problem *p, const constant_filter *f)
+{
+    bool oscillates = problem_oscillates(p);
+    speed_form form = {{0, 0}, {1, 0}};
+    if (oscillates) form = poles_speed(&f->at, p->desc->step, false);
+    c->speed[VIEW_AHEAD] = speed_of(form, f->lambda, 0);
+    c->speed[VIEW_BOTH] = speed_of(form, f->lambda, 0.5);
+    c->speed[VIEW_BEHIND] = speed_of(form, f->lambda, 1);
+    c->speed[VIEW_TAIL] = (chain_speed){.on_x = cplx_scale(p->desc->step, poles_passive(&f->at))};
+    cplx tail = problem_tail(p);
+    c->tail = cplx_sub((cplx){1 + tail.re, tail.im}, f->lambda);
+}
+
+/// Sets filter, start and end, and forgets what was made for others.
 static void set_chain(wiggly_solver *solver, const problem *p)
 {
     chain *c = &solver->chain;
     const constant_filter *f = solver_filter(solver, p->desc);
     if (!same_filter(solver, p)) chain_forget(c);
-    if (!same_start(p->cost, c->start)) c->kept = false;
+    start_cost start = start_of(p);
+    if (!same_start(start, c->start)) c->kept = false;
+    if (c->settles != p->settles || c->oscillates != problem_oscillates(p)) c->kept = false;
     c->is_complex = p->desc->mode == WIGGLY_COMPLEX;
     c->count = problem_rows(p);
-    c->start = p->cost;
+    c->start = start;
+    c->settles = p->settles;
+    c->oscillates = problem_oscillates(p);
     c->lambda = f->lambda;
     c->delta2 = f->delta2;
+    set_speeds(c, p, f);
 }
 
 bool problem_shares_chain(wiggly_solver *solver, const problem *p)
 {
     solver_filter(solver, p->desc);
-    return same_filter(solver, p) && same_start(p->cost, solver->chain.start);
+    return same_filter(solver, p) && same_start(start_of(p), solver->chain.start) &&
+           solver->chain.settles == p->settles && solver->chain.oscillates == problem_oscillates(p);
 }
 
 /// One knot without any hold has no single answer.
@@ -114,6 +172,13 @@ bool problem_join(wiggly_solver *solver, const problem *p)
     return true;
 }
 
+bool problem_ends_in_pair(const wiggly_solver *solver, const problem *p)
+{
+    int paired = 0, n = p->desc->knot_count - 1;
+    for (; n > 0 && p->desc->knots[solver->order[n]].sample == p->desc->knots[solver->order[n - 1]].sample + 1; n--) paired++;
+    return p->settles && paired % 2 == 1;
+}
+
 bool problem_make_chain(wiggly_solver *solver, const problem *p)
 {
     set_chain(solver, p);
@@ -125,6 +190,7 @@ bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, 
     chain *c = &solver->chain;
     bool same_nodes = problem_make_chain(solver, p);
     c->kept = c->kept && same_nodes;
-    if (!is_held(c)) return false;
-    return chain_solve(c, x_re, x_im);
+    if (!is_held(c) || !chain_solve(c, x_re, x_im)) return false;
+    problem_settle(p, x_re - p->first, x_im - p->first);
+    return true;
 }

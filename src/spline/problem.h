@@ -63,7 +63,11 @@ cplx problem_tail(const problem *p);
 /// c·H of the start, for the calm that the problem has now.
 void problem_set_start(wiggly_solver *solver, problem *p);
 
-/// w of all samples behind the latest knot, from w there.
+/// w of `count` samples of the tail, the first of them `from` ≥ 1 samples behind the latest knot, from w there; im outside complex mode
+/// is not written.
+void problem_fill_tail(const problem *p, cplx w, int from, int count, double *re, double *im);
+
+/// The same for all samples behind the latest knot; arrays of the whole spline.
 void problem_settle(const problem *p, double *re, double *im);
 
 /// Whether the document is one for the chain: constant parameters, a constant equilibrium, no seam.
@@ -72,6 +76,9 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p);
 /// Checks a description and applies the rules of the start; y receives the equilibrium where it moves, N numbers. What is wrong,
 /// or WIGGLY_OK.
 wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p);
+
+/// Writes what a knot says into a node, with the knot on the next sample where there is one; true where only values changed.
+bool problem_put_knot(const problem *p, chain_node *node, const wiggly_knot *knot, const wiggly_knot *pair);
 
 /// Puts filter, start and nodes into the solver's chain; true where the nodes differ from those before only in values.
 bool problem_make_chain(wiggly_solver *solver, const problem *p);
@@ -82,6 +89,9 @@ bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, 
 
 /// Poses a spline that might be solved in a group. false where it is one for wiggly_solve().
 bool problem_pose_for_group(wiggly_solver *solver, const wiggly_desc *desc, problem *p);
+
+/// Whether it settles behind a pair of knots side by side, which is one node: its last row is then another than its company's.
+bool problem_ends_in_pair(const wiggly_solver *solver, const problem *p);
 
 /// Whether the problem that was posed last has the filter and the start of the chain as it is.
 bool problem_shares_chain(wiggly_solver *solver, const problem *p);

@@ -198,25 +198,3 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     set_constraints(solver, p);
 }
 
-void problem_settle(const problem *p, double *re, double *im)
-{
-    const wiggly_desc *desc = p->desc;
-    bool constant = poles_are_constant(desc);
-    if (!p->settles) return;
-    if (desc->mode != WIGGLY_COMPLEX) {
-        for (int i = p->latest + 1; i < desc->samples; i++) re[i] = re[p->latest];
-        return;
-    }
-    poles here = poles_at(desc, p->latest, 0);
-    cplx s = poles_passive(&here), turn = cplx_exp(cplx_scale(desc->step, s)), w = {re[p->latest], im[p->latest]};
-    for (int i = p->latest; i + 1 < desc->samples; i++) {
-        if (!constant) {
-            poles at = poles_at(desc, i + 1, 0);
-            cplx next = poles_passive(&at);
-            turn = cplx_exp(cplx_scale(0.5 * desc->step, cplx_add(s, next)));
-            s = next;
-        }
-        w = cplx_mul(turn, w);
-        re[i + 1] = w.re, im[i + 1] = w.im;
-    }
-}

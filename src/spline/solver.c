@@ -10,7 +10,7 @@ enum {
     MATRIX_DOUBLES = 3 + 4 + 4 + 2 * BORDER_MAX,
     CHAIN_DOUBLES = 12,
     BYTES_PER_SAMPLE = (int)((MATRIX_DOUBLES + 2 + 2 + 2 + 4 + 4) * sizeof(double) + sizeof(coefficients) +
-                             sizeof(cplx) + 2 * sizeof(int) + sizeof(unsigned char)),
+                             sizeof(cplx) + 3 * sizeof(int) + sizeof(unsigned char)),
     BYTES_PER_KNOT =
         (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) + sizeof(int)),
 };
@@ -69,7 +69,8 @@ static void carve(wiggly_solver *solver)
     c->rows = take(&at, k * sizeof(chain_row));
     solver->order = take(&at, k * sizeof(int));
     solver->knot_at = take(&at, n * sizeof(int));
-    c->stretch_of = take(&at, n * sizeof(int));
+    c->stretch_of[0] = take(&at, n * sizeof(int));
+    c->stretch_of[1] = take(&at, n * sizeof(int));
     rows->fixed = take(&at, n);
     unsigned char *tables = (unsigned char *)m->diagonal;
     double **const columns[] = {&c->powers.p.re,   &c->powers.p.im,   &c->powers.q.re,  &c->powers.q.im,

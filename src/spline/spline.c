@@ -195,13 +195,15 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
 
 bool problem_pose_for_group(wiggly_solver *solver, const wiggly_desc *desc, problem *p)
 {
-    return problem_pose(solver, desc, solver->y, p) == WIGGLY_OK && !is_plain(p) && problem_fits_chain(solver, p);
+    return problem_pose(solver, desc, solver->y, p) == WIGGLY_OK && !is_plain(p) && problem_fits_chain(solver, p) &&
+           !problem_ends_in_pair(solver, p);
 }
 
 bool problem_finish(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     wiggly_curve all = with_arrays(solver, curve);
     if (!chain_fill(&solver->chain, all.re + p->first, all.im + p->first)) return false;
+    problem_settle(p, all.re, all.im);
     if (p->free_end && problem_blew_up(p, &solver->chain, &all)) return false;
     problem_complete(solver, p, &all);
     all.error = 0;

@@ -18,23 +18,22 @@ struct wiggly_take {
     wiggly_knot *knots;  ///< the description's
     int *node_of;        ///< node of each knot
     double *y, *re, *im; ///< equilibrium; scratch for a stretch
-    int first;
+    problem problem;     ///< as it was posed, with its knots as they are now
 };
 
 static wiggly_status build(wiggly_take *take)
 {
-    problem p;
     chain *c = &take->solver->chain;
-    wiggly_status status = problem_pose(take->solver, &take->desc, take->y, &p);
+    problem *p = &take->problem;
+    wiggly_status status = problem_pose(take->solver, &take->desc, take->y, p);
     if (status != WIGGLY_OK) return status;
-    if (!problem_fits_chain(take->solver, &p)) return WIGGLY_ERROR_ARGUMENT;
-    problem_make_chain(take->solver, &p);
+    if (!problem_fits_chain(take->solver, p)) return WIGGLY_ERROR_ARGUMENT;
+    problem_make_chain(take->solver, p);
     if (c->node_count < 2) return WIGGLY_ERROR_ARGUMENT;
-    take->first = p.first;
-    for (int k = 0, j = p.start == WIGGLY_REST; k < take->desc.knot_count; k++) {
+    for (int k = 0, j = p->start == WIGGLY_REST; k < take->desc.knot_count; k++) {
         take->node_of[k] = j;
         bool shares = k + 1 < take->desc.knot_count && take->knots[k + 1].sample == take->knots[k].sample + 1 &&
-                      c->nodes[j].sample == take->knots[k].sample - p.first;
+                      c->nodes[j].sample == take->knots[k].sample - p->first;
         if (!shares) j++;
     }
     chain_make_tables(c);
@@ -129,6 +128,7 @@ static bool renew_rows(wiggly_take *take, int j)
     part.rows = rows;
     part.node_count = to - from + 1;
     if (from > 0) part.start = (start_cost){0};
+    if (to + 1 < c->node_count) part.settles = false; // the end's form is not part of it
     chain_make_tables(&part);
     bool forgot = part.stretch_count < c->stretch_count;
     c->stretch_count = part.stretch_count;
@@ -163,16 +163,16 @@ static bool patch(wiggly_take *take, int index, wiggly_knot knot, wiggly_status 
     bool shared = has_company(take, index);
     take->knots[index] = knot;
     shared = shared || has_company(take, index);
-    bool moves_start = index == 0 && knot.sample != before.sample;
+    bool is_last = index == take->desc.knot_count - 1, moves_start = index == 0 && knot.sample != before.sample;
+    bool changes_end = is_last && knot.has_slope != before.has_slope;
     bool on_last = knot.has_slope && knot.sample == take->desc.samples - 1;
     int j = take->node_of[index], last = take->solver->chain.node_count - 1;
-    if (shared || moves_start || on_last) return false;
-    chain_node *node = &take->solver->chain.nodes[j];
-    double h = take->desc.step;
-    node->sample = knot.sample - take->first;
-    node->value = knot.value - take->desc.equilibrium.value;
-    node->slope = knot.has_slope ? h * knot.slope : 0;
-    node->slope_weight = knot.has_slope ? fmin(knot.stiffness * h, STIFFEST) : 0;
+    if (shared || moves_start || changes_end || (on_last && !problem_oscillates(&take->problem))) return false;
+    if (is_last) {
+        take->problem.latest = knot.sample;
+        take->solver->chain.count = problem_rows(&take->problem);
+    }
+    problem_put_knot(&take->problem, &take->solver->chain.nodes[j], &knot, NULL);
     if (!renew_rows(take, j)) return false;
     bool good = tree_update(&take->tree, j > 0 ? j - 1 : 0, j < last ? j + 1 : last);
     *status = good ? WIGGLY_OK : WIGGLY_SINGULAR;
@@ -212,11 +212,11 @@ typedef struct sink {
 static void pour(const wiggly_take *take, const sink *s, int at, int count, const double *re, const double *im)
 {
     int begin = at > s->from ? at : s->from, end = at + count < s->from + s->count ? at + count : s->from + s->count;
-    double y = take->desc.equilibrium.value;
+    const double *u_im = take->problem.swing.im;
     for (int i = begin; i < end; i++) {
-        double total = y + re[i - at];
+        double total = problem_about(&take->problem, i) + re[i - at];
         if (s->total) s->total[i - s->from] = total;
-        if (s->im) s->im[i - s->from] = im ? im[i - at] : 0;
+        if (s->im) s->im[i - s->from] = (im ? im[i - at] : 0) + (u_im ? u_im[i] : 0);
         if (!s->columns) continue;
         int column = (int)((long long)(i - s->from) * s->columns / s->count);
         s->low[column] = fmin(s->low[column], total);
@@ -239,10 +239,27 @@ static int node_before(const chain *c, int sample)
     return low;
 }
 
+/// Samples of the system from the last node to `to`: free, or as the tail has them.
+static void look_behind(wiggly_take *take, const sink *s, int to)
+{
+    const chain *c = &take->solver->chain;
+    const chain_node *end = &c->nodes[c->node_count - 1];
+    double *re = take->re, *im = c->is_complex ? take->im : NULL;
+    int first = take->problem.first, count = to - end->sample + 1, own = c->count - end->sample;
+    chain_run_free(c, end, count < own ? count : own, re, im);
+    pour(take, s, first + end->sample, count < own ? count : own, re, im);
+    if (count <= own) return;
+    const problem *p = &take->problem;
+    const cplx w = {re[own - 1], im ? im[own - 1] : 0};
+    int begin = s->from > p->latest ? s->from : p->latest + 1, rest = s->from + s->count - begin;
+    problem_fill_tail(p, w, begin - p->latest, rest, re, im);
+    pour(take, s, begin, rest, re, im);
+}
+
 static wiggly_status look(wiggly_take *take, const sink *s)
 {
     chain *c = &take->solver->chain;
-    int from = s->from - take->first, to = from + s->count - 1; // of the system
+    int from = s->from - take->problem.first, to = from + s->count - 1; // of the system
     int p = node_before(c, from), q = node_before(c, to), last = c->node_count - 1;
     q = q < last ? q + 1 : last;
     chain part = *c;
@@ -251,19 +268,14 @@ static wiggly_status look(wiggly_take *take, const sink *s)
     chain_reset_nodes(&part);
     if (!tree_solve(&take->tree, p, q)) return WIGGLY_SINGULAR;
     double *im = c->is_complex ? take->im : NULL;
-    for (int i = s->from; i < take->first && i < s->from + s->count; i++)
+    for (int i = s->from; i < take->problem.first && i < s->from + s->count; i++)
         pour(take, s, i, 1, &c->nodes[0].value, &c->nodes[0].x_im);
     for (int j = p; j < q; j++) {
         const chain_node *node = &c->nodes[j];
         chain_fill_stretch(c, node, node + 1, take->re, im);
-        pour(take, s, take->first + node->sample, node[1].sample - node->sample, take->re, im);
+        pour(take, s, take->problem.first + node->sample, node[1].sample - node->sample, take->re, im);
     }
-    const chain_node *end = &c->nodes[last];
-    if (q == last && to >= end->sample) {
-        int count = to - end->sample + 1;
-        chain_run_free(c, end, count, take->re, im);
-        pour(take, s, take->first + end->sample, count, take->re, im);
-    }
+    if (q == last && to >= c->nodes[last].sample) look_behind(take, s, to);
     return take->tree.elements[take->tree.levels - 1][0].weak ? WIGGLY_INEXACT : WIGGLY_OK;
 }
 

@@ -1,0 +1,66 @@
+/// What moves by itself behind the last knot: w_{i+1} = e^{ph} w_i, p = −ζω_n + jω_n√(1−ζ²); a cubic's total is held.
+#include "spline/problem.h"
+#include "spline/wide.h"
+
+enum { RUN = 64 }; ///< samples that are filled from one power
+
+/// h p of an interval from a sample on, the mean of its ends'; constant parameters have one.
+static cplx exponent_at(const problem *p, int sample)
+{
+    poles here = poles_at(p->desc, sample, 0), next = poles_at(p->desc, sample + 1, 0);
+    return cplx_scale(0.5 * p->desc->step, cplx_add(poles_passive(&here), poles_passive(&next)));
+}
+
+WIDEST static void scale_powers(const double *restrict power_re, const double *restrict power_im, cplx w, int count,
+                                double *restrict re, double *restrict im)
+{
+    for (int i = 0; i < count; i++) {
+        re[i] = power_re[i] * w.re - power_im[i] * w.im;
+        im[i] = power_re[i] * w.im + power_im[i] * w.re;
+    }
+}
+
+/// Every run of samples by itself, counted from the knot: what is filled does not depend on where one begins to look.
+static void fill_constant(const problem *p, cplx w, int from, int count, double *re, double *im)
+{
+    double power_re[RUN], power_im[RUN];
+    poles at = poles_at(p->desc, p->latest, 0);
+    cplx exponent = cplx_scale(p->desc->step, poles_passive(&at)), turn = cplx_exp(exponent), power = {1, 0};
+    for (int i = 0; i < RUN; i++) {
+        power_re[i] = power.re, power_im[i] = power.im;
+        power = cplx_mul(power, turn);
+    }
+    for (int i = 0; i < count;) {
+        int run = (from + i) / RUN, begin = (from + i) % RUN, rest = RUN - begin;
+        int n = rest < count - i ? rest : count - i;
+        cplx base = cplx_mul(cplx_exp(cplx_scale(run * (double)RUN, exponent)), w);
+        scale_powers(power_re + begin, power_im + begin, base, n, re + i, im + i);
+        i += n;
+    }
+}
+
+static void fill_varying(const problem *p, cplx w, int from, int count, double *re, double *im)
+{
+    for (int k = 1; k < from + count; k++) {
+        w = cplx_mul(cplx_exp(exponent_at(p, p->latest + k - 1)), w);
+        if (k >= from) re[k - from] = w.re, im[k - from] = w.im;
+    }
+}
+
+void problem_fill_tail(const problem *p, cplx w, int from, int count, double *re, double *im)
+{
+    if (p->desc->mode != WIGGLY_COMPLEX) {
+        for (int i = 0; i < count; i++) re[i] = w.re;
+    } else if (poles_are_constant(p->desc)) {
+        fill_constant(p, w, from, count, re, im);
+    } else {
+        fill_varying(p, w, from, count, re, im);
+    }
+}
+
+void problem_settle(const problem *p, double *re, double *im)
+{
+    int after = p->latest + 1, count = p->desc->samples - after;
+    if (!p->settles || count < 1) return;
+    problem_fill_tail(p, (cplx){re[p->latest], im[p->latest]}, 1, count, re + after, im + after);
+}
