@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MAX = 40, PROBLEMS = 1000 };
+enum { MAX = 40 };
 
 static double uniform(uint64_t *seed)
 {
@@ -73,7 +73,9 @@ static void make_poles(struct problem *p, uint64_t *seed)
 {
     wiggly_desc *d = &p->desc;
     double t = (d->samples - 1) * d->step;
-    double f = fmin(some_periods(seed) / t, 1 / d->step), other = fmin(some_periods(seed) / t, 1 / d->step);
+    // Where both poles alias to the same λ, the oscillator's speeds are infinite.
+    double most = (d->passive == WIGGLY_FILTER ? 0.9 : 0.45) / d->step;
+    double f = fmin(some_periods(seed) / t, most), other = fmin(some_periods(seed) / t, most);
     if (d->mode == WIGGLY_REAL && pick(seed, 4) == 0) {
         double k = 39.5 * f * f, friction = between(seed, 0, 8);
         d->spring_friction = true;
@@ -139,8 +141,8 @@ static double size_of(const struct answer *a, int n)
     return fmax(high - low, fmax(fabs(low), fabs(high)));
 }
 
-/// The largest difference in any column, relative to the larger of the total's range and magnitude; the last digits of the parts that the
-/// total is the sum of do not count.
+/// The largest difference in any column, relative to the larger of the total's range and magnitude. What it is the sum of (equilibrium
+/// and displacement) has last digits too: they do not count, and a total that is nearly nothing is measured against a millionth of them.
 static double error_of(const struct answer *a, const struct answer *exact, int n)
 {
     double worst = 0, parts = 0;
@@ -150,13 +152,13 @@ static double error_of(const struct answer *a, const struct answer *exact, int n
         if (!(off <= worst)) worst = off;
         parts = fmax(parts, fmax(fabs(exact->re[i]), fabs(exact->total[i] - exact->re[i])));
     }
-    return worst <= 0x1p-50 * parts ? 0 : worst / size_of(exact, n);
+    return worst <= 0x1p-46 * parts ? 0 : worst / fmax(size_of(exact, n), 1e-6 * parts);
 }
 
 static struct textbook book;
 
 /// How much more the curve changes, relatively, than the numbers that it is made of: the rounding of the poles alone costs any solver in
-/// doubles as much times 1e-16.
+/// doubles some 1e-16 of it.
 static double condition_of(const struct problem *p, wiggly_status status, const struct answer *exact)
 {
     const double change = 1e-12;
@@ -217,9 +219,9 @@ static const char *find_fault(const struct problem *p, wiggly_solver *solver, st
     if (*said != v->status && !(*said == WIGGLY_INEXACT && v->status == WIGGLY_OK)) return "the wrong status";
     *error = error_of(&got, &v->exact, p->desc.samples);
     if (!(curve.error >= 0)) return "an estimate that is no number";
-    if (*said == WIGGLY_OK && !(*error <= tolerance(&p->desc))) return "OK, and off";
     v->condition = *said == WIGGLY_INEXACT || *error > 1e-12 ? condition_of(p, v->status, &v->exact) : 1;
-    if (!(*error <= 10 * fmax(curve.error, fmax(1e-13, 1e-16 * v->condition))))
+    if (*said == WIGGLY_OK && !(*error <= tolerance(&p->desc))) return "OK, and off";
+    if (!(*error <= 10 * fmax(curve.error, fmax(1e-12, 1e-15 * v->condition))))
         return "an estimate far below the error";
     if (*said == WIGGLY_INEXACT && !(curve.error > tolerance(&p->desc))) return "INEXACT by no estimate";
     if (*said == WIGGLY_INEXACT && v->condition < 1e5 && v->pivot > 1e-9) return "INEXACT, and easy";
@@ -270,42 +272,50 @@ static bool stands(const struct problem *p, wiggly_solver *solver, const char *n
     return false;
 }
 
-static void try_many(wiggly_solver *solver, wiggly_passive passive)
+typedef void maker(struct problem *p, uint64_t seed, wiggly_passive passive);
+
+static void try_many(wiggly_solver *solver, maker *make, wiggly_passive passive, int problems)
 {
     int faults = 0;
-    for (uint64_t seed = 0; seed < PROBLEMS; seed++) {
+    for (int seed = 0; seed < problems; seed++) {
         struct problem p;
         char name[40];
-        make_problem(&p, seed, passive);
-        snprintf(name, sizeof name, "seed %d", (int)seed);
+        make(&p, (uint64_t)seed, passive);
+        snprintf(name, sizeof name, "seed %d", seed);
         faults += !stands(&p, solver, name);
     }
-    if (faults) fail_msg("%d of %d problems", faults, PROBLEMS);
+    if (faults) fail_msg("%d of %d problems", faults, problems);
 }
 
-static void filters(void **state) { try_many(*state, WIGGLY_FILTER); }
+static void filters(void **state) { try_many(*state, make_problem, WIGGLY_FILTER, 1000); }
 
-static void oscillators(void **state) { try_many(*state, WIGGLY_OSCILLATOR); }
+static void oscillators(void **state) { try_many(*state, make_problem, WIGGLY_OSCILLATOR, 1000); }
 
 /// Nothing but the knots holds Im x, and they are next to each other.
+static void make_adjacent(struct problem *p, uint64_t seed, wiggly_passive passive)
+{
+    memset(p, 0, sizeof *p);
+    for (int i = 0; i < 8; i++) uniform(&seed);
+    wiggly_desc *d = &p->desc;
+    *d = wiggly_default_desc();
+    d->samples = 6 + pick(&seed, MAX - 5);
+    d->passive = passive;
+    d->calm = 0;
+    d->start = pick(&seed, 2) ? WIGGLY_REST : WIGGLY_FREE;
+    d->bandwidth.value = 0;
+    d->frequency.value = fmin(pow(10, between(&seed, -2, 1.2)) / (d->samples * d->step), 0.45 / d->step);
+    d->damping.value = some_damping(&seed);
+    d->knots = p->knots;
+    int first = 2 + pick(&seed, d->samples - 5);
+    for (int k = 0; k < 3; k++) {
+        p->knots[d->knot_count++] = (wiggly_knot){.sample = first + k, .value = between(&seed, -1, 1)};
+    }
+}
+
 static void three_adjacent_knots_without_bandwidth(void **state)
 {
-    struct problem p = {
-        .desc = wiggly_default_desc(),
-        .knots = {{.sample = 10, .value = 0.3}, {.sample = 11, .value = 1}, {.sample = 12, .value = -0.5}}};
-    p.desc.samples = MAX;
-    p.desc.calm = 0;
-    p.desc.frequency.value = 1;
-    p.desc.bandwidth.value = 0;
-    p.desc.knots = p.knots;
-    p.desc.knot_count = 3;
-    bool all = true;
-    for (int i = 0; i < 8; i++) {
-        p.desc.passive = i % 2 ? WIGGLY_FILTER : WIGGLY_OSCILLATOR;
-        p.desc.damping.value = (double[]){0, 0.05, 0.1, 0.5}[i / 2];
-        all = stands(&p, *state, "three adjacent knots") && all;
-    }
-    assert_true(all);
+    try_many(*state, make_adjacent, WIGGLY_FILTER, 300);
+    try_many(*state, make_adjacent, WIGGLY_OSCILLATOR, 300);
 }
 
 static void nothing_at_all_is_exact(void **state)
