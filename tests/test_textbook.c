@@ -150,8 +150,76 @@ static void the_textbook_meets_every_vector(void **state)
     assert_true(checked >= 60);
 }
 
+/// Reads one problem and its answer; false at the end of the file.
+static bool read_problem(FILE *file, wiggly_desc *desc, double tracks[4][TEXTBOOK_MAX], wiggly_knot *knots,
+                         double expected[][3])
+{
+    int mode, start, passive, spring_friction, has_slope;
+    double fps;
+    *desc = wiggly_default_desc();
+    if (fscanf(file, "%d %lf %d %d %d %lf %d %d", &desc->samples, &fps, &mode, &start, &passive, &desc->calm,
+               &spring_friction, &desc->knot_count) != 8)
+        return false;
+    assert_true(desc->samples <= TEXTBOOK_MAX && desc->knot_count <= MAX_KNOTS);
+    desc->step = 1 / fps;
+    desc->mode = (wiggly_mode)mode;
+    desc->start = (wiggly_start)start;
+    desc->passive = (wiggly_passive)passive;
+    desc->spring_friction = spring_friction;
+    desc->knots = knots;
+    wiggly_param *spring[] = {&desc->spring, &desc->friction, &desc->equilibrium},
+                 *ratios[] = {&desc->frequency, &desc->damping, &desc->bandwidth, &desc->equilibrium};
+    for (int p = 0; p < (spring_friction ? 3 : 4); p++) {
+        wiggly_param *param = spring_friction ? spring[p] : ratios[p];
+        int varies;
+        assert_int_equal(fscanf(file, "%*s %d", &varies), 1);
+        for (int i = 0; i < (varies ? desc->samples : 1); i++)
+            assert_int_equal(fscanf(file, "%lf", &tracks[p][i]), 1);
+        *param = (wiggly_param){tracks[p][0], varies ? tracks[p] : NULL};
+    }
+    for (wiggly_knot *k = knots; k < knots + desc->knot_count; k++) {
+        assert_int_equal(
+            fscanf(file, " knot %d %lf %d %lf %lf", &k->sample, &k->value, &has_slope, &k->slope, &k->stiffness), 5);
+        k->has_slope = has_slope;
+    }
+    for (int i = 0; i < desc->samples; i++) {
+        assert_int_equal(fscanf(file, "%lf %lf %lf", &expected[i][0], &expected[i][1], &expected[i][2]), 3);
+    }
+    return true;
+}
+
+/// tests/textbook/small.txt: what the vectors lack. A problem is a line of samples, rate, mode, start, passive, calm, whether spring and
+/// friction, and knots; its parameters (0: a number, 1: a track); its knots (sample, value, whether a slope, slope, stiffness); and total,
+/// Re x, Im x of every sample in 60-digit arithmetic.
+static void the_textbook_meets_every_small_problem(void **state)
+{
+    (void)state;
+    static struct textbook book;
+    static double tracks[4][TEXTBOOK_MAX], expected[TEXTBOOK_MAX][3];
+    double total[TEXTBOOK_MAX], re[TEXTBOOK_MAX], im[TEXTBOOK_MAX];
+    wiggly_knot knots[MAX_KNOTS];
+    wiggly_desc desc;
+    int problems = 0;
+    FILE *file = fopen("tests/textbook/small.txt", "r");
+    assert_non_null(file);
+    for (; read_problem(file, &desc, tracks, knots, expected); problems++) {
+        if (!textbook_as(&desc, WIGGLY_OK, &book, total, re, im)) fail_msg("problem %d: singular", problems);
+        for (int i = 0; i < desc.samples; i++) {
+            double size = 1 + fabs(expected[i][1]) + fabs(expected[i][2]);
+            double off = fmax(fabs(total[i] - expected[i][0]), fabs(re[i] - expected[i][1]));
+            if (!(fmax(off, fabs(im[i] - expected[i][2])) <= 1e-12 * size))
+                fail_msg("problem %d, sample %d: %g %g %g", problems, i, total[i], re[i], im[i]);
+        }
+    }
+    fclose(file);
+    assert_true(problems >= 24);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_textbook_meets_every_vector)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_textbook_meets_every_vector),
+        cmocka_unit_test(the_textbook_meets_every_small_problem),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
