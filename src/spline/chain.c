@@ -45,50 +45,74 @@ static cplx slope_pull(const chain *c, const chain_stretch *s, const chain_node 
     return cplx_scale(weight * (seen.re - q->slope), cplx_conj(speed->on_r));
 }
 
-static bool fill_real(const chain *c, const chain_node *p, const chain_node *q, double *re)
+/// What the columns of a stretch are weighted with; false where sums might overflow.
+static bool weigh_real(const chain *c, const chain_node *p, const chain_node *q, double weight[4])
 {
     const chain_stretch *s = &c->stretches[p->stretch];
     const double *f = s->form;
-    double weight[4] = {
-        p->value,
-        p->d_re,
-        f[FORM_V00] * q->value + f[FORM_V01] * q->d_re - (f[FORM_C00] * p->value + f[FORM_C01] * p->d_re),
-        f[FORM_V01] * q->value + f[FORM_V11] * q->d_re - (f[FORM_C10] * p->value + f[FORM_C11] * p->d_re),
-    };
+    weight[0] = p->value;
+    weight[1] = p->d_re;
+    weight[2] = f[FORM_V00] * q->value + f[FORM_V01] * q->d_re - (f[FORM_C00] * p->value + f[FORM_C01] * p->d_re);
+    weight[3] = f[FORM_V01] * q->value + f[FORM_V11] * q->d_re - (f[FORM_C10] * p->value + f[FORM_C11] * p->d_re);
     if (q->slope_weight > 0) {
         double eta = slope_pull(c, s, q, (cplx){weight[3], 0}).re;
         weight[2] -= f[FORM_V01] * eta, weight[3] -= f[FORM_V11] * eta;
     }
-    chain_fill_real(c, s, weight, re);
     return is_tame_real(fabs(weight[0]) + fabs(weight[1]) + fabs(weight[2]) + fabs(weight[3]));
 }
 
-static bool fill_complex(const chain *c, const chain_node *p, const chain_node *q, double *re, double *im)
+static bool weigh_complex(const chain *c, const chain_node *p, const chain_node *q, cplx weight[4])
 {
     const chain_stretch *s = &c->stretches[p->stretch];
     cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, dq = {q->d_re, q->d_im};
     cplx v01 = chain_entry(s, FORM_V01), c00 = chain_entry(s, FORM_C00), c01 = chain_entry(s, FORM_C01),
          c10 = chain_entry(s, FORM_C10), c11 = chain_entry(s, FORM_C11);
-    cplx weight[4] = {
-        xp,
-        dp,
-        cplx_sub(cplx_add(cplx_scale(s->form[FORM_V00], xq), cplx_mul(v01, dq)),
-                 cplx_add(cplx_mul(c00, xp), cplx_mul(c01, dp))),
-        cplx_sub(cplx_add(cplx_mul(cplx_conj(v01), xq), cplx_scale(s->form[FORM_V11], dq)),
-                 cplx_add(cplx_mul(c10, xp), cplx_mul(c11, dp))),
-    };
+    weight[0] = xp;
+    weight[1] = dp;
+    weight[2] = cplx_sub(cplx_add(cplx_scale(s->form[FORM_V00], xq), cplx_mul(v01, dq)),
+                         cplx_add(cplx_mul(c00, xp), cplx_mul(c01, dp)));
+    weight[3] = cplx_sub(cplx_add(cplx_mul(cplx_conj(v01), xq), cplx_scale(s->form[FORM_V11], dq)),
+                         cplx_add(cplx_mul(c10, xp), cplx_mul(c11, dp)));
     if (q->slope_weight > 0) {
         cplx eta = slope_pull(c, s, q, weight[3]);
         weight[2] = cplx_sub(weight[2], cplx_mul(v01, eta));
         weight[3] = cplx_sub(weight[3], cplx_scale(s->form[FORM_V11], eta));
     }
-    chain_fill_complex(c, s, weight, re, im);
     return is_tame(weight[0]) && is_tame(weight[1]) && is_tame(weight[2]) && is_tame(weight[3]);
+}
+
+int chain_length_after(const chain *c, int j)
+{
+    int ahead = j + 1 < c->node_count ? c->nodes[j + 1].sample : c->count;
+    return ahead - c->nodes[j].sample;
+}
+
+/// Samples of a loop are counted from its first node on: what reaches beyond the end goes on at sample 0.
+static int part_before_seam(const chain *c, const chain_node *p, int length, int *at)
+{
+    *at = p->sample + c->turned;
+    if (c->cyclic && *at >= c->count) *at -= c->count;
+    return c->cyclic && *at + length > c->count ? c->count - *at : length;
 }
 
 bool chain_fill_stretch(const chain *c, const chain_node *p, const chain_node *q, double *re, double *im)
 {
-    return c->is_complex ? fill_complex(c, p, q, re, im) : fill_real(c, p, q, re);
+    const chain_stretch *s = &c->stretches[p->stretch];
+    const int n = s->length;
+    int at;
+    const int part = part_before_seam(c, p, n, &at);
+    if (c->is_complex) {
+        cplx weight[4];
+        bool tame = weigh_complex(c, p, q, weight);
+        chain_fill_complex(c, s, weight, 0, part, re + at, im + at);
+        chain_fill_complex(c, s, weight, part, n - part, re, im);
+        return tame;
+    }
+    double weight[4];
+    bool tame = weigh_real(c, p, q, weight);
+    chain_fill_real(c, s, weight, 0, part, re + at);
+    chain_fill_real(c, s, weight, part, n - part, re);
+    return tame;
 }
 
 bool chain_run_free(const chain *c, const chain_node *last, int count, double *re, double *im)
@@ -172,10 +196,10 @@ void chain_reset_nodes(chain *c)
 
 /// What |x| of a cubic stays below from one node to the next: there, L samples apart, x is a cubic polynomial, its ends' line and
 /// r with r(0) = r(L) = 0, and |r| ≤ L (|u| + |v|) where u, v are the differences at the ends less the line's.
-static double bound_of_piece(const chain_node *from, const chain_node *to)
+static double bound_of_piece(const chain_node *from, const chain_node *to, int length)
 {
     return 5 * (fabs(from->value) + fabs(to->value)) +
-           (to->sample - from->sample) * (fabs(from->d_re) + fabs(to->d_re));
+           length * (fabs(from->d_re) + fabs(to->d_re));
 }
 
 bool chain_fill(chain *c, double *x_re, double *x_im)
@@ -184,11 +208,13 @@ bool chain_fill(chain *c, double *x_re, double *x_im)
     double *im = c->is_complex ? x_im : NULL;
     bool tame = true;
     c->cubic_bound = fabs(last->value) + (c->count - last->sample) * fabs(last->d_re);
-    for (const chain_node *p = c->nodes; p < last; p++) {
-        double piece = bound_of_piece(p, p + 1);
+    for (int j = 0; j < chain_stretches(c); j++) {
+        const chain_node *p = &c->nodes[j], *q = &c->nodes[chain_next(c, j)];
+        double piece = bound_of_piece(p, q, chain_length_after(c, j));
         c->cubic_bound = piece > c->cubic_bound ? piece : c->cubic_bound;
-        tame = chain_fill_stretch(c, p, p + 1, x_re + p->sample, im ? im + p->sample : NULL) && tame;
+        tame = chain_fill_stretch(c, p, q, x_re, im) && tame;
     }
+    if (c->cyclic) return tame;
     im = im ? im + last->sample : NULL;
     return chain_run_free(c, last, c->count - last->sample, x_re + last->sample, im) && tame;
 }

@@ -89,7 +89,9 @@ typedef enum chain_rank {
 
 typedef struct chain {
     bool is_complex;
-    int count;           ///< samples of the system
+    bool cyclic;         ///< a loop: behind the last node comes the first one again
+    int count;           ///< samples of the system; a loop's are counted from its first node on
+    int turned;          ///< a loop's: sample of its first node
     cplx lambda, delta2; ///< mean of the poles, square of half their difference
     start_cost start;    ///< times calm; on the first node
     chain_speed speed[VIEW_COUNT];
@@ -107,6 +109,7 @@ typedef struct chain {
     chain_node *nodes;
     int node_count;
     chain_row *rows;
+    double *to_first; ///< a loop's: of each node's row but the first, the inverse of its pivot times its coupling to the first, 3×3 or 1
     bool kept; ///< tables and factor are those of the nodes' samples, fixed and slope_weight, and of everything above
     chain_rank rank;    ///< of the factor
     double error;       ///< estimated error of x, where the nodes' system had to be refined
@@ -175,16 +178,23 @@ void chain_pull_known(chain *chain);
 void chain_gradient(chain *chain);
 /// Adds unknowns (Im x, Re d, Im d; or d alone) to a node; returns their size.
 double chain_add_to_node(const chain *chain, chain_node *node, const double *solved);
-/// x from node p to before node q, and `count` samples from the last node on; `re` and `im` (NULL outside complex mode) begin at the
-/// node. false where sums might overflow.
+/// Samples of the stretch after node j, and the node at its end.
+int chain_length_after(const chain *chain, int j);
+static inline int chain_next(const chain *c, int j) { return j + 1 < c->node_count ? j + 1 : 0; }
+/// How many stretches there are: one less than nodes, in a loop as many.
+static inline int chain_stretches(const chain *c) { return c->cyclic ? c->node_count : c->node_count - 1; }
+/// x from node p to before node q, into arrays (im NULL outside complex mode) that begin at the system's first sample. false where sums
+/// might overflow.
 bool chain_fill_stretch(const chain *chain, const chain_node *p, const chain_node *q, double *re, double *im);
+/// x of `count` samples from the last node on, where the arrays begin.
 bool chain_run_free(const chain *chain, const chain_node *last, int count, double *re, double *im);
 
-/// x inside a stretch, from its first sample: four columns of the tables, weighted with the state (x, d) that it starts from and
+/// x of `count` samples inside a stretch from its sample `from` on: four columns of the tables, weighted with the state (x, d) that it starts from and
 /// the costate ν of where it ends. Chosen for the processor's vector width at run time.
-void chain_fill_complex(const chain *chain, const chain_stretch *stretch, const cplx weight[4], double *restrict re,
-                        double *restrict im);
-void chain_fill_real(const chain *chain, const chain_stretch *stretch, const double weight[4], double *restrict re);
+void chain_fill_complex(const chain *chain, const chain_stretch *stretch, const cplx weight[4], int from, int count,
+                        double *restrict re, double *restrict im);
+void chain_fill_real(const chain *chain, const chain_stretch *stretch, const double weight[4], int from, int count,
+                     double *restrict re);
 
 /// x of `count` samples from the state (x, d) on where nothing pulls.
 void chain_fill_free_complex(const chain *chain, int count, cplx x, cplx d, double *restrict re, double *restrict im);

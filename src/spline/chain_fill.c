@@ -2,16 +2,16 @@
 #include "spline/chain.h"
 #include "spline/wide.h"
 
-WIDEST void chain_fill_complex(const chain *c, const chain_stretch *s, const cplx weight[4], double *restrict re,
-                               double *restrict im)
+WIDEST void chain_fill_complex(const chain *c, const chain_stretch *s, const cplx weight[4], int from, int count,
+                               double *restrict re, double *restrict im)
 {
-    const double *restrict f0r = c->powers.p.re, *restrict f0i = c->powers.p.im;
-    const double *restrict f1r = c->powers.q.re, *restrict f1i = c->powers.q.im;
-    const double *restrict g0r = c->forced[0].re + s->first, *restrict g0i = c->forced[0].im + s->first;
-    const double *restrict g1r = c->forced[1].re + s->first, *restrict g1i = c->forced[1].im + s->first;
+    const int first = s->first + from;
+    const double *restrict f0r = c->powers.p.re + from, *restrict f0i = c->powers.p.im + from;
+    const double *restrict f1r = c->powers.q.re + from, *restrict f1i = c->powers.q.im + from;
+    const double *restrict g0r = c->forced[0].re + first, *restrict g0i = c->forced[0].im + first;
+    const double *restrict g1r = c->forced[1].re + first, *restrict g1i = c->forced[1].im + first;
     const cplx a = weight[0], b = weight[1], d = weight[2], e = weight[3];
-    const int n = s->length;
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < count; i++) {
         re[i] = ((f0r[i] * a.re - f0i[i] * a.im) + (f1r[i] * b.re - f1i[i] * b.im)) +
                 ((g0r[i] * d.re - g0i[i] * d.im) + (g1r[i] * e.re - g1i[i] * e.im));
         im[i] = ((f0r[i] * a.im + f0i[i] * a.re) + (f1r[i] * b.im + f1i[i] * b.re)) +
@@ -19,13 +19,14 @@ WIDEST void chain_fill_complex(const chain *c, const chain_stretch *s, const cpl
     }
 }
 
-WIDEST void chain_fill_real(const chain *c, const chain_stretch *s, const double weight[4], double *restrict re)
+WIDEST void chain_fill_real(const chain *c, const chain_stretch *s, const double weight[4], int from, int count,
+                            double *restrict re)
 {
-    const double *restrict f0 = c->powers.p.re, *restrict f1 = c->powers.q.re;
-    const double *restrict g0 = c->forced[0].re + s->first, *restrict g1 = c->forced[1].re + s->first;
+    const int first = s->first + from;
+    const double *restrict f0 = c->powers.p.re + from, *restrict f1 = c->powers.q.re + from;
+    const double *restrict g0 = c->forced[0].re + first, *restrict g1 = c->forced[1].re + first;
     const double a = weight[0], b = weight[1], d = weight[2], e = weight[3];
-    const int n = s->length;
-    for (int i = 0; i < n; i++) re[i] = (f0[i] * a + f1[i] * b) + (g0[i] * d + g1[i] * e);
+    for (int i = 0; i < count; i++) re[i] = (f0[i] * a + f1[i] * b) + (g0[i] * d + g1[i] * e);
 }
 
 WIDEST void chain_fill_free_complex(const chain *c, int count, cplx x, cplx d, double *restrict re,

@@ -34,7 +34,8 @@ static void pull(const chain *c, int j, cplx on_x, cplx on_d)
 /// What the stretch from node j pulls, and the slope at its end, whose jet is the costate's second part.
 static void pull_stretch(const chain *c, int j)
 {
-    const chain_node *p = &c->nodes[j], *q = p + 1;
+    const int next = chain_next(c, j);
+    const chain_node *p = &c->nodes[j], *q = &c->nodes[next];
     const chain_stretch *s = &c->stretches[p->stretch];
     const chain_powers *t = &c->powers;
     cplx f00 = chain_power(c, &t->p, s->length), f01 = chain_power(c, &t->q, s->length);
@@ -52,12 +53,12 @@ static void pull_stretch(const chain *c, int j)
                              cplx_mul(speed->on_d, (cplx){q->d_re, q->d_im}));
         seen = cplx_sub(seen, cplx_mul(speed->on_r, n1));
         double pulled = -chain_slope_weight(q->slope_weight, speed, v11) * (seen.re - q->slope);
-        pull(c, j + 1, cplx_scale(pulled, cplx_conj(speed->on_x)), cplx_scale(pulled, cplx_conj(speed->on_d)));
+        pull(c, next, cplx_scale(pulled, cplx_conj(speed->on_x)), cplx_scale(pulled, cplx_conj(speed->on_d)));
         cplx eta = cplx_scale(-pulled, cplx_conj(speed->on_r)); // ν − V B η
         n0 = cplx_sub(n0, cplx_mul(v01, eta));
         n1 = cplx_sub(n1, cplx_scale(v11, eta));
     }
-    pull(c, j + 1, cplx_scale(-1, n0), cplx_scale(-1, n1));
+    pull(c, next, cplx_scale(-1, n0), cplx_scale(-1, n1));
     pull(c, j, cplx_add(cplx_mul(cplx_conj(f00), n0), cplx_mul(cplx_conj(f10), n1)),
          cplx_add(cplx_mul(cplx_conj(f01), n0), cplx_mul(cplx_conj(f11), n1)));
 }
@@ -114,11 +115,13 @@ static void hold_known(const chain *c, int j)
 void chain_gradient(chain *c)
 {
     for (int j = 0; j < c->node_count; j++) c->rows[j].right[0] = c->rows[j].right[1] = c->rows[j].right[2] = 0;
-    pull_start(c);
-    if (c->nodes[0].slope_weight > 0) pull_first_slope(c);
-    for (int j = 0; j + 1 < c->node_count; j++) pull_stretch(c, j);
-    const state_form end = chain_end_form(c);
-    pull_form(c, c->node_count - 1, &end);
+    for (int j = 0; j < chain_stretches(c); j++) pull_stretch(c, j);
+    if (!c->cyclic) {
+        const state_form end = chain_end_form(c);
+        pull_start(c);
+        if (c->nodes[0].slope_weight > 0) pull_first_slope(c);
+        pull_form(c, c->node_count - 1, &end);
+    }
     for (int j = 0; j < c->node_count; j++) {
         if (c->nodes[j].fixed) hold_known(c, j);
     }

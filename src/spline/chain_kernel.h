@@ -241,6 +241,40 @@ static inline lane kernel_enter_pull_one(const lane *f, const kernel_node *p, co
     return f[FORM_C10] * p->x + f[FORM_C11] * p->d - (f[FORM_V01] * q->x + f[FORM_V11] * q->d);
 }
 
+/// g = P F for a symmetric P.
+static inline void kernel_times(lane *g, const lane *p, const lane *f)
+{
+    for (int v = 0; v < 3; v++) {
+        lane a = f[v], b = f[3 + v], c = f[6 + v];
+        g[v] = p[0] * a + p[1] * b + p[2] * c;
+        g[3 + v] = p[1] * a + p[3] * b + p[4] * c;
+        g[6 + v] = p[2] * a + p[4] * b + p[5] * c;
+    }
+}
+
+/// d −= F* G, of which the upper triangle is kept.
+static inline void kernel_subtract_square(lane *d, const lane *f, const lane *g)
+{
+    for (int r = 0, i = 0; r < 3; r++) {
+        for (int c = r; c < 3; c++, i++) d[i] -= f[r] * g[c] + f[3 + r] * g[3 + c] + f[6 + r] * g[6 + c];
+    }
+}
+
+/// f ← −L f.
+static inline void kernel_fill_down(lane *f, const lane *l)
+{
+    for (int v = 0; v < 3; v++) {
+        lane a = f[v], b = f[3 + v], c = f[6 + v];
+        for (int r = 0; r < 3; r++) f[3 * r + v] = -(l[3 * r] * a + l[3 * r + 1] * b + l[3 * r + 2] * c);
+    }
+}
+
+/// r −= G* z.
+static inline void kernel_subtract_transposed(lane *r, const lane *g, const lane *z)
+{
+    for (int v = 0; v < 3; v++) r[v] -= g[v] * z[0] + g[3 + v] * z[1] + g[6 + v] * z[2];
+}
+
 /// A slope as a row of the one unknown before and the one at the node.
 typedef struct kernel_link_one {
     lane before, at, weight, miss;

@@ -52,37 +52,57 @@ static kernel_slope kernel_slope_of(const chain *c, const chain_node *node)
 
 static const double *form_after(const chain *c, int j) { return c->stretches[c->nodes[j].stretch].form; }
 
-/// Row by row in local arrays, which the compiler keeps in registers.
-static void assemble_blocks(chain *c)
+/// A stretch and the slope at its end: into the block of its first node, the coupling, and the block of its last.
+static void assemble_stretch(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *d, double *n,
+                             double *entering)
 {
-    const state_form h = chain_start_form(c), end = chain_end_form(c);
-    const int last = c->node_count - 1;
-    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
-    double d[6] = {0};
+    const double *form = form_after(c, j);
+    const chain_node *end = &c->nodes[chain_next(c, j)];
+    kernel_leave(d, n, form);
+    kernel_enter(entering, form);
+    if (end->slope_weight > 0) {
+        const kernel_slope slope = kernel_slope_of(c, end);
+        const kernel_link link = kernel_link_of(&slope, form, p, q);
+        kernel_add_square(d, link.weight, link.before);
+        kernel_add_square(entering, link.weight, link.at);
+        kernel_add_coupling(n, &link);
+    }
+    kernel_hold_columns(n, p);
+    kernel_hold_rows(n, q);
+}
+
+/// What comes into the first node's block: the start and its slope, in a loop the last stretch.
+static void assemble_first(const chain *c, const kernel_node *node, double *d)
+{
+    if (c->cyclic) {
+        const kernel_node last = kernel_node_of(c, &c->nodes[c->node_count - 1]);
+        double leaving[6] = {0}, n[9];
+        assemble_stretch(c, c->node_count - 1, &last, node, leaving, n, d);
+        return;
+    }
+    const state_form h = chain_start_form(c);
     kernel_form(d, h.h00, h.h01.re, h.h01.im, h.h11);
     if (c->nodes[0].slope_weight > 0) {
         const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
-        const kernel_link link = kernel_link_first(&slope, &node);
+        const kernel_link link = kernel_link_first(&slope, node);
         kernel_add_square(d, link.weight, link.at);
     }
-    for (int j = 0; j <= last; j++, node = next) {
+}
+
+/// Row by row in local arrays, which the compiler keeps in registers.
+static void assemble_blocks(chain *c)
+{
+    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
+    double d[6] = {0};
+    assemble_first(c, &node, d);
+    for (int j = 0; j < c->node_count; j++, node = next) {
         double n[9] = {0}, entering[6] = {0};
         next = node;
-        if (j < last) {
-            const double *form = form_after(c, j);
-            next = kernel_node_of(c, &c->nodes[j + 1]);
-            kernel_leave(d, n, form);
-            kernel_enter(entering, form);
-            if (c->nodes[j + 1].slope_weight > 0) {
-                const kernel_slope slope = kernel_slope_of(c, &c->nodes[j + 1]);
-                const kernel_link link = kernel_link_of(&slope, form, &node, &next);
-                kernel_add_square(d, link.weight, link.before);
-                kernel_add_square(entering, link.weight, link.at);
-                kernel_add_coupling(n, &link);
-            }
-            kernel_hold_columns(n, &node);
-            kernel_hold_rows(n, &next);
+        if (j < chain_stretches(c)) {
+            next = kernel_node_of(c, &c->nodes[chain_next(c, j)]);
+            assemble_stretch(c, j, &node, &next, d, n, entering);
         } else {
+            const state_form end = chain_end_form(c);
             kernel_form(d, end.h00, end.h01.re, end.h01.im, end.h11);
         }
         kernel_hold(d, &node);
@@ -91,36 +111,55 @@ static void assemble_blocks(chain *c)
     }
 }
 
-static void assemble_scalars(chain *c)
+static void assemble_stretch_one(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *d, double *n,
+                                 double *entering)
 {
-    const int last = c->node_count - 1;
-    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
-    double d = chain_start_form(c).h11;
+    const double *form = form_after(c, j);
+    const chain_node *end = &c->nodes[chain_next(c, j)];
+    *d += form[FORM_P11];
+    *n = -form[FORM_C11];
+    *entering = form[FORM_V11];
+    if (end->slope_weight > 0) {
+        const kernel_slope slope = kernel_slope_of(c, end);
+        const kernel_link_one link = kernel_link_of_one(&slope, form, p, q);
+        *d += link.weight * link.before * link.before;
+        *entering += link.weight * link.at * link.at;
+        *n += link.weight * link.at * link.before;
+    }
+    *n *= p->keep_d * q->keep_d;
+}
+
+static double assemble_first_one(const chain *c, const kernel_node *node)
+{
+    double d = 0, leaving = 0, n;
+    if (c->cyclic) {
+        const kernel_node last = kernel_node_of(c, &c->nodes[c->node_count - 1]);
+        assemble_stretch_one(c, c->node_count - 1, &last, node, &leaving, &n, &d);
+        return d;
+    }
+    d = chain_start_form(c).h11;
     if (c->nodes[0].slope_weight > 0) {
         const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
         d += slope.weight * slope.d_re * slope.d_re;
     }
-    for (int j = 0; j <= last; j++, node = next) {
+    return d;
+}
+
+static void assemble_scalars(chain *c)
+{
+    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
+    double d = assemble_first_one(c, &node);
+    for (int j = 0; j < c->node_count; j++, node = next) {
         double n = 0, entering = 0;
         next = node;
-        if (j < last) {
-            const double *form = form_after(c, j);
-            next = kernel_node_of(c, &c->nodes[j + 1]);
-            d += form[FORM_P11];
-            n = -form[FORM_C11];
-            entering = form[FORM_V11];
-            if (c->nodes[j + 1].slope_weight > 0) {
-                const kernel_slope slope = kernel_slope_of(c, &c->nodes[j + 1]);
-                const kernel_link_one link = kernel_link_of_one(&slope, form, &node, &next);
-                d += link.weight * link.before * link.before;
-                entering += link.weight * link.at * link.at;
-                n += link.weight * link.at * link.before;
-            }
+        if (j < chain_stretches(c)) {
+            next = kernel_node_of(c, &c->nodes[chain_next(c, j)]);
+            assemble_stretch_one(c, j, &node, &next, &d, &n, &entering);
         } else {
             d += chain_end_form(c).h11;
         }
         c->rows[j].diagonal[0] = kernel_hold_one(d, &node);
-        c->rows[j].below[0] = n * (node.keep_d * next.keep_d);
+        c->rows[j].below[0] = n;
         d = entering;
     }
 }
@@ -166,7 +205,112 @@ static kernel_rank factor_scalars(chain *c)
     return all;
 }
 
-chain_rank chain_factor(chain *c) { return rank_of(c->is_complex ? factor_blocks(c) : factor_scalars(c)); }
+/// Rows 1 … of a loop are factored as a chain's; beside, each couples to row 0 by F, which fills down from the row after it:
+///     F_1 = A_10,   F_{k+1} = −L_k F_k,   in the last row also A_0k*,     A_00 −= Σ F_k* P_k F_k.
+/// What is kept of it is P_k F_k. One row couples to itself; two rows to each other twice.
+static kernel_rank close_blocks(chain *c)
+{
+    const int last = c->node_count - 1;
+    chain_row *first = &c->rows[0];
+    double f[9], n[9] = {0}, l[9] = {0};
+    kernel_rank all = {1, 1};
+    if (last == 0) { // to itself: A + Aᵀ
+        const double *a = first->below;
+        const double twice[6] = {2 * a[0], a[1] + a[3], a[2] + a[6], 2 * a[4], a[5] + a[7], 2 * a[8]};
+        for (int i = 0; i < 6; i++) first->diagonal[i] += twice[i];
+    }
+    for (int i = 0; i < 9; i++) f[i] = first->below[i];
+    for (int k = 1; k <= last; k++) {
+        chain_row *row = &c->rows[k];
+        double *g = c->to_first + 9 * k;
+        for (int i = 0; k == last && i < 9; i++) f[i] += row->below[3 * (i % 3) + i / 3];
+        kernel_rank rank = kernel_pivot(row->diagonal, l, n);
+        all.sound &= rank.sound, all.firm &= rank.firm;
+        kernel_times(g, row->diagonal, f);
+        kernel_subtract_square(first->diagonal, f, g);
+        if (k == last) break;
+        for (int i = 0; i < 9; i++) n[i] = row->below[i];
+        kernel_lower(l, n, row->diagonal);
+        for (int i = 0; i < 9; i++) row->below[i] = l[i];
+        kernel_fill_down(f, l);
+    }
+    const double none[9] = {0};
+    kernel_rank rank = kernel_pivot(first->diagonal, none, none);
+    return (kernel_rank){all.sound & rank.sound, all.firm & rank.firm};
+}
+
+static kernel_rank close_scalars(chain *c)
+{
+    const int last = c->node_count - 1;
+    chain_row *first = &c->rows[0];
+    double s = 1, n = 0, f = first->below[0], closed = first->diagonal[0] + (last == 0 ? 2 * f : 0), whole = closed;
+    kernel_rank all = {1, 1};
+    for (int k = 1; k <= last; k++) {
+        chain_row *row = &c->rows[k];
+        if (k == last) f += row->below[0];
+        kernel_rank rank = kernel_pivot_one(&s, row->diagonal[0], n);
+        all.sound &= rank.sound, all.firm &= rank.firm;
+        n = row->below[0];
+        row->diagonal[0] = 1 / s;
+        c->to_first[k] = f * row->diagonal[0];
+        closed -= f * c->to_first[k];
+        if (k == last) break;
+        row->below[0] = n * row->diagonal[0];
+        f *= -row->below[0];
+    }
+    first->diagonal[0] = 1 / closed;
+    all.sound &= (closed > 0) & (closed < INFINITY), all.firm &= closed >= WEAKEST * whole;
+    return all;
+}
+
+static void solve_loop_scalars(chain *c)
+{
+    const int last = c->node_count - 1;
+    chain_row *first = &c->rows[0];
+    for (int k = 1; k <= last; k++) {
+        if (k > 1) c->rows[k].right[0] -= c->rows[k - 1].below[0] * c->rows[k - 1].right[0];
+        first->right[0] -= c->to_first[k] * c->rows[k].right[0];
+    }
+    double closed = first->right[0] *= first->diagonal[0], after = 0;
+    for (int k = last; k > 0; k--) {
+        chain_row *row = &c->rows[k];
+        row->right[0] = row->diagonal[0] * row->right[0] - c->to_first[k] * closed;
+        if (k < last) row->right[0] -= row->below[0] * after;
+        after = row->right[0];
+    }
+}
+
+static void solve_loop_blocks(chain *c)
+{
+    const int last = c->node_count - 1;
+    chain_row *first = &c->rows[0];
+    const double none[9] = {0};
+    for (int k = 1; k <= last; k++) {
+        if (k > 1) kernel_forward(c->rows[k].right, c->rows[k - 1].below, c->rows[k - 1].right);
+        kernel_subtract_transposed(first->right, c->to_first + 9 * k, c->rows[k].right);
+    }
+    kernel_backward(first->right, first->diagonal, none, none);
+    for (int k = last; k > 0; k--) {
+        chain_row *row = &c->rows[k];
+        kernel_backward(row->right, row->diagonal, k < last ? row->below : none, k < last ? row[1].right : none);
+        kernel_forward(row->right, c->to_first + 9 * k, first->right);
+    }
+}
+
+static void solve_loop(chain *c)
+{
+    if (c->is_complex) {
+        solve_loop_blocks(c);
+    } else {
+        solve_loop_scalars(c);
+    }
+}
+
+chain_rank chain_factor(chain *c)
+{
+    if (c->cyclic) return rank_of(c->is_complex ? close_blocks(c) : close_scalars(c));
+    return rank_of(c->is_complex ? factor_blocks(c) : factor_scalars(c));
+}
 
 static void solve_scalars(chain *c)
 {
@@ -190,72 +334,111 @@ static void solve_blocks(chain *c)
 
 void chain_solve_nodes(chain *c)
 {
-    if (c->is_complex) {
+    if (c->cyclic) {
+        solve_loop(c);
+    } else if (c->is_complex) {
         solve_blocks(c);
     } else {
         solve_scalars(c);
     }
 }
 
-static void pull_blocks(chain *c)
+/// What a stretch and the slope at its end pull where everything unknown is 0.
+static void pull_along(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *right, double *entering)
 {
-    const state_form h = chain_start_form(c), end = chain_end_form(c);
-    const int last = c->node_count - 1;
-    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
-    double entering[3] = {0};
-    kernel_form_pull(entering, h.h01.re, h.h01.im, h.h11, node.x, node.d);
-    if (c->nodes[0].slope_weight > 0) {
-        const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
-        const kernel_link link = kernel_link_first(&slope, &node);
+    const double *form = form_after(c, j);
+    const chain_node *end = &c->nodes[chain_next(c, j)];
+    kernel_leave_pull(right, form, p, q);
+    kernel_enter_pull(entering, form, p, q);
+    if (end->slope_weight > 0) {
+        const kernel_slope slope = kernel_slope_of(c, end);
+        const kernel_link link = kernel_link_of(&slope, form, p, q);
+        kernel_add_pull(right, link.miss, link.before);
         kernel_add_pull(entering, link.miss, link.at);
     }
-    for (int j = 0; j <= last; j++, node = next) {
+}
+
+static void pull_first(const chain *c, const kernel_node *node, double *right)
+{
+    if (c->cyclic) {
+        const kernel_node last = kernel_node_of(c, &c->nodes[c->node_count - 1]);
+        double leaving[3] = {0};
+        pull_along(c, c->node_count - 1, &last, node, leaving, right);
+        return;
+    }
+    const state_form h = chain_start_form(c);
+    kernel_form_pull(right, h.h01.re, h.h01.im, h.h11, node->x, node->d);
+    if (c->nodes[0].slope_weight > 0) {
+        const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
+        const kernel_link link = kernel_link_first(&slope, node);
+        kernel_add_pull(right, link.miss, link.at);
+    }
+}
+
+static void pull_blocks(chain *c)
+{
+    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
+    double entering[3] = {0};
+    pull_first(c, &node, entering);
+    for (int j = 0; j < c->node_count; j++, node = next) {
         double *right = c->rows[j].right;
         for (int i = 0; i < 3; i++) right[i] = entering[i], entering[i] = 0;
         next = node;
-        if (j < last) {
-            const double *form = form_after(c, j);
-            next = kernel_node_of(c, &c->nodes[j + 1]);
-            kernel_leave_pull(right, form, &node, &next);
-            kernel_enter_pull(entering, form, &node, &next);
-            if (c->nodes[j + 1].slope_weight > 0) {
-                const kernel_slope slope = kernel_slope_of(c, &c->nodes[j + 1]);
-                const kernel_link link = kernel_link_of(&slope, form, &node, &next);
-                kernel_add_pull(right, link.miss, link.before);
-                kernel_add_pull(entering, link.miss, link.at);
-            }
+        if (j < chain_stretches(c)) {
+            next = kernel_node_of(c, &c->nodes[chain_next(c, j)]);
+            pull_along(c, j, &node, &next, right, entering);
         } else {
+            const state_form end = chain_end_form(c);
             kernel_form_pull(right, end.h01.re, end.h01.im, end.h11, node.x, node.d);
         }
         kernel_hold_pull(right, &node);
     }
 }
 
-static void pull_scalars(chain *c)
+static void pull_along_one(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *right,
+                           double *entering)
 {
-    const state_form h = chain_start_form(c), end = chain_end_form(c);
-    const int last = c->node_count - 1;
-    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
-    double right = -(h.h01.re * node.x + h.h11 * node.d);
+    const double *form = form_after(c, j);
+    const chain_node *end = &c->nodes[chain_next(c, j)];
+    *right += kernel_leave_pull_one(form, p, q);
+    *entering = kernel_enter_pull_one(form, p, q);
+    if (end->slope_weight > 0) {
+        const kernel_slope slope = kernel_slope_of(c, end);
+        const kernel_link_one link = kernel_link_of_one(&slope, form, p, q);
+        *right += link.miss * link.before;
+        *entering += link.miss * link.at;
+    }
+}
+
+static double pull_first_one(const chain *c, const kernel_node *node)
+{
+    double right = 0, leaving = 0;
+    if (c->cyclic) {
+        const kernel_node last = kernel_node_of(c, &c->nodes[c->node_count - 1]);
+        pull_along_one(c, c->node_count - 1, &last, node, &leaving, &right);
+        return right;
+    }
+    const state_form h = chain_start_form(c);
+    right = -(h.h01.re * node->x + h.h11 * node->d);
     if (c->nodes[0].slope_weight > 0) {
         const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
-        right += slope.weight * (slope.target - (slope.x_re * node.x + slope.d_re * node.d)) * slope.d_re;
+        right += slope.weight * (slope.target - (slope.x_re * node->x + slope.d_re * node->d)) * slope.d_re;
     }
-    for (int j = 0; j <= last; j++, node = next) {
+    return right;
+}
+
+static void pull_scalars(chain *c)
+{
+    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
+    double right = pull_first_one(c, &node);
+    for (int j = 0; j < c->node_count; j++, node = next) {
         double entering = 0;
         next = node;
-        if (j < last) {
-            const double *form = form_after(c, j);
-            next = kernel_node_of(c, &c->nodes[j + 1]);
-            right += kernel_leave_pull_one(form, &node, &next);
-            entering = kernel_enter_pull_one(form, &node, &next);
-            if (c->nodes[j + 1].slope_weight > 0) {
-                const kernel_slope slope = kernel_slope_of(c, &c->nodes[j + 1]);
-                const kernel_link_one link = kernel_link_of_one(&slope, form, &node, &next);
-                right += link.miss * link.before;
-                entering += link.miss * link.at;
-            }
+        if (j < chain_stretches(c)) {
+            next = kernel_node_of(c, &c->nodes[chain_next(c, j)]);
+            pull_along_one(c, j, &node, &next, &right, &entering);
         } else {
+            const state_form end = chain_end_form(c);
             right -= end.h01.re * node.x + end.h11 * node.d;
         }
         c->rows[j].right[0] = right * node.keep_d;

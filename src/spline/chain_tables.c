@@ -149,11 +149,11 @@ static int find_stretch(chain *c, int length, bool settles)
 
 void chain_make_tables(chain *c)
 {
-    int after = c->count - 1 - c->nodes[c->node_count - 1].sample;
+    int after = c->cyclic ? 0 : c->count - 1 - c->nodes[c->node_count - 1].sample;
     extend_powers(c, after < CHAIN_RUN ? after : CHAIN_RUN);
-    for (int j = 0; j + 1 < c->node_count; j++) {
-        bool settles = c->nodes[j + 1].fixed & NODE_SETTLED;
-        int stretch = find_stretch(c, c->nodes[j + 1].sample - c->nodes[j].sample, settles);
+    for (int j = 0; j < chain_stretches(c); j++) {
+        bool settles = c->nodes[chain_next(c, j)].fixed & NODE_SETTLED;
+        int stretch = find_stretch(c, chain_length_after(c, j), settles);
         if (stretch <
             0) { // full of lengths of earlier solves; those of this one fit, their sum is at most the domain
             forget_stretches(c);

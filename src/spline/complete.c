@@ -89,13 +89,10 @@ static void add_equilibrium(const problem *p, wiggly_curve *curve)
 static void set_centre(wiggly_solver *solver, const problem *p, double *omega)
 {
     const wiggly_desc *desc = p->desc;
-    double floor = p->start == WIGGLY_LOOP ? LEAST_DAMPING * p->calm : 0;
-    if (!poles_are_constant(desc)) {
-        for (int i = 0; i < desc->samples; i++) omega[i] = poles_at(desc, i, floor).centre;
-    } else if (p->start == WIGGLY_LOOP) {
-        fill(omega, poles_at(desc, 0, floor).centre, desc->samples);
+    if (poles_are_constant(desc)) {
+        fill(omega, problem_filter(solver, p)->at.centre, desc->samples);
     } else {
-        fill(omega, solver_filter(solver, desc)->at.centre, desc->samples);
+        for (int i = 0; i < desc->samples; i++) omega[i] = poles_at(desc, i, problem_least_damping(p)).centre;
     }
 }
 

@@ -66,6 +66,8 @@ speed_form poles_speed(const poles *at, double step, bool backwards);
 start_cost poles_start_seen_from(start_cost cost, const poles *damped, const poles *at, double step);
 /// The one pole of what moves by itself, −ζω_n + jω_n√(1−ζ²).
 static inline cplx poles_passive(const poles *at) { return (cplx){-at->decay, at->centre}; }
+/// What one sample of moving by itself adds, as a part, where the poles see the speed as in `ahead`.
+cplx poles_tail(const poles *at, const speed_form *ahead, double step);
 cplx cplx_exp(cplx z);
 cplx cplx_expm1(cplx z);
 cplx cplx_divide(cplx a, cplx b);

@@ -9,25 +9,57 @@ static const double least_phase = 48;
 /// The jet at a sample and what is behind it are far apart where a row's b all but vanishes: speeds seen from there are not for the chain.
 static const double least_b = 1e-3;
 
-/// No slope may act inside a pair of knots side by side, but at its first.
+/// A knot in order of samples.
+static const wiggly_knot *knot_at(const wiggly_solver *solver, const problem *p, int n)
+{
+    return &p->desc->knots[solver->order[n]];
+}
+
+/// Whether knot n has one on the sample after it; in a loop the first comes after the last.
+static bool has_company(const wiggly_solver *solver, const problem *p, int n)
+{
+    int knots = p->desc->knot_count, sample = knot_at(solver, p, n)->sample + 1;
+    if (n + 1 < knots) return knot_at(solver, p, n + 1)->sample == sample;
+    return p->start == WIGGLY_LOOP && knots > 1 && sample == p->count && knot_at(solver, p, 0)->sample == 0;
+}
+
+/// The knot that the chain begins with: the first, in a loop the first that has none on the sample before. -1 where there is none.
+static int first_of_chain(const wiggly_solver *solver, const problem *p)
+{
+    int knots = p->desc->knot_count;
+    if (p->start != WIGGLY_LOOP) return 0;
+    for (int n = 0; n < knots; n++) {
+        if (!has_company(solver, p, n > 0 ? n - 1 : knots - 1)) return n;
+    }
+    return -1;
+}
+
+/// No slope may act inside a pair of knots side by side, but at its first; nor may the paper's at the domain's last sample.
+static bool slopes_fit(wiggly_solver *solver, const problem *p, int begin)
+{
+    const wiggly_desc *desc = p->desc;
+    const poles *at = &problem_filter(solver, p)->at;
+    bool oscillates = problem_oscillates(p), faint = exp(2 * desc->step * (at->s[0].re + at->s[1].re)) < least_b;
+    bool second = false;
+    for (int i = 0; i < desc->knot_count; i++) {
+        int n = (begin + i) % desc->knot_count;
+        const wiggly_knot *knot = knot_at(solver, p, n);
+        bool on_last = !oscillates && p->start != WIGGLY_LOOP && knot->sample == desc->samples - 1;
+        if (knot->has_slope && (second || on_last || (oscillates && faint))) return false;
+        second = !second && has_company(solver, p, n);
+    }
+    return true;
+}
+
 bool problem_fits_chain(wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    if (p->start == WIGGLY_LOOP || p->level_slope || !poles_are_constant(desc)) return false;
+    if (p->level_slope || !poles_are_constant(desc)) return false;
     if (p->about && !problem_oscillates(p)) return false; // the paper's filter is driven by a moving equilibrium
-    const constant_filter *f = solver_filter(solver, desc);
-    double t = (p->count - 1) * desc->step;
-    if (desc->mode == WIGGLY_COMPLEX && f->at.natural * t < least_phase) return false;
-    bool slopes_ahead = !problem_oscillates(p), paired = false;
-    for (int n = 0; n < desc->knot_count; n++) {
-        const wiggly_knot *knot = &desc->knots[solver->order[n]];
-        bool beside = n > 0 && desc->knots[solver->order[n - 1]].sample == knot->sample - 1;
-        paired = beside && !paired;
-        if (!knot->has_slope) continue;
-        if (paired || (slopes_ahead && knot->sample == desc->samples - 1)) return false;
-        if (!slopes_ahead && exp(2 * desc->step * (f->at.s[0].re + f->at.s[1].re)) < least_b) return false;
-    }
-    return true;
+    double t = (p->start == WIGGLY_LOOP ? p->count : p->count - 1) * desc->step;
+    if (desc->mode == WIGGLY_COMPLEX && problem_filter(solver, p)->at.natural * t < least_phase) return false;
+    int begin = first_of_chain(solver, p);
+    return begin >= 0 && slopes_fit(solver, p, begin);
 }
 
 /// Writes what a knot says into a node, field by field; true where the node there differed in nothing but its values.
@@ -46,6 +78,7 @@ static bool put_node(chain_node *at, int sample, unsigned fixed, chain_view view
 static chain_view view_of(const problem *p, int sample)
 {
     if (!problem_oscillates(p)) return VIEW_AHEAD;
+    if (p->start == WIGGLY_LOOP) return VIEW_BOTH;
     if (p->settles && sample == p->latest) return VIEW_TAIL;
     bool ahead = sample + 1 < p->first + p->count, behind = sample > p->first;
     return ahead && behind ? VIEW_BOTH : ahead ? VIEW_AHEAD : VIEW_BEHIND;
@@ -65,26 +98,28 @@ bool problem_put_knot(const problem *p, chain_node *node, const wiggly_knot *kno
 /// Two keyed samples side by side are one node, whose e is known. true where only values differ from the nodes before.
 static bool make_nodes(wiggly_solver *solver, const problem *p)
 {
-    const wiggly_desc *desc = p->desc;
+    const int knots = p->desc->knot_count, begin = first_of_chain(solver, p);
     chain *c = &solver->chain;
     chain_node *node = c->nodes;
     bool same = true;
+    int turned = p->start == WIGGLY_LOOP ? knot_at(solver, p, begin)->sample : 0;
     if (p->start == WIGGLY_REST) {
         same = put_node(node, 0, problem_oscillates(p) ? NODE_FROM_REST : NODE_AT_REST, VIEW_AHEAD, 0, 0);
         node->value = 0;
         node->e = p->y && !p->about ? p->y[1] - p->level : 0;
         node++;
     }
-    for (int n = 0; n < desc->knot_count; n++, node++) {
-        const wiggly_knot *knot = &desc->knots[solver->order[n]];
-        const wiggly_knot *next = n + 1 < desc->knot_count ? &desc->knots[solver->order[n + 1]] : NULL;
-        bool pair = next && next->sample == knot->sample + 1;
-        same = problem_put_knot(p, node, knot, pair ? next : NULL) && same;
-        if (pair) n++;
+    for (int i = 0; i < knots; i++, node++) {
+        int n = (begin + i) % knots;
+        bool pair = has_company(solver, p, n);
+        same = problem_put_knot(p, node, knot_at(solver, p, n), pair ? knot_at(solver, p, (n + 1) % knots) : NULL) && same;
+        if (p->start == WIGGLY_LOOP) node->sample = (node->sample - turned + p->count) % p->count;
+        if (pair) i++;
     }
     int count = (int)(node - c->nodes);
-    same = same && count == c->node_count;
+    same = same && count == c->node_count && turned == c->turned;
     c->node_count = count;
+    c->turned = turned;
     return same;
 }
 
@@ -121,30 +156,30 @@ static chain_speed speed_of(speed_form form, cplx lambda, double jet)
 
 static void set_speeds(chain *c, const problem *p, const constant_filter *f)
 {
-    bool oscillates = problem_oscillates(p);
     speed_form form = {{0, 0}, {1, 0}};
-    if (oscillates) form = poles_speed(&f->at, p->desc->step, false);
+    if (problem_oscillates(p)) form = f->ahead;
     c->speed[VIEW_AHEAD] = speed_of(form, f->lambda, 0);
     c->speed[VIEW_BOTH] = speed_of(form, f->lambda, 0.5);
     c->speed[VIEW_BEHIND] = speed_of(form, f->lambda, 1);
-    c->speed[VIEW_TAIL] = (chain_speed){.on_x = cplx_scale(p->desc->step, poles_passive(&f->at))};
-    cplx tail = problem_tail(p);
-    c->tail = cplx_sub((cplx){1 + tail.re, tail.im}, f->lambda);
+    c->speed[VIEW_TAIL] = (chain_speed){.on_x = f->passive};
+    c->tail = cplx_sub((cplx){1 + f->tail.re, f->tail.im}, f->lambda);
+    if (!c->is_complex) c->tail = (cplx){0, 0};
 }
 
 /// Sets filter, start and end, and forgets what was made for others.
 static void set_chain(wiggly_solver *solver, const problem *p)
 {
     chain *c = &solver->chain;
-    const constant_filter *f = solver_filter(solver, p->desc);
+    const constant_filter *f = problem_filter(solver, p);
     if (!same_filter(solver, p)) chain_forget(c);
     start_cost start = start_of(p);
     if (!same_start(start, c->start)) c->kept = false;
-    if (c->settles != p->settles || c->oscillates != problem_oscillates(p)) c->kept = false;
+    if (c->settles != p->settles || c->cyclic != (p->start == WIGGLY_LOOP) || c->oscillates != problem_oscillates(p)) c->kept = false;
     c->is_complex = p->desc->mode == WIGGLY_COMPLEX;
     c->count = problem_rows(p);
     c->start = start;
     c->settles = p->settles;
+    c->cyclic = p->start == WIGGLY_LOOP;
     c->oscillates = problem_oscillates(p);
     c->lambda = f->lambda;
     c->delta2 = f->delta2;
@@ -153,13 +188,13 @@ static void set_chain(wiggly_solver *solver, const problem *p)
 
 bool problem_shares_chain(wiggly_solver *solver, const problem *p)
 {
-    solver_filter(solver, p->desc);
+    problem_filter(solver, p);
     return same_filter(solver, p) && same_start(start_of(p), solver->chain.start) &&
-           solver->chain.settles == p->settles && solver->chain.oscillates == problem_oscillates(p);
+           solver->chain.settles == p->settles && !solver->chain.cyclic && solver->chain.oscillates == problem_oscillates(p);
 }
 
 /// One knot without any hold has no single answer.
-static bool is_held(const chain *c) { return c->node_count >= 2 || c->start.row[0].weight > 0; }
+static bool is_held(const chain *c) { return c->cyclic || c->node_count >= 2 || c->start.row[0].weight > 0; }
 
 bool problem_join(wiggly_solver *solver, const problem *p)
 {
@@ -175,7 +210,7 @@ bool problem_join(wiggly_solver *solver, const problem *p)
 bool problem_ends_in_pair(const wiggly_solver *solver, const problem *p)
 {
     int paired = 0, n = p->desc->knot_count - 1;
-    for (; n > 0 && p->desc->knots[solver->order[n]].sample == p->desc->knots[solver->order[n - 1]].sample + 1; n--) paired++;
+    for (; n > 0 && has_company(solver, p, n - 1); n--) paired++;
     return p->settles && paired % 2 == 1;
 }
 
@@ -191,6 +226,6 @@ bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, 
     bool same_nodes = problem_make_chain(solver, p);
     c->kept = c->kept && same_nodes;
     if (!is_held(c) || !chain_solve(c, x_re, x_im)) return false;
-    problem_settle(p, x_re - p->first, x_im - p->first);
+    problem_settle(solver, p, x_re - p->first, x_im - p->first);
     return true;
 }

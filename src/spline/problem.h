@@ -48,6 +48,18 @@ static inline int problem_rows(const problem *p)
     return p->settles ? p->latest - p->first + 1 : p->count;
 }
 
+/// The least damping ratio that the problem takes.
+static inline double problem_least_damping(const problem *p)
+{
+    return p->start == WIGGLY_LOOP ? LEAST_DAMPING * p->calm : 0;
+}
+
+/// The filter of a problem without pole tracks.
+static inline const constant_filter *problem_filter(wiggly_solver *solver, const problem *p)
+{
+    return solver_filter(solver, p->desc, problem_least_damping(p));
+}
+
 /// Whether the oscillator's rules hold: jets weighed by |g|⁻², speeds that the poles see, the tail.
 static inline bool problem_oscillates(const problem *p) { return p->desc->passive == WIGGLY_OSCILLATOR; }
 
@@ -57,18 +69,15 @@ void problem_set_rows(wiggly_solver *solver, const problem *p);
 /// Slope row of a knot that has one, or of the implied one; weight 0 where it is without effect.
 slope_row problem_slope(const problem *p, int sample, double slope, double stiffness);
 
-/// What one sample of moving by itself adds to w at the latest knot, as a part of it: w_{L+1} = (1 + tail) w_L as the poles see it.
-cplx problem_tail(const problem *p);
-
 /// c·H of the start, for the calm that the problem has now.
 void problem_set_start(wiggly_solver *solver, problem *p);
 
 /// w of `count` samples of the tail, the first of them `from` ≥ 1 samples behind the latest knot, from w there; im outside complex mode
 /// is not written.
-void problem_fill_tail(const problem *p, cplx w, int from, int count, double *re, double *im);
+void problem_fill_tail(wiggly_solver *solver, const problem *p, cplx w, int from, int count, double *re, double *im);
 
 /// The same for all samples behind the latest knot; arrays of the whole spline.
-void problem_settle(const problem *p, double *re, double *im);
+void problem_settle(wiggly_solver *solver, const problem *p, double *re, double *im);
 
 /// Whether the document is one for the chain: constant parameters, a constant equilibrium, no seam.
 bool problem_fits_chain(wiggly_solver *solver, const problem *p);

@@ -8,8 +8,6 @@ static const double implied_stiffness = 1000;
 /// Where the oscillator's frequency is below this part of the fastest one's, Im x is held.
 static const double slow_part = 0.1;
 
-static double least_damping(const problem *p) { return p->start == WIGGLY_LOOP ? LEAST_DAMPING * p->calm : 0; }
-
 /// y + Re u of a row of the system.
 static double about_at(const problem *p, int k)
 {
@@ -54,7 +52,7 @@ static void set_filter(wiggly_solver *solver, const problem *p)
     double reference = 0, im_weight = 0, jet_weight = 1;
     for (int k = 0; k < rows->count; k++) {
         if (k == 0 || !constant) {
-            poles at = poles_at(desc, p->first + k, least_damping(p));
+            poles at = poles_at(desc, p->first + k, problem_least_damping(p));
             rows->at[k] = poles_coefficients(&at, h);
             im_weight = weighted ? 1 / (pow(intervals, 4) * (1 + pow(at.natural * t, 8))) : 0;
             if (oscillates) {
@@ -91,7 +89,7 @@ static slope_row oscillator_slope(const problem *p, int k, double slope, double 
     bool loop = p->start == WIGGLY_LOOP, tied = p->settles && p->first + k == p->latest;
     bool ahead = loop || (k + 1 < p->count && !tied), behind = loop || k > 0;
     double h = desc->step, known = p->swing.speed ? swing_speed(desc, p->y, &p->swing, p->first + k) : 0;
-    poles at = poles_at(desc, p->first + k, least_damping(p));
+    poles at = poles_at(desc, p->first + k, problem_least_damping(p));
     slope_row row = {.sample = k, .target = h * (slope - known), .weight = stiffness * h};
     if (tied && desc->mode == WIGGLY_COMPLEX) {
         row.here = cplx_scale(h, poles_passive(&at));
@@ -106,7 +104,7 @@ static slope_row oscillator_slope(const problem *p, int k, double slope, double 
         }
         row.weight /= 1 + row.weight / (2 * sides);
     }
-    poles first = poles_at(desc, p->first, least_damping(p));
+    poles first = poles_at(desc, p->first, problem_least_damping(p));
     row.weight = fmin(row.weight, STIFFEST) * exp(-poles_weight_exponent(&first, h));
     return row;
 }
@@ -173,15 +171,9 @@ static void set_tail(system_rows *rows, const problem *p)
     if (rows->count > 1) rows->jet_weight[rows->count - 1] *= 2;
     if (rows->count == 1) rows->jet_to = -1;
     if (!rows->is_complex) return;
-    rows->tail = problem_tail(p);
-}
-
-cplx problem_tail(const problem *p)
-{
-    if (p->desc->mode != WIGGLY_COMPLEX) return (cplx){0, 0};
     poles at = poles_at(p->desc, p->latest, 0);
-    speed_form form = poles_speed(&at, p->desc->step, false);
-    return cplx_divide(cplx_sub(cplx_scale(p->desc->step, poles_passive(&at)), form.on_x), form.on_e);
+    speed_form ahead = poles_speed(&at, p->desc->step, false);
+    rows->tail = poles_tail(&at, &ahead, p->desc->step);
 }
 
 void problem_set_rows(wiggly_solver *solver, const problem *p)

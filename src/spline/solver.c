@@ -12,7 +12,7 @@ enum {
     BYTES_PER_SAMPLE = (int)((MATRIX_DOUBLES + 2 + 2 + 2 + 4 + 4) * sizeof(double) + sizeof(coefficients) +
                              sizeof(cplx) + 3 * sizeof(int) + sizeof(unsigned char)),
     BYTES_PER_KNOT =
-        (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) + sizeof(int)),
+        (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) + 9 * sizeof(double) + sizeof(int)),
 };
 
 /// Samples; beyond, a domain without knots would cost the squared matrix half its digits (N⁴ ε).
@@ -67,6 +67,7 @@ static void carve(wiggly_solver *solver)
     c->stretches = take(&at, k * sizeof(chain_stretch));
     c->nodes = take(&at, k * sizeof(chain_node));
     c->rows = take(&at, k * sizeof(chain_row));
+    c->to_first = take(&at, k * 9 * sizeof(double));
     solver->order = take(&at, k * sizeof(int));
     solver->knot_at = take(&at, n * sizeof(int));
     c->stretch_of[0] = take(&at, n * sizeof(int));
@@ -119,18 +120,21 @@ void wiggly_destroy(wiggly_solver *solver)
     if (solver && solver->owned) free(solver);
 }
 
-const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc)
+const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc, double floor)
 {
     constant_filter *f = &solver->filter;
-    if (f->known && desc_same_filter(&f->desc, desc)) return f;
+    if (f->known && f->floor == floor && desc_same_filter(&f->desc, desc)) return f;
     poles damped = poles_at(desc, 0, LEAST_DAMPING);
-    *f = (constant_filter){.known = true, .desc = desc_settings(desc), .at = poles_at(desc, 0, 0)};
+    *f = (constant_filter){.known = true, .desc = desc_settings(desc), .floor = floor, .at = poles_at(desc, 0, floor)};
     f->start[0] = poles_start_cost(&damped, desc->step);
     f->start[1] = poles_start_seen_from(f->start[0], &damped, &f->at, desc->step);
     double weight =
         exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&f->at, desc->step));
     for (int i = 0; i < 2; i++) f->start[1].row[i].weight *= weight;
     poles_mean(&f->at, desc->step, &f->lambda, &f->delta2);
+    f->ahead = poles_speed(&f->at, desc->step, false);
+    f->passive = cplx_scale(desc->step, poles_passive(&f->at));
+    f->tail = poles_tail(&f->at, &f->ahead, desc->step);
     return f;
 }
 

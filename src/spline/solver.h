@@ -15,9 +15,13 @@
 typedef struct constant_filter {
     bool known;
     wiggly_desc desc; ///< that it is of, without knots
+    double floor;     ///< least damping ratio
     poles at;
     start_cost start[2]; ///< at calm 1: the filter's; the oscillator's, in units of the jets' weight
     cplx lambda, delta2;
+    speed_form ahead; ///< the speed that the poles see in a sample and the one ahead
+    cplx passive;     ///< h p of what moves by itself
+    cplx tail;        ///< what one sample of that adds, as the poles see it
 } constant_filter;
 
 struct wiggly_solver {
@@ -52,8 +56,8 @@ minimum solver_minimise(wiggly_solver *solver);
 /// other solvers. `y` receives the equilibrium, N numbers. WIGGLY_OK, or what is wrong with the description.
 wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, double *y);
 
-/// The filter of a description without pole tracks.
-const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc);
+/// The filter of a description without pole tracks, of at least so much damping.
+const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc, double floor);
 
 /// Forgets everything that is kept for the case that little changes: the next solve is a whole one. Changes no result.
 void solver_forget(wiggly_solver *solver);

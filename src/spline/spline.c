@@ -10,7 +10,7 @@ wiggly_desc wiggly_default_desc(void)
 }
 
 /// w of the system into the curve's arrays, and of what is behind it.
-static void unpack(const wiggly_solver *solver, const problem *p, wiggly_curve *curve)
+static void unpack(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     const system_rows *rows = &solver->rows;
     double *re = curve->re + p->first, *im = curve->im + p->first;
@@ -18,7 +18,7 @@ static void unpack(const wiggly_solver *solver, const problem *p, wiggly_curve *
         re[k] = rows->x[rows->is_complex ? 2 * k : k];
         if (rows->is_complex) im[k] = rows->x[2 * k + 1];
     }
-    problem_settle(p, curve->re, curve->im);
+    problem_settle(solver, p, curve->re, curve->im);
 }
 
 /// w into the curve: by the chain where it serves, else by refinement.
@@ -195,15 +195,15 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
 
 bool problem_pose_for_group(wiggly_solver *solver, const wiggly_desc *desc, problem *p)
 {
-    return problem_pose(solver, desc, solver->y, p) == WIGGLY_OK && !is_plain(p) && problem_fits_chain(solver, p) &&
-           !problem_ends_in_pair(solver, p);
+    return problem_pose(solver, desc, solver->y, p) == WIGGLY_OK && p->start != WIGGLY_LOOP && !is_plain(p) &&
+           problem_fits_chain(solver, p) && !problem_ends_in_pair(solver, p);
 }
 
 bool problem_finish(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     wiggly_curve all = with_arrays(solver, curve);
     if (!chain_fill(&solver->chain, all.re + p->first, all.im + p->first)) return false;
-    problem_settle(p, all.re, all.im);
+    problem_settle(solver, p, all.re, all.im);
     if (p->free_end && problem_blew_up(p, &solver->chain, &all)) return false;
     problem_complete(solver, p, &all);
     all.error = 0;

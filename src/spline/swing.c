@@ -103,21 +103,47 @@ static void run(const wiggly_desc *desc, const double *y, double floor, double q
     end[0] = q, end[1] = v;
 }
 
-/// I − the product of a loop's steps, in extended precision: its entries are what slow poles leave of 1.
-static void around(const wiggly_desc *desc, double floor, long double a[2][2])
+typedef long double wide_matrix[2][2];
+
+/// d ← I − (I − d)(I − e) = d + e − d e.
+static void compose(wide_matrix d, const wide_matrix e)
 {
-    path p = begin(desc, floor);
-    long double m[2][2] = {{1, 0}, {0, 1}};
-    for (int i = 0; i + 1 < desc->samples; i++) {
-        step_matrix s = next_step(&p, i);
-        for (int c = 0; c < 2; c++) {
-            long double q = m[0][c], v = m[1][c];
-            m[0][c] = s.q_q * q + s.q_v * v;
-            m[1][c] = s.v_q * q + s.v_v * v;
-        }
+    wide_matrix sum;
+    for (int r = 0; r < 2; r++) {
+        for (int c = 0; c < 2; c++) sum[r][c] = d[r][c] + e[r][c] - (d[r][0] * e[0][c] + d[r][1] * e[1][c]);
     }
     for (int r = 0; r < 2; r++) {
-        for (int c = 0; c < 2; c++) a[r][c] = (r == c) - m[r][c];
+        for (int c = 0; c < 2; c++) d[r][c] = sum[r][c];
+    }
+}
+
+static void less_than_identity(step_matrix s, wide_matrix d)
+{
+    d[0][0] = 1 - (long double)s.q_q, d[0][1] = -s.q_v;
+    d[1][0] = -s.v_q, d[1][1] = 1 - (long double)s.v_v;
+}
+
+/// I − the product of a loop's steps, in extended precision: its entries are what slow poles leave of 1. Equal steps by squaring.
+static void around(const wiggly_desc *desc, double floor, wide_matrix a)
+{
+    path p = begin(desc, floor);
+    int period = desc->samples - 1;
+    wide_matrix step;
+    for (int i = 0; i < 4; i++) a[i / 2][i % 2] = 0;
+    if (!p.constant) {
+        for (int i = 0; i < period; i++) {
+            wide_matrix whole;
+            less_than_identity(next_step(&p, i), whole);
+            compose(whole, (const long double(*)[2])a);
+            for (int e = 0; e < 4; e++) a[e / 2][e % 2] = whole[e / 2][e % 2];
+        }
+        return;
+    }
+    less_than_identity(p.step, step);
+    for (int bit = 1; bit <= period && bit > 0; bit *= 2) {
+        if (period & bit) compose(a, (const long double(*)[2])step);
+        wide_matrix same = {{step[0][0], step[0][1]}, {step[1][0], step[1][1]}};
+        compose(step, (const long double(*)[2])same);
     }
 }
 
@@ -142,7 +168,8 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, con
     look_for_forces(desc, floor, &pulled, &braked);
     run(desc, y, floor, 0, 0, u, end);
     if (!pulled) { // of a family that differs by constants the one of mean 0
-        long double a[2][2], mean = 0;
+        long double mean = 0;
+        wide_matrix a;
         around(desc, floor, a);
         double v = braked ? end[1] / (double)a[1][1] : -end[0] / (period * desc->step);
         run(desc, y, floor, 0, v, u, end);
@@ -150,7 +177,7 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, con
         for (int i = 0; i <= period; i++) u->total[i] -= (double)(mean / period);
         return true;
     }
-    long double a[2][2];
+    wide_matrix a;
     around(desc, floor, a);
     long double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
     if (!(fabsl(det) > 1e-16L * (fabsl(a[0][0] * a[1][1]) + fabsl(a[0][1] * a[1][0])))) return false;

@@ -21,19 +21,19 @@ WIDEST static void scale_powers(const double *restrict power_re, const double *r
 }
 
 /// Every run of samples by itself, counted from the knot: what is filled does not depend on where one begins to look.
-static void fill_constant(const problem *p, cplx w, int from, int count, double *re, double *im)
+static void fill_constant(cplx exponent, cplx w, int from, int count, double *re, double *im)
 {
     double power_re[RUN], power_im[RUN];
-    poles at = poles_at(p->desc, p->latest, 0);
-    cplx exponent = cplx_scale(p->desc->step, poles_passive(&at)), turn = cplx_exp(exponent), power = {1, 0};
-    for (int i = 0; i < RUN; i++) {
+    const int end = from % RUN + count, needed = end < RUN ? end : RUN;
+    cplx turn = cplx_exp(exponent), power = {1, 0};
+    for (int i = 0; i < needed; i++) {
         power_re[i] = power.re, power_im[i] = power.im;
         power = cplx_mul(power, turn);
     }
     for (int i = 0; i < count;) {
         int run = (from + i) / RUN, begin = (from + i) % RUN, rest = RUN - begin;
         int n = rest < count - i ? rest : count - i;
-        cplx base = cplx_mul(cplx_exp(cplx_scale(run * (double)RUN, exponent)), w);
+        cplx base = run > 0 ? cplx_mul(cplx_exp(cplx_scale(run * (double)RUN, exponent)), w) : w;
         scale_powers(power_re + begin, power_im + begin, base, n, re + i, im + i);
         i += n;
     }
@@ -47,20 +47,20 @@ static void fill_varying(const problem *p, cplx w, int from, int count, double *
     }
 }
 
-void problem_fill_tail(const problem *p, cplx w, int from, int count, double *re, double *im)
+void problem_fill_tail(wiggly_solver *solver, const problem *p, cplx w, int from, int count, double *re, double *im)
 {
     if (p->desc->mode != WIGGLY_COMPLEX) {
         for (int i = 0; i < count; i++) re[i] = w.re;
     } else if (poles_are_constant(p->desc)) {
-        fill_constant(p, w, from, count, re, im);
+        fill_constant(problem_filter(solver, p)->passive, w, from, count, re, im);
     } else {
         fill_varying(p, w, from, count, re, im);
     }
 }
 
-void problem_settle(const problem *p, double *re, double *im)
+void problem_settle(wiggly_solver *solver, const problem *p, double *re, double *im)
 {
     int after = p->latest + 1, count = p->desc->samples - after;
     if (!p->settles || count < 1) return;
-    problem_fill_tail(p, (cplx){re[p->latest], im[p->latest]}, 1, count, re + after, im + after);
+    problem_fill_tail(solver, p, (cplx){re[p->latest], im[p->latest]}, 1, count, re + after, im + after);
 }

@@ -252,7 +252,7 @@ static void look_behind(wiggly_take *take, const sink *s, int to)
     const problem *p = &take->problem;
     const cplx w = {re[own - 1], im ? im[own - 1] : 0};
     int begin = s->from > p->latest ? s->from : p->latest + 1, rest = s->from + s->count - begin;
-    problem_fill_tail(p, w, begin - p->latest, rest, re, im);
+    problem_fill_tail(take->solver, p, w, begin - p->latest, rest, re, im);
     pour(take, s, begin, rest, re, im);
 }
 
@@ -272,7 +272,7 @@ static wiggly_status look(wiggly_take *take, const sink *s)
         pour(take, s, i, 1, &c->nodes[0].value, &c->nodes[0].x_im);
     for (int j = p; j < q; j++) {
         const chain_node *node = &c->nodes[j];
-        chain_fill_stretch(c, node, node + 1, take->re, im);
+        chain_fill_stretch(c, node, node + 1, take->re - node->sample, im ? im - node->sample : NULL);
         pour(take, s, take->problem.first + node->sample, node[1].sample - node->sample, take->re, im);
     }
     if (q == last && to >= c->nodes[last].sample) look_behind(take, s, to);
