@@ -316,20 +316,61 @@ static void three_adjacent_filters(void **state) { try_many(*state, make_adjacen
 
 static void three_adjacent_oscillators(void **state) { try_many(*state, make_adjacent, WIGGLY_OSCILLATOR, 500); }
 
+/// Knots where an undamped swing passes through 0, whatever its size; loops of whole periods.
+static void make_nodal(struct problem *p, uint64_t seed, wiggly_passive passive)
+{
+    memset(p, 0, sizeof *p);
+    for (int i = 0; i < 8; i++) uniform(&seed);
+    wiggly_desc *d = &p->desc;
+    *d = wiggly_default_desc();
+    int half = 2 + pick(&seed, 4), halves = 2 + pick(&seed, 3), first = pick(&seed, half);
+    d->passive = passive;
+    d->mode = pick(&seed, 3) ? WIGGLY_REAL : WIGGLY_COMPLEX;
+    d->start = (wiggly_start)pick(&seed, 3);
+    d->samples = d->start == WIGGLY_LOOP ? 2 * half * (halves / 2) + 1 : half * halves + 2 + pick(&seed, 4);
+    d->calm = (double[]){0, 0.001, 1}[pick(&seed, 3)];
+    d->bandwidth.value = 0;
+    d->damping.value = (double[]){0, 0, 1e-9, 1e-5}[pick(&seed, 4)];
+    d->frequency.value = 1 / (2 * half * d->step);
+    if (pick(&seed, 4) == 0) { // nothing swings where the curve starts
+        double *track = p->tracks[p->tracks_used++];
+        for (int i = 0; i < d->samples; i++) track[i] = i <= first ? 0 : d->frequency.value;
+        d->frequency.track = track;
+    }
+    if (pick(&seed, 3) == 0) d->equilibrium = make_track(p, &seed, 0, between(&seed, -1, 1));
+    d->knots = p->knots;
+    bool flat = pick(&seed, 4) == 0;
+    for (int i = first; i < d->samples - 1; i += half) {
+        p->knots[d->knot_count++] = (wiggly_knot){.sample = i, .value = flat ? 0.5 : between(&seed, -1, 1)};
+    }
+}
+
+static void knots_at_half_periods(void **state)
+{
+    try_many(*state, make_nodal, WIGGLY_FILTER, 500);
+    try_many(*state, make_nodal, WIGGLY_OSCILLATOR, 500);
+}
+
+/// All totals are 0, so there is nothing that an error could be a part of: two knots at 0 on no equilibrium, and every sample a knot at 0
+/// on one that is elsewhere.
 static void nothing_at_all_is_exact(void **state)
 {
     bool all = true;
-    for (int kind = 0; kind < 18; kind++) {
-        struct problem p = {.desc = wiggly_default_desc(), .knots = {{.sample = 5}, {.sample = 17}}};
-        p.desc.samples = MAX;
+    for (int kind = 0; kind < 36; kind++) {
+        struct problem p = {.desc = wiggly_default_desc()};
+        p.desc.samples = 20;
         p.desc.mode = (wiggly_mode)(kind % 3);
         p.desc.start = (wiggly_start)(kind / 3 % 3);
-        p.desc.passive = (wiggly_passive)(kind / 9);
+        p.desc.passive = (wiggly_passive)(kind / 9 % 2);
         p.desc.frequency.value = 1;
         p.desc.damping.value = 0.1;
         p.desc.knots = p.knots;
-        p.desc.knot_count = 2;
-        all = stands(&p, *state, "all knots at 0") && all;
+        bool everywhere = kind >= 18;
+        if (everywhere) p.desc.equilibrium.value = 0.3;
+        for (int i = everywhere ? 0 : 5; i < 19; i += everywhere ? 1 : 7) {
+            p.knots[p.desc.knot_count++] = (wiggly_knot){.sample = i, .has_slope = i == 5, .stiffness = 1000};
+        }
+        all = stands(&p, *state, "all totals 0") && all;
     }
     assert_true(all);
 }
@@ -349,6 +390,7 @@ int main(void)
         cmocka_unit_test(oscillators),
         cmocka_unit_test(three_adjacent_filters),
         cmocka_unit_test(three_adjacent_oscillators),
+        cmocka_unit_test(knots_at_half_periods),
         cmocka_unit_test(nothing_at_all_is_exact),
     };
     return cmocka_run_group_tests(tests, create, destroy);

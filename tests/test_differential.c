@@ -35,6 +35,7 @@ static wiggly_param some_param(struct example *e, uint64_t *seed, int slot, doub
         double s = e->desc.samples > 1 ? (double)i / (e->desc.samples - 1) : 0;
         e->tracks[slot][i] = from + (to - from) * s * s * (3 - 2 * s);
     }
+    if (e->desc.start == WIGGLY_LOOP) e->tracks[slot][e->desc.samples - 1] = e->tracks[slot][0];
     param.track = e->tracks[slot];
     return param;
 }
@@ -48,7 +49,7 @@ static void make_example(struct example *e, uint64_t *seed, int samples, uint64_
     e->desc.samples = samples;
     e->desc.mode = mode;
     e->desc.start = start;
-    e->desc.passive = WIGGLY_FILTER;
+    e->desc.passive = pick(seed, 2) ? WIGGLY_FILTER : WIGGLY_OSCILLATOR;
     e->desc.knots = e->knots;
     e->desc.step = pick(seed, 2) ? 1.0 / 24 : 1.0 / 240;
     e->desc.calm = (double[]){1, 0.3, 0.05}[pick(seed, 3)];
