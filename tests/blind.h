@@ -24,7 +24,7 @@ static inline void blind_open(struct blind *blind, const char *scene)
     app->fixed_clock = true;
     app->platform = calloc(1, sizeof *app->platform);
     app->table.history = history_create();
-    app->table.cast = cast_create();
+    app->table.models = models_create();
     app->table.editor = font_init(&error) ? editor_create(&error) : NULL;
     if (!app->table.editor) fail_msg("%s", error.text);
     app_connect_files(app);

@@ -3,7 +3,7 @@
 #define TESTS_LEGIBLE_H
 
 #include "ui/drawlist.h"
-#include "ui/stage_colors.h"
+#include "ui/theme.h"
 
 /// What lies below the draw list.
 struct legible_ground {

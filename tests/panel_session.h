@@ -5,7 +5,7 @@
 #include "inside.h"
 #include "session.h"
 
-#include "rig/cast.h"
+#include "rig/models.h"
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -18,16 +18,16 @@ static inline void panel_open(struct session *session, const char *scene, float 
 }
 
 /// The same with the models of its characters, in a window so high that no section has to be scrolled to.
-static inline struct cast *panel_open_cast(struct session *session, const char *scene)
+static inline struct models *panel_open_models(struct session *session, const char *scene)
 {
     struct error error = {0};
-    struct cast *cast = cast_create();
+    struct models *models = models_create();
     panel_open(session, scene, 1280, 1400);
-    if (!cast_update(cast, session->document, &error)) fail_msg("%s", error.text);
-    session->table.cast = cast;
+    if (!models_update(models, session->document, &error)) fail_msg("%s", error.text);
+    session->table.models = models;
     session->world = table_world(&session->table);
     editor_open(session->editor, &session->world);
-    return cast;
+    return models;
 }
 
 /// The splines that the tests of the inspector begin with: keyed; a cubic; one whose frequency follows that.

@@ -36,7 +36,7 @@ refuses editor/a.c '#include <GLFW/glfw3.h>' "GLFW/glfw3.h belongs in src/draw a
 refuses model/a.c '#include <jansson.h>' "jansson.h belongs in src/scene and the .glb files of src/model alone"
 refuses base/a.c '#include "error.h"' '"error.h" must be written with its folder'
 refuses rig/a.c '#include <cglm/vec3.h>' "cglm comes through model/vector.h"
-refuses_through draw/a.c ui/stage.h '#include "rig/pose.h"' "draw must not include rig/pose.h"
+refuses_through draw/a.c ui/stage.h '#include "rig/posing.h"' "draw must not include rig/posing.h"
 refuses_through commands/a.c model/glb.h '#include <jansson.h>' "jansson.h belongs in src/scene and the .glb files of src/model alone"
 refuses_through model/a.c model/glb.h '#include <jansson.h>' "jansson.h belongs in src/scene and the .glb files of src/model alone"
 refuses_through app/a.c draw/gl.h '#include <epoxy/gl.h>' "epoxy/gl.h belongs in src/draw and src/platform alone"

@@ -1,7 +1,5 @@
 /// Long documents, edited as at a window: what is looked at is right in the frame of the edit, and once the thread is done every
 /// row is wiggly_solve()'s, bit for bit, whatever was edited while it worked.
-// Long documents, edited as at a window: what is looked at is right in the frame of the edit, and once the thread is done every
-// row is wiggly_solve()'s, bit for bit, whatever was edited while it worked.
 #include "inside.h"
 #include "session.h"
 

@@ -1,5 +1,4 @@
 /// Keyboards of other countries: every action has a key there, and what is typed is what counts, not the key that types it.
-// Keyboards of other countries: every action has a key there, and what is typed is what counts, not the key that types it.
 #include "editor/core/playback.h"
 #include "editor/keys.h"
 #include "inside.h"
@@ -28,15 +27,20 @@ static const struct layout_of {
 
 static bool is_punctuation(int key) { return key < KEY_ESCAPE && key != KEY_SPACE && !isalnum(key); }
 
+static bool is_same(const struct binding *a, const struct binding *b)
+{
+    return a->run == b->run && a->core == b->core && a->argument == b->argument;
+}
+
 /// Whether an action can be reached: one of what it is bound to is on the layout.
 static bool is_reached(const struct binding *action, const struct layout_of *layout)
 {
-    for (const struct binding *b = key_bindings; b->run; b++) {
-        if (b->run != action->run || b->argument != action->argument) continue;
+    for (const struct binding *b = key_bindings; b->key; b++) {
+        if (!is_same(b, action)) continue;
         if (!is_punctuation(b->key) || strchr(layout->printed, b->key)) return true;
     }
-    for (const struct binding *b = character_bindings; b->run; b++) {
-        if (b->run == action->run && b->argument == action->argument && strchr(layout->typed, b->key)) return true;
+    for (const struct binding *b = character_bindings; b->key; b++) {
+        if (is_same(b, action) && strchr(layout->typed, b->key)) return true;
     }
     return false;
 }
@@ -44,7 +48,7 @@ static bool is_reached(const struct binding *action, const struct layout_of *lay
 static int check_reached(const struct binding *list, const struct layout_of *layout)
 {
     int count = 0;
-    for (const struct binding *b = list; b->run; b++, count++) {
+    for (const struct binding *b = list; b->key; b++, count++) {
         if (is_reached(b, layout)) continue;
         fail_msg("%s has no key for what “%s” with modifiers %u does", layout->name, key_name(b->key), b->mods);
     }
@@ -62,7 +66,7 @@ static void test_every_layout_has_a_key_for_every_action(void **state)
 static void test_no_key_is_bound_twice(void **state)
 {
     (void)state;
-    for (const struct binding *b = key_bindings; b->run; b++) {
+    for (const struct binding *b = key_bindings; b->key; b++) {
         for (const struct binding *other = key_bindings; other < b; other++) {
             assert_false(b->key == other->key && b->mods == other->mods);
         }

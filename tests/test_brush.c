@@ -54,7 +54,7 @@ static int remove_model(void **state)
 
 struct studio {
     struct session session;
-    struct cast *cast;
+    struct models *models;
     const struct figure *plain;
 };
 
@@ -62,7 +62,7 @@ static struct character_rig *rig_of(const struct studio *s) { return document_ch
 
 static void frame(struct studio *s)
 {
-    cast_paint(s->cast, s->session.document);
+    models_paint(s->models, s->session.document);
     session_frame(&s->session);
 }
 
@@ -80,9 +80,9 @@ static void studio_open(struct studio *s)
              "{\"type\": \"character\", \"name\": \"hand\", \"model\": \"%s\", \"coordinates\": [{\"name\": \"a\", "
              "\"spline\": \"s\"}]}]}",
              model);
-    s->cast = panel_open_cast(&s->session, scene);
+    s->models = panel_open_models(&s->session, scene);
     if (editor_is_playing(s->session.editor)) session_key(&s->session, KEY_SPACE, 0);
-    s->plain = cast_figure(s->cast, 0);
+    s->plain = models_figure(s->models, 0);
     s->session.editor->stage->camera.azimuth = -1.5708f; // from the front
     frame(s);
 }
@@ -159,7 +159,7 @@ static void undo_and_redo_are_exact(void **state)
     session_key(&s.session, 'Z', MOD_CTRL);
     assert_null(rig_of(&s)->painted);
     frame(&s);
-    assert_memory_equal(cast_figure(s.cast, 0)->character.coordinates[0].re, s.plain->character.coordinates[0].re,
+    assert_memory_equal(models_figure(s.models, 0)->character.coordinates[0].re, s.plain->character.coordinates[0].re,
                         (size_t)s.plain->character.vertex_count * sizeof(float[3]));
     session_key(&s.session, 'Y', MOD_CTRL);
     session_key(&s.session, 'Y', MOD_CTRL);
@@ -243,7 +243,7 @@ static void modes_and_modifiers_do_what_they_say(void **state)
 /// Sum over all edges of the finger's middle of how much Ñ' differs in phase and in the logarithm of amplitude.
 static void variation(const struct studio *s, double sum[2])
 {
-    const struct figure *figure = cast_figure(s->cast, 0);
+    const struct figure *figure = models_figure(s->models, 0);
     const struct coordinate *c = &figure->character.coordinates[0];
     sum[0] = sum[1] = 0;
     for (int i = 0; i < figure->character.vertex_count; i++) {

@@ -1,6 +1,6 @@
 /// The character's vertex shader, by what a person sees: the same picture as of a figure that already has the shape, the place
 /// or the colours that the shader should give it.
-#include "draw/stage_morph.h"
+#include "draw/stage.h"
 #include "model/painted.h"
 #include "offscreen.h"
 #include "puppet.h"

@@ -1,5 +1,4 @@
 /// Knots as text and on the clipboard: what is read, what is refused and with which words, and what pasting does.
-// Knots as text and on the clipboard: what is read, what is refused and with which words, and what pasting does.
 #include "inside.h"
 #include "panel_session.h"
 #include "scene/knots.h"

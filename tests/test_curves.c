@@ -1,5 +1,4 @@
 /// The curves panel as an animator uses it: boxes, scaling, retiming, other curves, ruler. Events in, document out.
-// The curves panel as an animator uses it: boxes, scaling, retiming, other curves, ruler. Events in, document out.
 #include "inside.h"
 #include "panel_session.h"
 

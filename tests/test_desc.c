@@ -45,7 +45,7 @@ static wiggly_desc with_other(const wiggly_desc *desc, const desc_member *member
     void *at = (char *)&other + member->offset;
     wiggly_param param = {track ? 0 : 0.3, track ? wave : NULL};
     if (member->kind == DESC_PARAM) memcpy(at, &param, sizeof param);
-    if (member->kind == DESC_NUMBER) *(double *)at *= 0.75;
+    if (member->kind == DESC_NUMBER) *(double *)at = 0.2 + 0.5 * *(double *)at; // another number, whatever it was
     if (member->kind == DESC_COUNT) *(int *)at += 1;
     if (member->kind == DESC_CHOICE) *(unsigned char *)at ^= 1; // the low byte
     return other;

@@ -204,6 +204,10 @@ static void test_welcome(void **state)
     assert_false(editor_is_welcoming(s.editor));
     session_key(&s, KEY_F1, 0);
     editor_welcome(s.editor);
+    session_hold(&s, KEY_F1, ACTION_PRESS); // and Esc within the same slow frame
+    session_key(&s, KEY_ESCAPE, 0);
+    assert_false(editor_is_welcoming(s.editor));
+    editor_welcome(s.editor);
     session_key(&s, 'I', 0);
     assert_int_equal(s.document->splines[0].knot_count, 3);
     assert_false(editor_is_welcoming(s.editor));

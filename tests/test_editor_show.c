@@ -1,5 +1,4 @@
 /// What the editor shows, frame by frame: playback, views, the tail that is pulled, and what it costs. Without GL.
-// What the editor shows, frame by frame: playback, views, the tail that is pulled, and what it costs. Without GL.
 #include "inside.h"
 #include "session.h"
 

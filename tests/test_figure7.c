@@ -8,7 +8,7 @@
 
 struct scene {
     struct document *document;
-    struct cast *cast;
+    struct models *models;
     const struct figure *figure;
 };
 
@@ -18,15 +18,15 @@ static struct scene open_scene(const char *path)
     struct error error = {0};
     scene.document = scene_load(path, NULL, &error);
     if (!scene.document) fail_msg("%s", error.text);
-    scene.cast = cast_create();
-    if (!cast_update(scene.cast, scene.document, &error)) fail_msg("%s", error.text);
-    scene.figure = cast_figure(scene.cast, 0);
+    scene.models = models_create();
+    if (!models_update(scene.models, scene.document, &error)) fail_msg("%s", error.text);
+    scene.figure = models_figure(scene.models, 0);
     return scene;
 }
 
 static void close_scene(struct scene *scene)
 {
-    cast_destroy(scene->cast);
+    models_destroy(scene->models);
     document_destroy(scene->document);
 }
 
@@ -107,7 +107,7 @@ static void it_stands_on_its_feet(void **state)
         struct scene scene = open_scene(paths[s]);
         struct evaluation evaluation = {0};
         struct error error = {0};
-        const struct posing posing = {scene.document, &evaluation, scene.cast, LOOK_WIGGLY};
+        const struct posing posing = {scene.document, &evaluation, scene.models, LOOK_WIGGLY};
         assert_true(evaluation_resize(&evaluation, scene.document, &error));
         evaluation_update(&evaluation, scene.document, NULL, false);
         for (int i = 0; i < evaluation.samples; i++) {

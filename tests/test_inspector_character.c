@@ -8,7 +8,7 @@ static char model[] = "/tmp/wiggly-test-XXXXXX";
 
 struct puppetry {
     struct session session;
-    struct cast *cast;
+    struct models *models;
 };
 
 static int make_model(void **state)
@@ -43,7 +43,7 @@ static void open_puppet(struct puppetry *p)
              "[{\"frame\": 9, \"value\": 2}]}], \"rigs\": [{\"type\": \"character\", \"model\": \"%s\", "
              "\"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}]}",
              model);
-    p->cast = panel_open_cast(&p->session, scene);
+    p->models = panel_open_models(&p->session, scene);
     session_frame(&p->session);
 }
 

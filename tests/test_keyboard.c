@@ -1,5 +1,4 @@
 /// Nothing needs a mouse: what it does to selection, views, panels and warnings, the keyboard does too.
-// Nothing needs a mouse: what it does to selection, views, panels and warnings, the keyboard does too.
 #include "inside.h"
 #include "panel_session.h"
 #include "ui/theme.h"

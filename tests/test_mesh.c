@@ -51,7 +51,7 @@ static void the_body_is_closed(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_body(0.042f, 0.0012f, &mesh);
+    mesh_torso(0.042f, 0.0012f, &mesh);
     assert_false(mesh.failed);
     assert_int_equal(open_edges(&mesh), 0);
     mesh_free(&mesh);
@@ -71,7 +71,7 @@ static void the_tail_is_open_only_inside_the_body(void **state)
         end = fmaxf(end, mesh.vertices[v].position[2]);
     }
     assert_near(end, CREATURE_TAIL_LENGTH, 1e-5);
-    assert_true(start < -0.05f && start > creature_body_lo[2]);
+    assert_true(start < -0.05f && start > creature_torso_lo[2]);
     mesh_free(&mesh);
 }
 
@@ -135,7 +135,7 @@ static void the_body_stands_on_the_ground(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_body(0.042f, 0.0012f, &mesh);
+    mesh_torso(0.042f, 0.0012f, &mesh);
     float low = INFINITY;
     for (int v = 0; v < mesh.vertex_count; v++) low = fminf(low, mesh.vertices[v].position[1]);
     assert_near(low, -CREATURE_BASE_HEIGHT, 0.02);
@@ -147,7 +147,7 @@ static void tail_and_body_meet_smoothly(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_body(0.042f, 0.0012f, &mesh);
+    mesh_torso(0.042f, 0.0012f, &mesh);
     int seen = 0;
     for (int v = 0; v < mesh.vertex_count; v++) {
         const struct vertex *vertex = &mesh.vertices[v];

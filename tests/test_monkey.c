@@ -207,7 +207,7 @@ static void keep_small(struct app *app)
 {
     while (document_samples(app->table.document) * (app->table.document->spline_count + 1) > MOST_SAMPLES) {
         struct editor_world world = table_world(&app->table);
-        core_undo(&app->table.editor->core, &world);
+        core_undo(&app->table.editor->core, &world, -1);
         if (!history_redo_label(app->table.history)) return;
     }
 }

@@ -1,7 +1,7 @@
 /// Soft characters: equations 29 and 30, normals, the coarse mesh, phases as colours, and models that are not there.
 #include "puppet.h"
-#include "rig/cast.h"
-#include "rig/morph.h"
+#include "rig/models.h"
+#include "rig/posing.h"
 #include "scene/load.h"
 #include "ui/phase_color.h"
 #include <complex.h>
@@ -225,16 +225,16 @@ static void a_model_that_is_missing_or_broken_is_said(void **state)
     assert_int_equal(write(file, "glTF, but not really", 20), 20);
     close(file);
     static const char *const sentences[] = {"/nowhere/at-all.glb: ", "/tmp/wiggly-test-"};
-    const char *const models[] = {"/nowhere/at-all.glb", path};
+    const char *const names[] = {"/nowhere/at-all.glb", path};
     for (int i = 0; i < 2; i++) {
-        struct document *document = scene_with(models[i]);
-        struct cast *cast = cast_create();
+        struct document *document = scene_with(names[i]);
+        struct models *models = models_create();
         struct error error = {0};
-        assert_false(cast_update(cast, document, &error));
+        assert_false(models_update(models, document, &error));
         assert_int_equal(strncmp(error.text, sentences[i], strlen(sentences[i])), 0);
-        assert_null(cast_figure(cast, 0));
-        assert_string_equal(document_character(document, 0)->model, models[i]);
-        cast_destroy(cast);
+        assert_null(models_figure(models, 0));
+        assert_string_equal(document_character(document, 0)->model, names[i]);
+        models_destroy(models);
         document_destroy(document);
     }
     unlink(path);
@@ -248,24 +248,24 @@ static void a_model_is_read_once_and_again_when_it_changes(void **state)
     close(mkstemp(path));
     struct character character = puppet_character(0.2f, 1), finer = puppet_character(0.1f, 1);
     struct document *document = scene_with(path);
-    struct cast *cast = cast_create();
+    struct models *models = models_create();
     struct error error = {0};
     char sentence[256];
     assert_true(character_write(path, &character, &error));
-    assert_false(cast_update(cast, document, &error));
+    assert_false(models_update(models, document, &error));
     snprintf(sentence, sizeof sentence, "%s: expected a coordinate called \"z\", got others, such as a", path);
     assert_string_equal(error.text, sentence);
-    const struct figure *figure = cast_figure(cast, 0);
+    const struct figure *figure = models_figure(models, 0);
     assert_non_null(figure);
     const uint64_t id = figure->id;
-    cast_update(cast, document, &error);
-    assert_true(cast_figure(cast, 0)->id == id);
+    models_update(models, document, &error);
+    assert_true(models_figure(models, 0)->id == id);
     assert_true(character_write(path, &finer, &error));
-    cast_update(cast, document, &error);
-    assert_true(cast_figure(cast, 0)->id != id);
-    assert_int_equal(cast_figure(cast, 0)->character.vertex_count, finer.vertex_count);
+    models_update(models, document, &error);
+    assert_true(models_figure(models, 0)->id != id);
+    assert_int_equal(models_figure(models, 0)->character.vertex_count, finer.vertex_count);
     unlink(path);
-    cast_destroy(cast);
+    models_destroy(models);
     document_destroy(document);
     character_free(&character);
     character_free(&finer);

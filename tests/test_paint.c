@@ -3,8 +3,8 @@
 #include "app/recovery.h"
 #include "base/npy.h"
 #include "puppet.h"
-#include "rig/cast.h"
-#include "rig/morph.h"
+#include "rig/models.h"
+#include "rig/posing.h"
 #include "scene/edit.h"
 #include "scene/load.h"
 #include "temporary.h"
@@ -490,18 +490,18 @@ static void paint_for_another_model_is_kept(void **state)
     const char *folder = fresh_folder();
     struct character character = puppet_character(0.2f, 1);
     struct studio s = studio_open(scene);
-    struct cast *cast = cast_create();
+    struct models *models = models_create();
     struct error error = {0};
     assert_true(character_write(in(folder, "m.glb"), &character, &error));
     settle_in(&s, folder);
     paint_stroke(&s);
-    assert_false(cast_update(cast, s.document, &error));
+    assert_false(models_update(models, s.document, &error));
     assert_non_null(strstr(error.text, "expected paint for the 1 coordinates of "));
-    assert_non_null(cast_figure(cast, 0));
-    assert_true(cast_figure(cast, 0)->version == 0);
+    assert_non_null(models_figure(models, 0));
+    assert_true(models_figure(models, 0)->version == 0);
     save(&s, folder, "walk.json");
     assert_loads(&s, folder, "walk.json", "walk-paint.npy");
-    cast_destroy(cast);
+    models_destroy(models);
     character_free(&character);
     studio_close(&s);
     remove_folder(folder);

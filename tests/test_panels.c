@@ -94,11 +94,11 @@ static void check_status(struct session *f)
         "in the line, whatever the width of the window may be, and then some more";
     static const char *const messages[] = {"", "Saved.", long_message};
     editor_set_stats(f->editor, 1234, 123456);
-    status_advance(f->editor->transport, &f->editor->core, 1);
+    transport_advance(f->editor->transport, &f->editor->core, 1);
     for (size_t m = 0; m < sizeof messages / sizeof messages[0]; m++) {
         editor_message(f->editor, true, messages[m]);
         show(f);
-        status_show(f->editor->transport, &f->editor->core, &f->world, NULL);
+        transport_show(f->editor->transport, &f->editor->core, &f->world, NULL);
         assert_int_equal(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.status), 6);
     }
 }
@@ -112,13 +112,13 @@ static void check_dialogs(struct session *f)
     assert_true(core_step(&f->editor->core, &f->world, "Change start", 0, &edit));
     for (int kind = 0; kind < 4; kind++) {
         if (kind == 0) dialog_ask_open(f->editor->dialogs);
-        if (kind == 1) dialog_ask_save_as(f->editor->dialogs, &f->editor->core);
-        if (kind == 2) dialog_leave(f->editor->dialogs, &f->editor->core, &f->world, &quit);
+        if (kind == 1) dialogs_save_as(f->editor->dialogs, &f->editor->core);
+        if (kind == 2) dialogs_leave(f->editor->dialogs, &f->editor->core, &f->world, &quit);
         if (kind == 3)
             editor_offer_recovery(f->editor, &(struct recovery_offer){"walk.json", "1 May 2026, 10:00", 2});
         for (int failed = 0; failed < 2; failed++) {
             show(f);
-            dialog_show(f->editor->dialogs, &f->editor->core, &f->world);
+            dialogs_show(f->editor->dialogs, &f->editor->core, &f->world);
             assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.window) >= 4);
             f->editor->dialogs->dialog.awaited = REQUEST_SAVE;
             panel_answer(
@@ -358,7 +358,7 @@ static void test_figures_change_twice_a_second(void **state)
     int changes = 0;
     for (int frame = 0; frame < 120; frame++) {
         editor_set_stats(f.editor, 50 + frame % 7, 200 + frame);
-        status_advance(f.editor->transport, &f.editor->core, 1.0 / 60);
+        transport_advance(f.editor->transport, &f.editor->core, 1.0 / 60);
         changes += f.editor->transport->status.solve_us != last;
         last = f.editor->transport->status.solve_us;
     }

@@ -1,7 +1,6 @@
 /// Playback: the real clock, speed, the part that is played, and scrubbing.
-#include "editor/core/play_range.h"
 #include "editor/core/playback.h"
-#include "editor/transport/controls.h"
+#include "editor/transport/state.h"
 #include "inside.h"
 #include "panel_session.h"
 
@@ -213,7 +212,7 @@ static void test_scrubbing(void **state)
 
 static void click_on(struct session *session, enum control control, enum event_button button)
 {
-    struct rect r = transport_rect(&session->editor->core, control);
+    struct rect r = controls_rect(&session->editor->core, control);
     session_move(session, r.x + r.w / 2, r.y + r.h / 2);
     session_press(session, button, 1);
     session_release(session, button);

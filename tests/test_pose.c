@@ -1,7 +1,6 @@
 /// The tail's pose: directions and units of the file format, lag (paper, section 7.1), and the default scene's
 /// motion.
 #include "near.h"
-#include "rig/pose.h"
 #include "rig/posing.h"
 #include "rig/shadow.h"
 #include "scene/load.h"

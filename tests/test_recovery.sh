@@ -24,10 +24,9 @@ edit_and_kill() { # <keys that go to a frame without one>...
 cp assets/scenes/tail.json "$scratch/mine.json"
 before=$(grep -o '"frame":' "$scratch/mine.json" | wc -l)
 start_app mine.json "$scratch/mine.json"
-xdotool key F1
+xdotool key F1 Escape
 said() { grep -qx "welcomed = yes" "$XDG_CONFIG_HOME/wiggly/settings"; }
 eventually "what to try first is said once" said
-xdotool key Escape
 xdotool key F10
 light() { grep -qx "theme = light" "$XDG_CONFIG_HOME/wiggly/settings"; }
 eventually "the theme is remembered" light

@@ -3,7 +3,7 @@
 #include "model/creature.h"
 #include "offscreen.h"
 #include "rig/camera.h"
-#include "rig/pose.h"
+#include "rig/posing.h"
 #include "rig/shadow.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -1,16 +1,10 @@
 #!/bin/sh
 # Finds files that include each other in a circle (a .c and its .h are one), names the largest, and refuses more than CIRCLE (3)
-# files in one. Folders that may still have larger ones are in LARGER: their number of files. Usage: tools/check-circles.sh [root]
+# files in one. Usage: tools/check-circles.sh [root]
 set -eu
 cd "${1:-.}"
 grep -rE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' --include='*.[ch]' src |
-    awk -v most="${CIRCLE:-3}" -v larger="${LARGER-scene=9}" '
-BEGIN {
-    for (n = split(larger, entry, " "); n > 0; n--) {
-        split(entry[n], part, "=")
-        limit[part[1]] = part[2]
-    }
-}
+    awk -v most="${CIRCLE:-3}" '
 {
     file = substr($0, 5, index($0, ":") - 7)
     header = $0
@@ -45,9 +39,8 @@ END {
             size++
             list = list " " files[g]
         }
-        split(files[f], folder, "/")
         if (size > largest) { largest = size; where = list }
-        if (size > (folder[1] in limit ? limit[folder[1]] : most)) {
+        if (size > most) {
             printf "src: %d files include each other in a circle:%s\n", size, list
             bad = 1
         }

@@ -8,11 +8,10 @@ Run again only when the editor's targets or the scene change:
 """
 import json
 import math
-import sys
 
-FRAMES = 1200
+from session_events import at, click, drag, key, write
+
 NAMES = ["sway", "up", "curl", "lift", "twist", "nod", "walk", "bob"]
-events = []
 
 
 def spline(n, name):
@@ -30,32 +29,8 @@ def tail():
     return {"type": "tail", "name": "tail", "position": [{"spline": "walk"}, {"spline": "bob"}, 0], "channels": channels}
 
 
-def at(frame, text):
-    events.append((frame, text))
-
-
-def key(frame, name, *mods):
-    at(frame, " ".join(["key", name, *mods]))
-    at(frame + 1, " ".join(["keyup", name, *mods]))
-
-
-def drag(frame, length, start, path, *mods, button="left"):
-    """Presses on `start`, follows path(u) for u in (0, 1] over `length` frames, releases."""
-    at(frame, f"pointer @{start}")
-    at(frame + 1, " ".join([f"press {button} @{start}", *mods]))
-    for n in range(1, length + 1):
-        at(frame + 1 + n, f"pointer @{path(n / length)}")
-    at(frame + 2 + length, " ".join([f"release {button} @{path(1)}", *mods]))
-
-
 def circle(start, radius):
     return lambda u: f"{start}{radius * math.sin(2 * math.pi * u):+.2f},{radius * math.sin(4 * math.pi * u):.2f}"
-
-
-def click(frame, target):
-    at(frame, f"pointer @{target}")
-    at(frame + 1, f"press left @{target}")
-    at(frame + 2, f"release left @{target}")
 
 
 click(4, "widget(section.poles)")
@@ -95,9 +70,4 @@ scene = {"wiggly": 1, "fps": 24, "frames": [0, 240], "splines": [spline(n, name)
 with open("tests/replays/full.json", "w") as file:
     json.dump(scene, file)
 with open("tests/replays/full.replay", "w") as file:
-    print("wiggly-replay 1\nversion 0.1.0\nsize 1280 720\nscale 1", file=file)
-    print(f"scene {sys.argv[1] if len(sys.argv) > 1 else '0000000000000000'}\ndt 1/60\nframes {FRAMES}", file=file)
-    print("# Made by tools/make-full-session.py", file=file)
-    for frame, text in sorted(events, key=lambda e: e[0]):
-        assert frame < FRAMES
-        print(frame, text, file=file)
+    write(file, "make-full-session.py")

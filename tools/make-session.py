@@ -9,33 +9,7 @@ not. Run again only when the editor's targets or the scene change:
 import math
 import sys
 
-FRAMES = 1200
-events = []
-
-
-def at(frame, text):
-    events.append((frame, text))
-
-
-def key(frame, name, *mods, times=1, every=3):
-    for n in range(times):
-        at(frame + n * every, " ".join(["key", name, *mods]))
-        at(frame + n * every + 1, " ".join(["keyup", name, *mods]))
-
-
-def drag(frame, length, start, path, *mods, button="left"):
-    """Presses on `start`, follows path(u) for u in (0, 1] over `length` frames, releases."""
-    at(frame, f"pointer @{start}")
-    at(frame + 1, " ".join([f"press {button} @{start}", *mods]))
-    for n in range(1, length + 1):
-        at(frame + 1 + n, f"pointer @{path(n / length)}")
-    at(frame + 2 + length, " ".join([f"release {button} @{path(1)}", *mods]))
-
-
-def click(frame, target, *mods):
-    at(frame, f"pointer @{target}")
-    at(frame + 1, " ".join([f"press left @{target}", *mods]))
-    at(frame + 2, " ".join([f"release left @{target}", *mods]))
+from session_events import at, click, drag, key, write
 
 
 def curve(spline, from_to_frame, from_to_value, swing=0.0):
@@ -109,9 +83,4 @@ key(1050, "Z", "ctrl", times=12)
 key(1090, "Y", "ctrl", times=9)
 drag(1124, 60, "knot(sway,0)", curve("sway", (8, 6), (1, 0.7), -0.3))
 
-print("wiggly-replay 1\nversion 0.1.0\nsize 1280 720\nscale 1")
-print(f"scene {sys.argv[1] if len(sys.argv) > 1 else '0000000000000000'}\ndt 1/60\nframes {FRAMES}")
-print("# Made by tools/make-session.py")
-for frame, text in sorted(events, key=lambda e: e[0]):
-    assert frame < FRAMES
-    print(frame, text)
+write(sys.stdout, "make-session.py")

@@ -13,14 +13,14 @@ enum {
 
 struct analysis {
     double pca1, pca2; ///< shares of the real variance that real PCA's first and first two explain, 0 … 1
-    double (*mean)[3]; ///< what the motion swings about: each vertex's mean position, metres
+    double (*mean)[3]; ///< each vertex's mean position, metres
     struct component *components;
     int count;
 };
 
-/// Finds the `modes` largest components, at most as many as there are frames. `fps` is in frames per second; `direction` is
-/// that of the gauge (component_turn), or NULL. Reads the motion twice; memory is that of frames², a slab of 8 MiB and
-/// what is returned. Errors: too few or too many frames, nothing moves, numbers that are not finite, short memory.
+/// Finds the `modes` largest components, at most as many as there are frames. `fps` is in frames per second; `direction` fixes
+/// the gauge (see component_turn()), or is NULL. Reads the motion twice; needs memory for frames² numbers, a slab of 8 MiB and
+/// the result. Errors: too few or too many frames, nothing moves, a number that is not finite, out of memory.
 bool analysis_create(struct analysis *analysis, const struct lapack *lapack, const struct motion *motion, double fps,
                      int modes, const double direction[3], struct error *error);
 void analysis_free(struct analysis *analysis);

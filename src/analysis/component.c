@@ -32,7 +32,7 @@ static bool power_step(double moment[3][3], double v[3])
     return length > 0;
 }
 
-/// The direction in which most moves: the largest eigenvector of M = Re Σ ñ ñᴴ.
+/// The direction that moves most: the largest eigenvector of M = Re Σ ñ ñᴴ.
 static void find_direction(const struct component *c, double direction[3])
 {
     enum { STEPS = 60 };

@@ -12,15 +12,16 @@ struct component {
     double explained;           ///< share of the complex variance, 0 … 1
     double direction[3];        ///< d of the gauge, a unit vector
     double frequency, damping;  ///< of R: undamped, Hz; ratio, 0 … 1
-    double first_lag, last_lag; ///< degrees: 5 % of the motion along d leads by more, 5 % lags by more
-    double reach;               ///< metres: the farthest that a vertex moves from the mean as |R| = 1
+    double first_lag,
+        last_lag; ///< degrees: 5 % of the motion along d leads by more than the one, 5 % lags by more than the other
+    double reach; ///< metres: the farthest any vertex moves from its mean while |R| = 1
 };
 
 /// Scales R to max |R| = 1 and Ñ inversely, so that R Ñ stays.
 void component_scale(struct component *component);
 
-/// Turns Ñ, and R against it, so that Σ (ñ·d)² is real and positive with Re Σ ñ·d ≥ 0. `direction` becomes d, in any length; NULL
-/// takes the one in which most moves, the largest eigenvector of Re Σ ñ ñᴴ, its largest number positive.
+/// Turns Ñ, and R against it, so that Σ (ñ·d)² is real and positive with Re Σ ñ·d ≥ 0. `direction` is d, of any length; NULL
+/// means the direction that moves most: the largest eigenvector of Re Σ ñ ñᴴ, its largest number positive.
 void component_turn(struct component *component, const double direction[3]);
 
 /// Fits R ≈ c exp((−ζω_n + jω_n √(1−ζ²)) t): the slopes of log |R| and of the unwrapped arg R, weighted by |R|².

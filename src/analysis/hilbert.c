@@ -1,4 +1,4 @@
-/// x̂ = K x̄ where x̄ is x with a continuation on either side, as long as x together, and K the Hilbert transform of a
+/// x̂ = K x̄, where x̄ is x with a continuation on either side (together as long as x) and K is the Hilbert transform of a
 /// periodic sequence of even length L:  K_ts = (2/L) cot(π (t − s)/L) for t − s odd, else 0.
 ///
 ///        ╭╮  ╭─╮         |  ╭─╮   ╭─╮   ╭─╮  |   ╭─╮  ╭╮        x̄ over L = 2n samples, n of them given
@@ -6,22 +6,22 @@
 ///        before: n/2     |     frames: n     |  after: n − n/2
 ///
 /// The continuation is linear prediction. The columns of a motion that swings freely are sums of the same few damped
-/// oscillations, and such a sum obeys one recurrence x_t = −Σ a_i x_{t−iq} whatever its amplitudes and phases: so it is fitted to
-/// all columns together, and all it needs of them is G = S Sᵀ. Burg's reflection coefficients lie within the unit circle, so
-/// the continuation never grows. Mirroring instead is right for a shake that starts at a displacement at rest
-/// only, and off by a quarter period for one that starts with a blow.
+/// oscillations, and such a sum obeys one recurrence x_t = −Σ a_i x_{t−iq} whatever its amplitudes and phases. It is fitted to
+/// all columns together, from G = S Sᵀ alone. Burg's reflection coefficients lie within the unit circle, so
+/// the continuation never grows. Mirroring would be right only for a shake that starts displaced and at rest;
+/// after a blow it is off by a quarter period.
 #include "analysis/hilbert.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// What is left of the power, at the least, for another coefficient to be worth it: below is rounding of float data.
+/// Share of the power that must be left for another coefficient to be worth it: less is the rounding of float data.
 static const double least_power = 1e-9;
 
 enum { TERMS = HILBERT_ORDER_MAX + 1 };
 
 /// An eighth of the mean period, by the pooled correlation of neighbouring frames: cos ω = Σ ⟨x_t, x_{t−1}⟩ / Σ |x_t|².
-/// Steps much shorter make every oscillation look like a straight line, and Burg's damping then is not that of the data.
+/// In much shorter steps every oscillation looks like a straight line, and Burg's damping is no longer the data's.
 static int find_stride(const double *gram, int frames)
 {
     size_t n = (size_t)frames;

@@ -13,7 +13,7 @@ struct predictor {
     int order, stride;
 };
 
-/// The predictor that fits all columns of S best, in time and against it: Burg's method with its sums over time pooled over
+/// The predictor that fits all columns of S best, forwards and backwards in time: Burg's method with its sums pooled over
 /// the columns, from G = S Sᵀ (frames × frames, row after row, both halves; its trace above 0). The stride is an eighth of the
 /// mean period, so that the frame rate does not matter; the order ends where nothing is left to predict.
 struct predictor hilbert_predictor(const double *gram, int frames);

@@ -2,12 +2,12 @@
 #include "analysis/slabs.h"
 #include <stdlib.h>
 
-enum { SLAB_NUMBERS = 1 << 20 }; ///< 8 MiB: a slab and its copies stay near the processor
+enum { SLAB_NUMBERS = 1 << 20 }; ///< 8 MiB: a slab and its copies fit the cache
 
-/// What is done with columns [first, first + count) of S.
+/// Called with columns [first, first + count) of S.
 typedef void visit(void *user, const double *slab, int first, int count);
 
-/// Takes each column's mean away, and keeps it in `means` unless that is NULL.
+/// Subtracts each column's mean, and stores it in `means` unless that is NULL.
 static void remove_means(double *slab, int frames, int count, double *means)
 {
     for (int j = 0; j < count; j++) {

@@ -1,4 +1,4 @@
-/// The two passes over a motion, a slab of columns at a time, each column without its mean over time.
+/// The two passes over a motion, a slab of columns at a time. Each column's mean over time is removed.
 #ifndef ANALYSIS_SLABS_H
 #define ANALYSIS_SLABS_H
 

@@ -16,7 +16,7 @@
 enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, HEADLESS_FRAMES = 1200, WARM_UP = 10, REFERENCE_FRAMES = 21 };
 enum { LOG_ROWS = 200000 };
 
-/// A window; where none opens, it says so in a line and goes on without.
+/// Opens a window; if none opens, says so in a line and goes on without.
 static bool open_platform(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
@@ -36,8 +36,8 @@ static bool open_platform(struct app *app, struct error *error)
     return app->platform != NULL;
 }
 
-/// After the first frame: opens the log. The reference frame is measured where a log is wanted, but nobody at a window is
-/// kept waiting for it.
+/// After the first frame: opens the log. The reference frame is measured only for a log, so that nobody at a window
+/// waits for it.
 static bool open_log(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
@@ -76,13 +76,13 @@ static bool run_frames(struct app *app, long frames, bool timed, struct error *e
     return !app->failed;
 }
 
-/// Somebody's work is at stake, not a script's.
+/// Whether a person's work is at stake, not a script's.
 static bool is_live(const struct app *app)
 {
     return app->platform && platform_is_window(app->platform) && !app->replay;
 }
 
-/// Where the run ends without the user's own word on what is unsaved.
+/// For a run that ends before the user could decide about unsaved work.
 static bool rescue(struct app *app, bool good, struct error *error)
 {
     bool told = process_was_told_to_end(), unsaved = !history_is_saved(app->table.history);
@@ -92,7 +92,7 @@ static bool rescue(struct app *app, bool good, struct error *error)
     return false;
 }
 
-/// What was asked for at the end: document, log, recording. Goes on past a failure and reports the first.
+/// Writes what was asked for at the end: document, log, recording. Goes on after a failure and reports the first.
 static bool close_files(struct app *app, struct error *error)
 {
     const char *result = app->table.document && app->frame > 0 ? app->options->result : NULL;
@@ -114,7 +114,7 @@ static bool finish(struct app *app, struct error *error)
     return close_files(app, good ? error : &other) && good;
 }
 
-/// The display is gone, and with it what draws: saves what can be saved. The process ends on return.
+/// The display is gone, and GL with it: saves what can be saved. The process ends on return.
 static void on_lost(void *user)
 {
     struct app *app = user;
@@ -145,7 +145,7 @@ static bool start(struct app *app, struct error *error)
     float scale;
     platform_size(app->platform, &width, &height, &scale);
     if (!(app->draw = draw_create(scale, error)) || !(app->table.editor = editor_create(error))) return false;
-    if (!(app->table.history = history_create()) || !(app->table.cast = cast_create()))
+    if (!(app->table.history = history_create()) || !(app->table.models = models_create()))
         return fail(error, ERROR_ENVIRONMENT, "out of memory");
     app_connect_files(app);
     app_resize(app, (float)width / scale, (float)height / scale, scale);

@@ -25,8 +25,8 @@ struct app_options {
     const char *turns;       ///< "first" or "second": draws frames in turn with another program (platform/turns.h)
 };
 
-/// Runs until the user quits or the frames are done; prints the timing summary where frames were counted. Unless headless,
-/// and where there is no display, says so and runs headless. Returns the exit status; on failure `error` says why.
+/// Runs until the user quits or the frames are done; prints the timing summary if frames were counted. Without a display
+/// says so and runs headless. Returns the exit status; on failure `error` says why.
 int app_run(const struct app_options *options, struct error *error);
 
 #endif

@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/// Seen from the program's folder. The installation comes first: beside it may be an assets/scenes of somebody's own.
+/// Seen from the program's folder. The installation comes first: beside it may be somebody's own assets/scenes.
 static const char *const places[] = {"../share/wiggly/scenes", "../assets/scenes", "../../assets/scenes"};
 
 bool assets_folder(char folder[PATH_LIMIT])
@@ -20,7 +20,7 @@ bool assets_folder(char folder[PATH_LIMIT])
     return false;
 }
 
-/// Folders are compared as things, not by name: one may be mounted in two places.
+/// Compares folders by identity, not name: one may be mounted in two places.
 static bool is_same(const char *folder, const char *other)
 {
     struct stat a, b;

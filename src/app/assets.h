@@ -5,10 +5,10 @@
 #include "base/path.h"
 #include <stdbool.h>
 
-/// The folder of these scenes. false where the program stands alone.
+/// The folder of these scenes. false if the program stands alone.
 bool assets_folder(char folder[PATH_LIMIT]);
 
-/// Whether a file, links followed, is in that folder.
+/// Whether a file (after following links) is in that folder.
 bool assets_has(const char *path);
 
 #endif

@@ -10,7 +10,7 @@ static const double INTERVAL = 1;  ///< seconds from one snapshot to the next
 static const double PAUSE = 1;     ///< without an edit, after which a frame may take longer unnoticed
 static const double PATIENCE = 30; ///< for such a pause
 
-/// Knots up to which a snapshot is made in any frame: 3 ms where 100,000 take 0.2 s (2 µs a knot).
+/// With more knots than this a snapshot waits for a pause: it costs 2 µs a knot, 3 ms here.
 enum { LARGE = 1500 };
 
 enum job { JOB_NONE, JOB_WRITE, JOB_REMOVE, JOB_END };
@@ -106,7 +106,7 @@ static bool is_busy(struct autosave *autosave)
     return busy;
 }
 
-/// Makes the text. false where memory is short.
+/// Makes the text. false if memory is short.
 static bool take_snapshot(struct autosave *autosave, const struct autosave_work *work)
 {
     struct snapshot *snapshot = &autosave->snapshot;
@@ -116,7 +116,7 @@ static bool take_snapshot(struct autosave *autosave, const struct autosave_work 
            scene_print_paint(work->document, &snapshot->text, &snapshot->capacity, &snapshot->size);
 }
 
-/// Passes the thread's complaint on, the first one of a run of them; the next interval tries again.
+/// Reports the thread's failure, but only the first in a row; the next interval tries again.
 static bool report(struct autosave *autosave, struct error *error)
 {
     bool news = autosave->failed && !autosave->complained;
@@ -125,7 +125,7 @@ static bool report(struct autosave *autosave, struct error *error)
     return !news || fail(error, ERROR_ENVIRONMENT, "Unsaved work has no recovery file: %s", autosave->error.text);
 }
 
-/// A large document is written in a pause of its edits, so that no drag stumbles over it.
+/// A large document is written in a pause between edits, so that no drag stutters.
 static bool is_time(const struct autosave *autosave, const struct autosave_work *work, double now)
 {
     long knots = 0;

@@ -7,7 +7,7 @@
 
 struct autosave;
 
-/// What there is to be kept safe.
+/// The work to keep safe.
 struct autosave_work {
     const struct document *document;
     const char *path;  ///< of the document's own file, or ""
@@ -15,24 +15,24 @@ struct autosave_work {
     bool saved;        ///< nothing would be lost
 };
 
-/// Takes over the slot, and starts the thread. NULL with a sentence (the slot is then released).
+/// Takes over the slot, and starts the thread. On failure NULL with a sentence; the slot is then released.
 struct autosave *autosave_open(const struct recovery_slot *slot, struct error *error);
 
-/// Looks at the work at time `now` (seconds), often: writes it where it has changed and the last write is a second ago (a
-/// large document only in a pause of a second, if one comes within half a minute), removes the file where it is saved. false with a sentence, once, where the file cannot be written.
+/// Call it often, with the time `now` in seconds. Writes the work if it has changed and the last write is a second ago (a
+/// large document waits for a pause of a second, but at most half a minute); removes the file once the work is saved.
+/// false with a sentence, once, if the file cannot be written.
 bool autosave_update(struct autosave *autosave, const struct autosave_work *work, double now, struct error *error);
 
 /// Writes the work now and returns when it is on the disk.
 bool autosave_flush(struct autosave *autosave, const struct autosave_work *work, struct error *error);
 
-/// From now on the recovery file is that of another slot, which is taken over with its file; the own one is removed and
-/// released.
+/// Moves to another slot, taking over its file; removes and releases the old one.
 void autosave_move(struct autosave *autosave, const struct recovery_slot *slot);
 
 /// Path of the recovery file.
 const char *autosave_path(const struct autosave *autosave);
 
-/// Ends the thread and releases the slot; the file stays where `keep`, else it is removed.
+/// Ends the thread and releases the slot; removes the file unless `keep`.
 void autosave_close(struct autosave *autosave, bool keep);
 
 #endif

@@ -1,4 +1,4 @@
-/// What the editor may not do itself: files, the window, and the end of the run.
+/// Carries out what the editor may only ask for: files, the window, and the end of the run.
 #include "app/assets.h"
 #include "app/state.h"
 #include "base/embedded.h"
@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/// What "new" puts on the table: a spline with nothing keyed yet, and a tail that follows it.
+/// What "new" opens: a spline without knots, and a tail that follows it.
 static const char new_scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1,"
     " \"knots\": [{\"frame\": 0, \"value\": 0}]}],"
@@ -50,7 +50,7 @@ void app_adopt(struct app *app, struct document *document)
     show_title(app);
 }
 
-/// Where the models of the scenes that are in the binary are: with the program's other scenes.
+/// The folder that embedded scenes find their models from: that of the program's other scenes.
 static struct document *built_in_place(struct document *document)
 {
     char folder[PATH_LIMIT];
@@ -91,7 +91,7 @@ bool app_open(struct app *app, const char *path, struct error *error)
     return true;
 }
 
-/// A figure of the paper in place of the document: undo brings that one back, with the file that it belongs to.
+/// Opens a figure of the paper in place of the document: undo brings the document back, with its file.
 static bool open_figure(struct app *app, int number, struct error *error)
 {
     char name[32];
@@ -100,11 +100,11 @@ static bool open_figure(struct app *app, int number, struct error *error)
     if (!edit.document) return false;
     edit.document->serial = ++app->last_serial;
     struct editor_world world = table_world(&app->table);
-    editor_let_go(app->table.editor, &world); // a drag may have begun since the figure was asked for
+    editor_let_go(app->table.editor, &world); // a drag may have begun since the request
     history_begin(app->table.history, "Open a figure", 0);
     bool done = history_apply(app->table.history, app->table.document, &edit, error);
     history_end(app->table.history);
-    editor_follow(app->table.editor, &world);
+    editor_refresh(app->table.editor, &world);
     show_title(app);
     return done;
 }
@@ -157,7 +157,7 @@ static bool take_picture(struct app *app, struct error *error)
     return true;
 }
 
-/// "Save as" over a file that is not the document's own: refused once, done when it is asked for again.
+/// "Save as" over a file that is not the document's own: refused once, done when asked again.
 static bool may_replace(struct app *app, const char *path, struct error *error)
 {
     if (access(path, F_OK) != 0 || strcmp(path, app_path(app)) == 0 || strcmp(path, app->replaceable) == 0)

@@ -13,7 +13,7 @@ static const struct {
     [FOLDER_STATE] = {"XDG_STATE_HOME", ".local/state"},
 };
 
-/// A relative path in the variable is to be ignored, says the base directory specification.
+/// The base directory specification says to ignore a relative path in the variable.
 static bool find(enum folder folder, char *path, size_t size, struct error *error)
 {
     const char *own = getenv(places[folder].variable), *home = getenv("HOME");

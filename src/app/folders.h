@@ -1,4 +1,4 @@
-/// Where the user's own files of the program are (XDG base directories).
+/// The user's folders for the program's files (XDG base directories).
 #ifndef APP_FOLDERS_H
 #define APP_FOLDERS_H
 
@@ -10,8 +10,8 @@ enum folder {
     FOLDER_STATE,  ///< $XDG_STATE_HOME/wiggly, else ~/.local/state/wiggly: unsaved work
 };
 
-/// Writes the folder's path and makes it, with those above, where it is missing (for the user alone). false with a
-/// sentence where that is not possible.
+/// Writes the folder's path, and makes it and its parents if missing (readable by the user alone). On failure false with a
+/// sentence.
 bool folder_make(enum folder folder, char *path, size_t size, struct error *error);
 
 #endif

@@ -45,7 +45,7 @@ static void play_events(struct app *app)
     if (app->error.kind != ERROR_NONE) app->failed = true;
 }
 
-/// The text that the editor asked for in the frame before: an event, so that it is recorded.
+/// Delivers the text that the editor asked for in the last frame: as an event, so that it is recorded.
 static void paste(struct app *app)
 {
     if (!app->paste) return;
@@ -54,15 +54,14 @@ static void paste(struct app *app)
     if (text) handle_event(app, &(struct event){.kind = EVENT_PASTE, .text = text});
 }
 
-/// The stage's movement is timed by the frames where they keep time themselves, so that their pictures do not depend on the
-/// machine.
+/// Under a fixed clock the stage's movement is timed by frames, so that pictures do not depend on the machine.
 static double resolution_now(const struct app *app)
 {
     return app->fixed_clock ? (double)app->frame * replay_dt : app->frame_start;
 }
 
-/// How long the next frame may wait for input: to its turn (an event brings it forward), or for a while where nothing moves by
-/// itself. The frames of a live recording all come in their turn, because its clock counts frames.
+/// How long the next frame may wait for input: until it is due (an event brings it forward), or for a while if nothing moves by
+/// itself. A live recording never skips frames, because its clock counts them.
 static double waiting_time(const struct app *app, bool wanted)
 {
     double left = fmax(0, app->next_time - clock_now());
@@ -71,7 +70,7 @@ static double waiting_time(const struct app *app, bool wanted)
     return wanted ? left : fmin(idle_wait, resolution_wait(&app->resolution, clock_now()));
 }
 
-/// Waits, then takes the frame's events. false where nothing happened that would need a frame.
+/// Waits, then takes the frame's events. false if nothing happened that needs a frame.
 static bool take_input(struct app *app)
 {
     double wait_start = clock_now();
@@ -111,7 +110,7 @@ static double step(struct app *app)
 {
     double dt = app->fixed_clock ? replay_dt : fmin(fmax(app->frame_start - app->last_time, 0), longest_step);
     bool starts =
-        app->frame == 0 || (app->was_idle && !app->fixed_clock); // what starts now has not waited since then
+        app->frame == 0 || (app->was_idle && !app->fixed_clock); // what starts now was not waiting since then
     app->last_time = app->frame_start;
     app->next_time = next_time(app);
     return starts ? 0 : dt;
@@ -128,10 +127,10 @@ static void on_advanced(void *user)
 static void check_sizes(struct app *app)
 {
     struct error error, full;
-    app->sized_serial = app->table.cast_serial;
+    app->sized_serial = app->table.models_serial;
     int r = document_next_rig(app->table.document, RIG_CHARACTER, 0);
     for (int c = 0; app->draw && r >= 0; c++, r = document_next_rig(app->table.document, RIG_CHARACTER, r + 1)) {
-        const struct figure *figure = cast_figure(app->table.cast, c);
+        const struct figure *figure = models_figure(app->table.models, c);
         if (!figure || draw_can_move(figure, &error)) continue;
         const struct rig *rig = &app->table.document->rigs[r];
         fail(&full, error.kind, "%s: %s", rig->name ? rig->name : rig->character.model, error.text);
@@ -143,7 +142,7 @@ static void on_posed(void *user)
 {
     struct app *app = user;
     struct editor *editor = app->table.editor;
-    if (app->sized_serial != app->table.cast_serial) check_sizes(app);
+    if (app->sized_serial != app->table.models_serial) check_sizes(app);
     float scale = resolution_choose(&app->resolution, editor_stage(editor)->hash, resolution_now(app));
     editor_set_stage_scale(editor, scale);
 }
@@ -161,7 +160,7 @@ static struct draw_input draw_input(const struct app *app, float stage_scale)
     return input;
 }
 
-/// A swap that waits for the display is no work: where the graphics card has a clock, that one counts.
+/// A swap that waits for the display is no work: if the graphics card has a clock, that counts.
 static void measure(struct app *app)
 {
     const struct frame_row *row = &app->row;
@@ -221,7 +220,7 @@ static void log_frame(struct app *app)
         pace_set_rate(&app->pace, platform_refresh_rate(app->platform));
     }
     if (!app->options->frames_dir) return;
-    char path[PATH_MAX + 32]; // what is cut off here is longer than the system takes
+    char path[PATH_MAX + 32]; // a longer path is more than the system takes
     snprintf(path, sizeof path, "%s/frame_%05ld.png", app->options->frames_dir, app->frame);
     if (!app_screenshot(app, path, &app->error)) app->failed = true;
 }

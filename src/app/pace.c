@@ -2,7 +2,7 @@
 #include "app/pace.h"
 #include <math.h>
 
-enum { QUEUED = 4, JUDGED = 24 }; // frames that a driver takes before it waits; those that decide
+enum { QUEUED = 4, JUDGED = 24 }; // frames a driver queues before it waits; frames to judge by
 static const double usual_rate = 60, slowest = 20, fastest = 1000;
 static const double shortest = 0.93; ///< of a period on average, where swaps wait for the display
 

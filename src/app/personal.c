@@ -1,4 +1,4 @@
-/// The user's settings, recent files and recovery, for a window that somebody sits at.
+/// The user's settings, recent files and recovery, for interactive windows.
 #include "app/personal.h"
 #include "app/autosave.h"
 #include "app/folders.h"
@@ -30,7 +30,7 @@ static void complain(struct app *app, const struct error *error)
     if (error->kind != ERROR_NONE) editor_message(app->table.editor, true, error->text);
 }
 
-/// Another window may have changed the file since: it is read anew for every change.
+/// Another window may have changed the file meanwhile: it is read again for every change.
 static struct settings *load_settings(const struct personal *personal, struct error *error)
 {
     return personal->settings_path[0] ? settings_load(personal->settings_path, error) : NULL;
@@ -73,7 +73,7 @@ static void start_settings(struct app *app)
     complain(app, &error);
 }
 
-/// The theme was changed by its key.
+/// Stores the theme once its key has changed it.
 static void note_theme(struct app *app)
 {
     struct personal *personal = app->personal;
@@ -86,7 +86,7 @@ static void note_theme(struct app *app)
     store_settings(app, settings);
 }
 
-/// The card for new users has gone: it does not come back.
+/// Once closed, the card for new users does not come back.
 static void note_welcomed(struct app *app)
 {
     struct personal *personal = app->personal;
@@ -133,7 +133,7 @@ int personal_recent(void *user, struct dialog_recent *files, int most)
     return count;
 }
 
-/// Asks about the newest file that was left behind; false where there is none.
+/// Asks about the newest file left behind; false if there is none.
 static bool offer(struct app *app)
 {
     struct personal *personal = app->personal;
@@ -176,7 +176,7 @@ void personal_start(struct app *app)
     app->personal = calloc(1, sizeof *app->personal);
     if (!app->personal) return;
     start_autosave(app);
-    if (o->record || o->frames) return; // a script's run, that must not depend on who runs it
+    if (o->record || o->frames) return; // a script must not depend on who runs it
     start_settings(app);
     personal_note_file(app, app_path(app));
     if (app->personal->autosave) offer(app);

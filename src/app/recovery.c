@@ -14,8 +14,8 @@
 static const char first_line[] = "wiggly-recovery 1";
 static const size_t LARGEST = (size_t)1 << 30;
 
-/// Takes slot `n`. The lock file stays for good: removing it would let two programs hold two locks of one name.
-static bool take(const char *folder, int n, struct recovery_slot *slot)
+/// The lock file is never removed: that would let two programs hold two locks of one name.
+static bool claim_slot(const char *folder, int n, struct recovery_slot *slot)
 {
     char lock[RECOVERY_PATH + 16];
     int length = snprintf(slot->path, sizeof slot->path, "%s/recovery-%d", folder, n);
@@ -36,7 +36,7 @@ static bool take(const char *folder, int n, struct recovery_slot *slot)
 bool recovery_claim(const char *folder, struct recovery_slot *slot, struct error *error)
 {
     for (int n = 1; n <= RECOVERY_SLOTS; n++) {
-        if (take(folder, n, slot)) {
+        if (claim_slot(folder, n, slot)) {
             if (access(slot->path, F_OK) != 0) return true;
             recovery_release(slot);
         } else if (errno != EWOULDBLOCK) {
@@ -54,7 +54,7 @@ void recovery_release(struct recovery_slot *slot)
     slot->lock = -1;
 }
 
-/// The document in the text after the first line: scene, and where there is a NUL the paint behind it.
+/// The document in the text after the first line: the scene and, after a NUL, its paint.
 static struct document *parse_work(const char *path, const char *text, size_t size, struct error *error)
 {
     const char *end = memchr(text, '\0', size);
@@ -65,7 +65,7 @@ static struct document *parse_work(const char *path, const char *text, size_t si
     return NULL;
 }
 
-/// The path in a file's first line; "" where it has none.
+/// The path in a file's first line; "" if there is none.
 static void read_original(const char *path, char original[RECOVERY_PATH])
 {
     char line[RECOVERY_PATH + sizeof first_line] = "";
@@ -89,7 +89,7 @@ bool recovery_find(const char *folder, struct recovery_entry *entry, int *count)
         struct stat about;
         char path[RECOVERY_PATH];
         snprintf(path, sizeof path, "%s/recovery-%d", folder, n);
-        if (stat(path, &about) != 0 || !take(folder, n, &slot)) continue;
+        if (stat(path, &about) != 0 || !claim_slot(folder, n, &slot)) continue;
         bool newer = found++ == 0 || about.st_mtim.tv_sec > newest.tv_sec ||
                      (about.st_mtim.tv_sec == newest.tv_sec && about.st_mtim.tv_nsec > newest.tv_nsec);
         if (newer && found > 1) recovery_release(&entry->slot);

@@ -1,12 +1,12 @@
-/// Recovery files: unsaved work that outlives the program, one slot a running program.
+/// Recovery files: unsaved work that outlives the program. Each running program has a slot.
 ///
-/// Slot n of a folder is the file recovery-n and its lock recovery-n.lock, which its program holds as long as it runs: the
-/// lock goes with the process, however that ends. A file whose lock is free was left behind and can be offered. It holds
+/// Slot n of a folder is the file recovery-n and its lock recovery-n.lock, which its program holds while it runs: the
+/// lock ends with the process, however that ends. A file whose lock is free was left behind and can be offered. It holds
 ///
 ///     wiggly-recovery 1 /home/me/walk.json      (the path of the document's own file; nothing for an untitled one)
 ///     { "wiggly": 1, …                          (the document's canonical text, for a file in RECOVERY_FOLDER)
 ///
-/// and, where its characters are painted, a NUL and their paint (scene/load.h).
+/// and, if its characters are painted, a NUL and their paint (scene/load.h).
 #ifndef APP_RECOVERY_H
 #define APP_RECOVERY_H
 
@@ -24,10 +24,10 @@ struct recovery_slot {
     char path[RECOVERY_PATH];
 };
 
-/// Takes a free slot without a file. false with a sentence where there is none or the folder cannot be written.
+/// Takes a free slot without a file. false with a sentence if there is none or the folder cannot be written.
 bool recovery_claim(const char *folder, struct recovery_slot *slot, struct error *error);
 
-/// Gives the slot back; its file, where there is one, is what the next start finds.
+/// Gives the slot back; its file, if any, is for the next start to find.
 void recovery_release(struct recovery_slot *slot);
 
 /// A file that was left behind.
@@ -38,13 +38,13 @@ struct recovery_entry {
 };
 
 /// Claims the slot with the newest file left behind; the caller releases it. `count` (may be NULL) says how many there
-/// are. false where there is none.
+/// are. false if there is none.
 bool recovery_find(const char *folder, struct recovery_entry *entry, int *count);
 
-/// The document in a file. NULL with a sentence where it is not whole.
+/// The document in a file. NULL with a sentence if it is damaged.
 struct document *recovery_read(const struct recovery_slot *slot, struct error *error);
 
-/// Writes a slot's file, atomically: `text` is the document's canonical text for RECOVERY_FOLDER, with paint where there is.
+/// Writes a slot's file, atomically: `text` is the document's canonical text for RECOVERY_FOLDER, with any paint.
 bool recovery_write(const struct recovery_slot *slot, const char *original, const char *text, size_t size,
                     struct error *error);
 

@@ -33,8 +33,7 @@ static bool bad_line(const struct replay *replay, struct error *error, const cha
                 got ? "\"" : "", got ? got : "the end of the line", got ? "\"" : "");
 }
 
-/// Goes to the next line that says something and returns where it begins; NULL at the end of the text. Blank lines and
-/// `#` comments are passed over.
+/// Skips blank lines and `#` comments and returns where the next line begins; NULL at the end of the text.
 static char *seek_line(struct replay *replay)
 {
     for (; *replay->at; replay->at++, replay->next_line++) {
@@ -47,7 +46,7 @@ static char *seek_line(struct replay *replay)
     return *replay->at ? replay->at : NULL;
 }
 
-/// Behind the line that seek_line() found; returns where that one ends.
+/// Goes past the line that seek_line() found; returns where it ends.
 static char *pass_line(struct replay *replay)
 {
     char *end = strchrnul(replay->at, '\n');
@@ -140,8 +139,8 @@ static bool read_header(struct replay *replay, struct error *error)
     return fail(error, ERROR_INPUT, "%s:%d: expected a header with size and frames", replay->path, replay->line);
 }
 
-/// Whether the events' frames are in order and within the length, so that a replay is refused before it starts. One that
-/// was cut short while it was recorded has no length yet (0) and ends with its last event.
+/// Checks that the events' frames are in order and within the length, so that a broken replay is refused before it starts.
+/// A recording that was cut short has no length (0) and ends with its last event.
 static bool check_frames(struct replay *replay, struct error *error)
 {
     char *at = replay->at;
@@ -205,7 +204,7 @@ static const struct {
 
 enum { MOD_COUNT = sizeof mod_names / sizeof mod_names[0] };
 
-/// What an event's line consists of, after the frame: a verb and its operands.
+/// An event's line after the frame number: a verb and its operands.
 enum operands {
     WITH_KEY = 1,
     WITH_BUTTON = 2,
@@ -242,7 +241,7 @@ static const struct verb {
 enum { VERB_COUNT = sizeof verbs / sizeof verbs[0] };
 
 /// Reading position within one event's words.
-struct cursor {
+struct event_line {
     struct replay *replay;
     struct words words;
     int next;
@@ -251,9 +250,9 @@ struct cursor {
     struct error *error;
 };
 
-static char *take_word(struct cursor *c) { return c->next < c->words.count ? c->words.word[c->next++] : NULL; }
+static char *take_word(struct event_line *c) { return c->next < c->words.count ? c->words.word[c->next++] : NULL; }
 
-static bool read_float(struct cursor *c, float *value)
+static bool read_float(struct event_line *c, float *value)
 {
     char *word = take_word(c);
     double number;
@@ -262,8 +261,8 @@ static bool read_float(struct cursor *c, float *value)
     return true;
 }
 
-/// "@knot(sway,2)+4,-3": where it is now, plus an offset in logical pixels.
-static bool read_target(struct cursor *c, char *word, struct event *event)
+/// "@knot(sway,2)+4,-3": its place now, plus an offset in logical pixels.
+static bool read_target(struct event_line *c, char *word, struct event *event)
 {
     char *end = strrchr(word, ')');
     if (!end) return bad_line(c->replay, c->error, "a target such as @knot(sway,2)", word);
@@ -282,13 +281,13 @@ static bool read_target(struct cursor *c, char *word, struct event *event)
     return true;
 }
 
-static bool read_position(struct cursor *c, struct event *event)
+static bool read_position(struct event_line *c, struct event *event)
 {
     if (c->next < c->words.count && c->words.word[c->next][0] == '@') return read_target(c, take_word(c), event);
     return read_float(c, &event->x) && read_float(c, &event->y);
 }
 
-static bool read_button(struct cursor *c, struct event *event)
+static bool read_button(struct event_line *c, struct event *event)
 {
     char *word = take_word(c);
     for (int b = 0; word && b <= BUTTON_MIDDLE; b++) {
@@ -300,7 +299,7 @@ static bool read_button(struct cursor *c, struct event *event)
     return bad_line(c->replay, c->error, "left, right or middle", word);
 }
 
-static bool read_mods(struct cursor *c, struct event *event)
+static bool read_mods(struct event_line *c, struct event *event)
 {
     for (char *word = take_word(c); word; word = take_word(c)) {
         int m = 0;
@@ -311,22 +310,22 @@ static bool read_mods(struct cursor *c, struct event *event)
     return true;
 }
 
-static bool read_key(struct cursor *c, struct event *event)
+static bool read_key(struct event_line *c, struct event *event)
 {
     char *word = take_word(c);
     event->key = word ? key_from_name(word) : KEY_NONE;
     return event->key != KEY_NONE || bad_line(c->replay, c->error, "the name of a key", word);
 }
 
-static bool read_code(struct cursor *c, struct event *event)
+static bool read_code(struct event_line *c, struct event *event)
 {
     char *word = take_word(c);
     return (word && sscanf(word, "U+%" SCNx32, &event->codepoint) == 1) ||
            bad_line(c->replay, c->error, "U+ and a code", word);
 }
 
-/// Spaces, percent signs and the like are written as %20 and %25, so that a text stays one word. Decoded in place.
-static bool read_escaped(struct cursor *c, const char *expected, const char **text)
+/// Decodes in place: spaces, percent signs and the like are written as %20 and %25, so that a text stays one word.
+static bool read_escaped(struct event_line *c, const char *expected, const char **text)
 {
     char *word = take_word(c), *out = word;
     *text = word;
@@ -342,7 +341,7 @@ static bool read_escaped(struct cursor *c, const char *expected, const char **te
     return true;
 }
 
-static bool read_operands(struct cursor *c, const struct verb *verb, struct event *event)
+static bool read_operands(struct event_line *c, const struct verb *verb, struct event *event)
 {
     unsigned with = verb->operands;
     return (!(with & WITH_KEY) || read_key(c, event)) && (!(with & WITH_BUTTON) || read_button(c, event)) &&
@@ -353,7 +352,7 @@ static bool read_operands(struct cursor *c, const struct verb *verb, struct even
            (!(with & WITH_MODS) || read_mods(c, event));
 }
 
-static bool read_event(struct cursor *c, struct event *event)
+static bool read_event(struct event_line *c, struct event *event)
 {
     char *word = take_word(c);
     for (int v = 0; word && v < VERB_COUNT; v++) {
@@ -375,12 +374,12 @@ bool replay_next(struct replay *replay, long frame, replay_locate *locate, void 
 {
     char *line = seek_line(replay);
     if (!line || strtol(line, NULL, 10) > frame) return false;
-    struct cursor c = {.replay = replay,
-                       .words = split(take_line(replay)),
-                       .next = 1,
-                       .locate = locate,
-                       .user = user,
-                       .error = error};
+    struct event_line c = {.replay = replay,
+                           .words = split(take_line(replay)),
+                           .next = 1,
+                           .locate = locate,
+                           .user = user,
+                           .error = error};
     return read_event(&c, event);
 }
 
@@ -406,7 +405,7 @@ struct recording *recording_open(const char *path, const struct replay_header *h
         free(recording);
         return NULL;
     }
-    setvbuf(recording->file, NULL, _IOLBF, 0); // whatever ends the program, the events up to then are there
+    setvbuf(recording->file, NULL, _IOLBF, 0); // so that no crash loses events
     fprintf(recording->file, "%s\nversion %s\nsize %d %d\nscale %g\nscene %016" PRIx64 "\ndt 1/60\nframes ",
             first_line, WIGGLY_VERSION, header->width, header->height, header->scale, header->scene_hash);
     recording->length_at = ftell(recording->file);
@@ -426,7 +425,7 @@ static const struct verb *verb_of(const struct event *event)
     return NULL;
 }
 
-/// What would end a word or open a target's brackets is escaped.
+/// Escapes what would end a word or open a target's brackets.
 static void write_escaped(FILE *f, const char *text)
 {
     fputc(' ', f);

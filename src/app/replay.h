@@ -29,7 +29,7 @@ struct replay_header {
 
 struct replay;
 
-/// Reads a whole replay. NULL with a sentence "file:line: expected …" where it is not one.
+/// Reads a whole replay. On failure NULL with a sentence "file:line: expected …".
 struct replay *replay_load(const char *path, struct error *error);
 void replay_destroy(struct replay *replay);
 const struct replay_header *replay_get_header(const struct replay *replay);
@@ -37,7 +37,7 @@ const struct replay_header *replay_get_header(const struct replay *replay);
 /// Looks a target up on the screen: editor_target() behind a closure.
 typedef bool replay_locate(void *user, const char *target, float *x, float *y, struct error *error);
 
-/// The next event of `frame`; false where there is none left in it, or (error->kind is set) a target cannot be found.
+/// The next event of `frame`; false if none is left or, with error->kind set, a target cannot be found.
 bool replay_next(struct replay *replay, long frame, replay_locate *locate, void *user, struct event *event,
                  struct error *error);
 
@@ -46,7 +46,7 @@ struct recording;
 
 struct recording *recording_open(const char *path, const struct replay_header *header, struct error *error);
 void recording_event(struct recording *recording, long frame, const struct event *event);
-/// Fills in the length and closes; false with a sentence where a write had failed.
+/// Fills in the length and closes; false with a sentence if a write failed.
 bool recording_close(struct recording *recording, long frames, struct error *error);
 
 #endif

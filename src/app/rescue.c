@@ -1,5 +1,5 @@
-/// Unsaved work when the program cannot go on: it goes to the recovery file, which the next start offers; where there is none,
-/// beside the original, which stays as it is.
+/// Saves unsaved work when the program cannot go on: to the recovery file, which the next start offers, or else to a new file
+/// beside the original.
 #include "app/state.h"
 #include "scene/load.h"
 #include <stdio.h>
@@ -9,7 +9,7 @@
 
 enum { MAX_NAMES = 1000 };
 
-/// Where the work may go: `folder` "" is the working folder, `name` has no ending.
+/// A place for the work: `folder` "" is the working folder, `name` has no ending.
 struct place {
     const char *folder, *name;
     int name_length;
@@ -29,7 +29,7 @@ static bool write_to(const struct app *app, const struct place *place, char *pat
     return fail(error, ERROR_ENVIRONMENT, "%s: too many recovered scenes are there already", path);
 }
 
-/// Beside the scene's own file, else in the home folder, else where everybody may write.
+/// Beside the scene's own file, else in the home folder, else in a folder that all may write to.
 static bool write_somewhere(const struct app *app, char *path, size_t size, struct error *error)
 {
     const char *home = getenv("HOME"), *own = app_path(app)[0] ? app_path(app) : "untitled.json";

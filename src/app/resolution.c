@@ -26,7 +26,7 @@ float resolution_choose(struct resolution *resolution, uint64_t hash, double now
 {
     const bool again = resolution->hash && now - resolution->changed < still;
     if (hash != resolution->hash) {
-        // A single change is no movement: it is drawn exactly at once.
+        // A single change is no movement: it is drawn exactly right away.
         resolution->shown = again ? scale_of(resolution->moving) : 1;
         resolution->hash = hash;
         resolution->changed = now;
@@ -51,7 +51,7 @@ static int level_of(float scale)
     return level;
 }
 
-/// A leaky count of the frames for which something holds.
+/// A leaky count of frames for which something holds.
 static int count(int before, bool holds) { return holds ? before + 1 : before > 0 ? before - 1 : 0; }
 
 static void step(struct resolution *resolution, int level, bool down)
@@ -67,7 +67,7 @@ void resolution_measure(struct resolution *resolution, double frame_ms, double d
 {
     if (!resolution->adapts) return;
     const int level = level_of(scale_of(resolution->moving));
-    // Fewer pixels help only where drawing is what takes the time.
+    // Fewer pixels help only if drawing takes the time.
     const bool slow = frame_ms > too_long && draw_ms > frame_ms / 2;
     resolution->slow = count(resolution->slow, slow);
     resolution->quick = count(resolution->quick, frame_ms < short_again);

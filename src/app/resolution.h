@@ -1,12 +1,12 @@
-/// At which resolution the stage is drawn: its own, or a lower one while it moves and frames take too long. What is still is
-/// always drawn exactly.
+/// Chooses the stage's resolution: lower while it moves and frames take too long. A still stage is always drawn
+/// exactly.
 #ifndef APP_RESOLUTION_H
 #define APP_RESOLUTION_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/// Zero: never lower.
+/// Zero: always full resolution.
 struct resolution {
     float moving;    ///< what movement is drawn at; 0 means 1
     float shown;     ///< what is on the screen; 0 means 1
@@ -19,19 +19,19 @@ struct resolution {
     int patience;    ///< quick frames before a step up is tried; more after each one that had to be taken back
 };
 
-/// From the command line's word: "auto", or a number from 0.25 to 1. false where it is neither.
+/// From the command line's word: "auto", or a number from 0.25 to 1. false if it is neither.
 bool resolution_parse(struct resolution *resolution, const char *text);
 
-/// What to draw the stage with that `hash` at; `now` in seconds on the app's clock.
+/// The resolution for a stage with that `hash`; `now` in seconds on the app's clock.
 float resolution_choose(struct resolution *resolution, uint64_t hash, double now);
 
 /// Whether the stage on the screen is as sharp as it can be.
 bool resolution_is_exact(const struct resolution *resolution);
 
-/// Seconds until what is on the screen wants to be drawn exactly; INFINITY where it is.
+/// Seconds until the stage must be redrawn exactly; INFINITY if it is exact.
 double resolution_wait(const struct resolution *resolution, double now);
 
-/// What a frame that drew a moving stage cost: all of it, and drawing alone.
+/// Reports the cost of a frame with a moving stage: in all, and of drawing alone.
 void resolution_measure(struct resolution *resolution, double frame_ms, double draw_ms);
 
 #endif

@@ -30,7 +30,7 @@ static void drop(struct settings *settings, int at)
             (size_t)(settings->count - at) * sizeof settings->lines[0]);
 }
 
-/// Puts a line in at `at`; what finds no room is left out.
+/// Inserts a line at `at`, if there is room.
 static void insert(struct settings *settings, int at, const char *key, const char *value)
 {
     struct line line = {key ? strdup(key) : NULL, strdup(value)};
@@ -120,7 +120,7 @@ static void remove_all(struct settings *settings, const char *key)
     for (int at = find(settings, key, 0); at >= 0; at = find(settings, key, 0)) drop(settings, at);
 }
 
-/// What trim() or a line break would change does not come back from the file.
+/// Whether the file gives the value back: no line break, nothing for trim() to remove.
 static bool is_storable(const char *value)
 {
     size_t length = strlen(value);

@@ -1,11 +1,11 @@
-/// What the program remembers of its user from run to run: one small text file of lines `key = value`.
+/// What the program remembers between runs: a small text file of lines `key = value`.
 ///
 ///     # wiggly's settings
 ///     theme = dark
 ///     recent = /home/me/walk.json
 ///
-/// A key may come more than once (recent files: newest first). Lines with other keys are kept as they are, so that an older
-/// program does not forget what a newer one keeps.
+/// A key may come more than once (recent files: newest first). Lines with unknown keys are kept, so that an older
+/// program does not lose what a newer one stored.
 #ifndef APP_SETTINGS_H
 #define APP_SETTINGS_H
 
@@ -13,19 +13,19 @@
 
 struct settings;
 
-/// Reads a settings file; one that is not there is an empty one. A broken line or an unreadable file is one sentence in
-/// `error` (kind ERROR_NONE otherwise) and defaults in its place. NULL only where memory is short.
+/// Reads a settings file; a missing one counts as empty. For a broken line or an unreadable file, `error` gets one sentence
+/// (else ERROR_NONE) and defaults apply. NULL only if memory is short.
 struct settings *settings_load(const char *path, struct error *error);
 void settings_free(struct settings *settings);
 
-/// The `n`th value of a key (from 0), or NULL; and the first one as a number, `fallback` where it is none.
+/// The `n`th value of a key (from 0), or NULL; and the first one as a number, `fallback` if it is none.
 const char *settings_get(const struct settings *settings, const char *key, int n);
 double settings_number(const struct settings *settings, const char *key, double fallback);
 
-/// Gives a key one value in place of all it had. A value that could not be read back (a line break in it) is left out.
+/// Replaces all values of a key by one. A value that could not be read back (with a line break) is dropped.
 void settings_set(struct settings *settings, const char *key, const char *value);
 void settings_set_number(struct settings *settings, const char *key, double value);
-/// Puts a value before the key's others, dropping an equal one, and keeps the first `most`.
+/// Puts a value first among the key's values, dropping an equal one, and keeps the first `most`.
 void settings_push(struct settings *settings, const char *key, const char *value, int most);
 
 /// Writes the file, atomically.

@@ -45,16 +45,16 @@ struct app {
     struct error error;
 };
 
-/// Frees all that the app holds; what was never made may be NULL.
+/// Frees everything the app holds; what was never made may be NULL.
 void app_free(struct app *app);
 
 /// One frame: input, edit, solve, pose, draw, log.
 void app_frame(struct app *app);
 
-/// Opens a scene file, or the built-in one for NULL; the document on the table stays where that fails.
+/// Opens a scene file, or the built-in one for NULL; on failure the document on the table stays.
 bool app_open(struct app *app, const char *path, struct error *error);
 
-/// Puts a document on the table in place of the one there.
+/// Replaces the document on the table.
 void app_adopt(struct app *app, struct document *document);
 
 /// The document's own file; "" for an untitled one.
@@ -63,22 +63,22 @@ const char *app_path(const struct app *app);
 /// Carries out what the editor asked for: files, window, end.
 void app_requests(struct app *app);
 
-/// Writes unsaved work to the recovery file, else to a new file beside the scene's own one, and adds to the error's sentence
-/// where it is.
+/// Writes unsaved work to the recovery file, else to a new file beside the scene's own one, and adds its
+/// path to the error's sentence.
 void app_rescue(struct app *app, struct error *error);
 
 /// A new size of the window, in logical pixels.
 void app_resize(struct app *app, float width, float height, float scale);
 
-/// Where the editor's dialogs look for files.
+/// The folder in which the editor's dialogs look for files.
 void app_connect_files(struct app *app);
 
-/// The editor's text onto the clipboard (not in a replay, which must leave the user's own alone).
+/// Copies the editor's text to the clipboard (not in a replay, which must leave the user's clipboard alone).
 void app_copy(struct app *app);
-/// What is on the clipboard, or NULL with a sentence to the user where it is no text or too much.
+/// The clipboard's text, or NULL, telling the user that there is none or too much.
 const char *app_clipboard_text(struct app *app);
 
-/// Draws what the last frame showed again where its stage was of a lower resolution.
+/// Redraws the last frame if its stage was drawn at a lower resolution.
 void app_draw_exactly(struct app *app);
 
 /// The picture of the last frame as PNG, always an exact one.

@@ -14,7 +14,7 @@ static void advance(struct table *table, double dt, const struct table_hooks *ho
     if (hooks->advanced) hooks->advanced(hooks->user);
 }
 
-/// Room for the document's splines and knots after an edit; `resized`: the number or length of splines has changed.
+/// Makes room for the document's splines and knots after an edit; `resized`: the number or length of splines has changed.
 static bool fit_evaluation(struct table *table, bool resized, struct error *error)
 {
     if (!evaluation_resize(&table->evaluation, table->document, error)) return false;
@@ -60,20 +60,20 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
     return true;
 }
 
-/// The models of a document that has come to the table, or come back by undo.
-static void recast(struct table *table)
+/// Reads the models of a document that is new on the table, or back by undo.
+static void read_models(struct table *table)
 {
     struct error error;
-    if (!table->cast || table->cast_serial == table->document->serial) return;
-    table->cast_serial = table->document->serial;
+    if (!table->models || table->models_serial == table->document->serial) return;
+    table->models_serial = table->document->serial;
     if (!scene_read_paint(table->document, &error)) editor_message(table->editor, true, error.text);
-    if (!cast_update(table->cast, table->document, &error)) editor_message(table->editor, true, error.text);
+    if (!models_update(table->models, table->document, &error)) editor_message(table->editor, true, error.text);
 }
 
 static void show(struct table *table, const struct table_hooks *hooks)
 {
     struct editor_world world = table_world(table);
-    if (table->cast) cast_paint(table->cast, table->document);
+    if (table->models) models_paint(table->models, table->document);
     editor_pose(table->editor, &world);
     if (hooks->posed) hooks->posed(hooks->user);
     editor_show(table->editor, &world);
@@ -88,7 +88,7 @@ bool table_frame(struct table *table, double dt, const struct table_hooks *hooks
     start = clock_now();
     if (!solve(table, row, error)) return false;
     row->solve_us = since(start);
-    recast(table);
+    read_models(table);
     start = clock_now();
     show(table, hooks);
     row->pose_us = since(start);
@@ -101,6 +101,6 @@ void table_free(struct table *table)
     free(table->dirty);
     history_destroy(table->history);
     document_destroy(table->document);
-    cast_destroy(table->cast);
+    models_destroy(table->models);
     editor_destroy(table->editor);
 }

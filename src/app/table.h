@@ -1,19 +1,19 @@
-/// The document on the table, and what a frame makes of it: edit, solve, pose, show. No window, no files, no GL.
+/// The document on the table, and its part of a frame: edit, solve, pose, show. No window, no files, no GL.
 #ifndef APP_TABLE_H
 #define APP_TABLE_H
 
 #include "editor/editor.h"
 #include "timing/framelog.h"
 
-/// Zero but for what table_frame() works on.
+/// All zero but what table_frame() works on.
 struct table {
     struct editor *editor;
     struct document *document;
     struct history *history;
-    struct cast *cast; ///< NULL: the characters have no models
+    struct models *models; ///< NULL: the characters have no models
     struct evaluation evaluation;
     bool threaded;            ///< what takes longer than a frame is solved in the background
-    unsigned cast_serial;     ///< of the document whose models were read last
+    unsigned models_serial;   ///< of the document whose models were read last
     uint64_t solved_revision; ///< 0: nothing is solved
     bool solved_cubic;
     bool *dirty; ///< one a spline
@@ -28,15 +28,15 @@ struct table_hooks {
 
 static inline struct editor_world table_world(const struct table *table)
 {
-    return (struct editor_world){table->document, table->history, &table->evaluation, table->cast};
+    return (struct editor_world){table->document, table->history, &table->evaluation, table->models};
 }
 
-/// One frame, after its events: `dt` seconds of playback, the hooks' work, and what is to be drawn. Enters times and counts in the
-/// row. false where there is no memory for an edit.
+/// One frame, after its events: `dt` seconds of playback, the hooks' work, and the draw list. Enters times and counts in the
+/// row. false if memory is short for an edit.
 bool table_frame(struct table *table, double dt, const struct table_hooks *hooks, struct frame_row *row,
                  struct error *error);
 
-/// Frees all that is on it.
+/// Frees everything on it.
 void table_free(struct table *table);
 
 #endif

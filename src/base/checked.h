@@ -1,4 +1,4 @@
-/// Arithmetic on sizes that says when it does not fit.
+/// Arithmetic on sizes that reports overflow.
 #ifndef BASE_CHECKED_H
 #define BASE_CHECKED_H
 

@@ -18,10 +18,10 @@ struct error {
 };
 
 /// Fills `error` (which may be NULL) and returns false, so that callers can write `return fail(…)`.
-/// Bytes that are not printable ASCII or valid UTF-8 are replaced by '?'; too long a text is cut at a whole character.
+/// Bytes that are not printable ASCII or valid UTF-8 are replaced by '?'; a text that is too long is cut at a whole character.
 bool fail(struct error *error, enum error_kind kind, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-/// fail() for want of memory, "what: not enough memory"; `what` is a path, or what was being done.
+/// fail() with "what: not enough memory"; `what` is a path or an activity.
 bool fail_no_memory(struct error *error, const char *what);
 
 #endif

@@ -163,7 +163,7 @@ bool file_output_open(struct file_output *output, const char *path, struct error
     return fail_to(error, ERROR_ENVIRONMENT, "be written", path, cause);
 }
 
-/// The folder's entry must reach the disk too. Some file systems cannot; the content is safe then all the same.
+/// The folder's entry must reach the disk too. Where a file system cannot do that, the content is safe all the same.
 static void sync_folder(const char *target)
 {
     char *folder = beside(target, ".");

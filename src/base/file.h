@@ -1,4 +1,4 @@
-/// Whole files: read with a limit, written so that a reader sees the old or the new content and nothing between.
+/// Whole files: read up to a limit, written so that a reader sees the old content or the new, never a mixture.
 #ifndef BASE_FILE_H
 #define BASE_FILE_H
 
@@ -14,7 +14,7 @@ bool file_read(const char *path, size_t limit, char **data, size_t *size, struct
 /// and the temporary one is gone. A symbolic link's target is replaced, not the link; the old file's mode is kept.
 bool file_write_atomic(const char *path, const void *data, size_t size, struct error *error);
 
-/// The same for output that is written piece by piece; a device or a pipe is written straight.
+/// The same for output written piece by piece; a device or a pipe is written directly.
 struct file_output {
     FILE *stream;
     const char *path;         ///< the caller's, for messages

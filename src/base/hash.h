@@ -1,4 +1,4 @@
-/// A fast 64-bit hash for telling whether something to be drawn has changed. Not for files, not for adversaries.
+/// A fast 64-bit hash that tells whether something on the screen has changed. Not for files, not against adversaries.
 #ifndef BASE_HASH_H
 #define BASE_HASH_H
 

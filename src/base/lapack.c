@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/// dlsym() returns an object pointer; POSIX lets it be copied into a function pointer, C does not let it be cast.
+/// dlsym() returns an object pointer; POSIX allows copying it into a function pointer, C forbids the cast.
 static void find(void *library, const char *name, void *function)
 {
     void *symbol = library ? dlsym(library, name) : NULL;

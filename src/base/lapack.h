@@ -29,8 +29,8 @@ enum {
     BLAS_LOWER = 122
 };
 
-/// Loads liblapacke and OpenBLAS with one thread; `description` says what was found. False, and NULL functions, where
-/// nothing was or some function is missing.
+/// Loads liblapacke and OpenBLAS with one thread; `description` says what was found. False, with all functions NULL,
+/// if the libraries or one of their functions are missing.
 bool lapack_load(struct lapack *lapack, char *description, size_t size);
 void lapack_unload(struct lapack *lapack);
 

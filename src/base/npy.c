@@ -24,7 +24,7 @@ bool npy_start(struct npy *npy, const char *path, const unsigned char start[NPY_
     return true;
 }
 
-/// What follows 'key': in the dictionary, or NULL.
+/// The text after 'key': in the dictionary, or NULL.
 static const char *value_of(const char *text, const char *key)
 {
     const char *found = strstr(text, key);
@@ -50,7 +50,7 @@ static bool read_type(struct npy *npy, const char *path, const char *text, struc
     return true;
 }
 
-/// Lengths "(96, 4000, 3)"; false where that is no shape.
+/// Parses a shape such as "(96, 4000, 3)"; false if it is none.
 static bool read_lengths(struct npy *npy, const char *shape)
 {
     const char *at = shape + 1;

@@ -10,9 +10,9 @@
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the files' numbers are read as they lie");
 
 enum {
-    NPY_START = 12,        ///< bytes that say how long the dictionary is
-    NPY_DICTIONARY = 4096, ///< bytes of the longest that is read
-    NPY_HEADER = 128,      ///< bytes of the header that is written
+    NPY_START = 12,        ///< bytes up to and including the dictionary's length
+    NPY_DICTIONARY = 4096, ///< the longest dictionary we read, bytes
+    NPY_HEADER = 128,      ///< the header we write, bytes
     NPY_MAX_LENGTHS = 4,
 };
 
@@ -34,10 +34,10 @@ struct npy {
 /// Reads the start: where dictionary and numbers are. `path` is for messages.
 bool npy_start(struct npy *npy, const char *path, const unsigned char start[NPY_START], struct error *error);
 
-/// Reads the dictionary, a text that ends with a NUL: the rest.
+/// Reads the rest from the dictionary, a NUL-terminated text.
 bool npy_dictionary(struct npy *npy, const char *path, const char *text, struct error *error);
 
-/// The number at a place, in the file's type and byte order.
+/// One number, in the file's type and byte order.
 double npy_number(const struct npy *npy, const char *at);
 
 /// The header of a float32 array in C order; the numbers follow.

@@ -16,7 +16,7 @@ bool path_folder(const char *path, char folder[PATH_LIMIT])
     return true;
 }
 
-/// Takes "." and ".." and repeated slashes out of an absolute path.
+/// Removes ".", ".." and repeated slashes from an absolute path.
 static void normalise(char *path)
 {
     char *out = path;
@@ -66,7 +66,7 @@ bool path_resolve(const char *folder, const char *path, char absolute[PATH_LIMIT
 /// An absolute path as seen from an absolute folder.
 static bool relative(const char *path, const char *folder, char out[PATH_LIMIT])
 {
-    size_t common = 0; // bytes of whole names that both share
+    size_t common = 0; // bytes of the leading names that both share
     for (size_t i = 0;; i++) {
         bool path_ends = path[i] == '/' || path[i] == '\0', folder_ends = folder[i] == '/' || folder[i] == '\0';
         if (path_ends && folder_ends) common = i;

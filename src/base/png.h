@@ -1,4 +1,4 @@
-/// Pictures out of the program.
+/// Writes pictures.
 #ifndef BASE_PNG_H
 #define BASE_PNG_H
 

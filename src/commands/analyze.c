@@ -2,7 +2,6 @@
 #include "analysis/analysis.h"
 #include "commands/analyze_scene.h"
 #include "commands/commands.h"
-#include "commands/direction.h"
 #include "commands/options.h"
 #include "model/character.h"
 #include <stdio.h>
@@ -23,7 +22,7 @@ struct job {
     int direction_count; ///< 0, 1 for all, or one a file
 };
 
-/// Splits --shake at its colons. False where a part is no direction or the number of parts is wrong.
+/// Splits --shake at its colons. False if a part is no direction or their number is wrong.
 static bool read_directions(struct job *job, int files)
 {
     const char *at = job->shake;
@@ -33,13 +32,13 @@ static bool read_directions(struct job *job, int files)
         if (length >= sizeof part) return false;
         memcpy(part, at, length);
         part[length] = '\0';
-        if (!direction_read(part, job->directions[job->direction_count++])) return false;
+        if (!options_direction(part, job->directions[job->direction_count++])) return false;
         at = at[length] ? at + length + 1 : NULL;
     }
     return !at && (job->direction_count <= 1 || job->direction_count == files);
 }
 
-/// A name that no coordinate has yet, from the file's: "up", of further modes "up-2" and so on.
+/// A unique name for a coordinate, from the file's: "up", and "up-2" … for further modes.
 static char *make_name(const char *path, const struct character *character)
 {
     const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
@@ -99,7 +98,7 @@ static bool check_motion(const struct job *job, const struct motion *motion, con
     return fail(error, ERROR_USAGE, "%s: the file has no frame rate: give --fps N", motion->path);
 }
 
-/// A coordinate is added to the mesh at rest; a motion about another place has other axes, units or an offset.
+/// A coordinate is added to the mesh at rest; a motion centred elsewhere has other axes, units or an offset.
 static void warn_of_distance(const struct motion *motion, const struct analysis *analysis, const struct surface *rest)
 {
     double centre[3] = {0}, distance = 0, size = 0;
@@ -167,7 +166,7 @@ static bool run(const struct job *job, struct error *error)
     return done;
 }
 
-/// What the table of options cannot say; NULL or what is wrong.
+/// Checks what the table of options cannot; NULL or what is wrong.
 static const char *check(struct job *job)
 {
     int files = 0;

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Where a file really lies: its folder without symbolic links, "/", its name. NULL with errno set.
+/// A file's real path: its folder without symbolic links, "/", its name. NULL with errno set.
 static char *real_place(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -23,7 +23,7 @@ static char *real_place(const char *path)
     return place;
 }
 
-/// `to` as a scene at `from` names it. Both are real places.
+/// `to` as a scene at `from` names it. Both are real paths.
 static void add_relative(struct text *text, const char *from, const char *to)
 {
     size_t common = 0;
@@ -46,7 +46,7 @@ static void add_member(struct text *text, const char *before, double value)
 
 static double rounded(double value) { return round(value * 1000) / 1000; }
 
-/// A loop of ten periods with a knot every two and a half: with this bandwidth the swing would beat over longer gaps.
+/// A loop of ten periods with a knot every two and a half: over longer gaps the swing would beat at this bandwidth.
 static void add_spline(struct text *text, const struct coordinate *first, int frames)
 {
     static const double values[] = {1, -0.6, 0.8, -0.4};

@@ -4,9 +4,9 @@
 
 #include "model/character.h"
 
-/// Writes a scene beside or apart from the character's file `model`, which must exist. The spline has the first
-/// coordinate's frequency and damping. Of every `modes` coordinates, those of one motion, the first follows it, up
-/// to as many as a character in a scene can have.
+/// Writes a scene for the character's file `model`, which must exist. The spline has the first coordinate's frequency and
+/// damping. It drives the first of every `modes` coordinates (those of one motion), up to as many as a character in a
+/// scene can have.
 bool analyze_scene_write(const char *path, const char *model, const struct character *character, int modes,
                          struct error *error);
 

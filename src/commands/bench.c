@@ -15,7 +15,7 @@ struct report {
     int lines;
 };
 
-/// "12.3", or "null" / "-" for what was not measured.
+/// "12.3", or "null" / "-" if not measured.
 static const char *number(char *text, size_t size, double value, const char *missing)
 {
     if (isnan(value)) {

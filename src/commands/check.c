@@ -1,7 +1,7 @@
 /// wiggly check: prints every problem of a scene, its solution and its models.
 #include "commands/commands.h"
 #include "commands/options.h"
-#include "rig/cast.h"
+#include "rig/models.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
 #include <stdio.h>
@@ -17,13 +17,13 @@ static void print_problem(void *user, bool is_error, const char *sentence)
 static void print_warning(struct problems *problems, const char *path, const struct document *document, int spline,
                           const char *what)
 {
-    struct error warning; // a name may hold anything; this makes it printable
+    struct error warning; // a name may hold anything: fail() makes it printable
     fail(&warning, ERROR_INPUT, "%s: splines[%d]: \"%s\": %s", path, spline, document->splines[spline].name, what);
     problems->warnings++;
     problems->report(problems->user, false, warning.text);
 }
 
-/// A loop takes its last sample from its first, so an equilibrium that ends elsewhere jumps there.
+/// A loop's last sample is its first, so an equilibrium that ends elsewhere jumps there.
 static bool jumps(const struct document *document, const struct evaluation *evaluation, int index)
 {
     const struct spline *spline = &document->splines[index];
@@ -33,7 +33,7 @@ static bool jumps(const struct document *document, const struct evaluation *eval
     return y[0] != y[evaluation->samples - 1];
 }
 
-/// What shows only when the scene is solved.
+/// Checks what only a solve can show.
 static bool check_solution(const char *path, const struct document *document, struct problems *problems,
                            struct error *error)
 {
@@ -53,14 +53,14 @@ static bool check_solution(const char *path, const struct document *document, st
     return true;
 }
 
-/// What the scene's characters need: their paint, their models, and the coordinates in them.
+/// Checks the characters: their paint, their models, and the coordinates in them.
 static bool check_models(const char *path, struct document *document, struct problems *problems)
 {
     struct error error = {0};
-    struct cast *cast = cast_create();
+    struct models *models = models_create();
     bool good = scene_read_paint(document, &error);
-    if (good) good = cast ? cast_update(cast, document, &error) : fail_no_memory(&error, "characters");
-    cast_destroy(cast);
+    if (good) good = models ? models_update(models, document, &error) : fail_no_memory(&error, "characters");
+    models_destroy(models);
     if (good) return true;
     struct error problem;
     fail(&problem, error.kind, "%s: %s", path, error.text);

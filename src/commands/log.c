@@ -1,4 +1,4 @@
-/// `wiggly log`: a timing log as people want to see it.
+/// `wiggly log`: summarises a timing log, as text and as a picture.
 #include "base/file.h"
 #include "commands/commands.h"
 #include "commands/options.h"

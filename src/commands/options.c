@@ -39,7 +39,7 @@ static int edit_distance(const char *a, const char *b)
 const char *options_nearest(const char *word, const char *const *candidates, int count)
 {
     const char *nearest = NULL;
-    int best = (int)strnlen(word, WORD_MAX) / 3 + 1; // as far as that it is another word
+    int best = (int)strnlen(word, WORD_MAX) / 3 + 1; // farther away is another word
     for (int i = 0; i < count; i++) {
         int distance = edit_distance(word, candidates[i]);
         if (distance < best) {
@@ -200,4 +200,24 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
     }
     if (count < usage->operand_minimum) return options_wrong(usage, "an argument is missing: %s", usage->operands);
     return OPTIONS_RUN;
+}
+
+bool options_direction(const char *text, double direction[3])
+{
+    static const struct {
+        const char *name;
+        double direction[3];
+    } known[] = {{"up", {0, 1, 0}}, {"side", {1, 0, 0}}, {"front", {0, 0, 1}}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        if (strcmp(text, known[i].name) != 0) continue;
+        memcpy(direction, known[i].direction, sizeof known[i].direction);
+        return true;
+    }
+    int end = 0;
+    if (sscanf(text, "%lf,%lf,%lf%n", &direction[0], &direction[1], &direction[2], &end) != 3 || text[end])
+        return false;
+    double length = sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
+    if (!isfinite(length) || !(length > 0)) return false;
+    for (int c = 0; c < 3; c++) direction[c] /= length;
+    return true;
 }

@@ -1,4 +1,4 @@
-/// The command line of one subcommand, described by a table: parsing, help, and the nearest right word for a wrong one.
+/// The command line of one subcommand, described by a table: parsing, help, and suggestions for misspelt words.
 #ifndef COMMANDS_OPTIONS_H
 #define COMMANDS_OPTIONS_H
 
@@ -12,7 +12,7 @@ enum option_kind {
     OPTION_SIZE, ///< int[2] from "1280x720", each in [minimum, maximum]
 };
 
-/// One option, `--name value` or `--name=value`. The target keeps its value where the option is not given.
+/// One option, `--name value` or `--name=value`. Without the option the target keeps its value.
 struct option_spec {
     const char *name;     ///< "--frames"
     const char *alias;    ///< "-f", or NULL
@@ -48,7 +48,10 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
 enum options_result options_wrong(const struct usage *usage, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/// The candidate with the smallest edit distance to `word`, or NULL where none is near enough to be meant.
+/// The candidate with the smallest edit distance to `word`, or NULL if none is close.
 const char *options_nearest(const char *word, const char *const *candidates, int count);
+
+/// "up", "side", "front" or "x,y,z" as a vector of length 1 (y is up, z is to the front); false if it is none of these.
+bool options_direction(const char *text, double direction[3]);
 
 #endif

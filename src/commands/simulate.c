@@ -1,8 +1,7 @@
-/// `wiggly simulate`: a closed mesh as a soft body that is shaken, or its normal modes.
+/// `wiggly simulate`: shakes a closed mesh as a soft body, or finds its normal modes.
 #include "base/clock.h"
 #include "base/file.h"
 #include "commands/commands.h"
-#include "commands/direction.h"
 #include "commands/options.h"
 #include "model/motion.h"
 #include "simulation/soft.h"
@@ -33,7 +32,7 @@ static void interrupt(int signal_number)
     interrupted = 1;
 }
 
-/// Says how far it is and how long it will still take: on a terminal in one line, else ten times.
+/// Shows progress and the time left: on a terminal in one line, else ten times.
 static void report_progress(const struct job *job, int done, int frames, double started)
 {
     bool terminal = isatty(STDERR_FILENO);
@@ -45,7 +44,7 @@ static void report_progress(const struct job *job, int done, int frames, double 
     fflush(stderr);
 }
 
-/// One frame: so many steps of the integrator, then the surface.
+/// One frame: the integrator's substeps, then the surface.
 static bool simulate_frame(const struct job *job, const struct soft *soft, struct integrator *integrator, int frame,
                            float (*position)[3], struct error *error)
 {
@@ -91,7 +90,7 @@ static bool shake(const struct job *job, const struct soft *soft, struct body *b
     }
     integrator.mass_damping = soft->alpha;
     integrator.stiffness_damping = soft->beta;
-    integrator.tolerance = 1e-4 * soft->lattice.cell; // the next step of Newton's would be a thousandth of that
+    integrator.tolerance = 1e-4 * soft->lattice.cell; // Newton's next step would be a thousandth of that
     soft_shake(soft, &job->shake, &integrator);
     good = write_frames(job, soft, &integrator, frames, position, error);
     integrator_free(&integrator);
@@ -160,7 +159,7 @@ static bool ends_in(const char *path, const char *extension)
     return length > tail && strcasecmp(path + length - tail, extension) == 0;
 }
 
-/// Stiffness and mass; 0 is what was not given. NULL or what is wrong.
+/// Sets stiffness and mass, 0 meaning not given. NULL or what is wrong.
 static const char *set_material(struct soft_options *soft)
 {
     const struct soft_options usual = soft_default_options();
@@ -173,7 +172,7 @@ static const char *set_material(struct soft_options *soft)
     return NULL;
 }
 
-/// What the table of options cannot say; NULL or what is wrong.
+/// Checks what the table of options cannot; NULL or what is wrong.
 static const char *check(struct job *job)
 {
     if (!job->output) return "-o FILE is missing: name the file to write";
@@ -181,13 +180,13 @@ static const char *check(struct job *job)
     if (!ends_in(job->output, ".npy") && !ends_in(job->output, ".pc2"))
         return "--output: expected a name ending in .npy or .pc2";
     if (strlen(job->output) + 16 > sizeof job->rest) return "--output: the name is too long";
-    if (!direction_read(job->shake_text, job->shake.direction))
+    if (!options_direction(job->shake_text, job->shake.direction))
         return "--shake: expected up, side, front or a vector x,y,z";
     snprintf(job->rest, sizeof job->rest, "%.*s.rest.obj", (int)strlen(job->output) - 4, job->output);
     return set_material(&job->soft);
 }
 
-/// Lets Ctrl+C end the run in order, so that no temporary file stays.
+/// Lets Ctrl+C end the run cleanly, without a temporary file left.
 static void catch_interrupts(void)
 {
     struct sigaction action = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/// A field as RFC 4180 wants it: quoted where it holds a comma, a quote or the end of a line.
+/// Writes a field by RFC 4180: quoted if it has a comma, a quote or a line break.
 static void write_name(FILE *out, const char *name, const char *suffix)
 {
     bool quotes = strpbrk(name, ",\"\r\n") != NULL;
@@ -71,7 +71,7 @@ static void warn_statuses(const char *path, const struct document *document, con
 {
     for (int i = 0; i < evaluation->count; i++) {
         if (evaluation->status[i] == WIGGLY_OK) continue;
-        struct error warning; // a name may hold anything; this makes it printable
+        struct error warning; // a name may hold anything: fail() makes it printable
         fail(&warning, ERROR_INPUT, "%s: splines[%d]: warning: \"%s\": %s", path, i, document->splines[i].name,
              wiggly_status_text(evaluation->status[i]));
         fprintf(stderr, "%s\n", warning.text);
@@ -98,12 +98,7 @@ int command_solve(int argc, char **argv)
 {
     const char *scene, *out = NULL;
     const struct option_spec options[] = {
-        {.name = "--output",
-         .alias = "-o",
-         .argument = "FILE",
-         .help = "file to write (default: standard output)",
-         .kind = OPTION_TEXT,
-         .target = &out},
+        {"--output", "-o", "FILE", "file to write (default: standard output)", OPTION_TEXT, &out, 0, 0},
     };
     const struct usage usage = {
         .command = "solve",

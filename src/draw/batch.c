@@ -7,7 +7,7 @@
 static void describe_attribute(GLuint location, GLint count, GLenum type, size_t offset)
 {
     glEnableVertexAttribArray(location);
-    glVertexAttribPointer(location, count, type, type == GL_UNSIGNED_BYTE, sizeof(struct vertex),
+    glVertexAttribPointer(location, count, type, type == GL_UNSIGNED_BYTE, sizeof(struct batch_vertex),
                           (const void *)offset);
 }
 
@@ -19,10 +19,10 @@ static void create_buffers(struct batch *batch)
     glBindVertexArray(batch->array);
     glBindBuffer(GL_ARRAY_BUFFER, batch->vertex_buffer);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, batch->index_buffer);
-    describe_attribute(0, 2, GL_FLOAT, offsetof(struct vertex, x));
-    describe_attribute(1, 2, GL_FLOAT, offsetof(struct vertex, u));
-    describe_attribute(2, 4, GL_UNSIGNED_BYTE, offsetof(struct vertex, color));
-    describe_attribute(3, 3, GL_FLOAT, offsetof(struct vertex, across));
+    describe_attribute(0, 2, GL_FLOAT, offsetof(struct batch_vertex, x));
+    describe_attribute(1, 2, GL_FLOAT, offsetof(struct batch_vertex, u));
+    describe_attribute(2, 4, GL_UNSIGNED_BYTE, offsetof(struct batch_vertex, color));
+    describe_attribute(3, 3, GL_FLOAT, offsetof(struct batch_vertex, across));
     glBindVertexArray(0);
 }
 
@@ -130,7 +130,7 @@ static void upload(struct batch *batch)
     double start = timer_now_us();
     size_t vertex_bytes = (size_t)batch->vertex_count * sizeof *batch->vertices;
     size_t index_bytes = (size_t)batch->index_count * sizeof *batch->indices;
-    // New storage each time: the driver need not wait for what still reads the old one.
+    // New storage each time: the driver need not wait until the old one is no longer read.
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)vertex_bytes, batch->vertices, GL_STREAM_DRAW);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)index_bytes, batch->indices, GL_STREAM_DRAW);
     batch->uploaded_bytes += (long)(vertex_bytes + index_bytes);

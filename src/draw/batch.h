@@ -9,7 +9,7 @@
 
 /// Position in device pixels from the top left; texel in the glyph atlas; colour as bytes R, G, B, A. Coverage is
 /// clamp(reach − |across|) · clamp(along) · texel.
-struct vertex {
+struct batch_vertex {
     float x, y;
     float u, v;
     unsigned char color[4];
@@ -29,11 +29,11 @@ struct batch_part {
 struct batch {
     GLuint program, array, vertex_buffer, index_buffer;
     GLint framebuffer_uniform, atlas_size_uniform;
-    struct vertex *vertices;
+    struct batch_vertex *vertices;
     uint32_t *indices;
     struct batch_part *parts;
     int vertex_count, index_count, part_count;
-    unsigned generation; ///< changes with every flush: indices from before are void
+    unsigned generation; ///< changes with every flush, which invalidates earlier indices
     int width, height;   ///< framebuffer
     struct area scissor; ///< of what is added now
     GLuint texture;
@@ -54,10 +54,10 @@ void batch_set_scissor(struct batch *batch, struct area scissor);
 /// Fills an area with an opaque colour 0xRRGGBBAA, cheaper than triangles where it is large.
 void batch_fill(struct batch *batch, struct area area, uint32_t color);
 
-/// Makes room for that many more (drawing what is there if need be) and returns the index of the next vertex.
+/// Makes room for that many more, flushing if need be, and returns the index of the next vertex.
 uint32_t batch_reserve(struct batch *batch, int vertices, int indices);
 
-static inline void batch_vertex(struct batch *batch, struct vertex vertex)
+static inline void batch_add(struct batch *batch, struct batch_vertex vertex)
 {
     batch->vertices[batch->vertex_count++] = vertex;
 }
@@ -71,7 +71,7 @@ static inline void batch_triangle(struct batch *batch, uint32_t a, uint32_t b, u
     batch->index_count += 3;
 }
 
-/// Uploads and draws everything, and is empty again.
+/// Uploads and draws everything, and empties the batch.
 void batch_flush(struct batch *batch);
 
 /// glScissor for an area counted from the top of a framebuffer of `height` pixels.

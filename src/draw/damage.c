@@ -13,11 +13,11 @@ struct pile {
 
 void damage_forget(struct damage *damage) { damage->known = false; }
 
-/// Lays out one direction; false where it is as it was.
+/// Lays out one direction; false if nothing changed.
 static bool set_axis(struct damage_axis *axis, int size, int from, int to)
 {
     if (size == axis->size && from == axis->cuts[0] && to == axis->cuts[1]) return false;
-    // Two cells may be cut in two.
+    // The two cuts may each add a cell.
     *axis = (struct damage_axis){.size = size, .cuts = {from, to}};
     axis->cell = area_max(CELL_MIN, (size + DAMAGE_SIDE - 3) / (DAMAGE_SIDE - 2));
     for (int edge = 0; edge < size;) {
@@ -69,7 +69,7 @@ static void hash_cells(struct damage *damage, float scale, const struct drawlist
     }
 }
 
-/// Pixels that a union would draw needlessly.
+/// Pixels that a union would draw for nothing.
 static long waste(struct area a, struct area b)
 {
     return area_pixels(area_union(a, b)) - area_pixels(a) - area_pixels(b);
@@ -114,7 +114,7 @@ static bool next_run(const struct damage *damage, int row, int column, int *from
     return *to > *from;
 }
 
-/// Adds a run, to the one above it where that is as wide.
+/// Adds a run, extending the one above it if that is equally wide.
 static void add_run(struct pile *pile, struct area run)
 {
     for (int i = pile->count - 1; i >= 0; i--) {
@@ -139,7 +139,7 @@ static void gather(const struct damage *damage, struct pile *pile)
     }
 }
 
-/// Unions may touch others: those are taken in, until all are disjoint.
+/// Merges rectangles that touch until all are disjoint.
 static void make_disjoint(struct pile *pile)
 {
     for (int i = 0; i < pile->count; i++) {
@@ -167,7 +167,7 @@ static void join_on_stage(struct pile *pile, struct area viewport)
     }
 }
 
-/// One rectangle more costs about as much as this many pixels (each walks the list and changes the scissor).
+/// One more rectangle costs about as much as this many pixels: each walks the list and changes the scissor.
 static const long WORTH_A_RECTANGLE = 4096;
 
 static void reduce(struct pile *pile, struct area viewport)

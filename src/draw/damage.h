@@ -34,11 +34,11 @@ struct damage_stage {
     uint64_t hash, moving_hash; ///< of everything outside `moving`; of all
 };
 
-/// The framebuffer's content is no longer that of the last damage_update().
+/// Call when the framebuffer no longer holds the last frame: the next update redraws everything.
 void damage_forget(struct damage *damage);
 
-/// Compares a frame of width × height device pixels with the last one and fills `rectangles`; all of it where nothing is
-/// known of the last one. At most one rectangle touches the stage's viewport, because drawing it costs the same
+/// Compares a frame of width × height device pixels with the last one and fills `rectangles`: the whole frame where the
+/// last one is unknown. At most one rectangle touches the stage's viewport, because drawing it costs the same
 /// however little of it shows.
 void damage_update(struct damage *damage, int width, int height, float scale, const struct drawlist *list,
                    const struct damage_stage *stage);

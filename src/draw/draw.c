@@ -7,7 +7,6 @@
 #include "draw/reference.h"
 #include "draw/stage.h"
 #include "draw/stage_extent.h"
-#include "draw/stage_morph.h"
 #include "draw/stage_target.h"
 #include "draw/timer.h"
 #include "ui/font.h"
@@ -35,7 +34,7 @@ static bool is_software(const char *renderer)
 
 static bool is_reduced(float stage_scale) { return stage_scale > 0.0f && stage_scale < 1.0f; }
 
-/// Rasterises the fonts for `scale` and puts them into the texture; the old ones stay where that fails.
+/// Rasterises the fonts for `scale` and puts them into the texture; on failure the old ones stay.
 static bool load_atlas(struct draw *draw, float scale, struct error *error)
 {
     struct atlas atlas;
@@ -119,10 +118,10 @@ static void draw_below(struct draw *draw, const struct draw_input *input, struct
     draw_stage(draw, input, viewport, on_stage);
 }
 
-/// At a lower resolution every pixel of the stage is another one, and what moves reaches as much farther as it is enlarged.
+/// At another resolution every pixel of the stage changes, and enlarging spreads whatever moves by as much.
 static struct damage_stage describe_stage(const struct draw_input *input)
 {
-    static const float seam = 3.0f; ///< pixels that the soft silhouette sticks out, and a little
+    static const float seam = 3.0f; ///< how far the soft silhouette reaches out, pixels, with some slack
     if (!input->stage) return (struct damage_stage){0};
     struct damage_stage stage = {.viewport = area_rounded(input->stage->viewport, input->scale),
                                  .hash = stage_backdrop_hash(input->stage),
@@ -173,7 +172,7 @@ void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_c
     *cost = (struct draw_cost){0};
     cost->gpu_us = gpu_timer_take(&draw->timer, &cost->gpu_frame);
     double start = timer_now_us();
-    // Without memory for the new size the old glyphs serve, if not as sharply.
+    // If memory is short the old glyphs serve, if less sharply.
     if (input->scale != draw->atlas.scale) load_atlas(draw, input->scale, NULL);
     if (!input->keeps) damage_forget(&draw->damage);
     const struct damage_stage stage = describe_stage(input);

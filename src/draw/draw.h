@@ -1,6 +1,6 @@
 /// The renderer: draws what it is handed (a draw list and a stage) into the current framebuffer; decides nothing.
 ///
-/// Only what changed since the last frame is drawn where the target keeps its content: draw_frame() compares the commands
+/// Where the target keeps its content, only what changed since the last frame is drawn: draw_frame() compares the commands
 /// of both frames cell by cell and redraws the rectangles that differ, with the scissor on.
 #ifndef DRAW_DRAW_H
 #define DRAW_DRAW_H
@@ -23,8 +23,8 @@ struct draw_input {
     bool keeps;        ///< the framebuffer still holds the last frame; false forces everything
     const struct drawlist *list;
     const struct stage_view *stage; ///< drawn below the list, in its viewport; NULL where there is none
-    long frame;                     ///< its number, which the GPU's time comes back with
-    /// The stage's pixels a device pixel, a side: below 1 it is drawn smaller and enlarged; 0 means 1.
+    long frame;                     ///< its number, returned with its GPU time
+    /// The stage's resolution: below 1 it is drawn smaller and enlarged; 0 means 1.
     float stage_scale;
 };
 
@@ -40,7 +40,7 @@ struct draw_cost {
 
 void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_cost *cost);
 
-/// Whether a character's figure can be moved here; false with a sentence about what the driver is too small for. It is then
+/// Whether the driver can move a character's figure; if not, false with a sentence that says why, and it is
 /// drawn at rest.
 bool draw_can_move(const struct figure *figure, struct error *error);
 
@@ -48,7 +48,7 @@ bool draw_can_move(const struct figure *figure, struct error *error);
 void draw_read(int width, int height, unsigned char *rgba);
 
 /// Draws and finishes a fixed reference frame (the same geometry always, nothing from the document) `count` times and
-/// returns the median in milliseconds: the yardstick in the log's header. At most 64 times. The framebuffer's content is lost.
+/// returns the median in milliseconds: the yardstick in the log's header. At most 64 times. Overwrites the framebuffer.
 double draw_reference_ms(struct draw *draw, int width, int height, int count);
 
 /// Renderer and version strings of the context.

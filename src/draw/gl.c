@@ -1,7 +1,7 @@
 /// Compiles and links the shaders built into the program.
 #include "draw/gl.h"
 #include "base/embedded.h"
-#include <math.h>
+#include "base/srgb.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -67,10 +67,7 @@ GLuint gl_program(const char *vertex_name, const char *fragment_name, struct err
 void gl_uniform_linear(GLint location, uint32_t color)
 {
     float linear[3];
-    for (int k = 0; k < 3; k++) {
-        float value = (float)(color >> (24 - 8 * k) & 0xFFu) / 255;
-        linear[k] = value <= 0.04045f ? value / 12.92f : powf((value + 0.055f) / 1.055f, 2.4f);
-    }
+    for (int k = 0; k < 3; k++) linear[k] = srgb_to_linear((float)(color >> (24 - 8 * k) & 0xFFu) / 255);
     glUniform3fv(location, 1, linear);
 }
 

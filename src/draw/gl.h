@@ -1,4 +1,4 @@
-/// OpenGL for the files of draw/, and what all of them need of it.
+/// OpenGL, and helpers that all files of draw/ need.
 #ifndef DRAW_GL_H
 #define DRAW_GL_H
 
@@ -6,11 +6,11 @@
 #include <epoxy/gl.h>
 #include <stdint.h>
 
-/// Compiles and links the embedded shaders "shaders/<vertex_name>" and "shaders/<fragment_name>". 0 with the compiler's
-/// first complaint as a sentence where that fails.
+/// Compiles and links the embedded shaders "shaders/<vertex_name>" and "shaders/<fragment_name>". On failure 0, with the
+/// compiler's first complaint as a sentence.
 GLuint gl_program(const char *vertex_name, const char *fragment_name, struct error *error);
 
-/// Texels a side of the largest texture.
+/// Side of the largest texture, texels.
 int gl_largest_texture(void);
 
 /// Sets a vec3 of the program in use to a colour 0xRRGGBBAA (sRGB), made linear.

@@ -3,7 +3,7 @@
 #include "draw/simplify.h"
 #include "draw/stroke.h"
 
-/// A line of more dashes than this runs far beyond any screen and is drawn whole.
+/// A line with more dashes runs far beyond any screen and is drawn solid.
 enum { DASHES_MAX = 10000 };
 
 /// Fills in `along` for an open line and adds a point at its middle, so that each quad's `along` is linear. `points` has

@@ -2,15 +2,15 @@
 #include "draw/paint.h"
 #include "draw/shape.h"
 
-/// Whether the command was cut off nowhere when it was recorded, so that it needs no scissor of its own.
+/// Whether nothing of the command was clipped when it was recorded: it then needs no scissor.
 static bool is_whole(const struct draw_command *command)
 {
     struct rect b = command->bounds, c = command->clip;
     return b.x > c.x && b.y > c.y && b.x + b.w < c.x + c.w && b.y + b.h < c.y + c.h;
 }
 
-/// Lines and polygons that reach out of their clip need it as scissor. Everything else keeps the scissor that is set where
-/// it may, because every change is one more draw call.
+/// Lines and polygons that reach beyond their clip need it as scissor. Everything else keeps the current scissor if
+/// possible: every change costs a draw call.
 static void choose_scissor(struct batch *batch, const struct draw_command *command, struct area reach,
                            struct area clip, struct area area)
 {

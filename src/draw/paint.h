@@ -1,4 +1,4 @@
-/// From a draw list to triangles. Private to draw/.
+/// Turns a draw list into triangles. Private to draw/.
 #ifndef DRAW_PAINT_H
 #define DRAW_PAINT_H
 
@@ -13,7 +13,7 @@ struct painter {
     float scale;
 };
 
-/// Adds every command that touches `area`, in order; nothing of them shows outside it.
+/// Adds every command that touches `area`, in order, clipped to it.
 void paint_list(const struct painter *painter, const struct drawlist *list, struct area area);
 
 /// Adds a line of text with its pen at (x, y) logical pixels, cut off at `clip`.

@@ -40,7 +40,7 @@ static void arrange_text(struct drawlist *list, struct rect panel)
     }
 }
 
-/// A tail that stands up and bends over by 4° a joint, seen from the side.
+/// A tail that rises and bends over by 4° a joint, seen from the side.
 static void arrange_stage(struct stage_view *stage, struct rect panel)
 {
     *stage = (struct stage_view){

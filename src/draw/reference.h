@@ -20,7 +20,7 @@ void reference_destroy(struct reference *reference);
 /// Lays the frame out in a window of width × height logical pixels.
 void reference_arrange(struct reference *reference, float width, float height);
 
-/// Median of the first `count` entries of `ms`, which are sorted by this.
+/// Sorts the first `count` entries of `ms` and returns their median.
 double reference_median(struct reference *reference, int count);
 
 #endif

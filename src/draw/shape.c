@@ -4,9 +4,9 @@
 /// From here on a fill costs less through glClear than as two triangles (measured with llvmpipe).
 enum { FILL_PIXELS = 4096, CONVEX_MAX = 128 };
 
-struct vertex shape_vertex(float x, float y, uint32_t color)
+struct batch_vertex shape_vertex(float x, float y, uint32_t color)
 {
-    return (struct vertex){
+    return (struct batch_vertex){
         .x = x,
         .y = y,
         .u = 0.5f,
@@ -18,13 +18,13 @@ struct vertex shape_vertex(float x, float y, uint32_t color)
     };
 }
 
-/// A run of pixels that are all covered by the same part.
+/// A run of pixels with equal coverage.
 struct span {
     int from, to;
     float coverage;
 };
 
-/// Cuts [from, to] into the pixels it covers in part and those it covers whole; returns how many runs (at most 3).
+/// Splits [from, to] into runs of partly and of fully covered pixels; returns how many (at most 3).
 static int cut_spans(float from, float to, int clip_from, int clip_to, struct span spans[3])
 {
     from = fmaxf(from, (float)clip_from);
@@ -47,10 +47,10 @@ static int cut_spans(float from, float to, int clip_from, int clip_to, struct sp
 static void add_quad(struct batch *batch, struct area area, uint32_t color)
 {
     uint32_t base = batch_reserve(batch, 4, 6);
-    batch_vertex(batch, shape_vertex((float)area.x0, (float)area.y0, color));
-    batch_vertex(batch, shape_vertex((float)area.x1, (float)area.y0, color));
-    batch_vertex(batch, shape_vertex((float)area.x1, (float)area.y1, color));
-    batch_vertex(batch, shape_vertex((float)area.x0, (float)area.y1, color));
+    batch_add(batch, shape_vertex((float)area.x0, (float)area.y0, color));
+    batch_add(batch, shape_vertex((float)area.x1, (float)area.y0, color));
+    batch_add(batch, shape_vertex((float)area.x1, (float)area.y1, color));
+    batch_add(batch, shape_vertex((float)area.x0, (float)area.y1, color));
     batch_triangle(batch, base, base + 1, base + 2);
     batch_triangle(batch, base, base + 2, base + 3);
 }
@@ -95,7 +95,7 @@ static int device_points(const float *xy, int count, float scale, struct point *
     return kept;
 }
 
-/// Twice the signed area; the sign says which way round the points run.
+/// Twice the signed area; its sign gives the winding.
 static float twice_area(const struct point *points, int count)
 {
     float sum = 0.0f;
@@ -125,11 +125,11 @@ void shape_convex(struct batch *batch, const float *xy, int count, float scale, 
     uint32_t base = batch_reserve(batch, 2 * n, 9 * n - 6);
     for (int i = 0; i < n; i++) {
         struct point out = outward(points, n, i, area > 0.0f ? 1.0f : -1.0f);
-        struct vertex inner = shape_vertex(points[i].x - 0.5f * out.x, points[i].y - 0.5f * out.y, color);
-        struct vertex outer = shape_vertex(points[i].x + 0.5f * out.x, points[i].y + 0.5f * out.y, color);
+        struct batch_vertex inner = shape_vertex(points[i].x - 0.5f * out.x, points[i].y - 0.5f * out.y, color);
+        struct batch_vertex outer = shape_vertex(points[i].x + 0.5f * out.x, points[i].y + 0.5f * out.y, color);
         outer.across = 1.0f;
-        batch_vertex(batch, inner);
-        batch_vertex(batch, outer);
+        batch_add(batch, inner);
+        batch_add(batch, outer);
     }
     for (int i = 0; i < n; i++) {
         uint32_t here = base + 2 * (uint32_t)i, next = base + 2 * (uint32_t)((i + 1) % n);

@@ -4,11 +4,11 @@
 
 #include "draw/batch.h"
 
-/// A vertex of something that is no line: fully covered, white texel.
-struct vertex shape_vertex(float x, float y, uint32_t color);
+/// A vertex of a filled shape: full coverage, white texel.
+struct batch_vertex shape_vertex(float x, float y, uint32_t color);
 
-/// The rectangle from (x0, y0) to (x1, y1), device pixels, cut off at `clip`. A pixel that it covers in part gets exactly
-/// that part of the colour.
+/// The rectangle from (x0, y0) to (x1, y1), device pixels, clipped to `clip`. A partly covered pixel gets exactly
+/// that share of the colour.
 void shape_rect(struct batch *batch, const float corners[4], struct area clip, uint32_t color);
 
 /// A convex polygon of `count` points, given in logical pixels.

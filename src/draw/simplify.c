@@ -1,8 +1,8 @@
-/// Drops points of a polyline that nobody would see.
+/// Drops points of a polyline whose absence nobody would see.
 #include "draw/simplify.h"
 #include "model/vector.h"
 
-/// Device pixels. Software rasterisers pay by the triangle; from a fifteenth of a pixel on steps in slow curves show.
+/// Device pixels. Software rasterisers pay by the triangle, but from a fifteenth of a pixel up, steps show in slow curves.
 static const float TOLERANCE = 0.05f;
 static const float COINCIDENT = 0.01f;
 
@@ -16,7 +16,7 @@ struct cone {
 
 static void restart(struct cone *cone, vec2s anchor) { *cone = (struct cone){.anchor = anchor}; }
 
-/// Takes `p` into the cone; false where the line has to bend at the last point before it.
+/// Narrows the cone to pass `p`; false if the line must bend at the point before it.
 static bool extend(struct cone *cone, vec2s p)
 {
     vec2s d = {{p.x - cone->anchor.x, p.y - cone->anchor.y}};
@@ -28,7 +28,7 @@ static bool extend(struct cone *cone, vec2s p)
         cone->high = high;
     } else {
         bool inside = glms_vec2_cross(cone->low, d) >= 0.0f && glms_vec2_cross(d, cone->high) >= 0.0f;
-        // Past a turning point the direction may still fit: the tip must not be cut off.
+        // Past a turning point the direction may still fit, but the tip must stay.
         if (!inside || distance < cone->reach) return false;
         if (glms_vec2_cross(cone->low, low) > 0.0f) cone->low = low;
         if (glms_vec2_cross(high, cone->high) > 0.0f) cone->high = high;

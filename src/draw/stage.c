@@ -1,14 +1,8 @@
-/// Draws the stage: ground, shadows, bodies and skinned tails.
+/// Draws the stage: ground, shadows and rigs.
 #include "draw/stage.h"
-#include "draw/gl.h"
 #include "draw/painter.h"
 #include "draw/stage_flat.h"
 #include <stdlib.h>
-
-/// One a kind of rigs, in the order in which they are drawn.
-static const struct painter *const painters[] = {&tail_painter, &character_painter};
-
-enum { PAINTERS = sizeof painters / sizeof painters[0] };
 
 struct stage_renderer {
     struct stage_flat *flat;
@@ -62,8 +56,8 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
     glEnable(GL_CULL_FACE);
     glClear(GL_DEPTH_BUFFER_BIT);
     draw_rigs(renderer, view, scale, 0.0f);
-    // Edges without multisampling: a second skin, a pixel larger, fades out from the first one's silhouettes over
-    // whatever is behind them, be it the background or the animal itself.
+    // Edges without multisampling: a second skin, a pixel larger, fades out from the silhouettes over
+    // whatever is behind: the background or the animal itself.
     glEnable(GL_BLEND);
     glDepthMask(GL_FALSE);
     draw_rigs(renderer, view, scale, 2.0f / (view->projection[5] * (float)height));

@@ -1,5 +1,4 @@
-/// The stage's own renderer: background, ground, contact shadow, body and skinned tail. Part of draw/; used by draw.c
-/// alone.
+/// The stage's renderer: background, ground, contact shadows and rigs. Private to draw/, for draw.c alone.
 #ifndef DRAW_STAGE_H
 #define DRAW_STAGE_H
 
@@ -15,8 +14,12 @@ void stage_renderer_destroy(struct stage_renderer *renderer);
 /// nothing.
 void stage_upload(struct stage_renderer *renderer, const struct stage_view *view, long *bytes);
 
-/// Draws what was uploaded into a rectangle of the framebuffer (device pixels; x, y from the bottom left as GL has
-/// it), scissored by the caller. Clears depth itself. Leaves depth test, culling and blending off.
+/// Draws what was uploaded into a rectangle of the framebuffer (device pixels; x, y from the bottom left, as in
+/// GL), scissored by the caller. Clears depth itself. Leaves depth test, culling and blending off.
 void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, int x, int y, int width, int height);
+
+/// Whether a figure's coordinates fit a texture of at most `largest` texels a side; if not, false with a sentence that
+/// gives the numbers.
+bool stage_morph_fits(const struct figure *figure, int largest, struct error *error);
 
 #endif

@@ -1,34 +1,27 @@
 /// Finds what moves on the stage, and where on the screen.
 #include "draw/stage_extent.h"
 #include "base/hash.h"
-#include "draw/stage_flat.h"
-#include "model/creature.h"
+#include "draw/painter.h"
+#include <math.h>
 
-/// A box on the screen that grows: −1 … 1 over the viewport.
+/// A growing box on the screen: −1 … 1 over the viewport.
 struct extent {
     mat4s clip_from_world;
     float lo[2], hi[2];
-    bool is_everywhere; ///< something is too near to the camera to say where it is
+    bool is_everywhere; ///< something is too near the camera to project
 };
 
 float stage_lowest_ground(const struct stage_view *view)
 {
     float lowest = INFINITY;
-    for (int t = 0; t < view->tail_count; t++) lowest = fminf(lowest, view->tails[t].pose.ground);
-    for (int c = 0; c < view->character_count; c++) lowest = fminf(lowest, view->characters[c].position[1]);
+    for (int p = 0; p < PAINTERS; p++) lowest = fminf(lowest, painters[p]->ground(view));
     return lowest < INFINITY ? lowest : 0.0f;
 }
 
 uint64_t stage_backdrop_hash(const struct stage_view *view)
 {
     const float ground = stage_lowest_ground(view);
-    uint64_t hash = hash_bytes(HASH_START, &view->viewport, sizeof view->viewport);
-    hash = hash_bytes(hash, view->view, sizeof view->view);
-    hash = hash_bytes(hash, view->projection, sizeof view->projection);
-    hash = hash_bytes(hash, view->middle, sizeof view->middle);
-    hash = hash_bytes(hash, view->key_from, sizeof view->key_from);
-    hash = hash_bytes(hash, &view->colors, sizeof view->colors);
-    return hash_bytes(hash, &ground, sizeof ground);
+    return hash_bytes(stage_scenery_hash(view), &ground, sizeof ground);
 }
 
 static void add_point(struct extent *extent, const float world[3])
@@ -46,7 +39,7 @@ static void add_point(struct extent *extent, const float world[3])
     }
 }
 
-static void add_box(struct extent *extent, const float lo[3], const float hi[3])
+void extent_add_box(struct extent *extent, const float lo[3], const float hi[3])
 {
     for (int corner = 0; corner < 8; corner++) {
         const float world[3] = {corner & 1 ? hi[0] : lo[0], corner & 2 ? hi[1] : lo[1], corner & 4 ? hi[2] : lo[2]};
@@ -54,46 +47,11 @@ static void add_box(struct extent *extent, const float lo[3], const float hi[3])
     }
 }
 
-/// Skin follows joints that are at most 2.5 segments away (see stage_mesh.vert), so it stays within a sphere around each.
-static void add_tail(struct extent *extent, const struct pose *pose)
-{
-    float lo[3], hi[3];
-    const float length = pose_length(pose), segment = length / (float)(pose->count - 1);
-    const float reach = hypotf(2.5f * segment, CREATURE_TAIL_RADIUS * length / CREATURE_TAIL_LENGTH);
-    pose_bounds(pose, lo, hi);
-    add_box(extent, lo, hi);
-    for (int n = 0; n < pose->count; n++) {
-        for (int k = 0; k < 3; k++) {
-            lo[k] = pose->matrix[n][12 + k] - reach;
-            hi[k] = pose->matrix[n][12 + k] + reach;
-        }
-        add_box(extent, lo, hi);
-    }
-}
-
-/// The box at rest, larger by the amplitudes of what moves it.
-static void add_character(struct extent *extent, const struct stage_character *shown)
-{
-    const struct figure *figure = shown->figure;
-    float lo[3], hi[3];
-    for (int k = 0; k < 3; k++) {
-        float reach = 0.0f;
-        for (int d = 0; d < shown->morph.count; d++) {
-            const float *weight = shown->morph.weight[d];
-            reach += hypotf(weight[0], weight[1]) * figure->largest[shown->morph.coordinate[d]][k];
-        }
-        const float place = shown->position[k] - (k == 1 ? figure->lo[1] : 0.0f);
-        lo[k] = place + figure->lo[k] - reach;
-        hi[k] = place + figure->hi[k] + reach;
-    }
-    add_box(extent, lo, hi);
-}
-
 static void add_blob(struct extent *extent, const struct stage_blob *blob, float ground)
 {
     const float lo[3] = {blob->x - blob->radius, ground, blob->z - blob->radius};
     const float hi[3] = {blob->x + blob->radius, ground, blob->z + blob->radius};
-    add_box(extent, lo, hi);
+    extent_add_box(extent, lo, hi);
 }
 
 struct area stage_extent(const struct stage_view *view, struct area viewport, int margin)
@@ -101,8 +59,7 @@ struct area stage_extent(const struct stage_view *view, struct area viewport, in
     struct extent extent = {
         .clip_from_world = stage_clip_from_world(view), .lo = {INFINITY, INFINITY}, .hi = {-INFINITY, -INFINITY}};
     const float ground = stage_lowest_ground(view);
-    for (int t = 0; t < view->tail_count; t++) add_tail(&extent, &view->tails[t].pose);
-    for (int c = 0; c < view->character_count; c++) add_character(&extent, &view->characters[c]);
+    for (int p = 0; p < PAINTERS; p++) painters[p]->extent(view, &extent);
     for (int b = 0; b < view->blob_count; b++) add_blob(&extent, &view->blobs[b], ground);
     if (extent.is_everywhere) return viewport;
     if (!(extent.lo[0] <= extent.hi[0])) return (struct area){0};

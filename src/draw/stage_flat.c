@@ -1,8 +1,7 @@
 /// Draws background, ground and contact shadows.
 #include "draw/stage_flat.h"
-#include "draw/gl.h"
+#include "draw/painter.h"
 #include "draw/stage_extent.h"
-#include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 
@@ -63,11 +62,6 @@ void stage_flat_destroy(struct stage_flat *flat)
     glDeleteBuffers(1, &flat->vertices);
     glDeleteProgram(flat->program);
     free(flat);
-}
-
-mat4s stage_clip_from_world(const struct stage_view *view)
-{
-    return glms_mat4_mul(mat4_from(view->projection), mat4_from(view->view));
 }
 
 static void set_color(struct corner *corner, uint32_t color, float opacity)

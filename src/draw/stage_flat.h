@@ -1,10 +1,9 @@
-/// What lies flat on the stage: background, ground and contact shadows, as a few quads of one shader. Used by stage.c
+/// What lies flat on the stage: background, ground and contact shadows, as a few quads of one shader. For stage.c
 /// alone.
 #ifndef DRAW_STAGE_FLAT_H
 #define DRAW_STAGE_FLAT_H
 
 #include "base/error.h"
-#include "model/vector.h"
 #include "ui/stage.h"
 
 struct stage_flat;
@@ -17,8 +16,5 @@ long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view);
 
 /// Covers the viewport, with the caller's blend function. Leaves blending off.
 void stage_flat_draw(const struct stage_flat *flat);
-
-/// projection · view, column-major.
-mat4s stage_clip_from_world(const struct stage_view *view);
 
 #endif

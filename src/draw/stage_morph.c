@@ -1,8 +1,8 @@
 /// Moves soft characters on the GPU, by complex morphs.
-#include "draw/stage_morph.h"
-#include "draw/gl.h"
 #include "draw/painter.h"
-#include "draw/stage_flat.h"
+#include "draw/stage.h"
+#include "draw/stage_extent.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@ enum {
     TEXELS = 5,                  ///< of one vertex and coordinate, four floats each
     ROW_VERTICES = FIGURE_BLOCK, ///< in one row of the texture
     ROW_FLOATS = 4 * TEXELS * ROW_VERTICES,
-    MAX_KEPT = 4, ///< figures on the GPU; more take turns
+    MAX_KEPT = 4, ///< figures kept on the GPU; the least recently used goes
     SLOPE_FLOATS = sizeof(struct slope) / sizeof(float),
 };
 
@@ -28,9 +28,9 @@ struct model {
 
 struct stage_morph {
     GLuint program;
+    struct painter_uniforms shared;
     struct {
-        GLint clip_from_world, eye, key_from, earth, place, shade, seam, count, first_row, weight, map_row, map_axis,
-            line;
+        GLint place, shade, count, first_row, weight, map_row, map_axis, line;
     } at;
     struct model models[MAX_KEPT];
     long clock;
@@ -52,23 +52,14 @@ static void *create(struct error *error)
         GLint *location;
         const char *name;
     } uniforms[] = {
-        {&morph->at.clip_from_world, "clip_from_world"},
-        {&morph->at.eye, "eye"},
-        {&morph->at.key_from, "key_from"},
-        {&morph->at.earth, "earth"},
-        {&morph->at.place, "place"},
-        {&morph->at.shade, "shade"},
-        {&morph->at.seam, "seam"},
-        {&morph->at.count, "count"},
-        {&morph->at.first_row, "first_row"},
-        {&morph->at.weight, "weight"},
-        {&morph->at.map_row, "map_row"},
-        {&morph->at.map_axis, "map_axis"},
-        {&morph->at.line, "line"},
+        {&morph->at.place, "place"},         {&morph->at.shade, "shade"},   {&morph->at.count, "count"},
+        {&morph->at.first_row, "first_row"}, {&morph->at.weight, "weight"}, {&morph->at.map_row, "map_row"},
+        {&morph->at.map_axis, "map_axis"},   {&morph->at.line, "line"},
     };
     for (size_t i = 0; i < sizeof uniforms / sizeof *uniforms; i++) {
         *uniforms[i].location = glGetUniformLocation(morph->program, uniforms[i].name);
     }
+    morph->shared = painter_find_uniforms(morph->program);
     return morph;
 }
 
@@ -124,7 +115,7 @@ static long upload_coordinates(struct model *model, const struct figure *figure)
     const int height = model->rows * c->coordinate_count;
     const size_t bytes = (size_t)width * (size_t)(height + 1) * 4 * sizeof(float);
     float *texels = calloc(1, bytes);
-    if (!texels || !stage_morph_fits(figure, gl_largest_texture(), NULL)) { // it stands still
+    if (!texels || !stage_morph_fits(figure, gl_largest_texture(), NULL)) { // drawn at rest
         free(texels);
         return 0;
     }
@@ -139,7 +130,7 @@ static long upload_coordinates(struct model *model, const struct figure *figure)
     return (long)bytes;
 }
 
-/// The rows of a painted figure that have changed since they were uploaded.
+/// Uploads the rows of a painted figure that changed since the last time.
 static long upload_changes(struct model *model, const struct figure *figure)
 {
     float texels[ROW_FLOATS];
@@ -165,7 +156,7 @@ static GLuint upload_buffer(GLenum target, size_t bytes, const void *data)
     return buffer;
 }
 
-/// The four arrays of vectors one behind the other.
+/// Uploads the four arrays of vectors one after the other.
 static long upload_vertices(struct model *model, const struct figure *figure)
 {
     const struct character *c = &figure->character;
@@ -201,7 +192,7 @@ static long model_upload(struct model *model, const struct figure *figure)
     return bytes + (long)(fine + coarse);
 }
 
-/// The figure's model, or where it is not there the one that was drawn longest ago.
+/// The figure's model or, if it has none, the least recently drawn one.
 static struct model *find_model(struct stage_morph *morph, const struct figure *figure)
 {
     struct model *oldest = &morph->models[0];
@@ -258,13 +249,7 @@ static void draw(const void *state, const struct stage_view *view, float scale, 
 {
     const struct stage_morph *morph = state;
     if (view->character_count == 0) return;
-    mat4s clip_from_world = stage_clip_from_world(view);
-    glUseProgram(morph->program);
-    glUniformMatrix4fv(morph->at.clip_from_world, 1, GL_FALSE, clip_from_world.raw[0]);
-    glUniform3fv(morph->at.eye, 1, view->eye);
-    glUniform3fv(morph->at.key_from, 1, view->key_from);
-    gl_uniform_linear(morph->at.earth, view->colors.bounce);
-    glUniform1f(morph->at.seam, seam);
+    painter_use(morph->program, &morph->shared, view, seam);
     for (int i = 0; i < view->character_count; i++) {
         const struct stage_character *shown = &view->characters[i];
         for (int m = 0; m < MAX_KEPT; m++) {
@@ -274,4 +259,32 @@ static void draw(const void *state, const struct stage_view *view, float scale, 
     glBindVertexArray(0);
 }
 
-const struct painter character_painter = {create, destroy, upload, draw};
+static float ground(const struct stage_view *view)
+{
+    float lowest = INFINITY;
+    for (int c = 0; c < view->character_count; c++) lowest = fminf(lowest, view->characters[c].position[1]);
+    return lowest;
+}
+
+/// The box at rest, grown by the amplitudes.
+static void add_extent(const struct stage_view *view, struct extent *extent)
+{
+    for (int c = 0; c < view->character_count; c++) {
+        const struct stage_character *shown = &view->characters[c];
+        const struct figure *figure = shown->figure;
+        float lo[3], hi[3];
+        for (int k = 0; k < 3; k++) {
+            float reach = 0.0f;
+            for (int d = 0; d < shown->morph.count; d++) {
+                const float *weight = shown->morph.weight[d];
+                reach += hypotf(weight[0], weight[1]) * figure->largest[shown->morph.coordinate[d]][k];
+            }
+            const float place = shown->position[k] - (k == 1 ? figure->lo[1] : 0.0f);
+            lo[k] = place + figure->lo[k] - reach;
+            hi[k] = place + figure->hi[k] + reach;
+        }
+        extent_add_box(extent, lo, hi);
+    }
+}
+
+const struct painter character_painter = {create, destroy, upload, draw, ground, add_extent};

@@ -1,8 +1,8 @@
-/// Tails and the animals that they grow out of, skinned.
-#include "draw/gl.h"
+/// Draws tails and their animals, skinned.
 #include "draw/painter.h"
-#include "draw/stage_flat.h"
+#include "draw/stage_extent.h"
 #include "model/creature.h"
+#include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +22,8 @@ struct model {
 
 struct animals {
     GLuint program, joints;
-    GLint clip_from_world, shape, eye, key_from, earth, seam;
+    GLint shape;
+    struct painter_uniforms shared;
     struct model models[CREATURE_LEVELS];
     float rows[MAX_SLOTS][3][4];
 };
@@ -72,12 +73,8 @@ static bool program_create(struct animals *painter, struct error *error)
 {
     painter->program = gl_program("stage_mesh.vert", "stage_mesh.frag", error);
     if (!painter->program) return false;
-    painter->clip_from_world = glGetUniformLocation(painter->program, "clip_from_world");
     painter->shape = glGetUniformLocation(painter->program, "shape");
-    painter->eye = glGetUniformLocation(painter->program, "eye");
-    painter->key_from = glGetUniformLocation(painter->program, "key_from");
-    painter->earth = glGetUniformLocation(painter->program, "earth");
-    painter->seam = glGetUniformLocation(painter->program, "seam");
+    painter->shared = painter_find_uniforms(painter->program);
     glUniformBlockBinding(painter->program, glGetUniformBlockIndex(painter->program, "Joints"), JOINT_BINDING);
     glGenBuffers(1, &painter->joints);
     glBindBuffer(GL_UNIFORM_BUFFER, painter->joints);
@@ -110,8 +107,8 @@ static void *create(struct error *error)
     return NULL;
 }
 
-/// matrix · translation by −along on z, as three rows: what takes a point of the straight tail to where its joint is
-/// now.
+/// matrix · translation by −along on z, as three rows: takes a point of the straight tail to its place on
+/// the posed one.
 static void slot_rows(mat4s matrix, float along, float rows[3][4])
 {
     glm_translate_z(matrix.raw, -along);
@@ -156,16 +153,39 @@ static void draw(const void *state, const struct stage_view *view, float scale, 
     (void)scale;
     const struct model *model = &painter->models[creature_level(view->tail_count)];
     if (view->tail_count == 0) return;
-    mat4s clip_from_world = stage_clip_from_world(view);
-    glUseProgram(painter->program);
-    glUniformMatrix4fv(painter->clip_from_world, 1, GL_FALSE, clip_from_world.raw[0]);
-    glUniform3fv(painter->eye, 1, view->eye);
-    glUniform3fv(painter->key_from, 1, view->key_from);
-    gl_uniform_linear(painter->earth, view->colors.bounce);
-    glUniform1f(painter->seam, seam);
+    painter_use(painter->program, &painter->shared, view, seam);
     glBindVertexArray(model->vertex_array);
     for (int t = 0; t < view->tail_count; t++) draw_animal(painter, model, view, t);
     glBindVertexArray(0);
 }
 
-const struct painter tail_painter = {create, destroy, upload, draw};
+static float ground(const struct stage_view *view)
+{
+    float lowest = INFINITY;
+    for (int t = 0; t < view->tail_count; t++) lowest = fminf(lowest, view->tails[t].pose.ground);
+    return lowest;
+}
+
+/// Skin follows joints that are at most 2.5 segments away (see stage_mesh.vert), so it stays within a sphere around each.
+static void add_pose(struct extent *extent, const struct pose *pose)
+{
+    float lo[3], hi[3];
+    const float length = pose_length(pose), segment = length / (float)(pose->count - 1);
+    const float reach = hypotf(2.5f * segment, CREATURE_TAIL_RADIUS * length / CREATURE_TAIL_LENGTH);
+    pose_bounds(pose, lo, hi);
+    extent_add_box(extent, lo, hi);
+    for (int n = 0; n < pose->count; n++) {
+        for (int k = 0; k < 3; k++) {
+            lo[k] = pose->matrix[n][12 + k] - reach;
+            hi[k] = pose->matrix[n][12 + k] + reach;
+        }
+        extent_add_box(extent, lo, hi);
+    }
+}
+
+static void add_extent(const struct stage_view *view, struct extent *extent)
+{
+    for (int t = 0; t < view->tail_count; t++) add_pose(extent, &view->tails[t].pose);
+}
+
+const struct painter tail_painter = {create, destroy, upload, draw, ground, add_extent};

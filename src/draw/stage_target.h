@@ -19,8 +19,8 @@ struct stage_place {
     int height;
 };
 
-/// Draws the visible part at `scale` (below 1) of the viewport's pixels and enlarges it. false, with nothing drawn, where the
-/// driver makes no such framebuffer.
+/// Draws the visible part at `scale` (below 1) of the viewport's pixels and enlarges it. false, with nothing drawn, if the
+/// driver cannot make the framebuffer.
 bool stage_target_draw(struct stage_target *target, struct stage_renderer *renderer, const struct stage_view *view,
                        struct stage_place place, float scale);
 

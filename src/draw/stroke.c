@@ -2,8 +2,8 @@
 //
 // A line is a strip of quads, one a segment, that reach half a pixel beyond the line's edge. Each vertex knows its signed
 // distance `across` from the middle; the shader turns it into coverage. Where segments meet gently, both share the mitre's
-// two corners, which lie at the same distance from either line: so coverage has no seam and nothing is drawn twice, and
-// translucent lines look right. At hairpins the outer side is a fan about the joint (a round join).
+// two corners, which are equally far from either line: coverage has no seam, nothing is drawn twice, and translucent
+// lines look right. At hairpins the outer side is a fan about the joint (a round join).
 //
 //        in[0] ----- mitre ----- out[0]        left:  across = +reach
 //          p0 --------- p --------- p1
@@ -76,11 +76,11 @@ static struct joint joint_at(struct line_point p, struct segment before, struct 
 
 static void add_vertex(const struct stroke *stroke, vec2s at, float across, float along)
 {
-    struct vertex vertex = shape_vertex(at.x, at.y, stroke->color);
+    struct batch_vertex vertex = shape_vertex(at.x, at.y, stroke->color);
     vertex.across = across;
     vertex.reach = stroke->reach;
     vertex.along = along;
-    batch_vertex(stroke->batch, vertex);
+    batch_add(stroke->batch, vertex);
 }
 
 static void add_pair(const struct stroke *stroke, struct side_pair pair, float along)

@@ -7,7 +7,7 @@ struct quad {
     float x0, y0, x1, y1, u0, v0, u1, v1;
 };
 
-/// Cuts an interval off at [low, high] and its texels in proportion; false where nothing is left.
+/// Clips an interval to [low, high], its texels in proportion; false if nothing is left.
 static bool clip_axis(float *from, float *to, float *texel_from, float *texel_to, int low, int high)
 {
     float slope = (*texel_to - *texel_from) / (*to - *from);
@@ -28,10 +28,10 @@ static void add_quad(struct batch *batch, const struct quad *quad, uint32_t colo
     const float u[4] = {quad->u0, quad->u1, quad->u1, quad->u0}, v[4] = {quad->v0, quad->v0, quad->v1, quad->v1};
     uint32_t base = batch_reserve(batch, 4, 6);
     for (int i = 0; i < 4; i++) {
-        struct vertex vertex = shape_vertex(x[i], y[i], color);
+        struct batch_vertex vertex = shape_vertex(x[i], y[i], color);
         vertex.u = u[i];
         vertex.v = v[i];
-        batch_vertex(batch, vertex);
+        batch_add(batch, vertex);
     }
     batch_triangle(batch, base, base + 1, base + 2);
     batch_triangle(batch, base, base + 2, base + 3);

@@ -1,4 +1,4 @@
-/// What drawing costs: the CPU's clock, and the GPU's where the driver has one. Private to draw/.
+/// Times drawing by the CPU's clock, and by the GPU's if the driver has one. Private to draw/.
 #ifndef DRAW_TIMER_H
 #define DRAW_TIMER_H
 
@@ -10,7 +10,7 @@ double timer_now_us(void);
 
 enum { TIMER_QUERIES = 4 };
 
-/// GL_TIME_ELAPSED of the last frames: a result is read only once it is there, some frames late, and never waited for.
+/// GL_TIME_ELAPSED of the last frames: results are read some frames late, once they are there, and never waited for.
 struct gpu_timer {
     GLuint queries[TIMER_QUERIES];
     long frames[TIMER_QUERIES]; ///< that the queries belong to
@@ -22,7 +22,7 @@ struct gpu_timer {
 void gpu_timer_create(struct gpu_timer *timer, bool is_software);
 void gpu_timer_destroy(struct gpu_timer *timer);
 
-/// Starts to time a frame, unless the results of four earlier ones are still out.
+/// Starts timing a frame, unless the results of four earlier ones are still pending.
 void gpu_timer_begin(struct gpu_timer *timer, long frame);
 void gpu_timer_end(struct gpu_timer *timer);
 

@@ -2,13 +2,11 @@
 #include "editor/editor.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
-#include "editor/core/layout.h"
-#include "editor/core/nudge.h"
+#include "editor/core/knots.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialog_files.h"
 #include "editor/dialogs/dialogs.h"
-#include "editor/drags.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
 #include "editor/state.h"
@@ -21,7 +19,7 @@
 
 enum { MAX_COMMANDS = 16384, MAX_POINTS = 1 << 18, MAX_TEXT = 1 << 16 };
 
-/// Panels hear of what happens in core.
+/// Passes core's news on to the panels.
 static void hear(void *who, const struct editor_world *world, enum news news, int spline)
 {
     struct editor *editor = who;
@@ -35,14 +33,14 @@ static void hear(void *who, const struct editor_world *world, enum news news, in
         curves_forget(editor->curves);
         break;
     case NEWS_ACTIVATES:
-        normal_activate(editor->curves, &editor->core, spline);
+        curves_activate(editor->curves, &editor->core, spline);
         break;
     case NEWS_ACTIVATED:
-        moved = active_channel(&editor->core, world->document, &tail, &channel);
+        moved = core_active_channel(&editor->core, world->document, &tail, &channel);
         if (moved && moved->spline == spline) inspector_show_channel(editor->inspector, tail, channel);
         break;
     case NEWS_DRAG_MOVES:
-        ghost_capture(editor->curves, &editor->core, world);
+        curves_capture_ghost(editor->curves, &editor->core, world);
         break;
     }
 }
@@ -111,7 +109,7 @@ void editor_set_panels(struct editor *editor, double stage_share, double inspect
     core_layout(&editor->core);
 }
 
-/// The spline to begin with: the first that moves something, else the first; -1 where there is none.
+/// The spline that is active first: the first that moves something, else the first; -1 if there is none.
 static int first_spline(const struct document *document)
 {
     for (int kind = 0; kind < RIG_KINDS; kind++) {
@@ -186,7 +184,7 @@ struct request editor_take_request(struct editor *editor)
 
 void editor_answer(struct editor *editor, const struct request *request, bool ok, const char *text)
 {
-    if (!dialog_answer(editor->dialogs, &editor->core, request, ok, text) && !ok)
+    if (!dialogs_answer(editor->dialogs, &editor->core, request, ok, text) && !ok)
         core_message(&editor->core, true, text);
 }
 
@@ -197,7 +195,7 @@ bool editor_is_playing(const struct editor *editor) { return editor->core.playba
 bool editor_wants_frames(const struct editor *editor)
 {
     return editor->core.playback.playing || editor->core.drag.kind == DRAG_GRAB ||
-           editor->core.drag.kind == DRAG_PAINT || follow_is_moving(editor->stage) ||
+           editor->core.drag.kind == DRAG_PAINT || stage_is_moving(editor->stage) ||
            editor->core.message.seconds_left > 0 || curves_wants_frames(editor->curves);
 }
 
@@ -210,7 +208,7 @@ void editor_message(struct editor *editor, bool is_error, const char *text)
     core_message(&editor->core, is_error, text);
 }
 
-void editor_follow(struct editor *editor, const struct editor_world *world) { core_follow(&editor->core, world); }
+void editor_refresh(struct editor *editor, const struct editor_world *world) { core_refresh(&editor->core, world); }
 
 const char *editor_clipboard(const struct editor *editor)
 {
@@ -224,12 +222,12 @@ void editor_set_files(struct editor *editor, const struct dialog_files *files)
 
 void editor_offer_recovery(struct editor *editor, const struct recovery_offer *offer)
 {
-    dialog_offer_recovery(editor->dialogs, offer);
+    dialogs_offer_recovery(editor->dialogs, offer);
 }
 
-void editor_welcome(struct editor *editor) { welcome_open(editor->dialogs); }
+void editor_welcome(struct editor *editor) { dialogs_welcome(editor->dialogs); }
 
-bool editor_is_welcoming(const struct editor *editor) { return welcome_is_open(editor->dialogs); }
+bool editor_is_welcoming(const struct editor *editor) { return dialogs_is_welcoming(editor->dialogs); }
 
 struct focus editor_focus(const struct editor *editor, const struct document *document)
 {

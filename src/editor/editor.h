@@ -13,21 +13,21 @@ void editor_destroy(struct editor *editor);
 /// motion at the first editor_pose(). The first spline that moves a tail is active.
 void editor_open(struct editor *editor, const struct editor_world *world);
 
-/// Looks whether another document has come in its place (a figure, or its undo: document.serial), and starts anew with it as
-/// editor_open() does; else the active spline and the shown frame stay what they were, wherever they are now. Called after each
-/// edit, undo and redo, before anything else is done with the document.
-void editor_follow(struct editor *editor, const struct editor_world *world);
+/// Brings the editor up to date after each edit, undo and redo, before anything else is done with the document. If another
+/// document has taken its place (a figure, or its undo: document.serial), starts anew as editor_open() does; if not, finds the
+/// active spline and the shown frame again, wherever they are now.
+void editor_refresh(struct editor *editor, const struct editor_world *world);
 
-/// Ends what is being dragged where it is: before the app itself makes an edit.
+/// Ends any drag where it is: before the app itself makes an edit.
 void editor_let_go(struct editor *editor, const struct editor_world *world);
 
-/// The path of the document's own file, "" where it has none (Ctrl+S then asks for one): after saving.
+/// Sets the path of the document's own file, "" for none (Ctrl+S then asks for one): after saving.
 void editor_set_path(struct editor *editor, const char *path);
 
-/// Asks what to do with it: REQUEST_RECOVER, REQUEST_FORGET, or nothing yet.
+/// Asks what to do with unsaved work of an earlier run: REQUEST_RECOVER, REQUEST_FORGET, or nothing yet.
 void editor_offer_recovery(struct editor *editor, const struct recovery_offer *offer);
 
-/// Shows what to try first, to somebody who is new; and whether that is still to be seen.
+/// Shows new users what to try first; and whether that card is still open.
 void editor_welcome(struct editor *editor);
 bool editor_is_welcoming(const struct editor *editor);
 
@@ -45,7 +45,7 @@ void editor_event(struct editor *editor, const struct editor_world *world, const
 /// applied.
 void editor_advance(struct editor *editor, const struct editor_world *world, double dt);
 
-/// What is looked at of the splines: what a long one shows first.
+/// The part of the splines in sight, which a long spline solves first.
 struct focus editor_focus(const struct editor *editor, const struct document *document);
 
 /// After the solve: poses rigs, builds this frame's draw list and stage, both valid until the next call. Allocates
@@ -58,31 +58,31 @@ const struct stage_view *editor_stage(const struct editor *editor);
 /// Takes the oldest request; REQUEST_NONE where there is none.
 struct request editor_take_request(struct editor *editor);
 
-/// Says how a request went: every one gets an answer, once all that it brings (editor_open(), editor_set_path()) is done.
-/// `text` says why where it is not `ok`. The dialog that asked closes, or shows the sentence and lets one try again.
+/// Answers a request, once all that it entails (editor_open(), editor_set_path()) is done; every request gets an answer. If not
+/// `ok`, `text` says why. The dialog that asked closes, or shows the sentence so that the user can try again.
 void editor_answer(struct editor *editor, const struct request *request, bool ok, const char *text);
 
-/// The text that was copied last; "" where nothing was.
+/// The text that was copied last, or "".
 const char *editor_clipboard(const struct editor *editor);
 
 /// Shows a sentence in the status line (an error until the next key or click, else for some seconds of `dt`).
 void editor_message(struct editor *editor, bool is_error, const char *text);
 
-/// Frames a second and microseconds of solving, for the status line; shown as told, so tell it seldom.
+/// Frames a second and microseconds of solving, for the status line.
 void editor_set_stats(struct editor *editor, double fps, double solve_us);
 
-/// The stage's pixels a device pixel, a side, in this frame: the status line says where it is below 1.
+/// The stage's resolution relative to the window's, per side: below 1 the status line says so.
 void editor_set_stage_scale(struct editor *editor, float scale);
 
 /// How the knots are shown (V); the app solves as cubic for LOOK_CUBIC.
 enum look editor_look(const struct editor *editor);
 bool editor_is_playing(const struct editor *editor);
-/// Whether something moves by itself, so that the next frame should not wait for an event.
+/// Whether something moves by itself, so that the next frame must not wait for an event.
 bool editor_wants_frames(const struct editor *editor);
 /// Mouse cursor for where the pointer is.
-enum cursor editor_cursor(const struct editor *editor);
+enum mouse_cursor editor_cursor(const struct editor *editor);
 
-/// Where a replay's target is on the screen now: "knot(sway,2)", "curve(sway,36,1)", "slider(frequency)",
+/// Finds a replay's target on the screen: "knot(sway,2)", "curve(sway,36,1)", "slider(frequency)",
 /// "stage(0.5,0.5)", "tail(tail,0.9)", "warning(0)". false where there is no such thing (with a sentence).
 bool editor_target(struct editor *editor, const struct editor_world *world, const char *target, float *x, float *y,
                    struct error *error);

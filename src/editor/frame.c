@@ -1,11 +1,10 @@
-/// One frame of the editor: events are handed to who wants them, time passes, everything is shown.
-#include "editor/core/clipboard.h"
+/// One frame of the editor: events go to whoever wants them, time passes, everything is shown.
+#include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "editor/core/layout.h"
+#include "editor/core/knots.h"
 #include "editor/core/playback.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
-#include "editor/drags.h"
 #include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "editor/keys.h"
@@ -16,9 +15,43 @@
 #include <math.h>
 #include <stdio.h>
 
+/// A divider between the panels follows the pointer.
+static void move_divider(struct editor *editor, const struct event *event)
+{
+    enum drag_kind kind = editor->core.drag.kind;
+    if (kind == DRAG_STAGE_DIVIDER || kind == DRAG_INSPECTOR_DIVIDER)
+        core_divider_move(&editor->core, kind, event->x, event->y);
+}
+
+/// Ends the running drag; `keep` false takes everything back.
+static void end_drag(struct editor *editor, const struct editor_world *world, bool keep)
+{
+    curves_drag_end(editor->curves, &editor->core, world, keep);
+    stage_drag_end(editor->stage, &editor->core, world, keep);
+    drag_end(&editor->core, world, keep);
+}
+
+/// A running drag's events go to the panel that began it; true where the event is used up.
+static bool drag_takes(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    if (editor->core.drag.kind == DRAG_NONE) return false;
+    if (event->kind == EVENT_POINTER) {
+        if (!drag_move(&editor->core, world, event)) return true;
+        curves_drag_move(editor->curves, &editor->core, world, event);
+        stage_drag_move(editor->stage, &editor->core);
+        move_divider(editor, event);
+        return true;
+    }
+    enum drag_answer answer = curves_drag_event(editor->curves, &editor->core, world, event);
+    if (answer == DRAG_PASSES) answer = stage_drag_event(editor->stage, &editor->core, world, event);
+    if (answer == DRAG_PASSES) answer = drag_event(&editor->core.drag, event);
+    if (answer == DRAG_KEEP || answer == DRAG_TAKE_BACK) end_drag(editor, world, answer == DRAG_KEEP);
+    return answer != DRAG_PASSES;
+}
+
 static void press(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
-    enum drag_kind divider = divider_at(&editor->core, event->x, event->y);
+    enum drag_kind divider = core_divider_at(&editor->core, event->x, event->y);
     if (divider != DRAG_NONE && event->button == BUTTON_LEFT) {
         drag_begin(&editor->core, divider, NULL, event);
     } else if (rect_contains(editor->core.layout.curves, event->x, event->y)) {
@@ -30,11 +63,11 @@ static void press(struct editor *editor, const struct editor_world *world, const
     }
 }
 
-/// What asks for another document, or for the end, ends what the inspector is in the middle of.
+/// Ends what the inspector is in the middle of, before the document changes or the app quits.
 void editor_leave(struct editor *editor, const struct editor_world *world, const struct request *request)
 {
     inspector_let_go(editor->inspector, world);
-    dialog_leave(editor->dialogs, &editor->core, world, request);
+    dialogs_leave(editor->dialogs, &editor->core, world, request);
 }
 
 /// Events that neither a dialog nor a running drag nor the inspector wanted.
@@ -58,7 +91,7 @@ static void dispatch(struct editor *editor, const struct editor_world *world, co
             stage_wheel(editor->stage, &editor->core, event);
         break;
     case EVENT_PASTE:
-        paste_knots(&editor->core, world, event->text);
+        core_paste_knots(&editor->core, world, event->text);
         break;
     case EVENT_CLOSE:
         editor_leave(editor, world, &request);
@@ -72,7 +105,7 @@ static void dispatch(struct editor *editor, const struct editor_world *world, co
     }
 }
 
-/// Pointer and modifiers, and errors that were read.
+/// Remembers pointer and modifiers; a press dismisses an error.
 static void note(struct editor *editor, const struct event *event)
 {
     bool has_pointer = event->kind == EVENT_POINTER || event->kind == EVENT_BUTTON || event->kind == EVENT_WHEEL;
@@ -90,30 +123,30 @@ static void note(struct editor *editor, const struct event *event)
 
 void editor_let_go(struct editor *editor, const struct editor_world *world)
 {
-    if (editor->core.drag.kind != DRAG_NONE) drags_end(editor, world, true);
+    if (editor->core.drag.kind != DRAG_NONE) end_drag(editor, world, true);
     inspector_let_go(editor->inspector, world);
 }
 
-/// An edit that core wants to be asked about first.
+/// Asks about an edit that core wants confirmed.
 static void ask(struct editor *editor, const struct editor_world *world)
 {
     if (editor->core.ask.kind == ASK_NOTHING) return;
-    dialog_ask(editor->dialogs, &editor->core, world, &editor->core.ask);
+    dialogs_ask(editor->dialogs, &editor->core, world, &editor->core.ask);
     editor->core.ask.kind = ASK_NOTHING;
     inspector_let_go(editor->inspector, world);
 }
 
-/// What opened over the panels ends whatever the pointer and the keys were in the middle of.
+/// When something opens over the panels, ends any drag and lets go of held keys.
 static void let_go(struct editor *editor, const struct editor_world *world)
 {
     if (!dialogs_cover(editor->dialogs)) return;
-    if (editor->core.drag.kind != DRAG_NONE) drags_end(editor, world, true);
+    if (editor->core.drag.kind != DRAG_NONE) end_drag(editor, world, true);
     editor->core.held_key = 0;
     editor->core.space_down = false;
 }
 
-/// Who is asked first: what lies over the panels, then a running drag, then the inspector. A field that is typed in takes all keys
-/// but Ctrl chords and F keys, a focused slider the arrows, Enter and digits, an open dialog all.
+/// Events go to what lies over the panels first, then to a running drag, then to the inspector. A field that is typed in takes
+/// all keys but Ctrl chords and F keys, a focused slider the arrows, Enter and digits, an open dialog all.
 void editor_event(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     note(editor, event);
@@ -121,7 +154,7 @@ void editor_event(struct editor *editor, const struct editor_world *world, const
     editor_reserve(editor, world->document);
     bool used =
         dialogs_event(editor->dialogs, &editor->core, world, event, inspector_is_dragging(editor->inspector)) ||
-        drags_event(editor, world, event) ||
+        drag_takes(editor, world, event) ||
         (editor->core.drag.kind == DRAG_NONE && inspector_event(editor->inspector, &editor->core, world, event));
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
@@ -139,7 +172,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
         message->seconds_left -= dt;
         if (message->seconds_left <= 0) message->text[0] = 0;
     }
-    status_advance(editor->transport, &editor->core, dt);
+    transport_advance(editor->transport, &editor->core, dt);
     playback_advance(&editor->core, world, dt);
     curves_drag_apply(editor->curves, &editor->core, world);
     stage_advance(editor->stage, &editor->core, world, dt);
@@ -149,19 +182,19 @@ void editor_pose(struct editor *editor, const struct editor_world *world)
 {
     if (!editor->fitted) {
         editor->fitted = true;
-        view_frame_all(editor->curves, &editor->core, world);
+        curves_frame_all(editor->curves, &editor->core, world);
         stage_fit(editor->stage, &editor->core, world);
     }
     stage_pose(editor->stage, &editor->core, world, dialogs_cover(editor->dialogs));
 }
 
-/// What the pointer is over now: things move under it.
+/// Finds what the pointer is over now, because things move under it.
 static void update_hover(struct editor *editor, const struct editor_world *world)
 {
     if (editor->core.drag.kind != DRAG_NONE) return;
     float x = editor->core.pointer_x, y = editor->core.pointer_y;
     editor->core.hover = (struct hover){.kind = HOVER_NONE};
-    if (dialogs_cover(editor->dialogs) || divider_at(&editor->core, x, y) != DRAG_NONE) return;
+    if (dialogs_cover(editor->dialogs) || core_divider_at(&editor->core, x, y) != DRAG_NONE) return;
     if (rect_contains(editor->core.layout.curves, x, y))
         editor->core.hover = curves_hover(editor->curves, &editor->core, world, x, y);
     if (rect_contains(editor->core.layout.stage, x, y))
@@ -169,7 +202,7 @@ static void update_hover(struct editor *editor, const struct editor_world *world
     if (rect_contains(editor->core.layout.status, x, y)) editor->core.hover = transport_hover(&editor->core, x, y);
 }
 
-/// A short thick piece in the middle of a divider: the line alone does not look as if it could be dragged.
+/// The grip in the middle of a divider shows that it can be dragged.
 static void show_grip(struct editor *editor, enum drag_kind divider, float x, float y)
 {
     enum { LENGTH = 36, THICKNESS = 3 };
@@ -177,7 +210,7 @@ static void show_grip(struct editor *editor, enum drag_kind divider, float x, fl
     const float w = across ? LENGTH : THICKNESS, h = across ? THICKNESS : LENGTH;
     const bool held = editor->core.drag.kind == divider;
     const bool hot = editor->core.drag.kind == DRAG_NONE &&
-                     divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y) == divider;
+                     core_divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y) == divider;
     const uint32_t color = held ? theme()->accent : hot ? theme()->text : theme()->text_dim;
     drawlist_rounded(&editor->core.list, (struct rect){roundf(x - w / 2), roundf(y - h / 2), w, h}, THICKNESS / 2.0f,
                      color);
@@ -197,20 +230,19 @@ void editor_show(struct editor *editor, const struct editor_world *world)
     drawlist_clear(&editor->core.list, editor->core.layout.window);
     update_hover(editor, world);
     stage_show(editor->stage, &editor->core, world);
-    caption_show(&editor->core, world->document, dialogs_bottom(editor->dialogs, &editor->core));
-    welcome_show(editor->dialogs, &editor->core, world);
+    stage_show_caption(&editor->core, world->document, dialogs_bottom(editor->dialogs, &editor->core));
+    dialogs_show_welcome(editor->dialogs, &editor->core, world);
     curves_show(editor->curves, &editor->core, world);
     inspector_show(editor->inspector, &editor->core, world, dialogs_cover(editor->dialogs));
     show_dividers(editor);
     const char *hint = inspector_hint(editor->inspector);
-    status_show(editor->transport, &editor->core, world, hint ? hint : curves_hint(editor->curves, &editor->core));
-    help_show(editor->dialogs, &editor->core);
-    dialog_show(editor->dialogs, &editor->core, world);
+    transport_show(editor->transport, &editor->core, world, hint ? hint : curves_hint(editor->curves, &editor->core));
+    dialogs_show(editor->dialogs, &editor->core, world);
 }
 
-enum cursor editor_cursor(const struct editor *editor)
+enum mouse_cursor editor_cursor(const struct editor *editor)
 {
-    static const enum cursor of_drag[] = {
+    static const enum mouse_cursor of_drag[] = {
         [DRAG_KNOTS] = CURSOR_MOVE,
         [DRAG_SLOPE] = CURSOR_MOVE,
         [DRAG_PAN] = CURSOR_MOVE,
@@ -225,18 +257,18 @@ enum cursor editor_cursor(const struct editor *editor)
         [DRAG_STAGE_DIVIDER] = CURSOR_VERTICAL,
         [DRAG_INSPECTOR_DIVIDER] = CURSOR_HORIZONTAL,
     };
-    static const enum cursor of_hover[] = {
+    static const enum mouse_cursor of_hover[] = {
         [HOVER_NONE] = CURSOR_ARROW, [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
         [HOVER_CURVE] = CURSOR_HAND, [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
         [HOVER_UNITS] = CURSOR_HAND, [HOVER_BODY] = CURSOR_MOVE,        [HOVER_PLAY] = CURSOR_HAND,
         [HOVER_LOOP] = CURSOR_HAND,  [HOVER_SPEED] = CURSOR_HAND,       [HOVER_WARNING] = CURSOR_HAND,
     };
-    static const enum cursor of_widget[] = {
+    static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};
     enum ui_over over;
     if (dialogs_over(editor->dialogs, &over)) return of_widget[over];
     if (editor->core.drag.kind != DRAG_NONE) return of_drag[editor->core.drag.kind];
-    enum drag_kind divider = divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y);
+    enum drag_kind divider = core_divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y);
     if (divider != DRAG_NONE) return of_drag[divider];
     if (inspector_over(editor->inspector) != UI_OVER_NOTHING) return of_widget[inspector_over(editor->inspector)];
     if (editor->core.hover.kind == HOVER_CURVE && editor->core.hover.spline == editor->core.active)

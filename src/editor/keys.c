@@ -1,32 +1,18 @@
 /// The keyboard: one table of what a key does, one of what a typed character does. docs/keys.md lists them.
 #include "editor/keys.h"
 #include "editor/core/characters.h"
-#include "editor/core/clipboard.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/core/nudge.h"
-#include "editor/core/play_range.h"
 #include "editor/core/playback.h"
 #include "editor/core/selection.h"
-#include "editor/core/slopes.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
-#include "editor/drags.h"
+#include "editor/editor.h"
 #include "editor/inspector/inspector.h"
-#include "editor/keyboard.h"
 #include "editor/stage/stage.h"
 #include "editor/state.h"
 #include "ui/theme.h"
 #include <math.h>
-
-static void run_undo(struct editor *e, const struct editor_world *w, int argument)
-{
-    if (argument < 0) {
-        core_undo(&e->core, w);
-    } else {
-        core_redo(&e->core, w);
-    }
-}
 
 static void run_leave(struct editor *e, const struct editor_world *w, int argument)
 {
@@ -40,7 +26,7 @@ static void run_save(struct editor *e, const struct editor_world *w, int argumen
     if (argument == REQUEST_SAVE && e->core.path[0]) {
         core_request(&e->core, REQUEST_SAVE, NULL);
     } else {
-        dialog_ask_save_as(e->dialogs, &e->core);
+        dialogs_save_as(e->dialogs, &e->core);
     }
 }
 
@@ -59,64 +45,18 @@ static void run_figure(struct editor *e, const struct editor_world *w, int argum
 
 static void run_insert(struct editor *e, const struct editor_world *w, int argument)
 {
-    insert_on_curve(&e->core, w, core_frame(&e->core, w->document), true, argument);
+    core_insert_on_curve(&e->core, w, core_frame(&e->core, w->document), true, argument);
 }
 
-static void run_delete(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)argument;
-    delete_knots(&e->core, w);
-}
-
-static void run_select_all(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)argument;
-    select_all(&e->core, w);
-}
-
-/// Puts the brush away; without one nothing is selected any more.
+/// Puts the brush away; without one, clears the selection.
 static void run_select_none(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
     if (e->core.brush.on) {
-        brush_set(&e->core, w, false);
+        characters_set_brush(&e->core, w, false);
     } else {
         selection_clear(&e->core.selection);
     }
-}
-
-static void run_toggle_slope(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)argument;
-    toggle_slope(&e->core, w);
-}
-
-static void run_flatten(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)argument;
-    flatten_slopes(&e->core, w);
-}
-
-static void run_smooth(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)argument;
-    smooth_slopes(&e->core, w);
-}
-
-static void run_slope(struct editor *e, const struct editor_world *w, int argument)
-{
-    nudge_slope(&e->core, w, 0.05 * argument);
-}
-
-static void run_stiffness(struct editor *e, const struct editor_world *w, int argument)
-{
-    nudge_stiffness(&e->core, w, pow(1.25, argument));
-}
-
-static void run_mode(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)argument;
-    cycle_mode(&e->core, w);
 }
 
 static void run_frame(struct editor *e, const struct editor_world *w, int argument)
@@ -124,9 +64,9 @@ static void run_frame(struct editor *e, const struct editor_world *w, int argume
     if (!argument && rect_contains(e->core.layout.stage, e->core.pointer_x, e->core.pointer_y)) {
         stage_fit(e->stage, &e->core, w);
     } else if (argument) {
-        view_frame_selection(e->curves, &e->core, w);
+        curves_frame_selection(e->curves, &e->core, w);
     } else {
-        view_frame_all(e->curves, &e->core, w);
+        curves_frame_all(e->curves, &e->core, w);
     }
 }
 
@@ -146,10 +86,10 @@ static void run_clipboard(struct editor *e, const struct editor_world *w, int ar
 {
     if (inspector_is_typing(e->inspector)) return;
     if (argument == CLIPBOARD_DUPLICATE) {
-        duplicate_knots(&e->core, w);
+        core_duplicate_knots(&e->core, w);
     } else if (argument == CLIPBOARD_PASTE) {
         core_request(&e->core, REQUEST_PASTE, NULL);
-    } else if (copy_knots(&e->core, w, argument == CLIPBOARD_CUT)) {
+    } else if (core_copy_knots(&e->core, w, argument == CLIPBOARD_CUT)) {
         core_request(&e->core, REQUEST_COPY, NULL);
     }
 }
@@ -157,46 +97,36 @@ static void run_clipboard(struct editor *e, const struct editor_world *w, int ar
 static void run_normalise(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    normal_toggle(e->curves, &e->core, w);
+    curves_toggle_normal(e->curves, &e->core, w);
 }
 
 static void run_units(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
     (void)argument;
-    ruler_toggle(e->curves, &e->core);
-}
-
-static void run_snap(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)w;
-    (void)argument;
-    e->core.no_snap = !e->core.no_snap;
-    core_message(&e->core, false,
-                 e->core.no_snap ? "Snapping off: hold Ctrl to snap to frames."
-                                 : "Snapping on: hold Ctrl to place knots between frames.");
+    curves_toggle_units(e->curves, &e->core);
 }
 
 static void run_scale(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    scale_begin(e->curves, &e->core, w);
+    curves_scale(e->curves, &e->core, w);
 }
 
 static void run_overlay(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
     if (argument == 'O') {
-        onion_toggle(&e->core);
+        stage_toggle_onion(&e->core);
     } else {
-        trail_toggle(&e->core);
+        stage_toggle_trail(&e->core);
     }
 }
 
 static void run_brush(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
-    brush_set(&e->core, w, !e->core.brush.on);
+    characters_set_brush(&e->core, w, !e->core.brush.on);
     if (e->core.brush.on) inspector_unfold(e->inspector, "section.character");
 }
 
@@ -214,45 +144,98 @@ static void run_theme(struct editor *e, const struct editor_world *w, int argume
     theme_use((theme_in_use() + 1) % THEME_COUNT);
 }
 
-/// ↑ and ↓ while a letter is held: that parameter.
-static void run_held(struct editor *e, const struct editor_world *w, int argument)
+/// Arguments of run_pan() and run_orbit().
+enum way { WAY_LEFT, WAY_RIGHT, WAY_UP, WAY_DOWN };
+
+static const double PAN = 0.1;  ///< of the panel's size
+static const double ZOOM = 0.8; ///< of what is seen, a step
+static const float TURN = 0.1f; ///< radians
+static const int way_sign[][2] = {
+    [WAY_LEFT] = {-1, 0}, [WAY_RIGHT] = {1, 0}, [WAY_UP] = {0, -1}, [WAY_DOWN] = {0, 1}};
+
+static void run_pan(struct editor *editor, const struct editor_world *world, int way)
 {
-    if (e->core.held_key) nudge_parameter(&e->core, w, e->core.held_key, argument);
+    const struct rect *plot = &editor->core.layout.plot;
+    (void)world;
+    curves_pan(editor->curves, &editor->core, -PAN * way_sign[way][0] * plot->w, -PAN * way_sign[way][1] * plot->h);
 }
 
-static void run_activate_neighbour(struct editor *e, const struct editor_world *w, int direction)
+static void run_zoom(struct editor *editor, const struct editor_world *world, int direction)
 {
-    activate_neighbour(&e->core, w, direction);
+    const struct rect *plot = &editor->core.layout.plot;
+    double factor = direction > 0 ? ZOOM : 1 / ZOOM;
+    (void)world;
+    curves_zoom(editor->curves, &editor->core, plot->x + plot->w / 2, plot->y + plot->h / 2, factor, factor);
 }
 
-static void run_step(struct editor *e, const struct editor_world *w, int direction)
+static void run_orbit(struct editor *editor, const struct editor_world *world, int way)
 {
-    playback_step(&e->core, w, direction);
+    (void)world;
+    stage_orbit(editor->stage, TURN * (float)way_sign[way][0], -TURN * (float)way_sign[way][1]);
 }
 
-static void run_end(struct editor *e, const struct editor_world *w, int direction)
+static void run_approach(struct editor *editor, const struct editor_world *world, int direction)
 {
-    playback_end(&e->core, w, direction);
+    (void)world;
+    stage_approach(editor->stage, (float)(direction > 0 ? ZOOM : 1 / ZOOM));
 }
 
-static void run_range_mark(struct editor *e, const struct editor_world *w, int end) { range_mark(&e->core, w, end); }
-
-static void run_toggle_loop(struct editor *e, const struct editor_world *w, int unused)
+static void run_fit_stage(struct editor *editor, const struct editor_world *world, int argument)
 {
-    playback_toggle_loop(&e->core, w, unused);
+    (void)argument;
+    stage_fit(editor->stage, &editor->core, world);
 }
 
-static void run_change_speed(struct editor *e, const struct editor_world *w, int direction)
+static void run_remedy(struct editor *editor, const struct editor_world *world, int argument)
 {
-    playback_change_speed(&e->core, w, direction);
+    (void)argument;
+    curves_remedy_first(editor->curves, &editor->core, world);
+}
+
+/// What was selected is to be seen.
+static void reveal(struct editor *editor, const struct knot *knot)
+{
+    if (knot) curves_reveal(editor->curves, &editor->core, knot->frame, knot->value);
+}
+
+static void run_neighbour(struct editor *editor, const struct editor_world *world, int direction)
+{
+    reveal(editor, core_select_neighbour(&editor->core, world, direction));
+}
+
+static void run_extend(struct editor *editor, const struct editor_world *world, int direction)
+{
+    reveal(editor, core_extend_selection(&editor->core, world, direction));
+}
+
+/// The first of the sizes that is clearly larger than the present one, round the end.
+static double next_size(const double sizes[3], double present)
+{
+    int next = 0;
+    while (next < 3 && sizes[next] <= present * 1.01) next++;
+    return sizes[next % 3];
+}
+
+static void run_panel(struct editor *editor, const struct editor_world *world, int inspector)
+{
+    static const double shares[3] = {0.35, 0.575, 0.75}, widths[3] = {280, 360, 440};
+    double share, width;
+    (void)world;
+    editor_panels(editor, &share, &width);
+    if (inspector) {
+        width = next_size(widths, width);
+    } else {
+        share = next_size(shares, share);
+    }
+    editor_set_panels(editor, share, width);
 }
 
 enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT };
 
 const struct binding key_bindings[] = {
-    {.key = 'Z', .mods = MOD_CTRL, .repeats = true, .run = run_undo, .argument = -1},
-    {.key = 'Z', .mods = MOD_CTRL | MOD_SHIFT, .repeats = true, .run = run_undo, .argument = 1},
-    {.key = 'Y', .mods = MOD_CTRL, .repeats = true, .run = run_undo, .argument = 1},
+    {.key = 'Z', .mods = MOD_CTRL, .repeats = true, .core = core_undo, .argument = -1},
+    {.key = 'Z', .mods = MOD_CTRL | MOD_SHIFT, .repeats = true, .core = core_undo, .argument = 1},
+    {.key = 'Y', .mods = MOD_CTRL, .repeats = true, .core = core_undo, .argument = 1},
     {.key = 'N', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_NEW},
     {.key = 'O', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_OPEN},
     {.key = 'Q', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_QUIT},
@@ -270,82 +253,82 @@ const struct binding key_bindings[] = {
     {.key = KEY_F12, .any_time = true, .run = run_request, .argument = REQUEST_SCREENSHOT},
     {.key = 'I', .run = run_insert, .argument = false},
     {.key = 'I', .mods = MOD_SHIFT, .run = run_insert, .argument = true},
-    {.key = KEY_DELETE, .run = run_delete},
-    {.key = KEY_BACKSPACE, .run = run_delete},
-    {.key = 'A', .mods = MOD_CTRL, .run = run_select_all},
+    {.key = KEY_DELETE, .core = core_delete_knots},
+    {.key = KEY_BACKSPACE, .core = core_delete_knots},
+    {.key = 'A', .mods = MOD_CTRL, .core = core_select_all},
     {.key = KEY_ESCAPE, .run = run_select_none},
     {.key = 'C', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_COPY},
     {.key = 'X', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_CUT},
     {.key = 'V', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_PASTE},
     {.key = 'D', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_DUPLICATE},
-    {.key = KEY_PAGE_UP, .repeats = true, .run = run_activate_neighbour, .argument = -1},
-    {.key = KEY_PAGE_DOWN, .repeats = true, .run = run_activate_neighbour, .argument = 1},
-    {.key = KEY_PAGE_UP, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = -1},
-    {.key = KEY_PAGE_DOWN, .mods = MOD_SHIFT, .repeats = true, .run = keyboard_extend, .argument = 1},
-    {.key = 'T', .run = run_toggle_slope},
-    {.key = 'T', .mods = MOD_SHIFT, .run = run_flatten},
-    {.key = 'T', .mods = MOD_CTRL, .run = run_smooth},
-    {.key = 'D', .repeats = true, .run = run_slope, .argument = -1},
-    {.key = 'E', .repeats = true, .run = run_slope, .argument = 1},
-    {.key = 'D', .mods = MOD_SHIFT, .repeats = true, .run = run_stiffness, .argument = -1},
-    {.key = 'E', .mods = MOD_SHIFT, .repeats = true, .run = run_stiffness, .argument = 1},
-    {.key = 'M', .run = run_mode},
+    {.key = KEY_PAGE_UP, .repeats = true, .core = core_activate_neighbour, .argument = -1},
+    {.key = KEY_PAGE_DOWN, .repeats = true, .core = core_activate_neighbour, .argument = 1},
+    {.key = KEY_PAGE_UP, .mods = MOD_SHIFT, .repeats = true, .run = run_extend, .argument = -1},
+    {.key = KEY_PAGE_DOWN, .mods = MOD_SHIFT, .repeats = true, .run = run_extend, .argument = 1},
+    {.key = 'T', .core = slopes_set, .argument = SLOPES_TOGGLE},
+    {.key = 'T', .mods = MOD_SHIFT, .core = slopes_set, .argument = SLOPES_FLAT},
+    {.key = 'T', .mods = MOD_CTRL, .core = slopes_set, .argument = SLOPES_SMOOTH},
+    {.key = 'D', .repeats = true, .core = slopes_turn, .argument = -1},
+    {.key = 'E', .repeats = true, .core = slopes_turn, .argument = 1},
+    {.key = 'D', .mods = MOD_SHIFT, .repeats = true, .core = slopes_stiffen, .argument = -1},
+    {.key = 'E', .mods = MOD_SHIFT, .repeats = true, .core = slopes_stiffen, .argument = 1},
+    {.key = 'M', .core = core_cycle_mode},
     {.key = KEY_F2, .run = run_rename},
     {.key = 'S', .run = run_scale},
     {.key = 'N', .run = run_normalise},
     {.key = 'U', .any_time = true, .run = run_units},
-    {.key = 'G', .any_time = true, .run = run_snap},
-    {.key = KEY_UP, .repeats = true, .run = run_held, .argument = 1},
-    {.key = KEY_DOWN, .repeats = true, .run = run_held, .argument = -1},
-    {.key = KEY_LEFT, .repeats = true, .run = run_step, .argument = -1},
-    {.key = KEY_RIGHT, .repeats = true, .run = run_step, .argument = 1},
-    {.key = KEY_LEFT, .mods = MOD_SHIFT, .run = run_end, .argument = -1},
-    {.key = KEY_RIGHT, .mods = MOD_SHIFT, .run = run_end, .argument = 1},
-    {.key = 'L', .mods = MOD_CTRL, .run = run_toggle_loop},
-    {.key = KEY_HOME, .mods = MOD_CTRL, .run = run_range_mark, .argument = 0},
-    {.key = KEY_END, .mods = MOD_CTRL, .run = run_range_mark, .argument = 1},
-    {.key = KEY_LEFT, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_LEFT},
-    {.key = KEY_RIGHT, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_RIGHT},
-    {.key = KEY_UP, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_UP},
-    {.key = KEY_DOWN, .mods = MOD_CTRL, .repeats = true, .run = keyboard_pan, .argument = WAY_DOWN},
-    {.key = KEY_PAGE_UP, .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = 1},
-    {.key = KEY_PAGE_DOWN, .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = -1},
-    {.key = '=', .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = 1},
-    {.key = '+', .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = 1},
-    {.key = '-', .mods = MOD_CTRL, .repeats = true, .run = keyboard_zoom, .argument = -1},
-    {.key = KEY_LEFT, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_LEFT},
-    {.key = KEY_RIGHT, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_RIGHT},
-    {.key = KEY_UP, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_UP},
-    {.key = KEY_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_orbit, .argument = WAY_DOWN},
-    {.key = KEY_PAGE_UP, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = 1},
-    {.key = KEY_PAGE_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = -1},
-    {.key = '=', .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = 1},
-    {.key = '+', .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = 1},
-    {.key = '-', .mods = CTRL_SHIFT, .repeats = true, .run = keyboard_approach, .argument = -1},
-    {.key = KEY_HOME, .mods = MOD_SHIFT, .run = keyboard_fit_stage},
-    {.key = 'W', .run = keyboard_remedy},
-    {.key = KEY_F6, .run = keyboard_panel, .argument = 0},
-    {.key = KEY_F6, .mods = MOD_SHIFT, .run = keyboard_panel, .argument = 1},
+    {.key = 'G', .any_time = true, .core = drag_toggle_snap},
+    {.key = KEY_UP, .repeats = true, .core = core_nudge_parameter, .argument = 1},
+    {.key = KEY_DOWN, .repeats = true, .core = core_nudge_parameter, .argument = -1},
+    {.key = KEY_LEFT, .repeats = true, .core = playback_step, .argument = -1},
+    {.key = KEY_RIGHT, .repeats = true, .core = playback_step, .argument = 1},
+    {.key = KEY_LEFT, .mods = MOD_SHIFT, .core = playback_end, .argument = -1},
+    {.key = KEY_RIGHT, .mods = MOD_SHIFT, .core = playback_end, .argument = 1},
+    {.key = 'L', .mods = MOD_CTRL, .core = playback_toggle_loop},
+    {.key = KEY_HOME, .mods = MOD_CTRL, .core = playback_mark, .argument = 0},
+    {.key = KEY_END, .mods = MOD_CTRL, .core = playback_mark, .argument = 1},
+    {.key = KEY_LEFT, .mods = MOD_CTRL, .repeats = true, .run = run_pan, .argument = WAY_LEFT},
+    {.key = KEY_RIGHT, .mods = MOD_CTRL, .repeats = true, .run = run_pan, .argument = WAY_RIGHT},
+    {.key = KEY_UP, .mods = MOD_CTRL, .repeats = true, .run = run_pan, .argument = WAY_UP},
+    {.key = KEY_DOWN, .mods = MOD_CTRL, .repeats = true, .run = run_pan, .argument = WAY_DOWN},
+    {.key = KEY_PAGE_UP, .mods = MOD_CTRL, .repeats = true, .run = run_zoom, .argument = 1},
+    {.key = KEY_PAGE_DOWN, .mods = MOD_CTRL, .repeats = true, .run = run_zoom, .argument = -1},
+    {.key = '=', .mods = MOD_CTRL, .repeats = true, .run = run_zoom, .argument = 1},
+    {.key = '+', .mods = MOD_CTRL, .repeats = true, .run = run_zoom, .argument = 1},
+    {.key = '-', .mods = MOD_CTRL, .repeats = true, .run = run_zoom, .argument = -1},
+    {.key = KEY_LEFT, .mods = CTRL_SHIFT, .repeats = true, .run = run_orbit, .argument = WAY_LEFT},
+    {.key = KEY_RIGHT, .mods = CTRL_SHIFT, .repeats = true, .run = run_orbit, .argument = WAY_RIGHT},
+    {.key = KEY_UP, .mods = CTRL_SHIFT, .repeats = true, .run = run_orbit, .argument = WAY_UP},
+    {.key = KEY_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = run_orbit, .argument = WAY_DOWN},
+    {.key = KEY_PAGE_UP, .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = 1},
+    {.key = KEY_PAGE_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = -1},
+    {.key = '=', .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = 1},
+    {.key = '+', .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = 1},
+    {.key = '-', .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = -1},
+    {.key = KEY_HOME, .mods = MOD_SHIFT, .run = run_fit_stage},
+    {.key = 'W', .run = run_remedy},
+    {.key = KEY_F6, .run = run_panel, .argument = 0},
+    {.key = KEY_F6, .mods = MOD_SHIFT, .run = run_panel, .argument = 1},
     {.key = KEY_HOME, .run = run_frame, .argument = 0},
     {.key = KEY_END, .run = run_frame, .argument = 1},
     {.key = 'V', .any_time = true, .run = run_look},
     {.key = 'O', .any_time = true, .run = run_overlay, .argument = 'O'},
     {.key = 'P', .any_time = true, .run = run_overlay, .argument = 'P'},
     {.key = 'K', .run = run_brush},
-    {.run = NULL},
+    {.key = 0},
 };
 
 const struct binding character_bindings[] = {
-    {.key = ',', .repeats = true, .run = keyboard_neighbour, .argument = -1},
-    {.key = '.', .repeats = true, .run = keyboard_neighbour, .argument = 1},
-    {.key = '<', .repeats = true, .run = keyboard_extend, .argument = -1},
-    {.key = '>', .repeats = true, .run = keyboard_extend, .argument = 1},
-    {.key = '[', .run = run_range_mark, .argument = 0},
-    {.key = ']', .run = run_range_mark, .argument = 1},
-    {.key = '-', .any_time = true, .run = run_change_speed, .argument = -1},
-    {.key = '=', .any_time = true, .run = run_change_speed, .argument = 1},
-    {.key = '+', .any_time = true, .run = run_change_speed, .argument = 1},
-    {.run = NULL},
+    {.key = ',', .repeats = true, .run = run_neighbour, .argument = -1},
+    {.key = '.', .repeats = true, .run = run_neighbour, .argument = 1},
+    {.key = '<', .repeats = true, .run = run_extend, .argument = -1},
+    {.key = '>', .repeats = true, .run = run_extend, .argument = 1},
+    {.key = '[', .core = playback_mark, .argument = 0},
+    {.key = ']', .core = playback_mark, .argument = 1},
+    {.key = '-', .any_time = true, .core = playback_change_speed, .argument = -1},
+    {.key = '=', .any_time = true, .core = playback_change_speed, .argument = 1},
+    {.key = '+', .any_time = true, .core = playback_change_speed, .argument = 1},
+    {.key = 0},
 };
 
 static const struct nudge_key {
@@ -365,14 +348,14 @@ static bool nudge_event(struct editor *editor, const struct editor_world *world,
     double factor = event->mods & MOD_SHIFT ? 10 : event->mods & MOD_CTRL ? 0.1 : 1;
     for (size_t i = 0; i < sizeof nudge_keys / sizeof nudge_keys[0]; i++) {
         if (nudge_keys[i].key != event->key) continue;
-        nudge_knots(&editor->core, world, nudge_keys[i].frames * factor,
-                    nudge_keys[i].values * factor * editor->core.visible);
+        core_nudge_knots(&editor->core, world, nudge_keys[i].frames * factor,
+                         nudge_keys[i].values * factor * editor->core.visible);
         return true;
     }
     return false;
 }
 
-/// Space plays when it is released, unless it served to pan meanwhile.
+/// Space plays on release, unless it was used to pan.
 static void space_event(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     if (event->action == ACTION_PRESS) {
@@ -386,19 +369,19 @@ static void space_event(struct editor *editor, const struct editor_world *world,
 
 static bool is_held_letter(int key) { return key == 'L' || parameter_of_letter(key) != PARAMETER_COUNT; }
 
-/// Does what is bound, unless the key is kept down or a drag is on and it is not for that; true where anything is bound.
+/// Runs what is bound, unless it excludes key repeats or running drags; true if anything is bound.
 static bool run(struct editor *editor, const struct editor_world *world, const struct binding *list, int key,
                 unsigned mods, bool repeated)
 {
     const struct binding *binding = list;
-    while (binding->run && (binding->key != key || binding->mods != mods)) binding++;
-    if (!binding->run) return false;
+    while (binding->key && (binding->key != key || binding->mods != mods)) binding++;
     bool idle = (repeated && !binding->repeats) || (history_is_open(world->history) && !binding->any_time);
-    if (!idle) binding->run(editor, world, binding->argument);
-    return true;
+    if (!idle && binding->run) binding->run(editor, world, binding->argument);
+    if (!idle && binding->core) binding->core(&editor->core, world, binding->argument);
+    return binding->key != 0;
 }
 
-/// What a key types that somebody else has used, as one that closes the help, is no command.
+/// The character of a key that was used elsewhere, say to close the help, is no command.
 static bool text_event(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     const struct press *press = &editor->press;

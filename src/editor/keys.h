@@ -4,21 +4,24 @@
 
 #include "editor/state.h"
 
+/// What a key does to the panels, and what it does to what they share alone.
 typedef void key_action(struct editor *editor, const struct editor_world *world, int argument);
+typedef void core_action(struct core *core, const struct editor_world *world, int argument);
 
 struct binding {
-    int key;       ///< or character
-    unsigned mods; ///< exactly these
-    bool repeats;  ///< also while the key is kept down
-    bool any_time; ///< also while a drag holds a step of the history open
-    key_action *run;
+    int key;         ///< or character
+    unsigned mods;   ///< exactly these
+    bool repeats;    ///< also while the key is kept down
+    bool any_time;   ///< also while a drag holds a step of the history open
+    key_action *run; ///< or
+    core_action *core;
     int argument;
 };
 
-/// Up to one without `run`. Letters are what is printed on a key, digits a place.
+/// Up to one that does nothing. Letters are what is printed on a key, digits a place.
 extern const struct binding key_bindings[];
-/// Punctuation, by what is typed: every layout has it on other keys, and some need Shift for it. What AZERTY, QWERTZ or
-/// Nordic layouts cannot type without AltGr has a key as well.
+/// Punctuation, by the character typed: every layout has it on other keys. What AZERTY, QWERTZ or Nordic layouts type only with
+/// AltGr has a key as well.
 extern const struct binding character_bindings[];
 
 /// Keys and characters; true where the event is used up.

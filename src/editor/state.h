@@ -4,9 +4,9 @@
 
 #include "editor/core/state.h"
 
-/// The last key that went down in this frame, whose character follows it.
+/// The last key pressed in this frame; its character comes next.
 struct press {
-    bool used;     ///< by a dialog, a drag, a field …
+    bool used;     ///< a dialog, a drag or a field has used it
     bool repeated; ///< it is kept down
 };
 
@@ -20,5 +20,10 @@ struct editor {
     struct press press;
     bool fitted; ///< camera and curves view, at the first editor_pose() of a document
 };
+
+/// Does what leaves the document, but asks first where work would be lost.
+void editor_leave(struct editor *editor, const struct editor_world *world, const struct request *request);
+/// Memory for the document's knots in selection and drags; allocates only where knots were added.
+void editor_reserve(struct editor *editor, const struct document *document);
 
 #endif

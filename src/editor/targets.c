@@ -1,4 +1,4 @@
-/// Names for places on the screen that survive a new layout, for replays: "knot(sway,2)", "tail(tail,0.9)".
+/// Names for places on the screen, for replays; they survive a new layout: "knot(sway,2)", "tail(tail,0.9)".
 #include "editor/curves/curves.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
@@ -20,18 +20,18 @@ struct place {
     struct editor *editor; ///< as it was after all: inspector_target() lays its widgets out to find one
     const struct editor_world *world;
     const struct target *target;
-    float x, y;
+    float xy[2];
 };
 
 typedef bool find_place(struct place *place, struct error *error);
 
 static bool in_plot(struct place *place, double frame, double value, struct error *error)
 {
-    place->x = curves_x(place->editor->curves, &place->editor->core, frame);
-    place->y = curves_y(place->editor->curves, &place->editor->core, value);
+    place->xy[0] = curves_x(place->editor->curves, &place->editor->core, frame);
+    place->xy[1] = curves_y(place->editor->curves, &place->editor->core, value);
     const struct rect *plot = &place->editor->core.layout.plot;
-    bool inside =
-        place->x >= plot->x && place->y >= plot->y && place->x <= plot->x + plot->w && place->y <= plot->y + plot->h;
+    bool inside = place->xy[0] >= plot->x && place->xy[1] >= plot->y && place->xy[0] <= plot->x + plot->w &&
+                  place->xy[1] <= plot->y + plot->h;
     return inside ||
            fail(error, ERROR_INPUT, "frame %g, value %g is not in the visible part of the curves", frame, value);
 }
@@ -68,13 +68,10 @@ static bool find_knot(struct place *place, struct error *error)
 static bool find_handle(struct place *place, struct error *error)
 {
     const struct knot *knot;
-    float xy[2];
     if (!knot_named(place, &knot, error)) return false;
     if (!knot->has_slope) return fail(error, ERROR_INPUT, "that knot of \"%s\" has no slope", place->target->name);
     curves_handle(place->editor->curves, &place->editor->core, place->world->document, knot,
-                  place->target->number[1] > 0, xy);
-    place->x = xy[0];
-    place->y = xy[1];
+                  place->target->number[1] > 0, place->xy);
     return true;
 }
 
@@ -88,21 +85,16 @@ static bool find_curve(struct place *place, struct error *error)
 static bool find_warning(struct place *place, struct error *error)
 {
     double number = place->target->number[0];
-    float xy[2];
-    if (!curves_warning(place->editor->curves, &place->editor->core, number, xy)) {
-        return fail(error, ERROR_INPUT, "no warning %g is to be seen", number);
-    }
-    place->x = xy[0];
-    place->y = xy[1];
-    return true;
+    return curves_warning(place->editor->curves, &place->editor->core, number, place->xy) ||
+           fail(error, ERROR_INPUT, "no warning %g is to be seen", number);
 }
 
 static bool find_ruler(struct place *place, struct error *error)
 {
     const struct rect *ruler = &place->editor->core.layout.ruler;
-    place->x = curves_x(place->editor->curves, &place->editor->core, place->target->number[0]);
-    place->y = ruler->y + ruler->h / 2;
-    return rect_contains(*ruler, place->x, place->y) ||
+    place->xy[0] = curves_x(place->editor->curves, &place->editor->core, place->target->number[0]);
+    place->xy[1] = ruler->y + ruler->h / 2;
+    return rect_contains(*ruler, place->xy[0], place->xy[1]) ||
            fail(error, ERROR_INPUT, "frame %g is not on the visible part of the ruler", place->target->number[0]);
 }
 
@@ -110,62 +102,55 @@ static bool find_stage(struct place *place, struct error *error)
 {
     (void)error;
     const struct rect *stage = &place->editor->core.layout.stage;
-    place->x = stage->x + stage->w * (float)place->target->number[0];
-    place->y = stage->y + stage->h * (float)place->target->number[1];
+    place->xy[0] = stage->x + stage->w * (float)place->target->number[0];
+    place->xy[1] = stage->y + stage->h * (float)place->target->number[1];
     return true;
+}
+
+/// The rig of a kind that has the target's name, and which of its kind it is; NULL where there is none. A character without a
+/// name goes by its model.
+static const struct rig *rig_named(const struct place *place, enum rig_kind kind, int *n)
+{
+    const struct document *document = place->world->document;
+    int r = document_next_rig(document, kind, 0);
+    for (*n = 0; r >= 0; (*n)++, r = document_next_rig(document, kind, r + 1)) {
+        const struct rig *rig = &document->rigs[r];
+        const char *name = rig->name || kind != RIG_CHARACTER ? rig->name : rig->character.model;
+        if (strcmp(name, place->target->name) == 0) return rig;
+    }
+    return NULL;
 }
 
 static bool find_tail(struct place *place, struct error *error)
 {
-    const struct document *document = place->world->document;
-    double share = fmin(fmax(place->target->number[0], 0), 1);
-    int rig = document_next_rig(document, RIG_TAIL, 0);
-    for (int t = 0; rig >= 0; rig = document_next_rig(document, RIG_TAIL, rig + 1), t++) {
-        if (strcmp(document->rigs[rig].name, place->target->name) != 0) continue;
-        int joints = document->rigs[rig].tail.joints;
-        double along = share * joints;
-        int joint = (int)fmin(floor(along), joints - 1);
-        float xy[2];
-        if (!stage_project(place->editor->stage, &place->editor->core, t, joint, along - joint, xy)) break;
-        place->x = xy[0];
-        place->y = xy[1];
-        return true;
+    int n;
+    const struct rig *rig = rig_named(place, RIG_TAIL, &n);
+    if (rig) {
+        double along = fmin(fmax(place->target->number[0], 0), 1) * rig->tail.joints;
+        int joint = (int)fmin(floor(along), rig->tail.joints - 1);
+        if (stage_project(place->editor->stage, &place->editor->core, n, joint, along - joint, place->xy))
+            return true;
     }
     return fail(error, ERROR_INPUT, "there is no tail \"%s\" to be seen", place->target->name);
 }
 
 static bool find_body(struct place *place, struct error *error)
 {
-    const struct document *document = place->world->document;
-    int rig = document_next_rig(document, RIG_TAIL, 0);
-    for (int t = 0; t < stage_seen(place->editor->stage)->tail_count && rig >= 0;
-         t++, rig = document_next_rig(document, RIG_TAIL, rig + 1)) {
-        float xy[2];
-        if (strcmp(document->rigs[rig].name, place->target->name) != 0) continue;
-        if (!body_point(place->editor->stage, &place->editor->core, t, xy)) break;
-        place->x = xy[0];
-        place->y = xy[1];
-        return true;
-    }
-    return fail(error, ERROR_INPUT, "there is no body of a tail \"%s\" to be seen", place->target->name);
+    int n;
+    struct editor *editor = place->editor;
+    bool shown = rig_named(place, RIG_TAIL, &n) && n < stage_seen(editor->stage)->tail_count;
+    return (shown && stage_body_point(editor->stage, &editor->core, n, place->xy)) ||
+           fail(error, ERROR_INPUT, "there is no body of a tail \"%s\" to be seen", place->target->name);
 }
 
 /// A point of a character's surface: character(up,0.5,0.8), where it is now. u goes across and v up the box of the character
-/// at rest, seen from the front. One without a name is called as its model.
+/// at rest, seen from the front.
 static bool find_character(struct place *place, struct error *error)
 {
-    const struct document *document = place->world->document;
-    int r = document_next_rig(document, RIG_CHARACTER, 0);
-    for (int c = 0; r >= 0; c++, r = document_next_rig(document, RIG_CHARACTER, r + 1)) {
-        const struct rig *rig = &document->rigs[r];
-        float xy[2];
-        if (strcmp(rig->name ? rig->name : rig->character.model, place->target->name) != 0) continue;
-        if (!characters_point(place->editor->stage, c, place->target->number, xy)) break;
-        place->x = xy[0];
-        place->y = xy[1];
-        return true;
-    }
-    return fail(error, ERROR_INPUT, "there is no character \"%s\" to be seen", place->target->name);
+    int n;
+    bool known = rig_named(place, RIG_CHARACTER, &n);
+    return (known && stage_character_point(place->editor->stage, n, place->target->number, place->xy)) ||
+           fail(error, ERROR_INPUT, "there is no character \"%s\" to be seen", place->target->name);
 }
 
 static bool find_divider(struct place *place, struct error *error)
@@ -176,15 +161,15 @@ static bool find_divider(struct place *place, struct error *error)
         return fail(error, ERROR_INPUT, "there is no divider \"%s\": expected stage or inspector",
                     place->target->name);
     }
-    place->x = inspector ? l->inspector.x : l->curves.x + l->curves.w / 2;
-    place->y = inspector ? l->inspector.h / 2 : l->curves.y;
+    place->xy[0] = inspector ? l->inspector.x : l->curves.x + l->curves.w / 2;
+    place->xy[1] = inspector ? l->inspector.h / 2 : l->curves.y;
     return true;
 }
 
 static bool find_widget(struct place *place, struct error *error)
 {
     return inspector_target(place->editor->inspector, &place->editor->core, place->world, place->target->name,
-                            &place->x, &place->y) ||
+                            &place->xy[0], &place->xy[1]) ||
            fail(error, ERROR_INPUT, "the inspector does not show \"%s\"", place->target->name);
 }
 
@@ -248,7 +233,7 @@ bool editor_target(struct editor *editor, const struct editor_world *world, cons
     if (!kind) return fail(error, ERROR_INPUT, "\"%s\" is no target such as knot(sway,2) or stage(0.5,0.5)", target);
     struct place place = {.editor = editor, .world = world, .target = &parts};
     if (!kind->find(&place, error)) return false;
-    *x = place.x;
-    *y = place.y;
+    *x = place.xy[0];
+    *y = place.xy[1];
     return true;
 }

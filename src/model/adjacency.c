@@ -3,12 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// A vertex, to be sorted by its place.
-struct spot {
-    float position[3];
-    uint32_t vertex;
-};
-
 static int compare_spots(const void *a, const void *b)
 {
     const struct spot *p = a, *q = b;
@@ -18,12 +12,12 @@ static int compare_spots(const void *a, const void *b)
     return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
 }
 
-static bool is_same_place(const struct spot *a, const struct spot *b)
+bool spots_meet(const struct spot *a, const struct spot *b)
 {
     return memcmp(a->position, b->position, sizeof a->position) == 0;
 }
 
-static struct spot *sort_spots(const float (*position)[3], int count)
+struct spot *spots_sort(const float (*position)[3], int count)
 {
     struct spot *spots = malloc(((size_t)count + 1) * sizeof *spots);
     for (int i = 0; spots && i < count; i++) {
@@ -34,7 +28,7 @@ static struct spot *sort_spots(const float (*position)[3], int count)
     return spots;
 }
 
-/// Both directions of an edge: counted into `fill` where there is no room yet, else entered at it.
+/// Both directions of an edge: only counted while there is no list yet, else entered at `fill`.
 static void add_edge(struct adjacency *adjacency, int *fill, uint32_t i, uint32_t j)
 {
     if (adjacency->other) {
@@ -59,7 +53,7 @@ static void add_edges(struct adjacency *adjacency, const struct edges *edges, in
     }
     for (int i = 0; i + 1 < edges->vertex_count; i++) {
         const struct spot *a = &edges->spots[i], *b = a + 1;
-        if (is_same_place(a, b)) add_edge(adjacency, fill, a->vertex, b->vertex);
+        if (spots_meet(a, b)) add_edge(adjacency, fill, a->vertex, b->vertex);
     }
 }
 
@@ -69,7 +63,7 @@ static int compare_vertices(const void *a, const void *b)
     return *p < *q ? -1 : *p > *q;
 }
 
-/// Sorts each vertex's neighbours and leaves one of each; most edges are sides of two triangles.
+/// Sorts each vertex's neighbours and removes duplicates: most edges belong to two triangles.
 static void tidy(struct adjacency *adjacency, int vertex_count)
 {
     int kept = 0;
@@ -91,7 +85,7 @@ bool adjacency_create(struct adjacency *adjacency, const float (*position)[3], i
 {
     const size_t room = (size_t)vertex_count + 1;
     *adjacency = (struct adjacency){0};
-    struct spot *spots = sort_spots(position, vertex_count);
+    struct spot *spots = spots_sort(position, vertex_count);
     int *fill = calloc(room, sizeof *fill);
     const struct edges edges = {indices, index_count, spots, vertex_count};
     adjacency->first = calloc(room, sizeof *adjacency->first);

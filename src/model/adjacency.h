@@ -6,17 +6,29 @@
 #include <stdint.h>
 
 /// The neighbours of vertex i are other[first[i]] … other[first[i + 1] − 1], in ascending order. Vertices at the very same place
-/// (the seams of a mesh with several normals or colours at a corner) are neighbours too, in a chain.
+/// (the seams of a mesh with several normals or colours at a corner) count as neighbours too, in a chain.
 struct adjacency {
     int *first;
     uint32_t *other;
 };
 
-/// false where memory is short: nothing is left to be freed.
+/// false if memory is short; then there is nothing to free.
 bool adjacency_create(struct adjacency *adjacency, const float (*position)[3], int vertex_count,
                       const uint32_t *indices, int index_count);
 
 /// Leaves an empty one, all zero.
 void adjacency_free(struct adjacency *adjacency);
+
+/// A vertex, by its place.
+struct spot {
+    float position[3];
+    uint32_t vertex;
+};
+
+/// All vertices sorted by place, then by number; the caller frees it. NULL if memory is short.
+struct spot *spots_sort(const float (*position)[3], int count);
+
+/// Whether two vertices are at the very same place.
+bool spots_meet(const struct spot *a, const struct spot *b);
 
 #endif

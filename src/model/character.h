@@ -11,8 +11,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/// One complex normal coordinate Ñ: how far, and how much later, each vertex moves when x does. Numbers that are not
-/// known are 0.
+/// One complex normal coordinate Ñ: how far and how much later each vertex moves when x does. Unknown numbers
+/// are 0.
 struct coordinate {
     char *name;
     double frequency;  ///< Hz, undamped
@@ -40,7 +40,7 @@ bool character_create(struct character *character, const struct surface *surface
 
 /// Reads a .glb: the first mesh with morph targets (else the first mesh), all its triangles as one. Coordinates are the
 /// pairs of morph targets called NAME.re and NAME.im; without our extras their numbers are 0. Normals are computed where
-/// there are none. The mesh stands where the first node that shows it puts it. Errors name the file, the place in it, what was expected and what was there.
+/// there are none. The first node that shows the mesh places it. Errors name the file, the place in it, what was expected and what was found.
 bool character_read(const char *path, struct character *character, struct error *error);
 
 /// Writes a .glb, whole or not at all.

@@ -1,4 +1,4 @@
-/// Colours the fox by where on its body a point is.
+/// Colours the fox by where on its skin a point is.
 #include "model/coat.h"
 #include "base/srgb.h"
 #include "model/creature.h"

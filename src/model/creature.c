@@ -3,7 +3,7 @@
 
 static const struct level {
     int animals;           ///< up to how many
-    float cell, tolerance; ///< of the body, see mesh_body()
+    float cell, tolerance; ///< of the torso, see mesh_torso()
     int rings, segments;   ///< of the tail
 } levels[CREATURE_LEVELS] = {
     {1, 0.042f, 0.0016f, 96, 40},
@@ -21,6 +21,6 @@ int creature_level(int animals)
 
 void mesh_creature(int level, struct mesh *mesh)
 {
-    mesh_body(levels[level].cell, levels[level].tolerance, mesh);
+    mesh_torso(levels[level].cell, levels[level].tolerance, mesh);
     mesh_tail(levels[level].rings, levels[level].segments, mesh);
 }

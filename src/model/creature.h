@@ -11,29 +11,29 @@
 #define CREATURE_TAIL_RADIUS 0.11f /* at the base */
 #define CREATURE_BASE_HEIGHT 0.26f
 
-/// Box of the body without the tail, bind space.
-extern const float creature_body_lo[3], creature_body_hi[3];
+/// Box of the torso: the animal without its tail, bind space.
+extern const float creature_torso_lo[3], creature_torso_hi[3];
 
-/// Distance from a point to the body's skin without the face, metres, bind space; negative inside, never more than it really is
-/// by much: a ray may be followed in steps of it.
-float creature_body_distance(const float p[3]);
+/// Distance from a point to the torso's skin without the face, metres, bind space; negative inside, and never much too
+/// large, so that a ray can be marched in steps of it.
+float creature_torso_distance(const float p[3]);
 
 /// Radius of the tail at z metres from its base, bind size; 0 at the tip and beyond.
 float creature_tail_radius(float z);
 
-/// How finely the animal is meshed. Levels get coarser so that together all animals of a stage stay below 20,000
+/// Levels of detail of the animal, each coarser than the last, so that all animals of a stage together stay below 20,000
 /// triangles.
 enum { CREATURE_LEVELS = 4 };
 
 /// The level at which that many animals are drawn.
 int creature_level(int animals);
 
-/// Appends body and tail of a level.
+/// Appends torso and tail of a level.
 void mesh_creature(int level, struct mesh *mesh);
 
-/// Appends the body: everything but the tail, with the stump that the tail hides. Edges are about `cell` metres long,
-/// shorter where they would stay more than `tolerance` metres away from the round shape.
-void mesh_body(float cell, float tolerance, struct mesh *mesh);
+/// Appends the torso, with the stump that the tail hides. Edges are about `cell` metres long,
+/// shorter where they would miss the round shape by more than `tolerance` metres.
+void mesh_torso(float cell, float tolerance, struct mesh *mesh);
 
 /// Appends the tail: `rings` rings of `segments` vertices each, from inside the body, where it is open, to a rounded
 /// tip.

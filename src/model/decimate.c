@@ -1,5 +1,5 @@
-/// Half-edge collapses in rounds. In each round every vertex that may go has a neighbour onto which it goes at the least
-/// cost; the cheapest ones go, as long as none of them touches what another one has changed.
+/// Half-edge collapses in rounds. In each round every removable vertex picks the neighbour onto which it collapses at least
+/// cost; the cheapest collapse, unless one touches what another has changed.
 #include "model/decimate.h"
 #include "model/vector.h"
 #include <math.h>
@@ -11,7 +11,7 @@ enum { MAX_RING = 24, MAX_ROUNDS = 24 };
 #define COLOR_WEIGHT 0.02f /* metres that a full change of colour counts as */
 #define FLATTEST 0.35f     /* cosine of the largest turn of a triangle */
 
-/// A vertex and the neighbour onto which it would go.
+/// A vertex and the neighbour onto which it would collapse.
 struct collapse {
     uint32_t from, to;
     float cost;
@@ -59,7 +59,7 @@ static int ring_of(const struct work *work, uint32_t v, uint32_t ring[MAX_RING])
     return count;
 }
 
-/// What becomes of a triangle when its corner v goes to `to`: false where it folds over; else by how much the surface
+/// What moving corner v to `to` does to a triangle: false if it folds over; else by how much the surface
 /// departs from v, metres.
 static bool moved_triangle(const struct work *work, const uint32_t corner[3], uint32_t v, uint32_t to,
                            float *distance)
@@ -75,7 +75,7 @@ static bool moved_triangle(const struct work *work, const uint32_t corner[3], ui
     return true;
 }
 
-/// Number of vertices that two rings share.
+/// Number of vertices two rings share.
 static int shared(const uint32_t *a, int a_count, const uint32_t *b, int b_count)
 {
     int count = 0;
@@ -85,7 +85,7 @@ static int shared(const uint32_t *a, int a_count, const uint32_t *b, int b_count
     return count;
 }
 
-/// INFINITY where v cannot go to `to`: the surface would fold, or two of its sheets would meet (the vertices around both
+/// INFINITY if v cannot go to `to`: the surface would fold, or two of its sheets would meet (the vertices around both
 /// must be just the two of the triangles on the edge).
 static float cost_of(const struct work *work, uint32_t v, uint32_t to, const uint32_t *ring, int count)
 {

@@ -1,11 +1,11 @@
-/// Fewer triangles over the same vertices, so that everything that vertices carry stays as it is.
+/// Fewer triangles over the same vertices: whatever the vertices carry stays as it is.
 #ifndef MODEL_DECIMATE_H
 #define MODEL_DECIMATE_H
 
 #include "model/character.h"
 
-/// Writes at most `triangles` triangles (more where it cannot be done without folding the surface or opening it) that look like
-/// the character's own to `indices`, which has room for all of those. Vertices are moved onto neighbours, those first
+/// Writes at most `triangles` triangles (more if the surface would fold or open) that look like
+/// the character's own to `indices`, which has room for all of those. Vertices collapse onto neighbours, starting with those
 /// that change shape and colour least. false where memory is short.
 bool decimate(const struct character *character, int triangles, uint32_t *indices, int *index_count);
 

@@ -11,7 +11,7 @@ struct fit {
     float uu, uv, vv;
 };
 
-/// A unit vector across n: the axis that n has least of, made orthogonal.
+/// A unit vector orthogonal to n: from the axis along which n is shortest.
 static void tangent_of(const float n[3], float t[3])
 {
     int least = 0;
@@ -61,7 +61,8 @@ static void add_difference(const float a[3], const float b[3], const float uv[2]
 static void solve_fit(const struct fit *fit, float by_u[3], float by_v[3])
 {
     const float determinant = fit->uu * fit->vv - fit->uv * fit->uv, trace = fit->uu + fit->vv;
-    const float inverse = determinant > 1e-6f * trace * trace ? 1.0f / determinant : 0.0f; // 0: no plane to speak of
+    const float inverse =
+        determinant > 1e-6f * trace * trace ? 1.0f / determinant : 0.0f; // 0: the edges span no plane
     for (int k = 0; k < 3; k++) {
         const float u = by_u[k], v = by_v[k];
         by_u[k] = inverse * (fit->vv * u - fit->uv * v);
@@ -111,7 +112,7 @@ static void measure(struct figure *figure)
     }
 }
 
-/// A disc around what is lowest on each side of the middle.
+/// A disc around the lowest points on each side of the middle.
 static void find_soles(struct figure *figure)
 {
     const struct character *c = &figure->character;

@@ -1,4 +1,4 @@
-/// A character made ready for the stage: what its normals follow, a coarser mesh for two side by side, where it stands.
+/// A character made ready for the stage: derivatives for its normals, a coarser mesh for pairs, where it stands.
 ///
 /// The deformation D(j) = Re(z Ñ_j) moves the surface's tangents t₁, t₂ = n × t₁ to tᵢ + ∂D/∂tᵢ, and the normal to the
 /// cross product of both (the cofactors of the surface's deformation gradient applied to n). So each coordinate comes with its
@@ -12,7 +12,7 @@
 enum {
     FIGURE_SOLES = 2,
     FIGURE_COARSE = 10000, ///< triangles of the coarse mesh
-    FIGURE_BLOCK = 128,    ///< vertices whose changes are noted together
+    FIGURE_BLOCK = 128,    ///< vertices whose changes are tracked together
 };
 
 /// Derivatives of one coordinate at one vertex, along t₁ (u) and t₂ (v), per metre.
@@ -35,13 +35,13 @@ struct figure {
     struct adjacency edges;
     float lo[3], hi[3]; ///< box at rest
     struct sole soles[FIGURE_SOLES];
-    uint64_t id;      ///< no other figure of this run has it
+    uint64_t id;      ///< unique in this run
     uint64_t version; ///< grows whenever coordinates and slopes change; 0: they never do
     /// The version at which vertices FIGURE_BLOCK·b … of coordinate k changed last, at k·figure_blocks() + b; NULL: never.
     uint64_t *changed;
 };
 
-/// Takes a character over and makes the rest; the character is left empty. false where memory is short: the figure is then
+/// Takes over a character, which is left empty, and derives the rest. If memory is short, false: the figure is then
 /// empty and the character freed.
 bool figure_create(struct figure *figure, struct character *character);
 
@@ -51,8 +51,8 @@ static inline int figure_blocks(const struct figure *figure)
     return (figure->character.vertex_count + FIGURE_BLOCK - 1) / FIGURE_BLOCK;
 }
 
-/// For those who make a figure that differs from another in its coordinates: an id, the slope of one coordinate at one vertex
-/// after it or a neighbour has changed, and its largest amplitudes.
+/// For a copy of a figure with other coordinates: an id; refits the slope of one coordinate at one vertex after it or a
+/// neighbour has changed; measures its largest amplitudes.
 uint64_t figure_new_id(void);
 void figure_fit(struct figure *figure, int coordinate, int vertex);
 void figure_measure(struct figure *figure, int coordinate);

@@ -115,7 +115,7 @@ static double number_at(const struct elements *e, int element, int component)
     }
 }
 
-/// Finds `count` elements in the buffer view that `place` names, and checks that they lie within it.
+/// Finds `count` elements in the buffer view named by `place`, and checks that they lie within it.
 static bool find_elements(const struct glb *glb, const json_t *place, int64_t count, struct elements *e)
 {
     const json_t *views = json_object_get(glb->json, "bufferViews");
@@ -132,7 +132,7 @@ static bool find_elements(const struct glb *glb, const json_t *place, int64_t co
     return true;
 }
 
-/// Puts the elements that a sparse accessor changes in their places.
+/// Applies a sparse accessor's changes.
 static bool apply_sparse(const struct glb *glb, const json_t *sparse, struct elements *values,
                          struct glb_numbers *numbers)
 {
@@ -160,7 +160,7 @@ static int components_of(const json_t *accessor)
     return 0;
 }
 
-/// Reads all numbers; false where some lie outside of the file. Without a buffer view (and bytes) all are zero.
+/// Reads all numbers; false if some lie outside the file. Without a buffer view (and bytes) all are zero.
 static bool fill(const struct glb *glb, const json_t *accessor, struct elements *e, struct glb_numbers *numbers)
 {
     const json_t *sparse = json_object_get(accessor, "sparse");

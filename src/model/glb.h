@@ -28,7 +28,7 @@ struct glb {
 bool glb_open(struct glb *glb, const char *path, struct error *error);
 void glb_close(struct glb *glb);
 
-/// A member that is a whole number from 0; `otherwise` where there is none, −1 where it is something else.
+/// A member that is a whole number ≥ 0; `otherwise` if it is missing, −1 if it is something else.
 int64_t glb_integer(const json_t *object, const char *key, int64_t otherwise);
 
 /// The numbers of an accessor: normalised integers as 0 … 1, sparse elements in their places.
@@ -40,7 +40,7 @@ struct glb_numbers {
 bool glb_numbers(const struct glb *glb, int64_t accessor, struct glb_numbers *numbers, struct error *error);
 
 /// The matrix, columns first, that places mesh number `mesh` in the scene: that of the first node that shows it. False
-/// where that is where it is anyway.
+/// for the identity.
 bool glb_mesh_matrix(const struct glb *glb, int64_t mesh, double matrix[16]);
 
 #endif

@@ -4,7 +4,7 @@
 
 static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-/// Up to `count` numbers of an array; those that are missing keep their value.
+/// Reads up to `count` numbers of an array; missing ones keep their value.
 static void read_array(const json_t *object, const char *key, double *numbers, size_t count)
 {
     const json_t *array = json_object_get(object, key);

@@ -89,7 +89,7 @@ static bool check_primitive(const struct glb *glb, const json_t *primitive, stru
     return fail(error, ERROR_INPUT, "%s: expected a mesh with positions, got none", glb->path);
 }
 
-/// All primitives of a mesh as one surface, for a character of so many coordinates.
+/// All primitives of a mesh as one surface, with room for that many coordinates.
 static bool read_surface(const struct glb *glb, const json_t *primitives, int coordinates, struct surface *s,
                          struct error *error)
 {
@@ -119,7 +119,7 @@ static bool read_surface(const struct glb *glb, const json_t *primitives, int co
     return true;
 }
 
-/// The file's normals where every primitive has them; computed ones are there before.
+/// Takes the file's normals if every primitive has them, else keeps the computed ones.
 static bool read_normals(const struct glb *glb, const json_t *primitives, struct character *c, struct error *error)
 {
     size_t i;
@@ -183,7 +183,7 @@ static double real_of(const json_t *object, const char *key)
     return json_number_value(json_object_get(object, key));
 }
 
-/// What our extras say of a coordinate; zeros where they say nothing.
+/// What our extras say about a coordinate, else zeros.
 static void read_extras(const json_t *extras, struct coordinate *c)
 {
     size_t i;

@@ -1,5 +1,5 @@
-/// Turns a solid that is given by its distance function into triangles ("surface nets": one vertex a grid cell that
-/// the surface passes through, one quad an edge that it crosses).
+/// Turns a solid given by its distance function into triangles by surface nets: one vertex per grid cell that
+/// the surface passes through, one quad per edge that it crosses.
 #ifndef MODEL_ISOSURFACE_H
 #define MODEL_ISOSURFACE_H
 
@@ -16,7 +16,7 @@ struct solid {
 /// Vertices lie on the surface; normals are the distance's gradient. mesh->failed where memory is short.
 void isosurface(const struct solid *solid, const float lo[3], const float hi[3], float cell, struct mesh *mesh);
 
-/// Brings a vertex that is less than `cell` metres off onto the surface, and gives it the surface's normal and coat.
+/// Moves a vertex less than `cell` metres off onto the surface, and sets its normal and colour.
 void surface_place(const struct solid *solid, float cell, struct vertex *vertex);
 
 #endif

@@ -10,7 +10,7 @@ struct vertex {
     float position[3];
     float normal[3];
     float color[3]; ///< linear RGB
-    float bend;     ///< how far it follows the joints: 1 on the tail, 0 on the body, between where they join
+    float bend;     ///< how far it follows the joints: 1 on the tail, 0 on the torso, between where they join
 };
 
 struct mesh {
@@ -21,11 +21,11 @@ struct mesh {
     bool failed; ///< memory ran short and something is missing; stays set
 };
 
-/// Adds a vertex and returns its index; on a shortage of memory sets `failed` and returns 0.
+/// Adds a vertex and returns its index; if memory is short, sets `failed` and returns 0.
 uint32_t mesh_vertex(struct mesh *mesh, const struct vertex *vertex);
 void mesh_triangle(struct mesh *mesh, uint32_t a, uint32_t b, uint32_t c);
 
-/// Leaves an empty mesh (all zero), as which every mesh starts.
+/// Leaves an empty mesh: all zero, as every mesh starts.
 void mesh_free(struct mesh *mesh);
 
 #endif

@@ -8,14 +8,14 @@
 
 enum { MORPH_MAX_COORDINATES = 4 };
 
-/// What moves a figure at one time.
+/// The weights of a figure's coordinates at one time.
 struct morph {
     int count;
     int coordinate[MORPH_MAX_COORDINATES];  ///< index in the figure
     float weight[MORPH_MAX_COORDINATES][2]; ///< z: real and imaginary part
 };
 
-/// Where a vertex and its unit normal are now: what the stage's vertex shader computes. `normal` may be NULL.
+/// The position and unit normal of a vertex, as the stage's vertex shader computes them. `normal` may be NULL.
 void morph_vertex(const struct figure *figure, const struct morph *morph, int vertex, float position[3],
                   float normal[3]);
 

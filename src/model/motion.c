@@ -40,7 +40,7 @@ bool motion_layout(struct motion *m, int64_t size, struct error *error)
     m->strides[2] = m->number_size;
     m->strides[1] = 3 * m->strides[2];
     m->strides[0] = m->vertices * m->strides[1];
-    int64_t room = (size - m->data) / m->strides[0]; // whole frames; their product might not fit
+    int64_t room = (size - m->data) / m->strides[0]; // whole frames; the product might overflow
     if (size >= m->data && room >= m->frames) return true;
     return fail(error, ERROR_INPUT, "%s: expected %d frames of %d vertices, got a file that ends in frame %lld",
                 m->path, m->frames, m->vertices, (long long)(room > 0 ? room : 0));

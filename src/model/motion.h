@@ -21,13 +21,13 @@ struct motion {
 };
 
 /// Opens a file and checks its header and its size. .npy: float32 or float64, little or big endian, C or Fortran order,
-/// shape (frames, vertices, 3) or (frames, 3 vertices). What is read is told from the file's content; `path` must live as long.
+/// shape (frames, vertices, 3) or (frames, 3 vertices). The format is recognised by content; `path` must outlive the motion.
 /// Errors name the path and say what was expected.
 bool motion_open(struct motion *motion, const char *path, struct error *error);
 
 /// Reads columns [first, first + count) of all frames: slab[frame · count + column − first]. A number that is not finite is
-/// an error that names frame and vertex, both from 0. Read by pread, not mapped: what is in memory stays the caller's
-/// slab, and a file that shrinks meanwhile is an error and no signal.
+/// an error that names frame and vertex, both from 0. Uses pread, not mmap: only the
+/// slab is in memory, and a file that shrinks meanwhile is an error, not a signal.
 bool motion_columns(const struct motion *motion, int first, int count, double *slab, struct error *error);
 
 void motion_close(struct motion *motion);
@@ -48,7 +48,7 @@ bool motion_write_frame(struct motion_writer *writer, const float (*position)[3]
 /// Puts the file in place once all frames are written; on failure the old file is intact. Ends the writer in any case.
 bool motion_write_commit(struct motion_writer *writer, struct error *error);
 
-/// Ends the writer and leaves nothing behind.
+/// Ends the writer and removes its file.
 void motion_write_discard(struct motion_writer *writer);
 
 #endif

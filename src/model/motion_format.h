@@ -1,4 +1,4 @@
-/// What each file format of motion.h says in its header.
+/// Readers for the header of each file format of motion.h.
 #ifndef MODEL_MOTION_FORMAT_H
 #define MODEL_MOTION_FORMAT_H
 

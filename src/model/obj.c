@@ -63,7 +63,7 @@ static bool reserve(void **elements, size_t size, int count, int *capacity)
     return true;
 }
 
-/// Up to `count` numbers; returns how many there are before the end of the line, -1 where a word is none.
+/// Up to `count` numbers; returns how many there are before the end of the line, -1 if a word is not a number.
 static int read_numbers(const struct reader *r, char *at, float *numbers, int count)
 {
     for (int i = 0; i < count; i++) {
@@ -80,7 +80,7 @@ static int read_numbers(const struct reader *r, char *at, float *numbers, int co
     return count;
 }
 
-/// A colour for the newest vertex; the vertices before the first that has one are white.
+/// Colours the newest vertex; those before the first coloured one become white.
 static bool add_color(struct reader *r, const float srgb[3])
 {
     struct surface *s = r->surface;

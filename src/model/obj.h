@@ -16,16 +16,16 @@ struct surface {
 };
 
 /// Reads an OBJ file. Vertices keep the file's order and number, which is what simulations refer to. Polygons become fans
-/// of triangles; texture coordinates, normals, materials, groups and lines are passed over. Colours after a position
-/// (`v x y z r g b`) are sRGB in the file, as Blender writes them, and white where a vertex has none while others do.
+/// of triangles; texture coordinates, normals, materials, groups and lines are ignored. Colours after a position
+/// (`v x y z r g b`) are sRGB in the file, as Blender writes them; a vertex without one is white if others have one.
 /// Errors say "file:line: expected …, got …".
 bool obj_read(const char *path, struct surface *surface, struct error *error);
 
-/// Writes positions, colours and triangles with 9 digits, so that they read back equal; the old file or the new one is
-/// there, nothing between.
+/// Writes positions, colours and triangles with 9 digits, so that they read back equal. Atomic, like
+/// file_output_commit().
 bool obj_write(const char *path, const struct surface *surface, struct error *error);
 
-/// The box around the vertices, m; lo > hi where there are none.
+/// The box around the vertices, m; lo > hi if there are none.
 void surface_bounds(const struct surface *surface, double lo[3], double hi[3]);
 
 /// Leaves an empty surface.

@@ -77,7 +77,7 @@ void painted_destroy(struct painted *painted)
     free(painted);
 }
 
-/// Ñ' = Ñ e^{a + jψ} at one vertex, whose slopes and whose neighbours' are then stale.
+/// Ñ' = Ñ e^{a + jψ} at one vertex; its slopes and its neighbours' become stale.
 static void turn(struct painted *painted, int coordinate, int vertex, const float value[2])
 {
     const struct coordinate *from = &painted->plain->character.coordinates[coordinate];
@@ -92,7 +92,7 @@ static void turn(struct painted *painted, int coordinate, int vertex, const floa
     for (int e = edges->first[vertex]; e < edges->first[vertex + 1]; e++) painted->stale[edges->other[e]] = true;
 }
 
-/// Puts the paint onto one coordinate; false where it is there already.
+/// Applies the paint to one coordinate; false if nothing changed.
 static bool apply(struct painted *painted, int coordinate, const float (*paint)[2])
 {
     static const float none[2];

@@ -1,5 +1,5 @@
-/// Soft shapes built of round cones (two balls and all between them) that melt into each other, each in a colour of its
-/// own. Distances are for isosurface.h.
+/// Soft shapes built of round cones (the hull of two balls) that blend into each other, each with its own
+/// colour. Distances are for isosurface.h.
 #ifndef MODEL_PARTS_H
 #define MODEL_PARTS_H
 
@@ -20,8 +20,8 @@ struct part {
 /// `rgb`, where that is not NULL.
 float parts_union(float old, float added, float blend, float rgb[3], const float added_rgb[3]);
 
-/// Adds the parts of a table, in their order, to a solid at the distance `distance` (1e3: none yet): the distance of
-/// all of them from `p`, and the linear colour there where `rgb` is not NULL.
+/// Adds the parts of a table, in their order, to a solid at distance `distance` (1e3: none yet): returns the distance of
+/// all of them from `p`, and in `rgb`, if not NULL, the linear colour there.
 float parts_add(const struct part *table, size_t count, const float p[3], float distance, float rgb[3]);
 
 #endif

@@ -21,8 +21,8 @@ void pose_bounds(const struct pose *pose, float lo[3], float hi[3])
 {
     const float scale = pose_length(pose) / CREATURE_TAIL_LENGTH;
     for (int k = 0; k < 3; k++) {
-        lo[k] = pose->matrix[0][12 + k] + scale * creature_body_lo[k];
-        hi[k] = pose->matrix[0][12 + k] + scale * creature_body_hi[k];
+        lo[k] = pose->matrix[0][12 + k] + scale * creature_torso_lo[k];
+        hi[k] = pose->matrix[0][12 + k] + scale * creature_torso_hi[k];
     }
     for (int n = 0; n < pose->count; n++) {
         const float along = CREATURE_TAIL_LENGTH * (float)n / (float)(pose->count - 1);

@@ -12,13 +12,13 @@ struct pose {
     float matrix[POSE_MAX_JOINTS + 1][16];
 };
 
-/// Moves a posed tail, metres: where its position follows splines, and while it is dragged.
+/// Moves a posed tail, metres: for a position that follows splines, and for a drag.
 void pose_move(struct pose *pose, const double by[3]);
 
 /// Length of the tail that was posed, in metres.
 float pose_length(const struct pose *pose);
 
-/// The box around the skin of tail and body (whose size follows the tail's length), metres.
+/// The box around the skin of tail and torso (whose size follows the tail's length), metres.
 void pose_bounds(const struct pose *pose, float lo[3], float hi[3]);
 
 #endif

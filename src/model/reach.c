@@ -74,7 +74,7 @@ static int take_nearest(struct reach *reach)
     return nearest;
 }
 
-/// There is a way of that length to a vertex.
+/// Offers a path of that length to a vertex.
 static void offer(struct reach *reach, uint32_t vertex, float along)
 {
     if (!(along < reach->along[vertex])) return;

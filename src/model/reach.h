@@ -1,15 +1,15 @@
-/// Distances over a figure's surface from a few spots on it, out to a limit: what a brush reaches, which is not what is near
+/// Distances along a figure's surface from a few spots on it, up to a limit: a brush must not reach what is near only
 /// through the air.
 ///
-/// Shortest ways along edges (Dijkstra) are up to 16 % too long on a regular mesh, and zigzag; straight lines are too short
-/// where the surface bends. What counts is the larger of the straight line and the way along edges, made shorter by as much: round on
-/// what is flat, and far where the way is.
+/// Shortest paths along edges (Dijkstra) zigzag, and are up to 16 % too long on a regular mesh; straight lines are too short
+/// where the surface bends. The distance is the larger of the straight line and the path along edges shortened by 16 %: circles
+/// on flat surfaces stay round.
 #ifndef MODEL_REACH_H
 #define MODEL_REACH_H
 
 #include "model/figure.h"
 
-enum { REACH_MAX_SPOTS = 8 }; ///< that a caller needs at once
+enum { REACH_MAX_SPOTS = 8 }; ///< at once
 
 /// A point in a triangle.
 struct surface_spot {

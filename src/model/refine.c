@@ -45,7 +45,7 @@ static float sagitta(const struct vertex *a, const struct vertex *b)
     return 0.125f * sqrtf(length * turn);
 }
 
-/// Whether the colours of both ends differ so much that the edge blurs what lies between.
+/// Whether the colours of both ends differ so much that the edge would blur what is between.
 static bool blurs(const struct vertex *a, const struct vertex *b)
 {
     return glms_vec3_norm_inf(glms_vec3_sub(vec3_from(a->color), vec3_from(b->color))) > MAX_CONTRAST;
@@ -90,7 +90,7 @@ static void split(const uint32_t v[3], const uint32_t middle[3], struct mesh *me
     }
 }
 
-/// Replaces the triangles by what their halved edges make of them.
+/// Splits the triangles along their halved edges.
 static void split_all(const uint32_t *triangles, size_t count, const struct edge *edges, size_t edge_count,
                       struct mesh *mesh)
 {

@@ -3,7 +3,7 @@
 #include "model/creature.h"
 #include <math.h>
 
-/// Where the tube starts (inside the body), and where its taper ends and the rounded tip, half an ellipsoid, begins.
+/// Where the tube starts (inside the torso), and where its taper ends and the rounded tip, half an ellipsoid, begins.
 #define TUBE_START (-0.10f)
 #define TIP_START (0.8f * CREATURE_TAIL_LENGTH)
 #define TIP_LENGTH (CREATURE_TAIL_LENGTH - TIP_START)

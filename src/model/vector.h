@@ -1,4 +1,4 @@
-/// Vectors and matrices of floats are cglm's. Its functions on arrays take no const ones, so that vectors go by value.
+/// Vectors and matrices of floats are cglm's. They go by value, because its functions on arrays take no const ones.
 #ifndef MODEL_VECTOR_H
 #define MODEL_VECTOR_H
 

@@ -10,7 +10,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-/// Whether somebody listens on a local socket. A name that begins with NUL is one of Linux's abstract ones.
+/// Whether somebody listens on a local socket. A name that begins with NUL is an abstract socket of Linux.
 static bool answers(const char *name, size_t length)
 {
     struct sockaddr_un address = {.sun_family = AF_UNIX};
@@ -24,7 +24,7 @@ static bool answers(const char *name, size_t length)
     return ok;
 }
 
-/// ":1" and ":1.0" are local; a name with a host is taken at its word, since asking it could take minutes.
+/// ":1" and ":1.0" are local; a name with a host is trusted, because asking could take minutes.
 static bool x11_answers(const char *display)
 {
     const char *colon = strrchr(display, ':');

@@ -9,7 +9,7 @@
 void keep_freed_memory(void)
 {
 #ifdef __GLIBC__
-    mallopt(M_MMAP_THRESHOLD, 32 << 20); // the largest that it takes
+    mallopt(M_MMAP_THRESHOLD, 32 << 20); // the largest allowed
     mallopt(M_TRIM_THRESHOLD, 64 << 20);
 #endif
 }

@@ -14,20 +14,20 @@ struct event_buffer {
     int path_bytes;
 };
 
-/// One buffer is being filled while the other one is in the frame's hands.
+/// One buffer fills while the frame reads the other.
 struct event_queue {
     struct event_buffer buffers[2];
     int filling;
 };
 
-/// Adds an event. Of pointer positions in a row only the last one is kept when the buffer is nearly full; what does not
-/// fit at all is dropped.
+/// Adds an event. When the buffer is nearly full, only the last of consecutive pointer positions is kept; what does not
+/// fit is dropped.
 void event_queue_push(struct event_queue *queue, const struct event *event);
 
-/// Adds EVENT_DROP with a copy of `path`; left out where it does not fit.
+/// Adds EVENT_DROP with a copy of `path`; dropped if it does not fit.
 void event_queue_push_drop(struct event_queue *queue, const char *path, double time);
 
-/// Hands out what came since the last call; valid until the next one.
+/// The events since the last call; valid until the next one.
 const struct event *event_queue_take(struct event_queue *queue, int *count);
 
 #endif

@@ -8,8 +8,7 @@
 
 enum { SEEN_MAX = 64 };
 
-/// A driver's callback has nowhere else to keep this: it may come at any call, in one context that is current as long as the
-/// process lives.
+/// Global, because the driver's callback may come at any call; there is one context, current for the life of the process.
 static struct {
     uint64_t seen[SEEN_MAX];
     int seen_count, complaints;
@@ -34,7 +33,7 @@ static const char *kind_of(GLenum type)
     }
 }
 
-/// Words about speed, and of low severity about other things, are for reading only.
+/// Messages about speed or of low severity are shown but not counted.
 static bool is_complaint(GLenum type, GLenum severity)
 {
     if (type == GL_DEBUG_TYPE_PERFORMANCE) return false;
@@ -72,7 +71,7 @@ bool gl_debug_start(struct error *error)
     if (epoxy_gl_version() < 43 && !epoxy_has_gl_extension("GL_KHR_debug"))
         return fail(error, ERROR_ENVIRONMENT, "--gl-debug: this OpenGL driver has no GL_KHR_debug");
     glEnable(GL_DEBUG_OUTPUT);
-    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS); // where a debugger stops is then the call that it is about
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS); // so that a debugger stops at the offending call
     glDebugMessageCallback(on_message, NULL);
     glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, NULL, GL_TRUE);
     return true;

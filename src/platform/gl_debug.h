@@ -1,4 +1,4 @@
-/// What the graphics driver has to say (--gl-debug). Private to platform/.
+/// The graphics driver's messages (--gl-debug). Private to platform/.
 #ifndef PLATFORM_GL_DEBUG_H
 #define PLATFORM_GL_DEBUG_H
 
@@ -7,7 +7,7 @@
 /// Whether platform_debug_gl() was called: contexts are then made for debugging.
 bool gl_debug_wanted(void);
 
-/// Where that is wanted, listens to the current context. false where its driver has nothing to say.
+/// If wanted, listens to the current context. false if its driver has no debug output.
 bool gl_debug_start(struct error *error);
 
 #endif

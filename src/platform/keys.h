@@ -2,8 +2,8 @@
 #ifndef PLATFORM_KEYS_H
 #define PLATFORM_KEYS_H
 
-/// The key by what is printed on it for letters and punctuation, by its place for digits, arrows and the rest, and for
-/// letters where the layout has no Latin ones; KEY_NONE for keys that mean nothing to the program.
+/// Letters and punctuation go by what is printed on the key; digits, arrows and the rest go by place, as do letters if the
+/// layout has no Latin ones. KEY_NONE for keys without a meaning here.
 int key_translate(int glfw_key, int scancode);
 
 /// GLFW's modifier bits as ours.

@@ -23,14 +23,14 @@ static _Noreturn void end(void)
     _exit(EXIT_LOST);
 }
 
-/// Xlib calls this when the connection breaks, wherever in the program that shows, and ends the process on return.
+/// Xlib calls this when the connection breaks, from wherever it notices, and ends the process on return.
 static int on_io_error(void *display)
 {
     (void)display;
     end();
 }
 
-/// Xlib's own handler would end the process, for errors that do not matter too (a clipboard's owner that is gone).
+/// Xlib's own handler would end the process, even for harmless errors (a clipboard's owner is gone).
 static int on_error(void *display, void *event)
 {
     (void)display;
@@ -39,7 +39,7 @@ static int on_error(void *display, void *event)
     return 0;
 }
 
-/// GLFW takes the handler of errors away whenever it expects one itself.
+/// GLFW replaces the error handler whenever it expects an error itself.
 static bool handle_errors(void)
 {
     static x_error_handler *(*set)(x_error_handler *);

@@ -16,7 +16,7 @@ struct offscreen {
     struct surface_size size;
 };
 
-/// epoxy ends the process where a library is missing, so this is found out before its first call.
+/// epoxy ends the process if a library is missing, so look before its first call.
 static bool have_libraries(struct error *error)
 {
     static const char *const names[] = {"libEGL.so.1", "libOpenGL.so.0", "libGL.so.1"};
@@ -73,7 +73,7 @@ static bool open_display(struct offscreen *offscreen, EGLDisplay display)
     return false;
 }
 
-/// Tries the machine's devices in turn, only those that are (or are not) software.
+/// Tries the machine's devices in turn, either hardware or software ones.
 static bool open_device(struct offscreen *offscreen, const char *client_extensions, bool software)
 {
     if (!has_word(client_extensions, "EGL_EXT_platform_device")) return false;
@@ -90,7 +90,7 @@ static bool open_device(struct offscreen *offscreen, const char *client_extensio
     return false;
 }
 
-/// Real GPUs first; then Mesa without any surface, which is there wherever its drivers are; then its software device.
+/// GPUs first; then Mesa without any surface, available wherever its drivers are; then its software device.
 static bool open_any(struct offscreen *offscreen, struct error *error)
 {
     const char *extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);

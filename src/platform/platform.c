@@ -126,7 +126,7 @@ void platform_set_clipboard(struct platform *platform, const char *text)
     }
 }
 
-void platform_cursor(struct platform *platform, enum cursor cursor)
+void platform_cursor(struct platform *platform, enum mouse_cursor cursor)
 {
     if (platform->window) window_cursor(platform->window, cursor);
 }

@@ -26,7 +26,7 @@ static bool shows(int x, int y, int red, int blue)
 
 bool probe_keeps(struct window *window)
 {
-    // On a GPU the content is undefined by the standard, whatever one trial shows.
+    // On a GPU the standard leaves the content undefined, whatever one trial shows.
     if (!is_software()) return false;
     struct surface_size size = window_size(window);
     int half = size.width / 2, y = size.height / 2;

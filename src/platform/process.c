@@ -15,7 +15,7 @@ double process_age(void)
     if (!file) return NAN;
     bool read = fgets(line, sizeof line, file) != NULL;
     fclose(file);
-    // The name in brackets may hold anything; start time, in ticks since boot, is the 20th field behind it.
+    // The name in brackets may hold anything; the start time, in ticks since boot, is the 20th field after it.
     char *at = read ? strrchr(line, ')') : NULL;
     unsigned long long ticks = 0;
     if (!at || sscanf(at + 1, " %*c%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s %llu", &ticks) != 1)

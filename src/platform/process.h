@@ -1,4 +1,4 @@
-/// The running process: how long it has lived, how much memory it took, and sleep.
+/// The running process: its age, its memory, sleep, and signals.
 #ifndef PLATFORM_PROCESS_H
 #define PLATFORM_PROCESS_H
 
@@ -12,8 +12,8 @@ double process_peak_memory(void);
 
 void process_sleep(double seconds);
 
-/// From now on a polite request to end (SIGINT, SIGTERM, SIGHUP) is kept for process_was_told_to_end() instead of ending
-/// the process; a second one of the same kind does end it.
+/// From now on a request to end (SIGINT, SIGTERM, SIGHUP) only sets process_was_told_to_end(); a second one of the same
+/// kind ends the process.
 void process_catch_end(void);
 bool process_was_told_to_end(void);
 

@@ -8,7 +8,7 @@
 struct window;
 struct offscreen;
 
-/// Exactly one of the two is there.
+/// Exactly one of the two exists.
 struct platform {
     struct window *window;
     struct offscreen *offscreen;
@@ -17,13 +17,13 @@ struct platform {
     char *clipboard; ///< what stands for the system's where there is no window
 };
 
-/// What both kinds say about their framebuffer.
+/// What both kinds report about their framebuffer.
 struct surface_size {
     int width, height; ///< device pixels
     float scale;       ///< device pixels a logical pixel
 };
 
-/// Does somebody listen at $DISPLAY or $WAYLAND_DISPLAY?
+/// Whether somebody listens at $DISPLAY or $WAYLAND_DISPLAY.
 bool display_answers(void);
 
 /// Events go to `queue`, which must outlive the window.
@@ -36,13 +36,13 @@ void window_swap(struct window *window);
 double window_refresh_rate(struct window *window);
 /// Asks the display where the window is: an error where it does not exist any more.
 void window_ask_place(const struct window *window);
-/// Ends the process as platform_on_lost() says where somebody else has destroyed the window, which an error of the display
-/// shows, or, while nothing is drawn, asking for it (`idle`).
+/// Ends the process as platform_on_lost() says if another program has destroyed the window: an error of the display shows that
+/// or, while nothing is drawn (`idle`), asking for the window.
 void window_check(const struct window *window, bool idle);
 void window_title(struct window *window, const char *title);
 void window_fullscreen(struct window *window, bool on);
 bool window_is_fullscreen(const struct window *window);
-void window_cursor(struct window *window, enum cursor cursor);
+void window_cursor(struct window *window, enum mouse_cursor cursor);
 const char *window_clipboard(struct window *window);
 void window_set_clipboard(struct window *window, const char *text);
 
@@ -50,11 +50,11 @@ struct offscreen *offscreen_create(int width, int height, float scale, struct er
 void offscreen_destroy(struct offscreen *offscreen);
 struct surface_size offscreen_size(const struct offscreen *offscreen);
 
-/// Whether a swap leaves the back buffer as it is, found out by swapping twice. The current context's.
+/// Whether a swap of the current context keeps the back buffer: found out by swapping twice.
 bool probe_keeps(struct window *window);
 
-/// A software driver asks for the memory of a frame's triangles in each frame, and frees it: it is kept, because giving it to the
-/// system and back costs a tenth of the processor.
+/// A software driver allocates and frees the memory of a frame's triangles in each frame. Makes the C library keep it: passing
+/// it back to the system and out again costs a tenth of the processor.
 void keep_freed_memory(void);
 
 /// In builds with the address sanitizer: keeps the loaded graphics driver in memory until the process ends.

@@ -1,4 +1,4 @@
-/// Asks a Wayland compositor what GLFW does not tell.
+/// Asks a Wayland compositor what GLFW does not report.
 #include "platform/wayland.h"
 #include "platform/symbol.h"
 #include <poll.h>
@@ -11,7 +11,7 @@ struct wl_interface;
 
 enum { DISPLAY_GET_REGISTRY = 1, REGISTRY_BIND = 0, SEAT_POINTER = 1 }; // of the protocol
 
-/// The client library as far as it is needed here: GLFW has loaded it where it uses it.
+/// What we need of the client library, which GLFW has loaded if it uses it.
 struct library {
     struct wl_display *display;
     int (*get_fd)(struct wl_display *);
@@ -24,7 +24,7 @@ struct library {
     const struct wl_interface *registry, *seat;
 };
 
-/// false where the window is none of Wayland's.
+/// false if it is no Wayland window.
 static bool load(struct library *library)
 {
     struct wl_display *(*get_display)(void);
@@ -49,7 +49,7 @@ bool wayland_is_lost(void)
 {
     struct library library;
     if (!load(&library)) return false;
-    // A compositor that dies leaves nothing to read: the library notices only when it reads, and GLFW then no longer does.
+    // The library notices a dead compositor only when it reads, and GLFW no longer reads then.
     struct pollfd end = {.fd = library.get_fd(library.display)};
     return library.get_error(library.display) != 0 ||
            (poll(&end, 1, 0) > 0 && (end.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0);
@@ -104,7 +104,7 @@ bool wayland_allows_cursors(void)
     if (!registry) return false;
     library.listen(registry, listener, &search);
     library.roundtrip(library.display); // the seats
-    library.roundtrip(library.display); // what they have
+    library.roundtrip(library.display); // their pointers
     for (int i = 0; i < search.count; i++) library.destroy(search.seats[i]);
     library.destroy(registry);
     return search.found;

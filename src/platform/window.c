@@ -18,7 +18,7 @@ struct window {
     GLFWwindow *handle;
     struct event_queue *queue;
     GLFWcursor *cursors[CURSOR_KINDS];
-    enum cursor cursor;
+    enum mouse_cursor cursor;
     struct surface_size size;
     float units;       ///< logical pixels a unit of GLFW's window coordinates
     double click_time; ///< of the last press that may become a double click; -1 where there is none
@@ -36,7 +36,7 @@ static void push(struct window *window, struct event event)
     event_queue_push(window->queue, &event);
 }
 
-/// Reads framebuffer size and scale; true where they are not what they were.
+/// Reads framebuffer size and scale; true if they changed.
 static bool update_size(struct window *window)
 {
     struct surface_size before = window->size, now = before;
@@ -112,7 +112,7 @@ static void pointer(struct window *window, float *x, float *y)
     *y = (float)window_y * window->units;
 }
 
-/// The modifiers now, which GLFW does not hand over with the wheel.
+/// The current modifiers, which GLFW does not report with the wheel.
 static unsigned mods_now(GLFWwindow *handle)
 {
     static const struct {
@@ -139,7 +139,7 @@ static void on_pointer(GLFWwindow *handle, double x, double y)
                                 .mods = mods_now(handle)});
 }
 
-/// 2 for a press soon after another one of the same button at the same place; the third one counts as 1 again.
+/// 2 for a press soon after one of the same button at the same place; a third counts as 1 again.
 static int count_clicks(struct window *window, enum event_button button, float x, float y)
 {
     double now = clock_now();
@@ -209,7 +209,7 @@ static GLFWwindow *open_handle(int width, int height, const char *title)
     glfwWindowHint(GLFW_SAMPLES, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    // By these a desktop finds wiggly.desktop, and with it the icon.
+    // A desktop finds wiggly.desktop and its icon by these names.
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "wiggly");
     glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "wiggly");
 #ifdef GLFW_WAYLAND_APP_ID // GLFW 3.4
@@ -218,7 +218,7 @@ static GLFWwindow *open_handle(int width, int height, const char *title)
     return glfwCreateWindow(width, height, title, NULL, NULL);
 }
 
-/// GLFW's own reason as a sentence, and false.
+/// Fails with GLFW's reason as a sentence.
 static bool fail_glfw(struct error *error, const char *what)
 {
     const char *reason = NULL;
@@ -355,7 +355,7 @@ void window_fullscreen(struct window *window, bool on)
 
 bool window_is_fullscreen(const struct window *window) { return window->is_fullscreen; }
 
-void window_cursor(struct window *window, enum cursor cursor)
+void window_cursor(struct window *window, enum mouse_cursor cursor)
 {
     if (cursor == window->cursor) return;
     window->cursor = cursor;

@@ -43,7 +43,7 @@ void camera_lamp(const struct camera *camera, float from[3])
     glm_vec3_copy(lamp.raw, from);
 }
 
-/// near and far go with the distance, so that any size of scene keeps the same depth precision.
+/// near and far scale with the distance, so that depth is equally precise at any size of scene.
 void camera_matrices(const struct camera *camera, float aspect, float view[16], float projection[16], float eye[3])
 {
     const struct axes axes = camera_axes(camera);
@@ -120,8 +120,8 @@ void camera_fit(struct camera *camera, const float lo[3], const float hi[3], flo
     glm_vec3_copy(target.raw, camera->target);
 }
 
-/// By vectors, not matrices: what is dragged on the screen ends in documents, and cglm's products of matrices round differently
-/// from one machine to the next.
+/// Vectors, not matrices: drags on the screen end in documents, and cglm's matrix products round differently from one
+/// machine to the next.
 bool camera_project(const float view[16], const float projection[16], const float viewport[4], const float world[3],
                     float screen[2])
 {

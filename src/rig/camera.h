@@ -8,13 +8,13 @@
 #include <stdbool.h>
 
 struct camera {
-    float azimuth; ///< where the eye stands: 0 on the +x side of the target, growing towards −z (positive about +y)
+    float azimuth;   ///< of the eye: 0 on the +x side of the target, growing towards −z (positive about +y)
     float elevation; ///< above the target, within ±CAMERA_MAX_ELEVATION
     float distance;  ///< eye to target
     float target[3];
 };
 
-/// Just short of the poles, where "up" is lost.
+/// Just short of the poles, where "up" is undefined.
 #define CAMERA_MAX_ELEVATION 1.5f
 
 /// Azimuth 35°, elevation 12°, looking at the origin from 4 m.
@@ -23,19 +23,19 @@ struct camera camera_default(void);
 /// World → eye, eye → clip (for width/height = `aspect`) and where the eye is.
 void camera_matrices(const struct camera *camera, float aspect, float view[16], float projection[16], float eye[3]);
 
-/// Where a lamp up on the left of the camera shines from: a direction (unit length) of the world.
+/// Direction towards a lamp at the upper left of the camera: world, unit length.
 void camera_lamp(const struct camera *camera, float from[3]);
 
 /// Moves target and distance, keeping both angles, so that the middles of the edges of the box lo … hi lie within the
 /// picture with 15 % to spare. An empty or broken box is left alone.
 void camera_fit(struct camera *camera, const float lo[3], const float hi[3], float aspect);
 
-/// Where a point of the world is on the screen; viewport is x, y, width, height. false where it is not in front of
+/// Projects a point of the world to the screen; viewport is x, y, width, height. false if it is not in front of
 /// the eye.
 bool camera_project(const float view[16], const float projection[16], const float viewport[4], const float world[3],
                     float screen[2]);
 
-/// How far a point of the world is in front of the eye, along the middle of the picture.
+/// Depth of a point of the world: its distance from the eye along the view axis.
 float camera_depth(const float view[16], const float eye[3], const float world[3]);
 
 /// Direction (unit length, world) from the eye through a point of the screen.

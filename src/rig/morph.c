@@ -1,5 +1,4 @@
 /// Turns the values of splines into the weights of a character.
-#include "rig/morph.h"
 #include "rig/posing_kind.h"
 #include <math.h>
 
@@ -25,7 +24,7 @@ void pose_character(const struct character_rig *rig, const struct figure *figure
     }
 }
 
-/// Its number among the document's characters, as the cast counts them.
+/// The rig's number among the document's characters.
 static int number_of(const struct document *document, int rig)
 {
     int number = 0;
@@ -37,7 +36,7 @@ static bool pose(const struct posing *posing, int rig, double position, const wi
                  const struct by_hand *by_hand, struct rig_pose *posed)
 {
     const struct character_rig *character = &posing->document->rigs[rig].character;
-    const struct figure *figure = cast_figure(posing->cast, number_of(posing->document, rig));
+    const struct figure *figure = models_figure(posing->models, number_of(posing->document, rig));
     (void)position;
     if (!figure) return false;
     posed->character.figure = figure;

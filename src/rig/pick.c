@@ -16,8 +16,8 @@ void pick_pose(const struct figure *figure, const struct morph *morph, const flo
 
 static const float SLACK = 1e-4f; ///< of a triangle: rounding must not leave gaps between neighbours
 
-/// Where along the ray it meets the front of a triangle (Möller and Trumbore 1997), or a negative number; `uv` are the weights of
-/// its second and third corner.
+/// Distance along the ray to the front of a triangle (Möller and Trumbore 1997), or a negative number; `uv` are the weights
+/// of the second and third corner.
 static float meet(const float *const corner[3], const float eye[3], const float direction[3], float uv[2])
 {
     const vec3s first = vec3_from(corner[0]), along = vec3_from(direction);

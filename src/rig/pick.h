@@ -1,4 +1,4 @@
-/// Finds what a ray meets on a posed figure.
+/// Finds where a ray hits a posed figure.
 #ifndef RIG_PICK_H
 #define RIG_PICK_H
 
@@ -8,7 +8,7 @@
 /// Positions of all vertices in the world: the posed figure standing on the ground at `position`, as the stage draws it.
 void pick_pose(const struct figure *figure, const struct morph *morph, const float position[3], float (*posed)[3]);
 
-/// The nearest triangle that faces the eye; false where there is none. `direction` need not be of unit length.
+/// The nearest triangle that faces the eye; false if there is none. `direction` need not be of unit length.
 bool pick_ray(const struct figure *figure, const float (*posed)[3], const float eye[3], const float direction[3],
               struct surface_spot *spot);
 

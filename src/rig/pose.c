@@ -1,5 +1,4 @@
 /// Bends a tail's joints by the values of its channels.
-#include "rig/pose.h"
 #include "model/creature.h"
 #include "rig/posing_kind.h"
 #include <math.h>
@@ -8,7 +7,7 @@ _Static_assert((int)TAIL_MAX_JOINTS <= (int)POSE_MAX_JOINTS, "a pose holds every
 
 static double radians(double degrees) { return degrees * 3.14159265358979323846 / 180.0; }
 
-/// Angle of joint n as the file gives it, in radians: one for all or one each.
+/// Angle of joint n in radians; the file has one for all joints or one each.
 static double angle_at(const struct angles *angles, int n) { return radians(angles->value[angles->each ? n : 0]); }
 
 /// How far joint n lags behind the base: n times the common lag, or its own.
@@ -33,8 +32,8 @@ static void bend_at(const struct tail *tail, const wiggly_value *values, enum lo
     }
 }
 
-/// frame = frame · R_y(side) · R_x(−up): column-major, columns x, y, z, origin. R_x is negative because it takes +z
-/// down.
+/// frame = frame · R_y(side) · R_x(−up): column-major, columns x, y, z, origin. R_x is negative because a positive angle turns
+/// +z down.
 static void bend_frame(double frame[16], double side, double up)
 {
     const double cs = cos(side), ss = sin(side), cu = cos(up), su = sin(up);
@@ -65,7 +64,7 @@ void pose_tail(const struct tail *tail, const wiggly_value *values, enum look lo
     }
 }
 
-/// Where the coordinates of a tail's position that follow splines are; 0 for the others.
+/// Coordinates of a tail's position that follow splines; 0 for the others.
 static void base_at(const struct posing *posing, const struct tail *tail, double position, double base[3])
 {
     for (int k = 0; k < 3; k++) {

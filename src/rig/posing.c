@@ -2,8 +2,9 @@
 #include "rig/posing.h"
 #include "rig/posing_kind.h"
 
-static const struct posing_functions *const kinds[RIG_KINDS] = {
-    [RIG_TAIL] = &tail_posing, [RIG_CHARACTER] = &character_posing};
+#define POSING_ROW(constant, name) [constant] = &name##_posing,
+static const struct posing_functions *const kinds[RIG_KINDS] = {RIG_KIND_LIST(POSING_ROW)};
+#undef POSING_ROW
 
 bool rig_pose(const struct posing *posing, int index, double position, const struct by_hand *by_hand,
               struct rig_pose *pose)

@@ -1,22 +1,24 @@
-/// A document at a position in time → its rigs posed. Pure: the only way to pose, for the stage, figures, tests and export alike.
+/// Document and position in time → posed rigs. A pure function, and the only way to pose: for the stage, figures and tests alike.
 #ifndef RIG_POSING_H
 #define RIG_POSING_H
 
 #include "model/morph.h"
 #include "model/pose.h"
-#include "rig/cast.h"
-#include "rig/look.h"
+#include "rig/models.h"
 #include "scene/evaluate.h"
+
+/// How the same knots are shown: by the paper's method, without lag, or as classical cubics (the splines are then solved so).
+enum look { LOOK_WIGGLY, LOOK_STIFF, LOOK_CUBIC };
 
 /// What rigs are posed from.
 struct posing {
     const struct document *document;
     const struct evaluation *evaluation; ///< NULL: all splines are 0
-    const struct cast *cast;             ///< the characters' models; NULL: none
+    const struct models *models;         ///< the characters' models; NULL: none
     enum look look;
 };
 
-/// What moves a rig besides the document.
+/// What moves a rig besides the document, as a drag does.
 struct by_hand {
     wiggly_value input[RIG_MAX_INPUTS]; ///< added to each of its inputs (rig.h)
     double base[3];                     ///< metres
@@ -34,12 +36,33 @@ struct rig_pose {
     };
 };
 
-/// Poses a rig of the document at a position in samples; `by_hand` may be NULL. false where there is no such rig, or its model
+/// Poses a rig of the document at a position in samples; `by_hand` may be NULL. false if there is no such rig, or its model
 /// could not be read. Allocates nothing.
 bool rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
               struct rig_pose *pose);
 
 /// The box around a posed rig, metres.
 void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]);
+
+/// Poses a tail at its position, with 0 for coordinates that follow a spline (see pose_move()). `values[c]` is the spline value of
+/// channel c at the time shown. Joint n bends by gain·(y + Re(e^{−j·n·lag} x)) about each channel's axis, without y for
+/// PART_DISPLACEMENT, over rest (which bends up about the `up` axis, positive lifts). LOOK_STIFF takes every lag as 0.
+/// The ground is right below the animal, or at 0 if its height follows a spline.
+/// `side` turns before `up`. Allocates nothing.
+void pose_tail(const struct tail *tail, const wiggly_value *values, enum look look, struct pose *pose);
+
+/// Poses a soft character: its complex normal coordinates, each turned and scaled by its own drive (the paper's
+/// section 7.2, eq. 29 and 30).
+///
+///     D(j) = Re(Σ_k z_k Ñ_{k,j}),   z_k = A_k (y + e^{−j·lag_k} x)
+///
+/// The paper writes the turn as e^{iφ}; a lag is φ = −lag. Where the drive's spline has an equilibrium y, the
+/// character rests in the shape that y gives it.
+///
+/// `values[k]` is the spline value of drive k at the time shown. Drives of coordinates that the figure lacks are
+/// skipped. LOOK_STIFF is the stiff motion that the paper warns of: the real part of x moves the real part of Ñ, all points in
+/// step. Allocates nothing.
+void pose_character(const struct character_rig *rig, const struct figure *figure, const wiggly_value *values,
+                    enum look look, struct morph *morph);
 
 #endif

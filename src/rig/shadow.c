@@ -1,4 +1,4 @@
-/// Finds where a posed tail and its body come near the ground.
+/// Finds where a posed tail and its animal come near the ground.
 #include "rig/shadow.h"
 #include "model/creature.h"
 #include "model/vector.h"
@@ -7,12 +7,12 @@
 /// Below this a blob changes no pixel.
 #define STRENGTH_SEEN 0.02f
 
-/// Where the tail is looked at, and how far above the ground its shadow has faded to 1/e (bind size, metres).
+/// Samples along the tail, and the height at which its shadow has faded to 1/e (bind size, metres).
 enum { TAIL_BLOBS = 14 };
 #define FADE_HEIGHT 0.22f
 #define BODY_FADE_HEIGHT 0.35f /* the same of a body that hops */
 
-/// What of the body touches the ground, bind space: rump and hind feet, then the fore paws.
+/// Where the animal touches the ground, bind space: rump and hind feet, then the fore paws.
 static const struct shadow_blob body_blobs[] = {{0.0f, -0.27f, 0.46f, 0.75f}, {0.0f, -0.50f, 0.27f, 0.55f}};
 
 /// A blob under the tail at `along` (0 base … 1 tip): the higher, the wider and the weaker.

@@ -1,44 +1,46 @@
-/// Solves long documents in a thread, the visible part at once.
+/// Solves long documents in a thread, and shows the visible part at once.
 #include "scene/background.h"
-#include "scene/window.h"
+#include "scene/preview.h"
+#include "scene/storage.h"
 #include "scene/worker.h"
 #include "spline/desc.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// Nanoseconds a sample, measured on the slowest machine at hand under load: constant parameters beyond the caches; tracks and loops.
+/// Nanoseconds a sample, measured on the slowest machine at hand under load: with constant parameters and cold caches; with tracks or
+/// a loop.
 enum { CHAIN_COST = 4, BAND_COST = 1000 };
 
-static const double LONG = 2e6; ///< nanoseconds of one spline above which a frame does not solve it by itself
+static const double LONG = 2e6; ///< nanoseconds; a spline that takes more is left to the thread
 
-/// Seconds that the frame of an edit waits for the thread: up to there, an edit is seen in its own frame at any length.
+/// Seconds that a frame with an edit waits for the thread, so that a quick solve shows in the same frame.
 static const double PATIENCE = 0.004;
 
-/// Seconds after which a solve is given up for a newer edit of its spline; a shorter one is shown, so that a slider is followed.
+/// Seconds after which a newer edit abandons a running solve. Shorter solves are shown, so that the curve keeps up with a slider.
 static const double WORTH_SHOWING = 0.1;
 
 enum {
-    WIDEST = 1 << 18, ///< samples of a window that are read in a frame: 0.5 ms
+    WIDEST = 1 << 18, ///< samples on screen that are read in a frame: 0.5 ms
     AROUND = 1 << 13, ///< on each side of the playhead and of a knot that moved
 };
 
 struct background {
     struct worker *worker;
-    double *numbers; ///< ROWS · N that no curve has at first; curves and `spare` change places from then on
+    double *numbers; ///< ROWS · N for `spare`, which later swaps places with curves
     double *marks;
-    int samples; ///< N that there is room for
+    int samples; ///< N there is room for
     wiggly_curve spare;
     struct extremes spare_extremes;
-    bool *pending; ///< one a spline: edited since its last job was begun
+    bool *pending; ///< for each spline: edited since its last job began
     int splines;
-    wiggly_desc desc; ///< of the job under way, or of the last one
-    int solving;      ///< spline of the job under way, -1: none
-    int condensing;   ///< the same for a take
-    int turn;         ///< place in the order from which the next spline is looked for
-    struct window window;
-    int unfit;        ///< spline that could not be a take as it was last, -1
-    bool knots_alone; ///< the last solve differed from the one before in knots: a take will help
+    wiggly_desc desc; ///< of the running job, or the last one
+    int solving;      ///< spline being solved, -1: none
+    int condensing;   ///< spline being condensed into a take, -1: none
+    int turn;         ///< place in the order where the search for the next spline starts
+    struct preview preview;
+    int unfit;        ///< spline that could not become a take as it last was, -1: none
+    bool knots_alone; ///< the last two solves differ in knots only: a take will help
 };
 
 static bool uses_band(const struct spline *spline)
@@ -68,7 +70,7 @@ void background_destroy(struct background *background)
     if (background->worker && worker_collect(background->worker, INFINITY, &job) && job.kind == WORK_TAKE)
         wiggly_take_destroy(job.take);
     worker_destroy(background->worker);
-    wiggly_take_destroy(background->window.take);
+    wiggly_take_destroy(background->preview.take);
     free(background->numbers);
     free(background->marks);
     free(background->pending);
@@ -100,7 +102,7 @@ static bool reserve(struct background *b, int splines, int samples)
     return b->samples >= samples && b->splines >= splines;
 }
 
-/// For curves that were laid out anew: nothing of what was known is true. Where memory is short, the layout has no thread.
+/// Starts over after a new layout. Without enough memory this layout gets no thread.
 static void begin(struct evaluation *evaluation)
 {
     struct storage *storage = evaluation->storage;
@@ -116,8 +118,8 @@ static void begin(struct evaluation *evaluation)
     double *marks = storage_wants_extremes(evaluation->samples) ? b->marks : NULL;
     b->spare_extremes = storage_extremes(marks, evaluation->samples);
     memset(b->pending, 0, (size_t)b->splines);
-    wiggly_take_destroy(b->window.take);
-    b->window = (struct window){.spline = -1, .moved = -1};
+    wiggly_take_destroy(b->preview.take);
+    b->preview = (struct preview){.spline = -1, .moved = -1};
     b->desc = (wiggly_desc){0};
     b->solving = b->condensing = b->unfit = -1;
     b->turn = 0;
@@ -132,7 +134,7 @@ static bool follows(const struct spline *spline, int leader, bool cubic)
     return false;
 }
 
-/// The thread's rows become the spline's; who follows it is solved next.
+/// The thread's rows become the spline's; its followers are solved next.
 static void show_solved(struct evaluation *evaluation, const struct document *document, const struct job *job)
 {
     struct storage *storage = evaluation->storage;
@@ -159,19 +161,19 @@ static void show_solved(struct evaluation *evaluation, const struct document *do
 
 static void adopt_take(struct evaluation *evaluation, const struct document *document, const struct job *job)
 {
-    struct background *b = ((struct storage *)evaluation->storage)->background;
-    b->window = (struct window){.take = job->take, .spline = b->condensing, .moved = -1};
+    struct background *b = evaluation->storage->background;
+    b->preview = (struct preview){.take = job->take, .spline = b->condensing, .moved = -1};
     if (!job->take) b->unfit = b->condensing;
     b->condensing = -1;
     if (!job->take) return;
-    wiggly_desc desc = storage_describe(evaluation, document, b->window.spline, evaluation->cubic);
-    window_follow(&b->window, document, &desc);
+    wiggly_desc desc = storage_describe(evaluation->curves, document, b->preview.spline, evaluation->cubic);
+    preview_follow(&b->preview, document, &desc);
 }
 
-/// Takes over what the thread has finished within `seconds`.
+/// Collects the thread's job if it finishes within `seconds`.
 static bool collect(struct evaluation *evaluation, const struct document *document, double seconds)
 {
-    struct background *b = ((struct storage *)evaluation->storage)->background;
+    struct background *b = evaluation->storage->background;
     struct job job;
     if (!worker_collect(b->worker, seconds, &job)) return false;
     if (job.kind == WORK_SOLVE) {
@@ -186,7 +188,7 @@ static void give(struct evaluation *evaluation, const struct document *document,
 {
     struct storage *storage = evaluation->storage;
     struct background *b = storage->background;
-    wiggly_desc desc = storage_describe(evaluation, document, spline, evaluation->cubic);
+    wiggly_desc desc = storage_describe(evaluation->curves, document, spline, evaluation->cubic);
     storage_add_knots(&desc, document, spline, storage->knots);
     struct job job = {.kind = kind, .desc = desc, .solver = storage->solver};
     if (kind == WORK_SOLVE) {
@@ -196,8 +198,8 @@ static void give(struct evaluation *evaluation, const struct document *document,
         b->pending[spline] = false;
         b->solving = spline;
     } else {
-        job.take = b->window.take;
-        b->window = (struct window){.spline = -1, .moved = -1};
+        job.take = b->preview.take;
+        b->preview = (struct preview){.spline = -1, .moved = -1};
         b->knots_alone = false;
         b->condensing = spline;
     }
@@ -205,7 +207,7 @@ static void give(struct evaluation *evaluation, const struct document *document,
     worker_give(b->worker, &job);
 }
 
-/// The next pending spline, in the order of dependencies from the last one on, so that none is passed over forever; -1: none.
+/// The next pending spline after the last one in dependency order, so that none starves; -1: none.
 static int next_pending(const struct storage *storage, int count)
 {
     struct background *b = storage->background;
@@ -222,14 +224,14 @@ static int next_pending(const struct storage *storage, int count)
 static bool wants_take(const struct evaluation *evaluation, const struct document *document,
                        const struct focus *focus)
 {
-    const struct background *b = ((struct storage *)evaluation->storage)->background;
-    bool has = b->window.take && b->window.spline == focus->spline && b->window.is_current;
+    const struct background *b = evaluation->storage->background;
+    bool has = b->preview.take && b->preview.spline == focus->spline && b->preview.is_current;
     if (focus->spline < 0 || has || focus->spline == b->unfit) return false;
-    wiggly_desc desc = storage_describe(evaluation, document, focus->spline, evaluation->cubic);
-    return window_serves(&desc);
+    wiggly_desc desc = storage_describe(evaluation->curves, document, focus->spline, evaluation->cubic);
+    return preview_serves(&desc);
 }
 
-/// Begins the next job where the thread has none: rows before a take, but a take where knots are being moved without one.
+/// Gives an idle thread its next job: rows before a take, unless knots are being moved and there is no take yet.
 static void give_next(struct evaluation *evaluation, const struct document *document, const struct focus *focus)
 {
     struct storage *storage = evaluation->storage;
@@ -252,35 +254,36 @@ static bool is_stale(const struct background *b, int count)
     return b->solving >= 0;
 }
 
-/// Whether the thread reads the rows of that spline, as a track.
+/// Whether the thread is reading that spline's rows as a track.
 static bool is_read(const struct evaluation *evaluation, const struct background *b, int spline)
 {
     return b->solving >= 0 && desc_reads(&b->desc, evaluation->curves[spline].total);
 }
 
-/// Reads from the take what is looked at, where the rows are older. false where there is no take for it.
-static bool show_windows(struct evaluation *evaluation, const struct focus *focus)
+/// Reads what is on screen from the take where the rows are older. false if there is no take for it.
+static bool show_preview(struct evaluation *evaluation, const struct focus *focus)
 {
     struct storage *storage = evaluation->storage;
     struct background *b = storage->background;
-    struct window *window = &b->window;
-    int spline = window->spline;
-    if (!window->take || !window->is_current || !(b->pending[spline] || b->solving == spline)) return false;
+    struct preview *preview = &b->preview;
+    int spline = preview->spline;
+    if (!preview->take || !preview->is_current || !(b->pending[spline] || b->solving == spline)) return false;
     if (is_read(evaluation, b, spline)) return false;
     const wiggly_curve *curve = &evaluation->curves[spline];
     const struct extremes *extremes = &storage->extremes[spline];
-    bool good = window_show(window, curve, extremes, focus->at - AROUND, 2 * AROUND);
-    if (good && window->moved >= 0) good = window_show(window, curve, extremes, window->moved - AROUND, 2 * AROUND);
-    if (good && focus->count <= WIDEST) good = window_show(window, curve, extremes, focus->first, focus->count);
+    bool good = preview_show(preview, curve, extremes, focus->at - AROUND, 2 * AROUND);
+    if (good && preview->moved >= 0)
+        good = preview_show(preview, curve, extremes, preview->moved - AROUND, 2 * AROUND);
+    if (good && focus->count <= WIDEST) good = preview_show(preview, curve, extremes, focus->first, focus->count);
     if (!good) b->unfit = spline;
     evaluation->revision++;
     return good;
 }
 
-/// Ends a long solve of what was edited again, or of what follows it: it would come late, and keep newer windows from being shown.
+/// Stops a long solve whose spline, or one that it follows, was edited again: it would come late and hold up newer previews.
 static void drop_superseded(const struct evaluation *evaluation, const struct document *document)
 {
-    const struct background *b = ((struct storage *)evaluation->storage)->background;
+    const struct background *b = evaluation->storage->background;
     if (b->solving < 0 || worker_seconds(b->worker) < WORTH_SHOWING) return;
     bool superseded = b->pending[b->solving];
     for (int s = 0; s < evaluation->count; s++) {
@@ -289,19 +292,19 @@ static void drop_superseded(const struct evaluation *evaluation, const struct do
     if (superseded) worker_stop(b->worker);
 }
 
-/// Notes what an edit made out of date; false where nothing was edited.
+/// Marks what an edit made out of date; false if nothing was edited.
 static bool mark(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic)
 {
-    struct background *b = ((struct storage *)evaluation->storage)->background;
+    struct background *b = evaluation->storage->background;
     bool all = cubic != evaluation->cubic, any = false;
     evaluation->cubic = cubic;
     for (int s = 0; s < evaluation->count; s++) {
         if (!all && !dirty[s]) continue;
         b->pending[s] = any = true;
         if (s == b->unfit) b->unfit = -1;
-        if (s != b->window.spline || !b->window.take) continue;
-        wiggly_desc desc = storage_describe(evaluation, document, s, cubic);
-        window_follow(&b->window, document, &desc);
+        if (s != b->preview.spline || !b->preview.take) continue;
+        wiggly_desc desc = storage_describe(evaluation->curves, document, s, cubic);
+        preview_follow(&b->preview, document, &desc);
     }
     return any;
 }
@@ -324,12 +327,12 @@ void background_update(struct evaluation *evaluation, const struct document *doc
     collect(evaluation, document, 0);
     bool edited = mark(evaluation, document, dirty, cubic);
     if (edited) drop_superseded(evaluation, document);
-    bool shown = show_windows(evaluation, focus);
+    bool shown = show_preview(evaluation, focus);
     give_next(evaluation, document, focus);
     while (edited && !shown && b->solving >= 0 && collect(evaluation, document, PATIENCE)) {
         give_next(evaluation, document, focus);
     }
-    if (!shown) show_windows(evaluation, focus);
+    if (!shown) show_preview(evaluation, focus);
     evaluation->stale = is_stale(b, evaluation->count);
 }
 
@@ -349,7 +352,7 @@ void background_halt(struct evaluation *evaluation)
     struct background *b = storage->background;
     struct job job;
     if (!b) return;
-    b->window.is_current = false;
+    b->preview.is_current = false;
     worker_stop(b->worker);
     if (!worker_collect(b->worker, INFINITY, &job)) return;
     if (job.kind == WORK_TAKE) wiggly_take_destroy(job.take);

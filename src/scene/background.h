@@ -1,41 +1,30 @@
-/// Long documents: what takes longer than a frame has is solved by a thread, and the curves fill in when it is done.
+/// Long documents: a thread solves what does not fit into a frame, and the curves fill in when it is done.
 ///
-/// What is looked at does not wait. While knots are dragged, the window that is shown, the playhead's and the knot's own
-/// surroundings are read from a take (wiggly.h) into the rows in the same frame, to 1e-9; the thread's whole solve comes after it,
-/// so that the rows end as evaluation_update() leaves them, bit for bit.
+/// What is on screen does not wait. While knots are dragged, the visible range and the surroundings of the playhead and of the knot
+/// are read from a take (wiggly.h) into the rows in the same frame, to 1e-9. The thread's full solve follows, so the rows end up
+/// as evaluation_update() leaves them, bit for bit.
 #ifndef SCENE_BACKGROUND_H
 #define SCENE_BACKGROUND_H
 
 #include "scene/evaluate.h"
 
-/// What is looked at.
+/// What the user is looking at.
 struct focus {
-    int spline;       ///< the one that is edited; -1: none
-    int first, count; ///< samples that are shown
+    int spline;       ///< the active one; -1: none
+    int first, count; ///< visible samples
     int at;           ///< sample of the playhead
 };
 
-/// Whether solving one of the document's splines takes long enough for a frame to be late.
+/// Whether solving one of the document's splines could make a frame late.
 bool background_serves(const struct document *document);
 
-/// As evaluation_update(), for once a frame, whether something changed or not: solves what is quickly solved and begins the rest,
-/// which evaluation->stale tells of. Allocates only with a new document, for the first take and where there are more knots.
-/// Where no thread can be had, it is evaluation_update(). Counters are of what became visible.
+/// Replaces evaluation_update(); to be called once a frame, whether anything changed or not. Solves what is quick and starts the rest;
+/// evaluation->stale says whether some is left. Allocates only for a new document, the first take and added knots. Without a
+/// thread it is evaluation_update(). The counters count what became visible.
 void background_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic,
                        const struct focus *focus);
 
-/// Goes on until no curve is stale and what is looked at is ready to be edited.
+/// Waits until no curve is stale and the active spline is ready to be edited.
 void background_settle(struct evaluation *evaluation, const struct document *document, const struct focus *focus);
-
-/// Waits for the thread, whose memory is about to change; what it was at is to be done again.
-void background_halt(struct evaluation *evaluation);
-
-/// The same where all that is stale will be solved otherwise.
-void background_forget(struct evaluation *evaluation);
-
-struct background;
-
-/// NULL is fine.
-void background_destroy(struct background *background);
 
 #endif

@@ -128,7 +128,7 @@ static void swap_timing(struct document *document, struct timing *timing)
     *timing = old;
 }
 
-/// Where the spline at `index` is after the one at `from` has gone to `to`.
+/// Where the spline at `index` ends up when the one at `from` moves to `to`.
 static int moved_index(int index, int from, int to)
 {
     if (index == from) return to;
@@ -137,23 +137,24 @@ static int moved_index(int index, int from, int to)
 }
 
 struct moving {
+    struct document *document;
     int from, to;
 };
 
 static void move_reference(const struct reference *reference, void *context)
 {
     const struct moving *moving = context;
-    *reference->spline = moved_index(*reference->spline, moving->from, moving->to);
+    reference_set(moving->document, reference, moved_index(reference->spline, moving->from, moving->to));
 }
 
-/// Gives every reference its spline's new index. INT_MAX as `from` or `to` is a place beyond the list.
+/// Gives every reference its spline's new index. INT_MAX as `from` or `to` means outside the list.
 static void move_references(struct document *document, int from, int to)
 {
-    struct moving moving = {from, to};
+    struct moving moving = {document, from, to};
     reference_each(document, move_reference, &moving);
 }
 
-/// Tracks of the spline itself are those of the document without it; nothing refers to it.
+/// Nothing refers to the spline; its own tracks are numbered as if it were not in the list.
 static void swap_spline(struct change *change, struct document *document)
 {
     int at = change->spline;

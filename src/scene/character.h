@@ -1,5 +1,4 @@
-/// What a scene says of a soft character (paper, section 7.2). Its model is a file of its own, which is not read here and may be
-/// missing.
+/// A soft character in a scene (paper, section 7.2). Its model is a separate file, which is not read here and may be missing.
 #ifndef SCENE_CHARACTER_H
 #define SCENE_CHARACTER_H
 
@@ -9,21 +8,21 @@ enum { CHARACTER_MAX_DRIVES = 4 };
 
 /// What moves one complex normal coordinate of a character (eq. 30): A e^{−j·lag} x.
 struct drive {
-    const char *name; ///< of the coordinate in the model; the document owns it
+    const char *name; ///< of the coordinate in the model; owned by the document
     int spline;       ///< index
     double amplitude; ///< A
     double lag;       ///< degrees
-    const void *extra;
+    struct json_t *extra;
 };
 
 struct character_rig {
     char *model, *paint;   ///< files, relative to the document's folder unless absolute; paint may be NULL
-    struct paint *painted; ///< NULL: none, or what the file `paint` holds could not be read
-    uint64_t filed;        ///< the version of `painted` that the file `paint` holds; 0: the file has other content
+    struct paint *painted; ///< NULL: none, or the file `paint` could not be read
+    uint64_t filed;        ///< the version of `painted` that the file `paint` holds; 0: it holds something else
     double position[3];    ///< metres
     struct drive drives[CHARACTER_MAX_DRIVES];
     int drive_count;
-    int phases; ///< shown at first: of movement along 0 … 2, x, y, z, of its first coordinate; −1: its own colours
+    int phases; ///< axis 0 … 2 along which its first coordinate's phases are shown at first; −1: its own colours
 };
 
 #define DRIVE_DEFAULT_AMPLITUDE 1.0

@@ -1,6 +1,6 @@
 /// The document: a scene file (docs/scene-format.md) in memory. Everything on screen is a function of it.
 ///
-/// Only edit.h changes one; load.h makes one from a file. Knots are kept by sample, at most one on each.
+/// Only edit.h changes one; load.h makes one from a file. Knots are sorted by sample, at most one on each.
 #ifndef SCENE_DOCUMENT_H
 #define SCENE_DOCUMENT_H
 
@@ -17,9 +17,11 @@ enum {
     SCENE_MAX_SAMPLES = 10000000, ///< over all splines together
     SCENE_MAX_KNOTS = 1000000,    ///< over all splines together
     SCENE_MAX_FPS = 100000,
-    SCENE_MAX_FRAME = 1000000000, ///< of first and last, to both sides
+    SCENE_MAX_FRAME = 1000000000, ///< limit of first and last, either sign
     SCENE_MAX_RIGS = 1024,
 };
+
+struct json_t;
 
 struct knot {
     double frame; ///< as written; may be fractional
@@ -27,19 +29,19 @@ struct knot {
     double slope;     ///< value per second
     double stiffness; ///< 1/s
     bool has_slope;
-    unsigned id;       ///< unique in the document, kept through edits and undo; not saved
-    const void *extra; ///< unknown keys of the file (a jansson object that the document owns), or NULL
+    unsigned id;          ///< unique in the document, kept through edits and undo; not saved
+    struct json_t *extra; ///< unknown keys of the file, owned by the document, or NULL
 };
 
 struct spline {
     char *name;
-    bool spring_friction; ///< real mode with the paper's own pair of parameters
+    bool spring_friction; ///< real mode with spring and friction, the paper's pair
     struct param parameter[PARAMETER_COUNT];
     struct knot *knots; ///< by sample
     int knot_count, knot_capacity;
-    int color;   ///< 0xRRGGBB, or -1: the theme's colours in turn
+    int color;   ///< 0xRRGGBB, or -1: from the theme, in turn
     unsigned id; ///< unique among the splines, kept through edits and undo; not saved
-    const void *extra;
+    struct json_t *extra;
 };
 
 static inline enum wiggly_mode spline_mode(const struct spline *spline)
@@ -54,7 +56,7 @@ static inline enum wiggly_start spline_start(const struct spline *spline)
 
 struct document {
     char *path;      ///< of its own file, NULL for an untitled one; not saved
-    unsigned serial; ///< set by whoever puts documents on the table, to tell them apart; not saved
+    unsigned serial; ///< set by whoever opens documents, to tell them apart; not saved
     char *about;     ///< what the scene shows and what to try, or NULL
     double fps;
     int substeps;
@@ -63,28 +65,28 @@ struct document {
     int spline_count, spline_capacity;
     struct rig *rigs; ///< in the order of the file
     int rig_count, rig_capacity;
-    char *folder;            ///< that paths in it are relative to; NULL: the working folder
+    char *folder;            ///< where relative paths start; NULL: the working folder
     unsigned next_id;        ///< of a knot
     unsigned next_spline_id; ///< of a spline
-    const void *extra;
-    void *owned; ///< what `extra` pointers point into; freed with the document
+    struct json_t *extra;
+    struct json_t *owned; ///< what `extra` pointers point into; freed with the document
 };
 
-/// Sets the path of the document's own file; "" or NULL: untitled. false where memory is short.
+/// Sets the path of the document's own file; "" or NULL: untitled. false if memory runs out.
 bool document_set_path(struct document *document, const char *path);
 
-/// Memory that it takes, unknown keys left out.
+/// Bytes that it takes, not counting unknown keys.
 size_t document_bytes(const struct document *document);
 
-/// An empty document: 24 fps, frames 0 … 120, no splines. NULL where memory is short.
+/// An empty document: 24 fps, frames 0 … 120, no splines. NULL if memory runs out.
 struct document *document_create(void);
 void document_destroy(struct document *document);
 
-/// Tells the document that it is now in another folder (NULL: the working folder), as after "save as": paths that are
-/// relative are rewritten so that they lead to the same files. false where memory is short.
+/// Moves the document to another folder (NULL: the working folder), as after "save as": relative paths are rewritten to lead to
+/// the same files. false if memory runs out.
 bool document_set_folder(struct document *document, const char *folder);
 
-/// A copy of a text that lives as long as the document; NULL where memory is short.
+/// A copy of a text that lives as long as the document; NULL if memory runs out.
 const char *document_keep_text(struct document *document, const char *text);
 
 /// Number of samples N of every spline.
@@ -93,14 +95,13 @@ int document_samples(const struct document *document);
 /// Seconds between samples.
 double document_step(const struct document *document);
 
-/// The sample that a frame falls on, ⌊(frame − first)·substeps + ½⌋; may lie outside 0 … N−1.
-/// Saturates at ±INT_MAX/2 for frames too far away.
+/// The sample that a frame falls on, ⌊(frame − first)·substeps + ½⌋, clamped to ±INT_MAX/2; it may lie outside 0 … N−1.
 int document_sample(const struct document *document, double frame);
 
 /// The frame of a sample.
 double document_frame(const struct document *document, int sample);
 
-/// First frame of the last sample that may carry a knot (a loop's last sample is its first).
+/// The last sample that may have a knot; in a loop the very last sample repeats the first.
 int document_last_knot_sample(const struct document *document, const struct spline *spline);
 
 /// Index of the spline with that name, or -1.
@@ -109,10 +110,10 @@ int document_find_spline(const struct document *document, const char *name);
 /// Index of the spline with that id, or -1.
 int document_find_spline_id(const struct document *document, unsigned id);
 
-/// Room for that many rigs; false where memory is short.
+/// Makes room for that many rigs; false if memory runs out.
 bool document_reserve_rigs(struct document *document, int count);
 
-/// Index of the first rig of a kind from `from` on, or -1.
+/// Index of the first rig of a kind at `from` or later, or -1.
 int document_next_rig(const struct document *document, enum rig_kind kind, int from);
 
 /// Index of the n-th rig of a kind, from 0 on, or -1; and how many there are.
@@ -126,7 +127,7 @@ struct character_rig *document_character(const struct document *document, int n)
 /// Index of the knot on that sample, or -1 (binary search).
 int spline_find_knot(const struct document *document, const struct spline *spline, int sample);
 
-/// Index of the first knot on that sample or after it; the number of knots where there is none.
+/// Index of the first knot on that sample or after it, or the number of knots.
 int spline_lower_bound(const struct document *document, const struct spline *spline, int sample);
 
 /// Index of the knot with that id, or -1.
@@ -135,8 +136,7 @@ int spline_find_id(const struct spline *spline, unsigned id);
 /// "x", "y" or "z".
 const char *coordinate_name(int index);
 
-/// Gives a spline the file format's defaults (complex, free, calm 1, bandwidth 0.1, no colour of its own); name, knots
-/// and id are left alone.
+/// Gives a spline the file format's defaults and no colour of its own; leaves name, knots and id alone.
 void spline_reset(struct spline *spline);
 
 #define KNOT_DEFAULT_STIFFNESS 1000.0 /* 1/s */

@@ -8,7 +8,7 @@ static const struct character_rig *rig_of(const struct document *document, const
     return &document->rigs[edit->rig].character;
 }
 
-/// The change that leaves a character as it is, to be filled in.
+/// A change that leaves the character as it is, for the caller to fill in.
 static struct change unchanged(const struct document *document, const struct edit *edit)
 {
     const struct character_rig *rig = rig_of(document, edit);
@@ -27,9 +27,7 @@ static bool has_drive(const struct document *document, const struct edit *edit, 
 
 static bool check_drive(const struct document *document, const struct drive *drive, struct error *error)
 {
-    if (drive->spline < 0 || drive->spline >= document->spline_count) {
-        return fail(error, ERROR_INPUT, "there is no such spline");
-    }
+    if (!plan_has_spline(document, drive->spline, error)) return false;
     if (isfinite(drive->amplitude) && isfinite(drive->lag)) return true;
     return fail(error, ERROR_INPUT, "amplitude and lag must be finite");
 }

@@ -6,7 +6,7 @@
 
 enum { FIRST_KNOTS = 16 };
 
-/// Room for one knot more, with doubling so that knots may come one by one.
+/// Makes room for one more knot, by doubling.
 static bool reserve_knot(const struct document *document, struct spline *spline, struct error *error)
 {
     long long total = 1;
@@ -21,7 +21,7 @@ static bool reserve_knot(const struct document *document, struct spline *spline,
     return true;
 }
 
-/// Whether a knot may stand where it wants to, `id` being its own.
+/// Whether a knot may go where it says; `id` is its own.
 static bool check_knot(const struct document *document, const struct spline *spline, const struct knot *knot,
                        unsigned id, struct error *error)
 {
@@ -42,7 +42,7 @@ static bool check_knot(const struct document *document, const struct spline *spl
     return fail(error, ERROR_INPUT, "%s: there is already a knot at frame %s", spline->name, frame);
 }
 
-/// −0 is saved as 0, and must be 0 before, or saving and loading would be a change.
+/// −0 is saved as 0, so it must be 0 in the document, too.
 static struct knot without_negative_zeros(struct knot knot)
 {
     knot.frame += 0.0;

@@ -37,12 +37,12 @@ static bool check_dab(const struct paint *paint, const struct dab *dab, struct e
     return true;
 }
 
-/// The stroke that the open step has begun on this coordinate, or NULL.
+/// The open step's stroke on this coordinate, or NULL.
 static struct touched *find_stroke(const struct change_list *list, const struct edit *edit)
 {
     for (size_t i = list->count; i > 0; i--) {
         const struct change *change = &list->items[i - 1];
-        if (change->kind == CHANGE_SHEET) return NULL; // what is before is on other paint
+        if (change->kind == CHANGE_SHEET) return NULL; // earlier strokes are on other paint
         if (change->kind == CHANGE_PAINT && change->stroke.rig == edit->rig &&
             change->stroke.touched->coordinate == edit->dab->coordinate && change->stroke.touched->place)
             return change->stroke.touched;
@@ -50,8 +50,7 @@ static struct touched *find_stroke(const struct change_list *list, const struct 
     return NULL;
 }
 
-/// A stroke is one change however many dabs it is made of, so that a long one takes no more memory than what it touches:
-/// all but the first dab go into it here.
+/// A stroke is one change however many dabs it has, so that it takes no more memory than what it touches: later dabs join the first.
 bool plan_dab(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
     struct paint *paint = paint_of(document, edit);

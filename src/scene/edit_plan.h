@@ -1,5 +1,4 @@
-/// The planners behind edit_plan(), one a kind of edit: each checks an edit and adds the changes that make it up, none
-/// where nothing would change; false with a sentence where it is not possible. Private to src/scene.
+/// The planners behind edit_plan(), one for each kind of edit, under the same contract. Private to src/scene.
 #ifndef SCENE_EDIT_PLAN_H
 #define SCENE_EDIT_PLAN_H
 
@@ -17,10 +16,13 @@ planner plan_angles, plan_axis, plan_part, plan_feed, plan_position, plan_length
 planner plan_drive, plan_drive_add, plan_drive_remove;
 planner plan_paint_new, plan_dab;
 
-/// Adds one change to a plan. What the change owns is the plan's from here on, and is freed on failure.
+/// Adds a change to a plan, which takes over what the change owns, or frees it on failure.
 bool plan_add(struct change_list *list, const struct change *change, struct error *error);
 
-/// Refuses an edit for want of memory.
+/// Whether there is a spline at that index; refuses the edit if not.
+bool plan_has_spline(const struct document *document, int spline, struct error *error);
+
+/// Refuses an edit because memory ran out.
 bool plan_no_memory(struct error *error);
 
 #endif

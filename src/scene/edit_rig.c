@@ -1,4 +1,4 @@
-/// Edits of which tails and channels there are, of their names and of how many joints they have.
+/// Edits that add, remove and rename tails, add and remove channels, and set the number of joints.
 #include "scene/edit_plan.h"
 #include <math.h>
 #include <stdio.h>
@@ -7,12 +7,12 @@
 
 enum { NAME_SIZE = 512 };
 
-static const double NEW_REST = 1.5;         ///< degrees a joint: a tail alone is no straight cone
-static const double NEW_HEIGHT = 0.26;      ///< metres at which the body of a tail of 1.6 m sits on the ground
-static const double ASIDE = 0.75;           ///< of its length, from one tail to the next
-static const double ANGLE_RESOLUTION = 1e6; ///< a degree's parts that resampled angles are rounded to
+static const double NEW_REST = 1.5;         ///< degrees a joint, so that a new tail is no straight cone
+static const double NEW_HEIGHT = 0.26;      ///< metres; the body of a tail of 1.6 m then sits on the ground
+static const double ASIDE = 0.75;           ///< distance from a tail to its copy, in tail lengths
+static const double ANGLE_RESOLUTION = 1e6; ///< resampled angles are rounded to 1/this degrees
 
-/// A copy of the edit's rig to be changed; NULL with a sentence.
+/// A copy of the edit's rig for the caller to change; NULL with a sentence.
 static struct rig *begin(const struct document *document, const struct edit *edit, struct error *error)
 {
     struct rig *rig = malloc(sizeof *rig);
@@ -22,7 +22,7 @@ static struct rig *begin(const struct document *document, const struct edit *edi
     return NULL;
 }
 
-/// Adds the swap with a copy, which is the change's from here on.
+/// Adds the swap with a copy, which the change now owns.
 static bool finish(const struct edit *edit, struct rig *rig, struct change_list *list, struct error *error)
 {
     return plan_add(list, &(struct change){.kind = CHANGE_RIG, .spline = -1, .rig = {edit->rig, rig}}, error);
@@ -51,7 +51,7 @@ static char *free_name(const struct document *document)
     return strdup(name);
 }
 
-/// A tail without channels, as the file format has it, but bent a little and on the ground.
+/// A tail without channels, with the file format's defaults but slightly bent and on the ground.
 static struct rig plain_tail(void)
 {
     struct rig rig = {
@@ -78,17 +78,12 @@ static bool append_channel(struct tail *tail, const struct edit *edit)
     return true;
 }
 
-static bool has_spline(const struct document *document, const struct edit *edit)
-{
-    return edit->spline >= 0 && edit->spline < document->spline_count;
-}
-
 static bool is_tail(const struct document *document, int rig)
 {
     return rig >= 0 && rig < document->rig_count && document->rigs[rig].kind == RIG_TAIL;
 }
 
-/// Makes a copy of `edit->rig` that stands beside it, or a plain tail where that is none. On failure it is to be released.
+/// Makes a copy of `edit->rig` beside it, or a plain tail if that is no tail. On failure the caller must release it.
 static bool fill_new(const struct document *document, const struct edit *edit, struct rig *added)
 {
     *added = plain_tail();
@@ -102,7 +97,7 @@ static bool fill_new(const struct document *document, const struct edit *edit, s
         added->extra = NULL;
         struct tail *tail = &added->tail;
         if (tail->position[0].track < 0) tail->position[0].value += ASIDE * tail->length;
-    } else if (has_spline(document, edit) && !append_channel(&added->tail, edit)) {
+    } else if (plan_has_spline(document, edit->spline, NULL) && !append_channel(&added->tail, edit)) {
         return false;
     }
     added->name = free_name(document);
@@ -145,7 +140,7 @@ bool plan_tail_name(struct document *document, const struct edit *edit, struct c
     return rig->name ? finish(edit, rig, list, error) : abandon(rig, error);
 }
 
-/// Angles of `from` joints as those of `to`, read at the same shares of the length and multiplied by `factor`.
+/// Resamples angles of `from` joints along the tail for `to` joints, times `factor`.
 static void resample(struct angles *angles, int from, int to, double factor)
 {
     const struct angles old = *angles;
@@ -158,7 +153,7 @@ static void resample(struct angles *angles, int from, int to, double factor)
     }
 }
 
-/// The tail keeps its shape and its swing: as many more joints bend as much less each and lag as much less behind one another.
+/// The tail keeps its shape and swing: with twice the joints, each bends and lags half as much.
 bool plan_joints(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
     const struct rig *old = &document->rigs[edit->rig];
@@ -185,7 +180,7 @@ bool plan_channel_add(struct document *document, const struct edit *edit, struct
                       struct error *error)
 {
     const struct rig *old = &document->rigs[edit->rig];
-    if (!has_spline(document, edit)) return fail(error, ERROR_INPUT, "there is no such spline");
+    if (!plan_has_spline(document, edit->spline, error)) return false;
     if (old->tail.channel_count >= SCENE_MAX_CHANNELS) {
         return fail(error, ERROR_INPUT, "%s: there are %d channels, and no more fit", old->name, SCENE_MAX_CHANNELS);
     }

@@ -1,4 +1,4 @@
-/// Edits of what all splines share: the document as a whole, frames per second, substeps and the range of frames.
+/// Edits of the whole document, its frames per second, substeps and range of frames.
 #include "scene/edit_plan.h"
 #include <math.h>
 #include <stdlib.h>
@@ -13,8 +13,7 @@ static bool check_loops(const struct document *document, struct error *error)
     return true;
 }
 
-/// Whether all knots lie inside a document's frames, each on a sample of its own. `frames` in place of the knots' own;
-/// NULL: those.
+/// Whether all knots lie inside a document's frames, each on a sample of its own. `frames` replaces the knots' frames unless NULL.
 static bool check_knots_fit(const struct document *document, const double *frames, struct error *error)
 {
     for (int i = 0; i < document->spline_count; i++) {
@@ -36,7 +35,7 @@ static bool check_knots_fit(const struct document *document, const double *frame
     return true;
 }
 
-/// Whether the spec allows a timing, whatever the knots.
+/// Whether a timing is allowed, leaving the knots aside.
 static bool check_timing(const struct document *document, const struct timing *timing, struct error *error)
 {
     long long frames = (long long)timing->last - timing->first, splines = document->spline_count;
@@ -73,7 +72,7 @@ static bool same_timing(const struct document *document, const struct timing *ti
            timing->first == document->first_frame && timing->last == document->last_frame;
 }
 
-/// Adds the change of timing, whose `frames` are the plan's from here on.
+/// Adds the change of timing and takes over its `frames`.
 static bool add_timing(const struct document *document, const struct timing *timing, struct change_list *list,
                        struct error *error)
 {
@@ -83,7 +82,7 @@ static bool add_timing(const struct document *document, const struct timing *tim
     return true;
 }
 
-/// The frames of all knots, `factor` times what they are; NULL where memory is short.
+/// The frames of all knots times `factor`; NULL if memory runs out.
 static double *scaled_frames(const struct document *document, double factor)
 {
     size_t count = 0;
@@ -97,7 +96,7 @@ static double *scaled_frames(const struct document *document, double factor)
     return frames;
 }
 
-/// Whole frames around what `frame` scales to, outwards, so that what was inside stays inside.
+/// The scaled end of the range, rounded outwards so that knots inside stay inside.
 static int scaled_end(int frame, double factor, bool first)
 {
     const double slack = 1e-6; // 96 · 30/24 is 120, not a hair more
@@ -134,7 +133,7 @@ bool plan_substeps(struct document *document, const struct edit *edit, struct ch
     return check_knots_fit(&moved, NULL, error) && add_timing(document, &timing, list, error);
 }
 
-/// Takes out the knots of a spline that would lie outside of the moved document.
+/// Removes a spline's knots that fall outside the document's new range.
 static bool trim_knots(const struct document *moved, int spline_index, struct change_list *list, struct error *error)
 {
     const struct spline *spline = &moved->splines[spline_index];
@@ -156,8 +155,7 @@ static bool move_knot(const struct document *moved, int spline_index, int k, int
     return plan_add(list, &change, error);
 }
 
-/// Moves the knots that would lie outside to the nearest free samples inside; they push others on. Each is moved after
-/// those before it on its way, so that no two meet.
+/// Moves knots that fall outside to the nearest samples inside, pushing others along. They move in an order in which no two meet.
 static bool move_knots(const struct document *moved, int spline_index, struct change_list *list, struct error *error)
 {
     const struct spline *spline = &moved->splines[spline_index];

@@ -22,7 +22,7 @@ static bool add_settings(struct document *document, const struct edit *edit, con
     return same_settings(&old, settings) || plan_add(list, &change, error);
 }
 
-/// Whether a spline may follow another in a parameter: tried on the document, and taken back.
+/// Whether a spline may follow another in a parameter, found by trying it on the document.
 static bool check_track(struct document *document, const struct edit *edit, struct error *error)
 {
     struct spline *spline = &document->splines[edit->spline];
@@ -54,7 +54,7 @@ static bool check_constant(const struct spline *spline, enum parameter parameter
     return fail(error, ERROR_INPUT, "%s: %s must be at most %g", spline->name, name, high);
 }
 
-/// ω = √k, ζ = γ/2√k, or back: k = ω², γ = 2ζω. What is not in use any more returns to its default.
+/// ω = √k, ζ = γ/2√k, or back: k = ω², γ = 2ζω. The pair that is dropped returns to its default.
 static bool convert_spring(const struct spline *spline, struct settings *settings, bool to_spring,
                            struct error *error)
 {
@@ -80,7 +80,7 @@ static bool convert_spring(const struct spline *spline, struct settings *setting
     return true;
 }
 
-/// Converts and clamps what another mode has no room for.
+/// Converts and clamps what the mode does not allow.
 static bool set_mode(const struct spline *spline, struct settings *settings, enum wiggly_mode mode,
                      struct error *error)
 {

@@ -1,4 +1,4 @@
-/// Edits of the list of splines: which there are, in which order, under which names and colours.
+/// Edits that add, copy, remove, move, rename and colour splines.
 #include "scene/edit_plan.h"
 #include "scene/order.h"
 #include "scene/reference.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Room for one spline more in the document, and whether its samples and knots are not too many.
+/// Makes room for one more spline, unless there would be too many samples or knots.
 static bool reserve_spline(struct document *document, int knots, struct error *error)
 {
     long long total = knots, samples = (long long)document_samples(document) * (document->spline_count + 1);
@@ -28,7 +28,7 @@ static bool reserve_spline(struct document *document, int knots, struct error *e
     return true;
 }
 
-/// `base`, or the first of "base 2", "base 3" … that no spline has; a number at the end of `base` is counted on from.
+/// `base`, or the first free one of "base 2", "base 3" …; a number at the end of `base` is replaced.
 static char *free_name(const struct document *document, const char *base)
 {
     size_t length = strlen(base), stem = length;
@@ -53,7 +53,7 @@ static bool check_name(const struct document *document, const char *name, int ow
     return fail(error, ERROR_INPUT, "a spline called %s already exists", name);
 }
 
-/// Puts a spline into the plan, with the ids of a new one. It is the plan's even where this fails.
+/// Adds a spline with new ids to the plan, which owns it even if this fails.
 static bool add_spline(struct document *document, int at, struct spline *held, struct change_list *list,
                        struct error *error)
 {
@@ -66,7 +66,7 @@ static bool add_spline(struct document *document, int at, struct spline *held, s
     return true;
 }
 
-/// A spline out of the document with room for `knots`; NULL where memory is short.
+/// A spline outside the document with room for `knots`; takes over `name`. NULL if memory runs out.
 static struct spline *hold_spline(char *name, int knots)
 {
     struct spline *held = name ? calloc(1, sizeof *held) : NULL;

@@ -32,7 +32,7 @@ bool plan_angles(struct document *document, const struct edit *edit, struct chan
     return true;
 }
 
-/// The change of a channel that leaves it as it is, to be filled in.
+/// A change that leaves the channel as it is, for the caller to fill in.
 static struct change channel_change(const struct edit *edit, const struct channel *channel)
 {
     return (struct change){.kind = CHANGE_CHANNEL,
@@ -64,15 +64,13 @@ bool plan_feed(struct document *document, const struct edit *edit, struct change
 {
     const struct channel *channel = find_channel(document, edit);
     if (!channel) return no_channel(error);
-    if (edit->spline < 0 || edit->spline >= document->spline_count) {
-        return fail(error, ERROR_INPUT, "there is no such spline");
-    }
+    if (!plan_has_spline(document, edit->spline, error)) return false;
     struct change change = channel_change(edit, channel);
     change.channel.spline = edit->spline;
     return channel->spline == edit->spline || plan_add(list, &change, error);
 }
 
-/// The change of a tail's place that leaves it as it is, to be filled in.
+/// A change that leaves the tail's place as it is, for the caller to fill in.
 static struct change place_change(const struct edit *edit, const struct tail *tail)
 {
     return (struct change){.kind = CHANGE_PLACE,

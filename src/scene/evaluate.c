@@ -1,15 +1,11 @@
-/// Solves dirty splines and their followers in the order of their dependencies.
+/// Solves dirty splines and their followers in dependency order.
 #include "scene/evaluate.h"
 #include "base/checked.h"
-#include "scene/background.h"
 #include "scene/storage.h"
 #include <stdlib.h>
 #include <string.h>
 
 enum { FIRST_KNOTS = 256 };
-
-/// Samples from which on the highest of a stretch is looked up: a view of all of them takes 1 ms in a frame.
-enum { MANY_SAMPLES = 250000 };
 
 static bool fail_memory(const struct document *document, struct error *error)
 {
@@ -68,13 +64,6 @@ static bool resize_numbers(struct storage *storage, int splines, int samples)
     return storage->numbers != NULL;
 }
 
-bool storage_wants_extremes(int samples) { return samples >= MANY_SAMPLES; }
-
-struct extremes storage_extremes(double *marks, int samples)
-{
-    return marks ? (struct extremes){marks, marks + extremes_blocks(samples)} : (struct extremes){0};
-}
-
 static bool resize_marks(struct storage *storage, int splines, int samples)
 {
     size_t needed = storage_wants_extremes(samples) ? 2 * (size_t)splines * extremes_blocks(samples) : 0;
@@ -103,20 +92,7 @@ static bool resize_solver(struct storage *storage, int samples, int knots)
     return true;
 }
 
-void storage_place(wiggly_curve *curve, double *numbers, int samples)
-{
-    size_t n = (size_t)samples;
-    *curve = (wiggly_curve){.total = numbers,
-                            .y = numbers + n,
-                            .re = numbers + 2 * n,
-                            .im = numbers + 3 * n,
-                            .omega = numbers + 4 * n,
-                            .samples = samples,
-                            .mode = WIGGLY_CUBIC};
-}
-
-/// Where each curve's numbers are. Until they are solved they are zeros or what another layout left: finite in any
-/// case.
+/// Gives each curve its place. Until it is solved, its numbers are zeros or left over from another layout: finite in any case.
 static void lay_out(struct evaluation *evaluation, struct storage *storage, int splines, int samples)
 {
     evaluation->count = splines;
@@ -132,7 +108,7 @@ static void lay_out(struct evaluation *evaluation, struct storage *storage, int 
     }
 }
 
-/// Whether the memory is right as it is.
+/// Whether the layout can stay as it is.
 static bool fits(const struct evaluation *evaluation, const struct document *document, int knots)
 {
     const struct storage *storage = evaluation->storage;
@@ -146,7 +122,7 @@ bool evaluation_resize(struct evaluation *evaluation, const struct document *doc
     for (int i = 0; i < splines; i++) {
         if (document->splines[i].knot_count > knots) knots = document->splines[i].knot_count;
     }
-    if (!evaluation->storage) evaluation->storage = calloc(1, sizeof(struct storage));
+    if (!evaluation->storage) evaluation->storage = calloc(1, sizeof *evaluation->storage);
     struct storage *storage = evaluation->storage;
     if (!storage) return fail_memory(document, error);
     if (!fits(evaluation, document, knots)) background_halt(evaluation);
@@ -175,41 +151,7 @@ void evaluation_free(struct evaluation *evaluation)
     *evaluation = (struct evaluation){0};
 }
 
-wiggly_desc storage_describe(const struct evaluation *evaluation, const struct document *document, int spline_index,
-                             bool cubic)
-{
-    const struct spline *spline = &document->splines[spline_index];
-    wiggly_desc desc = wiggly_default_desc();
-    desc.samples = document_samples(document);
-    desc.step = document_step(document);
-    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        int track = spline->parameter[p].track;
-        const double *total = track >= 0 ? evaluation->curves[track].total : NULL;
-        parameter_describe(p, spline->parameter[p].value, total, &desc);
-    }
-    if (cubic) desc.mode = WIGGLY_CUBIC;
-    desc.spring_friction = spline->spring_friction && desc.mode == WIGGLY_REAL;
-    return desc;
-}
-
-wiggly_knot storage_knot(const struct document *document, const struct knot *knot)
-{
-    return (wiggly_knot){.sample = document_sample(document, knot->frame),
-                         .has_slope = knot->has_slope,
-                         .value = knot->value,
-                         .slope = knot->slope,
-                         .stiffness = knot->stiffness};
-}
-
-void storage_add_knots(wiggly_desc *desc, const struct document *document, int spline, wiggly_knot *knots)
-{
-    const struct spline *of = &document->splines[spline];
-    for (int i = 0; i < of->knot_count; i++) knots[i] = storage_knot(document, &of->knots[i]);
-    desc->knots = knots;
-    desc->knot_count = of->knot_count;
-}
-
-/// Whether a spline that was solved now is one that this one depends on.
+/// Whether the spline depends on one that was just solved.
 static bool follows_solved(const struct storage *storage, const struct spline *spline, bool cubic)
 {
     for (int i = 0; i < PARAMETER_COUNT; i++) {
@@ -217,17 +159,6 @@ static bool follows_solved(const struct storage *storage, const struct spline *s
         if (track >= 0 && storage->solved[track] && spline_uses(spline, (enum parameter)i, cubic)) return true;
     }
     return false;
-}
-
-void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc)
-{
-    double *const rows[] = {curve->total, curve->y, curve->re, curve->im, curve->omega};
-    for (int r = 0; r < ROWS; r++) memset(rows[r], 0, sizeof(double) * (size_t)desc->samples);
-    curve->samples = desc->samples;
-    curve->step = desc->step;
-    curve->first = 0;
-    curve->mode = desc->mode;
-    curve->start = WIGGLY_FREE;
 }
 
 static void solve(struct evaluation *evaluation, const struct document *document, int spline, bool cubic)
@@ -238,7 +169,7 @@ static void solve(struct evaluation *evaluation, const struct document *document
     wiggly_desc desc = {.samples = evaluation->samples, .step = document_step(document)};
     wiggly_status status = WIGGLY_ERROR_CAPACITY;
     if (knots <= storage->solver_knots) {
-        desc = storage_describe(evaluation, document, spline, cubic);
+        desc = storage_describe(evaluation->curves, document, spline, cubic);
         storage_add_knots(&desc, document, spline, storage->knots);
         status = wiggly_solve(storage->solver, &desc, curve);
     }
@@ -257,11 +188,11 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     struct order_cycle cycle;
     evaluation->solved_splines = evaluation->solved_samples = evaluation->solved_knots = 0;
     if (evaluation->count != document->spline_count || evaluation->samples != document_samples(document))
-        return; // evaluation_resize() failed, and said so
+        return; // evaluation_resize() failed and reported it
     background_forget(evaluation);
     bool all = !dirty || storage->is_new || cubic != evaluation->cubic || evaluation->stale;
     evaluation->cubic = cubic;
-    if (!scene_order(document, storage->space, storage->order, &cycle)) return; // no document has one
+    if (!scene_order(document, storage->space, storage->order, &cycle)) return; // a document has no cycles
     for (int i = 0; i < evaluation->count; i++) storage->solved[i] = false;
     for (int i = 0; i < evaluation->count; i++) {
         int spline = storage->order[i];

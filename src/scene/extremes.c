@@ -1,8 +1,8 @@
-/// A tree of lowest and highest samples.
+/// The lowest and highest sample of each block.
 #include "scene/extremes.h"
 #include <math.h>
 
-enum { CHAINS = 8 }; ///< comparisons that do not wait for each other: ten million samples take 4 to 9 ms
+enum { CHAINS = 8 }; ///< independent comparisons: ten million samples take 4 to 9 ms
 
 size_t extremes_blocks(int samples) { return ((size_t)samples + EXTREMES_BLOCK - 1) / EXTREMES_BLOCK; }
 

@@ -7,7 +7,7 @@
 
 enum { FIRST_STEPS = 1024, FIRST_DIRTY = 64 };
 
-/// Of what is used: the arrays grow by doubling, so that the memory they take stays under 256 MB.
+/// Bytes in use. The arrays double as they grow, so they may take up to 256 MiB.
 static const size_t DEFAULT_LIMIT = (size_t)128 << 20;
 
 struct step {
@@ -24,7 +24,7 @@ struct history {
     size_t step_count, step_capacity;
     size_t done;          ///< steps that are not undone
     size_t bytes, limit;  ///< of all steps
-    size_t dropped;       ///< steps that made room for newer ones
+    size_t dropped;       ///< steps dropped for newer ones
     uint64_t first_state; ///< the document's before the first step
     uint64_t last_state, saved_state, revision;
 
@@ -163,7 +163,7 @@ void history_restart(struct history *history, struct document *document)
     if (open->count == 0) return;
     for (size_t i = open->count; i > 0; i--) swap_change(history, &open->items[i - 1], document);
     release_from(open, 0);
-    document->next_id = history->next_id; // the ids of what is inserted again are then the same again
+    document->next_id = history->next_id; // so that what is inserted again gets the same ids
     document->next_spline_id = history->next_spline_id;
     history->revision++;
 }
@@ -178,7 +178,7 @@ static bool reserve_step(struct history *history)
     return true;
 }
 
-/// Makes room for `more` bytes: the oldest steps go. An eighth of the room is freed at once, so that moving the rest is rare.
+/// Drops the oldest steps to make room for `more` bytes, an eighth of the limit at a time, so that the rest rarely move.
 static void drop_oldest(struct history *history, size_t more)
 {
     size_t drop = 0, kept = history->bytes, room = history->limit - history->limit / 8;
@@ -204,7 +204,7 @@ static void forget_undone(struct history *history)
     release_from(&history->changes, history->done > 0 ? history->steps[history->done - 1].end : 0);
 }
 
-/// A saved state stays a step of its own, so that undo can come back to it.
+/// Whether the open step joins the last one. A saved state stays a step of its own, so that undo can return to it.
 static bool joins_last(const struct history *history)
 {
     return history->done > 0 && history->can_merge && history->merge != 0 &&
@@ -224,7 +224,7 @@ void history_end(struct history *history)
     drop_oldest(history, bytes);
     bool joins = wants_to_join && history->done > 0;
     if (!change_list_reserve(all, open->count) || !reserve_step(history)) {
-        forget_steps(history); // the work matters more than the way back
+        forget_steps(history); // losing undo is better than losing work
         release_from(open, 0);
         return;
     }

@@ -1,4 +1,4 @@
-/// Knots as JSON text and back.
+/// Reads and writes knots as JSON.
 #include "scene/knots.h"
 #include "scene/members.h"
 #include "scene/reader.h"
@@ -36,10 +36,10 @@ char *knots_print(const struct knot *knots, int count)
     return NULL;
 }
 
-static void read_array(struct reader *reader, const struct where *at, const json_t *array, struct knot_list *list)
+static void read_array(struct reader *reader, struct value array, struct knot_list *list)
 {
-    int count = reader_objects(reader, at, array, SCENE_MAX_KNOTS);
-    if (count == 0) reader_fail(reader, at, "expected at least one knot, got none");
+    int count = reader_objects(reader, array, SCENE_MAX_KNOTS);
+    if (count == 0) reader_fail(reader, &array.at, "expected at least one knot, got none");
     if (count <= 0) return;
     list->knots = calloc((size_t)count, sizeof *list->knots);
     if (!list->knots) {
@@ -48,8 +48,7 @@ static void read_array(struct reader *reader, const struct where *at, const json
     }
     list->count = count;
     for (int i = 0; i < count; i++) {
-        struct where knot_at = {.parent = at, .index = (size_t)i};
-        reader_knot(reader, &knot_at, json_array_get(array, (size_t)i), &list->knots[i]);
+        reader_knot(reader, reader_element(&array, i), &list->knots[i]);
         list->knots[i].id = 0;
         list->knots[i].extra = NULL; /* the reader's document goes */
     }
@@ -60,16 +59,9 @@ static bool parse_json(const char *name, const char *text, struct knot_list *lis
     struct reader reader = {.source = {.name = name, .text = text, .size = strlen(text)}, .error = error};
     reader.document = document_create();
     if (!reader.document) return reader_no_memory(&reader);
-    json_t *json = reader_parse(&reader);
-    const struct where root = {0};
-    struct where knots_at;
-    if (json_is_object(json)) {
-        const json_t *knots = reader_member(&root, json, "knots", &knots_at);
-        read_array(&reader, &knots_at, knots, list);
-    } else if (json) {
-        read_array(&reader, &root, json, list);
-    }
-    json_decref(json);
+    const struct value root = {.json = reader_parse(&reader)};
+    if (root.json) read_array(&reader, json_is_object(root.json) ? reader_member(&root, "knots") : root, list);
+    json_decref(root.json);
     document_destroy(reader.document);
     if (reader.failed) knot_list_free(list);
     return !reader.failed;

@@ -5,23 +5,21 @@
 #include "scene/document.h"
 #include <stddef.h>
 
-/// Knots that no document has: ids and unknown keys are 0.
+/// Knots outside a document, without ids and unknown keys.
 struct knot_list {
     struct knot *knots; ///< in the order of the text
     int count;
 };
 
-/// A JSON array, a knot a line, with the keys of a scene file and its frames. Freed by the caller; NULL where memory is
-/// short.
+/// A JSON array with one knot a line, as in a scene file. The caller frees it; NULL if memory runs out.
 char *knots_print(const struct knot *knots, int count);
 
-/// Reads what knots_print() writes, an object with "knots" (a spline of a scene file), or CSV. false with a sentence
-/// "name:line: …: expected …, got …" where it is none of them or empty; the list is then empty.
+/// Reads what knots_print() writes, an object with "knots" (a scene file's spline), or CSV. If there are no knots, returns false with a
+/// sentence "name:line: …: expected …, got …" and an empty list.
 bool knots_parse(const char *name, const char *text, struct knot_list *list, struct error *error);
 
-/// Reads CSV lines frame,value[,slope[,stiffness]]; also with semicolons or tabs, and then with decimal commas. Blank lines and
-/// `#` comments are passed over. Under a header, slope and stiffness are the columns of that name; where "frame" or
-/// "value" is not among the names, they are the first two.
+/// Reads CSV lines frame,value[,slope[,stiffness]], also with semicolons or tabs, and then with decimal commas. Skips blank lines and
+/// `#` comments. Under a header, columns go by name; frame and value are the first and second column if it does not name them.
 bool knots_parse_csv(const char *name, const char *text, struct knot_list *list, struct error *error);
 
 void knot_list_free(struct knot_list *list);

@@ -1,4 +1,4 @@
-/// Knots from CSV: frame,value[,slope[,stiffness]] a line.
+/// Reads knots from CSV lines frame,value[,slope[,stiffness]].
 #include "scene/knots.h"
 #include <math.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@ static const char *const column_names[] = {
 
 static const char byte_order_mark[] = "\xEF\xBB\xBF";
 
-/// A line taken apart; fields without quotes and blanks around them.
+/// A line's fields, without surrounding quotes and blanks.
 struct line {
     int number;
     int count;
@@ -48,7 +48,7 @@ static void take_field(struct line *line, const char *from, size_t length)
     field[length] = '\0';
 }
 
-/// Takes a line apart at semicolons, else tabs, else commas. Beside the first two a comma in a number is its point.
+/// Splits a line at semicolons, else tabs, else commas. With the first two a comma in a number is its decimal point.
 static void split(struct line *line, const char *text, size_t length)
 {
     char separator = memchr(text, ';', length) ? ';' : memchr(text, '\t', length) ? '\t' : ',';
@@ -72,7 +72,7 @@ static bool is_number(const char *field, double *number)
     return end != field && !*end && isfinite(*number);
 }
 
-/// A line of names: frame and value are the first two fields where no name says so, the rest goes by name alone.
+/// A header: columns go by name; frame and value are the first and second if it does not name them.
 static void read_header(struct csv *csv)
 {
     for (int c = 0; c < COLUMN_COUNT; c++) {
@@ -83,7 +83,7 @@ static void read_header(struct csv *csv)
     }
 }
 
-/// A field's number; one that may be left out is left as it is.
+/// Reads a field's number; an optional one that is missing stays as it is.
 static bool read_field(const struct csv *csv, enum column column, bool *given, double *number)
 {
     static const char *const expected[] = {[COLUMN_FRAME] = "a frame from -1000000000 to 1000000000",

@@ -12,39 +12,36 @@ struct problems {
     int errors, warnings; ///< counted by the callee; start at 0
 };
 
-/// Reads and validates a scene. With `problems`, every problem found is reported (`wiggly check`), else only the
-/// first error. Returns NULL and fills `error` with the first error. `problems` may be NULL; warnings are then
-/// dropped.
+/// Reads and validates a scene. On failure returns NULL with the first error in `error`. With `problems` it reports every problem, as
+/// `wiggly check` does; NULL drops warnings and further errors.
 struct document *scene_load(const char *path, struct problems *problems, struct error *error);
 
 /// The same from memory; `name` stands for the path in messages.
 struct document *scene_parse(const char *name, const char *text, size_t size, struct problems *problems,
                              struct error *error);
 
-/// The canonical text: keys in the spec's order then unknown ones in theirs, knots by sample, numbers as the shortest
-/// text that reads back equal. Freed by the caller; NULL where memory is short. scene_parse() of it gives an equal
-/// document.
+/// The canonical text: known keys in their fixed order, then unknown ones in theirs; knots by sample; numbers as the shortest text that
+/// reads back equal. scene_parse() of it gives an equal document. The caller frees it; NULL if memory runs out.
 char *scene_print(const struct document *document, size_t *size);
 
-/// The same for a file in `folder` (document.h), into `*buffer` of `*capacity` bytes (NULL and 0 to begin with), which grows
-/// where it must and stays the caller's to free: printing the same document again and again allocates nothing. false where
-/// memory is short.
+/// The same for a file in `folder` (document.h), into `*buffer` of `*capacity` bytes (at first NULL and 0), which grows as needed and
+/// which the caller frees: printing the same document repeatedly allocates nothing. false if memory runs out.
 bool scene_print_into(const struct document *document, const char *folder, char **buffer, size_t *capacity,
                       size_t *size);
 
-/// scene_print() into a file, atomically; before it the paint of its characters, each into an .npy file of its own beside it (the
-/// document then knows these as its paint's files). On failure the old scene is intact and no new file is left.
+/// Saves the paint of the document's characters, each as an .npy file beside the scene (which the document then names), and then the
+/// scene, atomically. On failure the old scene is intact and no new file is left.
 bool scene_save(struct document *document, const char *path, struct error *error);
 
-/// Reads the paint that the document's characters name and that is not there yet; without it they are as their models are.
-/// false with the first sentence where a file is missing or broken: its name stays in the document, and the others are
-/// read all the same.
+/// Reads the paint that the document's characters name and do not have yet. If a file is missing or broken, it reads the others
+/// and returns false with the first error; the character then moves as its model does, and the name stays in the document.
 bool scene_read_paint(struct document *document, struct error *error);
 
-/// Appends a NUL and all paint to a text of scene_print_into(), for a recovery file; nothing where there is none.
+/// Appends a NUL and all paint, if there is any, to a text of scene_print_into(), for a recovery file.
 bool scene_print_paint(const struct document *document, char **buffer, size_t *capacity, size_t *size);
 
-/// Gives paint that was printed so to the document; `text` is what follows the NUL, and must itself be followed by one. `name` stands for the path in messages.
+/// Gives the document the paint that scene_print_paint() printed: `text` is what follows the NUL, and must end with one itself.
+/// `name` stands for the path in messages.
 bool scene_parse_paint(struct document *document, const char *name, const char *text, size_t size,
                        struct error *error);
 

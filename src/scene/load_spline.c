@@ -5,74 +5,64 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Beside the parameters.
+/// Keys that are no parameters.
 static const char *const spline_keys[] = {"name", "knots", "color", NULL};
 static const char *const knot_keys[] = {"frame", "value", "slope", "stiffness", NULL};
 
-/// One spline of the file while it is read.
-struct part {
-    const struct where *at;
-    json_t *object;
-    struct spline *spline;
-};
-
-/// false where a word is none of those it may be.
-static bool load_parameter(struct reader *reader, const struct part *part, enum parameter parameter, json_t **extra)
+/// false if a word is not one of the choices.
+static bool load_parameter(struct reader *reader, const struct value *object, struct spline *spline,
+                           enum parameter parameter, json_t **extra)
 {
-    struct where at;
-    struct param *param = &part->spline->parameter[parameter];
+    struct param *param = &spline->parameter[parameter];
     const struct parameter_row *row = &parameter_rows[parameter];
-    json_t *value = reader_member(part->at, part->object, row->name, &at);
-    struct range range = {row->minimum, parameter_maximum(parameter, spline_mode(part->spline)), false};
-    if (!value) return true;
+    const struct value value = reader_member(object, row->name);
+    struct range range = {row->minimum, parameter_maximum(parameter, spline_mode(spline)), false};
+    if (!value.json) return true;
     if (row->kind == PARAMETER_CHOICE) {
-        int word = reader_word(reader, &at, value, row->words, -1);
+        int word = reader_word(reader, value, row->words, -1);
         if (word >= 0) param->value = word;
         return word >= 0;
     }
     if (row->kind == PARAMETER_TRACK) {
-        reader_param(reader, &at, value, range, at.key, param, extra);
+        reader_param(reader, value, range, row->name, param, extra);
     } else {
-        reader_number(reader, &at, value, true, range, &param->value);
+        reader_number(reader, value, true, range, &param->value);
     }
     return true;
 }
 
-/// The paper's pair stands in place of frequency and damping, outside complex mode.
-static void load_spring(struct reader *reader, const struct part *part)
+/// Outside complex mode the paper's pair may stand in for frequency and damping.
+static void load_spring(struct reader *reader, const struct value *object, struct spline *spline)
 {
-    bool ratios = json_object_get(part->object, "frequency") || json_object_get(part->object, "damping");
+    bool ratios = json_object_get(object->json, "frequency") || json_object_get(object->json, "damping");
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        struct where at;
         const char *name = parameter_rows[p].name;
-        if (parameter_rows[p].pair != PAIR_SPRING || !reader_member(part->at, part->object, name, &at)) continue;
-        part->spline->spring_friction = true;
+        const struct value value = reader_member(object, name);
+        if (parameter_rows[p].pair != PAIR_SPRING || !value.json) continue;
+        spline->spring_friction = true;
         if (ratios) {
-            reader_fail(reader, &at, "expected either spring and friction or frequency and damping, got both");
-        } else if (spline_mode(part->spline) == WIGGLY_COMPLEX) {
-            reader_fail(reader, &at, "expected frequency and damping in complex mode, got %s", name);
+            reader_fail(reader, &value.at, "expected either spring and friction or frequency and damping, got both");
+        } else if (spline_mode(spline) == WIGGLY_COMPLEX) {
+            reader_fail(reader, &value.at, "expected frequency and damping in complex mode, got %s", name);
         }
     }
 }
 
-bool reader_knot(struct reader *reader, const struct where *at, json_t *object, struct knot *knot)
+bool reader_knot(struct reader *reader, struct value object, struct knot *knot)
 {
-    struct where frame_at, value_at, slope_at, stiffness_at;
-    const json_t *frame = reader_member(at, object, "frame", &frame_at);
-    const json_t *value = reader_member(at, object, "value", &value_at);
-    const json_t *slope = reader_member(at, object, "slope", &slope_at);
-    const json_t *stiffness = reader_member(at, object, "stiffness", &stiffness_at);
-    struct range positive = {0, INFINITY, true};
-    *knot = (struct knot){.stiffness = KNOT_DEFAULT_STIFFNESS, .has_slope = slope, .id = reader->document->next_id++};
-    bool good = reader_number(reader, &frame_at, frame, true, range_any, &knot->frame);
-    good &= reader_number(reader, &value_at, value, true, range_any, &knot->value);
-    good &= reader_number(reader, &slope_at, slope, false, range_any, &knot->slope);
-    good &= reader_number(reader, &stiffness_at, stiffness, false, positive, &knot->stiffness);
-    knot->extra = reader_keep(reader, reader_extra(reader, at, object, knot_keys));
+    const struct value slope = reader_member(&object, "slope");
+    const struct range positive = {0, INFINITY, true};
+    *knot = (struct knot){
+        .stiffness = KNOT_DEFAULT_STIFFNESS, .has_slope = slope.json, .id = reader->document->next_id++};
+    bool good = reader_number(reader, reader_member(&object, "frame"), true, range_any, &knot->frame);
+    good &= reader_number(reader, reader_member(&object, "value"), true, range_any, &knot->value);
+    good &= reader_number(reader, slope, false, range_any, &knot->slope);
+    good &= reader_number(reader, reader_member(&object, "stiffness"), false, positive, &knot->stiffness);
+    knot->extra = reader_keep(reader, reader_extra(reader, &object, knot_keys));
     return good;
 }
 
-/// By sample, then as in the file (ids rise in the file's order).
+/// By sample, then in file order, in which ids rise.
 static int compare_knots(const void *a, const void *b, void *document)
 {
     const struct knot *left = a, *right = b;
@@ -96,7 +86,7 @@ static void check_domain(struct reader *reader, const struct where *at, const st
     }
 }
 
-/// Whether the other sample that a knot's slope is measured to (eq. 9) is fixed too.
+/// Whether the neighbouring sample that a knot's slope is measured to (eq. 9) has a knot, too.
 static bool slope_is_fixed(const struct document *document, const struct spline *spline, int at)
 {
     int sample = document_sample(document, spline->knots[at].frame), samples = document_samples(document);
@@ -109,7 +99,7 @@ static bool slope_is_fixed(const struct document *document, const struct spline 
     return other != sample && spline_find_knot(document, spline, other) >= 0;
 }
 
-/// Sorts the knots and checks what they are to each other. `first_id` is that of the file's first one.
+/// Sorts the knots and checks them against each other. `first_id` belongs to the first one in the file.
 static void check_knots(struct reader *reader, const struct where *knots_at, struct spline *spline, unsigned first_id)
 {
     struct document *document = reader->document;
@@ -131,18 +121,16 @@ static void check_knots(struct reader *reader, const struct where *knots_at, str
     }
 }
 
-static void load_knots(struct reader *reader, const struct part *part)
+static void load_knots(struct reader *reader, const struct value *object, struct spline *spline)
 {
-    struct where at;
-    const json_t *knots = reader_member(part->at, part->object, "knots", &at);
-    int count = reader_objects(reader, &at, knots, SCENE_MAX_KNOTS);
+    const struct value knots = reader_member(object, "knots");
+    int count = reader_objects(reader, knots, SCENE_MAX_KNOTS);
     if (count <= 0) return;
     reader->knot_count += count;
     if (reader->knot_count > SCENE_MAX_KNOTS) {
-        reader_fail(reader, &at, "expected at most %d knots over all splines, got more", SCENE_MAX_KNOTS);
+        reader_fail(reader, &knots.at, "expected at most %d knots over all splines, got more", SCENE_MAX_KNOTS);
         return;
     }
-    struct spline *spline = part->spline;
     spline->knots = calloc((size_t)count, sizeof *spline->knots);
     if (!spline->knots) {
         reader_no_memory(reader);
@@ -151,52 +139,49 @@ static void load_knots(struct reader *reader, const struct part *part)
     spline->knot_count = spline->knot_capacity = count;
     unsigned first_id = reader->document->next_id;
     bool good = true;
-    for (int i = 0; i < count; i++) {
-        struct where knot_at = {.parent = &at, .index = (size_t)i};
-        good &= reader_knot(reader, &knot_at, json_array_get(knots, (size_t)i), &spline->knots[i]);
-    }
-    if (good && reader->has_domain) check_knots(reader, &at, spline, first_id);
+    for (int i = 0; i < count; i++) good &= reader_knot(reader, reader_element(&knots, i), &spline->knots[i]);
+    if (good && reader->has_domain) check_knots(reader, &knots.at, spline, first_id);
 }
 
-static void check_loop(struct reader *reader, const struct part *part)
+static void check_loop(struct reader *reader, const struct where *spline_at, const struct spline *spline)
 {
-    struct where at = {.parent = part->at, .key = "start"};
-    if (spline_start(part->spline) == WIGGLY_LOOP && reader->has_domain && document_samples(reader->document) == 1) {
+    struct where at = {.parent = spline_at, .key = "start"};
+    if (spline_start(spline) == WIGGLY_LOOP && reader->has_domain && document_samples(reader->document) == 1) {
         reader_fail(reader, &at, "expected more than one frame for a loop, got one");
     }
 }
 
-static void load_color(struct reader *reader, const struct part *part)
+static void load_color(struct reader *reader, struct value value, int *color)
 {
-    struct where at;
-    const json_t *value = reader_member(part->at, part->object, "color", &at);
-    const char *text = json_string_value(value);
-    if (!value || (text && color_parse(text, &part->spline->color))) return;
+    const char *text = json_string_value(value.json);
+    if (!value.json || (text && color_parse(text, color))) return;
     if (text) {
-        reader_fail(reader, &at, "expected a colour such as \"#FFB000\", got \"%s\"", text);
+        reader_fail(reader, &value.at, "expected a colour such as \"#FFB000\", got \"%s\"", text);
     } else {
-        reader_unexpected(reader, &at, "a colour such as \"#FFB000\"", value);
+        reader_unexpected(reader, value, "a colour such as \"#FFB000\"");
     }
 }
 
-static json_t *load_extra(struct reader *reader, const struct part *part)
+static json_t *load_extra(struct reader *reader, const struct value *object)
 {
     const char *known[PARAMETER_COUNT + sizeof spline_keys / sizeof *spline_keys];
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) known[p] = parameter_rows[p].name;
     memcpy(known + PARAMETER_COUNT, spline_keys, sizeof spline_keys);
-    return reader_extra(reader, part->at, part->object, known);
+    return reader_extra(reader, object, known);
 }
 
-static void load_spline(struct reader *reader, const struct where *at, json_t *object, struct spline *spline)
+static void load_spline(struct reader *reader, struct value object, struct spline *spline)
 {
-    struct part part = {at, object, spline};
-    if (load_parameter(reader, &part, PARAMETER_MODE, NULL)) load_spring(reader, &part); // limits go by the mode
-    json_t *extra = load_extra(reader, &part);
-    for (enum parameter p = PARAMETER_MODE + 1; p < PARAMETER_COUNT; p++) load_parameter(reader, &part, p, &extra);
+    // the other parameters' limits depend on the mode
+    if (load_parameter(reader, &object, spline, PARAMETER_MODE, NULL)) load_spring(reader, &object, spline);
+    json_t *extra = load_extra(reader, &object);
+    for (enum parameter p = PARAMETER_MODE + 1; p < PARAMETER_COUNT; p++) {
+        load_parameter(reader, &object, spline, p, &extra);
+    }
     spline->extra = reader_keep(reader, extra);
-    load_color(reader, &part);
-    check_loop(reader, &part);
-    load_knots(reader, &part);
+    load_color(reader, reader_member(&object, "color"), &spline->color);
+    check_loop(reader, &object.at, spline);
+    load_knots(reader, &object, spline);
 }
 
 static int compare_names(const void *a, const void *b)
@@ -229,11 +214,10 @@ static void index_names(struct reader *reader, const struct where *splines_at)
     }
 }
 
-void load_splines(struct reader *reader, const struct where *scene_at, const json_t *scene)
+void load_splines(struct reader *reader, const struct value *scene)
 {
-    struct where splines_at, name_at;
-    const json_t *splines = reader_member(scene_at, scene, "splines", &splines_at);
-    int count = reader_objects(reader, &splines_at, splines, SOURCE_MAX_OBJECTS);
+    const struct value splines = reader_member(scene, "splines");
+    int count = reader_objects(reader, splines, SOURCE_MAX_OBJECTS);
     if (count <= 0) return;
     struct document *document = reader->document;
     document->splines = calloc((size_t)count, sizeof *document->splines);
@@ -243,15 +227,11 @@ void load_splines(struct reader *reader, const struct where *scene_at, const jso
     }
     document->spline_count = document->spline_capacity = count;
     for (int i = 0; i < count; i++) {
-        struct where at = {.parent = &splines_at, .index = (size_t)i};
-        const json_t *name = reader_member(&at, json_array_get(splines, (size_t)i), "name", &name_at);
+        const struct value object = reader_element(&splines, i);
         spline_reset(&document->splines[i]);
         document->splines[i].id = document->next_spline_id++;
-        document->splines[i].name = reader_name(reader, &name_at, name);
+        document->splines[i].name = reader_name(reader, reader_member(&object, "name"));
     }
-    index_names(reader, &splines_at);
-    for (int i = 0; i < count; i++) {
-        struct where at = {.parent = &splines_at, .index = (size_t)i};
-        load_spline(reader, &at, json_array_get(splines, (size_t)i), &document->splines[i]);
-    }
+    index_names(reader, &splines.at);
+    for (int i = 0; i < count; i++) load_spline(reader, reader_element(&splines, i), &document->splines[i]);
 }

@@ -1,6 +1,5 @@
 /// Writes an object's members, known keys first.
 #include "scene/members.h"
-#include <stdint.h>
 
 void member(struct members *members, const char *key)
 {
@@ -22,13 +21,11 @@ void member_string(struct members *members, const char *key, const char *string)
     text_quoted(members->text, string);
 }
 
-json_t *extra_of(const void *extra) { return (json_t *)(uintptr_t)extra; }
-
-void members_extra(struct members *members, const void *extra, holds_tracks *skips)
+void members_extra(struct members *members, json_t *extra, holds_tracks *skips)
 {
     const char *key;
     json_t *value;
-    json_object_foreach(extra_of(extra), key, value)
+    json_object_foreach(extra, key, value)
     {
         if (skips && skips(key)) continue;
         member(members, key);

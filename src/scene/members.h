@@ -1,4 +1,4 @@
-/// Writing the objects of a scene file, key by key. Private to src/scene.
+/// Writes the objects of a scene file, key by key. Private to src/scene.
 #ifndef SCENE_MEMBERS_H
 #define SCENE_MEMBERS_H
 
@@ -6,7 +6,7 @@
 #include "scene/text.h"
 #include <jansson.h>
 
-/// An object being written: members are set apart by `separator`, which opens the object before the first.
+/// An object being written: `open` comes before its first member, `separator` before the others.
 struct members {
     struct text *text;
     const char *open, *separator;
@@ -18,14 +18,11 @@ void member(struct members *members, const char *key);
 void member_number(struct members *members, const char *key, double value);
 void member_string(struct members *members, const char *key, const char *string);
 
-/// The unknown keys of an object, or those of a track inside of it.
-json_t *extra_of(const void *extra);
-
-/// Whether a key of an object's extra one holds the unknown keys of tracks inside of it, and is none of its own.
+/// Whether a key of an extra object holds the unknown keys of a track instead of being one itself.
 typedef bool holds_tracks(const char *key);
 
-/// Writes the unknown keys, but for those that `skips` (may be NULL) says.
-void members_extra(struct members *members, const void *extra, holds_tracks *skips);
+/// Writes the unknown keys except those that `skips` (may be NULL) says belong to tracks.
+void members_extra(struct members *members, json_t *extra, holds_tracks *skips);
 
 /// A knot on one line.
 void print_knot(struct text *text, const struct knot *knot);
@@ -34,7 +31,7 @@ void print_knot(struct text *text, const struct knot *knot);
 void print_param(struct text *text, const struct document *document, const struct param *param, json_t *extras,
                  const char *key);
 
-/// The rigs as an array. `folder` is that of the file that the text is for: paths in it are relative to it.
+/// The rigs as an array, with paths relative to `folder`, that of the file.
 void print_rigs(struct text *text, const struct document *document, const char *folder);
 
 /// [1, 2, 3]

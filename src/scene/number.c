@@ -16,8 +16,8 @@ struct decimal {
     int count, point;
 };
 
-/// Every decimal of 15 digits survives a trip through a double, so a shorter one shows as trailing zeros at 15.
-/// Subnormals have fewer digits than that and are searched from one up.
+/// A decimal of 15 digits survives a round trip through a double, so at 15 digits a shorter one shows as trailing zeros. Subnormals have
+/// fewer digits and are searched from one up.
 static struct decimal shortest_decimal(double magnitude)
 {
     struct decimal d = {0};

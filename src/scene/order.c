@@ -17,7 +17,7 @@ bool spline_uses(const struct spline *spline, enum parameter parameter, bool cub
     return parameter_rows[parameter].modes >> mode & 1 && spline_has(spline, parameter);
 }
 
-/// Depth first from one spline, without recursion: a chain of tracks may be as long as the scene.
+/// Depth-first search from one spline, without recursion because a chain of tracks may be as long as the scene.
 static bool visit(const struct document *document, struct order_space space, int root, int *order, int *ordered,
                   struct order_cycle *cycle)
 {

@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-void paint_touch(struct paint *paint)
+/// Gives it another version: its values have changed.
+static void touch(struct paint *paint)
 {
     static uint64_t last;
     paint->version = ++last;
@@ -17,7 +18,7 @@ struct paint *paint_create(int coordinates, int vertices)
     paint->coordinates = coordinates;
     paint->vertices = vertices;
     paint->values = calloc((size_t)coordinates * (size_t)vertices + 1, sizeof *paint->values);
-    paint_touch(paint);
+    touch(paint);
     if (paint->values) return paint;
     free(paint);
     return NULL;
@@ -88,7 +89,7 @@ void touched_dab(struct touched *touched, struct paint *paint, const struct dab 
         }
         memcpy(value, dab->values[i], sizeof *dab->values);
     }
-    paint_touch(paint);
+    touch(paint);
 }
 
 void touched_swap(struct touched *touched, struct paint *paint)
@@ -99,7 +100,7 @@ void touched_swap(struct touched *touched, struct paint *paint)
         memcpy(value, touched->values[i], sizeof other);
         memcpy(touched->values[i], other, sizeof other);
     }
-    paint_touch(paint);
+    touch(paint);
 }
 
 void touched_settle(struct touched *touched)

@@ -1,10 +1,10 @@
-/// A number that may be another spline's instead.
+/// A parameter's value: a number, a choice or another spline.
 #ifndef SCENE_PARAM_H
 #define SCENE_PARAM_H
 
-/// A number, the total of another spline, or one of several words.
+/// A number, the index of a word, or the total of another spline.
 struct param {
-    double value; ///< used where track < 0; of words: which
+    double value; ///< used if track < 0
     int track;    ///< index of the spline that is followed, or -1
 };
 

@@ -63,6 +63,7 @@ const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
                           .place = PLACE(spring),
                           .maximum = INFINITY,
                           .usual = 2000,
+                          .print = PRINT_ALWAYS,
                           .fresh = 40,
                           .step = 1,
                           .decimals = 1},
@@ -75,6 +76,7 @@ const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
                             .place = PLACE(friction),
                             .maximum = INFINITY,
                             .usual = 50,
+                            .print = PRINT_ALWAYS,
                             .fresh = 1,
                             .step = 0.1,
                             .decimals = 2},
@@ -109,6 +111,16 @@ const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
                          .maximum = WIGGLY_LOOP,
                          .words = {"free", "rest", "loop"},
                          .labels = {"Free", "Rest", "Loop"}},
+    [PARAMETER_PASSIVE] = {.name = "passive",
+                           .hint = "What moves by itself. Oscillator: it swings out. Filter: the paper's equations to the letter",
+                           .undo = "Change what moves by itself",
+                           .kind = PARAMETER_CHOICE,
+                           .modes = IN_ALL,
+                           .place = PLACE(passive),
+                           .maximum = WIGGLY_FILTER,
+                           .print = PRINT_CHANGED,
+                           .words = {"oscillator", "filter"},
+                           .labels = {"Oscillator", "Filter"}},
 };
 
 double parameter_maximum(enum parameter parameter, enum wiggly_mode mode)

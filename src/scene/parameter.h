@@ -1,14 +1,14 @@
-/// The parameters of a spline, one row each: all that the file, the edits, the solver's description and the editor know of one.
+/// The parameters of a spline, one row each: everything that files, edits, the solver's description and the editor know of it.
 ///
-/// A new one is a constant here, in the place where it is saved, and its row in parameter.c; beside that the solver's own
-/// member of wiggly_desc and what it does there.
+/// To add one, add a constant here, where it belongs in the file, a row in parameter.c, and a member of wiggly_desc that the
+/// solver uses.
 #ifndef SCENE_PARAMETER_H
 #define SCENE_PARAMETER_H
 
 #include "scene/param.h"
 #include <wiggly/wiggly.h>
 
-/// In the order in which they are saved and shown.
+/// In the order in which files and the inspector list them.
 enum parameter {
     PARAMETER_MODE,
     PARAMETER_FREQUENCY,
@@ -19,6 +19,7 @@ enum parameter {
     PARAMETER_CALM,
     PARAMETER_EQUILIBRIUM,
     PARAMETER_START,
+    PARAMETER_PASSIVE,
     PARAMETER_COUNT
 };
 
@@ -28,8 +29,15 @@ enum parameter_kind {
     PARAMETER_CHOICE, ///< one of several words: an enum
 };
 
-/// Of two pairs that say the same a spline has one.
+/// Two pairs say the same; a spline has one of them.
 enum parameter_pair { PAIR_NONE, PAIR_RATIO, PAIR_SPRING };
+
+/// Where a file names a parameter that has its default. Any other value is always written.
+enum parameter_print {
+    PRINT_USED,    ///< where the mode uses it
+    PRINT_ALWAYS,  ///< even there where the mode does not
+    PRINT_CHANGED, ///< nowhere
+};
 
 enum {
     IN_COMPLEX = 1 << WIGGLY_COMPLEX,
@@ -47,15 +55,16 @@ struct parameter_row {
     const char *letter; ///< held while arrows change it, or NULL
     enum parameter_kind kind;
     enum parameter_pair pair;
-    unsigned modes;          ///< in which it counts: IN_COMPLEX | …
+    unsigned modes;          ///< that use it: IN_COMPLEX | …
     size_t place;            ///< in wiggly_desc
     double minimum, maximum; ///< of a constant
     double complex_maximum;  ///< in complex mode, or 0: the same
-    double usual; ///< where a slider ends, or 0: it has none; no frequency's goes beyond half the sample rate
+    double usual;            ///< where its slider ends, a frequency's at most at half the sample rate; 0: no slider
     bool is_frequency;
-    double standard; ///< where a file says nothing
-    double fresh;    ///< of a new spline
-    double step;     ///< of arrow keys
+    double standard; ///< where a file does not name it
+    enum parameter_print print;
+    double fresh; ///< of a new spline
+    double step;  ///< of arrow keys
     int decimals;
     const char *words[PARAMETER_MAX_WORDS + 1]; ///< of a choice, in the file
     const char *labels[PARAMETER_MAX_WORDS];    ///< on screen
@@ -65,14 +74,14 @@ extern const struct parameter_row parameter_rows[PARAMETER_COUNT];
 
 double parameter_maximum(enum parameter parameter, enum wiggly_mode mode);
 
-/// A value put into the range of constants in that mode.
+/// A value clamped to the range of constants in that mode.
 double parameter_clamped(enum parameter parameter, enum wiggly_mode mode, double value);
 
-/// The parameter with that key of a file, or that is changed while that letter is held; PARAMETER_COUNT where there is none.
+/// The parameter with that key in a file, or that holding that letter changes; PARAMETER_COUNT if there is none.
 enum parameter parameter_find(const char *name);
 enum parameter parameter_of_letter(int letter);
 
-/// Writes a parameter into its place.
+/// Writes a parameter into its place in the description.
 void parameter_describe(enum parameter parameter, double value, const double *track, wiggly_desc *desc);
 
 #endif

@@ -8,15 +8,15 @@
 
 static bool is_parameter(const char *key) { return parameter_find(key) != PARAMETER_COUNT; }
 
-/// A parameter that the mode does not use is written where it differs from the default: another mode may want it
-/// again. Of the two pairs (frequency, damping and spring, friction) a file has one.
+/// A file has one of the two pairs (frequency, damping and spring, friction). What differs from its default is kept even where the mode
+/// does not use it, because another mode may.
 static bool is_printed(const struct spline *spline, enum parameter parameter)
 {
     const struct param *param = &spline->parameter[parameter];
     const struct parameter_row *row = &parameter_rows[parameter];
     if (!spline_has(spline, parameter)) return false;
-    if (row->pair == PAIR_SPRING || param->track >= 0 || param->value != row->standard) return true;
-    return spline_uses(spline, parameter, false);
+    if (param->track >= 0 || param->value != row->standard) return true;
+    return row->print == PRINT_ALWAYS || (row->print == PRINT_USED && spline_uses(spline, parameter, false));
 }
 
 static void print_spline(struct text *text, const struct document *document, const struct spline *spline)
@@ -36,7 +36,7 @@ static void print_spline(struct text *text, const struct document *document, con
             continue;
         }
         member(&members, name);
-        print_param(text, document, &spline->parameter[p], extra_of(spline->extra), name);
+        print_param(text, document, &spline->parameter[p], spline->extra, name);
     }
     member(&members, "knots");
     for (int i = 0; i < spline->knot_count; i++) {
@@ -48,7 +48,7 @@ static void print_spline(struct text *text, const struct document *document, con
     text_string(text, "\n    }");
 }
 
-/// `folder` is that of the file that the text is for: paths in it are relative to it.
+/// Paths are written relative to `folder`, that of the file.
 static void print_document(struct text *text, const struct document *document, const char *folder)
 {
     struct members members = {text, "{\n  ", ",\n  ", false};

@@ -1,4 +1,4 @@
-/// Readers of single values, and their complaints.
+/// Reads single values and reports what is wrong with them.
 #include "scene/reader.h"
 #include "scene/number.h"
 #include <math.h>
@@ -89,15 +89,20 @@ static const char *kind_of(const json_t *value)
     }
 }
 
-bool reader_unexpected(struct reader *reader, const struct where *where, const char *expected, const json_t *value)
+bool reader_unexpected(struct reader *reader, struct value value, const char *expected)
 {
-    return reader_fail(reader, where, "expected %s, got %s", expected, kind_of(value));
+    return reader_fail(reader, &value.at, "expected %s, got %s", expected, kind_of(value.json));
 }
 
-json_t *reader_member(const struct where *object_at, const json_t *object, const char *key, struct where *at)
+struct value reader_member(const struct value *object, const char *key)
 {
-    *at = (struct where){.parent = object_at, .key = key};
-    return json_object_get(object, key);
+    return (struct value){{.parent = &object->at, .key = key}, json_object_get(object->json, key)};
+}
+
+struct value reader_element(const struct value *array, int index)
+{
+    const size_t at = (size_t)index;
+    return (struct value){{.parent = &array->at, .index = at}, json_array_get(array->json, at)};
 }
 
 static bool fail_range(struct reader *reader, const struct where *at, struct range range, double number)
@@ -111,31 +116,29 @@ static bool fail_range(struct reader *reader, const struct where *at, struct ran
     return reader_fail(reader, at, "expected a number %s%s%s%s, got %s", from, low, to, high, got);
 }
 
-bool reader_number(struct reader *reader, const struct where *at, const json_t *value, bool required,
-                   struct range range, double *target)
+bool reader_number(struct reader *reader, struct value value, bool required, struct range range, double *target)
 {
-    if (!value && !required) return true;
-    if (!json_is_number(value)) return reader_unexpected(reader, at, "a number", value);
-    double number = json_number_value(value);
+    if (!value.json && !required) return true;
+    if (!json_is_number(value.json)) return reader_unexpected(reader, value, "a number");
+    double number = json_number_value(value.json);
     bool low = range.above ? number <= range.minimum : number < range.minimum;
-    if (low || number > range.maximum) return fail_range(reader, at, range, number);
+    if (low || number > range.maximum) return fail_range(reader, &value.at, range, number);
     *target = number + 0.0; // −0 becomes 0, as it is saved
     return true;
 }
 
-bool reader_integer(struct reader *reader, const struct where *at, const json_t *value, int minimum, int maximum,
-                    int *target)
+bool reader_integer(struct reader *reader, struct value value, int minimum, int maximum, int *target)
 {
-    if (!value) return true;
-    if (!json_is_number(value)) return reader_unexpected(reader, at, "a whole number", value);
-    double number = json_number_value(value);
+    if (!value.json) return true;
+    if (!json_is_number(value.json)) return reader_unexpected(reader, value, "a whole number");
+    double number = json_number_value(value.json);
     if (number == floor(number) && number >= minimum && number <= maximum) {
         *target = (int)number;
         return true;
     }
     char got[NUMBER_TEXT_SIZE];
     number_print(number, got);
-    return reader_fail(reader, at, "expected a whole number from %d to %d, got %s", minimum, maximum, got);
+    return reader_fail(reader, &value.at, "expected a whole number from %d to %d, got %s", minimum, maximum, got);
 }
 
 /// "a", "b" or "c"
@@ -149,64 +152,61 @@ static const char *list_words(const char *const *words, char *text, size_t size)
     return text;
 }
 
-int reader_word(struct reader *reader, const struct where *at, const json_t *value, const char *const *words,
-                int missing)
+int reader_word(struct reader *reader, struct value value, const char *const *words, int missing)
 {
     char expected[128];
-    const char *word = json_string_value(value);
-    if (!value && missing >= 0) return missing;
+    const char *word = json_string_value(value.json);
+    if (!value.json && missing >= 0) return missing;
     for (int i = 0; word && words[i]; i++) {
         if (strcmp(words[i], word) == 0) return i;
     }
     list_words(words, expected, sizeof expected);
     if (!word) {
-        reader_unexpected(reader, at, expected, value);
+        reader_unexpected(reader, value, expected);
     } else {
-        reader_fail(reader, at, "expected %s, got \"%s\"", expected, word);
+        reader_fail(reader, &value.at, "expected %s, got \"%s\"", expected, word);
     }
     return -1;
 }
 
-char *reader_name(struct reader *reader, const struct where *at, const json_t *value)
+char *reader_name(struct reader *reader, struct value value)
 {
-    if (!json_is_string(value)) {
-        reader_unexpected(reader, at, "a string", value);
+    if (!json_is_string(value.json)) {
+        reader_unexpected(reader, value, "a string");
         return NULL;
     }
-    if (json_string_length(value) == 0) {
-        reader_fail(reader, at, "expected a name, got an empty string");
+    if (json_string_length(value.json) == 0) {
+        reader_fail(reader, &value.at, "expected a name, got an empty string");
         return NULL;
     }
-    char *name = strdup(json_string_value(value));
+    char *name = strdup(json_string_value(value.json));
     if (!name) reader_no_memory(reader);
     return name;
 }
 
-bool reader_array(struct reader *reader, const struct where *at, const json_t *value, size_t count,
-                  const char *expected)
+bool reader_array(struct reader *reader, struct value value, size_t count, const char *expected)
 {
-    if (!json_is_array(value)) return reader_unexpected(reader, at, expected, value);
-    if (json_array_size(value) == count) return true;
-    return reader_fail(reader, at, "expected %s, got %zu elements", expected, json_array_size(value));
+    if (!json_is_array(value.json)) return reader_unexpected(reader, value, expected);
+    if (json_array_size(value.json) == count) return true;
+    return reader_fail(reader, &value.at, "expected %s, got %zu elements", expected, json_array_size(value.json));
 }
 
-int reader_objects(struct reader *reader, const struct where *at, const json_t *value, int limit)
+int reader_objects(struct reader *reader, struct value value, int limit)
 {
-    if (!value) return 0;
-    if (!json_is_array(value)) {
-        reader_unexpected(reader, at, "an array", value);
+    if (!value.json) return 0;
+    if (!json_is_array(value.json)) {
+        reader_unexpected(reader, value, "an array");
         return -1;
     }
-    size_t count = json_array_size(value);
+    size_t count = json_array_size(value.json);
     if (count > (size_t)limit) {
-        reader_fail(reader, at, "expected at most %d elements, got %zu", limit, count);
+        reader_fail(reader, &value.at, "expected at most %d elements, got %zu", limit, count);
         return -1;
     }
     bool good = true;
-    for (size_t i = 0; i < count; i++) {
-        const json_t *element = json_array_get(value, i);
-        struct where element_at = {.parent = at, .index = i};
-        if (!json_is_object(element)) good = reader_unexpected(reader, &element_at, "an object", element);
+    for (int i = 0; i < (int)count; i++) {
+        struct value element = reader_element(&value, i);
+        if (!json_is_object(element.json)) good = reader_unexpected(reader, element, "an object");
     }
     return good ? (int)count : -1;
 }
@@ -216,19 +216,19 @@ static int compare_name(const void *key, const void *element)
     return strcmp(key, ((const struct name_index *)element)->name);
 }
 
-int reader_spline_name(struct reader *reader, const struct where *at, const json_t *value)
+int reader_spline_name(struct reader *reader, struct value value)
 {
-    if (!json_is_string(value)) {
-        reader_unexpected(reader, at, "the name of a spline", value);
+    if (!json_is_string(value.json)) {
+        reader_unexpected(reader, value, "the name of a spline");
         return -1;
     }
-    const char *name = json_string_value(value);
+    const char *name = json_string_value(value.json);
     const struct name_index *found = NULL;
     if (reader->name_count > 0) {
         found = bsearch(name, reader->names, (size_t)reader->name_count, sizeof *found, compare_name);
     }
     if (found) return found->spline;
-    reader_fail(reader, at, "expected the name of a spline, got \"%s\"", name);
+    reader_fail(reader, &value.at, "expected the name of a spline, got \"%s\"", name);
     return -1;
 }
 
@@ -252,15 +252,15 @@ static void warn_unknown(struct reader *reader, const struct where *object_at, c
     reader_warn(reader, &at, "unknown key: kept, but it has no effect%s", last);
 }
 
-json_t *reader_extra(struct reader *reader, const struct where *object_at, json_t *object, const char *const *known)
+json_t *reader_extra(struct reader *reader, const struct value *object, const char *const *known)
 {
     json_t *extra = NULL;
     const char *key;
     json_t *value;
-    json_object_foreach(object, key, value)
+    json_object_foreach(object->json, key, value)
     {
         if (is_among(key, known)) continue;
-        warn_unknown(reader, object_at, key);
+        warn_unknown(reader, &object->at, key);
         if (!extra) extra = json_object();
         if (!extra || json_object_set(extra, key, value) != 0) reader_no_memory(reader);
     }
@@ -268,33 +268,31 @@ json_t *reader_extra(struct reader *reader, const struct where *object_at, json_
 }
 
 /// `{"spline": "other"}`
-static void read_track(struct reader *reader, const struct where *at, json_t *object, const char *key,
-                       struct param *param, json_t **extra)
+static void read_track(struct reader *reader, const struct value *object, const char *key, struct param *param,
+                       json_t **extra)
 {
     static const char *const known[] = {"spline", NULL};
-    struct where name_at;
-    const json_t *name = reader_member(at, object, "spline", &name_at);
-    int track = reader_spline_name(reader, &name_at, name);
+    int track = reader_spline_name(reader, reader_member(object, "spline"));
     if (track >= 0) *param = (struct param){0, track};
-    json_t *unknown = reader_extra(reader, at, object, known);
+    json_t *unknown = reader_extra(reader, object, known);
     if (!unknown) return;
     if (!*extra) *extra = json_object();
     if (!*extra || json_object_set_new(*extra, key, unknown) != 0) reader_no_memory(reader);
 }
 
-void reader_param(struct reader *reader, const struct where *at, json_t *value, struct range range, const char *key,
-                  struct param *param, json_t **extra)
+void reader_param(struct reader *reader, struct value value, struct range range, const char *key, struct param *param,
+                  json_t **extra)
 {
-    if (json_is_object(value)) {
-        read_track(reader, at, value, key, param, extra);
-    } else if (!json_is_number(value)) {
-        reader_unexpected(reader, at, "a number or {\"spline\": name}", value);
+    if (json_is_object(value.json)) {
+        read_track(reader, &value, key, param, extra);
+    } else if (!json_is_number(value.json)) {
+        reader_unexpected(reader, value, "a number or {\"spline\": name}");
     } else {
-        reader_number(reader, at, value, true, range, &param->value);
+        reader_number(reader, value, true, range, &param->value);
     }
 }
 
-const void *reader_keep(struct reader *reader, json_t *extra)
+json_t *reader_keep(struct reader *reader, json_t *extra)
 {
     struct document *document = reader->document;
     if (!extra) return NULL;

@@ -1,6 +1,6 @@
 /// What the parts of the loader share: the file being read, its problems, and readers of single values.
 ///
-/// A reader that meets a problem reports it, leaves its target alone and lets the loader go on to find the next one.
+/// A reader that finds a problem reports it, leaves its target alone and lets the loader carry on to find the next one.
 #ifndef SCENE_READER_H
 #define SCENE_READER_H
 
@@ -19,22 +19,22 @@ struct name_index {
 
 struct reader {
     struct source source;
-    struct problems *problems; ///< NULL: the first error is enough
+    struct problems *problems; ///< NULL: only the first error counts
     struct error *error;       ///< the first error
     bool failed;
     struct document *document;
-    bool has_domain;          ///< frames, fps and substeps are good
+    bool has_domain;          ///< frames, fps and substeps are valid
     long long knot_count;     ///< over all splines
     struct name_index *names; ///< sorted; one a spline
     int name_count;
-    const char *warned[READER_MAX_WARNED]; ///< unknown keys, so that each is warned about once
+    const char *warned[READER_MAX_WARNED]; ///< unknown keys that were warned about: once each
     int warned_count;
 };
 
 /// Where a number may lie.
 struct range {
     double minimum, maximum;
-    bool above; ///< the minimum itself is out
+    bool above; ///< the minimum itself is excluded
 };
 
 extern const struct range range_any;
@@ -43,71 +43,72 @@ extern const struct range range_any;
 bool reader_fail(struct reader *reader, const struct where *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/// The same with a sentence that is whole already.
+/// The same with a complete sentence.
 bool reader_report(struct reader *reader, const struct error *error);
 
-/// The same as reader_fail() as a warning; nothing where nobody listens.
+/// Like reader_fail(), but a warning; does nothing without `problems`.
 void reader_warn(struct reader *reader, const struct where *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/// Fails with "expected …, got …", saying what kind of value there is; `value` may be NULL: it is missing.
-bool reader_unexpected(struct reader *reader, const struct where *where, const char *expected, const json_t *value);
+/// A value in the file and its place. The places above it must outlive it.
+struct value {
+    struct where at;
+    json_t *json; ///< NULL: it is missing
+};
 
-/// Fails for want of memory.
+/// The value under a key of an object, and an element of an array.
+struct value reader_member(const struct value *object, const char *key);
+struct value reader_element(const struct value *array, int index);
+
+/// Fails with "expected …, got …", naming the kind of value that is there.
+bool reader_unexpected(struct reader *reader, struct value value, const char *expected);
+
+/// Fails because memory ran out.
 bool reader_no_memory(struct reader *reader);
 
-/// The value under a key with its place: `at` must outlive what is done with it. NULL where it is missing.
-json_t *reader_member(const struct where *object_at, const json_t *object, const char *key, struct where *at);
+/// Reads a number in a range. A missing one leaves `*target` alone, and is an error only if it is required.
+bool reader_number(struct reader *reader, struct value value, bool required, struct range range, double *target);
 
-/// Reads a value that must be a number in a range; a missing one leaves `*target` alone and is fine unless
-/// `required`.
-bool reader_number(struct reader *reader, const struct where *at, const json_t *value, bool required,
-                   struct range range, double *target);
+/// Reads an optional whole number from minimum to maximum (120, 120.0 and 1.2e2 are the same).
+bool reader_integer(struct reader *reader, struct value value, int minimum, int maximum, int *target);
 
-/// Reads an optional value that must be a whole number from minimum to maximum (120, 120.0 and 1.2e2 are the same).
-bool reader_integer(struct reader *reader, const struct where *at, const json_t *value, int minimum, int maximum,
-                    int *target);
-
-/// Index of a string among `words` (NULL at the end); `missing` where there is none, -1 after an error.
-int reader_word(struct reader *reader, const struct where *at, const json_t *value, const char *const *words,
-                int missing);
+/// Index of a string among `words` (which ends with NULL); `missing` if there is no string, -1 after an error.
+int reader_word(struct reader *reader, struct value value, const char *const *words, int missing);
 
 /// The reader's text as JSON; NULL after an error (syntax, too deep, too much).
 json_t *reader_parse(struct reader *reader);
 
 /// Reads a knot and gives it an id; false after an error.
-bool reader_knot(struct reader *reader, const struct where *at, json_t *object, struct knot *knot);
+bool reader_knot(struct reader *reader, struct value object, struct knot *knot);
 
 /// A copy of a required, non-empty string; NULL after an error.
-char *reader_name(struct reader *reader, const struct where *at, const json_t *value);
+char *reader_name(struct reader *reader, struct value value);
 
-/// Elements of an optional array of at most `limit` objects; 0 where it is missing, -1 after an error.
-int reader_objects(struct reader *reader, const struct where *at, const json_t *value, int limit);
+/// Length of an optional array of at most `limit` objects; 0 if it is missing, -1 after an error.
+int reader_objects(struct reader *reader, struct value value, int limit);
 
-/// Whether a value is an array of `count` elements; else fails with "expected `expected`, got …".
-bool reader_array(struct reader *reader, const struct where *at, const json_t *value, size_t count,
-                  const char *expected);
+/// Whether a value is an array of `count` elements; fails with "expected `expected`, got …" if not.
+bool reader_array(struct reader *reader, struct value value, size_t count, const char *expected);
 
 /// Index of the spline that a required string names; -1 after an error.
-int reader_spline_name(struct reader *reader, const struct where *at, const json_t *value);
+int reader_spline_name(struct reader *reader, struct value value);
 
-/// Warns of the members of an object that are not among `known` (NULL at the end). Returns them as a new object, NULL
-/// where there are none.
-json_t *reader_extra(struct reader *reader, const struct where *object_at, json_t *object, const char *const *known);
+/// Warns of an object's members that are not among `known` (which ends with NULL). Returns them as a new object, or NULL.
+json_t *reader_extra(struct reader *reader, const struct value *object, const char *const *known);
 
-/// Reads a number in a range or a track, `{"spline": "other"}`. A track's unknown keys go into the object `*extra` (made where
-/// it is NULL) under `key`.
-void reader_param(struct reader *reader, const struct where *at, json_t *value, struct range range, const char *key,
-                  struct param *param, json_t **extra);
+/// Reads a number in a range or a track, `{"spline": "other"}`. A track's unknown keys go into the object `*extra`, which is made if
+/// it is NULL, under `key`.
+void reader_param(struct reader *reader, struct value value, struct range range, const char *key, struct param *param,
+                  json_t **extra);
 
 /// Gives an object of unknown keys (or NULL) to the document.
-const void *reader_keep(struct reader *reader, json_t *extra);
+json_t *reader_keep(struct reader *reader, json_t *extra);
 
 /// The parts of a scene, each into reader->document. Splines come first: rigs name them.
-void load_splines(struct reader *reader, const struct where *scene_at, const json_t *scene);
-void load_rigs(struct reader *reader, const struct where *scene_at, const json_t *scene);
+void load_splines(struct reader *reader, const struct value *scene);
+void load_rigs(struct reader *reader, const struct value *scene);
 
-/// What is wrong or odd only in the whole: cycles of tracks, frequencies that alias.
+/// Checks what only the whole scene shows: cycles of tracks, frequencies that alias.
 void validate_scene(struct reader *reader, const struct where *scene_at);
 
 #endif

@@ -1,4 +1,4 @@
-/// A rig: what splines move. A kind of rigs is a row in each layer: how it is read, written and copied (rig.c here), posed
+/// A rig: something that splines move. Each kind is a row in every layer: how it is read, written and copied (rig_kind.c here), posed
 /// (rig/posing.c), put on the stage (editor/stage/stage.c), drawn (draw/stage.c) and edited (editor/inspector/inspector.c).
 #ifndef SCENE_RIG_H
 #define SCENE_RIG_H
@@ -7,7 +7,12 @@
 #include "scene/tail.h"
 #include <stddef.h>
 
-enum rig_kind { RIG_TAIL, RIG_CHARACTER, RIG_KINDS };
+/// Every kind: its constant RIG_… and the name that its rows of functions begin with. Layers make their tables from this list.
+#define RIG_KIND_LIST(KIND) KIND(RIG_TAIL, tail) KIND(RIG_CHARACTER, character)
+
+#define RIG_CONSTANT(constant, name) constant,
+enum rig_kind { RIG_KIND_LIST(RIG_CONSTANT) RIG_KINDS };
+#undef RIG_CONSTANT
 
 enum { RIG_MAX_INPUTS = 64 }; ///< of a rig of any kind
 
@@ -18,26 +23,26 @@ struct rig {
         struct tail tail;
         struct character_rig character;
     };
-    const void *extra;
+    struct json_t *extra;
 };
 
 /// The file's word for a kind: "tail" …
 const char *rig_word(enum rig_kind kind);
 
-/// The splines that move it besides its place, by index: channels, drives.
+/// The splines that bend or drive it, by index: those of its channels or drives.
 int rig_input_count(const struct rig *rig);
 int rig_input(const struct rig *rig, int input);
 
-/// A copy with a name of its own. On failure nothing is left to be freed.
+/// A copy that owns its memory; false, with nothing to free, if memory runs out.
 bool rig_copy(const struct rig *rig, struct rig *copy);
 
 /// Frees what it holds.
 void rig_release(struct rig *rig);
 
-/// Memory that it takes, unknown keys left out.
+/// Bytes that it takes, not counting unknown keys.
 size_t rig_bytes(const struct rig *rig);
 
-/// The files that it names are to be found from another folder (path.h); false where memory is short.
+/// Rewrites the paths that it names for another folder (path.h); false if memory runs out.
 bool rig_rebase(struct rig *rig, const char *from, const char *to);
 
 #endif

@@ -1,4 +1,4 @@
-/// What the scene layer knows of each kind of rigs. Private to src/scene.
+/// What the scene layer knows of each kind of rig. Private to src/scene.
 #ifndef SCENE_RIG_KIND_H
 #define SCENE_RIG_KIND_H
 
@@ -9,19 +9,19 @@
 struct rig_functions {
     const char *word; ///< in the file
     /// Reads all but the type.
-    void (*load)(struct reader *reader, const struct where *at, json_t *object, struct rig *rig);
+    void (*load)(struct reader *reader, const struct value *object, struct rig *rig);
     /// Writes all but type, name and unknown keys. `folder` is that of the file that the text is for.
     void (*print)(struct members *members, const struct document *document, const struct rig *rig,
                   const char *folder);
-    holds_tracks *has_tracks; ///< which of its unknown keys are those of tracks inside of it; NULL: none
+    holds_tracks *has_tracks; ///< which keys of its extra object belong to tracks; NULL: none
     int (*input_count)(const struct rig *rig);
-    int *(*input)(struct rig *rig, int input);
-    enum reference_kind input_reference;
-    /// Visits the splines that it names besides its inputs; NULL: none.
-    void (*references)(struct rig *rig, struct reference reference, reference_visitor *visit, void *context);
+    int (*input)(const struct rig *rig, int input);
+    /// Visits the splines that the rig at `index` in the list names.
+    void (*references)(const struct rig *rig, int index, reference_visitor *visit, void *context);
+    void (*set_reference)(struct rig *rig, const struct reference *reference, int spline);
     bool (*copy)(struct rig *copy); ///< gives a shallow copy memory of its own; NULL: no edit needs one
     void (*release)(struct rig *rig);
-    size_t (*bytes)(const struct rig *rig);                            ///< of what it holds
+    size_t (*bytes)(const struct rig *rig);                            ///< that it owns
     bool (*rebase)(struct rig *rig, const char *from, const char *to); ///< NULL: it names no files
 };
 

@@ -1,5 +1,5 @@
-/// Saving a document: the paint of its characters first, each into a file of its own beside the scene, then the scene that names
-/// them. A scene that is seen on disk thus never names paint that is not there.
+/// Saves a document: first its characters' paint, each in a file beside the scene, then the scene that names them, so that a scene on
+/// disk never names paint that is missing.
 #include "base/file.h"
 #include "base/path.h"
 #include "scene/load.h"
@@ -11,15 +11,15 @@
 
 enum { MAX_NAMES = 10000 };
 
-/// One character's paint that is being saved.
+/// A character's paint while it is saved.
 struct sheet {
     bool written;
-    bool is_new;    ///< a file that was not there before
-    char *old_path; ///< the rig's, to be had back on failure; owned once written
+    bool is_new;    ///< the file did not exist before
+    char *old_path; ///< the rig's, restored on failure; owned once written
     char file[PATH_LIMIT];
 };
 
-/// "walk-paint.npy" beside "walk.json", or with the next number that no file has: what is there may be another scene's.
+/// "walk-paint.npy" beside "walk.json", or the next free number: an existing file may belong to another scene.
 static bool new_file(const char *scene, char file[PATH_LIMIT])
 {
     const char *slash = strrchr(scene, '/'), *name = slash ? slash + 1 : scene, *dot = strrchr(name, '.');
@@ -33,7 +33,7 @@ static bool new_file(const char *scene, char file[PATH_LIMIT])
     return false;
 }
 
-/// Whether a rig before this one has its paint in the same file.
+/// Whether an earlier rig has its paint in the same file.
 static bool is_shared(const struct document *document, int index)
 {
     const char *path = document->rigs[index].character.paint;
@@ -45,7 +45,7 @@ static bool is_shared(const struct document *document, int index)
     return false;
 }
 
-/// The file for a rig's paint: its own one where the scene stays where it is, else a new one.
+/// Chooses the file for a rig's paint: its own if the scene keeps its path, else a new one.
 static bool choose_file(const struct document *document, int index, const char *scene, struct sheet *sheet,
                         struct error *error)
 {
@@ -59,7 +59,7 @@ static bool choose_file(const struct document *document, int index, const char *
            fail(error, ERROR_ENVIRONMENT, "%s: there is no name left for its paint", scene);
 }
 
-/// Names a new file in the rig, as seen from the document's folder.
+/// Makes the rig name the new file, relative to the document's folder.
 static bool name_file(struct document *document, struct character_rig *rig, struct sheet *sheet, struct error *error)
 {
     char folder[PATH_LIMIT], moved[PATH_LIMIT];
@@ -67,7 +67,7 @@ static bool name_file(struct document *document, struct character_rig *rig, stru
     const char *name = slash ? slash + 1 : sheet->file;
     if (!path_folder(sheet->file, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", name);
     char *path = strdup(path_rebase(name, folder, document->folder, moved) ? moved : name);
-    if (!path) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", sheet->file);
+    if (!path) return fail_no_memory(error, sheet->file);
     sheet->old_path = rig->paint;
     rig->paint = path;
     return true;
@@ -90,7 +90,7 @@ static bool save_sheet(struct document *document, int index, const char *scene, 
     return true;
 }
 
-/// Keeps the new names, or on failure takes them and the new files back.
+/// Keeps the new names and files, or undoes both on failure.
 static void finish(struct document *document, struct sheet *sheets, int count, bool saved)
 {
     for (int i = 0; i < count; i++) {
@@ -115,7 +115,7 @@ static bool save_scene(const struct document *document, const char *path, struct
     if (!path_folder(path, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", path);
     const bool saved = scene_print_into(document, folder, &data, &capacity, &size)
                            ? file_write_atomic(path, data, size, error)
-                           : fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
+                           : fail_no_memory(error, path);
     free(data);
     return saved;
 }
@@ -124,7 +124,7 @@ bool scene_save(struct document *document, const char *path, struct error *error
 {
     const int count = document->rig_count;
     struct sheet *sheets = calloc((size_t)count + 1, sizeof *sheets);
-    if (!sheets) return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", path);
+    if (!sheets) return fail_no_memory(error, path);
     bool saved = true;
     for (int i = 0; saved && i < count; i++) saved = save_sheet(document, i, path, &sheets[i], error);
     saved = saved && save_scene(document, path, error);

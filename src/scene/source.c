@@ -10,7 +10,7 @@ static void skip_space(struct cursor *c)
     while (*c->at == ' ' || *c->at == '\t' || *c->at == '\r' || *c->at == '\n') c->line += *c->at++ == '\n';
 }
 
-/// From the opening quote to behind the closing one.
+/// From the opening quote to after the closing one.
 static void skip_string(struct cursor *c)
 {
     c->at++;
@@ -32,7 +32,7 @@ static void skip_token(struct cursor *c)
     c->at += length > 0 ? length : *c->at != '\0';
 }
 
-/// A value with all that is in it, and the space behind it.
+/// A whole value and the space after it.
 static void skip_value(struct cursor *c)
 {
     int depth = 0;
@@ -79,7 +79,7 @@ bool source_check_limits(const struct source *source, struct error *error)
     return fail(error, ERROR_INPUT, "%s:%d: scene: expected text, got a NUL byte", source->name, c.line);
 }
 
-/// Whether the string between two quotes, as written, is that key.
+/// Whether a string, with its quotes and escapes as written, is that key.
 static bool key_is(const char *from, const char *to, const char *key)
 {
     size_t length = (size_t)(to - from);
@@ -90,7 +90,7 @@ static bool key_is(const char *from, const char *to, const char *key)
     return same;
 }
 
-/// From an object to the value of a key in it; stays where there is none.
+/// Moves from an object to the value of a key; stays if there is none.
 static struct cursor enter_object(struct cursor object, const char *key)
 {
     struct cursor c = object;
@@ -111,7 +111,7 @@ static struct cursor enter_object(struct cursor object, const char *key)
     return object;
 }
 
-/// From an array to one of its elements; stays where there is none.
+/// Moves from an array to an element; stays if there is none.
 static struct cursor enter_array(struct finger *finger, struct cursor array, size_t index)
 {
     if (*array.at != '[') return array;
@@ -178,7 +178,7 @@ void where_path(const struct where *where, char path[PATH_TEXT_SIZE])
     if (!path[0]) append(path, "", "scene", 5);
 }
 
-/// An open bracket on the way to an offset.
+/// A bracket that is open at an offset.
 struct level {
     bool is_object;
     const char *key; ///< of an object: the running member's, as written, or NULL between members

@@ -1,5 +1,4 @@
-/// A scene file's text: its limits, and the lines and paths that messages name. jansson knows positions of syntax
-/// errors only.
+/// A scene file's text: its limits, and the lines and paths for messages. jansson gives positions of syntax errors only.
 #ifndef SCENE_SOURCE_H
 #define SCENE_SOURCE_H
 
@@ -14,8 +13,7 @@ enum {
     PATH_TEXT_SIZE = 256,
 };
 
-/// A place in a file: a key or an index below another place. The root has no parent. Lives on the stack of the
-/// reader.
+/// A place in a file: a key or an index below another place. The root has no parent.
 struct where {
     const struct where *parent;
     const char *key; ///< NULL: an element of an array
@@ -28,8 +26,7 @@ struct cursor {
     int line;
 };
 
-/// Where the last element looked up in an array was, so that messages in the order of the file take linear time in
-/// all.
+/// Where the last element looked up in an array was, so that messages in file order take linear time in all.
 struct finger {
     const char *array;
     size_t index;
@@ -43,16 +40,16 @@ struct source {
     struct finger fingers[SOURCE_MAX_DEPTH];
 };
 
-/// Refuses what would take too much memory or stack to parse: depth and counts of brackets and commas, in one pass.
+/// Refuses text that would take too much memory or stack to parse, by counting brackets and commas.
 bool source_check_limits(const struct source *source, struct error *error);
 
-/// The line of a place in a text that has been parsed; that of the nearest place above where there is no such key.
+/// The line of a place in a parsed text; if there is no such key, of the nearest place above.
 int source_line(struct source *source, const struct where *where);
 
 /// "splines[0].knots[2].frame"; "scene" for the root.
 void where_path(const struct where *where, char path[PATH_TEXT_SIZE]);
 
-/// The path of what starts before byte `offset` and has not ended there; the text need be valid up to there only.
+/// The path of what is open at byte `offset`; the text need only be valid up to there.
 void source_path_at(const struct source *source, size_t offset, char path[PATH_TEXT_SIZE]);
 
 #endif

@@ -1,4 +1,4 @@
-/// What a scene says of a tail (paper, section 7.1): joints that bend by splines, each later than the one before.
+/// A tail in a scene (paper, section 7.1): joints that splines bend, each later than the one before.
 #ifndef SCENE_TAIL_H
 #define SCENE_TAIL_H
 
@@ -18,17 +18,17 @@ struct angles {
 
 enum axis { AXIS_SIDE, AXIS_UP };
 
-/// What of its spline a channel bends by: y + Re(e^{−j·n·lag} x), or without the equilibrium y. The latter is for what hangs on
-/// something that moves: y is the base's motion, and x the motion relative to it.
+/// Which part of its spline a channel bends by: the total y + Re(e^{−j·n·lag} x), or without the equilibrium y. The latter is for a tail
+/// on something that moves: y is the base's motion, and x is relative to it.
 enum channel_part { PART_TOTAL, PART_DISPLACEMENT };
 
 struct channel {
     int spline; ///< index
     enum axis axis;
     enum channel_part of;
-    struct angles lag;  ///< n·lag at joint n, or each joint's own lag
+    struct angles lag;  ///< n·lag at joint n, or one for each joint
     struct angles gain; ///< degrees per unit of the spline
-    const void *extra;
+    struct json_t *extra;
 };
 
 struct tail {

@@ -3,7 +3,6 @@
 #include "base/checked.h"
 #include "scene/number.h"
 #include <jansson.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,12 +82,12 @@ static void text_object(struct text *text, json_t *object)
 }
 
 /// No deeper than the file was (SOURCE_MAX_DEPTH).
-void text_json(struct text *text, const json_t *value)
+void text_json(struct text *text, json_t *value)
 {
     char integer[32];
     switch (json_typeof(value)) {
     case JSON_OBJECT:
-        text_object(text, (json_t *)(uintptr_t)value);
+        text_object(text, value);
         break;
     case JSON_ARRAY:
         text_array(text, value);

@@ -21,6 +21,6 @@ void text_number(struct text *text, double value);
 /// A string in quotes with what must be escaped.
 void text_quoted(struct text *text, const char *string);
 /// Any value on one line: { "a": [1, 2] }.
-void text_json(struct text *text, const struct json_t *value);
+void text_json(struct text *text, struct json_t *value);
 
 #endif

@@ -22,7 +22,7 @@ static void check_cycles(struct reader *reader, const struct where *splines_at)
                 document->splines[leader].name, spline->name);
 }
 
-/// The highest frequency at which constant parameters let a spline ring, Hz; 0 where they are tracks.
+/// The highest frequency in Hz at which a spline with constant parameters can ring; 0 for tracks.
 static double highest_frequency(const struct spline *spline, enum parameter *parameter)
 {
     const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];

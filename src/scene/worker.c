@@ -12,10 +12,10 @@ struct worker {
     mtx_t lock;
     cnd_t given, done;
     struct job job;
-    bool has_job;    ///< the frame's alone
-    double given_at; ///< seconds, the same
+    bool has_job;    ///< used by the main thread only, like given_at
+    double given_at; ///< seconds
     solver_stop halt;
-    bool is_working; ///< with the lock, as the next
+    bool is_working; ///< under the lock, like stop
     bool stop;
 };
 

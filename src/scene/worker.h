@@ -1,4 +1,4 @@
-/// A thread that solves one spline, or condenses it into a take, while the frames go on. One job at a time.
+/// A thread that solves a spline or condenses it into a take while frames go on. One job at a time.
 #ifndef SCENE_WORKER_H
 #define SCENE_WORKER_H
 
@@ -7,37 +7,37 @@
 
 enum work { WORK_NONE, WORK_SOLVE, WORK_TAKE };
 
-/// All that a job reads and writes is left alone by others until it is collected.
+/// Nobody else may touch what a job reads and writes until it is collected.
 struct job {
     enum work kind;
     wiggly_desc desc;
     wiggly_solver *solver;    ///< WORK_SOLVE
-    wiggly_curve curve;       ///< of all five rows, filled; level where the solver refuses
-    struct extremes extremes; ///< of the total, filled
-    wiggly_take *take;        ///< WORK_TAKE: an old one to be freed, then the new one or NULL
+    wiggly_curve curve;       ///< with all five rows; flat if the solver refuses
+    struct extremes extremes; ///< of the total
+    wiggly_take *take;        ///< WORK_TAKE: in: an old one to free; out: the new one or NULL
     wiggly_status status;
-    bool stopped; ///< given up by worker_stop(): the curve is good for nothing
+    bool stopped; ///< by worker_stop(): the curve is useless
 };
 
-/// NULL where the thread cannot be had.
+/// NULL if no thread can be started.
 struct worker *worker_create(void);
 
-/// Stops and waits for a job that is under way; what it made is freed by nobody. NULL is fine.
+/// Stops a running job and waits for it; frees nothing that it made. NULL is fine.
 void worker_destroy(struct worker *worker);
 
-/// Gives a job to a worker that has none.
+/// Gives a job to an idle worker.
 void worker_give(struct worker *worker, const struct job *job);
 
-/// Whether a job was given and not collected.
+/// Whether a job was given and not yet collected.
 bool worker_has_job(const struct worker *worker);
 
 /// Seconds since the job was given.
 double worker_seconds(const struct worker *worker);
 
-/// Has the job end as soon as it can.
+/// Asks the job to end soon.
 void worker_stop(struct worker *worker);
 
-/// Takes the finished job back. false where there is none after `seconds` of waiting (INFINITY: as long as it takes).
+/// Hands back the finished job; false if there is none after waiting `seconds` (INFINITY: as long as it takes).
 bool worker_collect(struct worker *worker, double seconds, struct job *job);
 
 #endif

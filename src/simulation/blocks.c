@@ -9,7 +9,7 @@ static int compare(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/// All pairs (row, column) of the elements, sorted and each once; returns how many.
+/// All pairs (row, column) of the elements, sorted, without duplicates; returns how many.
 static size_t list_pairs(uint64_t *pairs, const struct element *elements, int count)
 {
     size_t n = 0, kept = 0;

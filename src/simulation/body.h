@@ -15,16 +15,16 @@ struct body {
     double (*rest)[3];        ///< m
     double *mass;             ///< kg
     bool *pinned;             ///< never moves
-    struct element *elements; ///< each of a volume above 0
+    struct element *elements; ///< of positive volume
     struct material material;
-    struct svd *svd;          ///< a workspace: of each element's F where body_forces() was last called
+    struct svd *svd;          ///< scratch: of each element's F at the last body_forces()
     int (*place)[16];         ///< of each element's blocks in the matrix, or −1 where a node is pinned
     struct blocks stiffness;  ///< what body_stiffness() fills
     struct conjugate scratch; ///< for systems of that size
 };
 
 /// The body of `element_count` tetrahedra, tets[e] naming four nodes. `fraction` says how much of each is filled, or is
-/// NULL; density in kg/m³. False where memory is short or an element is flat.
+/// NULL (all); density in kg/m³. False where memory is short or an element is flat.
 bool body_create(struct body *body, const double (*rest)[3], int node_count, const int (*tets)[4],
                  const double *fraction, int element_count, struct material material, double density);
 void body_free(struct body *body);
@@ -36,7 +36,7 @@ void body_ready(struct body *body);
 /// The forces at the positions x (N; 0 at pinned nodes); returns the energy (J).
 double body_forces(struct body *body, const double (*x)[3], double (*force)[3]);
 
-/// K = −∂f/∂x, made semidefinite, where body_forces() was last called, into body->stiffness. Rows and columns of pinned nodes are
+/// K = −∂f/∂x at the last body_forces(), made semidefinite, into body->stiffness. Rows and columns of pinned nodes are
 /// those of the identity.
 void body_stiffness(struct body *body);
 

@@ -1,38 +1,18 @@
 /// Counts the edges of a surface that lack a partner.
 #include "simulation/closed.h"
+#include "model/adjacency.h"
 #include <stdlib.h>
-#include <string.h>
-
-struct place {
-    float position[3];
-    uint32_t index;
-};
-
-static int compare_places(const void *a, const void *b)
-{
-    const struct place *p = a, *q = b;
-    for (int k = 0; k < 3; k++) {
-        if (p->position[k] != q->position[k]) return p->position[k] < q->position[k] ? -1 : 1;
-    }
-    return 0;
-}
 
 /// name[i]: one number for all vertices at the same place.
 static bool weld(const struct surface *surface, uint32_t *name)
 {
-    const size_t count = (size_t)surface->vertex_count;
-    struct place *places = calloc(count + 1, sizeof *places);
-    if (!places) return false;
-    for (size_t i = 0; i < count; i++) {
-        memcpy(places[i].position, surface->position[i], sizeof places[i].position);
-        places[i].index = (uint32_t)i;
+    struct spot *spots = spots_sort((const float(*)[3])surface->position, surface->vertex_count);
+    if (!spots) return false;
+    for (int i = 0, first = 0; i < surface->vertex_count; i++) {
+        if (!spots_meet(&spots[first], &spots[i])) first = i;
+        name[spots[i].vertex] = (uint32_t)first;
     }
-    qsort(places, count, sizeof *places, compare_places);
-    for (size_t i = 0, first = 0; i < count; i++) {
-        if (compare_places(&places[first], &places[i]) != 0) first = i;
-        name[places[i].index] = (uint32_t)first;
-    }
-    free(places);
+    free(spots);
     return true;
 }
 

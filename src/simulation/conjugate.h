@@ -1,15 +1,15 @@
 /// Conjugate gradients, preconditioned by the inverses of the diagonal blocks.
 ///
-/// Rather than a factorisation: in a time step the matrix is κM + K, whose first term keeps the condition low, so that some
-/// twenty products of a matrix that fits the cache replace a factorisation whose fill would not (README.md has the measured
-/// times). Nothing but the C library is needed.
+/// Why no factorisation: in a time step the matrix is κM + K, whose first term keeps the condition low. Some twenty products
+/// of a matrix that fits the cache replace a factorisation whose fill would not (times in README.md), and no library is
+/// needed.
 #ifndef SIMULATION_CONJUGATE_H
 #define SIMULATION_CONJUGATE_H
 
 #include "simulation/blocks.h"
 #include <stdbool.h>
 
-/// Scratch of the conjugate gradients: four vectors and the preconditioner. Made once, used for any number of solves.
+/// Scratch: four vectors and the preconditioner. Made once for any number of solves.
 struct conjugate {
     double (*r)[3], (*z)[3], (*p)[3], (*q)[3];
     double (*inverse)[9]; ///< of the diagonal blocks

@@ -7,7 +7,7 @@
 
 enum { SWEEPS_MAX = 60 };
 
-/// The rotation that makes entry (p, q) zero, from both sides; rows of `vectors` turn along. False where it is zero.
+/// The rotation that makes entry (p, q) zero, from both sides; rows of `vectors` turn along. False if it is zero already.
 static bool rotate(int n, double *a, double *vectors, int p, int q)
 {
     double pq = a[p * n + q], pp = a[p * n + p], qq = a[q * n + q];

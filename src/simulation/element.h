@@ -2,7 +2,7 @@
 ///
 /// Positions are interpolated linearly, x(X) = Σ_a x_a N_a(X), so the deformation gradient is constant, F = Σ_a x_a ⊗ b_a
 /// with b_a = ∇N_a. With F = U Σ Vᵀ and the diagonal stress P̂(Σ) the first Piola stress is P = U P̂ Vᵀ, and
-/// the force on node a is f_a = −w P b_a (Irving, Teran, Fedkiw 2004, section 4), w being the material's rest volume in it.
+/// the force on node a is f_a = −w P b_a (Irving, Teran, Fedkiw 2004, section 4), w being the rest volume of the material in it.
 #ifndef SIMULATION_ELEMENT_H
 #define SIMULATION_ELEMENT_H
 
@@ -16,7 +16,7 @@ struct element {
     double volume;         ///< m³ of material at rest: the whole tetrahedron's, or the part that the solid fills
 };
 
-/// Sets the gradients and the volume of the tetrahedron with these nodes at rest, times `fraction`. False where it is flat.
+/// Sets the gradients and the volume of the tetrahedron with these nodes at rest, times `fraction`. False if it is flat.
 bool element_init(struct element *element, const int node[4], const double (*rest)[3], double fraction);
 
 /// The singular value decomposition of F at the positions x.

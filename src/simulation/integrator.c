@@ -6,10 +6,10 @@
 
 enum { NEWTON_MAX = 60, GRADIENTS_MAX = 2000 };
 
-// A looser one makes more Newton iterations, each of which assembles anew; a tighter one saves none.
+// Looser costs more Newton iterations, each with an assembly; tighter saves none.
 static const double linear_tolerance = 1e-3;
 
-// Nothing does work on the body, so its energy cannot rise; of a step's rounding and the scheme's own ripple this much is let pass.
+// Nothing does work on the body, so its energy cannot rise; this much is allowed for rounding and the scheme's ripple.
 static const double growth_allowed = 1.01;
 
 struct integrator_work {
@@ -142,7 +142,7 @@ static void assemble(struct integrator *m, const struct scheme *scheme)
     }
 }
 
-/// dᵀ∇ of the potential, d being the Newton step: below zero where it leads down.
+/// dᵀ∇ of the potential, d being the Newton step: negative if it leads down.
 static double slope_along(const struct integrator *m)
 {
     double slope = 0;
@@ -150,9 +150,9 @@ static double slope_along(const struct integrator *m)
     return slope;
 }
 
-/// Goes from y along the Newton step as far as the potential falls enough: by Armijo's condition, or, where its fall
+/// Goes from y along the Newton step until the potential has fallen enough: by Armijo's condition or, where the fall
 /// drowns in rounding, by the slope (Hager and Zhang 2005, the approximate Wolfe condition). Returns the largest move of a
-/// node, 0 where there is no way down. A step below the tolerance is taken as it is.
+/// node, 0 if no step leads down. A step below the tolerance is taken as it is.
 static double search(struct integrator *m, const struct scheme *scheme, double *energy)
 {
     enum { HALVINGS_MAX = 30 };
@@ -174,8 +174,8 @@ static double search(struct integrator *m, const struct scheme *scheme, double *
     return 0;
 }
 
-/// Descends the potential from y. It has creases where two principal stretches of an inverted element are opposite, and on one of
-/// those Newton's method may not settle: then the lowest point found will do, since every iteration went down.
+/// Descends the potential from y. It has creases where two principal stretches of an inverted element are opposite, and on one
+/// Newton's method may not settle: then the lowest point found will do, since every iteration went down.
 static void minimise(struct integrator *m, const struct scheme *scheme)
 {
     struct integrator_work *w = m->work;

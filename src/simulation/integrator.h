@@ -1,15 +1,15 @@
 /// Time steps of an elastic body by the generalised-α method (Chung and Hulbert 1993) with ρ∞ = 0.8.
 ///
-/// Second order, one solve a step. Oscillations that the step resolves go nearly undamped (a swing of a fifth of the
-/// length at 50 steps a period loses 0.4 % of its energy in 100 periods), those that it does not resolve lose a fifth a
+/// Second order, one solve a step. Oscillations that the step resolves are nearly undamped (a swing of a fifth of the
+/// length at 50 steps a period loses 0.4 % of its energy in 100 periods), those that it does not resolve lose a fifth per
 /// step. The midpoint rule, which damps nothing, gains energy from the latter in large deformations until it
-/// breaks; BDF2 takes half of the energy of that same swing (README.md has the table). But no such scheme is certain not to
-/// raise the energy in large deformations, and nothing here does work on the body: a step that would raise it is taken
-/// again by backward Euler, which lowers it. With x as the unknown a step is
+/// breaks; BDF2 takes half the energy of that same swing (table in README.md). Yet no such scheme is sure never to raise the
+/// energy in large deformations, and nothing here does work on the body: a step that would raise it is repeated by
+/// backward Euler, which lowers it. With x as the unknown a step is
 ///
 ///   κ M (x − t) + r C (x − q) = f(x),    κ = (1 − α_m)/((1 − α_f) β h²),    r = γ/(β h)
 ///
-/// with targets t and q made of the state before: the gradient of a potential, which Newton's method with a definite
+/// with targets t and q from the state before: the gradient of a potential, which Newton's method with a definite
 /// matrix and a line search descends however far from rest. Damping is Rayleigh's, C = α M + β K, with the stiffness at
 /// the step's start.
 #ifndef SIMULATION_INTEGRATOR_H
@@ -25,7 +25,7 @@ struct integrator {
     double stiffness_damping; ///< Rayleigh's β, s
     double tolerance;         ///< Newton's method stops once no node moves farther than this, m
     double (*x)[3];           ///< positions, m: the caller sets them at the start
-    double (*v)[3];           ///< velocities, m/s: so these
+    double (*v)[3];           ///< velocities, m/s: likewise
     long newton, gradients;   ///< iterations so far, of Newton's method and of conjugate gradients
     long calmed;              ///< steps so far that backward Euler took
     struct integrator_work *work;
@@ -35,7 +35,7 @@ struct integrator {
 bool integrator_create(struct integrator *integrator, struct body *body, double step);
 void integrator_free(struct integrator *integrator);
 
-/// One step. False where a number is no longer finite, as after forces beyond all bounds.
+/// One step. False if a number is no longer finite, as after boundless forces.
 bool integrator_step(struct integrator *integrator);
 
 #endif

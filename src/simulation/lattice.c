@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Cutting takes some 13 bytes a voxel; a thinner sheet or needle than that many allow gets fewer tetrahedra than asked for.
+// Cutting takes some 13 bytes per voxel. A very thin sheet or needle would need more voxels: it gets fewer tetrahedra instead.
 static const double voxels_max = 3e7;
 
 /// Volume inside, m³: the tetrahedra from the first vertex to each triangle.
@@ -27,7 +27,7 @@ static double surface_volume(const struct surface *surface)
     return fabs(sum);
 }
 
-/// A cube's edge from `cell` up that keeps the voxels within bounds.
+/// The smallest edge of a cube, from `cell` up, that keeps the voxels within bounds.
 static double coarse_enough(const struct surface *surface, double cell)
 {
     while (tiling_voxels(surface, cell) > voxels_max) cell *= 1.1;
@@ -60,7 +60,7 @@ static bool fit(struct tiling *best, const struct surface *surface, int target, 
     return true;
 }
 
-/// Consecutive numbers for nodes, elements and parts, without those left out. index[e] is where element e went.
+/// Numbers the kept nodes, elements and parts consecutively. index[e] is the new number of element e.
 static bool number(struct lattice *lattice, const struct tiling *t, int *index, int *node_number)
 {
     size_t n = (size_t)t->kept;
@@ -124,7 +124,7 @@ static void locate(const struct lattice *lattice, int tet, const float point[3],
     for (int a = 0; a < 4; a++) weight[a] = (a == 0) + vec3_dot(element.gradient[a], away);
 }
 
-/// Hosts each vertex in the element of the nearest voxel, looked for half a voxel under the surface, lest it be another limb's.
+/// Hosts each vertex in the element of the nearest voxel, seen from half a voxel under the surface, lest it be another limb's.
 static bool embed(struct lattice *lattice, const struct tiling *t, const int *index, const struct surface *surface)
 {
     size_t count = (size_t)surface->vertex_count;

@@ -1,15 +1,15 @@
 /// A coarse lattice of tetrahedra around a closed surface, and the surface's vertices embedded in it.
 ///
 /// The tetrahedra are those of the body-centred cubic lattice: the nodes are the corners and the centres of cubes, and each tetrahedron
-/// joins two neighbouring centres with an edge of the face between them. All are alike, well shaped, and mirror
-/// images of each other left and right.
+/// joins two neighbouring centres with an edge of the face between them. All are congruent and well shaped, and the lattice is
+/// symmetric left and right.
 ///
-/// A tetrahedron is not all or nothing. The solid is sampled by voxels an eighth of a cube wide, and the connected pieces of
+/// A tetrahedron may be partly filled. The solid is sampled by voxels an eighth of a cube wide, and the connected pieces of
 /// it inside one tetrahedron become one element each, with nodes of their own and the volume of their voxels; nodes of two
 /// elements are joined where the pieces touch (the virtual nodes of Molino, Bao and Fedkiw 2004). So an arm beside the
-/// body moves freely although both lie in the same cubes, unless less than about a voxel parts them, and a sliver of solid in a
-/// tetrahedron weighs and resists as little as it should. Pieces that hang on no face of their neighbours and fill less than a
-/// hundredth of the solid, such as the tip of a hair, are left out; their vertices follow the nearest element.
+/// trunk moves freely although both lie in the same cubes, unless less than about a voxel separates them, and a sliver of
+/// solid weighs and resists as little as it should. Pieces that share no face with their neighbours and fill less than a
+/// hundredth of the solid, such as the tip of a hair, are dropped; their vertices follow the nearest element.
 #ifndef SIMULATION_LATTICE_H
 #define SIMULATION_LATTICE_H
 

@@ -3,8 +3,8 @@
 ///   ψ(σ) = Σ [ μ/2 (σᵢ² − 1) − μ L(σᵢ) ] + λ/2 (Σ L(σᵢ))²        energy per rest volume, J/m³
 ///   L(σ) = ln σ for σ ≥ c,   ln c + (σ − c)/c below                c = MATERIAL_CLAMP
 ///
-/// Below c the logarithm goes on as its tangent, so L'(σ) = 1/max(σ, c): the stress of Irving, Teran and Fedkiw (2004),
-/// in which the stretch is clamped where it would blow up, but as the derivative of an energy, which a line search needs.
+/// Below c the logarithm continues as its tangent, so L'(σ) = 1/max(σ, c): the stress of Irving, Teran and Fedkiw (2004),
+/// which clamps the stretch where it would blow up, but derived from an energy, as a line search needs.
 /// It is finite for every stretch, negative ones included, and always pushes an inverted element back. At rest the
 /// material is the linear one of Young's modulus and Poisson's ratio.
 #ifndef SIMULATION_MATERIAL_H

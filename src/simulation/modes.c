@@ -3,7 +3,7 @@
 /// With the lumped M the problem is symmetric in ψ = M^½ φ: A ψ = ω² ψ, A = M^-½ K M^-½. The largest eigenvalues θ of
 /// (A + sI)⁻¹ belong to the lowest frequencies, ω² = 1/θ − s; the small shift s makes the inverse exist for a free body,
 /// too. Each Lanczos step is one system in K + sM, solved by conjugate gradients; every new vector is made orthogonal
-/// to all before it (twice, which is enough), so none comes back as a copy. The small problem is diagonalised by Jacobi's
+/// to all before it (twice, which is enough), so none returns as a copy. The small problem is diagonalised by Jacobi's
 /// method.
 #include "simulation/modes.h"
 #include "simulation/eigen.h"
@@ -124,7 +124,7 @@ static void fill_start(struct lanczos *l, double (*v)[3], uint64_t seed)
     }
 }
 
-/// Builds the basis and the operator in it. Where the space is exhausted (equal eigenvalues), goes on with a new vector.
+/// Builds the basis and the operator in it. If the space is exhausted (equal eigenvalues), continues with a new vector.
 static void build(struct lanczos *l)
 {
     const size_t n = (size_t)l->node_count;
@@ -159,7 +159,7 @@ static void expand(const struct lanczos *l, const double *small, double (*shape)
     }
 }
 
-/// Modes from the small problem, lowest frequency first; those that are no oscillation, next to the shift, are rigid.
+/// Modes from the small problem, lowest frequency first; those near the shift do not oscillate: they are rigid.
 static void extract(struct lanczos *l, struct modes *modes, int wanted)
 {
     int m = l->done;
@@ -180,7 +180,7 @@ bool modes_create(struct modes *modes, struct body *body, int count)
 {
     int movable = 0;
     for (int i = 0; i < body->node_count; i++) movable += 3 * !body->pinned[i];
-    int steps = 2 * (count + RIGID) + 24; // converges all of them, by the test against a dense solver
+    int steps = 2 * (count + RIGID) + 24; // enough for all to converge, by the test against a dense solver
     if (steps > movable) steps = movable;
     *modes = (struct modes){0};
     modes->frequency = calloc((size_t)count + 1, sizeof *modes->frequency);

@@ -5,7 +5,7 @@
 #include "simulation/body.h"
 #include <stdbool.h>
 
-/// The lowest normal modes. A free body's six rigid ones are left out.
+/// The lowest normal modes. A free body's six rigid ones are skipped.
 struct modes {
     int count;
     double *frequency;  ///< Hz, ascending

@@ -46,8 +46,8 @@ struct shake {
                   ///< deformed and at rest
 };
 
-/// Puts a simulation of the body into its first state: the displacement, or the velocity, grows with the square of the
-/// height above the pinned nodes.
+/// Sets the initial state of a simulation: the displacement, or the velocity, grows with the square of the height above
+/// the pinned nodes.
 void soft_shake(const struct soft *soft, const struct shake *shake, struct integrator *integrator);
 
 #endif

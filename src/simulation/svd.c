@@ -1,6 +1,6 @@
 /// One-sided Jacobi (Hestenes): rotations from the right make the columns of A = F V orthogonal; their lengths are the
 /// singular values, the columns themselves σ_k u_k. It works on F and not on FᵀF, so small singular values keep their
-/// digits. What remains of the freedom of signs is settled by u₂ = u₀ × u₁ and σ₂ = u₂ · a₂.
+/// digits. The remaining signs follow from u₂ = u₀ × u₁ and σ₂ = u₂ · a₂.
 #include "simulation/svd.h"
 #include "simulation/vec3.h"
 #include <float.h>
@@ -45,8 +45,8 @@ static void order_columns(double a[3][3], double v[3][3], int p, int q)
     rotate_columns(v, p, q, 0, -1);
 }
 
-/// The unit vector along `a` less its part along the unit vector `first`; any other one across `first` where nothing is
-/// left.
+/// The unit vector along `a` without its part along the unit vector `first`; if nothing is left, any one orthogonal to
+/// `first`.
 static void unit_across(const double first[3], const double a[3], double smallest, double out[3])
 {
     double along = vec3_dot(first, a);

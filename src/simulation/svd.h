@@ -3,7 +3,7 @@
 #define SIMULATION_SVD_H
 
 /// F = U diag(σ) Vᵀ with U and V rotations (determinant +1) and σ₀ ≥ σ₁ ≥ |σ₂|: where det F < 0 the smallest one is
-/// negative, so that an inverted tetrahedron is turned back along the direction that needs the least.
+/// negative, so that an inverted tetrahedron turns back along the direction of least effort.
 struct svd {
     double u[3][3], sigma[3], v[3][3]; ///< u[row][column]
 };

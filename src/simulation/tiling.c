@@ -1,17 +1,37 @@
 /// Cuts a solid into elements by the tetrahedra of a lattice.
 #include "simulation/tiling.h"
-#include "simulation/union.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+/// Disjoint sets (union by index, paths halved): the least member of i's set. parent[i] = i at the start.
+static int union_root(int *parent, int i)
+{
+    while (parent[i] != i) {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    return i;
+}
+
+static void union_join(int *parent, int i, int j)
+{
+    i = union_root(parent, i);
+    j = union_root(parent, j);
+    if (i < j) {
+        parent[j] = i;
+    } else {
+        parent[i] = j;
+    }
+}
 
 /// The half of a voxel's 26 neighbours that come later.
 static const int neighbours[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1, 1}, {1, -1, -1},
                                       {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0}, {1, 0, 1},
                                       {1, 1, -1}, {1, 1, 0},  {1, 1, 1}};
 
-/// Cubes along a side of the surface's box: those that cover it and one more or less at either end.
+/// Cubes along a side of the surface's box: those that cover it, and a margin.
 static double cells_along(double side, double cell) { return ceil(side / cell) + 2; }
 
 double tiling_voxels(const struct surface *surface, double cell)
@@ -135,7 +155,7 @@ static bool number_elements(struct tiling *t, int *set)
     return true;
 }
 
-/// Each voxel's tetrahedron as one number: the middle of its face and the middle of its edge (twice) tell it from others.
+/// Each voxel's tetrahedron as one number: its face's middle and twice its edge's middle identify it.
 static void name_tetrahedra(const struct voxels *voxels, uint64_t *tetrahedron, int *set)
 {
     int count = (int)voxels_count(voxels);
@@ -193,7 +213,7 @@ static bool find_parts(struct tiling *t)
     return true;
 }
 
-/// Leaves out the parts below a hundredth of the whole, but never the largest.
+/// Drops parts below a hundredth of the whole, but never the largest.
 static bool drop_crumbs(struct tiling *t)
 {
     int *voxels = calloc((size_t)t->count + 1, sizeof *voxels), total = 0, largest = 0;

@@ -1,4 +1,4 @@
-/// A solid cut into elements by the tetrahedra of the body-centred cubic lattice; lattice.h says to what end.
+/// A solid cut into elements by the tetrahedra of the body-centred cubic lattice; lattice.h says what for.
 #ifndef SIMULATION_TILING_H
 #define SIMULATION_TILING_H
 
@@ -19,7 +19,7 @@ struct tiling {
     int *part; ///< per element: the part it is connected with through faces, by one of its elements; −1 left out
 };
 
-/// How many voxels a tiling with cubes of edge `cell` has; as a double, for it may be any number.
+/// How many voxels a tiling with cubes of edge `cell` has; as a double, because it may exceed any integer.
 double tiling_voxels(const struct surface *surface, double cell);
 
 /// Cuts the surface's inside with cubes of edge `cell`, for which tiling_voxels() must fit an int. False where memory is short.

@@ -2,7 +2,7 @@
 ///
 /// A column of voxel centres along z is a ray; each triangle that it passes through changes the winding number by one.
 /// In the (x, y) plane everything is rounded to a grid of 2⁻²⁴ of the largest side, on which the test of a point against an
-/// edge is exact in 64-bit integers; a point on an edge counts as moved by (ε, ε²). So no ray ever slips between two
+/// edge is exact in 64-bit integers; a point on an edge counts as moved by (ε, ε²). So no ray slips between two
 /// triangles or hits both, and the winding number returns to 0 in every column.
 #include "simulation/voxels.h"
 #include <math.h>
@@ -101,7 +101,7 @@ static void rasterise(const struct raster *raster, const struct surface *surface
             hi[c] = (int)fmin(v->size[c] - 1, fmax(hi[c], ceil(place + 0.01)));
         }
     }
-    if (area(p[0], p[1], p[2]) == 0) return; // seen edge on, or of no size: no ray passes through
+    if (area(p[0], p[1], p[2]) == 0) return; // edge-on or degenerate: no ray passes through
     for (int i = lo[0]; i <= hi[0]; i++) {
         for (int j = lo[1]; j <= hi[1]; j++) cross(raster, p, z, i, j, list);
     }

@@ -1,5 +1,5 @@
-/// Counts the allocations of our own objects: the linker (-Wl,--wrap=malloc and kin) sends their calls here, while libraries
-/// and the driver call the C library directly and are not counted.
+/// Counts the allocations of our own objects: the linker (-Wl,--wrap=malloc …) redirects their calls here, while libraries
+/// and the driver call the C library directly.
 #include "timing/framelog.h"
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -16,13 +16,6 @@ void *__real_realloc(void *memory, size_t size);
 void *__real_aligned_alloc(size_t alignment, size_t size);
 int __real_posix_memalign(void **memory, size_t alignment, size_t size);
 char *__real_strdup(const char *text);
-
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t members, size_t size);
-void *__wrap_realloc(void *memory, size_t size);
-void *__wrap_aligned_alloc(size_t alignment, size_t size);
-int __wrap_posix_memalign(void **memory, size_t alignment, size_t size);
-char *__wrap_strdup(const char *text);
 
 void *__wrap_malloc(size_t size)
 {

@@ -131,7 +131,7 @@ static double run_dpbsv(struct work *w, const struct lapack *lapack, int n)
     return info == 0 ? time : NAN;
 }
 
-/// The Hermitian system that would be left if knots fixed both parts: between knots it is the same one.
+/// The Hermitian system if knots fixed both parts: between knots it is the same.
 static double run_zpbsv(struct work *w, const struct lapack *lapack)
 {
     const system_rows *rows = &w->solver->rows;
@@ -166,7 +166,7 @@ static double compare(struct work *w, const struct lapack *lapack)
     return worst / largest;
 }
 
-/// Fastest of several runs of one of LAPACK's solvers, per sample.
+/// Fastest of several runs of one LAPACK solver, per sample.
 static double time_lapack(struct work *w, const struct lapack *lapack, bool is_complex, int n)
 {
     double best = INFINITY, end = clock_now() + seconds_a_case / 4;
@@ -224,7 +224,7 @@ static bool run_case(struct work *w, const struct bench_case *c, const struct la
     return true;
 }
 
-/// 10,000 splines of 240 samples, every knot changed from run to run; total and Im x are asked for.
+/// 10,000 splines of 240 samples, every knot changed between runs, for total and Im x.
 struct crowd {
     wiggly_desc *desc;
     wiggly_curve *curve;
@@ -268,7 +268,7 @@ static void crowd_destroy(struct crowd *crowd)
     free(crowd->numbers);
 }
 
-/// Times the crowd on some threads; `single` is the line to whose LAPACK figures it is compared.
+/// Times the crowd on several threads; `single` is the line with the LAPACK figures to compare with.
 static bool run_crowd(struct crowd *crowd, int threads, int lanes, const struct bench_result *single, double *times,
                       struct bench_result *result)
 {
@@ -318,10 +318,10 @@ static bool run_crowds(const struct bench_result *single, double *times,
 static bool run_edit(double *times, void (*done)(void *, const struct bench_result *), void *user,
                      struct error *error)
 {
-    enum { SAMPLES = 1000000, GAP = 100, WINDOW = 1000, EDITED = SAMPLES / GAP / 2 };
+    enum { SAMPLES = 1000000, GAP = 100, PART = 1000, EDITED = SAMPLES / GAP / 2 };
     struct work *w = malloc(sizeof *w);
     wiggly_take *take = NULL;
-    double window[WINDOW], worst = 0;
+    double part[PART], worst = 0;
     struct bench_result result = {.name = "edit/complex/1000000",
                                   .mode = "complex",
                                   .samples = SAMPLES,
@@ -338,19 +338,19 @@ static bool run_edit(double *times, void (*done)(void *, const struct bench_resu
         wiggly_knot knot = w->knots[EDITED];
         knot.value += 1e-3;
         knot.sample = EDITED * GAP + (13 * run) % 41 - 20;
-        int from = knot.sample - WINDOW / 2;
+        int from = knot.sample - PART / 2;
         double start = clock_now();
         good = wiggly_take_set_knot(take, EDITED, knot) == WIGGLY_OK &&
-               wiggly_take_read(take, from, WINDOW, window, NULL) == WIGGLY_OK;
+               wiggly_take_read(take, from, PART, part, NULL) == WIGGLY_OK;
         times[run] = clock_now() - start;
         w->knots[EDITED] = knot;
         if (run > 0) continue;
         good = good && wiggly_solve(w->solver, &w->desc, &w->curve) == WIGGLY_OK;
-        for (int i = 0; good && i < WINDOW; i++) worst = fmax(worst, fabs(window[i] - w->curve.total[from + i]));
+        for (int i = 0; good && i < PART; i++) worst = fmax(worst, fabs(part[i] - w->curve.total[from + i]));
     }
     if (good) {
         statistics_sort(times, MAX_RUNS);
-        result.ns_per_sample = 1e9 * times[0] / WINDOW;
+        result.ns_per_sample = 1e9 * times[0] / PART;
         result.p50_us = 1e6 * statistics_quantile(times, MAX_RUNS, 0.5);
         result.p99_us = 1e6 * statistics_quantile(times, MAX_RUNS, 0.99);
         result.error = worst;

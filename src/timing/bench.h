@@ -16,13 +16,13 @@ struct bench_result {
     double error;               ///< largest difference to LAPACKE (refined once), relative; else own estimate
 };
 
-/// What ran it, for the report.
+/// The machine, for the report.
 struct bench_machine {
     char cpu[128];
     char blas[256]; ///< the BLAS that was loaded, or why there is none
 };
 
-/// Runs every case; `done` is called after each. false with a sentence where a result is wrong.
+/// Runs every case; `done` is called after each. false with a sentence if a result is wrong.
 bool bench_run(struct bench_machine *machine, void (*done)(void *user, const struct bench_result *result), void *user,
                struct error *error);
 

@@ -10,7 +10,7 @@
 
 enum column_use {
     COLUMN_LABEL,   ///< identifies the frame; never compared
-    COLUMN_WAIT,    ///< time given away: more of it is no loss
+    COLUMN_WAIT,    ///< idle time: more of it is no loss
     COLUMN_COST,    ///< less is better
     COLUMN_COUNTER, ///< the same in every run of the same session
 };

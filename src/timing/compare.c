@@ -4,11 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STRETCH_FRAMES = 60, RUNS_ENOUGH = 8 }; ///< of five runs all differ in one sense once in 16 times by chance
+enum {
+    STRETCH_FRAMES = 60,
+    RUNS_ENOUGH = 8
+}; ///< five runs all differ in the same direction once in 16 times by chance
 
-/// Worse is what grew by more than `value`, with the whole interval above `low`. Twelve pairs of the same build in turn, on two
-/// cores that others kept busy (load 6 to 10), differed by at most 0.6 % frame by frame in what takes longer than 0.1 ms, by
-/// 4 % at p95 and p99 of the frame, and by 1.1 % in the share of slow frames.
+/// Worse means grown by more than `value`, with the whole interval above `low`. Twelve pairs of runs of one build, in turn on
+/// two busy cores (load 6 to 10), differed by at most 0.6 % frame by frame in stages above 0.1 ms, by 4 % at p95 and p99
+/// of the frame, and by 1.1 % in the share of slow frames.
 struct limit {
     double value, low;
 };
@@ -28,7 +31,7 @@ static double value_at(const struct timing_log *log, int row, int column)
     return log->values[(size_t)row * COLUMN_COUNT + (size_t)column];
 }
 
-/// Which frames the bootstrap keeps together: runs where there are enough of them, because they differ by more than chance;
+/// Which frames the bootstrap keeps together: whole runs if there are enough, because runs differ by more than chance;
 /// else stretches of about a second.
 static int segment_of(const struct comparison *c, const struct timing_log *log, int row)
 {
@@ -87,7 +90,7 @@ static int observe(const struct comparison *c, const struct timing_log *log, int
 
 static double ratio_of(double new, double old) { return new == old ? 1 : new / old; }
 
-/// New over old of every frame that both measured.
+/// New over old, for every frame that both measured.
 static int observe_ratios(struct comparison *c, int column)
 {
     int count = 0;

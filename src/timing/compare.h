@@ -1,4 +1,4 @@
-/// What became slower between the logs of two builds, and how sure that is.
+/// What became slower between the logs of two builds, and how certain that is.
 #ifndef TIMING_COMPARE_H
 #define TIMING_COMPARE_H
 
@@ -33,11 +33,11 @@ enum { QUANTILE_P50, QUANTILE_P95, QUANTILE_P99, QUANTILE_COUNT };
 extern const double compared_quantiles[QUANTILE_COUNT];
 
 /// Quantiles of a column. The change of p50 is the median of new over old frame by frame where the logs have the same shape,
-/// which finds a few percent; else the ratio of the medians. Returns false where one of the logs has no measurement (no
+/// which detects a few percent; else the ratio of the medians. Returns false if one of the logs has no measurement (no
 /// change then), or memory is short.
 bool compare_times(struct comparison *comparison, int column, struct change changes[QUANTILE_COUNT]);
 
-/// Share of frames over a budget, and the mean over the runs of the longest run of them; without interval where segments are no
+/// Share of frames over a budget, and the mean over the runs of the longest run of them; without an interval unless segments are
 /// runs. false where memory is short.
 bool compare_budget(struct comparison *comparison, double budget_ms, struct change *share, struct change *longest);
 

@@ -54,7 +54,7 @@ static void print_percentiles(const struct timing_log *log, double *values, FILE
     }
 }
 
-/// Share and longest run of frames over each budget; a run of frames ends with the run of the program.
+/// Share and longest run of frames over each budget; a run of frames ends with its program run.
 static void print_budgets(const struct timing_log *log, double *values, FILE *out)
 {
     fputc('\n', out);
@@ -95,7 +95,7 @@ static void print_histogram(const struct timing_log *log, double *values, FILE *
     }
 }
 
-/// The stages of the slowest frames that took at least a tenth of them.
+/// For the slowest frames, the stages that took at least a tenth.
 static void print_slowest(const struct timing_log *log, FILE *out)
 {
     int shown[SLOWEST];

@@ -1,4 +1,4 @@
-/// How the frame times of a log are distributed, for people to look at: as text, and as a picture.
+/// How the frame times of a log are distributed, for people: as text and as a picture.
 #ifndef TIMING_DISTRIBUTION_H
 #define TIMING_DISTRIBUTION_H
 

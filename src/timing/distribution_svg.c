@@ -58,7 +58,7 @@ static void budgets(FILE *svg, const struct plot *p)
         double y = at_y(p, frame_budgets_ms[b]);
         if (frame_budgets_ms[b] > p->y1) continue;
         line(svg, p->x, y, p->x + p->w, y, red, "5 4");
-        double below = b == BUDGET_60 ? 13 : -4; // the two may be near each other
+        double below = b == BUDGET_60 ? 13 : -4; // the two labels may be close
         fprintf(svg, "<rect x=\"%.1f\" y=\"%.1f\" width=\"122\" height=\"14\" fill=\"#fff\" fill-opacity=\"0.8\"/>\n",
                 p->x + p->w - 122, y + below - 11);
         text(svg, p->x + p->w, y + below, "end", red, names[b]);
@@ -115,7 +115,7 @@ static void draw_histogram(FILE *svg, const double *sorted, int count)
     text(svg, p.x + p.w, p.y + p.h + 34, "end", grey, "ms");
 }
 
-/// Where percentile p is on an axis that gives each further nine as much room as the first.
+/// Position of percentile p on an axis that gives every further nine equal room.
 static double nines(double p) { return -log10(1 - p); }
 
 static void percentile_curve(FILE *svg, const struct plot *p, const double *sorted, int count, const char *color)

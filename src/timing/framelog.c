@@ -9,7 +9,7 @@
 #include <sys/utsname.h>
 #include <wiggly/wiggly.h>
 
-enum { BLOCK_ROWS = 256, LATE_ROWS = 16 }; ///< the last rows wait for what the GPU took
+enum { BLOCK_ROWS = 256, LATE_ROWS = 16 }; ///< the last rows wait for their GPU times
 static const int LOW_NEEDS_FRAMES = 1000;
 
 struct framelog {
@@ -80,7 +80,7 @@ static void write_row(FILE *file, const struct frame_row *row)
     fputc('\n', file);
 }
 
-/// Closes the file at the first failure, so that a full disk is met once and not at every block.
+/// Closes the file at the first failure, so that a full disk is reported once, not at every block.
 static void check_written(struct framelog *log)
 {
     if (fflush(log->file) == 0 && !ferror(log->file)) return;

@@ -1,4 +1,4 @@
-/// The timing log: one row a frame in memory, written as CSV in blocks outside the timed part, and summed up at the end.
+/// The timing log: one row per frame in memory, written as CSV in blocks outside the timed part, and summarised at the end.
 #ifndef TIMING_FRAMELOG_H
 #define TIMING_FRAMELOG_H
 
@@ -38,12 +38,12 @@ struct framelog;
 struct framelog *framelog_open(const char *path, const struct frame_header *header, int capacity,
                                struct error *error);
 
-/// Adds a row. Allocates nothing, writes nothing but at full blocks of 256 rows: call it outside the timed part.
-/// After a failed write the file is left alone; framelog_close() says so once.
+/// Adds a row. Allocates nothing, and writes only full blocks of 256 rows: call it outside the timed part.
+/// After a failed write the file is not touched again; framelog_close() says so once.
 void framelog_push(struct framelog *log, const struct frame_row *row);
 
-/// Enters what the GPU took for an earlier frame of this run, which must be among the last 16; an older one's, or that of a
-/// frame below 0, is dropped.
+/// Enters the GPU time of an earlier frame of this run, one of the last 16; that of an older frame, or of a negative one, is
+/// dropped.
 void framelog_gpu(struct framelog *log, long frame, double gpu_us);
 
 /// Writes what is left, checks every call; with `summary` prints frames, fps, percentiles, frames over budget and the 1 %

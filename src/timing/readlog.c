@@ -1,4 +1,4 @@
-/// Reads timing logs, several runs in a file too.
+/// Reads timing logs of one or several runs.
 #include "timing/readlog.h"
 #include <errno.h>
 #include <limits.h>
@@ -7,7 +7,7 @@
 #include <string.h>
 
 /// Where the reader is.
-struct cursor {
+struct log_reader {
     const char *path;
     int line;
     int warm_up;                      ///< of this run
@@ -19,12 +19,12 @@ struct cursor {
     struct error *error;
 };
 
-static bool bad(const struct cursor *at, const char *expected, const char *got)
+static bool bad(const struct log_reader *at, const char *expected, const char *got)
 {
     return fail(at->error, ERROR_INPUT, "%s:%d: expected %s, got '%.80s'", at->path, at->line, expected, got);
 }
 
-static bool read_comment(struct cursor *at, const char *text)
+static bool read_comment(struct log_reader *at, const char *text)
 {
     static const char schema[] = "# schema: ", warm_up[] = "# warm_up_frames: ";
     if (strncmp(text, schema, sizeof schema - 1) == 0) {
@@ -49,8 +49,8 @@ static int find_column(const char *name, size_t length)
     return -1;
 }
 
-/// Columns are found by name, so that a log from before a column was added can be read, too.
-static bool read_names(struct cursor *at, const char *text)
+/// Columns are found by name, so that logs older than a column can be read.
+static bool read_names(struct log_reader *at, const char *text)
 {
     if (at->log->runs == 0) return bad(at, "a timing log's '# schema:' line first", text);
     bool has_frame = false, has_time = false;
@@ -67,7 +67,7 @@ static bool read_names(struct cursor *at, const char *text)
     return true;
 }
 
-static bool grow(struct cursor *at)
+static bool grow(struct log_reader *at)
 {
     struct timing_log *log = at->log;
     if (log->rows < at->capacity) return true;
@@ -83,7 +83,7 @@ static bool grow(struct cursor *at)
     return true;
 }
 
-static bool read_row(struct cursor *at, const char *text)
+static bool read_row(struct log_reader *at, const char *text)
 {
     if (at->seen++ < at->warm_up) return true;
     if (!grow(at)) return false;
@@ -106,7 +106,7 @@ static bool read_row(struct cursor *at, const char *text)
     return true;
 }
 
-static bool read_line(struct cursor *at, char *text)
+static bool read_line(struct log_reader *at, char *text)
 {
     text[strcspn(text, "\r\n")] = 0;
     if (*text == '#') return read_comment(at, text);
@@ -116,7 +116,7 @@ static bool read_line(struct cursor *at, char *text)
 bool timing_log_read(const char *path, struct timing_log *log, struct error *error)
 {
     *log = (struct timing_log){0};
-    struct cursor at = {.path = path, .log = log, .error = error};
+    struct log_reader at = {.path = path, .log = log, .error = error};
     FILE *file = fopen(path, "r");
     if (!file) return fail(error, ERROR_INPUT, "%s: %s", path, strerror(errno));
     char *text = NULL;

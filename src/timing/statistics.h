@@ -10,7 +10,7 @@ void statistics_sort(double *values, int count);
 /// The quantile p in 0 … 1 of sorted values, between two of them by linear interpolation at p·(count − 1). NAN for none.
 double statistics_quantile(const double *sorted, int count, double p);
 
-/// What a frame may take to be shown 60 and 30 times a second.
+/// Budget of a frame at 60 and 30 frames per second.
 enum { BUDGET_60, BUDGET_30, BUDGET_COUNT };
 extern const double frame_budgets_ms[BUDGET_COUNT];
 

@@ -14,12 +14,12 @@ struct glyph_table {
     struct glyph glyphs[FONT_COUNT][SIZE_COUNT][FACE_SLOTS];
 };
 
-/// Glyphs are set in rows like type: left to right, a new row below the tallest of the last one.
+/// Glyphs are set in rows like type: left to right, each row below the tallest glyph of the last.
 struct typesetter {
     int x, y, row_height;
 };
 
-/// Room for w × h texels with a gap on all sides, so that filtering never sees a neighbour.
+/// Finds room for w × h texels, with a gap on all sides so that filtering never sees a neighbour.
 static void set_type(struct typesetter *setter, int w, int h, struct glyph *glyph)
 {
     if (setter->x + w + GAP > ATLAS_WIDTH) {
@@ -35,7 +35,7 @@ static void set_type(struct typesetter *setter, int w, int h, struct glyph *glyp
     if (h > setter->row_height) setter->row_height = h;
 }
 
-/// One entry of the table with all that says what it looks like.
+/// Rasterises one entry of the table.
 struct entry {
     struct glyph *glyph;
     const struct face_glyph *source;

@@ -45,7 +45,7 @@ struct rect drawlist_push_clip(struct drawlist *list, struct rect r)
 
 void drawlist_set_clip(struct drawlist *list, struct rect clip) { list->clip = clip; }
 
-/// Appends a command whose pixels lie in `bounds`. NULL where nothing of it would show or there is no room.
+/// Appends a command whose pixels lie in `bounds`. NULL if nothing of it would show or there is no room.
 static struct draw_command *add(struct drawlist *list, enum draw_kind kind, struct rect bounds, uint32_t color)
 {
     bool finite = isfinite(bounds.x) && isfinite(bounds.y) && isfinite(bounds.w) && isfinite(bounds.h);
@@ -110,7 +110,7 @@ static struct rect bounds_of(const float *xy, int count, float margin)
         y1 = fmaxf(y1, xy[2 * i + 1]);
         sum += (xy[2 * i] + xy[2 * i + 1]) * 0.0f;
     }
-    // 0 · x is NaN where x is not finite: fminf and fmaxf alone would overlook a NaN.
+    // 0 · x is NaN if x is not finite: fminf and fmaxf alone would overlook a NaN.
     return (struct rect){x0 - margin + sum, y0 - margin, x1 - x0 + 2.0f * margin, y1 - y0 + 2.0f * margin};
 }
 
@@ -129,7 +129,7 @@ void drawlist_dashed(struct drawlist *list, const float *xy, int count, float wi
                      uint32_t color)
 {
     if (count < 2 || !(width > 0.0f)) return;
-    // A mitre reaches out to twice the half-width, anti-aliasing one pixel more.
+    // A mitre reaches twice the half-width, anti-aliasing one pixel more.
     struct draw_command *command = add(list, DRAW_LINE, bounds_of(xy, count, width + 1.0f), color);
     if (!command) return;
     command->width = width;
@@ -223,7 +223,7 @@ void drawlist_text(struct drawlist *list, float x, float y, enum font font, floa
     if (*utf8) add_text(list, &style, utf8, strlen(utf8), font_width(font, size, utf8));
 }
 
-/// Bytes of the longest beginning of a text that is at most `width` wide and `limit` bytes long (0 where none is).
+/// Length in bytes of the longest prefix at most `width` wide and `limit` bytes long.
 static size_t fitting_length(enum font font, float size, float width, size_t limit, const char *utf8)
 {
     const char *end = utf8;

@@ -48,7 +48,7 @@ struct drawlist {
     bool overflow;    ///< something did not fit and was left out
 };
 
-/// All memory there will be. false where it is short.
+/// Allocates all memory it will ever use. false if memory is short.
 bool drawlist_create(struct drawlist *list, int commands, int points, int text_bytes);
 void drawlist_destroy(struct drawlist *list);
 void drawlist_clear(struct drawlist *list, struct rect whole);
@@ -57,10 +57,10 @@ void drawlist_clear(struct drawlist *list, struct rect whole);
 struct rect drawlist_push_clip(struct drawlist *list, struct rect r);
 void drawlist_set_clip(struct drawlist *list, struct rect clip);
 
-/// Filled rectangle; edges are where they are told, anti-aliased where fractional.
+/// Filled rectangle; fractional edges are anti-aliased.
 void drawlist_rect(struct drawlist *list, struct rect r, uint32_t color);
-/// Polyline of `count` points with mitred joints (round ones at hairpins), anti-aliased; closed where the last point is the
-/// first one again. Left out, like every shape, where a coordinate is not finite.
+/// Polyline of `count` points with mitred joints (round ones at hairpins), anti-aliased; closed if the last point is the
+/// first again. Skipped, like every shape, if a coordinate is not finite.
 void drawlist_line(struct drawlist *list, const float *xy, int count, float width, uint32_t color);
 /// The same as dashes of `on` and gaps of `off` pixels along the line.
 void drawlist_dashed(struct drawlist *list, const float *xy, int count, float width, float on, float off,
@@ -73,7 +73,7 @@ void drawlist_rounded_line(struct drawlist *list, struct rect r, float radius, f
 /// UTF-8 text with its baseline at (x, y); x is rounded to device pixels when drawn. `size` in logical pixels.
 void drawlist_text(struct drawlist *list, float x, float y, enum font font, float size, uint32_t color,
                    const char *utf8);
-/// Text cut with "…" where it is wider than `width`.
+/// Text, cut with "…" if it is wider than `width`.
 void drawlist_text_fit(struct drawlist *list, float x, float y, float width, enum font font, float size,
                        uint32_t color, const char *utf8);
 

@@ -5,6 +5,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/// The mouse cursors that the editor asks for and the platform shows.
+enum mouse_cursor { CURSOR_ARROW, CURSOR_HAND, CURSOR_HORIZONTAL, CURSOR_VERTICAL, CURSOR_MOVE, CURSOR_TEXT };
+
 enum event_kind {
     EVENT_KEY,     ///< key, action, mods
     EVENT_TEXT,    ///< codepoint
@@ -24,7 +27,7 @@ enum event_mods { MOD_SHIFT = 1, MOD_CTRL = 2, MOD_ALT = 4, MOD_SUPER = 8 };
 
 enum event_button { BUTTON_LEFT, BUTTON_RIGHT, BUTTON_MIDDLE };
 
-/// Letters and digits are their upper-case ASCII code, punctuation that is printed on a key is its ASCII code.
+/// Letters and digits are their upper-case ASCII code, punctuation printed on a key its ASCII code.
 enum key {
     KEY_NONE = 0,
     KEY_SPACE = ' ',
@@ -72,7 +75,7 @@ struct event {
     const char *text; ///< EVENT_PASTE: UTF-8, valid during the call
 };
 
-/// Names for replays: "A", "Left", "F1", ","; 0 / NULL where there is none.
+/// Names for replays: "A", "Left", "F1", ","; 0 / NULL if there is none.
 const char *key_name(int key);
 int key_from_name(const char *name);
 

@@ -4,17 +4,17 @@
 
 #include "ui/drawlist.h"
 
-/// Every character that the program can show has a slot: an index into tables, the same for all fonts.
+/// Every character the program can show has a slot: an index into tables, the same for all fonts.
 enum { FACE_SLOTS = 291 };
 
-/// A character of a font, taken from another one where the font itself has none.
+/// A character's glyph, from another font if this one lacks it.
 struct face_glyph {
     enum font source;
     int index;     ///< glyph in the source's file
     float advance; ///< in ems
 };
 
-/// The slot of a character, that of '?' where it has none.
+/// The slot of a character, or that of '?'.
 int face_slot(uint32_t codepoint);
 const struct face_glyph *face_glyph(enum font font, int slot);
 

@@ -20,7 +20,7 @@ static const char *const file_names[FONT_COUNT] = {
     [FONT_NUMBER] = "font/number",
 };
 
-/// Runs of characters that have slots, in order: ASCII, Latin-1, Greek, and the signs that the interface uses.
+/// Ranges of characters with slots, in order: ASCII, Latin-1, Greek, and the symbols of the interface.
 static const struct {
     uint32_t first, last;
 } runs[] = {
@@ -86,7 +86,7 @@ static bool read_face(enum font font, struct error *error)
     return true;
 }
 
-/// Which font has the character: the one asked for, else the others in turn; glyph 0 (a box) where none has.
+/// Which font has the character: the one asked for, else the others in turn; glyph 0 (a box) if none has.
 static struct face_glyph find_glyph(enum font font, uint32_t codepoint)
 {
     struct face_glyph glyph = {.source = font, .index = 0};

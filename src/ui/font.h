@@ -1,4 +1,4 @@
-/// Fonts: the embedded files, metrics for layout, and glyph bitmaps for whoever draws. No GL.
+/// Fonts: the embedded files, metrics for layout, and glyph bitmaps for drawing. No GL.
 #ifndef UI_FONT_H
 #define UI_FONT_H
 
@@ -11,7 +11,7 @@ bool font_init(struct error *error);
 /// Width of a text in logical pixels, and the height of its capitals (for centring).
 float font_width(enum font font, float size, const char *utf8);
 float font_cap_height(enum font font, float size);
-/// Bytes of the next line of a text that fit into `width`, ending at a space where there is one; at least one character.
+/// Bytes of the next line of a text that fit into `width`, ending at a space if possible; at least one character.
 size_t font_line(enum font font, float size, const char *utf8, float width);
 
 /// Decodes one UTF-8 character and moves on; 0xFFFD for a broken byte, 0 at the end.
@@ -35,7 +35,7 @@ struct atlas {
 /// Rasterises (stb_truetype, 3×1 oversampling, coverage^0.85 for light text on dark). Freed with atlas_free().
 bool atlas_build(float scale, struct atlas *atlas, struct error *error);
 void atlas_free(struct atlas *atlas);
-/// The glyph of a character at a logical size (the nearest size that was rasterised); '?' where the font has none.
+/// The glyph of a character at a logical size (the nearest size that was rasterised); '?' if the font lacks it.
 const struct glyph *atlas_glyph(const struct atlas *atlas, enum font font, float size, uint32_t codepoint);
 
 #endif

@@ -1,4 +1,4 @@
-/// Small buttons whose sign is a shape. Shapes are drawn in a square of 14 pixels around (0, 0), y down.
+/// Small buttons with icons, drawn in a square of 14 pixels around (0, 0), y down.
 #include "ui/widgets_internal.h"
 #include <math.h>
 

@@ -3,8 +3,8 @@
 #include "base/srgb.h"
 #include <math.h>
 
-/// Of grey; radius of the circle of hues; how much lighter what moves with re = 1, with im = 1 is than grey; the power of the
-/// amplitude that makes small movements seen. stage_character.vert has the same.
+/// Lightness of grey; radius of the circle of hues; added lightness at re = 1 and at im = 1; exponent of the amplitude, which
+/// makes small movements visible. stage_character.vert has the same.
 static const float LIGHTNESS = 0.70f, CHROMA = 0.10f, SWING_RE = 0.09298f, SWING_IM = 0.19939f, SPREAD = 0.6f;
 
 /// Oklab → cube roots of cone responses → linear RGB.

@@ -1,10 +1,10 @@
-/// Colours of phases: hue and lightness say how far ahead something moves, both the more clearly the more it moves.
+/// Colours of phases: hue and lightness show how far ahead something moves, more clearly the more it moves.
 ///
 /// They go once around a tilted circle in Oklab: hue evenly, lightness by 0.22 up and down, brightest at 65° ahead, between the
-/// yellow of what is in step and the cyan of a quarter ahead. So tilted, the circle stays open from whichever side colour-blind
-/// eyes see it: phases an eighth of a turn apart differ to all of them (tests/test_theme.c). The movement
-/// z = re + j·im is the point of that circle's plane at the same angle, 0.6th power of its amplitude from the grey in the
-/// middle: nothing that stands still has a hue. The surface shows lines between the eighths besides (stage_mesh.frag).
+/// yellow of what is in step and the cyan of a quarter ahead. The tilt keeps the circle open for every kind of colour
+/// blindness: phases an eighth of a turn apart always differ (tests/test_theme.c). The movement
+/// z = re + j·im is the point of that circle's plane at the same angle, amplitude to the power 0.6 away from the grey in the
+/// middle: what stands still is grey. The surface also has lines between the eighths (stage_mesh.frag).
 #ifndef UI_PHASE_COLOR_H
 #define UI_PHASE_COLOR_H
 

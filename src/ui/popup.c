@@ -1,4 +1,4 @@
-/// Popups: what opens over a panel, and the widgets that open one.
+/// Popups over a panel, and the widgets that open them.
 #include "ui/widgets_internal.h"
 #include <math.h>
 #include <stdio.h>
@@ -23,7 +23,7 @@ void ui_popup_close(struct ui *ui)
 
 bool ui_popup_is_open(const struct ui *ui, const char *name) { return ui->popup.id == ui_id(name); }
 
-/// Below the anchor, or above it where there is more room; inside the panel in any case.
+/// Below the anchor, or above it if there is more room; always inside the panel.
 static struct rect place(const struct ui *ui, float width, float height)
 {
     struct rect anchor = ui->popup.anchor, area = ui->area;
@@ -75,20 +75,20 @@ void ui_popup_end(struct ui *ui)
     if (ui->used) return;
     const struct event *event = ui->event;
     bool press = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS;
-    if (press) ui->used = true; // outside of its widgets: for nothing else either
+    if (press) ui->used = true; // a press outside its widgets does nothing else
     if (press && !rect_contains(box, event->x, event->y)) ui_popup_close(ui);
     if (event->kind == EVENT_KEY) popup_key(ui);
     if (event->kind == EVENT_WHEEL || event->kind == EVENT_TEXT) ui->used = true;
 }
 
-/// Whether the field was pressed, and so its popup opens; one that is pressed again closes by the press outside.
+/// Whether a press on the field opens its popup; a second press counts as outside and closes it.
 static void open_where_pressed(struct ui *ui, struct rect field, uint32_t id, const char *name, int which)
 {
     bool pressed = ui_pressed(ui, field, BUTTON_LEFT);
     if (pressed || ui_activated(ui, id)) ui_popup_open(ui, name, which, field);
 }
 
-/// The name of the field that opens the popup: several fields may open the same one.
+/// Marks the field that opens the popup: several may open the same one.
 static uint32_t opener_id(const char *name, int which)
 {
     char full[96];

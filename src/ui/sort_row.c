@@ -1,4 +1,4 @@
-/// Rows of a list that the pointer moves to another place.
+/// Rows of a list that a drag reorders.
 #include "ui/widgets_internal.h"
 #include <math.h>
 

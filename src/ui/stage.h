@@ -1,11 +1,13 @@
-/// What is to be seen on the stage: a camera, posed tails and characters, and their shadows. Made by the editor, drawn by draw/.
+/// The stage's contents: a camera, posed tails and characters, and their shadows. Made by the editor, drawn by draw/.
 #ifndef UI_STAGE_H
 #define UI_STAGE_H
 
+#include "base/hash.h"
 #include "model/morph.h"
 #include "model/pose.h"
 #include "ui/drawlist.h"
-#include "ui/stage_colors.h"
+#include "ui/theme.h"
+#include <stddef.h>
 
 enum {
     STAGE_MAX_TAILS = 8,
@@ -53,5 +55,8 @@ struct stage_view {
     int blob_count;
     uint64_t hash; ///< of everything above: equal hash, equal pixels
 };
+
+/// Hash of what all pictures of the stage share: viewport, camera, light and colours.
+uint64_t stage_scenery_hash(const struct stage_view *view);
 
 #endif

@@ -1,5 +1,6 @@
 /// The dark and the light theme.
 #include "ui/theme.h"
+#include "base/srgb.h"
 #include <math.h>
 #include <string.h>
 
@@ -62,7 +63,7 @@ static const struct theme themes[THEME_COUNT] = {
         },
 };
 
-/// Of the first dark theme. Documents have these, so they never change.
+/// From the first dark theme. Documents store these, so they never change.
 static const uint32_t stored[THEME_SPLINE_COLORS] = {0xFFB000, 0x4FA3E3, 0xE39AC8, 0x1F9E7A, 0xF4F1E8, 0xC8502A};
 
 static enum theme_kind in_use = THEME_DARK;
@@ -87,15 +88,11 @@ uint32_t theme_fade(uint32_t color, float alpha)
     return (color & 0xFFFFFF00u) | (uint32_t)((float)(color & 0xFFu) * clamped + 0.5f);
 }
 
-static float linear(uint32_t channel)
-{
-    float value = (float)(channel & 0xFFu) / 255;
-    return value <= 0.04045f ? value / 12.92f : powf((value + 0.055f) / 1.055f, 2.4f);
-}
+static float light(uint32_t color, int shift) { return srgb_to_linear((float)(color >> shift & 0xFFu) / 255); }
 
 static float luminance(uint32_t color)
 {
-    return 0.2126f * linear(color >> 24) + 0.7152f * linear(color >> 16) + 0.0722f * linear(color >> 8);
+    return 0.2126f * light(color, 24) + 0.7152f * light(color, 16) + 0.0722f * light(color, 8);
 }
 
 float theme_contrast(uint32_t a, uint32_t b)

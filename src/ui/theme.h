@@ -1,22 +1,28 @@
 /// Colours and sizes of the whole screen, in one place. Sizes in logical pixels, colours 0xRRGGBBAA.
 ///
-/// There are two themes; one of them is in use, for the whole process. What is drawn asks for it each time:
+/// There are two themes; one of them is in use, for the whole process. Code that draws asks for it each time:
 ///
 ///     drawlist_rect(list, area, theme()->panel);
 #ifndef UI_THEME_H
 #define UI_THEME_H
 
-#include "ui/stage_colors.h"
 #include <stdint.h>
 
-/// Spline colours are taken in turn. Under each of the three kinds of colour blindness every two are a ΔE2000 of 10 or more apart.
+/// Spline colours are assigned in turn. Any two are a ΔE2000 of 10 or more apart under each of the three kinds of colour blindness.
 enum { THEME_SPLINE_COLORS = 6 };
 
-/// Opacity of the curves and knots that are not of the active spline; they keep 3:1 and their distance.
+/// Opacity of curves and knots of inactive splines, which keep a contrast of 3:1 and their difference.
 #define THEME_OTHERS 0.8f
 
+/// Colours of the stage without its rigs. Opaque.
+struct stage_colors {
+    uint32_t top, bottom; ///< of the background
+    uint32_t ground, shadow;
+    uint32_t bounce; ///< light from the ground
+};
+
 /// Every text colour (text, text_dim, accent, warning, error) has a contrast of 4.5:1 or more on panel and raised, `text` and
-/// `text_dim` on fill, hover and the stage too; `control`, spline colours, and what else has to be seen without being read have
+/// `text_dim` on fill, hover and the stage too; `control`, spline colours, and whatever must be seen but not read have
 /// 3:1. tests/test_theme.c has the pairs.
 struct theme {
     const char *name; ///< in the settings and on the command line
@@ -47,13 +53,13 @@ uint32_t theme_fade(uint32_t color, float alpha);
 
 /// Contrast of two opaque colours, 1 … 21 (WCAG 2: (L₁ + 0.05)/(L₂ + 0.05) with relative luminances L₁ ≥ L₂).
 float theme_contrast(uint32_t a, uint32_t b);
-/// An opaque colour, blended with the text's just so far that its contrast on a background is `contrast` or more.
+/// An opaque colour, blended towards the text's just enough for `contrast` on a background.
 uint32_t theme_readable(uint32_t color, uint32_t background, float contrast);
 
-/// How the theme in use shows a colour that a document asks for (0xRRGGBB): what theme_spline_rgb() gives stands for the
-/// theme's own, others are made out against the panel.
+/// The theme's colour for one that a document asks for (0xRRGGBB): those of theme_spline_rgb() map to the theme's own,
+/// others are made readable on the panel.
 uint32_t theme_spline(uint32_t rgb);
-/// What a document stores for the `index`th spline colour, whichever shade a theme has for it.
+/// What a document stores for the `index`th spline colour, whatever its shade in a theme.
 uint32_t theme_spline_rgb(int index);
 
 /// The pixel sizes of text that exist (atlases are built for these).

@@ -3,7 +3,7 @@
 
 enum { REPLACEMENT = 0xFFFD };
 
-/// Bytes that follow a first byte, and the first byte's own bits; -1 where it cannot be a first byte.
+/// Number of bytes after a first byte, and its own bits; -1 if it cannot be a first byte.
 static int following_bytes(unsigned char first, uint32_t *bits)
 {
     if (first < 0x80) return *bits = first, 0;

@@ -51,7 +51,7 @@ void ui_begin_find(struct ui *ui, struct rect area, const char *name, const doub
     ui->find_value = value ? *value : 0;
 }
 
-/// Scrolls just far enough that `r` is seen.
+/// Scrolls just far enough to show `r`.
 static void reveal(struct ui *ui, struct rect r)
 {
     if (!ui->scroll) return;
@@ -111,8 +111,7 @@ static void end_event(struct ui *ui)
 
 bool ui_end(struct ui *ui)
 {
-    if (ui->popup.id && !ui->popup.built && ui->pass == UI_PASS_EVENT)
-        ui_popup_close(ui); // what it was about is gone
+    if (ui->popup.id && !ui->popup.built && ui->pass == UI_PASS_EVENT) ui_popup_close(ui); // its subject is gone
     if (ui->pass == UI_PASS_EVENT) end_event(ui);
     if (ui->pass == UI_PASS_DRAW) drawlist_set_clip(ui->list, ui->list_clip);
     ui->event = NULL;
@@ -207,7 +206,7 @@ void ui_register(struct ui *ui, uint32_t id, struct rect r)
 
 bool ui_pressed(struct ui *ui, struct rect r, enum event_button button)
 {
-    if (ui->pass != UI_PASS_EVENT || ui->used || ui->held) return false; // what is held keeps the pointer
+    if (ui->pass != UI_PASS_EVENT || ui->used || ui->held) return false; // a held widget keeps the pointer
     const struct event *event = ui->event;
     if (event->kind != EVENT_BUTTON || event->action != ACTION_PRESS || event->button != button) return false;
     if (!ui_hovered(ui, r)) return false;

@@ -1,5 +1,5 @@
-/// Widgets: the panel's code is run once for each event and once for each frame, and lays itself out the same way both
-/// times (immediate mode). In between a `struct ui` keeps only what has the focus, is held by the pointer or typed in.
+/// Widgets (immediate mode): the panel's code runs once per event and once per frame, with the same layout. In between,
+/// `struct ui` keeps only what has the focus, is held by the pointer, or is being typed in.
 ///
 ///     ui_begin_event(&ui, area, event);              ui_begin_draw(&ui, area, list);
 ///     build(&ui, …);                                 build(&ui, …);
@@ -22,7 +22,7 @@ enum {
     UI_TEXT_SIZE = 1024,
 };
 
-/// What the pointer is over, for its shape.
+/// What the pointer is over, for the cursor.
 enum ui_over { UI_OVER_NOTHING, UI_OVER_NUMBER, UI_OVER_TEXT };
 
 enum ui_pass { UI_PASS_EVENT, UI_PASS_DRAW, UI_PASS_FIND };
@@ -39,13 +39,13 @@ struct ui_scroll {
     float offset, content; ///< pixels scrolled, and height of the content as last laid out
 };
 
-/// A widget that Tab reaches, as laid out in the running pass.
+/// A widget that Tab reaches, as laid out in this pass.
 struct ui_stop {
     uint32_t id;
     struct rect rect;
 };
 
-/// What opened over the panel; while it is open it alone gets the events.
+/// What opened over the panel: while open, it alone gets events.
 struct ui_popup {
     uint32_t id;        ///< of its name; 0: none
     int which;          ///< the caller's own: what it is about
@@ -99,32 +99,34 @@ struct ui {
 
 void ui_begin_event(struct ui *ui, struct rect area, const struct event *event);
 void ui_begin_draw(struct ui *ui, struct rect area, struct drawlist *list);
-/// Looks for the widget `name`, or where its bar shows `*value` (NULL: where it is held): found, found_x, found_y.
+/// Looks for the widget `name`, or the place on its bar that shows `*value` (NULL: where it is held): found, found_x, found_y.
 void ui_begin_find(struct ui *ui, struct rect area, const char *name, const double *value);
-/// Ends the pass: moves the focus for Tab, drops what is no longer shown. true where the event was used or the widget found.
+/// Ends the pass: moves the focus for Tab, drops what is no longer shown. true if the event was used or the widget found.
 bool ui_end(struct ui *ui);
 
-/// Drops focus, held and typed-in widget without a change.
+/// Cancels focus, hold and typing without a change.
 void ui_release(struct ui *ui);
-/// Whether a key event belongs to the text that is typed: all but Ctrl chords and F keys.
+/// Whether a key event belongs to the text being typed: all but Ctrl chords and F keys.
 bool ui_is_typing_key(const struct ui *ui, const struct event *event);
 
 /// The next row of `height` pixels, inset by UI_PAD from the panel's sides.
 struct rect ui_row(struct ui *ui, float height);
 void ui_space(struct ui *ui, float height);
 
-/// What is built between these scrolls inside `view`, by the wheel and so that the focused widget is seen.
+/// What is built between these scrolls inside `view`: by the wheel, and to show the focused widget.
 void ui_scroll_begin(struct ui *ui, struct ui_scroll *scroll, struct rect view);
 void ui_scroll_end(struct ui *ui);
 
-/// One line of text, cut with "…" where it does not fit; vertically centred.
+/// Baseline that centres capitals in `r`.
+float ui_baseline(struct rect r, enum font font, float size);
+/// One line of text, cut with "…" if it does not fit; vertically centred.
 void ui_label(struct ui *ui, struct rect r, const char *text, uint32_t color);
 void ui_label_right(struct ui *ui, struct rect r, const char *text, uint32_t color);
-/// Small text over as many rows as it takes (at most 4), broken at spaces.
+/// Small text on up to 4 rows, broken at spaces.
 void ui_paragraph(struct ui *ui, const char *text, uint32_t color);
-/// Header of a section that a click opens and closes; returns whether it is open.
+/// Header of a section; a click opens and closes it. Returns whether it is open.
 bool ui_section(struct ui *ui, const char *name, const char *title, bool *closed);
-/// true where it was pressed (and by Enter or Space).
+/// true if it was pressed (or by Enter or Space).
 bool ui_button(struct ui *ui, struct rect r, const char *name, const char *label, bool primary);
 bool ui_toggle(struct ui *ui, struct rect r, const char *name, bool *on);
 /// A row of a list: a swatch of `color` and a text.
@@ -134,11 +136,11 @@ struct ui_choice {
     const char *name, *label; ///< a segment is found as "<control>.<name>"
 };
 
-/// One of `count` segments; true where `*index` (-1: none) was changed.
+/// One of `count` segments; true if `*index` (-1: none) changed.
 bool ui_segments(struct ui *ui, struct rect r, const char *name, const struct ui_choice *choices, int count,
                  int *index);
 
-/// A number: a bar from `minimum` to `maximum` where those differ, else a field that is dragged by `step` a pixel.
+/// A number: a bar from `minimum` to `maximum` if those differ, else a field that a drag changes by `step` per pixel.
 struct ui_number {
     const char *name;
     const char *label; ///< in the label column; NULL: the field takes the whole rectangle
@@ -152,7 +154,7 @@ struct ui_number {
     int decimals;
 };
 
-/// How a number changed, for undo: a drag is one step, whatever the number of UI_DRAG in it.
+/// How a number changed, for undo: a drag is one step, however many UI_DRAG it has.
 enum ui_change {
     UI_NONE,
     UI_DRAG,   ///< the pointer moved it; more may come
@@ -167,17 +169,17 @@ enum ui_change {
 /// `*value` is set for UI_DRAG, UI_SET and UI_NUDGE.
 enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *number, double *value);
 
-/// A point that is dragged in two directions, or moved by the arrow keys.
+/// A point to drag in two directions, or to move by the arrow keys.
 struct ui_handle {
     const char *name, *hint;
     float x, y;         ///< where it is; for UI_DRAG where it was dragged to, which may be outside the area
     int step_x, step_y; ///< UI_NUDGE: arrow keys to the right and up (Shift: 10 at once)
 };
 
-/// Several handles in an area; a press takes the nearest. `*which` is the one that a change is of. The caller paints them.
+/// Several handles in an area; a press takes the nearest. `*which` is the one that changed. The caller paints them.
 enum ui_change ui_handles(struct ui *ui, struct rect area, struct ui_handle *handles, int count, int *which);
 
-/// Small shapes in the place of words.
+/// Small shapes instead of words.
 enum ui_icon {
     UI_ICON_ADD,
     UI_ICON_COPY,
@@ -190,14 +192,14 @@ enum ui_icon {
     UI_ICON_FOLLOW,   ///< a link
     UI_ICON_UNFOLLOW, ///< the same, broken
 };
-/// A square button with an icon; `lit`: it stands for something that is on. true where it was pressed.
+/// A square button with an icon; `lit`: it shows something that is on. true if it was pressed.
 bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon icon, bool lit, const char *hint);
 
-/// A field that shows a text (behind a swatch where `color` is not 0) and opens the popup `name`, about `which`.
+/// A field with a text (after a swatch unless `color` is 0) that opens the popup `name`, about `which`.
 void ui_dropdown(struct ui *ui, struct rect r, const char *name, int which, const char *text, uint32_t color);
 /// A swatch called `name` that opens a popup.
 void ui_swatch(struct ui *ui, struct rect r, const char *name, const char *popup, int which, uint32_t color);
-/// A larger one to choose; true where it was pressed.
+/// A larger one to choose; true if it was pressed.
 bool ui_color(struct ui *ui, struct rect r, const char *name, uint32_t color, bool chosen);
 
 struct ui_item {
@@ -205,10 +207,10 @@ struct ui_item {
     uint32_t color;           ///< of a swatch; 0: none
 };
 /// The popup of a drop-down: its rows, one of them chosen (-1: none). Built as ui_popup_begin() says. Returns the one
-/// that was picked, which closes it; -1: none.
+/// picked, which closes it; -1: none.
 int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, int count, int chosen);
 
-/// Opens a popup under (or, where there is no room, above) `anchor`.
+/// Opens a popup under `anchor`, or above it if there is no room.
 void ui_popup_open(struct ui *ui, const char *name, int which, struct rect anchor);
 void ui_popup_close(struct ui *ui);
 /// Whether the popup is open; then its content is built between begin and end, after all else in the panel. Arrows and Tab go
@@ -217,8 +219,8 @@ bool ui_popup_is_open(const struct ui *ui, const char *name);
 void ui_popup_begin(struct ui *ui, float width, float height);
 void ui_popup_end(struct ui *ui);
 
-/// A row of a list that a drag moves to another place: `ui->pointer_y` says where when it is dropped. It is held by
-/// `label`; what lies elsewhere in the row is the caller's.
+/// A row of a list that a drag reorders: `ui->pointer_y` says where when it is dropped. The drag holds it by `label`; the
+/// rest of the row is the caller's.
 enum ui_row_event { UI_ROW_NONE, UI_ROW_PRESSED, UI_ROW_TWICE, UI_ROW_DROPPED };
 enum ui_row_event ui_sort_row(struct ui *ui, struct rect row, struct rect label, const char *name, const char *text,
                               bool selected);
@@ -232,11 +234,11 @@ void ui_line_begin(struct ui *ui, const char *name, const char *text);
 bool ui_line_is_open(const struct ui *ui, const char *name);
 enum ui_line ui_line(struct ui *ui, struct rect r, const char *name);
 
-/// A line of text to type in; its content is ui->text while `typing`. true where the text changed.
+/// A line of text to type in; its content is ui->text while `typing`. true if the text changed.
 bool ui_text_field(struct ui *ui, struct rect r, const char *name);
 
 void ui_text_set(struct ui_text *text, const char *utf8);
-/// One key or character; false where it is none of the line's business. `changed` may be NULL.
+/// One key or character; false if the line does not use it. `changed` may be NULL.
 bool ui_text_event(struct ui_text *text, const struct event *event, bool *changed);
 
 /// For widgets made elsewhere: the id of a name, whether the pointer is over (and not over anything clipped), registration.

@@ -66,7 +66,7 @@ void ui_paragraph(struct ui *ui, const char *text, uint32_t color)
     }
 }
 
-/// A small triangle that points right where the section is closed, down where it is open.
+/// A small triangle: right if the section is closed, down if it is open.
 static void paint_arrow(struct ui *ui, float x, float y, bool closed, uint32_t color)
 {
     const float right[6] = {x + 1, y - 4, x + 5, y, x + 1, y + 4};
@@ -93,7 +93,7 @@ bool ui_section(struct ui *ui, const char *name, const char *title, bool *closed
     return !*closed;
 }
 
-/// Text in the middle of `r`, cut where it does not fit.
+/// Text in the middle of `r`, cut if it does not fit.
 static void paint_centred(struct ui *ui, struct rect r, const char *text, uint32_t color)
 {
     float w = fminf(r.w - 8, font_width(FONT_LABEL, THEME_TEXT_NORMAL, text));

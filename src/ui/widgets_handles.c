@@ -20,7 +20,7 @@ static int nearest(const struct ui_handle *handles, int count, float x, float y)
     return best;
 }
 
-/// The handle follows the pointer at the distance at which it was taken; Shift: a tenth as fast.
+/// The handle follows the pointer, keeping the offset of the press; Shift: a tenth as fast.
 static enum ui_change held_event(struct ui *ui, struct ui_handle *handle)
 {
     const struct event *event = ui->event;

@@ -1,4 +1,4 @@
-/// What the files of the widgets share: input tests and the few shapes that all of them are painted with.
+/// What the files of the widgets share: input tests and the few shapes that all are painted with.
 #ifndef UI_WIDGETS_INTERNAL_H
 #define UI_WIDGETS_INTERNAL_H
 
@@ -8,25 +8,23 @@
 
 #define UI_RADIUS 4.0f
 
-/// The field of a row: inset so that rows one above the other do not touch.
+/// The field of a row: inset so that neighbouring rows do not touch.
 struct rect ui_field_of(struct rect row);
 
 /// Whether the running event is this button going down over `r`, not clipped and not used yet; then it is used up.
 bool ui_pressed(struct ui *ui, struct rect r, enum event_button button);
 /// Whether the running event presses or repeats a key and widget `id` has the focus; the caller marks it as used.
 bool ui_focused_key(const struct ui *ui, uint32_t id);
-/// In this pass a widget counts as shown although it was not built: it will be in the next one.
+/// Counts a widget as shown although it was not built in this pass: the next one will build it.
 void ui_keep(struct ui *ui, uint32_t id);
-/// The focus goes to the next (1) or previous (-1) widget, round the ends, and is scrolled into sight.
+/// Moves the focus to the next (1) or previous (-1) widget, wrapping round, and scrolls it into view.
 void ui_move_focus(struct ui *ui, int direction);
 /// Enter or Space on the focused widget; used up.
 bool ui_activated(struct ui *ui, uint32_t id);
 
-/// The line around a control by which it is seen; `hot`: under the pointer.
+/// The outline of a control; `hot`: under the pointer.
 void ui_outline(struct ui *ui, struct rect r, float radius, bool hot);
 void ui_focus_ring(struct ui *ui, uint32_t id, struct rect r);
-/// Baseline that centres capitals in `r`.
-float ui_baseline(struct rect r, enum font font, float size);
 void ui_number_text(struct ui *ui, struct rect r, const char *text, uint32_t color);
 /// The line that is being typed, with its caret, inside `r`.
 void ui_paint_text(struct ui *ui, struct rect r, const struct ui_text *text, enum font font, float size,

@@ -167,7 +167,7 @@ static enum ui_line line_event(struct ui *ui, struct rect r)
 {
     const struct event *event = ui->event;
     if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) {
-        if (!ui_hovered(ui, r)) return UI_LINE_DONE; // and the press is for whatever is there
+        if (!ui_hovered(ui, r)) return UI_LINE_DONE; // the press is for whatever is there
         ui->text.all = event->clicks == 2;
         ui->used = true;
     }

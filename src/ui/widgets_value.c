@@ -10,7 +10,7 @@ static const double no_limit = 1e300; ///< limits from here on are none
 
 static bool has_bar(const struct ui_number *number) { return number->maximum > number->minimum; }
 
-/// The double nearest to the decimal that is shown, so that a dragged value is saved as it was read.
+/// The double nearest to the decimal that is shown, so that a dragged value is saved as shown.
 static double round_decimals(double value, int decimals)
 {
     char text[400];
@@ -35,8 +35,7 @@ static void format_number(const struct ui_number *number, double value, char *te
     }
 }
 
-/// "1.5", "1,5" as many keypads type it, or "1.5 Hz": a decimal number and nothing else but the unit. Not hexadecimal,
-/// not "inf".
+/// "1.5", "1,5" as many keypads type it, or "1.5 Hz": a decimal number and perhaps the unit. Not hexadecimal, not "inf".
 static bool parse_number(const struct ui_number *number, const char *typed, double *value)
 {
     char copy[UI_TEXT_SIZE], *comma;
@@ -85,7 +84,7 @@ static void complain_range(struct ui *ui, const struct ui_number *number, const 
     snprintf(ui->complaint, sizeof ui->complaint, "%.40s: expected %s, got %g", what, range, typed);
 }
 
-/// Takes what was typed; false (with the reason in ui->complaint) where it is no number or out of range.
+/// Takes what was typed; false (with the reason in ui->complaint) if it is no number or out of range.
 static bool take_typed(struct ui *ui, const struct ui_number *number, double *value)
 {
     double typed;
@@ -197,7 +196,7 @@ static enum ui_change held_event(struct ui *ui, struct rect field, const struct 
     return UI_DRAG;
 }
 
-/// Back to the default, where there is one.
+/// Back to the default, if there is one.
 static enum ui_change reset(const struct ui_number *number, double *value)
 {
     if (isnan(number->fallback) || *value == number->fallback) return UI_NONE;
@@ -267,7 +266,7 @@ static float part_of(const struct ui_number *number, double value)
 /// The left side of a bar's handle, 2 wide, within the field's outline.
 static float handle_x(struct rect field, float at) { return field.x + fmaxf(3, fminf(at - 1, field.w - 4)); }
 
-/// A bar with 0 inside would end in the middle of the text: it is a strip below it, with a mark at 0.
+/// A bar with 0 inside would end within the text, so it is a strip below, with a mark at 0.
 static void paint_strip(struct ui *ui, struct rect field, float zero, float at, bool hot)
 {
     const float height = 2;
@@ -278,8 +277,8 @@ static void paint_strip(struct ui *ui, struct rect field, float zero, float at, 
     drawlist_rect(ui->list, (struct rect){field.x + zero - 0.5f, strip.y - 1, 1, height + 1}, theme()->text_dim);
 }
 
-/// Filled from the left end to the value, faintly, as text stands on it; the strip below is what is seen from afar. The handle is a notch where the text, `text_width` wide at the right, would be
-/// struck through.
+/// Filled from the left end to the value: faintly, because text stands on it, with a strip below to be seen from afar. Where
+/// the handle would strike through the text (`text_width` wide, at the right), it is a notch.
 static void paint_bar(struct ui *ui, struct rect field, const struct ui_number *number, double value,
                       float text_width, bool hot, bool held)
 {
@@ -361,7 +360,7 @@ enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *nu
     case UI_PASS_EVENT:
         break;
     }
-    // A press elsewhere ends the typing even where another widget has used it.
+    // A press elsewhere ends the typing even if another widget has used it.
     bool press = ui->event->kind == EVENT_BUTTON && ui->event->action == ACTION_PRESS;
     if (ui->typing == id && (press || !ui->used)) return typing_event(ui, id, field, number, value);
     if (ui->used || ui->blocked) return UI_NONE;

@@ -2,7 +2,6 @@
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
-#include "editor/core/state.h"
 #include "scene/reference.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -48,7 +47,7 @@ static void find_active(struct core *core, const struct document *document)
     core->active = found;
 }
 
-void arrange_follow(struct core *core, const struct editor_world *world)
+void arrange_refresh(struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
     const struct spline *active = core_active_spline(core, world);
@@ -113,7 +112,7 @@ struct search {
 static void find_reference(const struct reference *reference, void *context)
 {
     struct search *search = context;
-    if (*reference->spline != search->spline) return;
+    if (reference->spline != search->spline) return;
     search->found = true;
     search->reference = *reference;
 }
@@ -163,7 +162,7 @@ static void arrange_remove_now(struct core *core, const struct editor_world *wor
     good = good && core_edit(core, world, &edit);
     if (!good) history_restart(world->history, world->document);
     history_end(world->history);
-    arrange_follow(core, world);
+    arrange_refresh(core, world);
 }
 
 void arrange_remove(struct core *core, const struct editor_world *world)

@@ -13,7 +13,7 @@ bool arrange_shows(const struct core *core, const struct document *document, int
 /// The active spline where the curves show it, else NULL.
 const struct spline *arrange_seen(const struct core *core, const struct editor_world *world);
 /// After an edit, undo or redo: the active spline keeps being the same one, and the playhead stays on its frame.
-void arrange_follow(struct core *core, const struct editor_world *world);
+void arrange_refresh(struct core *core, const struct editor_world *world);
 /// A new spline at the end of the list with its first knot at the playhead; it is active then.
 void arrange_add(struct core *core, const struct editor_world *world);
 /// A copy of the active spline behind it; it is active then.

@@ -1,8 +1,7 @@
 /// The character that is worked on, and the brush that paints on it: chosen in the inspector, by keys and on the stage.
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
-#include "editor/core/state.h"
-#include "rig/cast.h"
+#include "rig/models.h"
 
 const struct character_rig *characters_selected(const struct core *core, const struct editor_world *world)
 {
@@ -12,7 +11,7 @@ const struct character_rig *characters_selected(const struct core *core, const s
 const struct coordinate *characters_coordinate(const struct core *core, const struct editor_world *world)
 {
     const struct character_rig *rig = characters_selected(core, world);
-    const struct figure *figure = cast_figure(world->cast, core->characters.character);
+    const struct figure *figure = models_figure(world->models, core->characters.character);
     if (!rig || !figure || core->characters.drive >= rig->drive_count) return NULL;
     const int at = figure_find(figure, rig->drives[core->characters.drive].name);
     return at >= 0 ? &figure->character.coordinates[at] : NULL;
@@ -26,11 +25,11 @@ void characters_open(struct core *core, const struct document *document)
     core->characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
 }
 
-const struct figure *brush_figure(const struct core *core, const struct editor_world *world, int *coordinate)
+const struct figure *characters_figure(const struct core *core, const struct editor_world *world, int *coordinate)
 {
     const struct coordinate *selected = characters_coordinate(core, world);
     if (!selected) return NULL;
-    const struct figure *figure = cast_figure(world->cast, core->characters.character);
+    const struct figure *figure = models_figure(world->models, core->characters.character);
     *coordinate = (int)(selected - figure->character.coordinates);
     return figure;
 }
@@ -47,10 +46,10 @@ static void choose_axis(struct core *core, const struct figure *figure, int coor
     core->characters.axis = axis;
 }
 
-void brush_set(struct core *core, const struct editor_world *world, bool on)
+void characters_set_brush(struct core *core, const struct editor_world *world, bool on)
 {
     int coordinate;
-    const struct figure *figure = on ? brush_figure(core, world, &coordinate) : NULL;
+    const struct figure *figure = on ? characters_figure(core, world, &coordinate) : NULL;
     core->brush.on = figure != NULL;
     if (!on) return;
     if (!figure) {
@@ -61,27 +60,27 @@ void brush_set(struct core *core, const struct editor_world *world, bool on)
     core_message(core, false, "Drag over the character to paint. Ctrl reverses, Shift smooths, Esc ends.");
 }
 
-struct edit paint_edit(const struct core *core, const struct editor_world *world, enum edit_kind kind)
+struct edit characters_paint_edit(const struct core *core, const struct editor_world *world, enum edit_kind kind)
 {
     struct edit edit = core_edit_of(kind, 0);
     edit.rig = document_find_rig(world->document, RIG_CHARACTER, core->characters.character);
     return edit;
 }
 
-/// Blank paint of the figure's shape.
-struct edit paint_blank(const struct core *core, const struct editor_world *world, const struct figure *figure)
+struct edit characters_blank_paint(const struct core *core, const struct editor_world *world,
+                                   const struct figure *figure)
 {
-    struct edit edit = paint_edit(core, world, EDIT_PAINT_NEW);
+    struct edit edit = characters_paint_edit(core, world, EDIT_PAINT_NEW);
     edit.coordinates = figure->character.coordinate_count;
     edit.vertices = figure->character.vertex_count;
     return edit;
 }
 
-void brush_clean(struct core *core, const struct editor_world *world)
+void characters_clean_paint(struct core *core, const struct editor_world *world)
 {
     int coordinate;
-    const struct figure *figure = brush_figure(core, world, &coordinate);
+    const struct figure *figure = characters_figure(core, world, &coordinate);
     if (!figure || history_is_open(world->history)) return;
-    const struct edit blank = paint_blank(core, world, figure);
+    const struct edit blank = characters_blank_paint(core, world, figure);
     core_step(core, world, "Remove paint", 0, &blank);
 }

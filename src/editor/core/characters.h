@@ -3,7 +3,7 @@
 #define EDITOR_CORE_CHARACTERS_H
 
 #include "editor/core/state.h"
-#include "rig/cast.h"
+#include "rig/models.h"
 
 /// The rig that is selected, or NULL; and its coordinate.
 const struct character_rig *characters_selected(const struct core *core, const struct editor_world *world);
@@ -12,15 +12,16 @@ const struct coordinate *characters_coordinate(const struct core *core, const st
 /// A new document is on the table: what its first character shows at first.
 void characters_open(struct core *core, const struct document *document);
 /// The figure that is painted on, or NULL; and its coordinate.
-const struct figure *brush_figure(const struct core *core, const struct editor_world *world, int *coordinate);
+const struct figure *characters_figure(const struct core *core, const struct editor_world *world, int *coordinate);
 /// Takes the brush up or puts it away. It cannot be taken up where no character with a coordinate is selected.
-void brush_set(struct core *core, const struct editor_world *world, bool on);
+void characters_set_brush(struct core *core, const struct editor_world *world, bool on);
 /// An edit of the selected character's paint.
-struct edit paint_edit(const struct core *core, const struct editor_world *world, enum edit_kind kind);
+struct edit characters_paint_edit(const struct core *core, const struct editor_world *world, enum edit_kind kind);
 /// Blank paint of the figure's shape.
-struct edit paint_blank(const struct core *core, const struct editor_world *world, const struct figure *figure);
+struct edit characters_blank_paint(const struct core *core, const struct editor_world *world,
+                                   const struct figure *figure);
 /// Takes all paint off the selected character, as a step of the history.
-void brush_clean(struct core *core, const struct editor_world *world);
+void characters_clean_paint(struct core *core, const struct editor_world *world);
 
 /// The radius of the brush on a figure, metres.
 static inline float brush_radius_of(const struct brush *brush, const struct figure *figure)

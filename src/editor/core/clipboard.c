@@ -1,9 +1,7 @@
 /// Knots on the clipboard and twice: copy, cut, paste at the playhead, duplicate.
-#include "editor/core/clipboard.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
-#include "editor/core/state.h"
 #include "scene/knots.h"
 #include <math.h>
 #include <stdio.h>
@@ -22,12 +20,12 @@ static int collect(struct core *core, const struct editor_world *world)
 {
     const struct spline *spline = core_active_spline(core, world);
     if (!spline || history_is_open(world->history)) return 0;
-    selection_collect(core, spline);
+    core_collect(core, spline);
     if (core->originals.count == 0) core_message(core, false, "No knots are selected.");
     return core->originals.count;
 }
 
-bool copy_knots(struct core *core, const struct editor_world *world, bool cut)
+bool core_copy_knots(struct core *core, const struct editor_world *world, bool cut)
 {
     int count = collect(core, world);
     if (count == 0) return false;
@@ -38,7 +36,7 @@ bool copy_knots(struct core *core, const struct editor_world *world, bool cut)
     }
     free(core->clipboard);
     core->clipboard = text;
-    if (cut) remove_knots(core, world, count == 1 ? "Cut knot" : "Cut knots");
+    if (cut) core_remove_knots(core, world, count == 1 ? "Cut knot" : "Cut knots");
     say_count(core, cut ? "Cut" : "Copied", count);
     return true;
 }
@@ -67,7 +65,7 @@ static bool insert_all(struct core *core, const struct editor_world *world, cons
     return true;
 }
 
-void paste_knots(struct core *core, const struct editor_world *world, const char *text)
+void core_paste_knots(struct core *core, const struct editor_world *world, const char *text)
 {
     struct knot_list list;
     struct error error;
@@ -100,7 +98,7 @@ static bool has_room(const struct core *core, const struct document *document, c
     return true;
 }
 
-void duplicate_knots(struct core *core, const struct editor_world *world)
+void core_duplicate_knots(struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
     const struct spline *spline = core_active_spline(core, world);

@@ -2,7 +2,6 @@
 #include "editor/core/core.h"
 #include "editor/core/arrange.h"
 #include "editor/core/selection.h"
-#include "editor/core/state.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,11 +20,27 @@ struct edit core_edit_of(enum edit_kind kind, int spline)
     return (struct edit){.kind = kind, .spline = spline, .param.track = -1};
 }
 
+struct edit core_parameter_edit(int spline, enum parameter parameter, double value)
+{
+    return (struct edit){
+        .kind = EDIT_PARAMETER, .spline = spline, .parameter = parameter, .param = {.value = value, .track = -1}};
+}
+
+struct edit core_knot_edit(const struct document *document, int spline, int sample)
+{
+    const struct spline *edited = &document->splines[spline];
+    int at = spline_find_knot(document, edited, sample);
+    struct edit edit = core_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, spline);
+    edit.knot = at < 0 ? (struct knot){.frame = document_frame(document, sample), .stiffness = KNOT_DEFAULT_STIFFNESS}
+                       : edited->knots[at];
+    return edit;
+}
+
 bool core_edit(struct core *core, const struct editor_world *world, const struct edit *edit)
 {
     struct error error = {0};
     if (history_apply(world->history, world->document, edit, &error)) {
-        core_follow(core, world);
+        core_refresh(core, world);
         return true;
     }
     core_message(core, true, error.text);
@@ -43,34 +58,32 @@ bool core_step(struct core *core, const struct editor_world *world, const char *
     return done;
 }
 
-void core_follow(struct core *core, const struct editor_world *world)
+void core_refresh(struct core *core, const struct editor_world *world)
 {
     if (core->serial != world->document->serial) {
         core_tell(core, world, NEWS_OPENED, -1);
     } else {
-        arrange_follow(core, world);
+        arrange_refresh(core, world);
     }
 }
 
-void core_undo(struct core *core, const struct editor_world *world)
+void core_undo(struct core *core, const struct editor_world *world, int direction)
 {
-    if (history_is_open(world->history)) return;
-    const char *label = history_undo_label(world->history);
+    struct history *history = world->history;
+    if (history_is_open(history)) return;
+    const char *label = direction < 0 ? history_undo_label(history) : history_redo_label(history);
     char text[128];
-    snprintf(text, sizeof text, label ? "Undone: %s" : "Nothing to undo", label);
-    history_undo(world->history, world->document);
-    core_follow(core, world);
-    core_message(core, false, text);
-}
-
-void core_redo(struct core *core, const struct editor_world *world)
-{
-    if (history_is_open(world->history)) return;
-    const char *label = history_redo_label(world->history);
-    char text[128];
-    snprintf(text, sizeof text, label ? "Redone: %s" : "Nothing to redo", label);
-    history_redo(world->history, world->document);
-    core_follow(core, world);
+    if (label) {
+        snprintf(text, sizeof text, "%s: %s", direction < 0 ? "Undone" : "Redone", label);
+    } else {
+        snprintf(text, sizeof text, "Nothing to %s", direction < 0 ? "undo" : "redo");
+    }
+    if (direction < 0) {
+        history_undo(history, world->document);
+    } else {
+        history_redo(history, world->document);
+    }
+    core_refresh(core, world);
     core_message(core, false, text);
 }
 
@@ -79,7 +92,7 @@ void core_jump(struct core *core, const struct editor_world *world, size_t done)
     if (history_is_open(world->history)) return;
     size_t before = history_done(world->history), steps = before > done ? before - done : done - before;
     if (!history_jump(world->history, world->document, done)) return;
-    core_follow(core, world);
+    core_refresh(core, world);
     char text[64];
     snprintf(text, sizeof text, "%s %zu step%s", before > done ? "Undone:" : "Redone:", steps, steps == 1 ? "" : "s");
     core_message(core, false, text);
@@ -144,7 +157,7 @@ double core_position(const struct document *document, double frame)
     return (frame - document->first_frame) * document->substeps;
 }
 
-double round_value(double value, double resolution)
+double core_round(double value, double resolution)
 {
     double exponent = floor(log10(resolution));
     double power = pow(10, fabs(exponent));
@@ -163,7 +176,7 @@ static bool reserve_originals(struct originals *originals, int knots)
     return true;
 }
 
-void selection_collect(struct core *core, const struct spline *spline)
+void core_collect(struct core *core, const struct spline *spline)
 {
     struct originals *originals = &core->originals;
     originals->count = 0;

@@ -1,4 +1,4 @@
-/// What all panels do: edits of the document, requests to the app, messages.
+/// The core of the editor: edits, messages, requests to the app, the active spline, where the panels are.
 #ifndef EDITOR_CORE_CORE_H
 #define EDITOR_CORE_CORE_H
 
@@ -8,18 +8,20 @@
 void core_tell(const struct core *core, const struct editor_world *world, enum news news, int spline);
 /// An edit with everything else zero (tracks -1): fill in what the kind needs.
 struct edit core_edit_of(enum edit_kind kind, int spline);
+/// The edit that gives a parameter of a spline a value, which stops it from following another.
+struct edit core_parameter_edit(int spline, enum parameter parameter, double value);
+/// The edit for a knot on a sample: sets the one there, or inserts one. Fill in its value.
+struct edit core_knot_edit(const struct document *document, int spline, int sample);
 /// Applies one edit inside the open step; on failure the sentence goes to the status line.
 bool core_edit(struct core *core, const struct editor_world *world, const struct edit *edit);
 /// One edit as a step of its own; `merge` as in history_begin().
 bool core_step(struct core *core, const struct editor_world *world, const char *label, uint64_t merge,
                const struct edit *edit);
-/// After each edit, undo and redo: see editor_follow().
-void core_follow(struct core *core, const struct editor_world *world);
-/// Takes the last step back; what goes with it leaves the selection.
-void core_undo(struct core *core, const struct editor_world *world);
-/// The same forwards.
-void core_redo(struct core *core, const struct editor_world *world);
-/// Undoes or does again until `done` of the history's steps are done.
+/// After each edit, undo and redo: see editor_refresh().
+void core_refresh(struct core *core, const struct editor_world *world);
+/// Undoes the last step (direction -1), or does the next one again (1).
+void core_undo(struct core *core, const struct editor_world *world, int direction);
+/// Undoes or redoes until `done` of the history's steps are done.
 void core_jump(struct core *core, const struct editor_world *world, size_t done);
 /// Queues a request to the app; `path` may be NULL.
 void core_request(struct core *core, enum request_kind kind, const char *path);
@@ -37,12 +39,19 @@ void core_set_look(struct core *core, enum look look);
 double core_frame(const struct core *core, const struct document *document);
 /// Position in samples (fractional) of a frame.
 double core_position(const struct document *document, double frame);
-/// A value with no more decimals than somebody who moves a mouse can mean: a multiple of the power of ten at or below
-/// `resolution` (> 0), so that files keep short numbers.
-double round_value(double value, double resolution);
+/// Rounds to a multiple of the power of ten at or below `resolution` (> 0): no more decimals than a mouse can mean, so that
+/// files keep short numbers.
+double core_round(double value, double resolution);
 /// Takes the selected knots of the active spline into `originals`.
-void selection_collect(struct core *core, const struct spline *spline);
+void core_collect(struct core *core, const struct spline *spline);
 /// Memory for the document's knots in selection and drags; allocates only where knots were added.
 void core_reserve(struct core *core, const struct document *document);
+
+/// Rectangles of all panels for the window's size.
+void core_layout(struct core *core);
+/// Which divider is under a point, or DRAG_NONE.
+enum drag_kind core_divider_at(const struct core *core, float x, float y);
+/// Moves a divider to a point.
+void core_divider_move(struct core *core, enum drag_kind kind, float x, float y);
 
 #endif

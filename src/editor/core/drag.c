@@ -2,13 +2,22 @@
 #include "editor/core/drag.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
-#include "editor/core/state.h"
 #include <math.h>
 
 static const float CLICK_REACH = 3; ///< pixels that a click may wander
 static const double FINE = 0.1;     ///< of the pointer's way, with Shift
 
 bool drag_snaps(const struct core *core, unsigned mods) { return core->no_snap == !!(mods & MOD_CTRL); }
+
+void drag_toggle_snap(struct core *core, const struct editor_world *world, int unused)
+{
+    (void)world;
+    (void)unused;
+    core->no_snap = !core->no_snap;
+    core_message(core, false,
+                 core->no_snap ? "Snapping off: hold Ctrl to snap to frames."
+                               : "Snapping on: hold Ctrl to place knots between frames.");
+}
 
 void drag_begin(struct core *core, enum drag_kind kind, const char *label, const struct event *event)
 {

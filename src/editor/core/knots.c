@@ -3,10 +3,9 @@
 #include "base/hash.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
-#include "editor/core/state.h"
 #include <math.h>
 
-uint64_t merge_key(const struct core *core, const struct editor_world *world, uint64_t kind)
+uint64_t core_merge_key(const struct core *core, const struct editor_world *world, uint64_t kind)
 {
     const struct spline *spline = core_active_spline(core, world);
     uint64_t key = hash_bytes(HASH_START, &kind, sizeof kind);
@@ -50,7 +49,7 @@ static double knot_frame(const struct core *core, const struct editor_world *wor
     return fmin(fmax(snap ? round(frame) : frame, document->first_frame), last);
 }
 
-void insert_knot(struct core *core, const struct editor_world *world, double frame, double value, bool snap)
+void core_insert_knot(struct core *core, const struct editor_world *world, double frame, double value, bool snap)
 {
     if (!core_active_spline(core, world) || !isfinite(frame)) return;
     const struct knot knot = {
@@ -58,7 +57,7 @@ void insert_knot(struct core *core, const struct editor_world *world, double fra
     insert_at(core, world, &knot);
 }
 
-void insert_on_curve(struct core *core, const struct editor_world *world, double frame, bool snap, bool slope)
+void core_insert_on_curve(struct core *core, const struct editor_world *world, double frame, bool snap, bool slope)
 {
     const struct document *document = world->document;
     if (!core_active_spline(core, world) || !isfinite(frame)) return;
@@ -75,7 +74,7 @@ void insert_on_curve(struct core *core, const struct editor_world *world, double
     insert_at(core, world, &knot);
 }
 
-void remove_knots(struct core *core, const struct editor_world *world, const char *label)
+void core_remove_knots(struct core *core, const struct editor_world *world, const char *label)
 {
     const struct spline *spline = core_active_spline(core, world);
     if (!spline || history_is_open(world->history)) return;
@@ -90,14 +89,16 @@ void remove_knots(struct core *core, const struct editor_world *world, const cha
     selection_clear(&core->selection);
 }
 
-void delete_knots(struct core *core, const struct editor_world *world)
+void core_delete_knots(struct core *core, const struct editor_world *world, int unused)
 {
+    (void)unused;
     int count = selection_count(&core->selection, core_active_spline(core, world));
-    remove_knots(core, world, count == 1 ? "Delete knot" : "Delete knots");
+    core_remove_knots(core, world, count == 1 ? "Delete knot" : "Delete knots");
 }
 
-void select_all(struct core *core, const struct editor_world *world)
+void core_select_all(struct core *core, const struct editor_world *world, int unused)
 {
+    (void)unused;
     const struct spline *spline = core_active_spline(core, world);
     for (int k = 0; spline && k < spline->knot_count; k++) selection_set(&core->selection, spline->knots[k].id, true);
 }
@@ -114,7 +115,7 @@ static int beside(const struct document *document, const struct spline *spline, 
     return found;
 }
 
-const struct knot *select_neighbour(struct core *core, const struct editor_world *world, int direction)
+const struct knot *core_select_neighbour(struct core *core, const struct editor_world *world, int direction)
 {
     const struct spline *spline = core_active_spline(core, world);
     if (!spline || spline->knot_count == 0) return NULL;
@@ -126,21 +127,21 @@ const struct knot *select_neighbour(struct core *core, const struct editor_world
     return &spline->knots[next];
 }
 
-const struct knot *extend_selection(struct core *core, const struct editor_world *world, int direction)
+const struct knot *core_extend_selection(struct core *core, const struct editor_world *world, int direction)
 {
     const struct spline *spline = core_active_spline(core, world);
     int end = -1;
     for (int k = 0; spline && k < spline->knot_count; k++) {
         if (selection_has(&core->selection, spline->knots[k].id) && (end < 0 || direction > 0)) end = k;
     }
-    if (end < 0) return select_neighbour(core, world, direction);
+    if (end < 0) return core_select_neighbour(core, world, direction);
     int next = end + direction;
     if (next < 0 || next >= spline->knot_count) return NULL;
     selection_set(&core->selection, spline->knots[next].id, true);
     return &spline->knots[next];
 }
 
-void activate_neighbour(struct core *core, const struct editor_world *world, int direction)
+void core_activate_neighbour(struct core *core, const struct editor_world *world, int direction)
 {
     int count = world->document->spline_count;
     if (count > 0) core_activate(core, world, ((core->active + direction) % count + count) % count);

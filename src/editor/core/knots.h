@@ -1,26 +1,56 @@
-/// Inserting, deleting and choosing knots.
+/// What is done to the active spline: to its selected knots, their slopes, and its parameters.
 #ifndef EDITOR_CORE_KNOTS_H
 #define EDITOR_CORE_KNOTS_H
 
 #include "editor/core/state.h"
 
-/// A number for history_begin(): the same for the same kind of nudge of the same knots.
-uint64_t merge_key(const struct core *core, const struct editor_world *world, uint64_t kind);
+/// The merge key for history_begin(): equal for equal kinds of nudges of the same knots, so that these are one undo step.
+uint64_t core_merge_key(const struct core *core, const struct editor_world *world, uint64_t kind);
 /// A knot on a frame (whole frames when `snap`), selected; where there is one already, that one is selected.
-void insert_knot(struct core *core, const struct editor_world *world, double frame, double value, bool snap);
+void core_insert_knot(struct core *core, const struct editor_world *world, double frame, double value, bool snap);
 /// A knot that leaves the curve where it is, with its slope there too (eq. 9) where `slope` is set.
-void insert_on_curve(struct core *core, const struct editor_world *world, double frame, bool snap, bool slope);
+void core_insert_on_curve(struct core *core, const struct editor_world *world, double frame, bool snap, bool slope);
 /// Removes the selected knots as a step of that name.
-void remove_knots(struct core *core, const struct editor_world *world, const char *label);
+void core_remove_knots(struct core *core, const struct editor_world *world, const char *label);
 /// Removes the selected knots.
-void delete_knots(struct core *core, const struct editor_world *world);
+void core_delete_knots(struct core *core, const struct editor_world *world, int unused);
 /// Selects all knots of the active spline.
-void select_all(struct core *core, const struct editor_world *world);
+void core_select_all(struct core *core, const struct editor_world *world, int unused);
 /// Selects the selected knot's neighbour (from the playhead where not just one is selected); NULL where there is none.
-const struct knot *select_neighbour(struct core *core, const struct editor_world *world, int direction);
-/// The knot after the last selected one (1), or before the first one (-1), is selected besides; NULL where there is none.
-const struct knot *extend_selection(struct core *core, const struct editor_world *world, int direction);
-/// The next spline in the list (1) or the one before (-1) becomes active, round the end.
-void activate_neighbour(struct core *core, const struct editor_world *world, int direction);
+const struct knot *core_select_neighbour(struct core *core, const struct editor_world *world, int direction);
+/// Also selects the knot after the last selected one (1) or before the first one (-1); NULL if there is none.
+const struct knot *core_extend_selection(struct core *core, const struct editor_world *world, int direction);
+/// Activates the next spline in the list (1) or the previous one (-1), wrapping round.
+void core_activate_neighbour(struct core *core, const struct editor_world *world, int direction);
+
+/// Turns the slopes of the selected knots up (1) or down (-1), in proportion to the values in sight.
+void slopes_turn(struct core *core, const struct editor_world *world, int direction);
+/// Makes them firmer (1) or softer (-1).
+void slopes_stiffen(struct core *core, const struct editor_world *world, int direction);
+
+enum slopes { SLOPES_TOGGLE, SLOPES_FLAT, SLOPES_SMOOTH };
+
+/// Switches them on, as the curve runs there, or off; makes them level; or aims them at the neighbours (Catmull-Rom).
+void slopes_set(struct core *core, const struct editor_world *world, int how);
+
+/// Moves the selected knots by frames and values; repeated nudges are one undo step.
+void core_nudge_knots(struct core *core, const struct editor_world *world, double frames, double value);
+/// The channel that the active spline moves, the first of all where it moves none; NULL where there is none at all.
+const struct channel *core_active_channel(const struct core *core, const struct document *document, int *tail,
+                                          int *channel);
+/// Where a parameter's slider ends; 0: it has none.
+double core_slider_end(const struct document *document, const struct spline *spline, enum parameter parameter);
+/// Changes the parameter whose letter is held, or with L the lag, by its step.
+void core_nudge_parameter(struct core *core, const struct editor_world *world, int direction);
+/// The next of complex, real and cubic.
+void core_cycle_mode(struct core *core, const struct editor_world *world, int unused);
+
+/// The selected knots as text for the clipboard; `cut` also deletes them. false where there is nothing to copy.
+bool core_copy_knots(struct core *core, const struct editor_world *world, bool cut);
+/// Knots from text: the first one at the playhead, the others as far behind it as they are in the text; selected. All or, where
+/// one would not fit, none.
+void core_paste_knots(struct core *core, const struct editor_world *world, const char *text);
+/// Inserts copies of the selected knots after them, and selects the copies.
+void core_duplicate_knots(struct core *core, const struct editor_world *world);
 
 #endif

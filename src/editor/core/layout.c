@@ -1,6 +1,5 @@
 /// Where the panels are: stage over curves at the left, inspector at the right, status line below.
-#include "editor/core/layout.h"
-#include "editor/core/state.h"
+#include "editor/core/core.h"
 #include "ui/theme.h"
 #include <math.h>
 
@@ -27,7 +26,7 @@ void core_layout(struct core *core)
     l->value_axis = (struct rect){0, l->plot.y, AXIS_WIDTH, plot};
 }
 
-enum drag_kind divider_at(const struct core *core, float x, float y)
+enum drag_kind core_divider_at(const struct core *core, float x, float y)
 {
     const struct layout *l = &core->layout;
     if (y < l->status.y && fabsf(x - l->inspector.x) < DIVIDER_REACH) return DRAG_INSPECTOR_DIVIDER;
@@ -35,7 +34,7 @@ enum drag_kind divider_at(const struct core *core, float x, float y)
     return DRAG_NONE;
 }
 
-void divider_move(struct core *core, enum drag_kind kind, float x, float y)
+void core_divider_move(struct core *core, enum drag_kind kind, float x, float y)
 {
     struct layout *l = &core->layout;
     float height = fmaxf(l->status.y, 1);

@@ -1,14 +1,12 @@
 /// Changes by key: knots and parameters in small steps. Equal nudges of the same knots are one undo step.
-#include "editor/core/nudge.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
-#include "editor/core/state.h"
 #include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
 
-/// Kinds of nudges for merge_key().
+/// Kinds of nudges for core_merge_key().
 enum nudge_kind { NUDGE_FRAMES = 1, NUDGE_VALUE, NUDGE_PARAMETER = 100 };
 
 static const double TAU = 6.283185307179586;
@@ -42,13 +40,13 @@ static double free_shift(const struct core *core, const struct document *documen
     return 0;
 }
 
-void nudge_knots(struct core *core, const struct editor_world *world, double frames, double value)
+void core_nudge_knots(struct core *core, const struct editor_world *world, double frames, double value)
 {
     struct spline *spline = core_active_spline(core, world);
     if (selection_count(&core->selection, spline) == 0 || history_is_open(world->history)) return;
     double shift = free_shift(core, world->document, spline, frames);
     if (shift == 0 && value == 0) return;
-    uint64_t merge = merge_key(core, world, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE);
+    uint64_t merge = core_merge_key(core, world, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE);
     history_begin(world->history, "Nudge knots", merge);
     for (int i = 0, count = spline->knot_count; i < count; i++) {
         int k = shift > 0 ? count - 1 - i : i; /* from the far end, so that they do not run into each other */
@@ -56,14 +54,14 @@ void nudge_knots(struct core *core, const struct editor_world *world, double fra
         struct edit edit = core_edit_of(EDIT_KNOT_SET, core->active);
         edit.knot = spline->knots[k];
         edit.knot.frame += shift;
-        if (value != 0) edit.knot.value = round_value(edit.knot.value + value, 0.01 * fabs(value));
+        if (value != 0) edit.knot.value = core_round(edit.knot.value + value, 0.01 * fabs(value));
         core_edit(core, world, &edit);
     }
     history_end(world->history);
 }
 
-const struct channel *active_channel(const struct core *core, const struct document *document, int *tail,
-                                     int *channel)
+const struct channel *core_active_channel(const struct core *core, const struct document *document, int *tail,
+                                          int *channel)
 {
     const struct channel *first = NULL;
     for (int r = document->rig_count - 1, t = document_count_rigs(document, RIG_TAIL); r >= 0; r--) {
@@ -84,7 +82,7 @@ const struct channel *active_channel(const struct core *core, const struct docum
 static void nudge_lag(struct core *core, const struct editor_world *world, double degrees)
 {
     int tail = -1, channel = -1;
-    const struct channel *active = active_channel(core, world->document, &tail, &channel);
+    const struct channel *active = core_active_channel(core, world->document, &tail, &channel);
     if (!active) {
         core_message(core, false, "This scene has no tail to lag.");
         return;
@@ -98,7 +96,7 @@ static void nudge_lag(struct core *core, const struct editor_world *world, doubl
     edit.angle = ANGLE_LAG;
     edit.angles = &lag;
     uint64_t kind = NUDGE_PARAMETER + PARAMETER_COUNT + (uint64_t)(tail * 4096 + channel);
-    core_step(core, world, "Change lag", merge_key(core, world, kind), &edit);
+    core_step(core, world, "Change lag", core_merge_key(core, world, kind), &edit);
 }
 
 /// The same step where the spline has spring and friction instead: f = √k/2π, ζ = γ/2√k.
@@ -116,7 +114,7 @@ static void step_spring(const struct spline *spline, struct edit *edit, double s
     edit->param.track = spline->parameter[edit->parameter].track;
 }
 
-double slider_end(const struct document *document, const struct spline *spline, enum parameter parameter)
+double core_slider_end(const struct document *document, const struct spline *spline, enum parameter parameter)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
     double most = fmin(row->usual, parameter_maximum(parameter, spline_mode(spline)));
@@ -160,27 +158,27 @@ static void nudge_one(struct core *core, const struct editor_world *world, const
             round((edit.param.value + step) * 1e6) / 1e6; /* 0.30000000000000004 is no number to save */
     double most = parameter_maximum(edit.parameter, spline_mode(spline));
     if (!pair && parameter_rows[parameter].usual > 0)
-        most = fmax(slider_end(world->document, spline, parameter), spline->parameter[parameter].value);
+        most = fmax(core_slider_end(world->document, spline, parameter), spline->parameter[parameter].value);
     edit.param.value = fmin(fmax(edit.param.value, parameter_rows[edit.parameter].minimum), most);
     if (edit.param.value == spline->parameter[edit.parameter].value) return;
-    core_step(core, world, "Change parameter", merge_key(core, world, NUDGE_PARAMETER + edit.parameter), &edit);
+    core_step(core, world, "Change parameter", core_merge_key(core, world, NUDGE_PARAMETER + edit.parameter), &edit);
 }
 
-void nudge_parameter(struct core *core, const struct editor_world *world, int letter, int direction)
+void core_nudge_parameter(struct core *core, const struct editor_world *world, int direction)
 {
     const struct spline *spline = core_active_spline(core, world);
-    if (letter == 'L') nudge_lag(core, world, 0.5 * direction);
-    enum parameter parameter = parameter_of_letter(letter);
+    if (core->held_key == 0) return;
+    if (core->held_key == 'L') nudge_lag(core, world, 0.5 * direction);
+    enum parameter parameter = parameter_of_letter(core->held_key);
     if (!spline || parameter == PARAMETER_COUNT) return;
     nudge_one(core, world, spline, parameter, parameter_rows[parameter].step * direction);
 }
 
-void cycle_mode(struct core *core, const struct editor_world *world)
+void core_cycle_mode(struct core *core, const struct editor_world *world, int unused)
 {
+    (void)unused;
     const struct spline *spline = core_active_spline(core, world);
     if (!spline) return;
-    struct edit edit = core_edit_of(EDIT_PARAMETER, core->active);
-    edit.parameter = PARAMETER_MODE;
-    edit.param = (struct param){(spline_mode(spline) + 1) % 3, -1};
+    struct edit edit = core_parameter_edit(core->active, PARAMETER_MODE, (spline_mode(spline) + 1) % 3);
     core_step(core, world, parameter_rows[PARAMETER_MODE].undo, 0, &edit);
 }

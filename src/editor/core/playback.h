@@ -1,4 +1,4 @@
-/// Playing, stepping and scrubbing.
+/// Playing, stepping and scrubbing, and the part of the scene that is played.
 #ifndef EDITOR_CORE_PLAYBACK_H
 #define EDITOR_CORE_PLAYBACK_H
 
@@ -6,9 +6,9 @@
 
 /// Plays or pauses.
 void playback_toggle(struct core *core, const struct editor_world *world);
-/// Time passes: `dt` seconds of the real clock. Scene frames that no picture showed because one came late are counted.
+/// Advances by `dt` seconds of the real clock. Counts the scene frames that a late picture skipped.
 void playback_advance(struct core *core, const struct editor_world *world, double dt);
-/// Stops and shows a frame.
+/// Stops at a frame.
 void playback_seek(struct core *core, const struct document *document, double frame);
 /// Stops and goes to the next whole frame in a direction.
 void playback_step(struct core *core, const struct editor_world *world, int direction);
@@ -18,5 +18,16 @@ void playback_end(struct core *core, const struct editor_world *world, int direc
 void playback_change_speed(struct core *core, const struct editor_world *world, int direction);
 /// Loop on, off.
 void playback_toggle_loop(struct core *core, const struct editor_world *world, int unused);
+
+/// First and last frame that are played: the part that was chosen, as far as the scene has it, else all.
+void playback_range(const struct core *core, const struct document *document, double range[2]);
+/// Whether less than the whole scene is played.
+bool playback_is_part(const struct core *core, const struct document *document);
+/// Sets the part; an empty one, or one that holds everything, is none.
+void playback_choose(struct core *core, const struct document *document, double first, double last);
+/// Says which part is played.
+void playback_say_range(struct core *core, const struct document *document);
+/// Sets the part's beginning (0) or end (1) to the playhead's frame.
+void playback_mark(struct core *core, const struct editor_world *world, int end);
 
 #endif

@@ -47,7 +47,6 @@ int selection_single(const struct selection *selection, const struct spline *spl
     return found;
 }
 
-/// Ids are given in turn, so room for the next ones is taken along.
 bool selection_reserve(struct selection *selection, unsigned next_id)
 {
     if (next_id < selection->capacity) return true;

@@ -6,11 +6,11 @@
 
 /// Whether an id is selected.
 bool selection_has(const struct selection *selection, unsigned id);
-/// Selects an id, or takes it out.
+/// Selects or deselects an id.
 void selection_set(struct selection *selection, unsigned id, bool selected);
-/// Nothing is selected any more.
+/// Deselects everything.
 void selection_clear(struct selection *selection);
-/// Forgets the ids from `id` on, which are to be given again.
+/// Forgets the ids from `id` on, which will be given again.
 void selection_drop_from(struct selection *selection, unsigned id);
 /// How many of a spline's knots are selected.
 int selection_count(const struct selection *selection, const struct spline *spline);

@@ -1,16 +1,15 @@
 /// The slopes of the selected knots: on, off, flat, Catmull-Rom, turned and made firmer by keys.
-#include "editor/core/slopes.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
-#include "editor/core/state.h"
 #include <math.h>
 
-/// Kinds of nudges for merge_key(), apart from those of nudge.c.
+/// Kinds of nudges for core_merge_key(), apart from those of nudge.c.
 enum nudge_kind { NUDGE_SLOPE = 50, NUDGE_STIFFNESS };
 
-static const double FIRM = 1000;             ///< stiffness where a knot has none yet, 1/s (the default)
-static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
+static const double FIRM = 1000;                ///< stiffness where a knot has none yet, 1/s (the default)
+static const double TURN = 0.05, FIRMER = 1.25; ///< of the visible values, a second; of the stiffness: a key press
+static const double SLOPE_RESOLUTION = 1e-3;    ///< of the visible values, a second
 
 /// The curve's slope around a knot, in values a second, for a slope that changes as little as possible.
 static double slope_at(const struct core *core, const struct editor_world *world, const struct knot *knot)
@@ -62,7 +61,7 @@ static void change_knots(struct core *core, const struct editor_world *world, co
 {
     struct spline *spline = core_active_spline(core, world);
     if (selection_count(&core->selection, spline) == 0 || history_is_open(world->history)) return;
-    history_begin(world->history, change->label, change->kind ? merge_key(core, world, change->kind) : 0);
+    history_begin(world->history, change->label, change->kind ? core_merge_key(core, world, change->kind) : 0);
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         if (!selection_has(&core->selection, knot->id)) continue;
@@ -73,46 +72,46 @@ static void change_knots(struct core *core, const struct editor_world *world, co
         edit.knot.has_slope = change->on;
         if (change->rule) edit.knot.slope = change->rule(world->document, spline, k);
         bool changes = change->rule || change->slope != 0 || (change->on && !knot->has_slope);
-        if (changes) edit.knot.slope = round_value(edit.knot.slope + change->slope, SLOPE_RESOLUTION * core->visible);
+        if (changes) edit.knot.slope = core_round(edit.knot.slope + change->slope, SLOPE_RESOLUTION * core->visible);
         edit.knot.stiffness = fmin(fmax(edit.knot.stiffness * change->stiffness, 1e-3), 1e9);
         core_edit(core, world, &edit);
     }
     history_end(world->history);
 }
 
-void nudge_slope(struct core *core, const struct editor_world *world, double share)
+void slopes_turn(struct core *core, const struct editor_world *world, int direction)
 {
-    struct knot_change change = {
-        .label = "Change slope", .kind = NUDGE_SLOPE, .on = true, .slope = share * core->visible, .stiffness = 1};
+    struct knot_change change = {.label = "Change slope",
+                                 .kind = NUDGE_SLOPE,
+                                 .on = true,
+                                 .slope = TURN * direction * core->visible,
+                                 .stiffness = 1};
     change_knots(core, world, &change);
 }
 
-void nudge_stiffness(struct core *core, const struct editor_world *world, double factor)
+void slopes_stiffen(struct core *core, const struct editor_world *world, int direction)
 {
     struct knot_change change = {
-        .label = "Change stiffness", .kind = NUDGE_STIFFNESS, .on = true, .stiffness = factor};
+        .label = "Change stiffness", .kind = NUDGE_STIFFNESS, .on = true, .stiffness = pow(FIRMER, direction)};
     change_knots(core, world, &change);
 }
 
-void toggle_slope(struct core *core, const struct editor_world *world)
+static bool all_sloped(const struct core *core, const struct spline *spline)
 {
-    const struct spline *spline = core_active_spline(core, world);
     bool all = true;
     for (int k = 0; spline && k < spline->knot_count; k++) {
         if (selection_has(&core->selection, spline->knots[k].id)) all &= spline->knots[k].has_slope;
     }
-    struct knot_change change = {.label = all ? "Slope off" : "Slope on", .on = !all, .stiffness = 1};
-    change_knots(core, world, &change);
+    return all;
 }
 
-void flatten_slopes(struct core *core, const struct editor_world *world)
+void slopes_set(struct core *core, const struct editor_world *world, int how)
 {
-    const struct knot_change change = {.label = "Slope flat", .on = true, .rule = flat, .stiffness = 1};
-    change_knots(core, world, &change);
-}
-
-void smooth_slopes(struct core *core, const struct editor_world *world)
-{
-    const struct knot_change change = {.label = "Slope smooth", .on = true, .rule = catmull_rom, .stiffness = 1};
-    change_knots(core, world, &change);
+    const bool off = how == SLOPES_TOGGLE && all_sloped(core, core_active_spline(core, world));
+    const struct knot_change changes[] = {
+        [SLOPES_TOGGLE] = {.label = off ? "Slope off" : "Slope on", .on = !off, .stiffness = 1},
+        [SLOPES_FLAT] = {.label = "Slope flat", .on = true, .rule = flat, .stiffness = 1},
+        [SLOPES_SMOOTH] = {.label = "Slope smooth", .on = true, .rule = catmull_rom, .stiffness = 1},
+    };
+    change_knots(core, world, &changes[how]);
 }

@@ -1,6 +1,6 @@
 /// What the panels share: layout, selection, playback, what is under the pointer, how things are looked at, requests to the app.
 ///
-/// The document is never kept here: each call is handed the world. Knots are remembered by id, splines and tails by index.
+/// Nothing here keeps the document: each call is handed the world. Knots are remembered by id, splines and tails by index.
 #ifndef EDITOR_CORE_STATE_H
 #define EDITOR_CORE_STATE_H
 
@@ -43,7 +43,7 @@ enum drag_kind {
     DRAG_INSPECTOR_DIVIDER,
 };
 
-/// A mouse drag in progress, as far as all kinds of it are alike.
+/// What all kinds of mouse drags in progress have in common.
 struct drag {
     enum drag_kind kind;
     const char *label; ///< of its step in the history; NULL: it edits nothing
@@ -57,7 +57,7 @@ struct drag {
     bool stale; ///< the pointer moved since the edits were made
 };
 
-/// Knots as they were before an edit that moves them, by sample.
+/// The knots that an edit moves, as they were before it, by sample.
 struct originals {
     struct knot *knot;
     int count, capacity;
@@ -107,7 +107,7 @@ struct message {
     double seconds_left; ///< of a message that is not an error
 };
 
-/// What happens in core and panels have to hear of at once.
+/// What panels must hear of at once.
 enum news {
     NEWS_OPENED,     ///< another document is on the table
     NEWS_RENUMBERED, ///< splines have other indices
@@ -116,7 +116,7 @@ enum news {
     NEWS_DRAG_MOVES, ///< a drag is about to edit
 };
 
-/// Who hears it: the editor, which tells its panels.
+/// Who hears it: the editor, which passes it on to its panels.
 struct listener {
     void (*hear)(void *who, const struct editor_world *world, enum news news, int spline);
     void *who;

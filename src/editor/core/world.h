@@ -2,12 +2,11 @@
 #ifndef EDITOR_CORE_WORLD_H
 #define EDITOR_CORE_WORLD_H
 
-#include "rig/cast.h"
-#include "rig/pose.h"
+#include "rig/models.h"
+#include "rig/posing.h"
 #include "scene/background.h"
 #include "scene/edit.h"
 #include "scene/evaluate.h"
-#include "ui/cursor.h"
 #include "ui/drawlist.h"
 #include "ui/event.h"
 #include "ui/stage.h"
@@ -17,7 +16,7 @@ struct editor_world {
     struct document *document;
     struct history *history;
     const struct evaluation *evaluation; ///< as of the last solve: the frame before, until editor_show()
-    const struct cast *cast;             ///< the characters' models; NULL: none
+    const struct models *models;         ///< the characters' models; NULL: none
 };
 
 /// What the editor asks of the app after a frame's events (files and windows are not its business).

@@ -1,10 +1,10 @@
 /// Selecting knots by a box that is dragged on empty, shown while it grows.
-#include "editor/curves/box.h"
 #include "editor/core/arrange.h"
 #include "editor/core/drag.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/state.h"
+#include "editor/curves/gestures.h"
+#include "editor/curves/view.h"
 #include "ui/theme.h"
 #include <math.h>
 
@@ -29,8 +29,8 @@ void box_update(const struct curves *curves, struct core *core, const struct edi
     const struct rect box = box_rect(&core->drag);
     for (int k = 0; spline && k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
-        double frame = document_frame(world->document, document_sample(world->document, knot->frame));
-        bool inside = rect_contains(box, curves_x(curves, core, frame), curves_y(curves, core, knot->value));
+        bool inside = rect_contains(box, curves_knot_x(curves, core, world->document, knot),
+                                    curves_y(curves, core, knot->value));
         bool before = selection_has(&curves->before_box, knot->id);
         bool selected = curves->knot_drag.box == BOX_REPLACE ? inside
                         : curves->knot_drag.box == BOX_ADD   ? before || inside

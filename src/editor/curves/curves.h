@@ -3,7 +3,6 @@
 #define EDITOR_CURVES_CURVES_H
 
 #include "editor/core/drag.h"
-#include "editor/core/state.h"
 
 struct curves;
 
@@ -11,10 +10,10 @@ struct curves;
 struct curves *curves_create(void);
 /// NULL is fine.
 void curves_destroy(struct curves *curves);
-/// Remembers the active curve as it is now, to be shown behind a drag.
-void ghost_capture(struct curves *curves, const struct core *core, const struct editor_world *world);
+/// Keeps a copy of the active curve to show behind a drag.
+void curves_capture_ghost(struct curves *curves, const struct core *core, const struct editor_world *world);
 /// The ruler counts frames or seconds.
-void ruler_toggle(struct curves *curves, struct core *core);
+void curves_toggle_units(struct curves *curves, struct core *core);
 /// What is under a point of the panel.
 struct hover curves_hover(const struct curves *curves, const struct core *core, const struct editor_world *world,
                           float x, float y);
@@ -27,7 +26,7 @@ void curves_wheel(struct curves *curves, struct core *core, const struct event *
 void curves_open(struct curves *curves);
 /// Room for as many selected knots as core has; allocates only where knots were added. false where memory is short.
 bool curves_reserve(struct curves *curves, const struct core *core);
-/// Splines have other indices: the polylines name them by these.
+/// Splines have new indices: drops the polylines, which use them.
 void curves_forget(struct curves *curves);
 /// Whether a search for warnings goes on.
 bool curves_wants_frames(const struct curves *curves);
@@ -49,28 +48,28 @@ enum drag_answer curves_drag_event(struct curves *curves, struct core *core, con
 /// A drag ends: before its step is closed.
 void curves_drag_end(struct curves *curves, struct core *core, const struct editor_world *world, bool keep);
 /// Switches normalisation.
-void normal_toggle(struct curves *curves, struct core *core, const struct editor_world *world);
-/// Another spline becomes the active one, without a change of the picture.
-void normal_activate(struct curves *curves, struct core *core, int spline);
-/// Does away with the first warning.
+void curves_toggle_normal(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Another spline becomes active: keeps the picture as it is.
+void curves_activate(struct curves *curves, struct core *core, int spline);
+/// Fixes the first warning.
 void curves_remedy_first(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Starts to scale the selected knots with the pointer, about the middle of the selection (P: about the
 /// equilibrium at the playhead).
-void scale_begin(struct curves *curves, struct core *core, const struct editor_world *world);
+void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Frame to logical pixels, within a few thousand of the plot.
 float curves_x(const struct curves *curves, const struct core *core, double frame);
 /// Value to logical pixels, within a few thousand of the plot.
 float curves_y(const struct curves *curves, const struct core *core, double value);
 /// Shows everything.
-void view_frame_all(struct curves *curves, struct core *core, const struct editor_world *world);
+void curves_frame_all(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Shows the selected knots with room around them (everything where none is selected).
-void view_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world);
-/// Pans so that a frame and value can be seen, and no further.
-void view_reveal(struct curves *curves, struct core *core, double frame, double value);
+void curves_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Pans just far enough to show a frame and value.
+void curves_reveal(struct curves *curves, struct core *core, double frame, double value);
 /// Moves the view with the pointer, by logical pixels.
-void view_pan(struct curves *curves, struct core *core, double dx, double dy);
+void curves_pan(struct curves *curves, struct core *core, double dx, double dy);
 /// Zooms about a point of the panel; factors below 1 come closer.
-void view_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor);
+void curves_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor);
 /// Samples that are in sight.
 void curves_span(const struct curves *curves, const struct document *document, int *first, int *count);
 /// Where a warning's marker is on the screen; false where there is none.

@@ -1,11 +1,8 @@
 /// Solved splines → polylines: one vertex a pixel column, and one of them on each knot.
-#include "editor/curves/curves_cache.h"
 #include "base/hash.h"
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/normal.h"
-#include "editor/curves/state.h"
 #include "editor/curves/view.h"
 #include <math.h>
 #include <string.h>
@@ -144,7 +141,7 @@ void curves_update(struct curves *curves, struct core *core, const struct editor
     draw_others(curves, core, world);
 }
 
-void ghost_capture(struct curves *curves, const struct core *core, const struct editor_world *world)
+void curves_capture_ghost(struct curves *curves, const struct core *core, const struct editor_world *world)
 {
     struct ghost *ghost = &curves->ghost;
     const struct curve_cache *cache = &curves->cache;

@@ -1,10 +1,8 @@
 /// The curves panel's background: grids with round steps, numbers at the left, frames on top.
-#include "editor/curves/curves_grid.h"
 #include "editor/core/core.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/curves_show.h"
-#include "editor/curves/range.h"
-#include "editor/curves/state.h"
+#include "editor/curves/gestures.h"
+#include "editor/curves/show.h"
 #include "editor/curves/view.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -113,7 +111,7 @@ struct rect ruler_corner(const struct core *core)
     return (struct rect){layout->value_axis.x, layout->ruler.y, layout->value_axis.w, layout->ruler.h};
 }
 
-void ruler_toggle(struct curves *curves, struct core *core)
+void curves_toggle_units(struct curves *curves, struct core *core)
 {
     curves->options.seconds = !curves->options.seconds;
     core_message(core, false, curves->options.seconds ? "The ruler shows seconds." : "The ruler shows frames.");

@@ -1,18 +1,12 @@
 /// Draws the curves panel: lines, knots, slope handles, names, playhead.
-#include "editor/curves/curves_show.h"
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
-#include "editor/curves/box.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/curves_cache.h"
-#include "editor/curves/curves_grid.h"
-#include "editor/curves/normal.h"
-#include "editor/curves/scale.h"
-#include "editor/curves/state.h"
+#include "editor/curves/gestures.h"
+#include "editor/curves/show.h"
 #include "editor/curves/view.h"
 #include "editor/curves/warnings.h"
-#include "editor/curves/warnings_show.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -100,7 +94,7 @@ double handle_length(double stiffness)
 double handle_stiffness(double length)
 {
     double stiffness = KNOT_DEFAULT_STIFFNESS * pow(10, (length - FIRM_LENGTH) / DECADE_LENGTH);
-    return round_value(stiffness, 0.05 * stiffness);
+    return core_round(stiffness, 0.05 * stiffness);
 }
 
 void curves_handle(const struct curves *curves, const struct core *core, const struct document *document,
@@ -110,8 +104,7 @@ void curves_handle(const struct curves *curves, const struct core *core, const s
     double down = -curves_pixels_per_value(curves, core) * knot->slope;
     double length = hypot(across, down);
     double factor = (end ? 1 : -1) * handle_length(knot->stiffness) / (isfinite(length) && length > 0 ? length : 1);
-    int sample = document_sample(document, knot->frame);
-    xy[0] = curves_x(curves, core, document_frame(document, sample)) + (float)fmin(fmax(across * factor, -1e3), 1e3);
+    xy[0] = curves_knot_x(curves, core, document, knot) + (float)fmin(fmax(across * factor, -1e3), 1e3);
     xy[1] = curves_y(curves, core, knot->value) + (float)fmin(fmax(down * factor, -1e3), 1e3);
 }
 
@@ -144,7 +137,7 @@ static void show_diamond(struct drawlist *list, float x, float y, bool filled, u
 static void show_tick(const struct curves *curves, struct core *core, const struct document *document,
                       const struct knot *knot, uint32_t color)
 {
-    float ends[2][2], x = curves_x(curves, core, document_frame(document, document_sample(document, knot->frame)));
+    float ends[2][2], x = curves_knot_x(curves, core, document, knot);
     float y = curves_y(curves, core, knot->value);
     for (int end = 0; end < 2; end++) {
         curves_handle(curves, core, document, knot, end, ends[end]);
@@ -154,13 +147,7 @@ static void show_tick(const struct curves *curves, struct core *core, const stru
     drawlist_line(&core->list, &ends[0][0], 2, 1.5f, theme_fade(color, 0.7f));
 }
 
-static float knot_x(const struct curves *curves, const struct core *core, const struct document *document,
-                    const struct knot *knot)
-{
-    return curves_x(curves, core, document_frame(document, document_sample(document, knot->frame)));
-}
-
-/// Which of the knots first … end − 1, all in one pixel column, stands for them: the hovered one, else a selected one.
+/// The knot to draw of first … end − 1, all in one pixel column: the hovered one, else a selected one.
 static int column_knot(const struct core *core, const struct spline *spline, int first, int end)
 {
     int best = first;
@@ -172,7 +159,7 @@ static int column_knot(const struct core *core, const struct spline *spline, int
     return best;
 }
 
-/// A stroke over the values of the knots in one pixel column, so that those that are not drawn are not missed.
+/// A stroke over the values of all knots in one pixel column, for those that are not drawn.
 static void show_column(const struct curves *curves, struct core *core, const struct spline *spline, int first,
                         int end, float x, uint32_t color)
 {
@@ -205,9 +192,9 @@ static void show_knots(const struct curves *curves, struct core *core, const str
     const struct rect *plot = &core->layout.plot;
     uint32_t color = arrange_color(document, core->active);
     for (int k = 0, end = 0; spline && k < spline->knot_count; k = end) {
-        float x = knot_x(curves, core, document, &spline->knots[k]);
+        float x = curves_knot_x(curves, core, document, &spline->knots[k]);
         for (end = k + 1; end < spline->knot_count; end++) {
-            if (knot_x(curves, core, document, &spline->knots[end]) - x >= 1) break;
+            if (curves_knot_x(curves, core, document, &spline->knots[end]) - x >= 1) break;
         }
         if (x < plot->x - HANDLE_REACH || x > plot->x + plot->w + HANDLE_REACH) continue;
         show_column(curves, core, spline, k, end, x, color);
@@ -225,7 +212,7 @@ static void show_other_knots(const struct curves *curves, struct core *core, con
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         bool hovered = core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
-        float x = curves_x(curves, core, document_frame(document, document_sample(document, knot->frame)));
+        float x = curves_knot_x(curves, core, document, knot);
         float y = curves_y_of(curves, core, s, knot->value);
         if (x < plot->x || x > plot->x + plot->w || (x - last_x < 3 && !hovered)) continue;
         last_x = x;
@@ -316,7 +303,7 @@ struct rect playhead_tag(const struct curves *curves, const struct core *core, c
     return (struct rect){left, ruler->y + 3, width, 16};
 }
 
-/// The line at the time shown and its frame number; on its own, so that playing redraws nothing else.
+/// The line at the playhead and its frame number; drawn alone, so that playing redraws nothing else.
 static void show_playhead(const struct curves *curves, struct core *core, const struct document *document)
 {
     const struct rect *plot = &core->layout.plot;

@@ -1,16 +1,11 @@
-/// Drags of knots and of their slopes: edits made anew from the original at every step.
-#include "editor/curves/knot_drag.h"
+/// Drags of knots and of their slopes: edits made anew from the originals at every step. With ripple the later knots move along.
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/playback.h"
 #include "editor/core/selection.h"
-#include "editor/curves/box.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/curves_show.h"
-#include "editor/curves/range.h"
-#include "editor/curves/ripple.h"
-#include "editor/curves/scale.h"
-#include "editor/curves/state.h"
+#include "editor/curves/gestures.h"
+#include "editor/curves/show.h"
 #include "editor/curves/view.h"
 #include <assert.h>
 #include <math.h>
@@ -21,10 +16,12 @@ static const double LENGTH_SLACK = 8; ///< pixels by which a handle may be pulle
 /// Whether a knot, as it was before the drag, moves with it.
 static bool moves_along(const struct curves *curves, const struct core *core, const struct knot *knot)
 {
-    return selection_has(&core->selection, knot->id) || ripple_moves(&curves->knot_drag, knot);
+    const struct knot_drag *drag = &curves->knot_drag;
+    return selection_has(&core->selection, knot->id) || (drag->ripple && knot->frame >= drag->ripple_from);
 }
 
-void drag_collect(struct curves *curves, struct core *core, const struct spline *spline)
+/// Copies all knots that move: the edits of the drag start from them.
+static void collect(struct curves *curves, struct core *core, const struct spline *spline)
 {
     struct originals *originals = &core->originals;
     originals->count = 0;
@@ -34,6 +31,35 @@ void drag_collect(struct curves *curves, struct core *core, const struct spline 
     core->drag.label = originals->count == 1 ? "Move knot" : "Move knots";
 }
 
+/// R: the later knots keep their distances to the dragged ones.
+static void toggle_ripple(struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    struct knot_drag *drag = &curves->knot_drag;
+    const struct spline *spline = core_active_spline(core, world);
+    assert(spline && core->originals.count > 0);
+    if (core->drag.moved) history_restart(world->history, world->document);
+    drag->ripple = !drag->ripple;
+    drag->ripple_from = core->originals.knot[0].frame;
+    drag->free_frames = 0;
+    core->drag.stale = true;
+    collect(curves, core, spline);
+    core_message(core, false,
+                 drag->ripple ? "Ripple on: later knots move too (R turns it off)."
+                              : "Ripple off: later knots stay.");
+}
+
+/// The furthest shift to the left, in frames: to the first frame, or with ripple to just after the knot that stays.
+static double least_frames(const struct curves *curves, const struct core *core, const struct document *document,
+                           const struct spline *spline)
+{
+    const struct knot *first = &core->originals.knot[0];
+    int sample = document_sample(document, first->frame);
+    int before = spline_lower_bound(document, spline, sample) - 1;
+    if (!curves->knot_drag.ripple || before < 0) return document->first_frame - first->frame;
+    int least = document_sample(document, spline->knots[before].frame) + 1;
+    return document_frame(document, least) - document_frame(document, sample);
+}
+
 void drag_begin_knots(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
                       const struct event *event)
 {
@@ -41,7 +67,7 @@ void drag_begin_knots(struct curves *curves, struct core *core, const struct edi
     assert(spline);
     drag_begin(core, DRAG_KNOTS, NULL, event);
     curves->knot_drag = (struct knot_drag){.knot = knot};
-    drag_collect(curves, core, spline);
+    collect(curves, core, spline);
 }
 
 void drag_begin_slope(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
@@ -69,8 +95,10 @@ static double wanted_frames(const struct curves *curves, struct core *core, cons
     }
     if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->frame + frames) - held->frame;
     double end = document_frame(document, document_last_knot_sample(document, spline));
-    double most = end - last->frame, least = ripple_least(curves, core, document, spline);
-    if (curves->knot_drag.ripple && frames > most) ripple_stopped(core);
+    double most = end - last->frame, least = least_frames(curves, core, document, spline);
+    if (curves->knot_drag.ripple && frames > most) {
+        core_message(core, false, "The last knot has reached the end of the range. Extend the range to make room.");
+    }
     return fmax(fmin(frames, most), least);
 }
 
@@ -97,7 +125,7 @@ static bool move_knots(const struct curves *curves, const struct core *core, con
         edit.knot = *original;
         edit.knot.frame += frames;
         if (value != 0 && selection_has(&core->selection, original->id)) {
-            edit.knot.value = round_value(original->value + value, resolution);
+            edit.knot.value = core_round(original->value + value, resolution);
         }
         if (!history_apply(world->history, world->document, &edit, NULL)) return false;
     }
@@ -128,7 +156,7 @@ static void apply_slope(const struct curves *curves, struct core *core, const st
     const struct knot *knot = &core->originals.knot[0];
     float end[2];
     curves_handle(curves, core, world->document, knot, curves->knot_drag.handle, end);
-    double x = curves_x(curves, core, document_frame(world->document, document_sample(world->document, knot->frame)));
+    double x = curves_knot_x(curves, core, world->document, knot);
     double across = end[0] + drag->moved_x - x;
     double down = end[1] + drag->moved_y - curves_y(curves, core, knot->value);
     across = curves->knot_drag.handle ? fmax(across, 2) : fmin(across, -2);
@@ -136,7 +164,7 @@ static void apply_slope(const struct curves *curves, struct core *core, const st
     struct edit edit = core_edit_of(EDIT_KNOT_SET, core->active);
     edit.knot = *knot;
     edit.knot.slope =
-        round_value(-down / curves_pixels_per_value(curves, core) / seconds, SLOPE_RESOLUTION * core->visible);
+        core_round(-down / curves_pixels_per_value(curves, core) / seconds, SLOPE_RESOLUTION * core->visible);
     double length = handle_length(knot->stiffness), longer = hypot(across, down) - length;
     if (fabs(longer) > LENGTH_SLACK) {
         edit.knot.stiffness = handle_stiffness(length + longer - copysign(LENGTH_SLACK, longer));
@@ -168,7 +196,7 @@ void curves_drag_move(struct curves *curves, struct core *core, const struct edi
 {
     const struct drag *drag = &core->drag;
     double frame = curves_frame(curves, core, event->x);
-    if (drag->kind == DRAG_PAN) view_pan(curves, core, drag->moved_x, drag->moved_y);
+    if (drag->kind == DRAG_PAN) curves_pan(curves, core, drag->moved_x, drag->moved_y);
     if (drag->kind == DRAG_SCRUB) playback_seek(core, world->document, drag->snap ? round(frame) : frame);
     if (drag->kind == DRAG_RANGE) range_drag(curves, core, world->document, event->x);
     if (drag->kind == DRAG_BOX) box_update(curves, core, world);
@@ -181,7 +209,7 @@ enum drag_answer curves_drag_event(struct curves *curves, struct core *core, con
     if (drag->kind == DRAG_SCALE) return scale_event(curves, core, world, event);
     bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & (MOD_CTRL | MOD_ALT));
     if (drag->kind != DRAG_KNOTS || !key) return DRAG_PASSES;
-    if (event->key == 'R') ripple_toggle(curves, core, world);
+    if (event->key == 'R') toggle_ripple(curves, core, world);
     return event->key == 'R' || drag_lock(drag, event->key) ? DRAG_USED : DRAG_PASSES;
 }
 

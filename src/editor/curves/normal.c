@@ -1,11 +1,9 @@
-/// Curves of unlike sizes in one panel: the others are scaled to the height of the active one.
+/// Normalises curves of different sizes: the others are scaled to the height of the active one.
 ///
 /// Let a … b be the values that the active curve takes and c … d those of another: the other's value v is drawn where the
 /// active one's a + (v − c)·(b − a)/(d − c) is.
-#include "editor/curves/normal.h"
 #include "editor/core/core.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/state.h"
 #include "editor/curves/view.h"
 #include <math.h>
 
@@ -45,11 +43,11 @@ void normal_update(struct curves *curves, const struct core *core, const struct 
     }
 }
 
-void normal_toggle(struct curves *curves, struct core *core, const struct editor_world *world)
+void curves_toggle_normal(struct curves *curves, struct core *core, const struct editor_world *world)
 {
     curves->options.normalise = !curves->options.normalise;
     normal_update(curves, core, world);
-    view_frame_all(curves, core, world);
+    curves_frame_all(curves, core, world);
     core_message(
         core, false,
         curves->options.normalise
@@ -57,7 +55,7 @@ void normal_toggle(struct curves *curves, struct core *core, const struct editor
             : "All curves share one axis again.");
 }
 
-void normal_activate(struct curves *curves, struct core *core, int spline)
+void curves_activate(struct curves *curves, struct core *core, int spline)
 {
     struct value_map map = normal_map(curves, core, spline);
     view_rescale(curves, core, map.scale, map.offset);

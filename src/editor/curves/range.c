@@ -1,10 +1,9 @@
 /// The part that is played, on the ruler and in the plot.
-#include "editor/curves/range.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "editor/core/play_range.h"
+#include "editor/core/playback.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/state.h"
+#include "editor/curves/gestures.h"
 #include "editor/curves/view.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -1,9 +1,6 @@
-/// One click against a warning. What could help against a swing is tried on the solved document, and the first that does is
-/// kept.
-#include "editor/curves/remedy.h"
+/// Fixes warnings. Against a swing, each remedy is tried on the solved document, and the first that helps is kept.
 #include "editor/core/core.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/state.h"
 #include "editor/curves/view.h"
 #include "editor/curves/warnings.h"
 #include <math.h>
@@ -40,14 +37,6 @@ static bool helps(const struct core *core, const struct editor_world *world, con
     return false;
 }
 
-static struct edit parameter_edit(const struct core *core, enum parameter parameter, double value)
-{
-    struct edit edit = core_edit_of(EDIT_PARAMETER, core->active);
-    edit.parameter = parameter;
-    edit.param.value = value;
-    return edit;
-}
-
 static bool lower_frequency(const struct core *core, const struct editor_world *world, const struct spline *spline,
                             int before, char text[96])
 {
@@ -55,8 +44,8 @@ static bool lower_frequency(const struct core *core, const struct editor_world *
     double value = frequency->value;
     if (frequency->track >= 0 || spline->spring_friction) return false;
     for (int i = 0; i < LOWER_STEPS; i++) {
-        value = round_value(value * LOWER, 0.01);
-        struct edit edit = parameter_edit(core, PARAMETER_FREQUENCY, value);
+        value = core_round(value * LOWER, 0.01);
+        struct edit edit = core_parameter_edit(core->active, PARAMETER_FREQUENCY, value);
         if (!helps(core, world, &edit, before)) continue;
         snprintf(text, 96, "Lowered the frequency to %.3g Hz to tame the swing.", value);
         return true;
@@ -69,11 +58,11 @@ static bool tame(const struct curves *curves, const struct core *core, const str
 {
     const struct spline *spline = core_active_spline(core, world);
     int before = count_swings(world->document, core->active);
-    struct edit calm = parameter_edit(core, PARAMETER_CALM, 1);
+    struct edit calm = core_parameter_edit(core->active, PARAMETER_CALM, 1);
     struct edit hold = core_edit_of(EDIT_KNOT_INSERT, core->active);
     double resolution = 0.01 / curves_pixels_per_value(curves, core);
     hold.knot = (struct knot){.frame = warning->frame,
-                              .value = round_value(warning->remedy, resolution),
+                              .value = core_round(warning->remedy, resolution),
                               .stiffness = KNOT_DEFAULT_STIFFNESS};
     if (spline->parameter[PARAMETER_CALM].value < 1 && helps(core, world, &calm, before)) {
         snprintf(text, 96, "Raised calm to 1 to tame the swing.");
@@ -98,7 +87,7 @@ static bool resolve_rate(struct core *core, const struct editor_world *world, co
     }
     const struct spline *spline = core_active_spline(core, world);
     double value = spline->parameter[PARAMETER_FREQUENCY].value * warning->limit / warning->amount;
-    edit = parameter_edit(core, PARAMETER_FREQUENCY, round_value(0.99 * value, 0.01));
+    edit = core_parameter_edit(core->active, PARAMETER_FREQUENCY, core_round(0.99 * value, 0.01));
     snprintf(text, 96, "%.3g Hz.", edit.param.value);
     return core_edit(core, world, &edit);
 }
@@ -126,7 +115,7 @@ void warning_remedy(const struct curves *curves, struct core *core, const struct
     if (chosen.kind == WARNING_SWING) good = tame(curves, core, world, &chosen, text);
     if (chosen.kind == WARNING_RATE) good = resolve_rate(core, world, &chosen, text);
     if (chosen.kind == WARNING_DRIFT) {
-        struct edit edit = parameter_edit(core, PARAMETER_BANDWIDTH, chosen.remedy);
+        struct edit edit = core_parameter_edit(core->active, PARAMETER_BANDWIDTH, chosen.remedy);
         good = core_edit(core, world, &edit);
         snprintf(text, sizeof text, "Bandwidth %.3g.", chosen.remedy);
     }

@@ -2,12 +2,11 @@
 ///
 /// A knot (t, v) goes to (p + a·(t − p), q + b·(v − q)) about the pivot (p, q), its slope to slope·b/a, so that the shape
 /// between the knots scales with them.
-#include "editor/curves/scale.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/state.h"
+#include "editor/curves/gestures.h"
 #include "editor/curves/view.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -57,7 +56,7 @@ static void say(struct curves *curves, const struct core *core, struct factors b
              pivots[scaling->about_playhead], pivots[!scaling->about_playhead]);
 }
 
-void scale_begin(struct curves *curves, struct core *core, const struct editor_world *world)
+void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world)
 {
     const struct spline *spline = core_active_spline(core, world);
     int count = selection_count(&core->selection, spline);
@@ -67,7 +66,7 @@ void scale_begin(struct curves *curves, struct core *core, const struct editor_w
     }
     const struct event event = {.button = BUTTON_LEFT, .x = core->pointer_x, .y = core->pointer_y};
     drag_begin(core, DRAG_SCALE, "Scale knots", &event);
-    selection_collect(core, spline);
+    core_collect(core, spline);
     curves->scaling = (struct scaling){.about_playhead = count == 1, .free_time = 1};
     core->message.text[0] = 0;
     core->hover = (struct hover){.kind = HOVER_NONE};
@@ -134,9 +133,9 @@ static struct knot scaled(const struct curves *curves, const struct core *core, 
     to.frame = scaled_frame(curves, core, knot, by.time);
     if (by.value != 1) {
         double value = curves->scaling.value + by.value * (knot->value - curves->scaling.value);
-        to.value = round_value(value, 0.01 / curves_pixels_per_value(curves, core));
+        to.value = core_round(value, 0.01 / curves_pixels_per_value(curves, core));
     }
-    if (steeper != 1) to.slope = round_value(knot->slope * steeper, SLOPE_RESOLUTION * visible);
+    if (steeper != 1) to.slope = core_round(knot->slope * steeper, SLOPE_RESOLUTION * visible);
     return to;
 }
 
@@ -194,7 +193,7 @@ static bool type(struct scaling *scaling, uint32_t c)
     return true;
 }
 
-/// Takes the last character back.
+/// Deletes the last character.
 static void erase(struct scaling *scaling)
 {
     size_t length = strlen(scaling->typed);

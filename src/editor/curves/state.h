@@ -53,12 +53,12 @@ struct scaling {
 };
 
 enum warning_kind {
-    WARNING_SWING, ///< the curve goes further than twice its knots
+    WARNING_SWING, ///< the curve swings more than twice as far as its knots
     WARNING_RATE,  ///< a frequency near half the sample rate
     WARNING_DRIFT, ///< bandwidth times the periods between two knots
 };
 
-/// Something about the active spline that nobody wants.
+/// A problem of the active spline.
 struct warning {
     enum warning_kind kind;
     double frame, value; ///< the place (not of a rate)
@@ -70,7 +70,7 @@ struct warning {
 
 enum { WARNINGS_MAX = 16 };
 
-/// How far the search for them is: a spline of millions of samples is searched over many frames.
+/// Progress of the search: millions of samples take many frames.
 struct warning_search {
     bool running;
     int measured; ///< knots whose heights are in `highest`

@@ -3,7 +3,6 @@
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/state.h"
 #include <math.h>
 
 /// Pixels further from the plot than this are the same to the eye, and bounded ones are safe as floats.
@@ -29,6 +28,12 @@ float curves_x(const struct curves *curves, const struct core *core, double fram
     const struct rect *plot = &core->layout.plot;
     double x = plot->x + (frame - curves->view.frame0) * curves_pixels_per_frame(curves, core);
     return (float)bounded(x, plot->x, plot->x + plot->w);
+}
+
+float curves_knot_x(const struct curves *curves, const struct core *core, const struct document *document,
+                    const struct knot *knot)
+{
+    return curves_x(curves, core, document_frame(document, document_sample(document, knot->frame)));
 }
 
 float curves_y(const struct curves *curves, const struct core *core, double value)
@@ -82,7 +87,7 @@ static void show_values(struct view *view, const double range[2])
     view->value1 = range[1] + margin;
 }
 
-void view_frame_all(struct curves *curves, struct core *core, const struct editor_world *world)
+void curves_frame_all(struct curves *curves, struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
     const struct evaluation *evaluation = world->evaluation;
@@ -104,7 +109,7 @@ void view_frame_all(struct curves *curves, struct core *core, const struct edito
     keep_sane(curves, core);
 }
 
-void view_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world)
+void curves_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world)
 {
     const struct spline *spline = core_active_spline(core, world);
     double values[2] = {INFINITY, -INFINITY};
@@ -115,7 +120,7 @@ void view_frame_selection(struct curves *curves, struct core *core, const struct
         include_value(frames, spline->knots[k].frame);
     }
     if (frames[0] > frames[1]) {
-        view_frame_all(curves, core, world);
+        curves_frame_all(curves, core, world);
         return;
     }
     double margin = fmax(0.25 * (frames[1] - frames[0]), 6);
@@ -130,7 +135,7 @@ void view_frame_selection(struct curves *curves, struct core *core, const struct
     keep_sane(curves, core);
 }
 
-void view_reveal(struct curves *curves, struct core *core, double frame, double value)
+void curves_reveal(struct curves *curves, struct core *core, double frame, double value)
 {
     struct view *view = &curves->view;
     double frames = 0.05 * (view->frame1 - view->frame0);
@@ -151,7 +156,7 @@ void view_rescale(struct curves *curves, struct core *core, double scale, double
     keep_sane(curves, core);
 }
 
-void view_pan(struct curves *curves, struct core *core, double dx, double dy)
+void curves_pan(struct curves *curves, struct core *core, double dx, double dy)
 {
     struct view *view = &curves->view;
     double frames = dx / curves_pixels_per_frame(curves, core);
@@ -163,7 +168,7 @@ void view_pan(struct curves *curves, struct core *core, double dx, double dy)
     keep_sane(curves, core);
 }
 
-void view_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor)
+void curves_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor)
 {
     struct view *view = &curves->view;
     double frame = curves_frame(curves, core, x);

@@ -1,4 +1,4 @@
-/// What part of time and value is shown.
+/// What of the curves is in sight, and where it is on the screen.
 #ifndef EDITOR_CURVES_VIEW_H
 #define EDITOR_CURVES_VIEW_H
 
@@ -14,5 +14,18 @@ double curves_frame(const struct curves *curves, const struct core *core, double
 double curves_value(const struct curves *curves, const struct core *core, double y);
 /// Shows the values v that were shown as scale·v + offset.
 void view_rescale(struct curves *curves, struct core *core, double scale, double offset);
+
+/// Where a spline's values are drawn.
+struct value_map normal_map(const struct curves *curves, const struct core *core, int spline);
+/// Height of a value of any spline in logical pixels; normalised curves are scaled.
+float curves_y_of(const struct curves *curves, const struct core *core, int spline, double value);
+/// Measures the curves to normalise, but not during a drag, so that other curves keep still.
+void normal_update(struct curves *curves, const struct core *core, const struct editor_world *world);
+
+/// Rebuilds the polylines where document, view or layout changed since; allocates nothing.
+void curves_update(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Where a knot is across the panel, logical pixels: on its sample.
+float curves_knot_x(const struct curves *curves, const struct core *core, const struct document *document,
+                    const struct knot *knot);
 
 #endif

@@ -1,9 +1,8 @@
-/// Finding what an animator would want to be told: swings that outgrow their knots, frequencies that the samples cannot carry,
-/// bandwidths that let the phase drift.
+/// Finds problems: swings that outgrow their knots, frequencies too high for the sample rate, bandwidths that let the phase
+/// drift.
 #include "editor/curves/warnings.h"
 #include "base/hash.h"
 #include "editor/core/arrange.h"
-#include "editor/curves/state.h"
 #include <limits.h>
 #include <math.h>
 

@@ -1,7 +1,6 @@
 /// The markers of warnings in the curves panel, and their words.
-#include "editor/curves/warnings_show.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/state.h"
+#include "editor/curves/warnings.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -1,21 +1,13 @@
 /// The dialogs: open, save as, and the questions.
 #include "editor/dialogs/dialog.h"
 #include "editor/core/core.h"
-#include "editor/dialogs/dialog_ask.h"
-#include "editor/dialogs/dialog_path.h"
-#include "editor/dialogs/dialog_question.h"
-#include "editor/dialogs/dialog_recover.h"
 #include "editor/dialogs/dialogs.h"
-#include "editor/dialogs/state.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { LIST_ROWS = 8, BUTTON_WIDTH = 104 };
-enum { ANSWER_SAVE, ANSWER_DISCARD, ANSWER_CANCEL };
-
-void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files) { dialogs->dialog.files = *files; }
 
 static bool is_question(const struct dialog *dialog)
 {
@@ -51,7 +43,7 @@ void dialog_close(struct dialogs *dialogs)
 
 void dialog_ask_open(struct dialogs *dialogs) { open_dialog(dialogs, DIALOG_OPEN, ""); }
 
-void dialog_ask_save_as(struct dialogs *dialogs, const struct core *core)
+void dialogs_save_as(struct dialogs *dialogs, const struct core *core)
 {
     size_t length = strlen(core->title);
     bool named = length > 5 && strcmp(core->title + length - 5, ".json") == 0;
@@ -68,14 +60,14 @@ static void go_on(struct dialogs *dialogs, struct core *core, const struct reque
     }
 }
 
-void dialog_leave(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
-                  const struct request *after)
+void dialogs_leave(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
+                   const struct request *after)
 {
     if (history_is_saved(world->history)) {
         go_on(dialogs, core, after);
         return;
     }
-    open_dialog(dialogs, DIALOG_UNSAVED, "");
+    dialog_ask_unsaved(dialogs, core);
     dialogs->dialog.after = *after;
 }
 
@@ -86,8 +78,8 @@ void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind 
     core_request(core, kind, path);
 }
 
-bool dialog_answer(struct dialogs *dialogs, struct core *core, const struct request *request, bool ok,
-                   const char *text)
+bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct request *request, bool ok,
+                    const char *text)
 {
     struct dialog *dialog = &dialogs->dialog;
     if (dialog->awaited == REQUEST_NONE || dialog->awaited != request->kind) return false;
@@ -106,13 +98,13 @@ static void decide(struct dialogs *dialogs, struct core *core, int choice)
 {
     struct dialog *dialog = &dialogs->dialog;
     struct request after = dialog->after;
-    if (choice == ANSWER_SAVE && core->path[0]) {
+    if (choice == UNSAVED_SAVE && core->path[0]) {
         dialog_await(dialogs, core, REQUEST_SAVE, NULL);
-    } else if (choice == ANSWER_SAVE) {
-        dialog_ask_save_as(dialogs, core);
+    } else if (choice == UNSAVED_SAVE) {
+        dialogs_save_as(dialogs, core);
     } else {
         dialog_close(dialogs);
-        if (choice == ANSWER_DISCARD) go_on(dialogs, core, &after);
+        if (choice == UNSAVED_DISCARD) go_on(dialogs, core, &after);
     }
 }
 
@@ -142,34 +134,6 @@ static void confirm(struct dialogs *dialogs, struct core *core)
     dialog_await(dialogs, core, saving ? REQUEST_SAVE_AS : REQUEST_OPEN, path);
 }
 
-static void unsaved_question(const struct core *core, struct question *question)
-{
-    static const struct answer answers[] = {
-        [ANSWER_SAVE] = {"dialog.save", "Save", 'S'},
-        [ANSWER_DISCARD] = {"dialog.discard", "Discard", 'D'},
-        [ANSWER_CANCEL] = {"dialog.cancel", "Cancel", 'C'},
-    };
-    question->answers = answers;
-    question->count = sizeof answers / sizeof answers[0];
-    snprintf(question->title, sizeof question->title, "%s has unsaved changes", core->title);
-    snprintf(question->note, sizeof question->note,
-             "Save them, or they will be lost. S saves, D discards, Esc cancels.");
-}
-
-/// The question that is on the screen.
-static struct question question_of(const struct dialogs *dialogs, const struct core *core)
-{
-    struct question question = {0};
-    if (dialogs->dialog.kind == DIALOG_ASK) {
-        question = dialogs->dialog.question;
-    } else if (dialogs->dialog.kind == DIALOG_UNSAVED) {
-        unsaved_question(core, &question);
-    } else {
-        dialog_recover_question(dialogs, &question);
-    }
-    return question;
-}
-
 static void answer(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int given)
 {
     if (given < 0) return;
@@ -185,8 +149,7 @@ static void answer(struct dialogs *dialogs, struct core *core, const struct edit
 /// A letter that answers brings its character along, which is no part of a path that is typed next.
 static bool question_event(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int key)
 {
-    struct question question = question_of(dialogs, core);
-    int given = question_key(&dialogs->dialog, &question, key);
+    int given = question_key(&dialogs->dialog, key);
     if (given == QUESTION_UNUSED) return false;
     dialogs->dialog.skip_text = true;
     answer(dialogs, core, world, given);
@@ -287,8 +250,7 @@ static void build(struct dialogs *dialogs, struct core *core, const struct edito
     struct ui *ui = &dialog->ui;
     ui_space(ui, 8);
     if (is_question(dialog)) {
-        struct question question = question_of(dialogs, core);
-        answer(dialogs, core, world, question_build(dialog, &question));
+        answer(dialogs, core, world, question_build(dialog));
     } else {
         ui->focus = ui_id("dialog.path"); // the path is all there is to type in
         build_path(dialogs, core);

@@ -1,4 +1,4 @@
-/// The dialog on the screen: opened, closed, waiting for the app.
+/// The dialog on the screen: a path to type, or a question.
 #ifndef EDITOR_DIALOGS_DIALOG_H
 #define EDITOR_DIALOGS_DIALOG_H
 
@@ -10,10 +10,42 @@ void dialog_open(struct dialogs *dialogs, enum dialog_kind kind);
 void dialog_close(struct dialogs *dialogs);
 /// Asks which file to open.
 void dialog_ask_open(struct dialogs *dialogs);
-/// Asks something of the app; the dialog takes nothing until dialog_answer().
+/// Asks something of the app; the dialog takes nothing until dialogs_answer().
 void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path);
 /// true for every event while a dialog is open, but for EVENT_SIZE and EVENT_EXPOSE.
 bool dialog_event(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
                   const struct event *event);
+/// Draws the dialog, where one is open.
+void dialog_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
+
+/// Lists the folder of the path where it is a new one, and picks the names that fit what is typed after it.
+void dialog_match(struct dialog *dialog);
+/// Tab: adds what all matches have in common.
+void dialog_complete(struct dialog *dialog);
+/// The recent file that a match is, or NULL.
+const struct dialog_recent *dialog_recent_of(const struct dialog *dialog, int match);
+/// Puts the chosen match into the path; true where it is a file (a folder is listed instead, of one that is gone it is said).
+bool dialog_take(struct dialog *dialog, int match);
+/// Whether the path is one of the names listed.
+bool dialog_exists(const struct dialog *dialog);
+/// Lays out one match of the list; true where it was pressed.
+bool dialog_row(struct dialog *dialog, struct rect r, int match);
+
+enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
+
+/// Lays the dialog's question out; returns the answer that was pressed, or QUESTION_OPEN.
+int question_build(struct dialog *dialog);
+/// What a key does: an answer, QUESTION_OPEN where it moved the choice, or QUESTION_UNUSED.
+int question_key(struct dialog *dialog, int key);
+
+/// DIALOG_ASK: does what was asked about as the answer says.
+void dialog_ask_answer(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int answer);
+
+enum unsaved_answer { UNSAVED_SAVE, UNSAVED_DISCARD, UNSAVED_CANCEL };
+
+/// DIALOG_UNSAVED: asks what to do with unsaved changes.
+void dialog_ask_unsaved(struct dialogs *dialogs, const struct core *core);
+/// DIALOG_RECOVER: what an answer does.
+void dialog_recover_answer(struct dialogs *dialogs, struct core *core, int answer);
 
 #endif

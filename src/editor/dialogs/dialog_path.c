@@ -1,5 +1,5 @@
 /// Completion of the path in the file dialogs, and the list of what it may become.
-#include "editor/dialogs/dialog_path.h"
+#include "editor/dialogs/dialog.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,12 +1,17 @@
-/// Shows a question with a few answers, and takes the answer.
-#include "editor/dialogs/dialog_question.h"
+/// Dialogs that ask a question: before an edit that touches more than was asked for, and about recovered work.
+#include "editor/core/arrange.h"
+#include "editor/dialogs/dialog.h"
+#include "editor/dialogs/dialogs.h"
+#include "scene/reference.h"
 #include "ui/theme.h"
 #include <math.h>
+#include <stdio.h>
 
 enum { BUTTON_WIDTH = 104 };
 
-int question_build(struct dialog *dialog, const struct question *question)
+int question_build(struct dialog *dialog)
 {
+    const struct question *question = &dialog->question;
     struct ui *ui = &dialog->ui;
     ui_label(ui, ui_row(ui, UI_ROW), question->title, theme()->text);
     float top = ui->y;
@@ -24,8 +29,9 @@ int question_build(struct dialog *dialog, const struct question *question)
     return pressed;
 }
 
-int question_key(struct dialog *dialog, const struct question *question, int key)
+int question_key(struct dialog *dialog, int key)
 {
+    const struct question *question = &dialog->question;
     int count = question->count;
     switch (key) {
     case KEY_ESCAPE:
@@ -49,4 +55,109 @@ int question_key(struct dialog *dialog, const struct question *question, int key
         if (question->answers[i].key == key) return i;
     }
     return QUESTION_UNUSED;
+}
+
+static const struct answer fps_answers[] = {
+    {"dialog.frames", "Keep frames", 'F'}, {"dialog.seconds", "Keep seconds", 'S'}, {"dialog.cancel", "Cancel", 'C'}};
+static const struct answer range_answers[] = {
+    {"dialog.move", "Move", 'M'}, {"dialog.trim", "Trim", 'T'}, {"dialog.cancel", "Cancel", 'C'}};
+static const struct answer remove_answers[] = {{"dialog.delete", "Delete", 'D'}, {"dialog.cancel", "Cancel", 'C'}};
+static const struct answer unsaved_answers[] = {
+    [UNSAVED_SAVE] = {"dialog.save", "Save", 'S'},
+    [UNSAVED_DISCARD] = {"dialog.discard", "Discard", 'D'},
+    [UNSAVED_CANCEL] = {"dialog.cancel", "Cancel", 'C'},
+};
+enum recover_answer { RECOVER_RECOVER, RECOVER_DISCARD, RECOVER_LATER };
+static const struct answer recover_answers[] = {
+    [RECOVER_RECOVER] = {"dialog.recover", "Recover", 'R'},
+    [RECOVER_DISCARD] = {"dialog.discard", "Discard", 'D'},
+    [RECOVER_LATER] = {"dialog.later", "Later", 'L'},
+};
+
+/// A question with these answers, to be given its words.
+#define QUESTION(list) ((struct question){.answers = (list), .count = sizeof(list) / sizeof(list)[0]})
+
+static void ask_fps(struct question *question, const struct document *document, const struct ask *ask)
+{
+    *question = QUESTION(fps_answers);
+    snprintf(question->title, sizeof question->title, "%g frames per second instead of %g", ask->number,
+             document->fps);
+    snprintf(
+        question->note, sizeof question->note,
+        "Keep frames: knots stay on their frames, and everything goes %s. Keep seconds: knots and range move to new "
+        "frames and the timing stays.",
+        ask->number > document->fps ? "faster" : "slower");
+}
+
+static void ask_range(struct question *question, const struct document *document, const struct ask *ask)
+{
+    int count = arrange_outside(document, ask->first, ask->last);
+    *question = QUESTION(range_answers);
+    snprintf(question->title, sizeof question->title, "%d knot%s would fall outside frames %d to %d", count,
+             count == 1 ? "" : "s", ask->first, ask->last);
+    snprintf(question->note, sizeof question->note,
+             "Move shifts them to the nearest free frames inside. Trim deletes them.");
+}
+
+static void ask_remove(struct question *question, const struct document *document, int spline)
+{
+    int count = reference_count(document, spline);
+    *question = QUESTION(remove_answers);
+    snprintf(question->title, sizeof question->title, "%.200s is used in %d place%s", document->splines[spline].name,
+             count, count == 1 ? "" : "s");
+    snprintf(question->note, sizeof question->note,
+             "Parameters that follow it keep their value at the playhead. Tails and characters on the "
+             "stage stop using it.");
+}
+
+void dialogs_ask(struct dialogs *dialogs, const struct core *core, const struct editor_world *world,
+                 const struct ask *ask)
+{
+    struct question *question = &dialogs->dialog.question;
+    dialogs->dialog.ask = *ask;
+    if (ask->kind == ASK_FPS) ask_fps(question, world->document, ask);
+    if (ask->kind == ASK_RANGE) ask_range(question, world->document, ask);
+    if (ask->kind == ASK_REMOVE) ask_remove(question, world->document, core->active);
+    dialog_open(dialogs, DIALOG_ASK);
+}
+
+void dialog_ask_answer(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int answer)
+{
+    const struct ask ask = dialogs->dialog.ask;
+    bool cancelled = answer == dialogs->dialog.question.count - 1;
+    dialog_close(dialogs);
+    if (!cancelled) arrange_answer(core, world, &ask, answer);
+}
+
+void dialog_ask_unsaved(struct dialogs *dialogs, const struct core *core)
+{
+    struct question *question = &dialogs->dialog.question;
+    *question = QUESTION(unsaved_answers);
+    snprintf(question->title, sizeof question->title, "%s has unsaved changes", core->title);
+    snprintf(question->note, sizeof question->note,
+             "Save them, or they will be lost. S saves, D discards, Esc cancels.");
+    dialog_open(dialogs, DIALOG_UNSAVED);
+}
+
+void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer)
+{
+    struct question *question = &dialogs->dialog.question;
+    char others[64] = "";
+    if (offer->others > 0) {
+        snprintf(others, sizeof others, "  %d older one%s after this.", offer->others, offer->others > 1 ? "s" : "");
+    }
+    *question = QUESTION(recover_answers);
+    snprintf(question->title, sizeof question->title, "Recover unsaved work on %s?", offer->name);
+    snprintf(question->note, sizeof question->note, "Last kept on %s. Later asks again at the next start.%s",
+             offer->when, others);
+    dialog_open(dialogs, DIALOG_RECOVER);
+}
+
+void dialog_recover_answer(struct dialogs *dialogs, struct core *core, int answer)
+{
+    if (answer == RECOVER_LATER) {
+        dialog_close(dialogs);
+    } else {
+        dialog_await(dialogs, core, answer == RECOVER_RECOVER ? REQUEST_RECOVER : REQUEST_FORGET, NULL);
+    }
 }

@@ -15,38 +15,36 @@ void dialogs_destroy(struct dialogs *dialogs);
 /// See editor_set_files().
 void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files);
 /// Asks where to save.
-void dialog_ask_save_as(struct dialogs *dialogs, const struct core *core);
+void dialogs_save_as(struct dialogs *dialogs, const struct core *core);
 /// Does `after` (REQUEST_NEW, REQUEST_OPEN with a path, or without: asks for one, REQUEST_QUIT), but asks first where work
 /// would be lost: Save, Discard, Cancel. `after` then follows only when the save has succeeded.
-void dialog_leave(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
-                  const struct request *after);
+void dialogs_leave(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
+                   const struct request *after);
 /// The app's answer to what the dialog has asked for: it closes and goes on with `after`, or stays and says why not. false
 /// where it waits for no such answer.
-bool dialog_answer(struct dialogs *dialogs, struct core *core, const struct request *request, bool ok,
-                   const char *text);
-/// Draws the dialog.
-void dialog_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
+bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct request *request, bool ok,
+                    const char *text);
+/// Draws the help and the dialog.
+void dialogs_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
 /// Asks before an edit.
-void dialog_ask(struct dialogs *dialogs, const struct core *core, const struct editor_world *world,
-                const struct ask *ask);
+void dialogs_ask(struct dialogs *dialogs, const struct core *core, const struct editor_world *world,
+                 const struct ask *ask);
 /// See editor_offer_recovery().
-void dialog_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer);
+void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer);
 /// true where an open dialog, the help or the card for new users takes the event; `busy`: no help now.
 bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
                    const struct event *event, bool busy);
 /// Whether something lies over the panels.
 bool dialogs_cover(const struct dialogs *dialogs);
-/// The same, and what the pointer is over in it.
+/// The same, and what the pointer is over there.
 bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over);
-/// Down to where the stage is free at its left.
+/// How far down the left side of the stage is free.
 float dialogs_bottom(const struct dialogs *dialogs, const struct core *core);
-/// Draws the help.
-void help_show(const struct dialogs *dialogs, struct core *core);
 /// Shows the card for new users.
-void welcome_open(struct dialogs *dialogs);
+void dialogs_welcome(struct dialogs *dialogs);
 /// Whether it is still to be seen.
-bool welcome_is_open(const struct dialogs *dialogs);
+bool dialogs_is_welcoming(const struct dialogs *dialogs);
 /// A card on the stage with what to try first.
-void welcome_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
+void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
 
 #endif

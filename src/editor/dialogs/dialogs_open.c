@@ -1,20 +1,26 @@
-/// What lies over the panels: which of it there is.
+/// What lies over the panels, and who of it takes an event.
 #include "editor/dialogs/dialog.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/dialogs/help.h"
-#include "editor/dialogs/state.h"
-#include "editor/dialogs/welcome.h"
 #include <stdlib.h>
 
 struct dialogs *dialogs_create(void) { return calloc(1, sizeof(struct dialogs)); }
 
 void dialogs_destroy(struct dialogs *dialogs) { free(dialogs); }
 
+void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files) { dialogs->dialog.files = *files; }
+
 bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
                    const struct event *event, bool busy)
 {
     return dialog_event(dialogs, core, world, event) || help_event(dialogs, core, event, busy) ||
            welcome_event(dialogs, core, event);
+}
+
+void dialogs_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
+{
+    help_show(dialogs, core);
+    dialog_show(dialogs, core, world);
 }
 
 bool dialogs_cover(const struct dialogs *dialogs)

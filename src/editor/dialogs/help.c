@@ -2,10 +2,9 @@
 /// scrolled where that is not enough.
 #include "editor/dialogs/help.h"
 #include "editor/dialogs/dialogs.h"
-#include "editor/dialogs/help_rows.h"
-#include "editor/dialogs/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"
+#include "ui/widgets.h"
 #include <math.h>
 
 enum {
@@ -125,7 +124,10 @@ bool help_event(struct dialogs *dialogs, const struct core *core, const struct e
     struct help *help = &dialogs->help;
     if (!help->open) {
         bool opens = press && event->kind == EVENT_KEY && event->key == KEY_F1;
-        if (opens && !busy) *help = (struct help){.open = true};
+        if (opens && !busy) {
+            *help = (struct help){.open = true};
+            dialogs->welcome = false;
+        }
         return opens;
     }
     const struct page page = page_of(core->layout.window);
@@ -142,7 +144,7 @@ bool help_event(struct dialogs *dialogs, const struct core *core, const struct e
 
 static void paint_line(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
 {
-    float y = roundf(r.y + (r.h + font_cap_height(font, THEME_TEXT_NORMAL)) / 2);
+    float y = ui_baseline(r, font, THEME_TEXT_NORMAL);
     drawlist_text_fit(list, r.x, y, r.w, font, THEME_TEXT_NORMAL, color, text);
 }
 

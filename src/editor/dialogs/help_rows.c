@@ -1,5 +1,5 @@
 /// The rows of the F1 overlay.
-#include "editor/dialogs/help_rows.h"
+#include "editor/dialogs/help.h"
 #include "scene/parameter.h"
 
 const struct help_group help_groups[HELP_GROUPS] = {

@@ -34,8 +34,7 @@ struct dialog {
     enum dialog_kind kind;
     struct ui ui; ///< its text is the path
     struct dialog_files files;
-    struct recovery_offer offer; ///< of DIALOG_RECOVER
-    struct ask ask;              ///< of DIALOG_ASK, and its question
+    struct ask ask; ///< of DIALOG_ASK
     struct question question;
     struct request after;      ///< what to do once the work is saved or discarded; REQUEST_NONE: nothing
     enum request_kind awaited; ///< what was requested and is not answered yet; REQUEST_NONE: nothing

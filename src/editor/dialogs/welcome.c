@@ -1,7 +1,6 @@
 /// What to try first: a card on the stage that goes away with the first edit, the first look at the help, Esc, or a click.
-#include "editor/dialogs/welcome.h"
 #include "editor/dialogs/dialogs.h"
-#include "editor/dialogs/state.h"
+#include "editor/dialogs/help.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -20,9 +19,9 @@ enum { HINTS = sizeof hints / sizeof hints[0] };
 
 static const char closing[] = "Got it", more[] = "F1 shows all keys";
 
-void welcome_open(struct dialogs *dialogs) { dialogs->welcome = true; }
+void dialogs_welcome(struct dialogs *dialogs) { dialogs->welcome = true; }
 
-bool welcome_is_open(const struct dialogs *dialogs) { return dialogs->welcome; }
+bool dialogs_is_welcoming(const struct dialogs *dialogs) { return dialogs->welcome; }
 
 static float width_of(enum font font, const char *text) { return font_width(font, THEME_TEXT_NORMAL, text); }
 
@@ -58,9 +57,9 @@ static void show_text(struct core *core, float x, float y, enum font font, uint3
     drawlist_text(&core->list, x, y, font, THEME_TEXT_NORMAL, color, text);
 }
 
-void welcome_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
+void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
 {
-    if (!history_is_saved(world->history) || dialogs->help.open) dialogs->welcome = false;
+    if (!history_is_saved(world->history)) dialogs->welcome = false;
     if (!dialogs->welcome) return;
     struct drawlist *list = &core->list;
     struct rect card = welcome_card(core), clip = drawlist_push_clip(list, core->layout.stage);

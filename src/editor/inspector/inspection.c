@@ -1,5 +1,6 @@
 /// What the inspector's sections share: what a number's change means for the history, rows with a label.
 #include "editor/inspector/inspection.h"
+#include "editor/core/arrange.h"
 #include "editor/core/core.h"
 
 void inspector_take_back(struct inspection *in, enum ui_change change)
@@ -7,7 +8,7 @@ void inspector_take_back(struct inspection *in, enum ui_change change)
     struct history *history = in->world->history;
     if (change != UI_DRAG || !history_is_open(history)) return;
     history_restart(history, in->document);
-    core_follow(in->core, in->world);
+    core_refresh(in->core, in->world);
 }
 
 void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
@@ -34,7 +35,7 @@ void inspector_change_all(struct inspection *in, enum ui_change change, const ch
         if (!history_is_open(history)) return; // nothing was moved by this drag
         if (change == UI_CANCEL) history_restart(history, in->document);
         history_end(history);
-        core_follow(in->core, in->world);
+        core_refresh(in->core, in->world);
         return;
     case UI_NUDGE:
         merge = (uint64_t)ui_id(what) << 32 | (uint32_t)(in->core->active + 1);
@@ -46,6 +47,21 @@ void inspector_change_all(struct inspection *in, enum ui_change change, const ch
     history_begin(history, label, merge);
     for (int i = 0; i < count; i++) core_edit(in->core, in->world, &edits[i]);
     history_end(history);
+}
+
+int inspector_spline_list(struct inspection *in, const char *list, const bool *left_out, int chosen)
+{
+    struct ui_item items[INSPECTOR_MAX_SPLINES];
+    int splines[INSPECTOR_MAX_SPLINES] = {0}, count = 0, row = -1;
+    for (int s = 0; s < in->document->spline_count && s < INSPECTOR_MAX_SPLINES; s++) {
+        if (left_out && left_out[s]) continue;
+        const char *name = in->document->splines[s].name;
+        if (s == chosen) row = count;
+        items[count] = (struct ui_item){name, name, arrange_color(in->document, s)};
+        splines[count++] = s;
+    }
+    int picked = ui_popup_list(in->ui, list, items, count, row);
+    return picked < 0 ? -1 : splines[picked];
 }
 
 struct rect inspector_labelled(struct inspection *in, const char *label)

@@ -17,6 +17,8 @@ struct inspection {
 /// A number's limits where there are none.
 #define INSPECTOR_NO_LIMIT 1e300
 
+enum { INSPECTOR_MAX_SPLINES = 256 }; ///< in a list to choose from, from the top
+
 /// The sections; inspector.c has the table. Each builds what is below its header.
 void inspector_scene(struct inspection *in);
 void inspector_splines(struct inspection *in);
@@ -30,19 +32,16 @@ void inspector_history(struct inspection *in);
 /// The rows on the brush, below "Character".
 void inspector_brush(struct inspection *in);
 
-/// The fields of several selected knots, below "Knot".
-void inspector_knots(struct inspection *in);
-
-/// What opens over the panel, built after all else: the palette of the list of splines, the list of splines to follow.
+/// The lists that open over the panel, built after all else: the splines' palette, and the splines that a parameter may follow.
 void inspector_palette(struct inspection *in);
-void inspector_follow_list(struct inspection *in);
+void inspector_track_list(struct inspection *in);
 /// The list of splines that may bend a tail, and the one that its body may follow.
 void inspector_tail_lists(struct inspection *in);
 
 /// A row in which a parameter follows a spline, in place of its slider; and the button at its right that lets it follow one
 /// or lets go.
 void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r);
-void inspector_follow_button(struct inspection *in, enum parameter parameter, struct rect r);
+void inspector_track_button(struct inspection *in, enum parameter parameter, struct rect r);
 /// The lists that open over the section on a character; built after all else in the panel.
 void inspector_character_lists(struct inspection *in);
 
@@ -57,7 +56,29 @@ void inspector_change(struct inspection *in, enum ui_change change, const char *
 void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
                           const struct edit *edits, int count);
 
+/// The open list of splines, without those that are left out (by index; NULL: none); the one that was picked, or -1.
+int inspector_spline_list(struct inspection *in, const char *list, const bool *left_out, int chosen);
+
 /// A row with a label; returns what is right of it.
 struct rect inspector_labelled(struct inspection *in, const char *label);
+
+/// One of a tail's three angles, as a slider shows it.
+struct angle_row {
+    enum angle_kind kind;
+    const char *name, *hint, *undo;
+    double minimum, maximum, fallback, step;
+};
+
+extern const struct angle_row angle_row_lag, angle_row_gain, angle_row_rest;
+
+/// Rows for the angles of the tail or channel that the inspector shows.
+void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles);
+
+/// Its channels: the list, and how much and how late the chosen one bends; and what that is made of.
+void inspector_channels(struct inspection *in, const struct tail *tail);
+void inspector_channel(struct inspection *in, const struct tail *tail);
+
+/// The list of splines that the channel can bend by, where it is open.
+void inspector_feed_list(struct inspection *in);
 
 #endif

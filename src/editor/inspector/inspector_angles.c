@@ -2,8 +2,6 @@
 /// to fill in between, and a list to type.
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
-#include "editor/inspector/inspector_tail.h"
-#include "editor/inspector/state.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

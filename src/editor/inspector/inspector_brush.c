@@ -43,7 +43,7 @@ void inspector_brush(struct inspection *in)
     struct rect r = inspector_labelled(in, "paint");
     int on = brush->on;
     if (ui_hovered(in->ui, r)) in->ui->hint = "Paint phase and amplitude onto the character (K)";
-    if (ui_segments(in->ui, r, "paint", switches, 2, &on)) brush_set(in->core, in->world, on);
+    if (ui_segments(in->ui, r, "paint", switches, 2, &on)) characters_set_brush(in->core, in->world, on);
     const struct character_rig *rig = characters_selected(in->core, in->world);
     if (brush->on) {
         build_modes(in, "phase", "Move earlier, later, or blend with the surroundings", BRUSH_ADVANCE, phase, 3);
@@ -56,5 +56,5 @@ void inspector_brush(struct inspection *in)
     }
     if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
     if (ui_button(in->ui, ui_row(in->ui, UI_ROW), "paint.clean", "Remove all paint", false))
-        brush_clean(in->core, in->world);
+        characters_clean_paint(in->core, in->world);
 }

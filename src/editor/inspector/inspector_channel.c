@@ -2,11 +2,9 @@
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
-#include "editor/inspector/inspector_tail.h"
-#include "editor/inspector/state.h"
 #include <stdio.h>
 
-enum { ICON = 24, MAX_SPLINES = 256 };
+enum { ICON = 24 };
 
 static const char feed_list[] = "feed";
 
@@ -80,14 +78,8 @@ void inspector_feed_list(struct inspection *in)
     const struct inspector *inspector = in->inspector;
     const struct tail *tail = document_tail(in->document, inspector->tail);
     if (!ui_popup_is_open(in->ui, feed_list) || !tail) return;
-    struct ui_item items[MAX_SPLINES];
-    int count = in->document->spline_count < MAX_SPLINES ? in->document->spline_count : MAX_SPLINES;
     if (inspector->channel >= tail->channel_count) return;
-    for (int s = 0; s < count; s++) {
-        const char *name = in->document->splines[s].name;
-        items[s] = (struct ui_item){name, name, arrange_color(in->document, s)};
-    }
-    int picked = ui_popup_list(in->ui, feed_list, items, count, tail->channels[inspector->channel].spline);
+    int picked = inspector_spline_list(in, feed_list, NULL, tail->channels[inspector->channel].spline);
     if (picked < 0) return;
     struct edit edit = channel_edit(in, EDIT_FEED);
     edit.spline = picked;

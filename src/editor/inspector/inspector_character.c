@@ -3,11 +3,11 @@
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
-#include "rig/cast.h"
+#include "rig/models.h"
 #include <stdio.h>
 #include <string.h>
 
-enum { MAX_ITEMS = 32 }; ///< of a list: splines, or coordinates that may be added
+enum { MAX_ITEMS = 32 }; ///< coordinates that may be added
 
 static const char spline_list[] = "drive.splines", add_list[] = "drive.add";
 
@@ -115,7 +115,7 @@ static bool is_driven(const struct character_rig *rig, const char *name)
 static int free_coordinates(const struct inspection *in, const struct character_rig *rig,
                             struct ui_item items[MAX_ITEMS])
 {
-    const struct figure *figure = cast_figure(in->world->cast, in->core->characters.character);
+    const struct figure *figure = models_figure(in->world->models, in->core->characters.character);
     int count = 0;
     if (!figure || rig->drive_count == CHARACTER_MAX_DRIVES) return 0;
     for (int k = 0; k < figure->character.coordinate_count && count < MAX_ITEMS; k++) {
@@ -185,14 +185,8 @@ void inspector_character(struct inspection *in)
 
 static void spline_popup(struct inspection *in, const struct drive *drive)
 {
-    struct ui_item items[MAX_ITEMS];
-    int count = 0;
-    for (; count < in->document->spline_count && count < MAX_ITEMS; count++) {
-        const char *name = in->document->splines[count].name;
-        items[count] = (struct ui_item){name, name, arrange_color(in->document, count)};
-    }
     struct drive next = *drive;
-    next.spline = ui_popup_list(in->ui, spline_list, items, count, drive->spline);
+    next.spline = inspector_spline_list(in, spline_list, NULL, drive->spline);
     if (next.spline < 0) return;
     struct edit edit = drive_edit(in, EDIT_DRIVE, &next);
     core_step(in->core, in->world, "Set spline", 0, &edit);

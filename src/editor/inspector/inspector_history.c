@@ -3,7 +3,6 @@
 /// It has to be the last section: going to a step changes the document under what is laid out after it.
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
-#include "editor/inspector/state.h"
 #include "ui/theme.h"
 #include <stdio.h>
 
@@ -25,7 +24,7 @@ static void text_of(const struct history *history, size_t row, char *text, size_
 static void name_of(size_t row, char name[32]) { snprintf(name, 32, "history.%zu", row); }
 
 /// Scrolls so that the present step is seen, whenever it has changed.
-static void follow(struct history_view *view, size_t count, size_t done)
+static void keep_in_sight(struct history_view *view, size_t count, size_t done)
 {
     size_t last_top = count + 1 > ROWS ? count + 1 - ROWS : 0;
     if (view->count != count || view->done != done) {
@@ -99,7 +98,7 @@ void inspector_history(struct inspection *in)
     const struct history *history = in->world->history;
     struct history_view *view = &in->inspector->history;
     size_t count = history_count(history);
-    follow(view, count, history_done(history));
+    keep_in_sight(view, count, history_done(history));
     size_t first = view->top, end = first + ROWS < count + 1 ? first + ROWS : count + 1, pressed = end;
     struct rect list = {in->ui->area.x, in->ui->y, in->ui->area.w, (float)(end - first) * UI_ROW};
     for (size_t row = first; row < end; row++) {

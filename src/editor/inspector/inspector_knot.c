@@ -1,18 +1,191 @@
-/// The inspector's section on the selected knot.
+/// The inspector's section on the selected knots. Of several, a typed number is all of theirs, a drag or an arrow moves each by
+/// the same; frames keep their distances either way.
 #include "editor/core/core.h"
+#include "editor/core/knots.h"
 #include "editor/core/selection.h"
-#include "editor/core/slopes.h"
-#include "editor/core/state.h"
 #include "editor/inspector/inspection.h"
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
+#include <string.h>
 
-static void change_knot(struct inspection *in, enum ui_change change, const char *label, const char *what,
-                        const struct knot *knot)
+struct knot_field {
+    struct ui_number number;
+    const char *undo, *undo_one, *hint_one; ///< the last two where one knot alone is selected
+    size_t offset;                          ///< of the number in struct knot
+    bool moves; ///< what is typed is the first knot's; the others keep their distance to it
+};
+
+enum { FIELD_FRAME, FIELD_VALUE, FIELD_SLOPE, FIELD_STIFFNESS, FIELDS };
+
+static const struct knot_field fields[FIELDS] = {
+    [FIELD_FRAME] = {.number = {.name = "frame",
+                                .label = "frame",
+                                .hint = "Frame of the first selected knot; the others move with it",
+                                .lowest = -SCENE_MAX_FRAME,
+                                .highest = SCENE_MAX_FRAME,
+                                .fallback = NAN,
+                                .step = 1},
+                     .undo = "Move knots",
+                     .undo_one = "Move knot",
+                     .hint_one = "Frame of the knot",
+                     .offset = offsetof(struct knot, frame),
+                     .moves = true},
+    [FIELD_VALUE] = {.number = {.name = "value",
+                                .label = "value",
+                                .hint = "Type to set all selected knots; drag to shift each by the same amount",
+                                .lowest = -INSPECTOR_NO_LIMIT,
+                                .highest = INSPECTOR_NO_LIMIT,
+                                .fallback = 0,
+                                .step = 0.01,
+                                .decimals = 3},
+                     .undo = "Set values",
+                     .undo_one = "Set value",
+                     .hint_one = "Value of the knot; the curve hits it exactly",
+                     .offset = offsetof(struct knot, value)},
+    [FIELD_SLOPE] = {.number = {.name = "slope",
+                                .label = "slope",
+                                .unit = "/s",
+                                .hint = "Type to set all selected knots; drag to shift each by the same amount",
+                                .lowest = -INSPECTOR_NO_LIMIT,
+                                .highest = INSPECTOR_NO_LIMIT,
+                                .fallback = 0,
+                                .step = 0.05,
+                                .decimals = 2},
+                     .undo = "Set slopes",
+                     .undo_one = "Set slope",
+                     .hint_one = "Change per second (D, E)",
+                     .offset = offsetof(struct knot, slope)},
+    [FIELD_STIFFNESS] = {.number = {.name = "stiffness",
+                                    .label = "stiffness",
+                                    .unit = "1/s",
+                                    .hint = "How firmly the slopes hold; 1000 is firm",
+                                    .lowest = 0.001,
+                                    .highest = INSPECTOR_NO_LIMIT,
+                                    .fallback = KNOT_DEFAULT_STIFFNESS,
+                                    .step = 10,
+                                    .decimals = 1},
+                         .undo = "Set stiffness",
+                         .undo_one = "Set stiffness",
+                         .hint_one = "How firmly the slope holds; 1000 is firm (Shift+D, Shift+E)",
+                         .offset = offsetof(struct knot, stiffness)},
+};
+
+static double number_of(const struct knot_field *field, const struct knot *knot)
 {
-    struct edit edit = core_edit_of(EDIT_KNOT_SET, in->core->active);
-    edit.knot = *knot;
-    inspector_change(in, change, label, what, &edit);
+    double number;
+    memcpy(&number, (const char *)knot + field->offset, sizeof number);
+    return number;
+}
+
+static void set_number(const struct knot_field *field, struct knot *knot, double number)
+{
+    memcpy((char *)knot + field->offset, &number, sizeof number);
+}
+
+/// The selected knots as the document has them, in the memory that a drag of knots has for the same: for an edit alone, while
+/// none is under way; how many.
+static int collect(struct inspection *in)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    core_collect(in->core, spline);
+    return in->core->originals.count;
+}
+
+/// Gives every collected knot the number, or moves it by what the first one moves; in the order in which no knot meets
+/// another of them. false with a sentence where one cannot go there.
+static bool set_all(struct inspection *in, const struct knot_field *field, double value, bool together,
+                    struct error *error)
+{
+    struct originals *originals = &in->core->originals;
+    double by = value - number_of(field, &originals->knot[0]);
+    for (int i = 0; i < originals->count; i++) {
+        struct edit edit = core_edit_of(EDIT_KNOT_SET, in->core->active);
+        edit.knot = originals->knot[by > 0 ? originals->count - 1 - i : i];
+        double number = together ? number_of(field, &edit.knot) + by : value;
+        set_number(field, &edit.knot, fmax(field->number.lowest, number));
+        if (!history_apply(in->world->history, in->document, &edit, error)) return false;
+    }
+    return true;
+}
+
+/// A drag stays where it last was possible; anything else that is not possible is said and changes nothing.
+static void change_all(struct inspection *in, enum ui_change change, const struct knot_field *field, double value)
+{
+    struct history *history = in->world->history;
+    double *possible = &in->inspector->dragged;
+    struct error error = {0};
+    inspector_take_back(in, change);
+    if ((change != UI_DRAG && history_is_open(history)) || collect(in) == 0) return;
+    if (!history_is_open(history)) {
+        uint64_t merge = change == UI_NUDGE ? core_merge_key(in->core, in->world, ui_id(field->number.name)) : 0;
+        history_begin(history, field->undo, merge);
+        *possible = number_of(field, &in->core->originals.knot[0]);
+    }
+    bool together = change != UI_SET || field->moves;
+    if (set_all(in, field, value, together, &error)) {
+        *possible = value;
+    } else {
+        history_restart(history, in->document);
+        if (change == UI_DRAG) set_all(in, field, *possible, together, &error);
+    }
+    if (change == UI_DRAG) return;
+    history_end(history);
+    if (error.kind != ERROR_NONE) core_message(in->core, true, error.text);
+}
+
+/// What the selected knots have in a field: the first one's number, and whether others have another.
+struct numbers {
+    double first;
+    bool mixed;
+};
+
+static struct numbers survey(const struct inspection *in, const struct spline *spline, const struct knot_field *field)
+{
+    struct numbers numbers = {.first = NAN};
+    for (int k = 0; k < spline->knot_count; k++) {
+        if (!selection_has(&in->core->selection, spline->knots[k].id)) continue;
+        double number = number_of(field, &spline->knots[k]);
+        if (isnan(numbers.first)) numbers.first = number;
+        numbers.mixed |= number != numbers.first;
+    }
+    return numbers;
+}
+
+static void build_field(struct inspection *in, const struct knot_field *field, struct numbers numbers)
+{
+    struct ui_number number = field->number;
+    double value = numbers.first;
+    char shown[64];
+    if (field->moves) {
+        snprintf(shown, sizeof shown, "%.6g …", value);
+        number.shown = shown;
+    } else if (numbers.mixed) {
+        number.shown = "mixed";
+    }
+    enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &number, &value);
+    if (change == UI_DROP || change == UI_CANCEL) {
+        inspector_change(in, change, field->undo, number.name, NULL);
+    } else if (change != UI_NONE) {
+        change_all(in, change, field, value);
+    }
+}
+
+static bool all_sloped(const struct inspection *in, const struct spline *spline)
+{
+    bool sloped = true;
+    for (int k = 0; k < spline->knot_count; k++)
+        sloped &= !selection_has(&in->core->selection, spline->knots[k].id) || spline->knots[k].has_slope;
+    return sloped;
+}
+
+static void build_several(struct inspection *in, const struct spline *spline)
+{
+    int count = all_sloped(in, spline) ? FIELDS : FIELD_SLOPE;
+    for (int i = 0; i < count; i++) {
+        struct numbers numbers = survey(in, spline, &fields[i]); // as the field before left the document
+        if (!isnan(numbers.first)) build_field(in, &fields[i], numbers);
+    }
 }
 
 /// Whether another knot sits where this one would go.
@@ -22,81 +195,53 @@ static bool is_occupied(const struct inspection *in, const struct spline *spline
     return at >= 0 && spline->knots[at].id != knot->id;
 }
 
-static void build_frame(struct inspection *in, const struct spline *spline, const struct knot *knot)
+/// A field of the only selected knot.
+static void build_one(struct inspection *in, int which, unsigned id, struct rect r)
 {
-    const struct document *document = in->document;
-    int last = document_last_knot_sample(document, spline);
-    bool whole = knot->frame == floor(knot->frame);
-    struct ui_number number = {.name = "frame",
-                               .label = "frame",
-                               .hint = "Frame of the knot",
-                               .lowest = document->first_frame,
-                               .highest = document_frame(document, last),
-                               .fallback = NAN,
-                               .step = 1,
-                               .decimals = whole ? 0 : 2};
-    struct knot next = *knot;
-    enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &number, &next.frame);
-    if (change == UI_DRAG && is_occupied(in, spline, &next)) return; // stays where it last was free, passing through
-    change_knot(in, change, "Move knot", number.name, &next);
+    const struct knot_field *field = &fields[which];
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    struct knot next = spline->knots[spline_find_id(spline, id)];
+    struct ui_number number = field->number;
+    double value = number_of(field, &next);
+    number.hint = field->hint_one;
+    if (which == FIELD_FRAME) {
+        number.lowest = in->document->first_frame;
+        number.highest = document_frame(in->document, document_last_knot_sample(in->document, spline));
+        number.decimals = value == floor(value) ? 0 : 2;
+    }
+    if (which == FIELD_SLOPE) number.label = NULL;
+    if (which == FIELD_STIFFNESS && value < 10) number.decimals = 3;
+    enum ui_change change = ui_value(in->ui, r, &number, &value);
+    set_number(field, &next, value);
+    bool passes = which == FIELD_FRAME && change == UI_DRAG && is_occupied(in, spline, &next);
+    if (passes) return; // it stays where it last was free
+    struct edit edit = core_edit_of(EDIT_KNOT_SET, in->core->active);
+    edit.knot = next;
+    inspector_change(in, change, field->undo_one, number.name, &edit);
 }
 
-static void build_value(struct inspection *in, const struct knot *knot)
+static bool has_slope(const struct inspection *in, unsigned id)
 {
-    struct ui_number number = {.name = "value",
-                               .label = "value",
-                               .hint = "Value of the knot; the curve hits it exactly",
-                               .lowest = -INSPECTOR_NO_LIMIT,
-                               .highest = INSPECTOR_NO_LIMIT,
-                               .fallback = 0,
-                               .step = 0.01,
-                               .decimals = 3};
-    struct knot next = *knot;
-    enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &number, &next.value);
-    change_knot(in, change, "Set value", number.name, &next);
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    return spline->knots[spline_find_id(spline, id)].has_slope;
 }
 
-static void build_slope(struct inspection *in, const struct knot *knot)
+static void build_slope(struct inspection *in, unsigned id)
 {
     struct ui *ui = in->ui;
     struct rect r = inspector_labelled(in, "slope");
-    struct knot next = *knot;
+    bool sloped = has_slope(in, id);
     if (ui_hovered(ui, r)) ui->hint = "Give the knot a slope (T); D and E turn it";
-    if (ui_toggle(ui, r, "has_slope", &next.has_slope)) {
-        toggle_slope(in->core, in->world); // the knot is the only selected one
+    if (ui_toggle(ui, r, "has_slope", &sloped)) {
+        slopes_set(in->core, in->world, SLOPES_TOGGLE); // the knot is the only selected one
         return;
     }
     r = (struct rect){r.x + 36, r.y, r.w - 36, r.h};
-    if (!knot->has_slope) {
+    if (sloped) {
+        build_one(in, FIELD_SLOPE, id, r);
+    } else {
         ui_label(ui, r, "free", theme()->text_dim);
-        return;
     }
-    struct ui_number number = {.name = "slope",
-                               .unit = "/s",
-                               .hint = "Change per second (D, E)",
-                               .lowest = -INSPECTOR_NO_LIMIT,
-                               .highest = INSPECTOR_NO_LIMIT,
-                               .fallback = 0,
-                               .step = 0.05,
-                               .decimals = 2};
-    enum ui_change change = ui_value(ui, r, &number, &next.slope);
-    change_knot(in, change, "Set slope", number.name, &next);
-}
-
-static void build_stiffness(struct inspection *in, const struct knot *knot)
-{
-    struct ui_number number = {.name = "stiffness",
-                               .label = "stiffness",
-                               .unit = "1/s",
-                               .hint = "How firmly the slope holds; 1000 is firm (Shift+D, Shift+E)",
-                               .lowest = 0.001,
-                               .highest = INSPECTOR_NO_LIMIT,
-                               .fallback = 1000,
-                               .step = 10,
-                               .decimals = knot->stiffness < 10 ? 3 : 1};
-    struct knot next = *knot;
-    enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &number, &next.stiffness);
-    change_knot(in, change, "Set stiffness", number.name, &next);
 }
 
 /// What can be done with the slopes of all selected knots.
@@ -105,18 +250,19 @@ static void build_slopes(struct inspection *in)
     enum { GAP = 4 };
     static const struct {
         const char *name, *label, *hint;
-        void (*run)(struct core *core, const struct editor_world *world);
+        enum slopes how;
     } buttons[] = {
-        {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", flatten_slopes},
-        {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", smooth_slopes},
-        {"slope.switch", "On, off", "Switch slopes on, along the curve, or off (T)", toggle_slope},
+        {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", SLOPES_FLAT},
+        {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", SLOPES_SMOOTH},
+        {"slope.switch", "On, off", "Switch slopes on, along the curve, or off (T)", SLOPES_TOGGLE},
     };
     struct ui *ui = in->ui;
     struct rect r = ui_row(ui, UI_ROW);
     r.w = (r.w - 2 * GAP) / 3;
     for (size_t i = 0; i < sizeof buttons / sizeof buttons[0]; i++, r.x += r.w + GAP) {
         if (ui_hovered(ui, r)) ui->hint = buttons[i].hint;
-        if (ui_button(ui, r, buttons[i].name, buttons[i].label, false)) buttons[i].run(in->core, in->world);
+        if (ui_button(ui, r, buttons[i].name, buttons[i].label, false))
+            slopes_set(in->core, in->world, buttons[i].how);
     }
 }
 
@@ -130,18 +276,17 @@ void inspector_knot(struct inspection *in)
         char text[64];
         snprintf(text, sizeof text, "%d knots selected.", count);
         ui_paragraph(ui, text, theme()->text_dim);
-        inspector_knots(in);
+        build_several(in, spline);
         build_slopes(in);
     } else if (single < 0) {
         ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
     } else {
         // Each is built from the document as the one before left it; ids survive what happens to the order of knots.
         unsigned id = spline->knots[single].id;
-        build_frame(in, spline, &spline->knots[single]);
-        build_value(in, &spline->knots[spline_find_id(spline, id)]);
-        build_slope(in, &spline->knots[spline_find_id(spline, id)]);
-        const struct knot *knot = &spline->knots[spline_find_id(spline, id)];
-        if (knot->has_slope) build_stiffness(in, knot);
+        build_one(in, FIELD_FRAME, id, ui_row(ui, UI_ROW));
+        build_one(in, FIELD_VALUE, id, ui_row(ui, UI_ROW));
+        build_slope(in, id);
+        if (has_slope(in, id)) build_one(in, FIELD_STIFFNESS, id, ui_row(ui, UI_ROW));
         build_slopes(in);
     }
 }

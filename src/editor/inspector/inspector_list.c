@@ -4,7 +4,6 @@
 #include "editor/core/selection.h"
 #include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector.h"
-#include "editor/inspector/state.h"
 #include <math.h>
 #include <stdio.h>
 

@@ -2,7 +2,6 @@
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector.h"
-#include "editor/inspector/state.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +28,7 @@ static const struct section {
 } sections[] = {
     {"section.scene", "Scene", inspector_scene, NULL, NULL, true},
     {"section.splines", "Splines", inspector_splines, inspector_palette, NULL, false},
-    {"section.spline", "Spline", inspector_spline, inspector_follow_list, has_spline, false},
+    {"section.spline", "Spline", inspector_spline, inspector_track_list, has_spline, false},
     {"section.poles", "Poles and response", inspector_poles, NULL, has_spline, true},
     {"section.knot", "Knot", inspector_knot, NULL, has_spline, false},
     {"section.tail", "Tail", inspector_tail, inspector_tail_lists, has_tail, false},
@@ -141,7 +140,7 @@ static bool concerns(const struct inspector *inspector, const struct core *core,
     }
 }
 
-/// What passes the inspector by still ends hovering and, for a press, the keyboard focus.
+/// An event elsewhere still ends hovering; a press also ends the keyboard focus.
 static void event_elsewhere(struct ui *ui, const struct event *event)
 {
     if (event->kind == EVENT_SIZE) ui->popup.id = 0; // what it hangs on is elsewhere now

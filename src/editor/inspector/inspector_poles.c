@@ -2,7 +2,6 @@
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
 #include "editor/inspector/poles.h"
-#include "editor/inspector/state.h"
 #include <math.h>
 
 enum { CIRCLE = 112, INSET = 92, TICKS = 18, RESPONSE = 112 }; ///< heights
@@ -42,14 +41,6 @@ enum { HANDLE_CENTRE, HANDLE_LOWER, HANDLE_UPPER, HANDLES };
 
 static double rounded(double value, double steps) { return round(value * steps) / steps; }
 
-static struct edit parameter_edit(const struct inspection *in, enum parameter parameter, double value)
-{
-    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
-    edit.parameter = parameter;
-    edit.param = (struct param){value, -1};
-    return edit;
-}
-
 /// The edits that make a setting the spline's, where a handle was moved; parameters that follow a track are left alone.
 /// Returns their number.
 static int edits_of(const struct inspection *in, const struct spline *spline, const struct pole_setting *setting,
@@ -60,17 +51,19 @@ static int edits_of(const struct inspection *in, const struct spline *spline, co
     if (spline->spring_friction && spline_mode(spline) == WIGGLY_REAL) {
         double omega = 2 * M_PI * setting->hz;
         if (p[PARAMETER_SPRING].track < 0)
-            edits[count++] = parameter_edit(in, PARAMETER_SPRING, rounded(omega * omega, 100));
+            edits[count++] = core_parameter_edit(in->core->active, PARAMETER_SPRING, rounded(omega * omega, 100));
         if (p[PARAMETER_FRICTION].track < 0)
-            edits[count++] = parameter_edit(in, PARAMETER_FRICTION, rounded(2 * setting->damping * omega, 1000));
+            edits[count++] = core_parameter_edit(in->core->active, PARAMETER_FRICTION,
+                                                 rounded(2 * setting->damping * omega, 1000));
         return count;
     }
     if (which == HANDLE_CENTRE && p[PARAMETER_FREQUENCY].track < 0)
-        edits[count++] = parameter_edit(in, PARAMETER_FREQUENCY, rounded(setting->hz, 100));
+        edits[count++] = core_parameter_edit(in->core->active, PARAMETER_FREQUENCY, rounded(setting->hz, 100));
     if (p[PARAMETER_DAMPING].track < 0)
-        edits[count++] = parameter_edit(in, PARAMETER_DAMPING, rounded(setting->damping, 1000));
+        edits[count++] = core_parameter_edit(in->core->active, PARAMETER_DAMPING, rounded(setting->damping, 1000));
     if (which != HANDLE_CENTRE && p[PARAMETER_BANDWIDTH].track < 0)
-        edits[count++] = parameter_edit(in, PARAMETER_BANDWIDTH, rounded(setting->bandwidth, 1000));
+        edits[count++] =
+            core_parameter_edit(in->core->active, PARAMETER_BANDWIDTH, rounded(setting->bandwidth, 1000));
     return count;
 }
 

@@ -2,7 +2,6 @@
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
-#include "editor/inspector/state.h"
 #include <math.h>
 #include <stdio.h>
 

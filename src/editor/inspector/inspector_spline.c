@@ -1,6 +1,6 @@
 /// The active spline's mode, parameters and start.
 #include "editor/core/core.h"
-#include "editor/core/nudge.h"
+#include "editor/core/knots.h"
 #include "editor/inspector/inspection.h"
 #include "editor/inspector/settle.h"
 #include "scene/order.h"
@@ -15,18 +15,16 @@ static void build_slider(struct inspection *in, const struct spline *spline, enu
         .label = row->name,
         .unit = row->unit,
         .hint = row->hint,
-        .maximum = slider_end(in->document, spline, parameter),
+        .maximum = core_slider_end(in->document, spline, parameter),
         .lowest = row->minimum,
         .highest = parameter_maximum(parameter, spline_mode(spline)),
         .fallback = row->fresh,
         .step = row->step,
         .decimals = row->decimals,
     };
-    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
     double value = spline->parameter[parameter].value;
     enum ui_change change = ui_value(in->ui, r, &number, &value);
-    edit.parameter = parameter;
-    edit.param = (struct param){value, -1};
+    struct edit edit = core_parameter_edit(in->core->active, parameter, value);
     inspector_change(in, change, row->undo, number.name, &edit);
 }
 
@@ -41,7 +39,7 @@ static void build_number(struct inspection *in, const struct spline *spline, enu
         inspector_track(in, parameter, parameter_rows[parameter].name, r);
     }
     struct rect button = {r.x + r.w + 2, r.y, UI_ROW, UI_ROW};
-    if (may_follow) inspector_follow_button(in, parameter, button);
+    if (may_follow) inspector_track_button(in, parameter, button);
 }
 
 static void build_choice(struct inspection *in, const struct spline *spline, enum parameter parameter)
@@ -53,9 +51,7 @@ static void build_choice(struct inspection *in, const struct spline *spline, enu
     struct rect r = parameter == PARAMETER_MODE ? ui_row(in->ui, UI_ROW) : inspector_labelled(in, row->name);
     if (ui_hovered(in->ui, r)) in->ui->hint = row->hint;
     if (!ui_segments(in->ui, r, row->name, choices, count, &chosen)) return;
-    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
-    edit.parameter = parameter;
-    edit.param = (struct param){chosen, -1};
+    struct edit edit = core_parameter_edit(in->core->active, parameter, chosen);
     core_step(in->core, in->world, row->undo, 0, &edit);
 }
 

@@ -1,13 +1,11 @@
 /// The inspector's section on tails: which there are, where they stand, how they are built, and what is shown of their motion.
-#include "editor/inspector/inspector_tail.h"
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
-#include "editor/inspector/state.h"
 #include <math.h>
 #include <stdio.h>
 
-enum { ICON = 24, MAX_SPLINES = 256 };
+enum { ICON = 24 };
 
 static const char rename_line[] = "tail.rename", place_list[] = "place";
 
@@ -88,7 +86,7 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
         if (!ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false,
                             "Stop following; stay at the current position"))
             return;
-        edit.param = (struct param){round_value(now.y + now.re, 1e-3), -1};
+        edit.param = (struct param){core_round(now.y + now.re, 1e-3), -1};
         core_step(in->core, in->world, "Stop following", 0, &edit);
         return;
     }
@@ -117,15 +115,8 @@ static void place_popup(struct inspection *in)
     const struct inspector *inspector = in->inspector;
     const struct tail *tail = document_tail(in->document, inspector->tail);
     if (!ui_popup_is_open(in->ui, place_list) || !tail) return;
-    int k = in->ui->popup.which, count = in->document->spline_count;
-    struct ui_item items[MAX_SPLINES];
-    if (count > MAX_SPLINES) count = MAX_SPLINES;
-    for (int s = 0; s < count; s++) {
-        const char *name = in->document->splines[s].name;
-        items[s] = (struct ui_item){name, name, arrange_color(in->document, s)};
-    }
-    int chosen = tail->position[k].track;
-    int picked = ui_popup_list(in->ui, place_list, items, count, chosen);
+    int k = in->ui->popup.which;
+    int picked = inspector_spline_list(in, place_list, NULL, tail->position[k].track);
     if (picked < 0) return;
     struct edit edit = tail_edit(in, EDIT_POSITION);
     edit.coordinate = k;

@@ -1,16 +1,42 @@
-/// Moving the body: where the pointer takes it, and what the document makes of it.
-#include "editor/stage/body.h"
+/// Dragging the body over the ground: where the pointer takes it, and what the document makes of that.
 #include "editor/core/core.h"
-#include "editor/stage/body_offset.h"
-#include "editor/stage/follow.h"
-#include "editor/stage/record.h"
-#include "editor/stage/record_keep.h"
+#include "editor/stage/hold.h"
+#include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/state.h"
 #include "model/creature.h"
 #include "model/vector.h"
 #include "ui/theme.h"
 #include <math.h>
+
+static const double LEAST_AXIS = 0.3; ///< pixels of an axis in a pixel across, below which it is as slow as that
+
+/// Along one axis of the ground, so that the body stays under the pointer: the axis' own direction on the screen counts.
+static double along_axis(const struct body_drag *body, const double axis[2], double dx, double dy)
+{
+    double across = axis[0] * body->right[0] + axis[1] * body->right[1];
+    double away = (axis[0] * body->right[1] - axis[1] * body->right[0]) * body->pitch;
+    double square = fmax(across * across + away * away, LEAST_AXIS * LEAST_AXIS);
+    return (dx * across - dy * away) / square / body->pixels_per_metre;
+}
+
+void body_offset(const struct stage *stage, const struct core *core, int tail, double offset[3])
+{
+    const struct drag *drag = &core->drag;
+    const struct body_drag *body = &stage->body_drag;
+    offset[0] = offset[1] = offset[2] = 0;
+    if (drag->kind != DRAG_BODY || !drag->moved || body->tail != tail) return;
+    const double x_axis[2] = {1, 0}, z_axis[2] = {0, 1};
+    if (drag->lock_x) {
+        offset[0] = along_axis(body, x_axis, drag->moved_x, drag->moved_y);
+    } else if (drag->lock_y) {
+        offset[2] = along_axis(body, z_axis, drag->moved_x, drag->moved_y);
+    } else {
+        double across = drag->moved_x / body->pixels_per_metre;
+        double away = -drag->moved_y / body->pixels_per_metre / body->pitch;
+        offset[0] = across * body->right[0] + away * body->right[1];
+        offset[2] = across * body->right[1] - away * body->right[0];
+    }
+}
 
 enum { TRACE_STEPS = 64, RING_POINTS = 64 };
 
@@ -36,13 +62,14 @@ static float trace(const float from[3], const float direction[3])
 {
     float near = 0, far = INFINITY;
     for (int k = 0; k < 3; k++) {
-        float a = (creature_body_lo[k] - from[k]) / direction[k], b = (creature_body_hi[k] - from[k]) / direction[k];
+        float a = (creature_torso_lo[k] - from[k]) / direction[k],
+              b = (creature_torso_hi[k] - from[k]) / direction[k];
         near = fmaxf(near, fminf(a, b));
         far = fminf(far, fmaxf(a, b));
     }
     for (int step = 0; step < TRACE_STEPS && near < far; step++) {
         const vec3s p = glms_vec3_muladds(vec3_from(direction), near, vec3_from(from));
-        float distance = creature_body_distance(p.raw);
+        float distance = creature_torso_distance(p.raw);
         if (distance < TRACE_NEAR) return near;
         near += 0.9f * distance;
     }
@@ -67,21 +94,14 @@ struct hover body_hover(const struct stage *stage, float x, float y)
     return hover;
 }
 
-static bool project(const struct stage *stage, const struct core *core, const float point[3], float xy[2])
-{
-    const struct rect *r = &core->layout.stage;
-    const float viewport[4] = {r->x, r->y, r->w, r->h};
-    return camera_project(stage->view.view, stage->view.projection, viewport, point, xy);
-}
-
-bool body_point(const struct stage *stage, const struct core *core, int tail, float xy[2])
+bool stage_body_point(const struct stage *stage, const struct core *core, int tail, float xy[2])
 {
     static const float candidates[][3] = {
         {0, 0.18f, -0.45f}, {0, 0.54f, -0.385f}, {0, 0.05f, -0.25f}, {0, 0, -0.5f}}; // chest, head, rump, paws
     for (size_t i = 0; i < sizeof candidates / sizeof candidates[0]; i++) {
         const vec3s base = vec3_from(base_of(stage, tail));
         const vec3s point = glms_vec3_muladds(vec3_from(candidates[i]), scale_of(stage, tail), base);
-        if (!project(stage, core, point.raw, xy)) continue;
+        if (!stage_project_point(stage, core->layout.stage, point.raw, xy)) continue;
         struct hover hover = stage_hover(stage, core, xy[0], xy[1]);
         if (hover.kind == HOVER_BODY && hover.tail == tail) return true;
     }
@@ -90,9 +110,9 @@ bool body_point(const struct stage *stage, const struct core *core, int tail, fl
 
 void body_begin(struct stage *stage, const struct core *core, int tail)
 {
-    struct body *body = &stage->body;
+    struct body_drag *body = &stage->body_drag;
     const struct camera *camera = &stage->camera;
-    *body = (struct body){.tail = tail};
+    *body = (struct body_drag){.tail = tail};
     const float depth = camera_depth(stage->view.view, stage->view.eye, base_of(stage, tail));
     body->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
     double pitch = sin((double)camera->elevation);
@@ -105,16 +125,12 @@ void body_begin(struct stage *stage, const struct core *core, int tail)
 static void key_position(struct core *core, const struct editor_world *world, int track, double by)
 {
     const struct document *document = world->document;
-    const struct spline *spline = &document->splines[track];
     int sample = document_sample(document, round(core_frame(core, document)));
-    int last = document_last_knot_sample(document, spline);
+    int last = document_last_knot_sample(document, &document->splines[track]);
     sample = sample > last ? last : sample < 0 ? 0 : sample;
-    int at = spline_find_knot(document, spline, sample);
-    struct edit edit = core_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, track);
+    struct edit edit = core_knot_edit(document, track, sample);
     wiggly_value value = evaluation_at(world->evaluation, track, sample);
-    edit.knot = at < 0 ? (struct knot){.frame = document_frame(document, sample), .stiffness = KNOT_DEFAULT_STIFFNESS}
-                       : spline->knots[at];
-    edit.knot.value = round_value(value.y + value.re + by, RESOLUTION);
+    edit.knot.value = core_round(value.y + value.re + by, RESOLUTION);
     core_edit(core, world, &edit);
 }
 
@@ -130,14 +146,14 @@ static void key_offset(struct core *core, const struct editor_world *world, int 
         struct edit edit = core_edit_of(EDIT_POSITION, 0);
         edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
         edit.coordinate = k;
-        edit.param.value = round_value(param->value + offset[k], RESOLUTION);
+        edit.param.value = core_round(param->value + offset[k], RESOLUTION);
         core_edit(core, world, &edit);
     }
 }
 
 void body_release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
 {
-    int tail = stage->body.tail;
+    int tail = stage->body_drag.tail;
     double offset[3];
     keep = keep && document_tail(world->document, tail); // an edit may have taken the tail out of the hand
     body_offset(stage, core, tail, offset);
@@ -163,7 +179,7 @@ void body_show(struct stage *stage, struct core *core)
 {
     bool held = core->drag.kind == DRAG_BODY;
     if (!held && core->hover.kind != HOVER_BODY) return;
-    int tail = held ? stage->body.tail : core->hover.tail;
+    int tail = held ? stage->body_drag.tail : core->hover.tail;
     if (tail >= stage->view.tail_count) return;
     const float scale = scale_of(stage, tail), *base = base_of(stage, tail);
     const uint32_t color = held ? theme()->accent : theme()->playhead;
@@ -173,7 +189,7 @@ void body_show(struct stage *stage, struct core *core)
         const float world[3] = {base[0] + scale * (ring_middle[0] - RING_RADIUS * sinf(-angle)),
                                 stage->view.tails[tail].pose.ground,
                                 base[2] + scale * (ring_middle[1] - RING_RADIUS * cosf(-angle))};
-        if (!project(stage, core, world, point[i])) return;
+        if (!stage_project_point(stage, core->layout.stage, world, point[i])) return;
     }
     show_arc(core, (const float(*)[2])point, 0, RING_POINTS / 2, color);
     show_arc(core, (const float(*)[2])point, RING_POINTS / 2, RING_POINTS, theme_fade(color, 0.3f));

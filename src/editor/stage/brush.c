@@ -1,11 +1,9 @@
-/// The brush: switches it on and off, and follows strokes.
+/// The brush: strokes as an airbrush makes them. A stroke adds flow × time to every vertex under it.
 #include "editor/stage/brush.h"
 #include "base/hash.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "editor/stage/brush_dab.h"
-#include "editor/stage/state.h"
 #include "rig/pick.h"
 #include <math.h>
 #include <stdio.h>
@@ -71,7 +69,7 @@ static const struct figure *pose_figure(struct stage *stage, const struct core *
                                         const struct editor_world *world, int *coordinate)
 {
     struct painting *painting = &stage->painting;
-    const struct figure *figure = brush_figure(core, world, coordinate);
+    const struct figure *figure = characters_figure(core, world, coordinate);
     const struct stage_character *shown = find_shown(stage, core);
     if (!figure || !shown || !reserve(&painting->work, figure->character.vertex_count)) return NULL;
     const uint64_t hash = hash_word(hash_word(stage->view.hash, figure->id), (uint64_t)shown->rig);
@@ -132,7 +130,7 @@ bool brush_press(struct stage *stage, struct core *core, const struct editor_wor
     const struct figure *figure = pose_figure(stage, core, world, &coordinate);
     if (!figure || !find_spot(stage, figure, event->x, event->y, &painting->spot)) return false;
     const struct paint *paint = characters_selected(core, world)->painted;
-    if (paint && !cast_fits(paint, figure)) {
+    if (paint && !models_paint_fits(paint, figure)) {
         core_message(core, true, "The paint in this scene belongs to another model. Remove it first.");
         return true;
     }
@@ -142,7 +140,7 @@ bool brush_press(struct stage *stage, struct core *core, const struct editor_wor
     painting->y = event->y;
     painting->has_dabbed = false;
     history_begin(world->history, brush_label(painting->stroke), 0);
-    const struct edit blank = paint_blank(core, world, figure);
+    const struct edit blank = characters_blank_paint(core, world, figure);
     if (!paint) core_edit(core, world, &blank);
     return true;
 }
@@ -173,7 +171,7 @@ void brush_advance(struct stage *stage, struct core *core, const struct editor_w
     if (core->drag.kind != DRAG_PAINT) return;
     const struct figure *figure = pose_figure(stage, core, world, &coordinate);
     const struct paint *paint = figure ? characters_selected(core, world)->painted : NULL;
-    if (!paint || !cast_fits(paint, figure)) return;
+    if (!paint || !models_paint_fits(paint, figure)) return;
     const int count = find_way(stage, core, figure, spots);
     painting->x = core->pointer_x;
     painting->y = core->pointer_y;
@@ -182,7 +180,7 @@ void brush_advance(struct stage *stage, struct core *core, const struct editor_w
     reach_find(&painting->work.reach, figure, spots, count, brush_radius_of(brush, figure));
     const struct dab dab =
         brush_dab(painting, paint, figure, coordinate, brush_radius_of(brush, figure), brush->strength * dt);
-    struct edit edit = paint_edit(core, world, EDIT_PAINT);
+    struct edit edit = characters_paint_edit(core, world, EDIT_PAINT);
     edit.dab = &dab;
     core_edit(core, world, &edit);
 }
@@ -215,7 +213,7 @@ bool brush_wheel(struct core *core, const struct event *event)
 static bool reserve_figure(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     int coordinate;
-    const struct figure *figure = brush_figure(core, world, &coordinate);
+    const struct figure *figure = characters_figure(core, world, &coordinate);
     if (!figure || reserve(&stage->painting.work, figure->character.vertex_count)) return true;
     core->brush.on = false;
     core_message(core, true, "Not enough memory to paint.");

@@ -1,5 +1,5 @@
 /// What a moment of the brush does to the paint p = a + jψ at each vertex that it reaches.
-#include "editor/stage/brush_dab.h"
+#include "editor/stage/brush.h"
 #include "model/vector.h"
 #include <math.h>
 

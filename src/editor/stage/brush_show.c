@@ -1,10 +1,9 @@
 /// The ring of the brush: where the distance over the surface from the spot under the pointer is the radius, drawn triangle
 /// by triangle, so that it lies on the posed surface as the paint will.
-#include "editor/stage/brush_show.h"
 #include "editor/core/characters.h"
 #include "editor/stage/brush.h"
-#include "editor/stage/characters_show.h"
-#include "editor/stage/state.h"
+#include "editor/stage/overlays.h"
+#include "editor/stage/rigs.h"
 #include "model/vector.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -25,13 +24,6 @@ struct ring {
     int count;
 };
 
-static bool project(const struct stage *stage, const float point[3], float xy[2])
-{
-    const struct rect *r = &stage->view.viewport;
-    const float viewport[4] = {r->x, r->y, r->w, r->h};
-    return camera_project(stage->view.view, stage->view.projection, viewport, point, xy);
-}
-
 /// Where the distance passes `radius` on the side between two corners: the same for both triangles at it, to the last bit.
 static bool crosses(const struct brush_work *work, uint32_t one, uint32_t other, float radius, float point[3])
 {
@@ -47,7 +39,8 @@ static bool faces_eye(const struct stage *stage, const uint32_t *corner)
 {
     float xy[3][2];
     for (int c = 0; c < 3; c++) {
-        if (!project(stage, stage->painting.work.posed[corner[c]], xy[c])) return false;
+        if (!stage_project_point(stage, stage->view.viewport, stage->painting.work.posed[corner[c]], xy[c]))
+            return false;
     }
     return (xy[1][0] - xy[0][0]) * (xy[2][1] - xy[0][1]) < (xy[1][1] - xy[0][1]) * (xy[2][0] - xy[0][0]);
 }
@@ -61,13 +54,14 @@ static void add_piece(struct stage *stage, const uint32_t *corner, float radius,
         count += crosses(&stage->painting.work, corner[c], corner[(c + 1) % 3], radius, ends[count]);
     if (count != 2 || !faces_eye(stage, corner)) return;
     float(*piece)[2] = ring->xy[ring->count];
-    ring->count += project(stage, ends[0], piece[0]) && project(stage, ends[1], piece[1]);
+    ring->count += stage_project_point(stage, stage->view.viewport, ends[0], piece[0]) &&
+                   stage_project_point(stage, stage->view.viewport, ends[1], piece[1]);
 }
 
 static bool is_same(const float a[2], const float b[2]) { return a[0] == b[0] && a[1] == b[1]; }
 
 /// Takes a piece that begins or ends at a point out of the ring, and moves the point to its other end.
-static bool follow(struct ring *ring, float at[2])
+static bool take_piece(struct ring *ring, float at[2])
 {
     for (int i = 0; i < ring->count; i++) {
         for (int end = 0; end < 2; end++) {
@@ -84,7 +78,7 @@ static bool follow(struct ring *ring, float at[2])
 static int extend(struct ring *ring, const float from[2], float (*line)[2], int count)
 {
     float at[2] = {from[0], from[1]};
-    while (follow(ring, at)) {
+    while (take_piece(ring, at)) {
         const bool is_last = ring->count == 0;
         if (!is_last && hypotf(at[0] - line[count - 1][0], at[1] - line[count - 1][1]) < CLOSE) continue;
         memcpy(line[count++], at, sizeof at);
@@ -177,9 +171,9 @@ static void show_state(const struct stage *stage, struct core *core, const struc
 void brush_show(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     int coordinate;
-    const struct figure *figure = core->brush.on ? brush_figure(core, world, &coordinate) : NULL;
+    const struct figure *figure = core->brush.on ? characters_figure(core, world, &coordinate) : NULL;
     if (!figure) return;
     const struct paint *paint = characters_selected(core, world)->painted;
     if (stage->painting.covers) show_ring(stage, core, figure);
-    show_state(stage, core, paint && cast_fits(paint, figure) ? paint : NULL, coordinate);
+    show_state(stage, core, paint && models_paint_fits(paint, figure) ? paint : NULL, coordinate);
 }

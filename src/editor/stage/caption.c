@@ -1,5 +1,4 @@
 /// Shows the scene's description on the stage.
-#include "editor/core/state.h"
 #include "editor/stage/stage.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -25,7 +24,7 @@ static const char *show_line(struct core *core, const char *text, enum font font
     return text;
 }
 
-void caption_show(struct core *core, const struct document *document, float bottom)
+void stage_show_caption(struct core *core, const struct document *document, float bottom)
 {
     if (!document->about) return;
     const struct rect place = core->layout.stage;

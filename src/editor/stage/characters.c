@@ -1,9 +1,7 @@
 /// Poses soft characters and their stiff twins on the stage.
 #include "base/hash.h"
-#include "editor/stage/kinds.h"
-#include "editor/stage/project.h"
+#include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/state.h"
 #include "ui/font.h"
 #include "ui/phase_color.h"
 #include "ui/theme.h"
@@ -44,7 +42,7 @@ static void add_character(struct stage *stage, const struct core *core, const st
     struct stage_view *view = &stage->view;
     const struct character_view *how = &core->characters;
     const struct character_rig *character = &world->document->rigs[rig].character;
-    const struct posing posing = {world->document, world->evaluation, world->cast, look};
+    const struct posing posing = {world->document, world->evaluation, world->models, look};
     struct rig_pose posed;
     if (view->character_count == STAGE_MAX_CHARACTERS) return;
     if (!rig_pose(&posing, rig, core->playback.position, NULL, &posed)) return;
@@ -67,7 +65,7 @@ static void add_character(struct stage *stage, const struct core *core, const st
 
 static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
 {
-    const struct figure *figure = cast_figure(world->cast, n);
+    const struct figure *figure = models_figure(world->models, n);
     if (!figure) return;
     if (!core->characters.compare) {
         add_character(stage, core, world, rig, n, core->look, 0.0f);
@@ -82,7 +80,7 @@ static bool bounds(const struct stage *stage, const struct core *core, const str
 {
     const struct posing posing = stage_posing(core, world);
     const double last = document_samples(world->document) - 1;
-    const struct figure *figure = cast_figure(world->cast, n);
+    const struct figure *figure = models_figure(world->models, n);
     struct rig_pose posed;
     (void)stage;
     if (!figure) return false;
@@ -133,17 +131,16 @@ static int front_vertex(const struct figure *figure, const double uv[2])
     return found;
 }
 
-bool characters_point(const struct stage *stage, int character, const double uv[2], float xy[2])
+bool stage_character_point(const struct stage *stage, int character, const double uv[2], float xy[2])
 {
     const struct stage_view *view = &stage->view;
-    const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
     for (int i = 0; i < view->character_count; i++) {
         const struct stage_character *shown = &view->characters[i];
         float point[3];
         if (shown->rig != character || shown->is_twin) continue;
         morph_vertex(shown->figure, &shown->morph, front_vertex(shown->figure, uv), point, NULL);
         for (int k = 0; k < 3; k++) point[k] += shown->position[k] - (k == 1 ? shown->figure->lo[1] : 0.0f);
-        return camera_project(view->view, view->projection, viewport, point, xy);
+        return stage_project_point(stage, view->viewport, point, xy);
     }
     return false;
 }

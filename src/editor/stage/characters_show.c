@@ -1,7 +1,7 @@
 /// What is written over the stage where characters are: the legend of the phase map, and what the two of a pair are.
-#include "editor/stage/characters_show.h"
 #include "editor/core/characters.h"
-#include "editor/stage/state.h"
+#include "editor/stage/overlays.h"
+#include "editor/stage/rigs.h"
 #include "rig/camera.h"
 #include "ui/font.h"
 #include "ui/phase_color.h"
@@ -79,12 +79,11 @@ static void show_pair(const struct stage *stage, struct core *core)
     static const char *const names[] = {"with their phases", "real parts only"};
     const struct stage_view *view = &stage->view;
     const struct rect r = core->layout.stage;
-    const float viewport[4] = {r.x, r.y, r.w, r.h};
     for (int i = 0; i < view->character_count; i++) {
         const struct stage_character *shown = &view->characters[i];
         const float feet[3] = {shown->position[0], shown->position[1], shown->position[2] + shown->figure->hi[2]};
         float xy[2];
-        if (!camera_project(view->view, view->projection, viewport, feet, xy)) continue;
+        if (!stage_project_point(stage, r, feet, xy)) continue;
         show_centred(&core->list, xy[0], fminf(xy[1] + 22, r.y + r.h - 8), names[i % 2], theme()->text_dim);
     }
 }

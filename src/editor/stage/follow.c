@@ -1,14 +1,12 @@
 /// Tails that follow through while their body is moved by hand, outside of the document's solve and on top of it.
-#include "editor/stage/follow.h"
-#include "editor/stage/body_offset.h"
+#include "editor/stage/hold.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/state.h"
 #include <math.h>
 #include <string.h>
 
 /// The filter of a spline at the time shown: parameters that follow others are where those are now.
 static bool filter_now(const struct core *core, const struct editor_world *world, int index,
-                       struct follow_filter *filter)
+                       struct swing_filter *filter)
 {
     const struct spline *spline = &world->document->splines[index];
     double parameter[PARAMETER_COUNT];
@@ -18,7 +16,7 @@ static bool filter_now(const struct core *core, const struct editor_world *world
         if (param->track >= 0) value = evaluation_at(world->evaluation, param->track, core->playback.position);
         parameter[p] = value.y + value.re;
     }
-    return follow_filter(spline, parameter, filter);
+    return swing_filter(spline, parameter, filter);
 }
 
 /// Drives one tail's channels by a change of its base's velocity; whether any of them still swings.
@@ -30,18 +28,18 @@ static bool drive(struct stage *stage, const struct core *core, const struct edi
     bool swings = false;
     for (int c = 0; c < driven->channel_count; c++) {
         const struct channel *channel = &driven->channels[c];
-        struct follow_filter filter;
+        struct swing_filter filter;
         double direction[3];
         follow->scale[c] = 0;
-        if (!follow_hangs(driven, channel) || !filter_now(core, world, channel->spline, &filter)) {
-            follow->channel[c] = (struct follower){0};
+        if (!swing_hangs(driven, channel) || !filter_now(core, world, channel->spline, &filter)) {
+            follow->channel[c] = (struct swing){0};
             continue;
         }
-        follow_direction(driven, channel->axis, direction);
+        swing_direction(driven, channel->axis, direction);
         double along = kick[0] * direction[0] + kick[1] * direction[1] + kick[2] * direction[2];
-        follow_step(&follow->channel[c], &filter, along, dt);
-        follow->scale[c] = follow_scale(driven, channel, &filter);
-        swings |= !follow_settled(&follow->channel[c], &filter);
+        swing_step(&follow->channel[c], &filter, along, dt);
+        follow->scale[c] = swing_scale(driven, channel, &filter);
+        swings |= !swing_settled(&follow->channel[c], &filter);
     }
     return swings;
 }
@@ -88,7 +86,7 @@ void follow_stop(struct stage *stage, int tail)
     if (tail < STAGE_MAX_TAILS) stage->follow[tail] = (struct follow){0};
 }
 
-bool follow_is_moving(const struct stage *stage)
+bool stage_is_moving(const struct stage *stage)
 {
     for (int t = 0; t < STAGE_MAX_TAILS; t++) {
         if (stage->follow[t].swings) return true;
@@ -100,7 +98,7 @@ wiggly_value follow_value(const struct stage *stage, int tail, int channel)
 {
     if (tail >= STAGE_MAX_TAILS || !stage->follow[tail].swings) return (wiggly_value){0};
     const struct follow *follow = &stage->follow[tail];
-    const struct follower *follower = &follow->channel[channel];
-    return (wiggly_value){.re = follow->scale[channel] * follower->x[0],
-                          .im = follow->scale[channel] * follower->x[1]};
+    const struct swing *swing = &follow->channel[channel];
+    return (wiggly_value){.re = follow->scale[channel] * swing->x[0],
+                          .im = follow->scale[channel] * swing->x[1]};
 }

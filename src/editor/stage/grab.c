@@ -6,13 +6,10 @@
 /// good). Then
 ///
 ///     (JᵀJ + λ) dv = Jᵀ (target − p),   in radians of bend, so that both axes count alike.
-#include "editor/stage/grab.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
-#include "editor/stage/follow.h"
-#include "editor/stage/project.h"
-#include "editor/stage/state.h"
-#include "editor/stage/tails.h"
+#include "editor/stage/hold.h"
+#include "editor/stage/rigs.h"
 #include <math.h>
 
 static const double DAMPING = 12; ///< √λ, pixels a radian: below this a channel moves the point too little to be used
@@ -132,15 +129,7 @@ static void damped_step(const double column[2][2], const double miss[2], double 
 static void set_knot(const struct stage *stage, struct core *core, const struct editor_world *world,
                      const struct grab_axis *axis)
 {
-    const struct document *document = world->document;
-    const struct spline *spline = &document->splines[axis->spline];
-    int at = spline_find_knot(document, spline, stage->grab.sample);
-    struct edit edit = core_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, axis->spline);
-    if (at < 0) {
-        edit.knot = (struct knot){.frame = document_frame(document, stage->grab.sample), .stiffness = 1000};
-    } else {
-        edit.knot = spline->knots[at];
-    }
+    struct edit edit = core_knot_edit(world->document, axis->spline, stage->grab.sample);
     edit.knot.value = axis->value;
     core_edit(core, world, &edit);
 }
@@ -185,7 +174,7 @@ void grab_apply(struct stage *stage, struct core *core, const struct editor_worl
         if (!axis->active) continue;
         double most = fmax(LARGEST_BEND * axis->values_per_radian, fabs(axis->value));
         double value = fmax(-most, fmin(most, axis->value + step[a] * axis->values_per_radian));
-        axis->value = round_value(value, RESOLUTION * axis->values_per_radian);
+        axis->value = core_round(value, RESOLUTION * axis->values_per_radian);
         set_knot(stage, core, world, axis);
     }
     grab->applied = true;

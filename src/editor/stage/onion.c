@@ -1,11 +1,10 @@
 /// Onion skin: light proxies of the tail, an outline each, at the knots around the playhead.
-#include "editor/stage/onion.h"
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
-#include "editor/core/nudge.h"
-#include "editor/stage/project.h"
+#include "editor/core/knots.h"
+#include "editor/stage/overlays.h"
+#include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/state.h"
 #include "model/creature.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -25,7 +24,7 @@ static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first 
 int overlay_tail(const struct stage *stage, const struct core *core, const struct document *document)
 {
     int tail, channel;
-    if (!active_channel(core, document, &tail, &channel)) tail = document_tail(document, 0) ? 0 : -1;
+    if (!core_active_channel(core, document, &tail, &channel)) tail = document_tail(document, 0) ? 0 : -1;
     return tail < stage->view.tail_count ? tail : -1;
 }
 
@@ -118,7 +117,7 @@ void onion_show(const struct stage *stage, struct core *core, const struct edito
     }
 }
 
-void onion_toggle(struct core *core)
+void stage_toggle_onion(struct core *core)
 {
     core->overlays.onion = !core->overlays.onion;
     core_message(core, false,

@@ -1,8 +1,6 @@
 /// The motion of a body that is dragged while it is recorded: one place for each sample that the playhead passes.
-#include "editor/stage/record.h"
 #include "editor/core/core.h"
-#include "editor/stage/body_offset.h"
-#include "editor/stage/state.h"
+#include "editor/stage/hold.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -20,7 +18,7 @@ void record_advance(struct stage *stage, const struct core *core, const struct e
     struct record *record = &stage->record;
     if (!record->running || core->drag.kind != DRAG_BODY) return;
     double offset[3], position = core->playback.position;
-    body_offset(stage, core, stage->body.tail, offset);
+    body_offset(stage, core, stage->body_drag.tail, offset);
     int next = record->first + record->count;
     bool ended = position < next - 1 || !core->playback.playing || record->count == RECORD_SAMPLES ||
                  next >= document_samples(world->document);

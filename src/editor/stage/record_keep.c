@@ -3,10 +3,8 @@
 ///
 /// A channel whose spline has knots of its own stays as it is: the swing that the base causes is added by a channel of its own,
 /// on a spline with the same poles. By linearity that is the same motion, and no key of the animator's changes its meaning.
-#include "editor/stage/record_keep.h"
 #include "editor/core/core.h"
-#include "editor/stage/record.h"
-#include "editor/stage/state.h"
+#include "editor/stage/hold.h"
 #include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
@@ -45,21 +43,15 @@ static int add_spline(struct core *core, const struct editor_world *world, const
 
 static void set_start(struct core *core, const struct editor_world *world, int spline, enum wiggly_start start)
 {
-    struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
-    edit.parameter = PARAMETER_START;
-    edit.param = (struct param){start, -1};
+    struct edit edit = core_parameter_edit(spline, PARAMETER_START, start);
     core_edit(core, world, &edit);
 }
 
 static void put_knot(struct core *core, const struct editor_world *world, int spline, int sample, double value,
                      bool level)
 {
-    const struct document *document = world->document;
-    int at = spline_find_knot(document, &document->splines[spline], sample);
-    struct edit edit = core_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, spline);
-    if (at >= 0) edit.knot = document->splines[spline].knots[at];
-    if (at < 0) edit.knot.frame = document_frame(document, sample);
-    edit.knot.value = round_value(value, RESOLUTION);
+    struct edit edit = core_knot_edit(world->document, spline, sample);
+    edit.knot.value = core_round(value, RESOLUTION);
     edit.knot.has_slope = level;
     edit.knot.slope = 0;
     edit.knot.stiffness = level ? RECORD_STIFFNESS : KNOT_DEFAULT_STIFFNESS;
@@ -90,9 +82,7 @@ static int base_spline(struct core *core, const struct editor_world *world, int 
              coordinate_name(coordinate));
     int spline = add_spline(core, world, name);
     if (spline < 0) return -1;
-    struct edit mode = core_edit_of(EDIT_PARAMETER, spline);
-    mode.parameter = PARAMETER_MODE;
-    mode.param = (struct param){WIGGLY_CUBIC, -1};
+    struct edit mode = core_parameter_edit(spline, PARAMETER_MODE, WIGGLY_CUBIC);
     core_edit(core, world, &mode);
     if (loop) set_start(core, world, spline, WIGGLY_LOOP);
     return spline;
@@ -105,10 +95,10 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
 {
     const struct record *record = &stage->record;
     const struct document *document = world->document;
-    const struct param before = document_tail(document, stage->body.tail)->position[coordinate];
+    const struct param before = document_tail(document, stage->body_drag.tail)->position[coordinate];
     double from[RECORD_SAMPLES];
     int knots[MAX_KNOTS], last = document_samples(document) - 1;
-    int spline = base_spline(core, world, stage->body.tail, coordinate, loop);
+    int spline = base_spline(core, world, stage->body_drag.tail, coordinate, loop);
     if (spline < 0) return -1;
     int count = record->count, end = document_last_knot_sample(document, &document->splines[spline]);
     if (record->first + count - 1 > end) count = end - record->first + 1;
@@ -126,7 +116,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     if (!loop && record->first > 1) put_knot(core, world, spline, 0, from[0], true);
     if (!loop && record->first + count < last) put_knot(core, world, spline, last, from[count - 1], true);
     struct edit edit = core_edit_of(EDIT_POSITION, 0);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body.tail);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
     edit.coordinate = coordinate;
     edit.param.track = spline;
     core_edit(core, world, &edit);
@@ -145,7 +135,7 @@ static void set_angles(const struct stage *stage, struct core *core, const struc
                        enum angle_kind kind, const struct angles *angles)
 {
     struct edit edit = core_edit_of(EDIT_ANGLES, 0);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body.tail);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
     edit.channel = channel;
     edit.angle = kind;
     edit.angles = angles;
@@ -186,14 +176,14 @@ static void add_channel(const struct stage *stage, struct core *core, const stru
     struct edit edit = core_edit_of(EDIT_CHANNEL_ADD, add_follower(core, world, model->spline, base));
     struct angles gain = model->gain;
     const struct angles lag = model->lag;
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body.tail);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
     edit.axis = model->axis;
     edit.of = PART_DISPLACEMENT;
     if (edit.spline < 0) return;
     for (int n = 0; n < (gain.each ? TAIL_MAX_JOINTS : 1); n++)
         gain.value[n] = round(gain.value[n] * scale * 1e4) / 1e4;
     if (!core_edit(core, world, &edit)) return;
-    int added = document_tail(document, stage->body.tail)->channel_count - 1;
+    int added = document_tail(document, stage->body_drag.tail)->channel_count - 1;
     set_angles(stage, core, world, added, ANGLE_LAG, &lag);
     set_angles(stage, core, world, added, ANGLE_GAIN, &gain);
 }
@@ -202,13 +192,13 @@ static void add_channel(const struct stage *stage, struct core *core, const stru
 static void hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world,
                           int coordinate, int base)
 {
-    int index = stage->body.tail, count = document_tail(world->document, index)->channel_count;
+    int index = stage->body_drag.tail, count = document_tail(world->document, index)->channel_count;
     for (int c = 0; c < count; c++) {
         const struct tail *tail = document_tail(world->document, index);
         const struct channel channel = tail->channels[c];
         const struct param *equilibrium = &world->document->splines[channel.spline].parameter[PARAMETER_EQUILIBRIUM];
         double direction[3], scale = stage->follow[index].scale[c];
-        follow_direction(tail, channel.axis, direction);
+        swing_direction(tail, channel.axis, direction);
         bool swung = stage->record.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
         if (!swung) continue;
         if (channel.of == PART_TOTAL) {
@@ -222,10 +212,10 @@ static void hang_channels(const struct stage *stage, struct core *core, const st
 void record_keep(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     struct record *record = &stage->record;
-    const struct tail *tail = document_tail(world->document, stage->body.tail);
+    const struct tail *tail = document_tail(world->document, stage->body_drag.tail);
     bool loop = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
-        record->hangs[c] = follow_hangs(tail, &tail->channels[c]);
+        record->hangs[c] = swing_hangs(tail, &tail->channels[c]);
         loop &= spline_start(&world->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
     }
     for (int k = 0; k < 3; k++) {

@@ -3,7 +3,6 @@
 #define EDITOR_STAGE_STAGE_H
 
 #include "editor/core/drag.h"
-#include "editor/core/state.h"
 
 struct stage;
 
@@ -12,16 +11,16 @@ struct stage *stage_create(void);
 /// NULL is fine.
 void stage_destroy(struct stage *stage);
 /// A point of the screen where body_hover() finds that tail's body; false where it is hidden.
-bool body_point(const struct stage *stage, const struct core *core, int tail, float xy[2]);
+bool stage_body_point(const struct stage *stage, const struct core *core, int tail, float xy[2]);
 /// What the scene is about, in the upper left corner of the stage: up to the first full stop as a title.
-void caption_show(struct core *core, const struct document *document, float bottom);
+void stage_show_caption(struct core *core, const struct document *document, float bottom);
 /// Where a point of its surface is on the screen: `uv` across and up its box at rest, seen from the front. false where it is not
 /// shown.
-bool characters_point(const struct stage *stage, int character, const double uv[2], float xy[2]);
+bool stage_character_point(const struct stage *stage, int character, const double uv[2], float xy[2]);
 /// Whether anything still swings.
-bool follow_is_moving(const struct stage *stage);
+bool stage_is_moving(const struct stage *stage);
 /// Onion skin on, off.
-void onion_toggle(struct core *core);
+void stage_toggle_onion(struct core *core);
 /// The pointer moved in a drag.
 void stage_drag_move(struct stage *stage, struct core *core);
 /// What an event means to a drag that began here.
@@ -55,6 +54,6 @@ void stage_press(struct stage *stage, struct core *core, const struct editor_wor
 /// The wheel over the stage.
 void stage_wheel(struct stage *stage, struct core *core, const struct event *event);
 /// Motion arc on, off.
-void trail_toggle(struct core *core);
+void stage_toggle_trail(struct core *core);
 
 #endif

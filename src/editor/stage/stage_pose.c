@@ -1,20 +1,44 @@
-/// The stage: poses the rigs, drives the camera, draws over the picture.
+/// Poses the rigs, drives the camera, and draws over the picture.
 #include "base/hash.h"
 #include "editor/core/drag.h"
-#include "editor/stage/body.h"
 #include "editor/stage/brush.h"
-#include "editor/stage/brush_show.h"
-#include "editor/stage/characters_show.h"
-#include "editor/stage/grab.h"
-#include "editor/stage/kinds.h"
-#include "editor/stage/onion.h"
+#include "editor/stage/hold.h"
+#include "editor/stage/overlays.h"
+#include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/state.h"
-#include "editor/stage/trail.h"
+#include "model/vector.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <assert.h>
 #include <math.h>
+
+struct posing stage_posing(const struct core *core, const struct editor_world *world)
+{
+    return (struct posing){world->document, world->evaluation, world->models, core->look};
+}
+
+bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2])
+{
+    const float viewport[4] = {r.x, r.y, r.w, r.h};
+    return camera_project(stage->view.view, stage->view.projection, viewport, point, xy);
+}
+
+bool stage_project_pose(const struct stage *stage, const struct core *core, const struct pose *pose, int joint,
+                        double fraction, float xy[2])
+{
+    assert(joint >= 0 && joint < pose->count);
+    int next = joint + 1 < pose->count ? joint + 1 : joint;
+    const vec3s from = vec3_from(pose->matrix[joint] + 12), to = vec3_from(pose->matrix[next] + 12);
+    const vec3s world = glms_vec3_lerp(from, to, (float)fraction);
+    return stage_project_point(stage, core->layout.stage, world.raw, xy);
+}
+
+bool stage_project(const struct stage *stage, const struct core *core, int tail, int joint, double fraction,
+                   float xy[2])
+{
+    if (tail >= stage->view.tail_count || joint >= stage->view.tails[tail].pose.count) return false;
+    return stage_project_pose(stage, core, &stage->view.tails[tail].pose, joint, fraction, xy);
+}
 
 enum { RING_SIZE = 13 };
 
@@ -57,12 +81,7 @@ void stage_fit(struct stage *stage, const struct core *core, const struct editor
 
 static uint64_t view_hash(const struct stage_view *view)
 {
-    uint64_t hash = hash_bytes(HASH_START, &view->viewport, sizeof view->viewport);
-    hash = hash_bytes(hash, view->view, sizeof view->view);
-    hash = hash_bytes(hash, view->projection, sizeof view->projection);
-    hash = hash_bytes(hash, view->middle, sizeof view->middle);
-    hash = hash_bytes(hash, view->key_from, sizeof view->key_from);
-    hash = hash_bytes(hash, &view->colors, sizeof view->colors);
+    uint64_t hash = stage_scenery_hash(view);
     for (int kind = 0; kind < RIG_KINDS; kind++) hash = kinds[kind]->hash(hash, view);
     return hash_bytes(hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
 }

@@ -5,7 +5,7 @@
 #include "editor/core/state.h"
 #include "model/reach.h"
 #include "rig/camera.h"
-#include "rig/follow.h"
+#include "rig/swing.h"
 
 /// Firm enough that the body stands still at both ends of its way, 1/s.
 #define RECORD_STIFFNESS 1e5
@@ -38,7 +38,7 @@ struct grab {
 };
 
 /// The body held by the pointer, and how the pointer's way becomes one over the ground.
-struct body {
+struct body_drag {
     int tail;
     bool begun;              ///< the pointer has moved
     double pixels_per_metre; ///< at the body
@@ -61,8 +61,8 @@ struct record {
 struct follow {
     bool swings;
     double offset[3], velocity[3]; ///< of the base from where the document has it, metres and metres per second
-    struct follower channel[SCENE_MAX_CHANNELS]; ///< in metres
-    double scale[SCENE_MAX_CHANNELS];            ///< follow_scale() of each
+    struct swing channel[SCENE_MAX_CHANNELS]; ///< in metres
+    double scale[SCENE_MAX_CHANNELS];         ///< swing_scale() of each
 };
 
 enum { TRAIL_FRAMES = 256 };
@@ -101,7 +101,7 @@ struct stage {
     struct stage_view view;
     struct camera camera;
     struct grab grab;
-    struct body body;
+    struct body_drag body_drag;
     struct record record;
     struct follow follow[STAGE_MAX_TAILS];
     struct trail_point trail[TRAIL_FRAMES];

@@ -1,11 +1,7 @@
 /// Tails on the stage, with what moves them by hand.
-#include "editor/stage/tails.h"
 #include "base/hash.h"
-#include "editor/stage/body_offset.h"
-#include "editor/stage/follow.h"
-#include "editor/stage/kinds.h"
-#include "editor/stage/project.h"
-#include "editor/stage/state.h"
+#include "editor/stage/hold.h"
+#include "editor/stage/rigs.h"
 #include "model/vector.h"
 #include "rig/shadow.h"
 #include <math.h>

@@ -1,11 +1,9 @@
 /// The motion arc: where the tip of the tail goes, a mark a frame, fading with the distance from the playhead.
-#include "editor/stage/trail.h"
 #include "base/hash.h"
 #include "editor/core/core.h"
-#include "editor/stage/onion.h"
-#include "editor/stage/project.h"
+#include "editor/stage/overlays.h"
+#include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/state.h"
 #include "ui/theme.h"
 #include <math.h>
 
@@ -48,13 +46,6 @@ static const float *tip_at(struct stage *stage, const struct core *core, const s
     *point = (struct trail_point){.known = true, .key = key, .frame = frame};
     for (int k = 0; k < 3; k++) point->tip[k] = pose.tail.matrix[pose.tail.count - 1][12 + k];
     return point->tip;
-}
-
-static bool project(const struct stage *stage, const struct core *core, const float tip[3], float xy[2])
-{
-    const struct rect *r = &core->layout.stage;
-    const float viewport[4] = {r->x, r->y, r->w, r->h};
-    return camera_project(stage->view.view, stage->view.projection, viewport, tip, xy);
 }
 
 /// Catmull-Rom through four neighbours, on the screen.
@@ -129,7 +120,8 @@ void trail_show(struct stage *stage, struct core *core, const struct editor_worl
     float screen[TRAIL_FRAMES][2], points[PIECES * TRAIL_FRAMES][2];
     int count = 0;
     for (int frame = first; frame <= last; frame++) {
-        if (!project(stage, core, tip_at(stage, core, world, tail, frame), screen[count++])) return;
+        if (!stage_project_point(stage, core->layout.stage, tip_at(stage, core, world, tail, frame), screen[count++]))
+            return;
     }
     if (count == 0) return;
     show_line(core, points, first, lay_out(screen, count, points), now, reach);
@@ -137,7 +129,7 @@ void trail_show(struct stage *stage, struct core *core, const struct editor_worl
     show_now(stage, core, tail);
 }
 
-void trail_toggle(struct core *core)
+void stage_toggle_trail(struct core *core)
 {
     core->overlays.trail = !core->overlays.trail;
     core_message(core, false,

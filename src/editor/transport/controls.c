@@ -1,16 +1,16 @@
 /// The controls for playback at the left of the status line: play, loop, speed.
-#include "editor/transport/controls.h"
 #include "editor/core/playback.h"
-#include "editor/core/state.h"
+#include "editor/transport/state.h"
 #include "editor/transport/transport.h"
 #include "ui/font.h"
 #include "ui/theme.h"
+#include "ui/widgets.h"
 #include <math.h>
 #include <stdio.h>
 
 enum { MARGIN = 6, PLAY_WIDTH = 24, LOOP_WIDTH = 42, SPEED_WIDTH = 44 };
 
-struct rect transport_rect(const struct core *core, enum control control)
+struct rect controls_rect(const struct core *core, enum control control)
 {
     static const float width[TRANSPORT_COUNT] = {PLAY_WIDTH, LOOP_WIDTH, SPEED_WIDTH};
     struct rect bar = core->layout.status, r = {bar.x + MARGIN, bar.y + 2, width[0], bar.h - 3};
@@ -24,7 +24,7 @@ struct rect transport_rect(const struct core *core, enum control control)
 static enum control control_at(const struct core *core, float x, float y)
 {
     int control = 0;
-    while (control < TRANSPORT_COUNT && !rect_contains(transport_rect(core, (enum control)control), x, y)) control++;
+    while (control < TRANSPORT_COUNT && !rect_contains(controls_rect(core, (enum control)control), x, y)) control++;
     return (enum control)control;
 }
 
@@ -68,16 +68,16 @@ static void paint_word(struct core *core, struct rect r, enum font font, const c
     float size = font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
     uint32_t color = on ? theme()->accent : hot ? theme()->text : theme()->text_dim;
     float x = roundf(r.x + (r.w - font_width(font, size, text)) / 2);
-    float y = roundf(r.y + (r.h + font_cap_height(font, size)) / 2);
+    float y = ui_baseline(r, font, size);
     drawlist_text(&core->list, x, y, font, size, color, text);
 }
 
-float transport_show(struct core *core)
+float controls_show(struct core *core)
 {
     const struct playback *playback = &core->playback;
     enum hover_kind hover = core->hover.kind;
-    struct rect play = transport_rect(core, TRANSPORT_PLAY), loop = transport_rect(core, TRANSPORT_LOOP);
-    struct rect speed = transport_rect(core, TRANSPORT_SPEED);
+    struct rect play = controls_rect(core, TRANSPORT_PLAY), loop = controls_rect(core, TRANSPORT_LOOP);
+    struct rect speed = controls_rect(core, TRANSPORT_SPEED);
     char text[16];
     snprintf(text, sizeof text, "%g×", playback->speed);
     paint_play_state(&core->list, play.x + 6, play.y + play.h / 2, playback->playing, hover == HOVER_PLAY);

@@ -1,4 +1,4 @@
-/// The state of the status line. Private to the room.
+/// The state of the status line, and its controls. Private to the room.
 #ifndef EDITOR_TRANSPORT_STATE_H
 #define EDITOR_TRANSPORT_STATE_H
 
@@ -19,5 +19,10 @@ struct transport {
     double fps, solve_us; ///< as told last
     float stage_scale;    ///< from editor_set_stage_scale(); 0 means 1
 };
+
+/// Where a control is.
+struct rect controls_rect(const struct core *core, enum control control);
+/// Returns the controls' right end.
+float controls_show(struct core *core);
 
 #endif

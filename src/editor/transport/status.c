@@ -1,10 +1,10 @@
 /// The status line: where playback is, which scene, and one sentence: a message, or what the pointer is over.
 #include "editor/core/core.h"
-#include "editor/transport/controls.h"
 #include "editor/transport/state.h"
 #include "editor/transport/transport.h"
 #include "ui/font.h"
 #include "ui/theme.h"
+#include "ui/widgets.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 static const double REFRESH = 0.5; ///< seconds between changes of the figures at the right
 static const double SOLVED = 5;    ///< µs; what took less was only a look for something to solve
 
-void status_advance(struct transport *transport, const struct core *core, double dt)
+void transport_advance(struct transport *transport, const struct core *core, double dt)
 {
     struct status *status = &transport->status;
     status->age += dt;
@@ -62,7 +62,7 @@ static const char *hover_hint(const struct core *core, const struct document *do
 static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
 {
     float size = font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
-    float y = roundf(r.y + (r.h + font_cap_height(font, size)) / 2);
+    float y = ui_baseline(r, font, size);
     drawlist_text_fit(list, r.x, y, r.w, font, size, color, text);
 }
 
@@ -110,15 +110,15 @@ static void figures_text(const struct transport *transport, const struct core *c
              fps[0] && solve[0] ? "  " : "", solve);
 }
 
-void status_show(const struct transport *transport, struct core *core, const struct editor_world *world,
-                 const char *hint)
+void transport_show(const struct transport *transport, struct core *core, const struct editor_world *world,
+                    const char *hint)
 {
     enum { GAP = 24 };
     struct rect bar = core->layout.status;
     const struct message *message = &core->message;
     drawlist_rect(&core->list, bar, theme()->panel);
     drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
-    float x = show_time(core, world->document, bar, transport_show(core)) + GAP;
+    float x = show_time(core, world->document, bar, controls_show(core)) + GAP;
     x = show_title(core, world, bar, x) + GAP;
     char figures[160];
     figures_text(transport, core, world, figures, sizeof figures);

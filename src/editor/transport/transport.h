@@ -15,10 +15,10 @@ struct hover transport_hover(const struct core *core, float x, float y);
 /// A press or the wheel on a control; true where there is one.
 bool transport_event(struct core *core, const struct editor_world *world, const struct event *event);
 /// Time passes (editor_advance): the figures change at most twice a second, so that they cost no redraws.
-void status_advance(struct transport *transport, const struct core *core, double dt);
+void transport_advance(struct transport *transport, const struct core *core, double dt);
 /// Draws the status line; `hint` is what it says where there is no message, NULL: what the pointer is over.
-void status_show(const struct transport *transport, struct core *core, const struct editor_world *world,
-                 const char *hint);
+void transport_show(const struct transport *transport, struct core *core, const struct editor_world *world,
+                    const char *hint);
 /// Figures for the status line.
 void transport_tell(struct transport *transport, double fps, double solve_us);
 /// See editor_set_stage_scale().

@@ -1,0 +1,43 @@
+/// What the mouse does in the curves panel: drags of knots and slopes, scaling, boxes, the range that is played.
+#ifndef EDITOR_CURVES_GESTURES_H
+#define EDITOR_CURVES_GESTURES_H
+
+#include "editor/core/drag.h"
+#include "editor/curves/state.h"
+
+/// Starts to move the selected knots of the active spline; `knot` is the one under the pointer.
+void drag_begin_knots(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
+                      const struct event *event);
+/// Starts to turn the slope of a knot by an end of its handle.
+void drag_begin_slope(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
+                      int handle, const struct event *event);
+
+/// Makes the edits for the pointer's present place.
+void scale_apply(struct curves *curves, struct core *core, const struct editor_world *world);
+/// The pivot, and the line from it to the pointer.
+void scale_show(const struct curves *curves, struct core *core);
+/// Events while it runs, but the pointer's: axes, pivot, a typed factor, the end; true where the event is used up.
+enum drag_answer scale_event(struct curves *curves, struct core *core, const struct editor_world *world,
+                             const struct event *event);
+
+/// Starts to select knots of the active spline by a box; Shift adds them, Ctrl or Alt removes them.
+void box_begin(struct curves *curves, struct core *core, const struct event *event);
+/// Selects what is in the box as it is now.
+void box_update(const struct curves *curves, struct core *core, const struct editor_world *world);
+/// Ends it: a press that did not move was a click on empty; `keep` false brings the former selection back.
+void box_end(struct curves *curves, struct core *core, bool keep);
+/// The box while it grows.
+void box_show(const struct curves *curves, struct core *core);
+
+/// Starts to choose the part that is played.
+void range_begin(struct core *core, const struct event *event);
+/// The part goes from where the drag began to the pointer.
+void range_drag(const struct curves *curves, struct core *core, const struct document *document, float x);
+/// A press that did not move plays all again; `keep` false brings the former part back.
+void range_end(struct core *core, bool keep);
+/// Marks the part on the ruler; nothing where all is played.
+void range_show_ruler(const struct curves *curves, struct core *core, const struct document *document);
+/// Tints the part in the plot.
+void range_show_plot(const struct curves *curves, struct core *core, const struct document *document);
+
+#endif

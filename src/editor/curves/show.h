@@ -1,0 +1,19 @@
+/// What is drawn in the curves panel, as far as its mouse has to know.
+#ifndef EDITOR_CURVES_SHOW_H
+#define EDITOR_CURVES_SHOW_H
+
+#include "editor/curves/state.h"
+
+/// The handle's length in pixels says how firmly the slope is held, 12 for each power of ten.
+double handle_length(double stiffness);
+/// The stiffness that a length of the handle stands for.
+double handle_stiffness(double length);
+/// Where the playhead's frame number is, on the ruler; empty where the playhead is out of sight.
+struct rect playhead_tag(const struct curves *curves, const struct core *core, const struct document *document);
+
+/// The corner left of the ruler, which says what it counts.
+struct rect ruler_corner(const struct core *core);
+/// Grids, numbers and ruler; part of curves_show().
+void grid_show(const struct curves *curves, struct core *core, const struct editor_world *world);
+
+#endif

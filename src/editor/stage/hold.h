@@ -1,0 +1,50 @@
+/// What can be dragged on the stage: a tail, and a body, whose tail follows through and whose motion can be recorded.
+#ifndef EDITOR_STAGE_HOLD_H
+#define EDITOR_STAGE_HOLD_H
+
+#include "editor/stage/state.h"
+
+/// The body under a point of the stage (HOVER_BODY), the nearest to the eye, or HOVER_NONE.
+struct hover body_hover(const struct stage *stage, float x, float y);
+/// Starts to drag a body.
+void body_begin(struct stage *stage, const struct core *core, int tail);
+/// The end of a drag, inside its step of the history: where `keep`, the document gets the new place (a number, or a knot at
+/// the playhead where a spline is followed).
+void body_release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep);
+/// A ring on the ground round the body that is held or can be.
+void body_show(struct stage *stage, struct core *core);
+
+/// How far the running drag has moved a tail's base from where the document has it, metres; 0 for all others.
+void body_offset(const struct stage *stage, const struct core *core, int tail, double offset[3]);
+
+/// Advances by `dt` seconds: the bases go where body_offset() says, and what hangs on them swings.
+void follow_advance(struct stage *stage, const struct core *core, const struct editor_world *world, double dt);
+/// The document now holds the offset: the base has not moved by that.
+void follow_land(struct stage *stage, int tail);
+/// Stops a tail's swing at once.
+void follow_stop(struct stage *stage, int tail);
+/// What follow-through adds to a channel's value now (y is 0).
+wiggly_value follow_value(const struct stage *stage, int tail, int channel);
+
+/// Starts to record at the playhead, and plays; the body must be held.
+void record_begin(struct stage *stage, struct core *core);
+/// Records where the body is, up to the playhead; stops at the end of what is played.
+void record_advance(struct stage *stage, const struct core *core, const struct editor_world *world);
+/// Whether a motion was recorded.
+bool record_has_motion(const struct stage *stage);
+/// Forgets the motion.
+void record_forget(struct stage *stage);
+/// Indices (from 0) of knots that a cubic through them, level at both ends, needs to stay within `tolerance` of `count` values a
+/// sample; at most `capacity` (at least 2). Returns how many, 0 where memory is short. Allocates.
+int record_simplify(const double *values, int count, double tolerance, int *knots, int capacity);
+
+/// Makes the edits, in the open step: base splines for the coordinates that moved, and channels that follow them. Then forgets
+/// the motion.
+void record_keep(struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// Starts to pull a tail; edits nothing until the pointer moves.
+void grab_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover);
+/// One step towards the pointer; needs the pose of the last solved frame.
+void grab_apply(struct stage *stage, struct core *core, const struct editor_world *world);
+
+#endif

@@ -1,0 +1,20 @@
+/// What is drawn over the stage: onion skin, motion arc, legend.
+#ifndef EDITOR_STAGE_OVERLAYS_H
+#define EDITOR_STAGE_OVERLAYS_H
+
+#include "editor/stage/state.h"
+
+/// The tail that the active spline moves, else the first; -1 where there is none to be seen.
+int overlay_tail(const struct stage *stage, const struct core *core, const struct document *document);
+/// Onion skin (O): the outline of the tail at the active spline's knots, those nearest to the playhead.
+void onion_show(const struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// Motion arc (P): where the tip of the tail goes within two seconds of the playhead, with a mark at each frame.
+void trail_show(struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// Where the legend is, when it is shown.
+struct rect characters_legend(const struct core *core);
+/// Legend of the phase map, and what the two of a pair are.
+void characters_show(const struct stage *stage, struct core *core, const struct editor_world *world);
+
+#endif

@@ -1,0 +1,136 @@
+/// The stage panel: its beginning and end, the mouse on it, what its drags do, and what time does.
+#include "editor/stage/stage.h"
+#include "editor/core/drag.h"
+#include "editor/stage/brush.h"
+#include "editor/stage/hold.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct stage *stage_create(void)
+{
+    struct stage *stage = calloc(1, sizeof *stage);
+    if (stage) stage->camera = camera_default();
+    return stage;
+}
+
+void stage_destroy(struct stage *stage)
+{
+    if (!stage) return;
+    brush_free(&stage->painting);
+    free(stage);
+}
+
+void stage_open(struct stage *stage) { memset(stage->follow, 0, sizeof stage->follow); }
+
+const struct stage_view *stage_seen(const struct stage *stage) { return &stage->view; }
+
+static const float GRAB_REACH = 16;   ///< pixels from the tail's centre line
+static const double ZOOM_STEP = 0.12; ///< of a wheel's notch, as a power of e
+
+/// How far along the segment a … b the point nearest to p is, 0 … 1.
+static float nearest_on_segment(const float a[2], const float b[2], const float p[2])
+{
+    float dx = b[0] - a[0], dy = b[1] - a[1];
+    float square = dx * dx + dy * dy;
+    float along = (p[0] - a[0]) * dx + (p[1] - a[1]) * dy;
+    return square > 0 ? fmaxf(0, fminf(1, along / square)) : 0;
+}
+
+struct hover stage_hover(const struct stage *stage, const struct core *core, float x, float y)
+{
+    struct hover hover = {.kind = HOVER_NONE};
+    const float p[2] = {x, y};
+    float best = GRAB_REACH;
+    for (int t = 0; t < stage->view.tail_count; t++) {
+        for (int n = 0; n + 1 < stage->view.tails[t].pose.count; n++) {
+            float a[2], b[2];
+            if (!stage_project(stage, core, t, n, 0, a) || !stage_project(stage, core, t, n, 1, b)) continue;
+            float fraction = nearest_on_segment(a, b, p);
+            float at[2] = {a[0] + (b[0] - a[0]) * fraction, a[1] + (b[1] - a[1]) * fraction};
+            float distance = hypotf(x - at[0], y - at[1]);
+            if (distance >= best) continue;
+            best = distance;
+            hover = (struct hover){
+                .kind = HOVER_JOINT, .tail = t, .joint = n, .fraction = fraction, .x = at[0], .y = at[1]};
+        }
+    }
+    return hover.kind == HOVER_NONE ? body_hover(stage, x, y) : hover;
+}
+
+void stage_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event)
+{
+    bool pan = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
+    if (pan) {
+        core->space_used = core->space_down;
+        drag_begin(core, DRAG_STAGE_PAN, NULL, event);
+        return;
+    }
+    if (brush_press(stage, core, world, event)) return;
+    struct hover hover = stage_hover(stage, core, event->x, event->y);
+    if (event->button == BUTTON_LEFT && hover.kind == HOVER_BODY) {
+        drag_begin(core, DRAG_BODY, "Move body", event);
+        body_begin(stage, core, hover.tail);
+    } else if (event->button == BUTTON_LEFT && hover.kind == HOVER_JOINT) {
+        drag_begin(core, DRAG_GRAB, "Pull tail", event);
+        grab_begin(stage, core, world, &hover);
+    } else {
+        drag_begin(core, DRAG_ORBIT, NULL, event);
+    }
+}
+
+void stage_wheel(struct stage *stage, struct core *core, const struct event *event)
+{
+    if (brush_wheel(core, event)) return;
+    camera_zoom(&stage->camera, (float)exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
+}
+
+static const float ORBIT_SPEED = 0.008f; ///< radians a pixel
+
+/// A body that is to be recorded is so from the first movement on.
+static void start_recording(struct stage *stage, struct core *core)
+{
+    if (core->drag.kind != DRAG_BODY || stage->body_drag.begun) return;
+    stage->body_drag.begun = true;
+    if (core->record_armed) record_begin(stage, core);
+}
+
+void stage_drag_move(struct stage *stage, struct core *core)
+{
+    const struct drag *drag = &core->drag;
+    start_recording(stage, core);
+    if (drag->kind == DRAG_ORBIT) {
+        camera_orbit(&stage->camera, -(float)drag->moved_x * ORBIT_SPEED, (float)drag->moved_y * ORBIT_SPEED);
+    }
+    if (drag->kind == DRAG_STAGE_PAN) {
+        camera_pan(&stage->camera, (float)drag->moved_x, (float)drag->moved_y, core->layout.stage.h);
+    }
+}
+
+enum drag_answer stage_drag_event(struct stage *stage, struct core *core, const struct editor_world *world,
+                                  const struct event *event)
+{
+    bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & (MOD_CTRL | MOD_ALT));
+    if (core->drag.kind != DRAG_BODY || !key) return DRAG_PASSES;
+    if (event->key == 'R') {
+        drag_start_moving(core, world);
+        start_recording(stage, core);
+        record_begin(stage, core);
+        return DRAG_USED;
+    }
+    return drag_lock(&core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
+}
+
+void stage_drag_end(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
+{
+    if (core->drag.kind == DRAG_BODY && core->drag.moved) body_release(stage, core, world, keep);
+    if (core->drag.kind == DRAG_PAINT) brush_end(stage, core, world, keep);
+}
+
+void stage_advance(struct stage *stage, struct core *core, const struct editor_world *world, double dt)
+{
+    brush_advance(stage, core, world, dt);
+    grab_apply(stage, core, world);
+    follow_advance(stage, core, world, dt);
+    record_advance(stage, core, world);
+}

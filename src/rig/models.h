@@ -1,0 +1,31 @@
+/// The models of a document's characters: read when a document is opened, and kept by path, so that
+/// another scene with the same models reads nothing.
+#ifndef RIG_MODELS_H
+#define RIG_MODELS_H
+
+#include "model/painted.h"
+#include "scene/document.h"
+
+struct models;
+
+/// NULL if memory is short.
+struct models *models_create(void);
+void models_destroy(struct models *models);
+
+/// Reads the models that are missing or have changed on disk; figures handed out before are stale afterwards. false with the
+/// first sentence if a model is missing or broken, or lacks a coordinate that the scene names; the others are loaded
+/// all the same.
+bool models_update(struct models *models, const struct document *document, struct error *error);
+
+/// Applies the document's paint to the figures of its characters: call it once a frame after models_update(), before posing.
+/// Only changes cost time, and only the first paint on a character allocates; if memory is short, or the paint is for
+/// another model, the character stays plain.
+void models_paint(struct models *models, const struct document *document);
+
+/// Whether paint suits a figure: it has as many coordinates and vertices.
+bool models_paint_fits(const struct paint *paint, const struct figure *figure);
+
+/// The figure of the document's i-th character, painted; NULL if it could not be read. `models` may be NULL.
+const struct figure *models_figure(const struct models *models, int character);
+
+#endif

@@ -1,0 +1,106 @@
+/// Steps a spline's filter while its base is moved by hand.
+#include "rig/swing.h"
+#include "rig/posing.h"
+#include "spline/poles.h"
+#include <math.h>
+
+static const double LEAST_DAMPING = 0.05; ///< a ratio, as in the cost of the start
+static const double STILL = 1e-4;         ///< metres of swing that nobody sees
+static const double RADIANS = 0.017453292519943295;
+
+static cplx exp_complex(cplx z) { return (cplx){exp(z.re) * cos(z.im), exp(z.re) * sin(z.im)}; }
+
+static cplx divide(cplx a, cplx b) { return cplx_scale(1 / cplx_norm(b), cplx_mul(a, cplx_conj(b))); }
+
+static cplx pole(const struct swing_filter *filter, int k) { return (cplx){filter->s[k][0], filter->s[k][1]}; }
+
+/// φ(t); where the poles are one, its limit t·e^{st}.
+static cplx response(const struct swing_filter *filter, double t)
+{
+    const cplx apart = cplx_sub(pole(filter, 0), pole(filter, 1));
+    const cplx first = exp_complex(cplx_scale(t, pole(filter, 0)));
+    if (cplx_norm(apart) * t * t < 1e-12) return cplx_scale(t, first);
+    return divide(cplx_sub(first, exp_complex(cplx_scale(t, pole(filter, 1)))), apart);
+}
+
+/// The response to a step of the base is φ̇, at most about ω_n φ. Two complex poles at −σ + j(ω ± β) ring up together:
+/// |φ| = e^{−σt} sin(βt)/β is largest at t = atan(β/σ)/β, and or, where they coincide, at 1/σ. A damped spring stays below 1/ω_n.
+static double step_peak(const struct swing_filter *filter)
+{
+    const double sigma = -filter->s[0][0], beta = 0.5 * fabs(filter->s[0][1] - filter->s[1][1]);
+    if (!filter->is_complex) return 1;
+    const double t = beta > 1e-6 * sigma ? atan2(beta, sigma) / beta : 1 / sigma;
+    return fmax(1, filter->natural * sqrt(cplx_norm(response(filter, t))));
+}
+
+bool swing_filter(const struct spline *spline, const double parameter[PARAMETER_COUNT], struct swing_filter *filter)
+{
+    wiggly_desc desc = wiggly_default_desc();
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) parameter_describe(p, parameter[p], NULL, &desc);
+    desc.mode = spline_mode(spline);
+    desc.spring_friction = spline->spring_friction && desc.mode == WIGGLY_REAL;
+    const poles at = poles_at(&desc, 0, LEAST_DAMPING);
+    *filter = (struct swing_filter){.s = {{at.s[0].re, at.s[0].im}, {at.s[1].re, at.s[1].im}},
+                                    .natural = at.natural,
+                                    .is_complex = spline_mode(spline) == WIGGLY_COMPLEX};
+    if (!(at.natural > 0)) return false;
+    filter->peak = step_peak(filter);
+    return true;
+}
+
+void swing_step(struct swing *swing, const struct swing_filter *filter, double kick, double dt)
+{
+    const cplx x = {swing->x[0], swing->x[1]}, z = {swing->z[0] - kick, swing->z[1]};
+    const cplx later =
+        cplx_add(cplx_mul(exp_complex(cplx_scale(dt, pole(filter, 1))), x), cplx_mul(response(filter, dt), z));
+    const cplx kept = cplx_mul(exp_complex(cplx_scale(dt, pole(filter, 0))), z);
+    swing->x[0] = later.re;
+    swing->x[1] = filter->is_complex ? later.im : 0;
+    swing->z[0] = kept.re;
+    swing->z[1] = kept.im;
+}
+
+bool swing_settled(const struct swing *swing, const struct swing_filter *filter)
+{
+    const double to_come = hypot(swing->z[0], swing->z[1]) * filter->peak / filter->natural;
+    return hypot(swing->x[0], swing->x[1]) + to_come < STILL;
+}
+
+bool swing_hangs(const struct tail *tail, const struct channel *channel)
+{
+    if (channel->of == PART_DISPLACEMENT) return true;
+    for (int c = 0; c < tail->channel_count; c++) {
+        if (tail->channels[c].axis == channel->axis && tail->channels[c].of == PART_DISPLACEMENT) return false;
+    }
+    return true;
+}
+
+/// Metres that the tip of a straight tail moves for a unit of the channel's spline: each joint turns what is behind it.
+static double lever(const struct tail *tail, const struct channel *channel)
+{
+    double sum = 0;
+    for (int n = 0; n < tail->joints; n++) {
+        sum += RADIANS * channel->gain.value[channel->gain.each ? n : 0] * (1 - (double)n / tail->joints);
+    }
+    return sum * tail->length;
+}
+
+double swing_scale(const struct tail *tail, const struct channel *channel, const struct swing_filter *filter)
+{
+    if (channel->of == PART_DISPLACEMENT) return 1;
+    const double metres = lever(tail, channel);
+    return fabs(metres) > 1e-6 ? 1 / (metres * filter->peak) : 0;
+}
+
+void swing_direction(const struct tail *tail, enum axis axis, double direction[3])
+{
+    struct tail still = *tail;
+    struct pose pose;
+    still.channel_count = 0;
+    pose_tail(&still, NULL, LOOK_WIGGLY, &pose);
+    const float *base = pose.matrix[0] + 12, *tip = pose.matrix[pose.count - 1] + 12;
+    const double along = (double)(tip[2] - base[2]), above = (double)(tip[1] - base[1]), length = hypot(along, above);
+    direction[0] = axis == AXIS_SIDE;
+    direction[1] = axis == AXIS_UP ? (length > 0 ? along / length : 1) : 0;
+    direction[2] = axis == AXIS_UP && length > 0 ? -above / length : 0;
+}

@@ -1,0 +1,45 @@
+/// Follow-through without a solve: how a spline's filter responds while its base is moved by hand.
+///
+/// It is the filter of eq. 25 in continuous time, ẍ − (s₀ + s₁) ẋ + s₀s₁ x = −ÿ, from rest, y being the base. Between
+/// frames the base moves evenly, so ÿ is a kick at each frame and x swings freely in between: that is integrated
+/// exactly, whatever the frame rate. With z = ẋ − s₁ x:
+///
+///     z += −Δẏ,    x(t) = e^{s₁t} x + φ(t) z,    z(t) = e^{s₀t} z,    φ(t) = (e^{s₀t} − e^{s₁t}) / (s₀ − s₁).
+#ifndef RIG_SWING_H
+#define RIG_SWING_H
+
+#include "scene/document.h"
+
+/// x in metres of the base's motion, and z; zero is rest.
+struct swing {
+    double x[2], z[2]; ///< re, im
+};
+
+struct swing_filter {
+    double s[2][2];  ///< the two poles, 1/s
+    double natural;  ///< rad/s
+    bool is_complex; ///< else x stays real
+    double peak;     ///< largest |x| after a sudden move of the base by 1
+};
+
+/// The filter of a spline whose parameters are `parameter` at the time shown, with a damping ratio of at least 0.05, so that it
+/// comes to rest. false if nothing pulls it back: cubics, frequency 0.
+bool swing_filter(const struct spline *spline, const double parameter[PARAMETER_COUNT], struct swing_filter *filter);
+
+/// The base's velocity changes by `kick`, then `dt` seconds pass.
+void swing_step(struct swing *swing, const struct swing_filter *filter, double kick, double dt);
+
+/// Whether less than a tenth of a millimetre of swing is left.
+bool swing_settled(const struct swing *swing, const struct swing_filter *filter);
+
+/// Whether a channel hangs on the base: those of the displacement do or, if a tail has none for an axis, all of that axis.
+bool swing_hangs(const struct tail *tail, const struct channel *channel);
+
+/// Units of a channel's spline for a metre of x. A channel of the displacement takes metres as they are; for another the swing
+/// after a sudden move of the base takes the tip about as far as the base went.
+double swing_scale(const struct tail *tail, const struct channel *channel, const struct swing_filter *filter);
+
+/// Unit vector along which the base must move to drive channels of an axis: where these bend the tip of the tail at rest.
+void swing_direction(const struct tail *tail, enum axis axis, double direction[3]);
+
+#endif

@@ -1,0 +1,73 @@
+/// Checks edits and turns them into changes, by kind.
+#include "scene/edit_plan.h"
+
+bool plan_no_memory(struct error *error) { return fail(error, ERROR_ENVIRONMENT, "not enough memory for this edit"); }
+
+bool plan_has_spline(const struct document *document, int spline, struct error *error)
+{
+    return (spline >= 0 && spline < document->spline_count) || fail(error, ERROR_INPUT, "there is no such spline");
+}
+
+bool plan_add(struct change_list *list, const struct change *change, struct error *error)
+{
+    if (!change_list_reserve(list, 1)) {
+        struct change lost = *change;
+        change_release(&lost);
+        return plan_no_memory(error);
+    }
+    list->items[list->count++] = *change;
+    return true;
+}
+
+/// What an edit's index must name.
+enum target { TARGET_SCENE, TARGET_SPLINE, TARGET_RIG };
+
+static const struct {
+    planner *plan;
+    enum target target;
+    enum rig_kind kind; ///< of TARGET_RIG
+} planners[] = {
+    [EDIT_KNOT_INSERT] = {plan_knot_insert, TARGET_SPLINE, 0},
+    [EDIT_KNOT_REMOVE] = {plan_knot_remove, TARGET_SPLINE, 0},
+    [EDIT_KNOT_SET] = {plan_knot_set, TARGET_SPLINE, 0},
+    [EDIT_PARAMETER] = {plan_parameter, TARGET_SPLINE, 0},
+    [EDIT_SPRING] = {plan_spring, TARGET_SPLINE, 0},
+    [EDIT_SPLINE_ADD] = {plan_spline_add, TARGET_SCENE, 0},
+    [EDIT_SPLINE_COPY] = {plan_spline_copy, TARGET_SPLINE, 0},
+    [EDIT_SPLINE_REMOVE] = {plan_spline_remove, TARGET_SPLINE, 0},
+    [EDIT_SPLINE_MOVE] = {plan_spline_move, TARGET_SPLINE, 0},
+    [EDIT_SPLINE_NAME] = {plan_spline_name, TARGET_SPLINE, 0},
+    [EDIT_SPLINE_COLOR] = {plan_spline_color, TARGET_SPLINE, 0},
+    [EDIT_DOCUMENT] = {plan_document, TARGET_SCENE, 0},
+    [EDIT_FPS] = {plan_fps, TARGET_SCENE, 0},
+    [EDIT_SUBSTEPS] = {plan_substeps, TARGET_SCENE, 0},
+    [EDIT_RANGE] = {plan_range, TARGET_SCENE, 0},
+    [EDIT_ANGLES] = {plan_angles, TARGET_RIG, RIG_TAIL},
+    [EDIT_AXIS] = {plan_axis, TARGET_RIG, RIG_TAIL},
+    [EDIT_PART] = {plan_part, TARGET_RIG, RIG_TAIL},
+    [EDIT_FEED] = {plan_feed, TARGET_RIG, RIG_TAIL},
+    [EDIT_POSITION] = {plan_position, TARGET_RIG, RIG_TAIL},
+    [EDIT_LENGTH] = {plan_length, TARGET_RIG, RIG_TAIL},
+    [EDIT_JOINTS] = {plan_joints, TARGET_RIG, RIG_TAIL},
+    [EDIT_TAIL_ADD] = {plan_tail_add, TARGET_SCENE, 0},
+    [EDIT_TAIL_REMOVE] = {plan_tail_remove, TARGET_RIG, RIG_TAIL},
+    [EDIT_TAIL_NAME] = {plan_tail_name, TARGET_RIG, RIG_TAIL},
+    [EDIT_CHANNEL_ADD] = {plan_channel_add, TARGET_RIG, RIG_TAIL},
+    [EDIT_CHANNEL_REMOVE] = {plan_channel_remove, TARGET_RIG, RIG_TAIL},
+    [EDIT_DRIVE] = {plan_drive, TARGET_RIG, RIG_CHARACTER},
+    [EDIT_DRIVE_ADD] = {plan_drive_add, TARGET_RIG, RIG_CHARACTER},
+    [EDIT_DRIVE_REMOVE] = {plan_drive_remove, TARGET_RIG, RIG_CHARACTER},
+    [EDIT_PAINT_NEW] = {plan_paint_new, TARGET_RIG, RIG_CHARACTER},
+    [EDIT_PAINT] = {plan_dab, TARGET_RIG, RIG_CHARACTER},
+};
+
+bool edit_plan(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+{
+    enum target target = planners[edit->kind].target;
+    if (target == TARGET_SPLINE && !plan_has_spline(document, edit->spline, error)) return false;
+    if (target == TARGET_RIG && (edit->rig < 0 || edit->rig >= document->rig_count ||
+                                 document->rigs[edit->rig].kind != planners[edit->kind].kind)) {
+        return fail(error, ERROR_INPUT, "there is no such %s", rig_word(planners[edit->kind].kind));
+    }
+    return planners[edit->kind].plan(document, edit, list, error);
+}

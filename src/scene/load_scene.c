@@ -1,0 +1,220 @@
+/// Loads a scene from a file or from text.
+#include "base/file.h"
+#include "base/path.h"
+#include "scene/load.h"
+#include "scene/reader.h"
+#include <stdlib.h>
+#include <string.h>
+
+enum { FORMAT_VERSION = 1 };
+
+static const char *const scene_keys[] = {"wiggly", "about", "fps", "substeps", "frames", "splines", "rigs", NULL};
+
+/// Rewords jansson's "X expected near Y" or "Z near Y".
+static void compose_syntax(const char *text, char *sentence, size_t size)
+{
+    const char *near = strstr(text, " near ");
+    const char *expected = strstr(text, " expected near ");
+    if (expected) {
+        snprintf(sentence, size, "expected %.*s, got %s", (int)(expected - text), text, near + 6);
+    } else if (near) {
+        snprintf(sentence, size, "expected valid JSON, got %s (%.*s)", near + 6, (int)(near - text), text);
+    } else {
+        snprintf(sentence, size, "expected valid JSON, got the end of the file (%s)", text);
+    }
+}
+
+static void fail_syntax(struct reader *reader, const json_error_t *syntax)
+{
+    char path[PATH_TEXT_SIZE], sentence[JSON_ERROR_TEXT_LENGTH + 64];
+    const char *near = strstr(syntax->text, " near ");
+    const char *what = near ? near + 6 : "the end of the file";
+    switch (json_error_code(syntax)) {
+    case json_error_duplicate_key:
+        snprintf(sentence, sizeof sentence, "expected each key once, got %s again", what);
+        break;
+    case json_error_null_character:
+        snprintf(sentence, sizeof sentence, "expected a string without \\u0000, got %s", what);
+        break;
+    case json_error_numeric_overflow:
+        snprintf(sentence, sizeof sentence, "expected a number that fits a double, got %s", what);
+        break;
+    case json_error_invalid_utf8:
+        snprintf(sentence, sizeof sentence, "expected UTF-8, got something else (%s)", syntax->text);
+        break;
+    case json_error_out_of_memory:
+        reader_no_memory(reader);
+        return;
+    default:
+        compose_syntax(syntax->text, sentence, sizeof sentence);
+    }
+    source_path_at(&reader->source, (size_t)syntax->position, path);
+    struct error error;
+    fail(&error, ERROR_INPUT, "%s:%d: %s: %s", reader->source.name, syntax->line, path, sentence);
+    reader_report(reader, &error);
+}
+
+static bool load_version(struct reader *reader, const struct value *scene)
+{
+    const struct value value = reader_member(scene, "wiggly");
+    int version = FORMAT_VERSION;
+    if (!reader_integer(reader, value, 1, 1000000, &version)) return false;
+    if (version <= FORMAT_VERSION) return true;
+    return reader_fail(reader, &value.at, "expected version %d, got %d: this file was made by a newer wiggly",
+                       FORMAT_VERSION, version);
+}
+
+/// An empty text counts as none.
+static void load_about(struct reader *reader, const struct value *scene)
+{
+    const struct value value = reader_member(scene, "about");
+    if (!value.json) return;
+    if (!json_is_string(value.json)) {
+        reader_unexpected(reader, value, "a string");
+    } else if (json_string_length(value.json) > 0) {
+        reader->document->about = strdup(json_string_value(value.json));
+        if (!reader->document->about) reader_no_memory(reader);
+    }
+}
+
+static bool load_frames(struct reader *reader, struct value value, int frames[2])
+{
+    if (!reader_array(reader, value, 2, "[first, last]")) return false;
+    bool good = true;
+    for (int i = 0; i < 2; i++) {
+        good &= reader_integer(reader, reader_element(&value, i), -SCENE_MAX_FRAME, SCENE_MAX_FRAME, &frames[i]);
+    }
+    if (good && frames[1] < frames[0]) {
+        return reader_fail(reader, &value.at, "expected the last frame not before the first, got [%d, %d]", frames[0],
+                           frames[1]);
+    }
+    return good;
+}
+
+/// Reads fps, substeps and frames, and checks the number of samples over all splines.
+static void load_domain(struct reader *reader, const struct value *scene)
+{
+    struct document *document = reader->document;
+    const struct value range = reader_member(scene, "frames");
+    struct range fps_range = {0, SCENE_MAX_FPS, true};
+    int frames[2];
+    bool good = reader_number(reader, reader_member(scene, "fps"), false, fps_range, &document->fps);
+    good &= reader_integer(reader, reader_member(scene, "substeps"), 1, SCENE_MAX_SUBSTEPS, &document->substeps);
+    good &= load_frames(reader, range, frames);
+    if (!good) return;
+    long long samples = ((long long)frames[1] - frames[0]) * document->substeps + 1;
+    size_t splines = json_array_size(json_object_get(scene->json, "splines"));
+    if (samples > SCENE_MAX_SAMPLES || samples * (long long)splines > SCENE_MAX_SAMPLES) {
+        reader_fail(reader, &range.at, "expected at most %d samples over all splines, got %zu times %lld",
+                    SCENE_MAX_SAMPLES, splines > 0 ? splines : 1, samples);
+        return;
+    }
+    document->first_frame = frames[0];
+    document->last_frame = frames[1];
+    reader->has_domain = true;
+}
+
+static void load_scene(struct reader *reader, json_t *json)
+{
+    const struct value scene = {.json = json};
+    if (!json_is_object(json)) {
+        reader_unexpected(reader, scene, "an object");
+        return;
+    }
+    if (!load_version(reader, &scene)) return;
+    load_about(reader, &scene);
+    load_domain(reader, &scene);
+    load_splines(reader, &scene);
+    load_rigs(reader, &scene);
+    reader->document->extra = reader_keep(reader, reader_extra(reader, &scene, scene_keys));
+    if (!reader->failed) validate_scene(reader, &scene.at);
+}
+
+/// Keeps whole numbers as integers, so that unknown keys stay exact, unless one is too large.
+static json_t *parse_json(const struct source *source, json_error_t *syntax)
+{
+    json_t *json = json_loadb(source->text, source->size, JSON_REJECT_DUPLICATES, syntax);
+    if (json || json_error_code(syntax) != json_error_numeric_overflow) return json;
+    return json_loadb(source->text, source->size, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, syntax);
+}
+
+json_t *reader_parse(struct reader *reader)
+{
+    struct error error;
+    json_error_t syntax;
+    if (!source_check_limits(&reader->source, &error)) {
+        reader_report(reader, &error);
+        return NULL;
+    }
+    json_t *json = parse_json(&reader->source, &syntax);
+    if (!json) fail_syntax(reader, &syntax);
+    return json;
+}
+
+static void parse(struct reader *reader)
+{
+    json_t *scene = reader_parse(reader);
+    if (!scene) return;
+    load_scene(reader, scene);
+    json_decref(scene);
+    free(reader->names);
+}
+
+/// `text` must be followed by a NUL.
+static struct document *parse_document(const char *name, const char *text, size_t size, struct problems *problems,
+                                       struct error *error)
+{
+    struct reader reader = {
+        .source = {.name = name, .text = text, .size = size}, .problems = problems, .error = error};
+    reader.document = document_create();
+    if (!reader.document) {
+        reader_no_memory(&reader);
+        return NULL;
+    }
+    parse(&reader);
+    if (!reader.failed) return reader.document;
+    document_destroy(reader.document);
+    return NULL;
+}
+
+/// Makes paths in the document relative to its file's folder.
+static struct document *set_folder(struct document *document, const char *path, struct error *error)
+{
+    char folder[PATH_LIMIT];
+    if (!document) return NULL;
+    document->folder = path_folder(path, folder) ? strdup(folder) : NULL;
+    if (document->folder) return document;
+    fail(error, ERROR_ENVIRONMENT, "%s: not enough memory, or the path is too long", path);
+    document_destroy(document);
+    return NULL;
+}
+
+struct document *scene_load(const char *path, struct problems *problems, struct error *error)
+{
+    char *text;
+    size_t size;
+    struct error unread;
+    if (!file_read(path, SOURCE_MAX_BYTES, &text, &size, &unread)) {
+        struct reader reader = {.problems = problems, .error = error};
+        reader_report(&reader, &unread);
+        return NULL;
+    }
+    struct document *document = parse_document(path, text, size, problems, error);
+    free(text);
+    return set_folder(document, path, error);
+}
+
+struct document *scene_parse(const char *name, const char *text, size_t size, struct problems *problems,
+                             struct error *error)
+{
+    char *copy = malloc(size + 1);
+    if (!copy) {
+        fail_no_memory(error, name);
+        return NULL;
+    }
+    memcpy(copy, text, size);
+    copy[size] = '\0';
+    struct document *document = parse_document(name, copy, size, problems, error);
+    free(copy);
+    return document;
+}

@@ -1,0 +1,111 @@
+/// The table of rig kinds, and what all kinds share.
+#include "scene/rig_kind.h"
+#include <stdlib.h>
+#include <string.h>
+
+static const struct rig_functions *const kinds[RIG_KINDS] = {
+    [RIG_TAIL] = &tail_functions, [RIG_CHARACTER] = &character_functions};
+
+const char *rig_word(enum rig_kind kind) { return kinds[kind]->word; }
+
+int rig_input_count(const struct rig *rig) { return kinds[rig->kind]->input_count(rig); }
+
+int rig_input(const struct rig *rig, int input) { return kinds[rig->kind]->input(rig, input); }
+
+void rig_references(const struct rig *rig, int index, reference_visitor *visit, void *context)
+{
+    kinds[rig->kind]->references(rig, index, visit, context);
+}
+
+void rig_set_reference(struct rig *rig, const struct reference *reference, int spline)
+{
+    kinds[rig->kind]->set_reference(rig, reference, spline);
+}
+
+bool rig_copy(const struct rig *rig, struct rig *copy)
+{
+    *copy = *rig;
+    copy->name = rig->name ? strdup(rig->name) : NULL;
+    if (rig->name && !copy->name) return false;
+    if (kinds[rig->kind]->copy(copy)) return true;
+    free(copy->name);
+    return false;
+}
+
+void rig_release(struct rig *rig)
+{
+    kinds[rig->kind]->release(rig);
+    free(rig->name);
+}
+
+size_t rig_bytes(const struct rig *rig)
+{
+    return sizeof *rig + (rig->name ? strlen(rig->name) + 1 : 0) + kinds[rig->kind]->bytes(rig);
+}
+
+bool rig_rebase(struct rig *rig, const char *from, const char *to)
+{
+    const struct rig_functions *kind = kinds[rig->kind];
+    return !kind->rebase || kind->rebase(rig, from, to);
+}
+
+/// Reports an earlier rig with the same name.
+static void check_name(struct reader *reader, const struct where *rig_at, int index)
+{
+    const struct rig *rigs = reader->document->rigs;
+    struct where at = {.parent = rig_at, .key = "name"};
+    for (int i = 0; i < index && rigs[index].name; i++) {
+        if (!rigs[i].name || strcmp(rigs[i].name, rigs[index].name) != 0) continue;
+        reader_fail(reader, &at, "expected a name of its own, got \"%s\" as rigs[%d] has", rigs[i].name, i);
+        return;
+    }
+}
+
+/// Which kind a rig is, -1 after an error.
+static int load_kind(struct reader *reader, struct value type)
+{
+    const char *words[RIG_KINDS + 1] = {NULL};
+    for (int k = 0; k < RIG_KINDS; k++) words[k] = kinds[k]->word;
+    return reader_word(reader, type, words, -1);
+}
+
+void load_rigs(struct reader *reader, const struct value *scene)
+{
+    const struct value rigs = reader_member(scene, "rigs");
+    int count = reader_objects(reader, rigs, SCENE_MAX_RIGS);
+    struct document *document = reader->document;
+    if (count <= 0) return;
+    if (!document_reserve_rigs(document, count)) {
+        reader_no_memory(reader);
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        const struct value object = reader_element(&rigs, i);
+        int kind = load_kind(reader, reader_member(&object, "type"));
+        struct rig *rig = &document->rigs[document->rig_count++];
+        memset(rig, 0, sizeof *rig);
+        rig->kind = kind < 0 ? RIG_TAIL : (enum rig_kind)kind; // any will do: the scene is refused
+        if (kind >= 0) kinds[kind]->load(reader, &object, rig);
+        check_name(reader, &object.at, i);
+    }
+}
+
+static void print_rig(struct text *text, const struct document *document, const struct rig *rig, const char *folder)
+{
+    const struct rig_functions *kind = kinds[rig->kind];
+    struct members members = {text, "    {\n      ", ",\n      ", false};
+    member_string(&members, "type", kind->word);
+    if (rig->name) member_string(&members, "name", rig->name);
+    kind->print(&members, document, rig, folder);
+    members_extra(&members, rig->extra, kind->has_tracks);
+    text_string(text, "\n    }");
+}
+
+void print_rigs(struct text *text, const struct document *document, const char *folder)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        text_string(text, r > 0 ? ",\n" : "[\n");
+        print_rig(text, document, &document->rigs[r], folder);
+    }
+    text_string(text, document->rig_count > 0 ? "\n  ]" : "[]");
+}

@@ -1,0 +1,70 @@
+/// Lays curves out in memory, and describes a spline to the solver.
+#include "scene/storage.h"
+#include <string.h>
+
+/// Curves of at least that many samples have extremes: scanning them all takes 1 ms of a frame.
+enum { MANY_SAMPLES = 250000 };
+
+void storage_place(wiggly_curve *curve, double *numbers, int samples)
+{
+    size_t n = (size_t)samples;
+    *curve = (wiggly_curve){.total = numbers,
+                            .y = numbers + n,
+                            .re = numbers + 2 * n,
+                            .im = numbers + 3 * n,
+                            .omega = numbers + 4 * n,
+                            .samples = samples,
+                            .mode = WIGGLY_CUBIC};
+}
+
+bool storage_wants_extremes(int samples) { return samples >= MANY_SAMPLES; }
+
+struct extremes storage_extremes(double *marks, int samples)
+{
+    return marks ? (struct extremes){marks, marks + extremes_blocks(samples)} : (struct extremes){0};
+}
+
+wiggly_desc storage_describe(const wiggly_curve *curves, const struct document *document, int spline_index,
+                             bool cubic)
+{
+    const struct spline *spline = &document->splines[spline_index];
+    wiggly_desc desc = wiggly_default_desc();
+    desc.samples = document_samples(document);
+    desc.step = document_step(document);
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        int track = spline->parameter[p].track;
+        const double *total = track >= 0 ? curves[track].total : NULL;
+        parameter_describe(p, spline->parameter[p].value, total, &desc);
+    }
+    if (cubic) desc.mode = WIGGLY_CUBIC;
+    desc.spring_friction = spline->spring_friction && desc.mode == WIGGLY_REAL;
+    return desc;
+}
+
+wiggly_knot storage_knot(const struct document *document, const struct knot *knot)
+{
+    return (wiggly_knot){.sample = document_sample(document, knot->frame),
+                         .has_slope = knot->has_slope,
+                         .value = knot->value,
+                         .slope = knot->slope,
+                         .stiffness = knot->stiffness};
+}
+
+void storage_add_knots(wiggly_desc *desc, const struct document *document, int spline, wiggly_knot *knots)
+{
+    const struct spline *of = &document->splines[spline];
+    for (int i = 0; i < of->knot_count; i++) knots[i] = storage_knot(document, &of->knots[i]);
+    desc->knots = knots;
+    desc->knot_count = of->knot_count;
+}
+
+void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc)
+{
+    double *const rows[] = {curve->total, curve->y, curve->re, curve->im, curve->omega};
+    for (int r = 0; r < ROWS; r++) memset(rows[r], 0, sizeof(double) * (size_t)desc->samples);
+    curve->samples = desc->samples;
+    curve->step = desc->step;
+    curve->first = 0;
+    curve->mode = desc->mode;
+    curve->start = WIGGLY_FREE;
+}

@@ -1,0 +1,165 @@
+/// The filter that a tail follows a dragged body by: the solver's own, whatever the frame rate, and it comes to rest.
+#include "near.h"
+
+#include "rig/swing.h"
+#include "spline_of.h"
+#include <math.h>
+#include <string.h>
+
+static const double turn = 6.283185307179586;
+
+static struct swing_filter filter_of(const struct spline *spline)
+{
+    struct swing_filter filter;
+    double parameter[PARAMETER_COUNT];
+    for (int p = 0; p < PARAMETER_COUNT; p++) parameter[p] = spline->parameter[p].value;
+    assert_true(swing_filter(spline, parameter, &filter));
+    return filter;
+}
+
+/// Half a metre in half a second, from rest to rest.
+static double base_at(double t)
+{
+    double u = fmin(fmax(t / 0.5, 0), 1);
+    return 0.5 * u * u * (3 - 2 * u);
+}
+
+/// Follows base_at(), looked at `rate` times a second, for 3 s.
+static struct swing shaken(const struct swing_filter *filter, double rate)
+{
+    struct swing swing = {{0}, {0}};
+    double velocity = 0;
+    for (int i = 0; i < (int)lround(3 * rate); i++) {
+        double next = (base_at((i + 1) / rate) - base_at(i / rate)) * rate;
+        swing_step(&swing, filter, next - velocity, 1 / rate);
+        velocity = next;
+    }
+    return swing;
+}
+
+/// The forward response of Figure 5: from rest, no knots, the base's motion as equilibrium.
+static wiggly_value solved(const struct spline *spline)
+{
+    enum { RATE = 960, SAMPLES = 3 * RATE + 1 };
+    static double y[SAMPLES], re[SAMPLES], im[SAMPLES], total[SAMPLES], omega[SAMPLES], track[SAMPLES];
+    wiggly_desc desc = wiggly_default_desc();
+    wiggly_curve curve = {.total = total, .y = y, .re = re, .im = im, .omega = omega};
+    wiggly_solver *solver;
+    for (int i = 0; i < SAMPLES; i++) track[i] = base_at((double)i / RATE);
+    desc.samples = SAMPLES;
+    desc.step = 1.0 / RATE;
+    desc.mode = spline_mode(spline);
+    desc.start = WIGGLY_REST;
+    desc.frequency.value = spline->parameter[PARAMETER_FREQUENCY].value;
+    desc.damping.value = spline->parameter[PARAMETER_DAMPING].value;
+    desc.bandwidth.value = spline->parameter[PARAMETER_BANDWIDTH].value;
+    desc.equilibrium.track = track;
+    assert_int_equal(wiggly_create(SAMPLES, 0, &solver), WIGGLY_OK);
+    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
+    wiggly_destroy(solver);
+    return (wiggly_value){y[SAMPLES - 1], re[SAMPLES - 1], im[SAMPLES - 1]};
+}
+
+static void test_is_the_solvers_filter(void **state)
+{
+    (void)state;
+    const struct spline splines[] = {spline_of(WIGGLY_COMPLEX, 1, 0.08, 0.08), spline_of(WIGGLY_COMPLEX, 2, 0.2, 0),
+                                     spline_of(WIGGLY_REAL, 1.5, 0.1, 0), spline_of(WIGGLY_REAL, 1, 1, 0),
+                                     spline_of(WIGGLY_REAL, 1, 3, 0)};
+    for (size_t s = 0; s < sizeof splines / sizeof splines[0]; s++) {
+        struct swing_filter filter = filter_of(&splines[s]);
+        struct swing swing = shaken(&filter, 960);
+        wiggly_value value = solved(&splines[s]);
+        double size = 0.5 * filter.peak;
+        assert_near(swing.x[0], value.re, 2e-3 * size);
+        assert_near(swing.x[1], value.im, 2e-3 * size);
+    }
+}
+
+/// The same way of the base, told at 30, 60 and 144 frames a second.
+static void test_frame_rate_does_not_matter(void **state)
+{
+    (void)state;
+    const struct spline spline = spline_of(WIGGLY_COMPLEX, 1.2, 0.1, 0.1);
+    struct swing_filter filter = filter_of(&spline);
+    struct swing slow = {{0}, {0}}, fast = slow;
+    swing_step(&slow, &filter, 0.7, 0.4);
+    for (int i = 0; i < 100; i++) swing_step(&fast, &filter, i == 0 ? 0.7 : 0, 0.004);
+    assert_near(fast.x[0], slow.x[0], 1e-13);
+    assert_near(fast.x[1], slow.x[1], 1e-13);
+    struct swing at30 = shaken(&filter, 30), at144 = shaken(&filter, 144);
+    assert_near(at30.x[0], at144.x[0], 0.02 * 0.5 * filter.peak);
+}
+
+/// Even a spline that rings forever lets its tail come to rest, and the base's step swings it no further than `peak`.
+static void test_comes_to_rest_within_its_peak(void **state)
+{
+    (void)state;
+    const struct spline splines[] = {spline_of(WIGGLY_COMPLEX, 1, 0, 0.1), spline_of(WIGGLY_COMPLEX, 3, 0.3, 0.2),
+                                     spline_of(WIGGLY_REAL, 1, 0.1, 0)};
+    for (size_t s = 0; s < sizeof splines / sizeof splines[0]; s++) {
+        struct swing_filter filter = filter_of(&splines[s]);
+        struct swing swing = {{0}, {0}};
+        double largest = 0, seconds = 0;
+        swing_step(&swing, &filter, 1000, 0.001); // a metre in a millisecond
+        swing_step(&swing, &filter, -1000, 0.001);
+        while (!swing_settled(&swing, &filter)) {
+            swing_step(&swing, &filter, 0, 0.01);
+            largest = fmax(largest, hypot(swing.x[0], swing.x[1]));
+            seconds += 0.01;
+            assert_true(seconds < 120);
+        }
+        assert_true(largest > 0.7 * filter.peak && largest < 1.25 * filter.peak);
+    }
+}
+
+static void test_nothing_pulls_a_cubic_back(void **state)
+{
+    (void)state;
+    struct swing_filter filter;
+    const double parameter[PARAMETER_COUNT] = {0};
+    struct spline spline = spline_of(WIGGLY_CUBIC, 1, 0.1, 0.1);
+    assert_false(swing_filter(&spline, parameter, &filter));
+    spline.parameter[PARAMETER_MODE].value = WIGGLY_COMPLEX;
+    assert_false(swing_filter(&spline, parameter, &filter));
+}
+
+/// A channel of the total swings its tip about as far as the base goes; one of the displacement says itself how far, and then it
+/// alone hangs on the base.
+static void test_scale_and_direction(void **state)
+{
+    (void)state;
+    struct channel channels[2];
+    memset(channels, 0, sizeof channels);
+    channels[0].gain.value[0] = 4;
+    channels[1].of = PART_DISPLACEMENT;
+    struct tail tail = {.joints = 40, .length = 1.6, .channels = channels, .channel_count = 1};
+    const struct spline spline = spline_of(WIGGLY_COMPLEX, 1, 0.1, 0.1);
+    struct swing_filter filter = filter_of(&spline);
+    double scale = swing_scale(&tail, &channels[0], &filter), bend = 4 * turn / 360 * scale * filter.peak, tip = 0;
+    for (int n = 0; n < 40; n++) tip += bend * 1.6 * (40 - n) / 40;
+    assert_near(tip, 1, 1e-12);
+    assert_true(swing_hangs(&tail, &channels[0]));
+    tail.channel_count = 2;
+    assert_false(swing_hangs(&tail, &channels[0]));
+    assert_true(swing_hangs(&tail, &channels[1]));
+    assert_near(swing_scale(&tail, &channels[1], &filter), 1, 0);
+    double direction[3];
+    swing_direction(&tail, AXIS_SIDE, direction);
+    assert_near(direction[0], 1, 0);
+    tail.rest.each = true;
+    tail.rest.value[0] = 30; // lifted by 30 degrees: moving away in front of it presses it down
+    swing_direction(&tail, AXIS_UP, direction);
+    assert_near(direction[1], cos(turn / 12), 1e-6);
+    assert_near(direction[2], -sin(turn / 12), 1e-6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_is_the_solvers_filter),         cmocka_unit_test(test_frame_rate_does_not_matter),
+        cmocka_unit_test(test_comes_to_rest_within_its_peak), cmocka_unit_test(test_nothing_pulls_a_cubic_back),
+        cmocka_unit_test(test_scale_and_direction),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
