@@ -335,6 +335,7 @@ static void make_nodal(struct problem *p, uint64_t seed, wiggly_passive passive)
     if (pick(&seed, 4) == 0) { // nothing swings where the curve starts
         double *track = p->tracks[p->tracks_used++];
         for (int i = 0; i < d->samples; i++) track[i] = i <= first ? 0 : d->frequency.value;
+        if (d->start == WIGGLY_LOOP) track[d->samples - 1] = 0;
         d->frequency.track = track;
     }
     if (pick(&seed, 3) == 0) d->equilibrium = make_track(p, &seed, 0, between(&seed, -1, 1));
