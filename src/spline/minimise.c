@@ -6,6 +6,9 @@
 // last digits. With contraction ρ = |δ_n| / |δ_{n−1}| (about condition × ε) the error left is at most |δ_n| ρ / (1 − ρ). Where the
 // squared matrix has lost too much for that, the un-squared rows are factored, at four times the cost and with the square root of the
 // condition.
+//
+// What no refinement can know is the rounding of the coefficients themselves. Where the system amplifies, they are changed by that much
+// once and the change of x is asked for, with the factor that is there: it is part of the error.
 #include "spline/orthogonal.h"
 #include "spline/solver.h"
 #include <float.h>
@@ -13,6 +16,7 @@
 
 enum { MAX_SWEEPS = 16 };
 static const double enough = 1e-11;  ///< estimated error of one plain solve, relative to the largest |x|, that needs no refinement
+static const double rounding = 2 * DBL_EPSILON; ///< of a coefficient
 static const double too_much = 1e-3; ///< beyond, the squared matrix is no help to refinement
 
 static double largest_modulus(const double *x, int count, bool is_complex)
@@ -59,6 +63,19 @@ static void solve(wiggly_solver *solver, const factorisation *f)
     }
 }
 
+/// How far x would be elsewhere if the coefficients were rounded otherwise.
+static double sensitivity(wiggly_solver *solver, const factorisation *f)
+{
+    system_rows *rows = &solver->rows;
+    for (int k = 0; k < rows->count; k++) {
+        rows->at[k].m = cplx_scale(1 + rounding, rows->at[k].m);
+        rows->at[k].p = cplx_scale(1 - rounding, rows->at[k].p);
+    }
+    system_gradient(rows);
+    solve(solver, f);
+    return largest_modulus(rows->gradient, rows->count, rows->is_complex);
+}
+
 minimum solver_minimise(wiggly_solver *solver)
 {
     system_rows *rows = &solver->rows;
@@ -88,14 +105,16 @@ minimum solver_minimise(wiggly_solver *solver)
         double contraction = before < INFINITY ? change / before : 0.5;
         result.error = change * contraction / (1 - contraction);
         before = change;
-        if (result.sweeps == 1 && f.error <= enough) {
+        if (result.sweeps == 1 && rows->is_held && f.error <= enough) {
             result.error = f.error * result.largest;
-            break;
+            result.solved = result.largest < INFINITY;
+            return result;
         }
         if (result.error <= 1e-15 * result.largest) break;
     }
     result.solved = result.largest < INFINITY;
     if (result.error > 1e-6 * result.largest) result.weak = true; // it never settled
+    result.error += sensitivity(solver, &f);
     return result;
 }
 

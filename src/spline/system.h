@@ -24,6 +24,7 @@ typedef struct slope_row {
 typedef struct system_rows {
     int count; ///< M
     bool loop, is_complex;
+    bool is_held;         ///< the start costs enough, or there is none, that no more than its knot-free stretches cost it digits
     int jet_from, jet_to; ///< a loop has a jet at every sample
     coefficients *at;     ///< of row i; g is folded into `drive` and not kept
     cplx *drive;          ///< f_i
