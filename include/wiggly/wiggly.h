@@ -17,7 +17,11 @@
 extern "C" {
 #endif
 
+/// Of this header.
 #define WIGGLY_VERSION "0.1.0"
+
+/// Of the library that is linked, "major.minor.patch": a shared one may be newer than the header.
+const char *wiggly_version(void);
 
 /// What a call returns. From WIGGLY_ERROR_ARGUMENT on nothing was solved and the curve was not touched.
 typedef enum wiggly_status {
