@@ -64,7 +64,7 @@ GENERATED := $(B)/generated
 OBJECTS := $(SOURCES:%.c=$(B)/obj/%.o) $(B)/obj/build.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o
 LIBRARY_OBJECTS := $(LIBRARY_SOURCES:%.c=$(B)/obj/%.o)
 SHARED_LIBRARY := $(B)/libwiggly.so.$(VERSION)
-LIBRARIES := $(B)/libwiggly.a $(SHARED_LIBRARY)
+LIBRARIES := $(B)/libwiggly.a $(if $(findstring mingw,$(CC)),,$(SHARED_LIBRARY))
 TEST_PROGRAMS := $(patsubst tests/%.c,$(B)/tests/%,$(filter %.c,$(TESTS)))
 
 # --- how it is built ---------------------------------------------------------------------------------------------------

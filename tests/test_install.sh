@@ -58,11 +58,12 @@ ok "the .pc file carries the version" $?
 flags=$(pkg-config --cflags --libs wiggly)
 export LD_LIBRARY_PATH=$root/lib # where no ldconfig has been
 
-for example in curve game_loop tail_lag; do
+for example in examples/*; do
+    name=$(basename "${example%.*}")
+    case $example in *.cpp) compiler="g++ -std=c++17 -Wpedantic" ;; *) compiler="$CC -std=c11" ;; esac
     # shellcheck disable=SC2086
-    expect 0 "example $example compiles" $CC -std=c11 -Wall -Wextra -Werror $sanitizers examples/$example.c $flags \
-        -o "$scratch/$example"
-    expect 0 "example $example runs" "$scratch/$example"
+    expect 0 "example $name compiles" $compiler -Wall -Wextra -Wshadow -Wconversion -Werror $sanitizers "$example" $flags -o "$scratch/$name"
+    expect 0 "example $name runs" "$scratch/$name"
 done
 [ "$("$scratch/curve" | wc -l)" -eq 122 ]
 ok "the curve has a header and 121 samples" $?

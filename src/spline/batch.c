@@ -2,9 +2,9 @@
 /// solves which spline does not matter to the bits, because neither what a solver keeps nor who is in a group does.
 #include "spline/batch.h"
 #include "spline/group.h"
+#include "spline/thread.h"
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <threads.h>
 #include <wiggly/wiggly.h>
 
 enum { MAX_THREADS = 256, AT_A_TIME = GROUP_ROOM };
@@ -20,14 +20,14 @@ typedef struct job {
 typedef struct worker {
     wiggly_batch *batch;
     group *group;
-    thrd_t thread;
+    thread thread;
     wiggly_status worst;
 } worker;
 
 struct wiggly_batch {
     int threads;
-    mtx_t lock;
-    cnd_t start, done;
+    thread_lock lock;
+    thread_signal start, done;
     job job;
     atomic_int next; ///< spline to take
     long round;      ///< number of the job; changes wake the workers
@@ -54,22 +54,22 @@ static void work(worker *w)
     }
 }
 
-static int run(void *argument)
+static thread_result THREAD_CALL run(void *argument)
 {
     worker *w = argument;
     wiggly_batch *batch = w->batch;
     long seen = 0;
-    mtx_lock(&batch->lock);
+    thread_acquire(&batch->lock);
     for (;;) {
-        while (batch->round == seen && !batch->stop) cnd_wait(&batch->start, &batch->lock);
+        while (batch->round == seen && !batch->stop) thread_wait(&batch->start, &batch->lock);
         if (batch->stop) break;
         seen = batch->round;
-        mtx_unlock(&batch->lock);
+        thread_release(&batch->lock);
         work(w);
-        mtx_lock(&batch->lock);
-        if (--batch->busy == 0) cnd_signal(&batch->done);
+        thread_acquire(&batch->lock);
+        if (--batch->busy == 0) thread_wake(&batch->done);
     }
-    mtx_unlock(&batch->lock);
+    thread_release(&batch->lock);
     return 0;
 }
 
@@ -79,7 +79,7 @@ static bool add_worker(wiggly_batch *batch, int samples, int knots, int lanes)
     w->batch = batch;
     w->group = group_create(samples, knots, lanes);
     if (!w->group) return false;
-    if (batch->threads > 0 && thrd_create(&w->thread, run, w) != thrd_success) {
+    if (batch->threads > 0 && !thread_start(&w->thread, run, w)) {
         group_destroy(w->group);
         return false;
     }
@@ -93,9 +93,9 @@ wiggly_status batch_of_lanes(int samples, int knots, int threads, int lanes, wig
         return WIGGLY_ERROR_ARGUMENT;
     wiggly_batch *batch = calloc(1, sizeof *batch + sizeof(worker) * (size_t)threads);
     if (!batch) return WIGGLY_ERROR_MEMORY;
-    mtx_init(&batch->lock, mtx_plain);
-    cnd_init(&batch->start);
-    cnd_init(&batch->done);
+    thread_lock_create(&batch->lock);
+    thread_signal_create(&batch->start);
+    thread_signal_create(&batch->done);
     while (batch->threads < threads) {
         if (!add_worker(batch, samples, knots, lanes)) {
             wiggly_batch_destroy(batch);
@@ -115,17 +115,17 @@ wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, w
                                  wiggly_status *status, int count)
 {
     if (!batch || count < 0 || (count > 0 && (!desc || !curve))) return WIGGLY_ERROR_ARGUMENT;
-    mtx_lock(&batch->lock);
+    thread_acquire(&batch->lock);
     batch->job = (job){desc, curve, status, count};
     atomic_store(&batch->next, 0);
     batch->busy = batch->threads - 1;
     batch->round++;
-    cnd_broadcast(&batch->start);
-    mtx_unlock(&batch->lock);
+    thread_wake(&batch->start);
+    thread_release(&batch->lock);
     work(&batch->workers[0]);
-    mtx_lock(&batch->lock);
-    while (batch->busy > 0) cnd_wait(&batch->done, &batch->lock);
-    mtx_unlock(&batch->lock);
+    thread_acquire(&batch->lock);
+    while (batch->busy > 0) thread_wait(&batch->done, &batch->lock);
+    thread_release(&batch->lock);
     wiggly_status worst = WIGGLY_OK;
     for (int t = 0; t < batch->threads; t++) {
         if (batch->workers[t].worst > worst) worst = batch->workers[t].worst;
@@ -136,16 +136,16 @@ wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, w
 void wiggly_batch_destroy(wiggly_batch *batch)
 {
     if (!batch) return;
-    mtx_lock(&batch->lock);
+    thread_acquire(&batch->lock);
     batch->stop = true;
-    cnd_broadcast(&batch->start);
-    mtx_unlock(&batch->lock);
+    thread_wake(&batch->start);
+    thread_release(&batch->lock);
     for (int t = 0; t < batch->threads; t++) {
-        if (t > 0) thrd_join(batch->workers[t].thread, NULL);
+        if (t > 0) thread_join(batch->workers[t].thread);
         group_destroy(batch->workers[t].group);
     }
-    cnd_destroy(&batch->start);
-    cnd_destroy(&batch->done);
-    mtx_destroy(&batch->lock);
+    thread_signal_destroy(&batch->start);
+    thread_signal_destroy(&batch->done);
+    thread_lock_destroy(&batch->lock);
     free(batch);
 }
