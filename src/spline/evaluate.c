@@ -1,30 +1,18 @@
 /// Values between samples (docs/mathematics.md, Phase): Catmull-Rom in the frame that turns with the band's centre,
 ///     x(t) = e^{jω_c t} · CatmullRom(e^{−jω_c t_i} x_i),
 /// so that a free oscillation is followed and not cut across; of x itself in cubic and real mode, and of y.
+#include "spline/evaluate.h"
 #include "spline/poles.h"
-#include <assert.h>
-#include <math.h>
-
-/// Index of a neighbour sample: wrapped in a loop; -1 where there is none.
-static int neighbour(const wiggly_curve *curve, int i)
-{
-    if (curve->start == WIGGLY_LOOP) {
-        int period = curve->samples - 1;
-        return (i % period + period) % period;
-    }
-    return i < 0 || i >= curve->samples ? -1 : i;
-}
 
 static double catmull_rom(double before, double from, double to, double after, double u)
 {
-    double c1 = 0.5 * (after - from), c0 = 0.5 * (to - before), step = to - from;
-    return from + u * (c0 + u * ((3 * step - 2 * c0 - c1) + u * (c0 + c1 - 2 * step)));
+    return cubic_at(cubic_through(before, from, to, after), u);
 }
 
 /// Interpolates array[i … i+1] at u with neighbours, extrapolated linearly where missing.
 static double interpolate(const wiggly_curve *curve, const double *array, int i, double u)
 {
-    int b = neighbour(curve, i - 1), a = neighbour(curve, i + 2);
+    int b = evaluate_neighbour(curve, i - 1), a = evaluate_neighbour(curve, i + 2);
     double from = array[i], to = array[i + 1];
     return catmull_rom(b < 0 ? 2 * from - to : array[b], from, to, a < 0 ? 2 * to - from : array[a], u);
 }
@@ -36,7 +24,7 @@ static cplx turned(const wiggly_curve *curve, int i, double angle)
 
 static cplx interpolate_complex(const wiggly_curve *curve, int i, double u)
 {
-    int b = neighbour(curve, i - 1), a = neighbour(curve, i + 2);
+    int b = evaluate_neighbour(curve, i - 1), a = evaluate_neighbour(curve, i + 2);
     double turn = 0.5 * (curve->omega[i] + curve->omega[i + 1]) * curve->step;
     cplx from = {curve->re[i], curve->im[i]}, to = turned(curve, i + 1, -turn);
     cplx before = b < 0 ? (cplx){2 * from.re - to.re, 2 * from.im - to.im} : turned(curve, b, turn);
@@ -48,16 +36,9 @@ static cplx interpolate_complex(const wiggly_curve *curve, int i, double u)
 
 wiggly_value wiggly_evaluate(const wiggly_curve *curve, double position)
 {
-    assert(curve->samples > 0);
-    double last = curve->samples - 1;
-    if (curve->start == WIGGLY_LOOP) {
-        position -= last * floor(position / last);
-    } else {
-        position = fmin(fmax(position, 0), last);
-    }
-    if (!(position >= 0)) position = 0; // NaN
-    int i = (int)position;
-    double u = position - i;
+    if (curve->samples < 1) return (wiggly_value){0};
+    double u;
+    int i = evaluate_locate(curve, position, &u);
     if (u == 0 || i >= curve->samples - 1) return (wiggly_value){curve->y[i], curve->re[i], curve->im[i]};
     double y = interpolate(curve, curve->y, i, u);
     if (i < curve->first) return (wiggly_value){y, curve->re[curve->first], curve->im[curve->first]};
@@ -67,11 +48,3 @@ wiggly_value wiggly_evaluate(const wiggly_curve *curve, double position)
 }
 
 double wiggly_lagged(wiggly_value value, double lag) { return value.y + cos(lag) * value.re + sin(lag) * value.im; }
-
-void wiggly_evaluate_float(const wiggly_curve *curve, double from, double by, int count, float *out, size_t stride)
-{
-    for (int i = 0; i < count; i++) {
-        wiggly_value value = wiggly_evaluate(curve, from + by * i);
-        out[(size_t)i * stride] = (float)(value.y + value.re);
-    }
-}
