@@ -4,7 +4,9 @@
 #include "spline/group.h"
 #include "spline/thread.h"
 #include <stdatomic.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include <wiggly/wiggly.h>
 
 enum { MAX_THREADS = 256, AT_A_TIME = GROUP_ROOM };
@@ -25,9 +27,10 @@ typedef struct worker {
 } worker;
 
 struct wiggly_batch {
+    bool owned;
     int threads;
     thread_lock lock;
-    thread_signal start, done;
+    thread_signal given, done;
     job job;
     atomic_int next; ///< spline to take
     long round;      ///< number of the job; changes wake the workers
@@ -61,7 +64,7 @@ static thread_result THREAD_CALL run(void *argument)
     long seen = 0;
     thread_acquire(&batch->lock);
     for (;;) {
-        while (batch->round == seen && !batch->stop) thread_wait(&batch->start, &batch->lock);
+        while (batch->round == seen && !batch->stop) thread_wait(&batch->given, &batch->lock);
         if (batch->stop) break;
         seen = batch->round;
         thread_release(&batch->lock);
@@ -73,31 +76,42 @@ static thread_result THREAD_CALL run(void *argument)
     return 0;
 }
 
-static bool add_worker(wiggly_batch *batch, int samples, int knots, int lanes)
+static bool add_worker(wiggly_batch *batch, group *own)
 {
     worker *w = &batch->workers[batch->threads];
     w->batch = batch;
-    w->group = group_create(samples, knots, lanes);
-    if (!w->group) return false;
-    if (batch->threads > 0 && !thread_start(&w->thread, run, w)) {
-        group_destroy(w->group);
-        return false;
-    }
+    w->group = own;
+    if (batch->threads > 0 && !thread_start(&w->thread, run, w)) return false;
     batch->threads++;
     return true;
 }
 
-wiggly_status batch_of_lanes(int samples, int knots, int threads, int lanes, wiggly_batch **out)
+/// Bytes of everything but the groups.
+static size_t head_size(int threads) { return sizeof(wiggly_batch) + sizeof(worker) * (size_t)threads; }
+
+size_t wiggly_batch_memsize(int samples, int knots, int threads)
 {
-    if (!out || threads < 1 || threads > MAX_THREADS || wiggly_memsize(samples, knots) == 0)
-        return WIGGLY_ERROR_ARGUMENT;
-    wiggly_batch *batch = calloc(1, sizeof *batch + sizeof(worker) * (size_t)threads);
-    if (!batch) return WIGGLY_ERROR_MEMORY;
+    size_t each = group_memsize(samples, knots), size;
+    if (!each || threads < 1 || threads > MAX_THREADS) return 0;
+    bool fits = !__builtin_mul_overflow(each, (size_t)threads, &size) &&
+                !__builtin_add_overflow(size, head_size(threads), &size);
+    return fits ? size : 0;
+}
+
+/// Lays a batch into zeroes and starts its threads.
+static wiggly_status start(void *memory, int samples, int knots, int threads, int lanes, bool owned,
+                           wiggly_batch **out)
+{
+    wiggly_batch *batch = memory;
+    unsigned char *groups = (unsigned char *)memory + head_size(threads);
+    size_t each = group_memsize(samples, knots);
+    batch->owned = owned;
     thread_lock_create(&batch->lock);
-    thread_signal_create(&batch->start);
+    thread_signal_create(&batch->given);
     thread_signal_create(&batch->done);
     while (batch->threads < threads) {
-        if (!add_worker(batch, samples, knots, lanes)) {
+        void *room = groups + each * (size_t)batch->threads;
+        if (!add_worker(batch, group_lay_out(room, samples, knots, lanes))) {
             wiggly_batch_destroy(batch);
             return WIGGLY_ERROR_MEMORY;
         }
@@ -106,9 +120,27 @@ wiggly_status batch_of_lanes(int samples, int knots, int threads, int lanes, wig
     return WIGGLY_OK;
 }
 
+wiggly_status batch_of_lanes(int samples, int knots, int threads, int lanes, wiggly_batch **out)
+{
+    size_t size = wiggly_batch_memsize(samples, knots, threads);
+    if (!out || !size) return WIGGLY_ERROR_ARGUMENT;
+    void *memory = calloc(1, size);
+    return memory ? start(memory, samples, knots, threads, lanes, true, out) : WIGGLY_ERROR_MEMORY;
+}
+
 wiggly_status wiggly_batch_create(int samples, int knots, int threads, wiggly_batch **out)
 {
     return batch_of_lanes(samples, knots, threads, chain_lanes(), out);
+}
+
+wiggly_status wiggly_batch_create_at(void *memory, size_t size, int samples, int knots, int threads,
+                                     wiggly_batch **out)
+{
+    size_t needed = wiggly_batch_memsize(samples, knots, threads);
+    if (!memory || !out || !needed || (uintptr_t)memory % sizeof(double) != 0) return WIGGLY_ERROR_ARGUMENT;
+    if (size < needed) return WIGGLY_ERROR_MEMORY;
+    memset(memory, 0, needed);
+    return start(memory, samples, knots, threads, chain_lanes(), false, out);
 }
 
 wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, wiggly_curve *curve,
@@ -120,7 +152,7 @@ wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, w
     atomic_store(&batch->next, 0);
     batch->busy = batch->threads - 1;
     batch->round++;
-    thread_wake(&batch->start);
+    thread_wake(&batch->given);
     thread_release(&batch->lock);
     work(&batch->workers[0]);
     thread_acquire(&batch->lock);
@@ -138,14 +170,11 @@ void wiggly_batch_destroy(wiggly_batch *batch)
     if (!batch) return;
     thread_acquire(&batch->lock);
     batch->stop = true;
-    thread_wake(&batch->start);
+    thread_wake(&batch->given);
     thread_release(&batch->lock);
-    for (int t = 0; t < batch->threads; t++) {
-        if (t > 0) thread_join(batch->workers[t].thread);
-        group_destroy(batch->workers[t].group);
-    }
-    thread_signal_destroy(&batch->start);
+    for (int t = 1; t < batch->threads; t++) thread_join(batch->workers[t].thread);
+    thread_signal_destroy(&batch->given);
     thread_signal_destroy(&batch->done);
     thread_lock_destroy(&batch->lock);
-    free(batch);
+    if (batch->owned) free(batch);
 }
