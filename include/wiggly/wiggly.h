@@ -102,9 +102,11 @@ typedef struct wiggly_curve {
     double *re;    ///< Re x
     double *im;    ///< Im x; 0 outside complex mode
     double *omega; ///< band centre, rad/s, for values between samples
-    int samples;   ///< N of the last solve
-    double step;   ///< h, seconds
-    int first;     ///< before this sample x is constant
+    float *floats; ///< the total once more, for graphics: `stride` floats apart (0: 1); beyond 3.4e38 infinite
+    size_t stride;
+    int samples; ///< N of the last solve
+    double step; ///< h, seconds
+    int first;   ///< before this sample x is constant
     wiggly_mode mode;
     wiggly_start start;
     double error;    ///< estimated largest error, relative to the larger of the total's range and magnitude

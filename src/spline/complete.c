@@ -85,6 +85,12 @@ static void add_equilibrium(const problem *p, wiggly_curve *curve)
     if (p->start == WIGGLY_LOOP) curve->total[n - 1] = curve->total[0];
 }
 
+static void add_floats(const wiggly_curve *curve, int count)
+{
+    size_t stride = curve->stride ? curve->stride : 1;
+    for (int i = 0; i < count; i++) curve->floats[(size_t)i * stride] = (float)curve->total[i];
+}
+
 static void set_centre(wiggly_solver *solver, const problem *p, double *omega)
 {
     const wiggly_desc *desc = p->desc;
@@ -106,6 +112,7 @@ void problem_complete(wiggly_solver *solver, const problem *p, wiggly_curve *cur
     for (int i = 0; i < p->first; i++) curve->re[i] = curve->re[p->first], curve->im[i] = curve->im[p->first];
     if (p->start == WIGGLY_LOOP) curve->re[n - 1] = curve->re[0], curve->im[n - 1] = curve->im[0];
     add_equilibrium(p, curve);
+    if (curve->floats) add_floats(curve, n);
     if (curve->omega) set_centre(solver, p, curve->omega);
     curve->samples = n;
     curve->step = desc->step;
