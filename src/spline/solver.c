@@ -79,8 +79,7 @@ static void carve(wiggly_solver *solver)
     for (int i = 0; i < CHAIN_DOUBLES; i++) *columns[i] = take(&tables, n * sizeof(double));
 }
 
-/// Lays a solver into zeroed memory.
-static wiggly_solver *lay_out(void *memory, int samples, int knots)
+wiggly_solver *solver_lay_out(void *memory, int samples, int knots)
 {
     wiggly_solver *solver = memory;
     solver->samples = samples;
@@ -98,7 +97,7 @@ wiggly_status wiggly_create_at(void *memory, size_t size, int samples, int knots
     if (!memory || !solver || !needed || (uintptr_t)memory % sizeof(double) != 0) return WIGGLY_ERROR_ARGUMENT;
     if (size < needed) return WIGGLY_ERROR_MEMORY;
     memset(memory, 0, needed);
-    *solver = lay_out(memory, samples, knots);
+    *solver = solver_lay_out(memory, samples, knots);
     return WIGGLY_OK;
 }
 
@@ -108,7 +107,7 @@ wiggly_status wiggly_create(int samples, int knots, wiggly_solver **solver)
     if (!solver || !size) return WIGGLY_ERROR_ARGUMENT;
     void *memory = calloc(1, size); // pages that a way of solving does not use are never touched
     if (!memory) return WIGGLY_ERROR_MEMORY;
-    *solver = lay_out(memory, samples, knots);
+    *solver = solver_lay_out(memory, samples, knots);
     (*solver)->owned = true;
     return WIGGLY_OK;
 }

@@ -49,6 +49,9 @@ typedef struct minimum {
     int sweeps;
 } minimum;
 
+/// Lays a solver into wiggly_memsize() bytes of zeroes, aligned for double. Their owner frees them.
+wiggly_solver *solver_lay_out(void *memory, int samples, int knots);
+
 /// Minimises the rows' energy over the unknowns that are not fixed; rows->x holds the fixed ones and 0 elsewhere.
 minimum solver_minimise(wiggly_solver *solver);
 
