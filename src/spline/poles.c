@@ -46,9 +46,11 @@ poles poles_at(const wiggly_desc *desc, int sample, double floor)
     if (desc->mode == WIGGLY_REAL) return real_poles(zeta * omega, omega);
     zeta = fmin(zeta, 1.0);
     double centre = omega * sqrt((1 - zeta) * (1 + zeta));
-    double turn = omega * at_sample(desc->bandwidth, sample, 1.0);
+    double bandwidth = at_sample(desc->bandwidth, sample, 1.0), turn = omega * bandwidth;
+    // √(1−ζ²) − β of a pole near 0, without cancellation
+    double lower = ((1 - bandwidth) * (1 + bandwidth) - zeta * zeta) / (sqrt((1 - zeta) * (1 + zeta)) + bandwidth);
     return (poles){
-        .s = {{-zeta * omega, centre + turn}, {-zeta * omega, centre - turn}},
+        .s = {{-zeta * omega, centre + turn}, {-zeta * omega, zeta < 1 ? omega * lower : -turn}},
         .natural = omega,
         .centre = centre,
         .decay = zeta * omega,
@@ -161,6 +163,7 @@ speed_form poles_speed(const poles *at, double step, bool backwards)
     double ratio = fmin(fmax(z_over_sinh(z.re * z.re - z.im * z.im), -steepest), steepest);
     cplx q = cplx_scale(ratio, cplx_exp(cplx_scale(-1, mean)));
     cplx on_x = cplx_sub(cplx_scale(h, s0), cplx_mul(q, cplx_expm1(cplx_scale(h, s0))));
+    if (s0.im == -s1.im) on_x.im = q.im = 0; // poles that are conjugates or real: not even rounding ties Im x to Re x
     return backwards ? (speed_form){cplx_scale(-1, on_x), q} : (speed_form){on_x, q};
 }
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+static const double little = 1e-3;
 static const double implied_stiffness = 1000;
 
 /// Where the oscillator's frequency is below this part of the fastest one's, Im x is held.
@@ -186,6 +187,18 @@ static void set_tail(system_rows *rows, const problem *p)
     rows->tail = poles_tail(&at, &ahead, p->desc->step);
 }
 
+/// Whether the knots are next to nothing beside what w has to take away for them: then w needs all its digits.
+static bool cancels(const problem *p)
+{
+    double values = 0, needed = 0;
+    for (int k = 0; k < p->desc->knot_count; k++) {
+        const wiggly_knot *knot = &p->desc->knots[k];
+        values = fmax(values, fabs(knot->value));
+        needed = fmax(needed, fabs(knot->value - problem_about(p, knot->sample)));
+    }
+    return values < little * needed;
+}
+
 void problem_set_rows(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
@@ -195,7 +208,7 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     rows->jet_from = rows->loop ? 0 : 1;
     rows->jet_to = rows->loop ? rows->count - 1 : rows->count - 2;
     rows->start = p->cost;
-    rows->is_held = p->start == WIGGLY_REST || p->calm >= LOOSE_CALM;
+    rows->is_held = !p->strict && !problem_is_loose(p) && !cancels(p);
     set_filter(solver, p);
     set_tail(rows, p);
     set_constraints(solver, p);
