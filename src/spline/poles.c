@@ -57,6 +57,13 @@ poles poles_at(const wiggly_desc *desc, int sample, double floor)
     };
 }
 
+double poles_natural(const wiggly_desc *desc, int sample)
+{
+    if (desc->mode == WIGGLY_CUBIC) return 0;
+    if (desc->spring_friction) return sqrt(at_sample(desc->spring, sample, largest));
+    return 2 * pi * at_sample(desc->frequency, sample, sqrt(largest));
+}
+
 bool poles_are_constant(const wiggly_desc *desc)
 {
     if (desc->mode == WIGGLY_CUBIC) return true;
@@ -133,12 +140,9 @@ start_cost poles_start_cost(const poles *at, double step)
     return (start_cost){{{h00, e, {e.re - 1, e.im}}, {det / h00, {1, 0}, {1, 0}}}};
 }
 
-/// Fading below what a double tells apart, so that weights and their products stay finite.
-static const double deepest = 100;
-
 double poles_weight_exponent(const poles *at, double step)
 {
-    return fmin(-step * (at->s[0].re + at->s[1].re), deepest);
+    return fmin(-step * (at->s[0].re + at->s[1].re), DEEPEST);
 }
 
 /// z / sinh z of a z whose square is real.
@@ -157,8 +161,8 @@ static const double steepest = 1e8;
 speed_form poles_speed(const poles *at, double step, bool backwards)
 {
     double h = backwards ? -step : step;
-    cplx s0 = {fmax(at->s[0].re * step, -deepest) / step, at->s[0].im};
-    cplx s1 = {fmax(at->s[1].re * step, -deepest) / step, at->s[1].im};
+    cplx s0 = {fmax(at->s[0].re * step, -DEEPEST) / step, at->s[0].im};
+    cplx s1 = {fmax(at->s[1].re * step, -DEEPEST) / step, at->s[1].im};
     cplx z = cplx_scale(0.5 * h, cplx_sub(s0, s1)), mean = cplx_scale(0.5 * h, cplx_add(s0, s1));
     double ratio = fmin(fmax(z_over_sinh(z.re * z.re - z.im * z.im), -steepest), steepest);
     cplx q = cplx_scale(ratio, cplx_exp(cplx_scale(-1, mean)));
