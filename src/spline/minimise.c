@@ -19,7 +19,7 @@ enum { MAX_SWEEPS = 16 };
 /// themselves: a fifth of the tolerance.
 static const double enough_complex = 2e-9, enough_real = 2e-10;
 static const double rounding = 2 * DBL_EPSILON; ///< of a coefficient
-static const double too_much = 1e-3; ///< beyond, the squared matrix is no help to refinement
+static const double too_much = 1e-1; ///< beyond, the squared matrix is no help to refinement
 
 static double largest_modulus(const double *x, int count, bool is_complex)
 {
@@ -31,8 +31,13 @@ static double largest_modulus(const double *x, int count, bool is_complex)
     return is_complex ? sqrt(largest) : largest;
 }
 
-/// What the factor's lost digits make of rounding, relative to x.
-static double estimated_error(const pentadiagonal *m) { return 16 * DBL_EPSILON * m->lost * cbrt(m->lost); }
+/// What rounding does to x, as a part of it: by the digits that the pivots have lost, and by the knot-free stretch of G samples, whose
+/// condition is G⁴ / 31 where nothing swings back.
+static double estimated_error(const system_rows *rows, const pentadiagonal *m)
+{
+    double g2 = rows->stretch * rows->stretch;
+    return 16 * DBL_EPSILON * fmax(m->lost * cbrt(m->lost), g2 * g2 / 31);
+}
 
 /// A factorisation: of the squared matrix, else of the rows.
 typedef struct factorisation {
@@ -55,7 +60,7 @@ static factorisation factor(wiggly_solver *solver)
     if (rows->count <= solver->longest_squared) {
         system_matrix(rows, &solver->matrix);
         f.rank = pentadiagonal_factor(&solver->matrix);
-        if (f.rank != RANK_BROKEN) f.error = estimated_error(&solver->matrix);
+        if (f.rank != RANK_BROKEN) f.error = estimated_error(rows, &solver->matrix);
         if (f.error <= too_much || rows->count < 3) return f;
     }
     return factor_rows(solver);
@@ -101,7 +106,8 @@ static bool refine(wiggly_solver *solver, const factorisation *f, minimum *resul
             system_gradient(rows);
         }
         solve(solver, f);
-        double change = largest_modulus(rows->gradient, rows->count, rows->is_complex);
+        bool first = result->sweeps == 0;
+        double change = first ? 0 : largest_modulus(rows->gradient, rows->count, rows->is_complex);
         if (!(change < INFINITY)) return false;
         if (change > 0.5 * before) { // at the last digit, or not converging: x stays as it was
             result->error = fmax(change, before);
@@ -110,6 +116,8 @@ static bool refine(wiggly_solver *solver, const factorisation *f, minimum *resul
         for (int i = 0; i < unknowns; i++) rows->x[i] += rows->gradient[i];
         result->sweeps++;
         result->largest = largest_modulus(rows->x, rows->count, rows->is_complex);
+        if (!(result->largest < INFINITY)) return false;
+        if (first) change = result->largest;
         double contraction = before < INFINITY ? change / before : 0.5;
         result->error = change * contraction / (1 - contraction);
         // The first solve, through the rows' factor but from a right-hand side in double, can be all wrong, and the next one right.
@@ -117,11 +125,11 @@ static bool refine(wiggly_solver *solver, const factorisation *f, minimum *resul
         if (result->sweeps == 1 && rows->is_held && f->error <= enough(rows)) {
             result->error = f->error * result->largest;
             result->unrefined = true;
-            return result->largest < INFINITY;
+            return true;
         }
         if (before < INFINITY && result->error <= 1e-15 * result->largest) break;
     }
-    return result->largest < INFINITY;
+    return true;
 }
 
 /// Everything that is not known 0 again.

@@ -57,11 +57,15 @@ poles poles_at(const wiggly_desc *desc, int sample, double floor)
     };
 }
 
-double poles_natural(const wiggly_desc *desc, int sample)
+int poles_fastest(const wiggly_desc *desc, int from, int to, double *natural)
 {
-    if (desc->mode == WIGGLY_CUBIC) return 0;
-    if (desc->spring_friction) return sqrt(at_sample(desc->spring, sample, largest));
-    return 2 * pi * at_sample(desc->frequency, sample, sqrt(largest));
+    const double *track = desc->spring_friction ? desc->spring.track : desc->frequency.track;
+    int fastest = from;
+    for (int i = from + 1; track && i <= to; i++) {
+        if (track[i] > 0 && track[i] > track[fastest]) fastest = i;
+    }
+    if (natural) *natural = poles_at(desc, fastest, 0).natural;
+    return fastest;
 }
 
 bool poles_are_constant(const wiggly_desc *desc)

@@ -64,7 +64,7 @@ static double phase_of(wiggly_solver *solver, const problem *p)
 bool problem_fits_chain(wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    if (p->level_slope || !poles_are_constant(desc)) return false;
+    if (solver->method == WIGGLY_BAND || p->level_slope || !poles_are_constant(desc)) return false;
     if (p->about && !problem_oscillates(p)) return false; // the paper's filter is driven by a moving equilibrium
     double least = problem_is_loose(p) ? least_phase_of_loose_start : least_phase;
     if (desc->mode == WIGGLY_COMPLEX && phase_of(solver, p) < least) return false;

@@ -34,16 +34,6 @@ static double slowness(double natural, double highest, double step)
     return whole * whole * lack * lack;
 }
 
-static double highest_frequency(const problem *p, int rows)
-{
-    double highest = 0;
-    for (int k = 0; k < rows; k++) {
-        double natural = poles_natural(p->desc, p->first + k);
-        highest = natural > highest ? natural : highest;
-    }
-    return highest;
-}
-
 /// What Im x costs at a sample, times h³: T⁻⁴ (1 + (ω_n T)⁸)⁻¹.
 static double im_weight_of(double natural, double t, double intervals)
 {
@@ -60,14 +50,16 @@ static void set_row(system_rows *rows, const problem *p, int k, coefficients at,
     rows->drive[k] = drive_at(p, k, at.g);
 }
 
-/// Every row of parameters that vary, a block at a time. Weights are relative to the first sample's |g|⁻².
-static void set_varying(system_rows *rows, const problem *p, double t, double intervals, bool weighted)
+/// Every row of parameters that vary, a block at a time; returns the lowest natural frequency. Weights are relative to the first sample's |g|⁻².
+static double set_varying(system_rows *rows, const problem *p, double t, double intervals, bool weighted)
 {
     const wiggly_desc *desc = p->desc;
     const bool oscillates = problem_oscillates(p), driven = !oscillates && p->about;
-    const double floor = problem_least_damping(p), highest = oscillates ? highest_frequency(p, rows->count) : 0;
+    const double floor = problem_least_damping(p);
     poles_block block;
-    double weight[POLES_BLOCK], reference = 0, scale = 1;
+    double weight[POLES_BLOCK], reference = 0, scale = 1, highest = 0;
+    double slowest = INFINITY;
+    if (oscillates) poles_fastest(desc, p->first, p->first + rows->count - 1, &highest);
     for (int k = 0; k < rows->count; k += POLES_BLOCK) {
         int count = rows->count - k < POLES_BLOCK ? rows->count - k : POLES_BLOCK;
         poles_block_fill(desc, p->first + k, count, floor, &block);
@@ -83,8 +75,26 @@ static void set_varying(system_rows *rows, const problem *p, double t, double in
             double im = weighted ? im_weight_of(block.natural[i], t, intervals) : 0;
             if (oscillates) im = (im + slowness(block.natural[i], highest, desc->step)) * scale;
             set_row(rows, p, k + i, at, weight[i], im);
+            slowest = block.natural[i] < slowest ? block.natural[i] : slowest;
         }
     }
+    return slowest;
+}
+
+/// Radians after which a stretch is no worse for being longer.
+static const double swings_back = 8;
+
+static void set_stretch(system_rows *rows, const wiggly_solver *solver, const problem *p, double slowest)
+{
+    const wiggly_desc *desc = p->desc;
+    int before = p->start == WIGGLY_REST ? 0 : p->earliest, longest = 0;
+    if (p->start == WIGGLY_LOOP) before = p->latest - p->count;
+    for (int n = 0; n < desc->knot_count; n++) {
+        int sample = desc->knots[solver->order[n]].sample;
+        if (sample - before > longest) longest = sample - before;
+        before = sample;
+    }
+    rows->stretch = fmin(longest, swings_back / (slowest * desc->step));
 }
 
 /// Coefficients, drive, weights of jets and of Im x of every row.
@@ -96,7 +106,7 @@ static void set_filter(wiggly_solver *solver, const problem *p)
     double intervals = p->start == WIGGLY_LOOP ? p->count : p->count - 1, t = intervals * desc->step;
     bool weighted = desc->mode == WIGGLY_COMPLEX && (p->start != WIGGLY_REST || desc->knot_count > 0);
     if (!poles_are_constant(desc)) {
-        set_varying(rows, p, t, intervals, weighted);
+        set_stretch(rows, solver, p, set_varying(rows, p, t, intervals, weighted));
         return;
     }
     const poles *at = &problem_filter(solver, p)->at;
@@ -104,6 +114,7 @@ static void set_filter(wiggly_solver *solver, const problem *p)
     double im = weighted ? im_weight_of(at->natural, t, intervals) : 0;
     if (problem_oscillates(p)) im *= exp(-poles_weight_exponent(at, desc->step));
     for (int k = 0; k < rows->count; k++) set_row(rows, p, k, row, 1, im);
+    set_stretch(rows, solver, p, at->natural);
 }
 
 /// The paper's: a difference of the total.

@@ -28,6 +28,7 @@ struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
     solver_stop *stop;   ///< or NULL
+    wiggly_method method;
     int longest_squared; ///< longer domains are factored without squaring: none, but tests set it
     system_rows rows;
     pentadiagonal matrix;
