@@ -25,7 +25,7 @@ bool evaluation_resize(struct evaluation *evaluation, const struct document *doc
 void evaluation_free(struct evaluation *evaluation);
 
 /// Solves the splines marked in `dirty` (NULL: all) and those that follow them by tracks. Allocates nothing. `cubic` solves every
-/// spline as a cubic on the same knots, keeping its equilibrium; changing it solves all.
+/// spline as a cubic on the same knots, keeping its equilibrium and, behind the last knot, its value; changing it solves all.
 void evaluation_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic);
 
 /// A spline's value at a position in samples, possibly between two. Zeros if there is no such spline or `evaluation` is NULL.
