@@ -31,6 +31,9 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
 /// A spline's value at a position in samples, possibly between two. Zeros if there is no such spline or `evaluation` is NULL.
 wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, double position);
 
+/// The slope at a sample that, keyed there with the curve's value, leaves the curve as it is.
+double evaluation_slope(const struct evaluation *evaluation, const struct document *document, int spline, int sample);
+
 /// The sample from `first` to `last` with a solved spline's lowest (or highest) total, the earliest of equal ones; fast at any length.
 int evaluation_extreme(const struct evaluation *evaluation, int spline, int first, int last, bool highest);
 
