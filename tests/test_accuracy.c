@@ -75,7 +75,6 @@ static wiggly_status solve(const struct subject *c, wiggly_curve *curve, double 
     desc.damping.value = c->damping;
     desc.bandwidth.value = c->bandwidth;
     desc.calm = c->calm;
-    desc.passive = WIGGLY_FILTER; // which tests/quad.c solves
     desc.knots = knots;
     for (int i = 2; i < c->samples - 1; i += c->gap) {
         int n = desc.knot_count++, sample = c->irregular ? i + (n * n * 7) % (c->gap / 2) : i;
