@@ -376,6 +376,26 @@ static void test_a_sloped_knot_on_the_curve_keeps_it(void **state)
     }
 }
 
+/// As a cubic, by its mode or shown as one, it stays behind its last knot where that put it: a tail does not wind through its body.
+static void test_a_cubic_holds_its_last_value(void **state)
+{
+    (void)state;
+    static const char *const ways[] = {"VV", "VV", "MM"};
+    for (int way = 0; way < 3; way++) {
+        struct session s;
+        session_open(&s, FIVE);
+        if (way == 1)
+            session_key(&s, 'M', MOD_SHIFT); // the paper's cubic goes straight on, but V does not show that one
+        for (const char *key = ways[way]; *key; key++) session_key(&s, *key, 0);
+        session_frame(&s);
+        const wiggly_curve *curve = &s.table.evaluation.curves[0];
+        assert_int_equal(curve->mode, WIGGLY_CUBIC);
+        for (int i = 60; i <= 96; i++) assert_near(curve->total[i], 0, 1e-12);
+        assert_true(fabs(curve->total[50]) > 0.01);
+        session_close(&s);
+    }
+}
+
 /// 2,400 knots on 900 pixels: those in one pixel column are drawn as one, and each can still be clicked.
 static void test_crowded_knots_are_drawn_as_one_and_hit_each(void **state)
 {
@@ -452,6 +472,7 @@ int main(void)
         cmocka_unit_test(test_slopes_flat_and_smooth),
         cmocka_unit_test(test_a_longer_handle_is_stiffer),
         cmocka_unit_test(test_double_click_on_the_curve_keeps_it),
+        cmocka_unit_test(test_a_cubic_holds_its_last_value),
         cmocka_unit_test(test_a_sloped_knot_on_the_curve_keeps_it),
         cmocka_unit_test(test_crowded_knots_are_drawn_as_one_and_hit_each),
         cmocka_unit_test(test_labels_never_overlap),

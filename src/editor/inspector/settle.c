@@ -89,7 +89,7 @@ static struct settling settle_seen(const wiggly_curve *curve, int from, struct s
 /// Whether a swing is to be seen behind the last knot: more than rounding leaves.
 static bool swings_behind(const wiggly_curve *curve, int last_knot)
 {
-    if (last_knot < 0 || last_knot + 1 >= curve->samples) return false;
+    if (curve->mode == WIGGLY_CUBIC || last_knot < 0 || last_knot + 1 >= curve->samples) return false;
     double size = hypot(curve->re[last_knot], curve->im[last_knot]) + fabs(curve->re[last_knot + 1]);
     return size > 1e-9 * fabs(curve->total[last_knot]) && size > 0;
 }
