@@ -336,6 +336,66 @@ static void test_double_click_on_the_curve_keeps_it(void **state)
     session_close(&s);
 }
 
+/// The same in every mode, with a start of every kind, and on an equilibrium that moves. Behind the last knot an oscillation dies away
+/// and a cubic is held, until a knot is there.
+static void test_a_sloped_knot_on_the_curve_keeps_it(void **state)
+{
+    (void)state;
+    static const struct kind {
+        const char *settings;
+        int last; ///< frame of a knot
+    } kinds[] = {
+        {"\"mode\": \"real\", \"frequency\": 1", 95},
+        {"\"mode\": \"real\", \"spring\": 30, \"friction\": 14, \"equilibrium\": {\"spline\": \"y\"}", 95},
+        {"\"mode\": \"cubic\", \"equilibrium\": {\"spline\": \"y\"}", 49},
+        {"\"frequency\": 1.3, \"damping\": 0.1, \"start\": \"rest\"", 49},
+        {"\"frequency\": 1.3, \"damping\": 0.1, \"equilibrium\": {\"spline\": \"y\"}", 49},
+        {"\"frequency\": 1.3, \"damping\": 0.1, \"equilibrium\": {\"spline\": \"y\"}, \"start\": \"loop\"", 95},
+        {"\"frequency\": 1.3, \"damping\": 0.1, \"equilibrium\": {\"spline\": \"y\"}, \"passive\": \"filter\"", 95},
+    };
+    for (const struct kind *kind = kinds; kind < kinds + sizeof kinds / sizeof *kinds; kind++) {
+        for (int frame = 5; frame <= kind->last; frame += 30) {
+            char scene[1024];
+            double before[97];
+            struct session s;
+            snprintf(
+                scene, sizeof scene,
+                "{\"frames\": [0, 96], \"splines\": [{\"name\": \"x\", %s, \"knots\": [{\"frame\": 0, \"value\": 0},"
+                "{\"frame\": 20, \"value\": 1}, {\"frame\": 50, \"value\": -0.4}]}, {\"name\": \"y\", \"mode\": "
+                "\"cubic\", \"start\": \"loop\", \"knots\": [{\"frame\": 10, \"value\": 0}, {\"frame\": 60, "
+                "\"value\": 1}]}]}",
+                kind->settings);
+            session_open(&s, scene);
+            for (int f = 0; f < frame; f++) session_key(&s, KEY_RIGHT, 0);
+            memcpy(before, s.table.evaluation.curves[0].total, sizeof before);
+            session_key(&s, 'I', MOD_SHIFT);
+            assert_int_equal(spline(&s, 0)->knot_count, 4);
+            for (int i = 0; i < 97; i++) assert_near(s.table.evaluation.curves[0].total[i], before[i], 1e-6);
+            session_close(&s);
+        }
+    }
+}
+
+/// As a cubic, by its mode or shown as one, it stays behind its last knot where that put it: a tail does not wind through its body.
+static void test_a_cubic_holds_its_last_value(void **state)
+{
+    (void)state;
+    static const char *const ways[] = {"VV", "VV", "MM"};
+    for (int way = 0; way < 3; way++) {
+        struct session s;
+        session_open(&s, FIVE);
+        if (way == 1)
+            session_key(&s, 'M', MOD_SHIFT); // the paper's cubic goes straight on, but V does not show that one
+        for (const char *key = ways[way]; *key; key++) session_key(&s, *key, 0);
+        session_frame(&s);
+        const wiggly_curve *curve = &s.table.evaluation.curves[0];
+        assert_int_equal(curve->mode, WIGGLY_CUBIC);
+        for (int i = 60; i <= 96; i++) assert_near(curve->total[i], 0, 1e-12);
+        assert_true(fabs(curve->total[50]) > 0.01);
+        session_close(&s);
+    }
+}
+
 /// 2,400 knots on 900 pixels: those in one pixel column are drawn as one, and each can still be clicked.
 static void test_crowded_knots_are_drawn_as_one_and_hit_each(void **state)
 {
@@ -412,6 +472,8 @@ int main(void)
         cmocka_unit_test(test_slopes_flat_and_smooth),
         cmocka_unit_test(test_a_longer_handle_is_stiffer),
         cmocka_unit_test(test_double_click_on_the_curve_keeps_it),
+        cmocka_unit_test(test_a_cubic_holds_its_last_value),
+        cmocka_unit_test(test_a_sloped_knot_on_the_curve_keeps_it),
         cmocka_unit_test(test_crowded_knots_are_drawn_as_one_and_hit_each),
         cmocka_unit_test(test_labels_never_overlap),
     };

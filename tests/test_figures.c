@@ -211,6 +211,7 @@ static double cubic_error(int substeps, double stiffness, const double *expected
         knots[i] = (wiggly_knot){knot_frame[i] * substeps, stiffness > 0, knot_value[i], knot_slope[i], stiffness};
     }
     desc.mode = WIGGLY_CUBIC;
+    desc.passive = WIGGLY_FILTER; // the textbook's ends: nothing is held behind the last knot
     desc.samples = (int)n;
     desc.step = 1.0 / (24 * substeps);
     desc.knots = knots;

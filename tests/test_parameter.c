@@ -15,7 +15,7 @@ static const char scene[] =
     "{\"name\": \"a\", \"frequency\": 1.1, \"damping\": 0.1, \"calm\": 0.5, \"knots\": ["
     "{\"frame\": 8, \"value\": 1}, {\"frame\": 40, \"value\": 0, \"slope\": 1}, {\"frame\": 90, \"value\": 2}]},"
     "{\"name\": \"b\", \"mode\": \"real\", \"spring\": 40, \"friction\": 1, \"knots\": ["
-    "{\"frame\": 8, \"value\": 1}, {\"frame\": 40, \"value\": 0}]},"
+    "{\"frame\": 8, \"value\": 1}, {\"frame\": 40, \"value\": 0, \"slope\": 1}]},"
     "{\"name\": \"c\", \"mode\": \"cubic\", \"start\": \"rest\", \"knots\": ["
     "{\"frame\": 8, \"value\": 0.4}, {\"frame\": 40, \"value\": 0.5}]}]}";
 

@@ -1,6 +1,7 @@
 /// The settle time beside damping, against the differential equation solved on a fine grid by other means.
 #include "near.h"
 
+#include "curve.h"
 #include "editor/inspector/settle.h"
 #include "spline_of.h"
 #include <math.h>
@@ -31,9 +32,9 @@ static void test_real_mode(void **state)
     static const double zeta[] = {0.08, 0.2, 0.5, 0.8, 1, 1.5, 3};
     for (int z = 0; z < 7; z++) {
         struct spline spline = spline_of(WIGGLY_REAL, 1, zeta[z], 0);
-        struct settling settling = settle_measure(&spline, 1.0 / 24);
+        struct settling settling = settle_alone(&spline, 1.0 / 24);
         double expected = textbook_real(2 * acos(-1.0), zeta[z]);
-        assert_int_equal(settling.kind, SETTLE_MEASURED);
+        assert_int_equal(settling.kind, SETTLE_ALONE);
         assert_near(settling.seconds, expected, 0.05 * expected);
     }
 }
@@ -49,29 +50,76 @@ static void test_complex_mode(void **state)
             if (exp(-zeta * omega * t) * fabs(cos(beta * omega * t)) > 0.05) expected = t;
         }
         struct spline spline = spline_of(WIGGLY_COMPLEX, cases[c][0], zeta, beta);
-        struct settling settling = settle_measure(&spline, 1.0 / 24);
-        assert_int_equal(settling.kind, SETTLE_MEASURED);
+        spline.parameter[PARAMETER_PASSIVE].value = WIGGLY_FILTER;
+        struct settling settling = settle_alone(&spline, 1.0 / 24);
+        assert_int_equal(settling.kind, SETTLE_ALONE);
         assert_near(settling.seconds, expected, 0.05 * expected);
     }
+}
+
+/// The five knots of docs/corrections.md at 24 fps, over so many frames.
+static struct settling settling_of(wiggly_passive passive, enum wiggly_mode mode, int frames)
+{
+    static const int frame[] = {0, 8, 14, 22, 30};
+    static const double value[] = {0, 0, 0.8, -0.735, 0.802};
+    struct spline spline = spline_of(mode, 1, 0.1, 0.1);
+    wiggly_desc desc = wiggly_default_desc();
+    wiggly_curve curve = curve_create(frames + 1);
+    wiggly_solver *solver;
+    wiggly_knot knots[5] = {{0}};
+    for (int i = 0; i < 5; i++) knots[i] = (wiggly_knot){.sample = frame[i], .value = value[i]};
+    spline.parameter[PARAMETER_PASSIVE].value = passive;
+    desc.samples = frames + 1;
+    desc.mode = mode;
+    desc.frequency.value = 1;
+    desc.damping.value = 0.1;
+    desc.passive = passive;
+    desc.knots = knots;
+    desc.knot_count = 5;
+    assert_int_equal(wiggly_create(frames + 1, 5, &solver), WIGGLY_OK);
+    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
+    struct settling settling = settle_measure(&spline, &curve, 30);
+    wiggly_destroy(solver);
+    curve_destroy(&curve);
+    return settling;
+}
+
+/// Behind the last knot an oscillator's swing is e^{−ζωt} of what it was; the filter's grows first.
+static void test_is_measured_from_the_motion(void **state)
+{
+    (void)state;
+    const double expected = log(20) / (0.1 * 2 * acos(-1.0));
+    struct settling seen = settling_of(WIGGLY_OSCILLATOR, WIGGLY_COMPLEX, 240);
+    assert_int_equal(seen.kind, SETTLE_SEEN);
+    assert_near(seen.seconds, expected, 1.01 / 24);
+    struct settling filter = settling_of(WIGGLY_FILTER, WIGGLY_COMPLEX, 240);
+    assert_int_equal(filter.kind, SETTLE_SEEN);
+    assert_true(filter.seconds > 1.2 * expected);
+    struct settling real = settling_of(WIGGLY_OSCILLATOR, WIGGLY_REAL, 240);
+    assert_int_equal(real.kind, SETTLE_SEEN);
+    assert_near(real.seconds, expected, 0.5);
+    struct settling cut = settling_of(WIGGLY_OSCILLATOR, WIGGLY_COMPLEX, 80);
+    assert_int_equal(cut.kind, SETTLE_LEFT);
+    assert_near(cut.left, exp(-0.1 * 2 * acos(-1.0) * 50 / 24), 1e-6);
 }
 
 static void test_what_has_no_number(void **state)
 {
     (void)state;
     struct spline spline = spline_of(WIGGLY_CUBIC, 1, 0.1, 0.1);
-    assert_int_equal(settle_measure(&spline, 1.0 / 24).kind, SETTLE_CUBIC);
+    assert_int_equal(settle_alone(&spline, 1.0 / 24).kind, SETTLE_CUBIC);
     spline = spline_of(WIGGLY_COMPLEX, 0, 0.1, 0.1);
-    assert_int_equal(settle_measure(&spline, 1.0 / 24).kind, SETTLE_CUBIC);
+    assert_int_equal(settle_alone(&spline, 1.0 / 24).kind, SETTLE_CUBIC);
     spline = spline_of(WIGGLY_COMPLEX, 1, 0, 0.1);
-    assert_int_equal(settle_measure(&spline, 1.0 / 24).kind, SETTLE_NEVER);
+    assert_int_equal(settle_alone(&spline, 1.0 / 24).kind, SETTLE_NEVER);
     spline = spline_of(WIGGLY_COMPLEX, 0.01, 0.001, 0.1);
-    assert_int_equal(settle_measure(&spline, 1.0 / 24).kind, SETTLE_LATE);
+    assert_int_equal(settle_alone(&spline, 1.0 / 24).kind, SETTLE_LATE);
     spline = spline_of(WIGGLY_COMPLEX, 1, 0.1, 0.1);
     spline.parameter[PARAMETER_DAMPING].track = 0;
-    assert_int_equal(settle_measure(&spline, 1.0 / 24).kind, SETTLE_UNKNOWN);
+    assert_int_equal(settle_alone(&spline, 1.0 / 24).kind, SETTLE_UNKNOWN);
     spline = spline_of(WIGGLY_REAL, 1, 0.01, 0); // so finely sampled that nobody would wait for the sum
-    struct settling fine = settle_measure(&spline, 1e-6);
-    assert_int_equal(fine.kind, SETTLE_MEASURED);
+    struct settling fine = settle_alone(&spline, 1e-6);
+    assert_int_equal(fine.kind, SETTLE_ALONE);
     assert_near(fine.seconds, log(20) / (0.01 * 2 * acos(-1.0)), 1e-9);
 }
 
@@ -80,6 +128,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_real_mode),
         cmocka_unit_test(test_complex_mode),
+        cmocka_unit_test(test_is_measured_from_the_motion),
         cmocka_unit_test(test_what_has_no_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

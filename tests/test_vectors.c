@@ -1,5 +1,6 @@
 /// Every scene of tests/vectors against its exact answers (60-digit arithmetic), through the same path as the app:
-/// scene file → document → solver. The tolerances are those of docs/mathematics.md: 1e-9 of the range for cubic splines, else 1e-8.
+/// scene file → document → solver. The tolerances are those of docs/mathematics.md: 1e-9 of the range for cubic splines, else 1e-8. One
+/// is a loop of calm 0 that its equilibrium drives in resonance: its answer is the one with calm 0.05, and the solver says so.
 #include "near.h"
 
 #include "base/file.h"
@@ -63,7 +64,8 @@ static void check_scene(const char *name)
         double worst = relative_error(&evaluation.curves[s], expected, columns, s);
         double tolerance = spline_mode(&document->splines[s]) == WIGGLY_CUBIC ? 1e-9 : 1e-8;
         if (!(worst <= tolerance)) fail_msg("%s, %s: off by %g of its range", name, document->splines[s].name, worst);
-        assert_int_equal(evaluation.status[s], WIGGLY_OK);
+        bool calmed = strcmp(name, "loop_resonant") == 0 && strcmp(document->splines[s].name, "x") == 0;
+        assert_int_equal(evaluation.status[s], calmed ? WIGGLY_CALMED : WIGGLY_OK);
     }
     free(expected);
     evaluation_free(&evaluation);

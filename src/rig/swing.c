@@ -1,4 +1,4 @@
-/// Steps a spline's filter while its base is moved by hand.
+/// Steps what a spline answers while its base is moved by hand.
 #include "rig/swing.h"
 #include "rig/posing.h"
 #include "spline/poles.h"
@@ -28,7 +28,7 @@ static cplx response(const struct swing_filter *filter, double t)
 static double step_peak(const struct swing_filter *filter)
 {
     const double sigma = -filter->s[0][0], beta = 0.5 * fabs(filter->s[0][1] - filter->s[1][1]);
-    if (!filter->is_complex) return 1;
+    if (!filter->is_complex || filter->oscillates) return 1;
     const double t = beta > 1e-6 * sigma ? atan2(beta, sigma) / beta : 1 / sigma;
     return fmax(1, filter->natural * sqrt(cplx_norm(response(filter, t))));
 }
@@ -41,6 +41,8 @@ bool swing_filter(const struct spline *spline, const double parameter[PARAMETER_
     desc.spring_friction = spline->spring_friction && desc.mode == WIGGLY_REAL;
     const poles at = poles_at(&desc, 0, LEAST_DAMPING);
     *filter = (struct swing_filter){.s = {{at.s[0].re, at.s[0].im}, {at.s[1].re, at.s[1].im}},
+                                    .oscillates = desc.passive == WIGGLY_OSCILLATOR,
+                                    .of = {at.decay, at.natural * at.natural},
                                     .natural = at.natural,
                                     .is_complex = spline_mode(spline) == WIGGLY_COMPLEX};
     if (!(at.natural > 0)) return false;
@@ -48,7 +50,19 @@ bool swing_filter(const struct spline *spline, const double parameter[PARAMETER_
     return true;
 }
 
-void swing_step(struct swing *swing, const struct swing_filter *filter, double kick, double dt)
+/// As the solver answers; the imaginary part at the end of the step, before the next kick.
+static void step_oscillator(struct swing *swing, const struct swing_filter *filter, double kick, double dt)
+{
+    const step_matrix m = oscillator_step(filter->of, dt);
+    const double q = swing->x[0], v = swing->z[0] - kick;
+    swing->x[0] = m.q_q * q + m.q_v * v;
+    swing->z[0] = m.v_q * q + m.v_v * v;
+    swing->x[1] =
+        filter->is_complex ? oscillator_turn(filter->of, INFINITY) * (swing->z[0] + filter->of.d * swing->x[0]) : 0;
+    swing->z[1] = 0;
+}
+
+static void step_filter(struct swing *swing, const struct swing_filter *filter, double kick, double dt)
 {
     const cplx x = {swing->x[0], swing->x[1]}, z = {swing->z[0] - kick, swing->z[1]};
     const cplx later =
@@ -58,6 +72,15 @@ void swing_step(struct swing *swing, const struct swing_filter *filter, double k
     swing->x[1] = filter->is_complex ? later.im : 0;
     swing->z[0] = kept.re;
     swing->z[1] = kept.im;
+}
+
+void swing_step(struct swing *swing, const struct swing_filter *filter, double kick, double dt)
+{
+    if (filter->oscillates) {
+        step_oscillator(swing, filter, kick, dt);
+    } else {
+        step_filter(swing, filter, kick, dt);
+    }
 }
 
 bool swing_settled(const struct swing *swing, const struct swing_filter *filter)

@@ -1,14 +1,15 @@
-/// Follow-through without a solve: how a spline's filter responds while its base is moved by hand.
+/// Follow-through without a solve: how a spline answers while its base is moved by hand.
 ///
-/// It is the filter of eq. 25 in continuous time, ẍ − (s₀ + s₁) ẋ + s₀s₁ x = −ÿ, from rest, y being the base. Between
-/// frames the base moves evenly, so ÿ is a kick at each frame and x swings freely in between: that is integrated
-/// exactly, whatever the frame rate. With z = ẋ − s₁ x:
+/// Between frames the base moves evenly, so its acceleration is a kick at each frame and x swings freely in between: that is
+/// integrated exactly, whatever the frame rate. The oscillator takes the solver's own step (spline/oscillator.h), with x = q and
+/// z = q'. The filter of eq. 25 in continuous time is ẍ − (s₀ + s₁) ẋ + s₀s₁ x = −ÿ, from rest, y being the base. With z = ẋ − s₁ x:
 ///
 ///     z += −Δẏ,    x(t) = e^{s₁t} x + φ(t) z,    z(t) = e^{s₀t} z,    φ(t) = (e^{s₀t} − e^{s₁t}) / (s₀ − s₁).
 #ifndef RIG_SWING_H
 #define RIG_SWING_H
 
 #include "scene/document.h"
+#include "spline/oscillator.h"
 
 /// x in metres of the base's motion, and z; zero is rest.
 struct swing {
@@ -16,13 +17,15 @@ struct swing {
 };
 
 struct swing_filter {
+    bool oscillates; ///< else it filters
+    oscillator of;
     double s[2][2];  ///< the two poles, 1/s
     double natural;  ///< rad/s
     bool is_complex; ///< else x stays real
     double peak;     ///< largest |x| after a sudden move of the base by 1
 };
 
-/// The filter of a spline whose parameters are `parameter` at the time shown, with a damping ratio of at least 0.05, so that it
+/// What a spline answers by whose parameters are `parameter` at the time shown, with a damping ratio of at least 0.05, so that it
 /// comes to rest. false if nothing pulls it back: cubics, frequency 0.
 bool swing_filter(const struct spline *spline, const double parameter[PARAMETER_COUNT], struct swing_filter *filter);
 

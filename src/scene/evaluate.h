@@ -25,11 +25,14 @@ bool evaluation_resize(struct evaluation *evaluation, const struct document *doc
 void evaluation_free(struct evaluation *evaluation);
 
 /// Solves the splines marked in `dirty` (NULL: all) and those that follow them by tracks. Allocates nothing. `cubic` solves every
-/// spline as a cubic on the same knots, keeping its equilibrium; changing it solves all.
+/// spline as a cubic on the same knots, keeping its equilibrium and, behind the last knot, its value; changing it solves all.
 void evaluation_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic);
 
 /// A spline's value at a position in samples, possibly between two. Zeros if there is no such spline or `evaluation` is NULL.
 wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, double position);
+
+/// The slope at a sample that, keyed there with the curve's value, leaves the curve as it is.
+double evaluation_slope(const struct evaluation *evaluation, const struct document *document, int spline, int sample);
 
 /// The sample from `first` to `last` with a solved spline's lowest (or highest) total, the earliest of equal ones; fast at any length.
 int evaluation_extreme(const struct evaluation *evaluation, int spline, int first, int last, bool highest);

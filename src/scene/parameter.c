@@ -112,7 +112,7 @@ const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
                          .words = {"free", "rest", "loop"},
                          .labels = {"Free", "Rest", "Loop"}},
     [PARAMETER_PASSIVE] = {.name = "passive",
-                           .hint = "What moves by itself. Oscillator: it swings out. Filter: the paper's equations to the letter",
+                           .hint = "By itself it swings like a spring, or as the paper's filter does (Shift+M)",
                            .undo = "Change what moves by itself",
                            .kind = PARAMETER_CHOICE,
                            .modes = IN_ALL,

@@ -36,7 +36,10 @@ wiggly_desc storage_describe(const wiggly_curve *curves, const struct document *
         const double *total = track >= 0 ? curves[track].total : NULL;
         parameter_describe(p, spline->parameter[p].value, total, &desc);
     }
-    if (cubic) desc.mode = WIGGLY_CUBIC;
+    if (cubic && desc.mode != WIGGLY_CUBIC) {
+        desc.mode = WIGGLY_CUBIC;
+        desc.passive = WIGGLY_OSCILLATOR; // its last value is held: a tail does not wind through its body
+    }
     desc.spring_friction = spline->spring_friction && desc.mode == WIGGLY_REAL;
     return desc;
 }

@@ -7,41 +7,17 @@
 //
 // u is q with the imaginary part that an oscillation on one side of the axis has, u' = p u: Im u = −(q' + d q)/ω_d.
 #include "spline/swing.h"
+#include "spline/oscillator.h"
 #include "spline/problem.h"
 #include <float.h>
 #include <math.h>
 
 static const double blow_up = 1e4;
 
-/// The same step for all state: [q q'] ← m [q q'].
-typedef struct step_matrix {
-    double q_q, q_v, v_q, v_v;
-} step_matrix;
-
-/// d and k of an interval.
-typedef struct oscillator {
-    double d, k;
-} oscillator;
-
 static oscillator oscillator_at(const wiggly_desc *desc, int sample, double floor)
 {
     poles at = poles_at(desc, sample, floor);
     return (oscillator){at.decay, at.natural * at.natural};
-}
-
-static step_matrix step_over(oscillator o, double h)
-{
-    double r2 = (o.d - sqrt(o.k)) * (o.d + sqrt(o.k)), r = sqrt(fabs(r2)), c, s; // s: sinh(rh)/r times e^{−dh}
-    double decay = exp(-o.d * h);
-    if (r2 > 0) {
-        double slow = exp((r - o.d) * h), fast = exp(-(r + o.d) * h);
-        c = 0.5 * (slow + fast);
-        s = r * h < 1e-3 ? decay * h * (1 + r2 * h * h / 6) : 0.5 * (slow - fast) / r;
-    } else {
-        c = decay * cos(r * h);
-        s = decay * (r * h < 1e-3 ? h * (1 + r2 * h * h / 6) : sin(r * h) / r);
-    }
-    return (step_matrix){c + o.d * s, s, -o.k * s, c - o.d * s};
 }
 
 /// y at a sample, and beyond the ends: y₀ before, as the start is at rest, straight on behind; a loop wraps.
@@ -71,7 +47,7 @@ typedef struct path {
 static path begin(const wiggly_desc *desc, double floor)
 {
     path p = {.desc = desc, .floor = floor, .constant = poles_are_constant(desc), .here = oscillator_at(desc, 0, floor)};
-    p.step = step_over(p.here, desc->step);
+    p.step = oscillator_step(p.here, desc->step);
     return p;
 }
 
@@ -83,7 +59,7 @@ static step_matrix next_step(path *p, int i)
     oscillator next = oscillator_at(p->desc, closes ? 0 : i + 1, p->floor);
     oscillator mean = {0.5 * (p->here.d + next.d), 0.5 * (p->here.k + next.k)};
     p->here = next;
-    return step_over(mean, p->desc->step);
+    return oscillator_step(mean, p->desc->step);
 }
 
 /// q into `total` and q' in the middle of its jumps into `speed`, from a state before sample 0; returns the state after the last step.
@@ -203,10 +179,8 @@ static void set_imaginary(const wiggly_desc *desc, double floor, const swing *u)
     for (int i = 0; i < desc->samples; i++) {
         if (i == 0 || !constant) {
             oscillator o = oscillator_at(desc, i, floor);
-            double omega = sqrt(fmax(0, o.k - o.d * o.d)), turns = pow(omega * t, 8);
-            double ratio = o.k > 0 ? pow(omega * omega / o.k, 4) : 0;
             d = o.d;
-            gain = omega > 0 ? -ratio / (ratio + 1e-8) / (1 + 1 / turns) / omega : 0;
+            gain = oscillator_turn(o, t);
         }
         u->im[i] = gain * (u->speed[i] + d * u->total[i]);
     }

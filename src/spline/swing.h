@@ -1,4 +1,4 @@
-/// What a damped oscillator does by itself as its equilibrium moves (docs/mathematics.md, What moves by itself).
+/// What a damped oscillator does by itself as its equilibrium moves (docs/mathematics.md, Passive).
 #ifndef SPLINE_SWING_H
 #define SPLINE_SWING_H
 

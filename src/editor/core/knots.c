@@ -64,13 +64,9 @@ void core_insert_on_curve(struct core *core, const struct editor_world *world, d
     struct knot knot = {
         .frame = knot_frame(core, world, frame, snap), .stiffness = KNOT_DEFAULT_STIFFNESS, .has_slope = slope};
     int sample = document_sample(document, knot.frame);
-    int next = sample + 1 < document_samples(document) ? sample + 1 : sample - 1;
     wiggly_value here = evaluation_at(world->evaluation, core->active, sample);
-    wiggly_value there = evaluation_at(world->evaluation, core->active, next);
     knot.value = here.y + here.re;
-    if (slope && next >= 0) {
-        knot.slope = (there.y + there.re - knot.value) / ((next - sample) * document_step(document));
-    }
+    if (slope) knot.slope = evaluation_slope(world->evaluation, document, core->active, sample);
     insert_at(core, world, &knot);
 }
 

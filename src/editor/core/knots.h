@@ -42,8 +42,8 @@ const struct channel *core_active_channel(const struct core *core, const struct 
 double core_slider_end(const struct document *document, const struct spline *spline, enum parameter parameter);
 /// Changes the parameter whose letter is held, or with L the lag, by its step.
 void core_nudge_parameter(struct core *core, const struct editor_world *world, int direction);
-/// The next of complex, real and cubic.
-void core_cycle_mode(struct core *core, const struct editor_world *world, int unused);
+/// The next word of a parameter that is a choice, after the last the first again.
+void core_cycle_choice(struct core *core, const struct editor_world *world, int parameter);
 
 /// The selected knots as text for the clipboard; `cut` also deletes them. false where there is nothing to copy.
 bool core_copy_knots(struct core *core, const struct editor_world *world, bool cut);

@@ -174,11 +174,12 @@ void core_nudge_parameter(struct core *core, const struct editor_world *world, i
     nudge_one(core, world, spline, parameter, parameter_rows[parameter].step * direction);
 }
 
-void core_cycle_mode(struct core *core, const struct editor_world *world, int unused)
+void core_cycle_choice(struct core *core, const struct editor_world *world, int parameter)
 {
-    (void)unused;
+    const struct parameter_row *row = &parameter_rows[parameter];
     const struct spline *spline = core_active_spline(core, world);
     if (!spline) return;
-    struct edit edit = core_parameter_edit(core->active, PARAMETER_MODE, (spline_mode(spline) + 1) % 3);
-    core_step(core, world, parameter_rows[PARAMETER_MODE].undo, 0, &edit);
+    double next = spline->parameter[parameter].value + 1;
+    struct edit edit = core_parameter_edit(core->active, (enum parameter)parameter, next <= row->maximum ? next : 0);
+    core_step(core, world, row->undo, 0, &edit);
 }

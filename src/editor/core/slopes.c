@@ -11,13 +11,11 @@ static const double FIRM = 1000;                ///< stiffness where a knot has 
 static const double TURN = 0.05, FIRMER = 1.25; ///< of the visible values, a second; of the stiffness: a key press
 static const double SLOPE_RESOLUTION = 1e-3;    ///< of the visible values, a second
 
-/// The curve's slope around a knot, in values a second, for a slope that changes as little as possible.
+/// The curve's slope at a knot, in values a second: one that leaves it as it is.
 static double slope_at(const struct core *core, const struct editor_world *world, const struct knot *knot)
 {
-    double sample = document_sample(world->document, knot->frame);
-    wiggly_value before = evaluation_at(world->evaluation, core->active, sample - 0.5);
-    wiggly_value after = evaluation_at(world->evaluation, core->active, sample + 0.5);
-    double slope = (after.y + after.re - before.y - before.re) / document_step(world->document);
+    int sample = document_sample(world->document, knot->frame);
+    double slope = evaluation_slope(world->evaluation, world->document, core->active, sample);
     return isfinite(slope) ? slope : 0;
 }
 

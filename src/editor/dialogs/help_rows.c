@@ -34,7 +34,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
     {"Spline",
      {{"PgUp, PgDn", "previous, next spline"},
       {"F2", "rename it"},
-      {"M", "complex, real, cubic"},
+      {"M; Shift+M", "mode; oscillator, filter"},
       {"V", "wiggly, stiff, cubic look"},
       {"W", "fix a warning"}}},
     [HELP_HELD] = {"Hold and press ↑ ↓", {{"L", "lag of the tail"}}},

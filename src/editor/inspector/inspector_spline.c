@@ -77,11 +77,17 @@ static void build_spring_toggle(struct inspection *in, const struct spline *spli
     core_step(in->core, in->world, on ? "Use spring and friction" : "Use frequency and damping", 0, &edit);
 }
 
-/// What the parameters mean, in one plain sentence.
+/// What the damping means to this motion, in one plain sentence.
 static void build_settling(struct inspection *in, const struct spline *spline)
 {
+    const struct evaluation *evaluation = in->world->evaluation;
+    const int active = in->core->active;
     char text[128];
-    struct settling settling = settle_measure(spline, document_step(in->document));
+    struct settling settling = settle_alone(spline, document_step(in->document));
+    if (evaluation && active < evaluation->count && spline->knot_count > 0) {
+        int last = document_sample(in->document, spline->knots[spline->knot_count - 1].frame);
+        settling = settle_measure(spline, &evaluation->curves[active], last);
+    }
     double frames = settling.seconds * in->document->fps;
     switch (settling.kind) {
     case SETTLE_UNKNOWN:
@@ -95,8 +101,14 @@ static void build_settling(struct inspection *in, const struct spline *spline)
     case SETTLE_LATE:
         snprintf(text, sizeof text, "Takes more than %d s to settle to 5 %%.", SETTLE_LIMIT);
         break;
-    case SETTLE_MEASURED:
+    case SETTLE_ALONE:
         snprintf(text, sizeof text, "Settles to 5 %% in %.2f s (%.0f frames).", settling.seconds, frames);
+        break;
+    case SETTLE_SEEN:
+        snprintf(text, sizeof text, "Settles to 5 %% %.0f frames after the last knot.", ceil(frames - 1e-6));
+        break;
+    case SETTLE_LEFT:
+        snprintf(text, sizeof text, "At the end %.0f %% of the swing is left.", 100 * settling.left);
         break;
     }
     ui_paragraph(in->ui, text, theme()->text_dim);

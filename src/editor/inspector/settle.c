@@ -1,4 +1,4 @@
-/// How long a spline's filter takes to settle.
+/// How long a spline takes to settle.
 #include "editor/inspector/settle.h"
 #include <complex.h>
 #include <math.h>
@@ -52,20 +52,52 @@ static double settled_sample(const double complex s[2], double step, bool is_com
     return is_complex ? settled : settled - 0.5;
 }
 
-struct settling settle_measure(const struct spline *spline, double step)
+struct settling settle_alone(const struct spline *spline, double step)
 {
     double omega, zeta;
     double complex s[2];
-    if (spline_mode(spline) == WIGGLY_CUBIC) return (struct settling){SETTLE_CUBIC, 0};
-    if (!swing_of(spline, &omega, &zeta)) return (struct settling){SETTLE_UNKNOWN, 0};
-    if (omega == 0) return (struct settling){SETTLE_CUBIC, 0};
-    if (zeta == 0) return (struct settling){SETTLE_NEVER, 0};
+    if (spline_mode(spline) == WIGGLY_CUBIC) return (struct settling){.kind = SETTLE_CUBIC};
+    if (!swing_of(spline, &omega, &zeta)) return (struct settling){.kind = SETTLE_UNKNOWN};
+    if (omega == 0) return (struct settling){.kind = SETTLE_CUBIC};
+    if (zeta == 0) return (struct settling){.kind = SETTLE_NEVER};
     poles_of(spline, omega, zeta, s);
     double rate = fmin(-creal(s[0]), -creal(s[1])); // the slower pole's
     double expected = log(1 / LEFT) / rate;
-    if (expected > SETTLE_LIMIT) return (struct settling){SETTLE_LATE, 0};
+    if (expected > SETTLE_LIMIT) return (struct settling){.kind = SETTLE_LATE};
     double samples = 3 * expected / step + 8; // a double pole takes 1.6 times as long as its radius says
-    if (samples > MAX_SAMPLES) return (struct settling){SETTLE_MEASURED, expected};
     bool is_complex = spline_mode(spline) == WIGGLY_COMPLEX;
-    return (struct settling){SETTLE_MEASURED, step * settled_sample(s, step, is_complex, (int)samples)};
+    bool envelope = is_complex && spline->parameter[PARAMETER_PASSIVE].value == WIGGLY_OSCILLATOR;
+    if (envelope || samples > MAX_SAMPLES) return (struct settling){.kind = SETTLE_ALONE, .seconds = expected};
+    double seconds = step * settled_sample(s, step, is_complex, (int)samples);
+    return (struct settling){.kind = SETTLE_ALONE, .seconds = seconds};
+}
+
+/// The motion after a sample. Where there is more of it than a frame has time for, and it goes on, `alone` has the answer.
+static struct settling settle_seen(const wiggly_curve *curve, int from, struct settling alone)
+{
+    int end = (int)fmin(curve->samples, (double)from + MAX_SAMPLES), last = from;
+    double size = hypot(curve->re[from], curve->im[from]), left = hypot(curve->re[end - 1], curve->im[end - 1]);
+    for (int i = from; curve->mode == WIGGLY_REAL && i < end; i++) size = fmax(size, fabs(curve->re[i]));
+    for (int i = from; i < end; i++) {
+        if (hypot(curve->re[i], curve->im[i]) > LEFT * size) last = i + 1;
+    }
+    if (last == end && end < curve->samples) return alone;
+    if (last == end) return (struct settling){.kind = SETTLE_LEFT, .left = left / size};
+    return (struct settling){.kind = SETTLE_SEEN, .seconds = (last - from) * curve->step};
+}
+
+/// Whether a swing is to be seen behind the last knot: more than rounding leaves.
+static bool swings_behind(const wiggly_curve *curve, int last_knot)
+{
+    if (curve->mode == WIGGLY_CUBIC || last_knot < 0 || last_knot + 1 >= curve->samples) return false;
+    double size = hypot(curve->re[last_knot], curve->im[last_knot]) + fabs(curve->re[last_knot + 1]);
+    return size > 1e-9 * fabs(curve->total[last_knot]) && size > 0;
+}
+
+struct settling settle_measure(const struct spline *spline, const wiggly_curve *curve, int last_knot)
+{
+    struct settling alone = settle_alone(spline, curve->step);
+    bool dies = alone.kind != SETTLE_CUBIC && alone.kind != SETTLE_NEVER;
+    bool open = spline_start(spline) != WIGGLY_LOOP && swings_behind(curve, last_knot);
+    return dies && open ? settle_seen(curve, last_knot, alone) : alone;
 }

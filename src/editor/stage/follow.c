@@ -99,6 +99,5 @@ wiggly_value follow_value(const struct stage *stage, int tail, int channel)
     if (tail >= STAGE_MAX_TAILS || !stage->follow[tail].swings) return (wiggly_value){0};
     const struct follow *follow = &stage->follow[tail];
     const struct swing *swing = &follow->channel[channel];
-    return (wiggly_value){.re = follow->scale[channel] * swing->x[0],
-                          .im = follow->scale[channel] * swing->x[1]};
+    return (wiggly_value){.re = follow->scale[channel] * swing->x[0], .im = follow->scale[channel] * swing->x[1]};
 }

@@ -1,0 +1,42 @@
+/// A damped oscillator's motion by itself over a time, in closed form: q'' + 2d q' + k q = 0, whatever the damping.
+#ifndef SPLINE_OSCILLATOR_H
+#define SPLINE_OSCILLATOR_H
+
+#include <math.h>
+
+/// d = ζω_n and k = ω_n².
+typedef struct oscillator {
+    double d, k;
+} oscillator;
+
+/// The same step for all state: [q q'] ← m [q q'].
+typedef struct step_matrix {
+    double q_q, q_v, v_q, v_v;
+} step_matrix;
+
+/// A step over h seconds.
+static inline step_matrix oscillator_step(oscillator o, double h)
+{
+    double r2 = (o.d - sqrt(o.k)) * (o.d + sqrt(o.k)), r = sqrt(fabs(r2)), c, s; // s: sinh(rh)/r times e^{−dh}
+    double decay = exp(-o.d * h);
+    if (r2 > 0) {
+        double slow = exp((r - o.d) * h), fast = exp(-(r + o.d) * h);
+        c = 0.5 * (slow + fast);
+        s = r * h < 1e-3 ? decay * h * (1 + r2 * h * h / 6) : 0.5 * (slow - fast) / r;
+    } else {
+        c = decay * cos(r * h);
+        s = decay * (r * h < 1e-3 ? h * (1 + r2 * h * h / 6) : sin(r * h) / r);
+    }
+    return (step_matrix){c + o.d * s, s, -o.k * s, c - o.d * s};
+}
+
+/// What q' + d q is multiplied by for the imaginary part of an oscillation on one side of the axis, faded out where ω_d is so slow
+/// over `seconds` or so small a part of ω_n that it would diverge.
+static inline double oscillator_turn(oscillator o, double seconds)
+{
+    double omega = sqrt(fmax(0, o.k - o.d * o.d)), turns = pow(omega * seconds, 8);
+    double ratio = o.k > 0 ? pow(omega * omega / o.k, 4) : 0;
+    return omega > 0 ? -ratio / (ratio + 1e-8) / (1 + 1 / turns) / omega : 0;
+}
+
+#endif
