@@ -1,6 +1,7 @@
 # wiggly. `make run` and `make test` are each all that is needed on a bare Debian or Ubuntu: they install what is missing.
 #
 #   make [all]    the binary, the library and the tools
+#   make library  the library alone, static and shared; needs a C compiler, no packages
 #   make run      builds and starts the live app (ARGS="scene.json --size 960x600" for more)
 #   make test     builds and runs every test (TESTS="tests/test_timing.c tests/test_cli.sh" for some; JOBS=1 for one at a time)
 #   make bench    the solver against LAPACKE
@@ -50,6 +51,7 @@ endif
 # --- what is there -----------------------------------------------------------------------------------------------------
 
 VERSION := $(shell sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h)
+MAJOR := $(firstword $(subst ., ,$(VERSION)))
 SOURCES := $(sort $(shell find src -name '*.c'))
 LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/base/status.c
 EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json \
@@ -61,6 +63,8 @@ TEST_SUPPORT := $(filter-out tests/test_%.c,$(wildcard tests/*.c))
 GENERATED := $(B)/generated
 OBJECTS := $(SOURCES:%.c=$(B)/obj/%.o) $(B)/obj/build.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o
 LIBRARY_OBJECTS := $(LIBRARY_SOURCES:%.c=$(B)/obj/%.o)
+SHARED_LIBRARY := $(B)/libwiggly.so.$(VERSION)
+LIBRARIES := $(B)/libwiggly.a $(if $(findstring mingw,$(CC)),,$(SHARED_LIBRARY))
 TEST_PROGRAMS := $(patsubst tests/%.c,$(B)/tests/%,$(filter %.c,$(TESTS)))
 
 # --- how it is built ---------------------------------------------------------------------------------------------------
@@ -92,15 +96,22 @@ TEST_LIBS = -lcmocka -llapacke -lopenblas -lquadmath
 
 $(B)/obj/src/spline/%.o: OWN_CFLAGS += $(filter -O%,$(SPLINE_CFLAGS))
 $(B)/obj/src/spline/%.o: FIXED_CFLAGS += $(filter -f%,$(SPLINE_CFLAGS))
+# The library is made of the objects that the app is made of: fit for a shared one, machine code whatever CFLAGS say (names are
+# taken out of it), and without a package.
+$(LIBRARY_OBJECTS): FIXED_CFLAGS += -fPIC -fno-semantic-interposition -fno-lto
+$(LIBRARY_OBJECTS): PKG_CFLAGS :=
 
 COMPILE = $(CC) $(OWN_CPPFLAGS) $(PKG_CFLAGS) $(CPPFLAGS) $(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS)
+OBJCOPY ?= $(shell $(CC) -print-prog-name=objcopy)
 LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all run test bench models check figures regress install clean help packages compile_commands.json FORCE
+.PHONY: all library run test bench models check figures regress install clean help packages compile_commands.json FORCE
 
-all: $(B)/wiggly $(B)/libwiggly.a $(TOOLS:%=$(B)/%)
+all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
+
+library: $(LIBRARIES)
 
 # The app itself finds out whether it has a display; however it ran, it leaves its log and its last picture.
 LIVE_OUT ?= $(B)
@@ -111,7 +122,7 @@ run: $(B)/wiggly
 	$(Q)$(B)/wiggly live --log $(LIVE_LOG) --screenshot $(LIVE_PICTURE) $(ARGS)
 	$(Q)[ ! -s $(LIVE_PICTURE) ] || echo "Picture: $(LIVE_PICTURE), timing log: $(LIVE_LOG)"
 
-test: $(B)/wiggly $(B)/libwiggly.a $(TOOLS:%=$(B)/%) $(TEST_PROGRAMS)
+test: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%) $(TEST_PROGRAMS)
 	$(Q)B=$(B) WIGGLY=$(B)/wiggly TEST_OUT=$(B)/test-out CC="$(CC)" tools/run-tests.sh \
 	    $(TEST_PROGRAMS) $(filter %.sh,$(TESTS))
 
@@ -142,12 +153,15 @@ help:
 	@sed -n '1,/^$$/s/^# \{0,1\}//p' Makefile
 
 ROOT = $(DESTDIR)$(PREFIX)
-install: $(if $(BORROWED),,$(B)/wiggly $(B)/libwiggly.a)
-	install -d "$(ROOT)/bin" "$(ROOT)/lib/pkgconfig" "$(ROOT)/include/wiggly" "$(ROOT)/share/wiggly/scenes" \
-	    "$(ROOT)/share/wiggly/models" "$(ROOT)/share/doc/wiggly" "$(ROOT)/share/man/man1" "$(ROOT)/share/applications" \
+install: $(if $(BORROWED),,$(B)/wiggly $(LIBRARIES))
+	install -d "$(ROOT)/bin" "$(ROOT)/lib/pkgconfig" "$(ROOT)/lib/cmake/wiggly" "$(ROOT)/include/wiggly" \
+	    "$(ROOT)/share/wiggly/scenes" "$(ROOT)/share/wiggly/models" "$(ROOT)/share/doc/wiggly" "$(ROOT)/share/man/man1" "$(ROOT)/share/applications" \
 	    "$(ROOT)/share/icons/hicolor/scalable/apps"
 	install -m 755 $(B)/wiggly "$(ROOT)/bin/wiggly"
 	install -m 644 $(B)/libwiggly.a "$(ROOT)/lib/libwiggly.a"
+	install -m 755 $(SHARED_LIBRARY) "$(ROOT)/lib"
+	ln -sf libwiggly.so.$(VERSION) "$(ROOT)/lib/libwiggly.so.$(MAJOR)"
+	ln -sf libwiggly.so.$(MAJOR) "$(ROOT)/lib/libwiggly.so"
 	install -m 644 include/wiggly/wiggly.h "$(ROOT)/include/wiggly/wiggly.h"
 	install -m 644 $(wildcard assets/scenes/*.json) "$(ROOT)/share/wiggly/scenes"
 	install -m 644 $(wildcard assets/models/*.glb) "$(ROOT)/share/wiggly/models"
@@ -156,6 +170,10 @@ install: $(if $(BORROWED),,$(B)/wiggly $(B)/libwiggly.a)
 	install -m 644 assets/desktop/wiggly.svg "$(ROOT)/share/icons/hicolor/scalable/apps"
 	tools/man-page.sh $(B)/wiggly > "$(ROOT)/share/man/man1/wiggly.1"
 	sed -e 's|@VERSION@|$(VERSION)|' wiggly.pc.in > "$(ROOT)/lib/pkgconfig/wiggly.pc"
+	$(Q)for file in assets/cmake/*.in; do \
+	    name=$${file##*/}; sed -e 's|@VERSION@|$(VERSION)|; s|@MAJOR@|$(MAJOR)|' $$file > "$(ROOT)/lib/cmake/wiggly/$${name%.in}"; \
+	done
+	$(Q)[ -n "$(DESTDIR)" ] || [ "$$(id -u)" != 0 ] || ldconfig
 	$(Q)tools/install-from.sh --done $(B)
 
 clean:
@@ -164,7 +182,7 @@ clean:
 # --- what must be installed first --------------------------------------------------------------------------------------
 # Everything that is compiled waits for `packages` (order-only); it asks for no more than the goals at hand need.
 
-SETS := $(if $(filter-out check clean help,$(or $(MAKECMDGOALS),all)),build)
+SETS := $(if $(filter-out check clean help library %/libwiggly.a,$(or $(MAKECMDGOALS),all)),build)
 SETS += $(if $(filter test $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check,$(MAKECMDGOALS))
 packages:
 	$(Q)tools/install-missing.sh $(SETS)
@@ -185,8 +203,16 @@ $(B)/obj/%.o: $(GENERATED)/%.S | packages
 	@mkdir -p $(@D)
 	$(Q)$(CC) -c $< -o $@
 
-$(B)/libwiggly.a: $(LIBRARY_OBJECTS) $(B)/objects | packages
-	$(Q)rm -f $@ && ar rcs $@ $(LIBRARY_OBJECTS)
+# One object, from which no name leaves but those of wiggly.h.
+$(B)/obj/libwiggly.o: $(LIBRARY_OBJECTS) $(B)/objects | packages
+	$(Q)$(CC) $(filter -m%,$(CFLAGS)) -nostdlib -r $(LIBRARY_OBJECTS) -o $@
+	$(Q)$(OBJCOPY) --wildcard --keep-global-symbol='wiggly_*' $@
+
+$(B)/libwiggly.a: $(B)/obj/libwiggly.o
+	$(Q)rm -f $@ && ar rcs $@ $<
+
+$(SHARED_LIBRARY): $(B)/obj/libwiggly.o
+	$(Q)$(CC) -shared -Wl,-soname,libwiggly.so.$(MAJOR) -Wl,-z,defs $(SANITIZERS) $(CFLAGS) $(LDFLAGS) $< -lm -lpthread $(LDLIBS) -o $@
 
 # Everything but main(): what tests and tools link, taking only the members that they need.
 $(B)/parts.a: $(filter-out $(B)/obj/src/main.o,$(OBJECTS)) $(B)/objects | packages

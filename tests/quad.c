@@ -1,25 +1,9 @@
 /// The spline in quadruple precision.
 #include "quad.h"
+
+#include "quad_math.h"
 #include <assert.h>
 #include <stdlib.h>
-
-#ifndef __clang__
-#include <quadmath.h>
-#else // finds gcc's library, but has not its header
-#define M_PIq 3.141592653589793238462643383279502884Q
-typedef _Complex float __attribute__((mode(TC))) __complex128;
-__float128 cabsq(__complex128);
-__complex128 cexpq(__complex128);
-__float128 cimagq(__complex128);
-__complex128 conjq(__complex128);
-__float128 crealq(__complex128);
-__float128 fmaxq(__float128, __float128);
-__float128 powq(__float128, __float128);
-__float128 sqrtq(__float128);
-#endif
-
-typedef __float128 real;
-typedef __complex128 number;
 
 enum { BELOW = 5 }; ///< unknowns 2k (Re x_k) and 2k + 1 (Im x_k): a row reaches from x_{i−1} to x_{i+1}
 

@@ -70,6 +70,7 @@ static wiggly_status solve(const struct subject *c, wiggly_curve *curve, double 
     wiggly_desc desc = wiggly_default_desc();
     desc.samples = c->samples;
     desc.mode = c->mode;
+    desc.passive = WIGGLY_FILTER;
     desc.frequency.value = c->frequency;
     desc.damping.value = c->damping;
     desc.bandwidth.value = c->bandwidth;

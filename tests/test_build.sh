@@ -31,7 +31,7 @@ expect 1 "an implicit declaration is an error" gcc $flags -c "$scratch/implicit.
 mkdir "$scratch/their tree"
 cp -r Makefile LICENSE wiggly.pc.in include src shaders assets tools tests "$scratch/their tree"
 mkdir "$scratch/their tree/build"
-cp "$built/wiggly" "$built/libwiggly.a" "$scratch/their tree/build"
+cp "$built/wiggly" "$built"/libwiggly.* "$scratch/their tree/build"
 expect 0 "B and DESTDIR with spaces" make -C "$scratch/their tree" B="$scratch/my build" -n install DESTDIR="$scratch/a stage"
 [ -d "$scratch/my build" ]
 ok "the build folder is the one that was named" $?

@@ -21,7 +21,7 @@ unset DISPLAY WAYLAND_DISPLAY
 mkdir "$scratch/bin" "$scratch/work" "$scratch/work/build"
 make BORROWED=yes B="$B" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
 ok "make install" $?
-export PKG_CONFIG_PATH=$scratch/stage/opt/wiggly/lib/pkgconfig
+export PKG_CONFIG_PATH=$scratch/stage/opt/wiggly/lib/pkgconfig LD_LIBRARY_PATH=$scratch/stage/opt/wiggly/lib
 
 cat >"$scratch/bin/wiggly" <<END
 #!/bin/bash

@@ -11,7 +11,7 @@ status=$?
 ok "make install" $status
 
 root=$scratch/stage/opt/wiggly
-for file in bin/wiggly lib/libwiggly.a lib/pkgconfig/wiggly.pc include/wiggly/wiggly.h share/wiggly/scenes/tail.json \
+for file in bin/wiggly lib/libwiggly.a lib/libwiggly.so lib/cmake/wiggly/wigglyConfig.cmake lib/pkgconfig/wiggly.pc include/wiggly/wiggly.h share/wiggly/scenes/tail.json \
     share/man/man1/wiggly.1 share/applications/wiggly.desktop share/icons/hicolor/scalable/apps/wiggly.svg; do
     [ -s "$root/$file" ]
     ok "$file is installed" $?
@@ -56,12 +56,14 @@ version=$(sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly
 [ "$(pkg-config --modversion wiggly)" = "$version" ]
 ok "the .pc file carries the version" $?
 flags=$(pkg-config --cflags --libs wiggly)
+export LD_LIBRARY_PATH=$root/lib # where no ldconfig has been
 
-for example in curve game_loop tail_lag; do
+for example in examples/*; do
+    name=$(basename "${example%.*}")
+    case $example in *.cpp) compiler="g++ -std=c++17 -Wpedantic" ;; *) compiler="$CC -std=c11" ;; esac
     # shellcheck disable=SC2086
-    expect 0 "example $example compiles" $CC -std=c11 -Wall -Wextra -Werror $sanitizers examples/$example.c $flags \
-        -o "$scratch/$example"
-    expect 0 "example $example runs" "$scratch/$example"
+    expect 0 "example $name compiles" $compiler -Wall -Wextra -Wshadow -Wconversion -Werror $sanitizers "$example" $flags -o "$scratch/$name"
+    expect 0 "example $name runs" "$scratch/$name"
 done
 [ "$("$scratch/curve" | wc -l)" -eq 122 ]
 ok "the curve has a header and 121 samples" $?
@@ -80,4 +82,52 @@ CPP
 # shellcheck disable=SC2086
 expect 0 "C++ compiles and links the header" g++ -Wall -Wextra -Wpedantic -Werror $sanitizers "$scratch/use.cpp" $flags -o "$scratch/use"
 expect 0 "the C++ program runs" "$scratch/use"
+
+cat >"$scratch/version.c" <<'C'
+#include <stdio.h>
+#include <wiggly/wiggly.h>
+int main(void) { puts(wiggly_version()); }
+C
+needs() { # <program>: the libraries of ours that it loads
+    readelf -d "$1" | sed -nE 's/.*NEEDED.*\[(libwiggly[^]]*)\]/\1/p'
+}
+# shellcheck disable=SC2086
+expect 0 "a program is linked with the shared library" $CC $sanitizers "$scratch/version.c" $flags -o "$scratch/version"
+says "by its soname" "libwiggly.so.${version%%.*}" "$(needs "$scratch/version")"
+[ "$("$scratch/version")" = "$version" ]
+ok "which knows its version" $?
+# shellcheck disable=SC2086
+expect 0 "or with the static one" $CC $sanitizers "$scratch/version.c" ${flags/-lwiggly/-l:libwiggly.a} -o "$scratch/version"
+[ -z "$(needs "$scratch/version")" ]
+ok "and then needs none" $?
+
+if command -v cmake >/dev/null; then
+    mkdir "$scratch/project"
+    cat >"$scratch/project/CMakeLists.txt" <<'CMAKE'
+cmake_minimum_required(VERSION 3.10)
+project(mine C)
+find_package(wiggly ${WANTED} REQUIRED CONFIG)
+add_executable(shared ../version.c)
+target_link_libraries(shared wiggly::wiggly)
+add_executable(static ../version.c)
+target_link_libraries(static wiggly::static)
+CMAKE
+    configure() { # <version>
+        rm -rf "$scratch/made"
+        cmake -S "$scratch/project" -B "$scratch/made" -DCMAKE_PREFIX_PATH="$root" -DWANTED="$1" -DCMAKE_C_COMPILER="${CC%% *}" \
+            -DCMAKE_C_FLAGS="$sanitizers"
+    }
+    next=$((${version%%.*} + 1))
+    expect 1 "CMake is refused another major version" configure "$next.0"
+    says "and told what there is" "version: $version" "$err"
+    expect 0 "and finds its own" configure "${version%.*}"
+    expect 0 "a CMake project builds" env -u MAKEFLAGS cmake --build "$scratch/made"
+    unset LD_LIBRARY_PATH
+    for kind in shared static; do
+        [ "$("$scratch/made/$kind")" = "$version" ]
+        ok "and runs with the $kind library" $?
+    done
+else
+    echo "skipped: CMake projects, because cmake is not installed"
+fi
 exit $((cases_failed > 0))

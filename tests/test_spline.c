@@ -260,6 +260,35 @@ static void every_status_has_a_text_of_its_own(void **state)
     assert_non_null(wiggly_status_text((wiggly_status)-1));
 }
 
+/// A game's vertices: with no array of doubles at all, on every way of solving, and what lies between them is left alone.
+static void the_total_comes_as_floats(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 50, STRIDE = 3 };
+    const wiggly_knot knots[] = {{.sample = 5, .value = 0.1}, {.sample = 40, .value = 2}};
+    double wave[SAMPLES], slow[SAMPLES];
+    for (int i = 0; i < SAMPLES; i++) wave[i] = sin(0.1 * i), slow[i] = 1 + 0.01 * i;
+    for (int n = 0; n < 3 * 3 * 2 * 3; n++) {
+        wiggly_desc desc = describe(SAMPLES, (wiggly_mode)(n % 3), (wiggly_start)(n / 3 % 3), knots, n / 18);
+        if (n / 9 % 2) desc.equilibrium.track = wave, desc.frequency.track = slow;
+        float out[SAMPLES * STRIDE], close[SAMPLES];
+        for (int i = 0; i < SAMPLES * STRIDE; i++) out[i] = -77;
+        wiggly_curve strided = {.floats = out, .stride = STRIDE}, plain = {.floats = close};
+        wiggly_status status = wiggly_solve(solver, &desc, &curve);
+        assert_true(status < WIGGLY_ERROR_ARGUMENT);
+        assert_int_equal(wiggly_solve(solver, &desc, &strided), status);
+        assert_int_equal(wiggly_solve(solver, &desc, &plain), status);
+        for (int i = 0; i < SAMPLES; i++) {
+            assert_true(out[STRIDE * i] == (float)curve.total[i] && close[i] == out[STRIDE * i]);
+            assert_true(out[STRIDE * i + 1] == -77 && out[STRIDE * i + 2] == -77);
+        }
+        desc.calm = 2;
+        out[0] = 5;
+        assert_int_equal(wiggly_solve(solver, &desc, &strided), WIGGLY_ERROR_NUMBER);
+        assert_true(out[0] == 5);
+    }
+}
+
 static void memory_may_be_the_callers(void **state)
 {
     (void)state;
@@ -397,6 +426,7 @@ int main(void)
         cmocka_unit_test(between_samples_a_free_oscillation_is_followed),
         cmocka_unit_test(wrong_descriptions_are_named_and_leave_the_curve_alone),
         cmocka_unit_test(every_status_has_a_text_of_its_own),
+        cmocka_unit_test(the_total_comes_as_floats),
         cmocka_unit_test(memory_may_be_the_callers),
         cmocka_unit_test(what_is_kept_changes_no_bit),
         cmocka_unit_test(the_whole_curve_scales),

@@ -160,11 +160,39 @@ static void what_is_no_take_is_refused(void **state)
     wiggly_take_destroy(NULL);
 }
 
+/// As good as one of its own memory; the bytes after it are left alone.
+static void a_take_fits_the_callers_memory(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{200, 12}, {3000, 7}, {9000, 24}};
+    uint64_t seed = 9;
+    for (int n = 0; n < 9; n++) {
+        struct example e;
+        make_example(&e, &seed, sizes[n % 3][0], sizes[n % 3][1]);
+        size_t size = wiggly_take_memsize(e.desc.samples, e.desc.knot_count);
+        unsigned char *memory = malloc(size + 8);
+        memset(memory, 0xa5, size + 8);
+        wiggly_take *take = NULL;
+        assert_int_equal(wiggly_take_create_at(memory, size - 1, &e.desc, &take), WIGGLY_ERROR_MEMORY);
+        assert_int_equal(wiggly_take_create_at(memory + 1, size, &e.desc, &take), WIGGLY_ERROR_ARGUMENT);
+        assert_int_equal(wiggly_take_create_at(memory, size, &e.desc, &take), WIGGLY_OK);
+        for (int edits = 0; edits < 40; edits++) edit_knot(take, &e, &seed);
+        compare_with_fresh(take, &e);
+        compare_with_solve(take, &e, &seed);
+        wiggly_take_destroy(take);
+        for (size_t i = size; i < size + 8; i++) assert_int_equal(memory[i], 0xa5);
+        free(memory);
+    }
+    assert_int_equal(wiggly_take_memsize(0, 1), 0);
+    assert_int_equal(wiggly_take_memsize(10, 0), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(takes_agree_with_solve_and_with_fresh_ones),
         cmocka_unit_test(what_is_no_take_is_refused),
+        cmocka_unit_test(a_take_fits_the_callers_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,7 +10,7 @@ if [ "$1" = --done ]; then
 fi
 owner=$(stat -c %u .)
 if [ "$(id -u)" != 0 ] || [ "$owner" = 0 ]; then exit 0; fi
-if [ -x "$1/wiggly" ] && [ -s "$1/libwiggly.a" ] &&
+if [ -x "$1/wiggly" ] && [ -s "$1/libwiggly.a" ] && ls "$1"/libwiggly.so.* >/dev/null 2>&1 &&
     [ -z "$(find Makefile src include shaders assets tools -newer "$1/wiggly" -type f 2>/dev/null | head -n 1)" ]; then
     echo borrowed
 else

@@ -4,7 +4,8 @@
 /// equilibrium y, sampled at N equidistant times; the curve that is keyed and shown is the total y + Re x. Of all curves
 /// through the knots it is the one that needs the smallest "jet engine" force beside that of a damped oscillator.
 ///
-/// Memory: one wiggly_create() for a solver, caller's arrays for the curve; nothing is allocated after that.
+/// Memory: one block for each solver, batch or take, from malloc() or the caller, and the caller's arrays for curves; nothing is
+/// allocated after that.
 /// Threads: no globals. One solver must not be used by two threads at once; a finished curve may be read by any number.
 /// Units: time in seconds, frequency in Hz, angles in radians, values in whatever the animator keys.
 #ifndef WIGGLY_H
@@ -17,7 +18,11 @@
 extern "C" {
 #endif
 
+/// Of this header.
 #define WIGGLY_VERSION "0.1.0"
+
+/// Of the library that is linked, "major.minor.patch": a shared one may be newer than the header.
+const char *wiggly_version(void);
 
 /// What a call returns. From WIGGLY_ERROR_ARGUMENT on nothing was solved and the curve was not touched.
 typedef enum wiggly_status {
@@ -104,9 +109,11 @@ typedef struct wiggly_curve {
     double *re;    ///< Re x
     double *im;    ///< Im x; 0 outside complex mode
     double *omega; ///< band centre, rad/s, for values between samples
-    int samples;   ///< N of the last solve
-    double step;   ///< h, seconds
-    int first;     ///< before this sample no knot moves x: it is constant but for what the equilibrium's motion adds
+    float *floats; ///< the total once more, for graphics: `stride` floats apart (0: 1); beyond 3.4e38 infinite
+    size_t stride;
+    int samples; ///< N of the last solve
+    double step; ///< h, seconds
+    int first;   ///< before this sample no knot moves x: it is constant but for what the equilibrium's motion adds
     double before[2]; ///< that constant, re and im
     wiggly_mode mode;
     wiggly_start start;
@@ -139,6 +146,14 @@ typedef struct wiggly_batch wiggly_batch;
 /// WIGGLY_ERROR_ARGUMENT, WIGGLY_ERROR_MEMORY.
 wiggly_status wiggly_batch_create(int samples, int knots, int threads, wiggly_batch **batch);
 
+/// Bytes that wiggly_batch_create_at() needs, or 0 where an argument is out of range or the size does not fit.
+size_t wiggly_batch_memsize(int samples, int knots, int threads);
+
+/// The same in the caller's memory (aligned for double, `size` bytes), which wiggly_batch_destroy() does not free, but ends the
+/// threads in: it must be called first.
+wiggly_status wiggly_batch_create_at(void *memory, size_t size, int samples, int knots, int threads,
+                                     wiggly_batch **batch);
+
 /// Solves desc[i] into curve[i] for i in 0 … count − 1, allocating nothing; status[i] (or NULL) is what wiggly_solve() would have
 /// said, and the curves are the same to the last bit, whatever the number of threads. Returns the largest status.
 wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, wiggly_curve *curve,
@@ -155,6 +170,12 @@ typedef struct wiggly_take wiggly_take;
 /// kind (tracks, a loop, so slow a complex spline that Im x is not held by its oscillation, fewer than two knots), else what
 /// wiggly_solve() says of a wrong description.
 wiggly_status wiggly_take_create(const wiggly_desc *desc, wiggly_take **take);
+
+/// Bytes that wiggly_take_create_at() needs, or 0 where samples < 1 or knots < 1 or the size does not fit.
+size_t wiggly_take_memsize(int samples, int knots);
+
+/// The same in the caller's memory (aligned for double, `size` bytes); never destroyed, only forgotten.
+wiggly_status wiggly_take_create_at(void *memory, size_t size, const wiggly_desc *desc, wiggly_take **take);
 
 /// Replaces the knot at `index` (in order of samples), which must stay between its neighbours: WIGGLY_ERROR_KNOT. The take is the
 /// same to the last bit as one created with that knot. Allocates nothing.

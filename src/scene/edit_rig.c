@@ -83,7 +83,7 @@ static bool is_tail(const struct document *document, int rig)
     return rig >= 0 && rig < document->rig_count && document->rigs[rig].kind == RIG_TAIL;
 }
 
-/// Makes a copy of `edit->rig` beside it, or a plain tail if that is no tail. The caller releases it, also on failure.
+/// Makes a copy of `edit->rig` beside it, or a plain tail if that is no tail. On failure the caller must release it.
 static bool fill_new(const struct document *document, const struct edit *edit, struct rig *added)
 {
     *added = plain_tail();

@@ -19,8 +19,7 @@ char *knots_print(const struct knot *knots, int count);
 bool knots_parse(const char *name, const char *text, struct knot_list *list, struct error *error);
 
 /// Reads CSV lines frame,value[,slope[,stiffness]], also with semicolons or tabs, and then with decimal commas. Skips blank lines and
-/// `#` comments. Under a header, slope and stiffness are the columns of that name, and so are frame and value if it names both; if not,
-/// they are the first two.
+/// `#` comments. Under a header, columns go by name; frame and value are the first and second column if it does not name them.
 bool knots_parse_csv(const char *name, const char *text, struct knot_list *list, struct error *error);
 
 void knot_list_free(struct knot_list *list);

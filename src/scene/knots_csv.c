@@ -72,7 +72,7 @@ static bool is_number(const char *field, double *number)
     return end != field && !*end && isfinite(*number);
 }
 
-/// A header: frame and value are the first two columns unless it names both; the others count by name only.
+/// A header: columns go by name; frame and value are the first and second if it does not name them.
 static void read_header(struct csv *csv)
 {
     for (int c = 0; c < COLUMN_COUNT; c++) {

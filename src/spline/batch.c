@@ -2,9 +2,11 @@
 /// solves which spline does not matter to the bits, because neither what a solver keeps nor who is in a group does.
 #include "spline/batch.h"
 #include "spline/group.h"
+#include "spline/thread.h"
 #include <stdatomic.h>
+#include <stdint.h>
 #include <stdlib.h>
-#include <threads.h>
+#include <string.h>
 #include <wiggly/wiggly.h>
 
 enum { MAX_THREADS = 256, AT_A_TIME = GROUP_ROOM };
@@ -20,14 +22,15 @@ typedef struct job {
 typedef struct worker {
     wiggly_batch *batch;
     group *group;
-    thrd_t thread;
+    thread thread;
     wiggly_status worst;
 } worker;
 
 struct wiggly_batch {
+    bool owned;
     int threads;
-    mtx_t lock;
-    cnd_t start, done;
+    thread_lock lock;
+    thread_signal given, done;
     job job;
     atomic_int next; ///< spline to take
     long round;      ///< number of the job; changes wake the workers
@@ -54,50 +57,61 @@ static void work(worker *w)
     }
 }
 
-static int run(void *argument)
+static thread_result THREAD_CALL run(void *argument)
 {
     worker *w = argument;
     wiggly_batch *batch = w->batch;
     long seen = 0;
-    mtx_lock(&batch->lock);
+    thread_acquire(&batch->lock);
     for (;;) {
-        while (batch->round == seen && !batch->stop) cnd_wait(&batch->start, &batch->lock);
+        while (batch->round == seen && !batch->stop) thread_wait(&batch->given, &batch->lock);
         if (batch->stop) break;
         seen = batch->round;
-        mtx_unlock(&batch->lock);
+        thread_release(&batch->lock);
         work(w);
-        mtx_lock(&batch->lock);
-        if (--batch->busy == 0) cnd_signal(&batch->done);
+        thread_acquire(&batch->lock);
+        if (--batch->busy == 0) thread_wake(&batch->done);
     }
-    mtx_unlock(&batch->lock);
+    thread_release(&batch->lock);
     return 0;
 }
 
-static bool add_worker(wiggly_batch *batch, int samples, int knots, int lanes)
+static bool add_worker(wiggly_batch *batch, group *own)
 {
     worker *w = &batch->workers[batch->threads];
     w->batch = batch;
-    w->group = group_create(samples, knots, lanes);
-    if (!w->group) return false;
-    if (batch->threads > 0 && thrd_create(&w->thread, run, w) != thrd_success) {
-        group_destroy(w->group);
-        return false;
-    }
+    w->group = own;
+    if (batch->threads > 0 && !thread_start(&w->thread, run, w)) return false;
     batch->threads++;
     return true;
 }
 
-wiggly_status batch_of_lanes(int samples, int knots, int threads, int lanes, wiggly_batch **out)
+/// Bytes of everything but the groups.
+static size_t head_size(int threads) { return sizeof(wiggly_batch) + sizeof(worker) * (size_t)threads; }
+
+size_t wiggly_batch_memsize(int samples, int knots, int threads)
 {
-    if (!out || threads < 1 || threads > MAX_THREADS || wiggly_memsize(samples, knots) == 0)
-        return WIGGLY_ERROR_ARGUMENT;
-    wiggly_batch *batch = calloc(1, sizeof *batch + sizeof(worker) * (size_t)threads);
-    if (!batch) return WIGGLY_ERROR_MEMORY;
-    mtx_init(&batch->lock, mtx_plain);
-    cnd_init(&batch->start);
-    cnd_init(&batch->done);
+    size_t each = group_memsize(samples, knots), size;
+    if (!each || threads < 1 || threads > MAX_THREADS) return 0;
+    bool fits = !__builtin_mul_overflow(each, (size_t)threads, &size) &&
+                !__builtin_add_overflow(size, head_size(threads), &size);
+    return fits ? size : 0;
+}
+
+/// Lays a batch into zeroes and starts its threads.
+static wiggly_status start(void *memory, int samples, int knots, int threads, int lanes, bool owned,
+                           wiggly_batch **out)
+{
+    wiggly_batch *batch = memory;
+    unsigned char *groups = (unsigned char *)memory + head_size(threads);
+    size_t each = group_memsize(samples, knots);
+    batch->owned = owned;
+    thread_lock_create(&batch->lock);
+    thread_signal_create(&batch->given);
+    thread_signal_create(&batch->done);
     while (batch->threads < threads) {
-        if (!add_worker(batch, samples, knots, lanes)) {
+        void *room = groups + each * (size_t)batch->threads;
+        if (!add_worker(batch, group_lay_out(room, samples, knots, lanes))) {
             wiggly_batch_destroy(batch);
             return WIGGLY_ERROR_MEMORY;
         }
@@ -106,26 +120,44 @@ wiggly_status batch_of_lanes(int samples, int knots, int threads, int lanes, wig
     return WIGGLY_OK;
 }
 
+wiggly_status batch_of_lanes(int samples, int knots, int threads, int lanes, wiggly_batch **out)
+{
+    size_t size = wiggly_batch_memsize(samples, knots, threads);
+    if (!out || !size) return WIGGLY_ERROR_ARGUMENT;
+    void *memory = calloc(1, size);
+    return memory ? start(memory, samples, knots, threads, lanes, true, out) : WIGGLY_ERROR_MEMORY;
+}
+
 wiggly_status wiggly_batch_create(int samples, int knots, int threads, wiggly_batch **out)
 {
     return batch_of_lanes(samples, knots, threads, chain_lanes(), out);
+}
+
+wiggly_status wiggly_batch_create_at(void *memory, size_t size, int samples, int knots, int threads,
+                                     wiggly_batch **out)
+{
+    size_t needed = wiggly_batch_memsize(samples, knots, threads);
+    if (!memory || !out || !needed || (uintptr_t)memory % sizeof(double) != 0) return WIGGLY_ERROR_ARGUMENT;
+    if (size < needed) return WIGGLY_ERROR_MEMORY;
+    memset(memory, 0, needed);
+    return start(memory, samples, knots, threads, chain_lanes(), false, out);
 }
 
 wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, wiggly_curve *curve,
                                  wiggly_status *status, int count)
 {
     if (!batch || count < 0 || (count > 0 && (!desc || !curve))) return WIGGLY_ERROR_ARGUMENT;
-    mtx_lock(&batch->lock);
+    thread_acquire(&batch->lock);
     batch->job = (job){desc, curve, status, count};
     atomic_store(&batch->next, 0);
     batch->busy = batch->threads - 1;
     batch->round++;
-    cnd_broadcast(&batch->start);
-    mtx_unlock(&batch->lock);
+    thread_wake(&batch->given);
+    thread_release(&batch->lock);
     work(&batch->workers[0]);
-    mtx_lock(&batch->lock);
-    while (batch->busy > 0) cnd_wait(&batch->done, &batch->lock);
-    mtx_unlock(&batch->lock);
+    thread_acquire(&batch->lock);
+    while (batch->busy > 0) thread_wait(&batch->done, &batch->lock);
+    thread_release(&batch->lock);
     wiggly_status worst = WIGGLY_OK;
     for (int t = 0; t < batch->threads; t++) {
         if (batch->workers[t].worst > worst) worst = batch->workers[t].worst;
@@ -136,16 +168,13 @@ wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, w
 void wiggly_batch_destroy(wiggly_batch *batch)
 {
     if (!batch) return;
-    mtx_lock(&batch->lock);
+    thread_acquire(&batch->lock);
     batch->stop = true;
-    cnd_broadcast(&batch->start);
-    mtx_unlock(&batch->lock);
-    for (int t = 0; t < batch->threads; t++) {
-        if (t > 0) thrd_join(batch->workers[t].thread, NULL);
-        group_destroy(batch->workers[t].group);
-    }
-    cnd_destroy(&batch->start);
-    cnd_destroy(&batch->done);
-    mtx_destroy(&batch->lock);
-    free(batch);
+    thread_wake(&batch->given);
+    thread_release(&batch->lock);
+    for (int t = 1; t < batch->threads; t++) thread_join(batch->workers[t].thread);
+    thread_signal_destroy(&batch->given);
+    thread_signal_destroy(&batch->done);
+    thread_lock_destroy(&batch->lock);
+    if (batch->owned) free(batch);
 }

@@ -1,7 +1,8 @@
 /// The nodes' systems of LANES chains, each in a lane: assembled, factored and swept forward in one pass over the rows, then swept
 /// backward. Included once for each width.
+#include <stdint.h>
 typedef double lane __attribute__((vector_size(8 * LANES)));
-typedef long flag __attribute__((vector_size(8 * LANES)));
+typedef int64_t flag __attribute__((vector_size(8 * LANES)));
 #include "spline/chain_kernel.h"
 #include "spline/chain_lanes.h"
 

@@ -86,6 +86,12 @@ static void add_equilibrium(const problem *p, wiggly_curve *curve)
     for (int i = 0; p->swing.im && i < n; i++) curve->im[i] += p->swing.im[i];
 }
 
+static void add_floats(const wiggly_curve *curve, int count)
+{
+    size_t stride = curve->stride ? curve->stride : 1;
+    for (int i = 0; i < count; i++) curve->floats[(size_t)i * stride] = (float)curve->total[i];
+}
+
 static void set_centre(wiggly_solver *solver, const problem *p, double *omega)
 {
     const wiggly_desc *desc = p->desc;
@@ -117,6 +123,7 @@ void problem_complete(wiggly_solver *solver, const problem *p, wiggly_curve *cur
     hold_before_first(p, curve);
     if (p->start == WIGGLY_LOOP) curve->re[n - 1] = curve->re[0], curve->im[n - 1] = curve->im[0];
     add_equilibrium(p, curve);
+    if (curve->floats) add_floats(curve, n);
     if (curve->omega) set_centre(solver, p, curve->omega);
     curve->samples = n;
     curve->step = desc->step;

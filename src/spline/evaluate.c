@@ -1,37 +1,25 @@
 /// Values between samples (docs/mathematics.md, Phase): Catmull-Rom in the frame that turns with the band's centre,
 ///     x(t) = e^{jω_c t} · CatmullRom(e^{−jω_c t_i} x_i),
 /// so that a free oscillation is followed and not cut across; of x itself in cubic and real mode, and of y.
+#include "spline/evaluate.h"
 #include "spline/poles.h"
-#include <assert.h>
-#include <math.h>
-
-/// Index of a neighbour sample: wrapped in a loop; -1 where there is none.
-static int neighbour(const wiggly_curve *curve, int i)
-{
-    if (curve->start == WIGGLY_LOOP) {
-        int period = curve->samples - 1;
-        return (i % period + period) % period;
-    }
-    return i < 0 || i >= curve->samples ? -1 : i;
-}
 
 static double catmull_rom(double before, double from, double to, double after, double u)
 {
-    double c1 = 0.5 * (after - from), c0 = 0.5 * (to - before), step = to - from;
-    return from + u * (c0 + u * ((3 * step - 2 * c0 - c1) + u * (c0 + c1 - 2 * step)));
+    return cubic_at(cubic_through(before, from, to, after), u);
 }
 
 /// The sample after the next; -1 where there is none, or where it is beyond a first knot that the interval is before: there x is
 /// what the equilibrium's motion adds to a constant, behind it is not.
 static int beyond(const wiggly_curve *curve, int i)
 {
-    return i < curve->first && i + 2 > curve->first ? -1 : neighbour(curve, i + 2);
+    return i < curve->first && i + 2 > curve->first ? -1 : evaluate_neighbour(curve, i + 2);
 }
 
 /// Interpolates array[i … i+1] at u with neighbours, extrapolated linearly where missing.
 static double interpolate(const wiggly_curve *curve, const double *array, int i, int a, double u)
 {
-    int b = neighbour(curve, i - 1);
+    int b = evaluate_neighbour(curve, i - 1);
     double from = array[i], to = array[i + 1];
     return catmull_rom(b < 0 ? 2 * from - to : array[b], from, to, a < 0 ? 2 * to - from : array[a], u);
 }
@@ -44,7 +32,7 @@ static cplx turned(const wiggly_curve *curve, int i, cplx base, double angle)
 
 static cplx interpolate_complex(const wiggly_curve *curve, int i, double u)
 {
-    int b = neighbour(curve, i - 1), a = beyond(curve, i);
+    int b = evaluate_neighbour(curve, i - 1), a = beyond(curve, i);
     double turn = 0.5 * (curve->omega[i] + curve->omega[i + 1]) * curve->step;
     cplx base = {0, 0};
     if (i < curve->first) base = (cplx){curve->before[0], curve->before[1]};
@@ -58,29 +46,15 @@ static cplx interpolate_complex(const wiggly_curve *curve, int i, double u)
 
 wiggly_value wiggly_evaluate(const wiggly_curve *curve, double position)
 {
-    assert(curve->samples > 0);
-    double last = curve->samples - 1;
-    if (curve->start == WIGGLY_LOOP) {
-        position -= last * floor(position / last);
-    } else {
-        position = fmin(fmax(position, 0), last);
-    }
-    if (!(position >= 0)) position = 0; // NaN
-    int i = (int)position;
-    double u = position - i;
+    if (curve->samples < 1) return (wiggly_value){0};
+    double u;
+    int i = evaluate_locate(curve, position, &u);
     if (u == 0 || i >= curve->samples - 1) return (wiggly_value){curve->y[i], curve->re[i], curve->im[i]};
-    double y = interpolate(curve, curve->y, i, neighbour(curve, i + 2), u);
-    if (curve->mode != WIGGLY_COMPLEX) return (wiggly_value){y, interpolate(curve, curve->re, i, beyond(curve, i), u), 0};
+    double y = interpolate(curve, curve->y, i, evaluate_neighbour(curve, i + 2), u);
+    if (curve->mode != WIGGLY_COMPLEX)
+        return (wiggly_value){y, interpolate(curve, curve->re, i, beyond(curve, i), u), 0};
     cplx x = interpolate_complex(curve, i, u);
     return (wiggly_value){y, x.re, x.im};
 }
 
 double wiggly_lagged(wiggly_value value, double lag) { return value.y + cos(lag) * value.re + sin(lag) * value.im; }
-
-void wiggly_evaluate_float(const wiggly_curve *curve, double from, double by, int count, float *out, size_t stride)
-{
-    for (int i = 0; i < count; i++) {
-        wiggly_value value = wiggly_evaluate(curve, from + by * i);
-        out[(size_t)i * stride] = (float)(value.y + value.re);
-    }
-}

@@ -2,7 +2,6 @@
 #include "spline/group.h"
 #include "spline/problem.h"
 #include <stdint.h>
-#include <stdlib.h>
 
 /// Columns of forced responses are kept for so many times the samples of a spline: for all lengths of stretches up to eight times
 /// that number's root.
@@ -28,7 +27,7 @@ struct group {
 };
 
 typedef struct layout {
-    size_t rows, nodes, stretches, forced, size; ///< bytes
+    size_t rows, nodes, stretches, forced, solver, size; ///< bytes
     int columns, lengths;
 } layout;
 
@@ -37,18 +36,20 @@ static bool plan(layout *l, int samples, int knots)
     size_t k = (size_t)knots + 1, n = (size_t)samples;
     l->columns = samples > INT32_MAX / TABLES ? INT32_MAX : TABLES * samples;
     l->lengths = samples;
-    return !__builtin_mul_overflow(k, DOUBLES_PER_LANE_ROW * sizeof(double), &l->rows) &&
+    l->solver = wiggly_memsize(samples, knots);
+    return l->solver && !__builtin_mul_overflow(k, DOUBLES_PER_LANE_ROW * sizeof(double), &l->rows) &&
            !__builtin_mul_overflow(k, MOST_LANES * sizeof(chain_node), &l->nodes) &&
            !__builtin_mul_overflow(n, sizeof(chain_stretch), &l->stretches) &&
            !__builtin_mul_overflow((size_t)l->columns, 4 * sizeof(double), &l->forced) &&
            !__builtin_add_overflow(l->rows, l->nodes, &l->size) &&
            !__builtin_add_overflow(l->size, l->stretches, &l->size) &&
            !__builtin_add_overflow(l->size, l->forced, &l->size) &&
-           !__builtin_add_overflow(l->size, sizeof(group) + LANE_ALIGNMENT, &l->size);
+           !__builtin_add_overflow(l->size, l->solver, &l->size) &&
+           !__builtin_add_overflow(l->size, sizeof(group) + 2 * LANE_ALIGNMENT, &l->size);
 }
 
 /// Memory of the lanes, and larger tables than a single spline needs: many splines have many lengths of stretches.
-static void hand_out(group *g, const layout *l, int knots)
+static void hand_out(group *g, const layout *l, int samples, int knots)
 {
     unsigned char *at = (unsigned char *)(g + 1);
     at += (LANE_ALIGNMENT - (uintptr_t)at % LANE_ALIGNMENT) % LANE_ALIGNMENT;
@@ -56,6 +57,7 @@ static void hand_out(group *g, const layout *l, int knots)
     at += l->rows;
     for (int k = 0; k < MOST_LANES; k++) g->chains.nodes[k] = (chain_node *)(void *)at + k * (knots + 1);
     at += l->nodes;
+    g->solver = solver_lay_out(at + l->stretches + l->forced, samples, knots);
     chain *c = &g->solver->chain;
     c->stretches = (chain_stretch *)(void *)at;
     c->stretch_capacity = l->lengths;
@@ -66,26 +68,20 @@ static void hand_out(group *g, const layout *l, int knots)
     g->chains.common = c;
 }
 
-group *group_create(int samples, int knots, int lanes)
+size_t group_memsize(int samples, int knots)
+{
+    layout l;
+    return plan(&l, samples, knots) ? l.size - l.size % sizeof(double) : 0; // less than the slack of the alignment
+}
+
+group *group_lay_out(void *memory, int samples, int knots, int lanes)
 {
     layout l;
     if (!plan(&l, samples, knots)) return NULL;
-    group *g = calloc(1, l.size);
-    if (!g) return NULL;
-    if (wiggly_create(samples, knots, &g->solver) != WIGGLY_OK) {
-        free(g);
-        return NULL;
-    }
+    group *g = memory;
     g->lanes = lanes;
-    hand_out(g, &l, knots);
+    hand_out(g, &l, samples, knots);
     return g;
-}
-
-void group_destroy(group *g)
-{
-    if (!g) return;
-    wiggly_destroy(g->solver);
-    free(g);
 }
 
 static void leave_alone(group *g, int index) { g->alone[g->alone_count++] = index; }

@@ -9,9 +9,11 @@ enum { GROUP_ROOM = 16 }; ///< splines between two calls of group_finish()
 
 typedef struct group group;
 
-/// For splines of up to `samples` samples and `knots` knots, `lanes` (8, 4 or 0: none) side by side; NULL where memory is out.
-group *group_create(int samples, int knots, int lanes);
-void group_destroy(group *group);
+/// Bytes of a group for splines of up to `samples` samples and `knots` knots; 0 where that does not fit.
+size_t group_memsize(int samples, int knots);
+
+/// Lays a group into that many zeroes, aligned for double; `lanes` (8, 4 or 0: none) splines go side by side.
+group *group_lay_out(void *memory, int samples, int knots, int lanes);
 
 /// Takes a spline; it may be solved now or later.
 void group_add(group *group, const wiggly_desc *desc, wiggly_curve *curve);

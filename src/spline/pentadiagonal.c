@@ -42,9 +42,9 @@ static inline block times_symmetric(block x, const double *s)
                    x.c * s[1] + x.d * s[2]};
 }
 
-static pentadiagonal_rank factor_blocks(const pentadiagonal *m, int rows)
+static pentadiagonal_rank factor_blocks(pentadiagonal *m, int rows)
 {
-    pentadiagonal_rank rank = RANK_FULL;
+    double lost = 1;
     const block zero = {0, 0, 0, 0};
     block l1 = zero, u = zero, l2 = zero, f = zero; // of row k−1
     block l2_before = zero, f_before = zero;        // of row k−2
@@ -54,8 +54,10 @@ static pentadiagonal_rank factor_blocks(const pentadiagonal *m, int rows)
         s = minus_product(minus_product(s, l1, u), l2_before, f_before); // S_k
         double det = s.a * s.d - s.b * s.b;
         if (!(s.a > 0 && det > 0 && det < INFINITY)) return RANK_BROKEN;
-        if (s.a < rounding * d[0] || det < rounding * d[2] * s.a) rank = RANK_WEAK;
-        d[0] = s.d / det, d[1] = -s.b / det, d[2] = s.a / det;
+        double inverse = 1 / det, of_first = d[0] / s.a, of_second = d[2] * s.a * inverse;
+        lost = of_first > lost ? of_first : lost;
+        lost = of_second > lost ? of_second : lost;
+        d[0] = s.d * inverse, d[1] = -s.b * inverse, d[2] = s.a * inverse;
         block next_u = minus_product(load(below), l2, u); // U_k
         l2_before = l2, f_before = f;
         u = next_u, f = load(below2);
@@ -63,24 +65,25 @@ static pentadiagonal_rank factor_blocks(const pentadiagonal *m, int rows)
         store(below, l1);
         store(below2, l2);
     }
-    return rank;
+    m->lost = lost;
+    return lost * rounding > 1 ? RANK_WEAK : RANK_FULL;
 }
 
-static pentadiagonal_rank factor_scalars(const pentadiagonal *m, int rows)
+static pentadiagonal_rank factor_scalars(pentadiagonal *m, int rows)
 {
-    pentadiagonal_rank rank = RANK_FULL;
-    double l1 = 0, u = 0, l2 = 0, f = 0, l2_before = 0, f_before = 0;
+    double lost = 1, l1 = 0, u = 0, l2 = 0, f = 0, l2_before = 0, f_before = 0;
     for (int k = 0; k < rows; k++) {
         double s = m->diagonal[k] - l1 * u - l2_before * f_before;
         if (!(s > 0 && s < INFINITY)) return RANK_BROKEN;
-        if (s < rounding * m->diagonal[k]) rank = RANK_WEAK;
-        double inverse = 1 / s, next_u = m->below[k] - l2 * u;
+        double inverse = 1 / s, next_u = m->below[k] - l2 * u, of_pivot = m->diagonal[k] * inverse;
+        lost = of_pivot > lost ? of_pivot : lost;
         l2_before = l2, f_before = f;
         u = next_u, f = m->below2[k];
         l1 = u * inverse, l2 = f * inverse;
         m->diagonal[k] = inverse, m->below[k] = l1, m->below2[k] = l2;
     }
-    return rank;
+    m->lost = lost;
+    return lost * rounding > 1 ? RANK_WEAK : RANK_FULL;
 }
 
 static void solve_blocks(const pentadiagonal *m, int rows, double *x)
@@ -126,7 +129,7 @@ static void solve_scalars(const pentadiagonal *m, int rows, double *x)
     }
 }
 
-static pentadiagonal_rank factor_rows(const pentadiagonal *m, int rows)
+static pentadiagonal_rank factor_rows(pentadiagonal *m, int rows)
 {
     return m->width == 2 ? factor_blocks(m, rows) : factor_scalars(m, rows);
 }
@@ -202,6 +205,7 @@ static pentadiagonal_rank factor_corner(pentadiagonal *m, const double *entry)
             double sum = m->corner[r][c];
             for (int k = 0; k < c; k++) sum -= m->corner[r][k] * m->corner[c][k];
             if (r == c && !(sum > 0 && sum < INFINITY)) return RANK_BROKEN;
+            if (r == c && entry[c] > m->lost * sum) m->lost = entry[c] / sum;
             if (r == c && sum < rounding * entry[c]) rank = RANK_WEAK;
             m->corner[r][c] = r == c ? sqrt(sum) : sum / m->corner[c][c];
         }

@@ -2,9 +2,9 @@
 #include "spline/problem.h"
 #include <math.h>
 
-/// Below this many radians of the natural frequency over the domain the imaginary rows hold Im x and may not be left out; above,
-/// what they change is about 1e-14 of x, and below 1e-9 where x hangs on the start alone.
-static const double least_phase = 48;
+/// Below this many radians of the natural frequency over the domain the imaginary rows hold Im x and may not be left out. Above, what
+/// they change is below 1e-9 of x; twice as high up and more it is about 1e-14. Where next to nothing holds the start it takes more.
+static const double least_phase = 12.6, least_phase_of_loose_start = 48;
 
 /// The jet at a sample and what is behind it are far apart where a row's b all but vanishes: speeds seen from there are not for the chain.
 static const double least_b = 1e-3;
@@ -57,7 +57,8 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p)
     if (p->level_slope || !poles_are_constant(desc)) return false;
     if (p->about && !problem_oscillates(p)) return false; // the paper's filter is driven by a moving equilibrium
     double t = (p->start == WIGGLY_LOOP ? p->count : p->count - 1) * desc->step;
-    if (desc->mode == WIGGLY_COMPLEX && problem_filter(solver, p)->at.natural * t < least_phase) return false;
+    double least = p->calm < LOOSE_CALM ? least_phase_of_loose_start : least_phase;
+    if (desc->mode == WIGGLY_COMPLEX && problem_filter(solver, p)->at.natural * t < least) return false;
     int begin = first_of_chain(solver, p);
     return begin >= 0 && slopes_fit(solver, p, begin);
 }

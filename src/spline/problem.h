@@ -11,6 +11,9 @@
 /// A slope row heavier than this is met to the last digit anyway, and could overflow.
 #define STIFFEST 1e20
 
+/// Below this calm next to nothing may hold the start, or brake a loop.
+#define LOOSE_CALM 0.05
+
 /// What a singular document is solved with in place of calm 0.
 #define FALLBACK_CALM 0.05
 

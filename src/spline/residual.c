@@ -25,18 +25,18 @@ static inline ddc ddc_add(ddc a, ddc b) { return (ddc){dd_add(a.re, b.re), dd_ad
 static inline ddc ddc_subtract(ddc a, ddc b) { return (ddc){dd_subtract(a.re, b.re), dd_subtract(a.im, b.im)}; }
 
 /// A sample of x; before the first there is 0, behind the last the tail.
-static inline cplx complex_sample(const system_rows *rows, int k)
+static inline cplx sample_of(const system_rows *rows, int k)
 {
     int last = rows->count - 1;
     if (rows->loop) k = k < 0 ? last : k > last ? 0 : k;
     if (k < 0) return (cplx){0, 0};
-    const double *x = rows->x + 2 * (k > last ? last : k);
-    return (cplx){x[0], x[1]};
+    if (k > last) k = last;
+    return rows->is_complex ? (cplx){rows->x[2 * k], rows->x[2 * k + 1]} : (cplx){rows->x[k], 0};
 }
 
 static inline ddc complex_jet(const system_rows *rows, int i)
 {
-    cplx before = complex_sample(rows, i - 1), here = complex_sample(rows, i), after = complex_sample(rows, i + 1);
+    cplx before = sample_of(rows, i - 1), here = sample_of(rows, i), after = sample_of(rows, i + 1);
     ddc step = {dd_difference(here.re, before.re), dd_difference(here.im, before.im)};
     ddc next = {dd_difference(after.re, here.re), dd_difference(after.im, here.im)};
     if (!rows->loop && i == rows->count - 1) next = ddc_scale(rows->tail, (ddc){dd_from(here.re), dd_from(here.im)});
@@ -188,6 +188,61 @@ static void add_other_rows(const system_rows *rows)
         rows->gradient[2 * k + 1] -= rows->im_weight[k] * rows->x[2 * k + 1];
 }
 
+/// Fixed unknowns take no correction.
+static void hold_fixed(const system_rows *rows)
+{
+    for (int k = 0; k < rows->count; k++) {
+        if (!rows->fixed[k]) continue;
+        if (!rows->is_complex) {
+            rows->gradient[k] = 0;
+            continue;
+        }
+        if (rows->fixed[k] & FIXED_RE) rows->gradient[2 * k] = 0;
+        if (rows->fixed[k] & FIXED_IM) rows->gradient[2 * k + 1] = 0;
+    }
+}
+
+/// The jets at x in plain double, weighted, into the scratch: 2M or M numbers.
+static void plain_jets(const system_rows *rows)
+{
+    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
+        const coefficients *at = &rows->at[i];
+        cplx before = sample_of(rows, i - 1), here = sample_of(rows, i), after = sample_of(rows, i + 1);
+        cplx step = cplx_sub(here, before), next = cplx_sub(after, here);
+        if (!rows->loop && i == rows->count - 1) next = cplx_mul(rows->tail, here);
+        cplx r = cplx_add(cplx_add(cplx_sub(next, step), rows->drive[i]),
+                          cplx_sub(cplx_mul(at->p, before), cplx_mul(at->m, step)));
+        ((cplx *)(void *)rows->jet)[i] = cplx_scale(rows->jet_weight[i], r);
+    }
+}
+
+static void plain_adjoint(const system_rows *rows)
+{
+    const cplx *jet = (const cplx *)(const void *)rows->jet;
+    for (int k = 0; k < rows->count; k++) {
+        int b = jet_beside(rows, k - 1), a = jet_beside(rows, k + 1), h = jet_beside(rows, k);
+        cplx none = {0, 0}, before = b >= 0 ? jet[b] : none, after = a >= 0 ? jet[a] : none, here = h >= 0 ? jet[h] : none;
+        cplx second = cplx_sub(cplx_sub(before, here), cplx_sub(here, after));
+        cplx g = cplx_sub(cplx_mul(cplx_conj(rows->at[k].m), here), second);
+        if (a >= 0) g = cplx_sub(g, cplx_mul(cplx_conj(cplx_add(rows->at[a].m, rows->at[a].p)), after));
+        if (!rows->loop && k == rows->count - 1)
+            g = cplx_sub(g, cplx_add(here, cplx_mul(cplx_conj(rows->tail), here)));
+        if (rows->is_complex) {
+            rows->gradient[2 * k] = g.re, rows->gradient[2 * k + 1] = g.im;
+        } else {
+            rows->gradient[k] = g.re;
+        }
+    }
+}
+
+void system_right_side(const system_rows *rows)
+{
+    plain_jets(rows);
+    plain_adjoint(rows);
+    add_other_rows(rows);
+    hold_fixed(rows);
+}
+
 void system_gradient(const system_rows *rows)
 {
     if (rows->is_complex) {
@@ -198,12 +253,5 @@ void system_gradient(const system_rows *rows)
         real_adjoint(rows);
     }
     add_other_rows(rows);
-    for (int k = 0; k < rows->count; k++) {
-        if (rows->is_complex) {
-            if (rows->fixed[k] & FIXED_RE) rows->gradient[2 * k] = 0;
-            if (rows->fixed[k] & FIXED_IM) rows->gradient[2 * k + 1] = 0;
-        } else if (rows->fixed[k] & FIXED_RE) {
-            rows->gradient[k] = 0;
-        }
-    }
+    hold_fixed(rows);
 }

@@ -82,6 +82,15 @@ static slope_row filter_slope(const problem *p, int k, double slope, double stif
                        .target = h * slope - (to - from)};
 }
 
+/// What a cubic's one-sided speed of the total is more than that of x and the equilibrium's from both sides.
+static double bend_beside(const problem *p, int k)
+{
+    int j = p->first + k;
+    if (!p->y || p->about || j == 0 || j + 1 == p->desc->samples) return 0;
+    double bend = 0.5 * ((p->y[j + 1] - p->y[j]) - (p->y[j] - p->y[j - 1]));
+    return k == 0 ? bend : -bend;
+}
+
 /// The oscillator's: the speed that the poles see from both sides, or the one there is; on the tail that of the tail.
 static slope_row oscillator_slope(const problem *p, int k, double slope, double stiffness)
 {
@@ -103,6 +112,7 @@ static slope_row oscillator_slope(const problem *p, int k, double slope, double 
             row.behind = cplx_scale(1.0 / sides, backward.on_e);
         }
         row.weight /= 1 + row.weight / (2 * sides);
+        if (sides == 1) row.target += bend_beside(p, k);
     }
     poles first = poles_at(desc, p->first, problem_least_damping(p));
     row.weight = fmin(row.weight, STIFFEST) * exp(-poles_weight_exponent(&first, h));
@@ -185,6 +195,7 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     rows->jet_from = rows->loop ? 0 : 1;
     rows->jet_to = rows->loop ? rows->count - 1 : rows->count - 2;
     rows->start = p->cost;
+    rows->is_held = p->start == WIGGLY_REST || p->calm >= LOOSE_CALM;
     set_filter(solver, p);
     set_tail(rows, p);
     set_constraints(solver, p);

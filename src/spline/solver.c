@@ -1,5 +1,6 @@
 /// A solver's memory: one block, carved once, largest alignment first so that nothing needs padding.
 #include "spline/solver.h"
+#include <limits.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -14,9 +15,6 @@ enum {
     BYTES_PER_KNOT =
         (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) + 9 * sizeof(double) + sizeof(int)),
 };
-
-/// Samples; beyond, a domain without knots would cost the squared matrix half its digits (N⁴ ε).
-enum { LONGEST_SQUARED = 1000 };
 
 _Static_assert((int)CHAIN_DOUBLES <= (int)MATRIX_DOUBLES, "the chain's tables lie over the matrix");
 
@@ -81,13 +79,12 @@ static void carve(wiggly_solver *solver)
     for (int i = 0; i < CHAIN_DOUBLES; i++) *columns[i] = take(&tables, n * sizeof(double));
 }
 
-/// Lays a solver into zeroed memory.
-static wiggly_solver *lay_out(void *memory, int samples, int knots)
+wiggly_solver *solver_lay_out(void *memory, int samples, int knots)
 {
     wiggly_solver *solver = memory;
     solver->samples = samples;
     solver->knots = knots;
-    solver->longest_squared = LONGEST_SQUARED;
+    solver->longest_squared = INT_MAX;
     solver->chain.forced_capacity = samples;
     solver->chain.stretch_capacity = knots + 1;
     carve(solver);
@@ -100,7 +97,7 @@ wiggly_status wiggly_create_at(void *memory, size_t size, int samples, int knots
     if (!memory || !solver || !needed || (uintptr_t)memory % sizeof(double) != 0) return WIGGLY_ERROR_ARGUMENT;
     if (size < needed) return WIGGLY_ERROR_MEMORY;
     memset(memory, 0, needed);
-    *solver = lay_out(memory, samples, knots);
+    *solver = solver_lay_out(memory, samples, knots);
     return WIGGLY_OK;
 }
 
@@ -110,7 +107,7 @@ wiggly_status wiggly_create(int samples, int knots, wiggly_solver **solver)
     if (!solver || !size) return WIGGLY_ERROR_ARGUMENT;
     void *memory = calloc(1, size); // pages that a way of solving does not use are never touched
     if (!memory) return WIGGLY_ERROR_MEMORY;
-    *solver = lay_out(memory, samples, knots);
+    *solver = solver_lay_out(memory, samples, knots);
     (*solver)->owned = true;
     return WIGGLY_OK;
 }

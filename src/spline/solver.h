@@ -28,7 +28,7 @@ struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
     solver_stop *stop;   ///< or NULL
-    int longest_squared; ///< longer domains are factored without squaring; tests set it
+    int longest_squared; ///< longer domains are factored without squaring: none, but tests set it
     system_rows rows;
     pentadiagonal matrix;
     constant_filter filter;
@@ -48,6 +48,9 @@ typedef struct minimum {
     double error;   ///< estimated error of x, absolute
     int sweeps;
 } minimum;
+
+/// Lays a solver into wiggly_memsize() bytes of zeroes, aligned for double. Their owner frees them.
+wiggly_solver *solver_lay_out(void *memory, int samples, int knots);
 
 /// Minimises the rows' energy over the unknowns that are not fixed; rows->x holds the fixed ones and 0 elsewhere.
 minimum solver_minimise(wiggly_solver *solver);

@@ -83,7 +83,8 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
     return WIGGLY_SINGULAR;
 }
 
-/// Domains too short for a jet row (M < 3) or without anything that moves: each w is its knot's, else the earliest knot's, else 0.
+/// Domains too short for a jet row (M < 3) or without anything that moves: each w is its knot's, else the earliest knot's, else 0; of a
+/// cubic that is solved for its total, what is 0 is x.
 static void solve_short(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     const wiggly_desc *desc = p->desc;
@@ -91,6 +92,9 @@ static void solve_short(wiggly_solver *solver, const problem *p, wiggly_curve *c
     if (p->earliest >= 0 && p->start != WIGGLY_REST)
         other = desc->knots[solver->order[0]].value - problem_about(p, p->earliest);
     for (int i = p->first; i < p->first + p->count; i++) re[i] = other, im[i] = 0;
+    if (p->y && !p->about && p->earliest < 0 && p->start != WIGGLY_REST) {
+        for (int i = 0; i < desc->samples; i++) re[i] = p->y[i] - p->level;
+    }
     for (int n = 0; n < desc->knot_count; n++) {
         int sample = desc->knots[n].sample;
         re[sample] = desc->knots[n].value - problem_about(p, sample);
@@ -115,14 +119,28 @@ static bool is_still(const problem *p)
 
 static double tolerance(wiggly_mode mode) { return mode == WIGGLY_CUBIC ? 1e-9 : 1e-8; }
 
+/// Largest magnitude, and largest less smallest.
+static void measure(const double *values, int count, double *magnitude, double *range)
+{
+    double low = values[0], high = low;
+    for (int i = 1; i < count; i++) low = fmin(low, values[i]), high = fmax(high, values[i]);
+    *magnitude = fmax(fabs(low), fabs(high));
+    *range = high - low;
+}
+
+/// Where a total is next to nothing beside its x, its error is no worse than one of so small a part of x.
+static const double negligible = 1e-6;
+
 /// Error relative to the larger of the total's range and its largest magnitude.
 static wiggly_status judge(wiggly_curve *curve, const minimum *result, wiggly_status status)
 {
     curve->error = 0;
     if (result->error > 0) {
-        double low = curve->total[0], high = low;
-        for (int i = 1; i < curve->samples; i++) low = fmin(low, curve->total[i]), high = fmax(high, curve->total[i]);
-        curve->error = result->error / fmax(high - low, fmax(fabs(low), fabs(high)));
+        double magnitude, range, of_x, ignored;
+        measure(curve->total, curve->samples, &magnitude, &range);
+        measure(curve->re, curve->samples, &of_x, &ignored);
+        double size = fmax(fmax(range, magnitude), negligible * of_x);
+        curve->error = size > 0 ? result->error / size : 0;
     }
     curve->refinements = result->sweeps > 1 ? result->sweeps - 1 : 0;
     return status == WIGGLY_OK && !(curve->error <= tolerance(curve->mode)) ? WIGGLY_INEXACT : status;

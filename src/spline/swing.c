@@ -43,7 +43,7 @@ static step_matrix step_over(oscillator o, double h)
     return (step_matrix){c + o.d * s, s, -o.k * s, c - o.d * s};
 }
 
-/// y at a sample, and beyond the ends: y₀ before, straight on behind; a loop wraps.
+/// y at a sample, and beyond the ends: y₀ before, as the start is at rest, straight on behind; a loop wraps.
 static double y_beyond(const wiggly_desc *desc, const double *y, int i)
 {
     int n = desc->samples;
@@ -78,7 +78,8 @@ static path begin(const wiggly_desc *desc, double floor)
 static step_matrix next_step(path *p, int i)
 {
     if (p->constant) return p->step;
-    oscillator next = oscillator_at(p->desc, i + 1, p->floor);
+    bool closes = p->desc->start == WIGGLY_LOOP && i + 2 == p->desc->samples;
+    oscillator next = oscillator_at(p->desc, closes ? 0 : i + 1, p->floor);
     oscillator mean = {0.5 * (p->here.d + next.d), 0.5 * (p->here.k + next.k)};
     p->here = next;
     return step_over(mean, p->desc->step);
@@ -226,6 +227,10 @@ wiggly_status swing_answer(const wiggly_desc *desc, const double *y, double calm
         for (int i = 0; i < desc->samples; i++) u->im[i] = 0;
     }
     for (int i = 0; i < desc->samples; i++) u->total[i] += y[i];
+    if (desc->start == WIGGLY_LOOP) { // not even the rounding of a turn apart
+        u->total[desc->samples - 1] = u->total[0];
+        u->im[desc->samples - 1] = u->im[0];
+    }
     return status;
 }
 
@@ -233,6 +238,5 @@ double swing_speed(const wiggly_desc *desc, const double *y, const swing *u, int
 {
     int n = desc->samples;
     if (n < 2) return 0;
-    double before = sample > 0 || desc->start == WIGGLY_LOOP ? y_beyond(desc, y, sample - 1) : 2 * y[0] - y[1];
-    return u->speed[sample] + (y_beyond(desc, y, sample + 1) - before) / (2 * desc->step);
+    return u->speed[sample] + (y_beyond(desc, y, sample + 1) - y_beyond(desc, y, sample - 1)) / (2 * desc->step);
 }

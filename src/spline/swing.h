@@ -15,7 +15,7 @@ typedef struct swing {
 /// the loop's damping floor. WIGGLY_CALMED where a loop of calm 0 has no answer, or one 10⁴ times y's range: that of calm 0.05 then.
 wiggly_status swing_answer(const wiggly_desc *desc, const double *y, double calm, const swing *u);
 
-/// The speed of y + Re u at a sample, 1/s: y's differences on both sides, at the ends going on straight.
+/// The speed of y + Re u at a sample, 1/s: y's differences on both sides, from rest before the first, straight on behind the last.
 double swing_speed(const wiggly_desc *desc, const double *y, const swing *u, int sample);
 
 #endif

@@ -24,6 +24,7 @@ typedef struct slope_row {
 typedef struct system_rows {
     int count; ///< M
     bool loop, is_complex;
+    bool is_held;         ///< the start costs enough, or there is none, that no more than its knot-free stretches cost it digits
     int jet_from, jet_to; ///< a loop has a jet at every sample
     coefficients *at;     ///< of row i; g is folded into `drive` and not kept
     cplx *drive;          ///< f_i
@@ -51,6 +52,9 @@ stencil system_slope_stencil(const system_rows *rows, const slope_row *slope);
 /// gradient = −½ ∇(E·h³) at x, 0 at fixed unknowns; jets in double-double through the un-squared rows, so that it is right to
 /// the last digits of x even where the squared matrix has lost them.
 void system_gradient(const system_rows *rows);
+
+/// The same where x holds nothing but what is known: all of it is small sums, and plain double will do.
+void system_right_side(const system_rows *rows);
 
 /// The squared matrix Rᵀ W R with fixed unknowns as rows of the identity, ready to be factored.
 void system_matrix(const system_rows *rows, pentadiagonal *matrix);

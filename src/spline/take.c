@@ -5,13 +5,16 @@
 #include "spline/take.h"
 #include "spline/problem.h"
 #include "spline/tree.h"
+#include <limits.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { AROUND = 2 }; ///< nodes on each side that a changed node's neighbours' rows are made of
 
 struct wiggly_take {
+    bool owned;
     wiggly_solver *solver; ///< whose chain this is
     tree tree;
     wiggly_desc desc;
@@ -45,68 +48,119 @@ static wiggly_status build(wiggly_take *take)
     return tree_update(&take->tree, 0, c->node_count - 1) ? WIGGLY_OK : WIGGLY_SINGULAR;
 }
 
-/// Memory of the tree for at most `rows` rows.
-static bool allocate_tree(tree *t, int rows)
+/// Where in a take's memory its parts are, in bytes.
+typedef struct layout {
+    size_t knots, y, x, solver, elements[TREE_MAX_LEVELS], rows[TREE_MAX_LEVELS], node_of, size;
+    int levels;
+} layout;
+
+/// Adds `count` things of `size` bytes to the memory; false where that does not fit.
+static bool reserve(layout *l, size_t *at, size_t count, size_t size)
 {
-    int count[TREE_MAX_LEVELS], run_rows[TREE_MAX_LEVELS], levels = tree_shape(rows, count, run_rows);
-    for (int level = 0; level < levels; level++) {
-        t->elements[level] = calloc((size_t)count[level], sizeof *t->elements[level]);
-        t->rows[level] = calloc((size_t)run_rows[level], sizeof *t->rows[level]);
-        if (!t->elements[level] || !t->rows[level]) return false;
-    }
-    return true;
+    size_t bytes;
+    *at = l->size;
+    return !__builtin_mul_overflow(count, size, &bytes) &&
+           !__builtin_add_overflow(bytes, -bytes % sizeof(double), &bytes) &&
+           !__builtin_add_overflow(l->size, bytes, &l->size);
 }
 
-static bool allocate(wiggly_take *take, int samples, int knots)
+static bool plan(layout *l, int samples, int knots)
 {
-    size_t n = (size_t)samples, k = (size_t)knots + 1;
-    take->knots = malloc(k * sizeof *take->knots);
-    take->node_of = malloc(k * sizeof *take->node_of);
-    take->y = malloc(n * sizeof *take->y);
-    take->re = malloc(2 * n * sizeof *take->re);
-    if (!take->knots || !take->node_of || !take->y || !take->re) return false;
-    take->im = take->re + n;
-    if (wiggly_create(samples, knots, &take->solver) != WIGGLY_OK) return false;
+    int count[TREE_MAX_LEVELS], run_rows[TREE_MAX_LEVELS];
+    size_t n = (size_t)samples, k = (size_t)knots + 1, solver = wiggly_memsize(samples, knots);
+    *l = (layout){.size = sizeof(wiggly_take)};
+    bool fits = solver > 0 && reserve(l, &l->knots, k, sizeof(wiggly_knot)) && reserve(l, &l->y, n, sizeof(double)) &&
+                reserve(l, &l->x, 2 * n, sizeof(double)) && reserve(l, &l->solver, 1, solver) &&
+                reserve(l, &l->node_of, k, sizeof(int));
+    if (fits) l->levels = tree_shape(knots + 1, count, run_rows);
+    for (int level = 0; level < l->levels && fits; level++) {
+        fits = reserve(l, &l->elements[level], (size_t)count[level], sizeof(tree_element)) &&
+               reserve(l, &l->rows[level], (size_t)run_rows[level], sizeof(tree_row));
+    }
+    return fits;
+}
+
+size_t wiggly_take_memsize(int samples, int knots)
+{
+    layout l;
+    return samples >= 1 && knots >= 1 && knots < INT_MAX && plan(&l, samples, knots) ? l.size : 0;
+}
+
+/// Lays a take into zeroes.
+static wiggly_take *lay_out(void *memory, int samples, int knots)
+{
+    layout l;
+    if (!plan(&l, samples, knots)) return NULL;
+    wiggly_take *take = memory;
+    unsigned char *at = memory;
+    take->knots = (wiggly_knot *)(void *)(at + l.knots);
+    take->node_of = (int *)(void *)(at + l.node_of);
+    take->y = (double *)(void *)(at + l.y);
+    take->re = (double *)(void *)(at + l.x);
+    take->im = take->re + samples;
+    take->solver = solver_lay_out(at + l.solver, samples, knots);
     take->tree.chain = &take->solver->chain;
-    return allocate_tree(&take->tree, knots + 1);
+    for (int level = 0; level < l.levels; level++) {
+        take->tree.elements[level] = (tree_element *)(void *)(at + l.elements[level]);
+        take->tree.rows[level] = (tree_row *)(void *)(at + l.rows[level]);
+    }
+    return take;
+}
+
+/// Whether the description is one at all, as far as the memory depends on it.
+static wiggly_status check_desc(const wiggly_desc *desc)
+{
+    if (!desc || desc->samples < 1 || desc->knot_count < 1 || !desc->knots) return WIGGLY_ERROR_ARGUMENT;
+    for (int k = 1; k < desc->knot_count; k++) {
+        if (desc->knots[k].sample <= desc->knots[k - 1].sample) return WIGGLY_ERROR_KNOT;
+    }
+    return WIGGLY_OK;
+}
+
+static wiggly_status condense(wiggly_take *take, const wiggly_desc *desc)
+{
+    memcpy(take->knots, desc->knots, sizeof *take->knots * (size_t)desc->knot_count);
+    take->desc = *desc;
+    take->desc.knots = take->knots;
+    return build(take);
 }
 
 wiggly_status wiggly_take_create(const wiggly_desc *desc, wiggly_take **out)
 {
-    if (!desc || !out || desc->samples < 1 || desc->knot_count < 1 || !desc->knots) return WIGGLY_ERROR_ARGUMENT;
-    for (int k = 1; k < desc->knot_count; k++) {
-        if (desc->knots[k].sample <= desc->knots[k - 1].sample) return WIGGLY_ERROR_KNOT;
+    wiggly_status status = check_desc(desc);
+    if (!out) return WIGGLY_ERROR_ARGUMENT;
+    if (status != WIGGLY_OK) return status;
+    size_t size = wiggly_take_memsize(desc->samples, desc->knot_count);
+    void *memory = size ? calloc(1, size) : NULL;
+    if (!memory) return WIGGLY_ERROR_MEMORY;
+    wiggly_take *take = lay_out(memory, desc->samples, desc->knot_count);
+    status = condense(take, desc);
+    if (status == WIGGLY_OK) {
+        take->owned = true;
+        *out = take;
+    } else {
+        free(memory);
     }
-    wiggly_take *take = calloc(1, sizeof *take);
-    if (!take || !allocate(take, desc->samples, desc->knot_count)) {
-        wiggly_take_destroy(take);
-        return WIGGLY_ERROR_MEMORY;
-    }
-    memcpy(take->knots, desc->knots, sizeof *take->knots * (size_t)desc->knot_count);
-    take->desc = *desc;
-    take->desc.knots = take->knots;
-    wiggly_status status = build(take);
-    if (status != WIGGLY_OK) {
-        wiggly_take_destroy(take);
-        return status;
-    }
-    *out = take;
-    return WIGGLY_OK;
+    return status;
+}
+
+wiggly_status wiggly_take_create_at(void *memory, size_t size, const wiggly_desc *desc, wiggly_take **out)
+{
+    wiggly_status status = check_desc(desc);
+    if (!memory || !out || (uintptr_t)memory % sizeof(double) != 0) return WIGGLY_ERROR_ARGUMENT;
+    if (status != WIGGLY_OK) return status;
+    size_t needed = wiggly_take_memsize(desc->samples, desc->knot_count);
+    if (!needed || size < needed) return WIGGLY_ERROR_MEMORY;
+    memset(memory, 0, needed);
+    wiggly_take *take = lay_out(memory, desc->samples, desc->knot_count);
+    status = condense(take, desc);
+    if (status == WIGGLY_OK) *out = take;
+    return status;
 }
 
 void wiggly_take_destroy(wiggly_take *take)
 {
-    if (!take) return;
-    for (int level = 0; level < TREE_MAX_LEVELS; level++) {
-        free(take->tree.elements[level]);
-        free(take->tree.rows[level]);
-    }
-    wiggly_destroy(take->solver);
-    free(take->knots);
-    free(take->node_of);
-    free(take->y);
-    free(take->re);
-    free(take);
+    if (take && take->owned) free(take);
 }
 
 /// Whether a knot has another beside it: then nodes are shared, and which ones may change down the line.

@@ -4,7 +4,9 @@
 #ifndef SPLINE_WIDE_H
 #define SPLINE_WIDE_H
 
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
+// The choice is made before a sanitizer is ready.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) &&                               \
+    !defined(__SANITIZE_THREAD__) && !defined(__clang__)
 #define WIDEST __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define WIDEST

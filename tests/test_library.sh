@@ -1,0 +1,71 @@
+# The library from outside: the names that leave it, what the shared one calls itself, and how it is built by other compilers, for
+# other machines and under the thread sanitizer.
+. tests/check.sh
+B=${B:-build}
+CC=${CC:-gcc}
+version=$(sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h)
+shared=$B/libwiggly.so.$version
+
+# --- names
+
+sed -nE 's/^[a-z].*[ *](wiggly_[a-z_]+)\(.*/\1/p' include/wiggly/wiggly.h | sort >"$scratch/promised"
+names() { # <nm's arguments>...: what is defined there and seen from outside
+    nm --defined-only "$@" | awk 'NF == 3 { print $3 }' | sort
+}
+names -g "$B/libwiggly.a" >"$scratch/static"
+names -D "$shared" | grep -v '^__\|^_init$\|^_fini$' >"$scratch/shared" # a sanitizer's own
+[ -s "$scratch/promised" ]
+ok "the header promises functions" $?
+for kind in static shared; do
+    diff "$scratch/promised" "$scratch/$kind"
+    ok "the names that leave the $kind library are those of the header" $?
+done
+says "the shared library's soname has the major version" "[libwiggly.so.${version%%.*}]" "$(readelf -d "$shared" | grep SONAME)"
+
+# --- other compilers and machines. The library is built as SANITIZE=1 asks already: then this would be the same once more.
+
+if [ -n "${SANITIZE:-}" ]; then exit $((cases_failed > 0)); fi
+unset MAKEFLAGS
+there() { # <what for> <command>...
+    local what=$1 command
+    shift
+    for command in "$@"; do
+        command -v "$command" >/dev/null || { echo "skipped: $what, because $command is not installed"; return 1; }
+    done
+}
+build() { # <folder> <compiler> <flags>: builds its libwiggly.a
+    make SETS= WERROR=1 CC="$2" CFLAGS="$3" B="$scratch/$1" "$scratch/$1/libwiggly.a"
+}
+link() { # <folder> <compiler> <example> <flags>...: to the folder's file `program`
+    local folder=$1 compiler=$2 example=$3
+    shift 3
+    "$compiler" -Wall -Wextra -Werror -Iinclude "$example" "$scratch/$folder/libwiggly.a" "$@" -o "$scratch/$folder/program"
+}
+
+for compiler in gcc clang; do
+    there "the thread sanitizer under $compiler" $compiler || continue
+    expect 0 "$compiler builds it for the thread sanitizer" build tsan-$compiler $compiler "-O1 -fsanitize=thread"
+    expect 0 "and the many threads" link tsan-$compiler $compiler examples/threads.c -fsanitize=thread -lm -lpthread
+    expect 0 "which run without a race" "$scratch/tsan-$compiler/program"
+done
+
+arm=aarch64-linux-gnu-gcc
+if there "aarch64" $arm; then
+    expect 0 "it is built for aarch64" build arm $arm -O1
+    for example in examples/*.c; do
+        expect 0 "$example is, too" link arm $arm "$example" -static -lm -lpthread
+        there "running it" qemu-aarch64 || continue
+        expect 0 "and runs" qemu-aarch64 "$scratch/arm/program"
+        [ "$example" != examples/curve.c ] || says "through its knots" "1.500000,1.000000000," "$out"
+    done
+fi
+
+windows=x86_64-w64-mingw32-gcc
+if there "Windows" $windows; then
+    # Its own isfinite() converts.
+    expect 0 "it is built for Windows" build windows $windows "-O1 -Wno-float-conversion"
+    for example in examples/curve.c examples/game_loop.c examples/tail_lag.c; do
+        expect 0 "$example is, too" link windows $windows "$example"
+    done
+fi
+exit $((cases_failed > 0))

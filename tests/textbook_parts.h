@@ -1,0 +1,32 @@
+/// What the textbook's files share.
+#ifndef TESTS_TEXTBOOK_PARTS_H
+#define TESTS_TEXTBOOK_PARTS_H
+
+#include "textbook.h"
+
+/// A parameter at a sample.
+real textbook_param(wiggly_param param, int sample);
+
+/// Poles at a sample, the damping ratio taken as at least `floor`.
+struct textbook_poles textbook_poles_at(const wiggly_desc *desc, int sample, real floor);
+
+/// Poles of all samples; a loop's last is its first.
+void textbook_fill_poles(const wiggly_desc *desc, real floor, bool loop, struct textbook_poles *at);
+
+/// What two poles say of the speed: w′ = P w(0) + Q w(h), forward or (h < 0) backward.
+struct textbook_speed {
+    number P, Q;
+};
+struct textbook_speed textbook_speed_of(const struct textbook_poles *at, real h);
+
+/// y before and after a sample, as far as the domain goes and beyond.
+real textbook_y_before(const struct textbook *book, int sample);
+real textbook_y_after(const struct textbook *book, int sample);
+
+/// u, and the speed of y + Re u: what the oscillator does by itself as the equilibrium moves.
+void textbook_swing(const wiggly_desc *desc, struct textbook *book);
+
+/// All rows of the energy, squared, and the fixed unknowns; `level` adds a level slope at the earliest knot.
+void textbook_assemble(const wiggly_desc *desc, struct textbook *book, bool level);
+
+#endif
