@@ -1,5 +1,5 @@
 /// More samples a second change a motion less and less: with every doubling of the rate a quarter as much, whatever is keyed,
-/// followed or tracked (docs/mathematics.md, What moves by itself). The same knots, in seconds, at 24, 48, 96 and 192 samples a second.
+/// followed or tracked. The same knots, in seconds, at 24, 48, 96 and 192 samples a second.
 #include "near.h"
 
 #include <stdlib.h>

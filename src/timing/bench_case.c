@@ -32,13 +32,15 @@ static bool work_create(struct work *w, const wiggly_desc *desc)
 {
     size_t n = (size_t)desc->samples;
     *w = (struct work){0};
-    bool good = bench_input_copy(&w->input, desc);
-    double *numbers = calloc(6 * n, sizeof *numbers);
-    w->curve = (wiggly_curve){numbers,         numbers + n,     numbers + 2 * n,
-                              numbers + 3 * n, numbers + 4 * n, .samples = desc->samples};
-    w->about = numbers ? numbers + 5 * n : NULL;
-    good = numbers && good && banded_create(&w->banded, desc->samples);
-    return good && wiggly_create(desc->samples, desc->knot_count, &w->solver) == WIGGLY_OK;
+    if (!bench_input_copy(&w->input, desc) || !banded_create(&w->banded, desc->samples)) return false;
+    double *total = w->curve.total = calloc(6 * n, sizeof *total);
+    if (!total) return false;
+    w->curve.y = total + n;
+    w->curve.re = total + 2 * n;
+    w->curve.im = total + 3 * n;
+    w->curve.omega = total + 4 * n;
+    w->about = total + 5 * n;
+    return wiggly_create(desc->samples, desc->knot_count, &w->solver) == WIGGLY_OK;
 }
 
 bool bench_goes_on(int runs, double end) { return runs < MAX_RUNS && (runs < MIN_RUNS || clock_now() < end); }
