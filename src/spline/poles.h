@@ -48,6 +48,12 @@ typedef struct speed_form {
     cplx on_x, on_e;
 } speed_form;
 
+/// Fading below what a double tells apart, so that weights and their products stay finite.
+#define DEEPEST 100.0
+
+/// The natural frequency alone, rad/s.
+double poles_natural(const wiggly_desc *desc, int sample);
+
 /// ln |g|⁻² of a sample, by which its jet row is weighed; no more than a double can hold the square of.
 double poles_weight_exponent(const poles *at, double step);
 

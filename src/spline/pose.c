@@ -113,8 +113,9 @@ static int fastest_sample(const problem *p)
 {
     int fastest = p->first;
     double largest = -1;
-    for (int i = p->first; i <= p->latest; i++) {
-        double natural = poles_at(p->desc, i, 0).natural;
+    bool constant = !p->desc->frequency.track && !p->desc->spring.track;
+    for (int i = p->first; i <= (constant ? p->first : p->latest); i++) {
+        double natural = poles_natural(p->desc, i);
         if (natural > largest) largest = natural, fastest = i;
     }
     return fastest;

@@ -43,6 +43,7 @@ struct wiggly_solver {
 typedef struct minimum {
     bool solved;    ///< false: the factorisation broke down or a number overflowed
     bool by_chain;  ///< the chain found it
+    bool unrefined; ///< one plain solve found it
     bool weak;      ///< a pivot was lost in rounding: if the problem can be singular, it is
     double largest; ///< max |x|
     double error;   ///< estimated error of x, absolute
