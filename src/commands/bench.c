@@ -126,7 +126,7 @@ int command_bench(int argc, char **argv)
     const struct usage usage = {
         .command = "bench",
         .operands = "",
-        .summary = "Times times the solver against LAPACKE on the same systems in the same run.",
+        .summary = "Times the solver against LAPACKE on the same systems in the same run.",
         .options = specs,
         .option_count = sizeof specs / sizeof *specs,
     };

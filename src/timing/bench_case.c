@@ -90,13 +90,13 @@ static double compare(struct work *w, const struct lapack *lapack)
     return worst / largest;
 }
 
-/// Solves by the band of all samples, block by block, as far as one correction: a factor and a solve.
+/// Solves by the band of all samples, block by block: a factor and a solve.
 static double run_band(struct work *w)
 {
     double start = clock_now();
     solver_describe(w->solver, &w->input.desc, w->about);
     bool good = pentadiagonal_factor(&w->solver->matrix) != RANK_BROKEN;
-    system_gradient(&w->solver->rows);
+    system_right_side(&w->solver->rows);
     pentadiagonal_solve(&w->solver->matrix, w->solver->rows.gradient);
     double time = clock_now() - start;
     return good ? time : NAN;
