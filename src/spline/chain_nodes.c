@@ -31,7 +31,7 @@ state_form chain_end_form(const chain *c)
         .h00 = 2 * cplx_norm(on_x), .h01 = cplx_scale(2, cplx_mul(cplx_conj(on_x), on_d)), .h11 = 2 * cplx_norm(on_d)};
 }
 
-static kernel_node kernel_node_of(const chain *c, const chain_node *node)
+ALWAYS_INLINE kernel_node kernel_node_of(const chain *c, const chain_node *node)
 {
     const unsigned fixed = node->fixed;
     const cplx tie = chain_node_tie(c, node);
@@ -55,7 +55,7 @@ static kernel_slope kernel_slope_of(const chain *c, const chain_node *node)
 static const double *form_after(const chain *c, int j) { return c->stretches[c->nodes[j].stretch].form; }
 
 /// A stretch and the slope at its end: into the block of its first node, the coupling, and the block of its last.
-static void assemble_stretch(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *d, double *n,
+ALWAYS_INLINE void assemble_stretch(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *d, double *n,
                              double *entering)
 {
     const double *form = form_after(c, j);
@@ -113,7 +113,7 @@ static void assemble_blocks(chain *c)
     }
 }
 
-static void assemble_stretch_one(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *d, double *n,
+ALWAYS_INLINE void assemble_stretch_one(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *d, double *n,
                                  double *entering)
 {
     const double *form = form_after(c, j);
@@ -368,7 +368,7 @@ void chain_solve_nodes(chain *c)
 }
 
 /// What a stretch and the slope at its end pull where everything unknown is 0.
-static void pull_along(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *right, double *entering)
+ALWAYS_INLINE void pull_along(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *right, double *entering)
 {
     const double *form = form_after(c, j);
     const chain_node *end = &c->nodes[chain_next(c, j)];
@@ -419,7 +419,7 @@ static void pull_blocks(chain *c)
     }
 }
 
-static void pull_along_one(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *right,
+ALWAYS_INLINE void pull_along_one(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *right,
                            double *entering)
 {
     const double *form = form_after(c, j);
