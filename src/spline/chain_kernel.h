@@ -24,8 +24,8 @@
 
 /// What a row takes from its node. A known unknown is kept out of the system by 0 in place of 1.
 typedef struct kernel_node {
-    lane x, d, d_im;            ///< Re x, and d as far as it is known
-    lane tie, tie_im;           ///< Re d and Im d follow Im x by this much
+    lane x, d, d_im;             ///< Re x, and d as far as it is known
+    lane tie, tie_im;            ///< Re d and Im d follow Im x by this much
     lane keep_x, keep_d, keep_i; ///< whether Im x, Re d, Im d is unknown
 } kernel_node;
 
@@ -106,8 +106,10 @@ ALWAYS_INLINE kernel_link kernel_link_of(const kernel_slope *s, const lane *f, c
     lane a_re = s->x_re - (s->r_re * f[FORM_V01] + s->r_im * f[FORM_V01 + 1]);
     lane a_im = s->x_im - (s->r_im * f[FORM_V01] - s->r_re * f[FORM_V01 + 1]);
     lane b_re = s->d_re - s->r_re * f[FORM_V11], b_im = s->d_im - s->r_im * f[FORM_V11];
-    lane c_re = s->r_re * f[FORM_C10] - s->r_im * f[FORM_C10 + 1], c_im = s->r_re * f[FORM_C10 + 1] + s->r_im * f[FORM_C10];
-    lane e_re = s->r_re * f[FORM_C11] - s->r_im * f[FORM_C11 + 1], e_im = s->r_re * f[FORM_C11 + 1] + s->r_im * f[FORM_C11];
+    lane c_re = s->r_re * f[FORM_C10] - s->r_im * f[FORM_C10 + 1],
+         c_im = s->r_re * f[FORM_C10 + 1] + s->r_im * f[FORM_C10];
+    lane e_re = s->r_re * f[FORM_C11] - s->r_im * f[FORM_C11 + 1],
+         e_im = s->r_re * f[FORM_C11 + 1] + s->r_im * f[FORM_C11];
     lane seen = (a_re * q->x + (b_re * q->d - b_im * q->d_im)) + (c_re * p->x + e_re * p->d);
     lane size = s->r_re * s->r_re + s->r_im * s->r_im;
     lane weight = s->weight / (1.0 + s->weight * size * (1.0 - f[FORM_V11]));
@@ -119,7 +121,8 @@ ALWAYS_INLINE kernel_link kernel_link_first(const kernel_slope *s, const kernel_
 {
     lane seen = s->x_re * q->x + (s->d_re * q->d - s->d_im * q->d_im);
     lane none = s->weight * 0.0;
-    return (kernel_link){{none, none, none}, {-s->x_im, s->d_re, -s->d_im}, s->weight, s->weight * (s->target - seen)};
+    return (kernel_link){
+        {none, none, none}, {-s->x_im, s->d_re, -s->d_im}, s->weight, s->weight * (s->target - seen)};
 }
 
 /// w g g* into a diagonal block.
