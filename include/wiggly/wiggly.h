@@ -136,6 +136,15 @@ wiggly_status wiggly_create_at(void *memory, size_t size, int samples, int knots
 /// Frees what wiggly_create() made; NULL is fine.
 void wiggly_destroy(wiggly_solver *solver);
 
+/// The way a solver goes: the same curves but for rounding.
+typedef enum wiggly_method {
+    WIGGLY_CHAIN = 0, ///< knot-free stretches condensed where the parameters are constant, else the band: the fastest
+    WIGGLY_BAND       ///< always all samples' band, factored as complex block-pentadiagonal: the paper's way
+} wiggly_method;
+
+/// Sets the method of all later solves; a new solver has WIGGLY_CHAIN.
+void wiggly_set_method(wiggly_solver *solver, wiggly_method method);
+
 /// Solves one spline, O(samples), allocating nothing. Deterministic: the same description gives the same bits.
 wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve);
 

@@ -25,7 +25,7 @@
 #include <math.h>
 
 enum { MAX_SWEEPS = 30 };
-enum { LONGEST_FOR_BAND = 20000 }; ///< samples up to which a system that loses digits is left to the band, which knows its error
+enum { LONGEST_FOR_BAND = 1000 }; ///< samples up to which a system that loses digits is left to the band, which knows its error
 static const double refined = 1e-13;   ///< of the largest unknown
 static const double acceptable = 1e-6; ///< of the same: still a curve to show, though one that is said to be inexact
 
@@ -220,6 +220,13 @@ bool chain_fill(chain *c, double *x_re, double *x_im)
     return chain_run_free(c, last, c->count - last->sample, x_re + last->sample, im) && tame;
 }
 
+static double largest_value(const chain *c)
+{
+    double largest = 0;
+    for (int j = 0; j < c->node_count; j++) largest = fmax(largest, fabs(c->nodes[j].value));
+    return largest;
+}
+
 bool chain_solve(chain *c, double *x_re, double *x_im)
 {
     if (!c->kept) {
@@ -233,7 +240,9 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
     chain_reset_nodes(c);
     chain_pull_known(c);
     chain_solve_nodes(c);
-    double size = take_solution(c);
+    double size = fmax(take_solution(c), largest_value(c));
     if (c->rank == CHAIN_WEAK && (c->count <= LONGEST_FOR_BAND || !refine(c, size))) return false;
+    c->size = size;
+    c->error = fmax(c->error, chain_error(c, size));
     return chain_fill(c, x_re, x_im);
 }

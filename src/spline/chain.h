@@ -112,7 +112,10 @@ typedef struct chain {
     double *to_first; ///< a loop's: of each node's row but the first, the inverse of its pivot times its coupling to the first, 3×3 or 1
     bool kept; ///< tables and factor are those of the nodes' samples, fixed and slope_weight, and of everything above
     chain_rank rank;    ///< of the factor
-    double error;       ///< estimated error of x, where the nodes' system had to be refined
+    bool loose;         ///< next to nothing holds the start: its errors are larger
+    double lost;        ///< entries over pivots of the factor, the largest of its rows
+    double error;       ///< estimated error of x
+    double size;        ///< of what was solved for
     double cubic_bound; ///< both poles at 1: what |x| stays below, of the last chain_fill()
 } chain;
 
@@ -166,6 +169,8 @@ static inline cplx chain_entry(const chain_stretch *stretch, int at)
 void chain_make_tables(chain *chain);
 void chain_assemble(chain *chain);
 chain_rank chain_factor(chain *chain);
+/// What the factor's lost digits make of an x of that size; 0 where that is nothing worth telling.
+double chain_error(const chain *chain, double size);
 /// p ← inverse of the symmetric positive definite 3×3 s (00 01 02 11 12 22).
 chain_rank chain_invert(const double *s, double *p);
 /// rows' right ← solution.

@@ -14,6 +14,11 @@
 /// A pivot below this part of what its diagonal would give has lost digits that refinement must bring back.
 #define WEAKEST 1e-6
 
+/// Entries over pivots beyond which the error that is left is worth telling, and a chain in company is solved alone.
+#define TELLING_LOSS 300
+/// And beyond which the chain is not the way to solve it.
+#define GREATEST_LOSS 1e7
+
 /// What a row takes from its node. A known unknown is kept out of the system by 0 in place of 1.
 typedef struct kernel_node {
     lane x, d, d_im;            ///< Re x, and d as far as it is known
@@ -34,7 +39,8 @@ typedef struct kernel_link {
 
 /// Which lanes have positive pivots, and which have lost no digits.
 typedef struct kernel_rank {
-    flag sound, firm;
+    flag sound, firm, quiet; ///< quiet: what is lost is not worth telling
+    lane lost;               ///< entries over pivots, of all three of a row together
 } kernel_rank;
 
 /// The Hermitian form [h00 h01; h01* h11] of a node's state.
@@ -175,6 +181,13 @@ static inline void kernel_hold_pull(lane *r, const kernel_node *node)
     r[2] *= node->keep_i;
 }
 
+/// One row's rank added to all's.
+static inline void kernel_add_rank(kernel_rank *all, kernel_rank rank)
+{
+    all->sound &= rank.sound, all->firm &= rank.firm;
+    all->quiet &= rank.lost <= TELLING_LOSS;
+}
+
 /// p ← inverse of the symmetric s.
 static inline kernel_rank kernel_invert(const lane *s, lane *p)
 {
@@ -188,6 +201,7 @@ static inline kernel_rank kernel_invert(const lane *s, lane *p)
     return (kernel_rank){
         .sound = (s[0] > 0.0) & (s[3] > 0.0) & (s[5] > 0.0) & (det > 0.0) & (det < INFINITY),
         .firm = det > WEAKEST * (s[0] * s[3] * s[5]),
+        .lost = inverse,
     };
 }
 
@@ -200,8 +214,10 @@ static inline kernel_rank kernel_pivot(lane *d, const lane *l, const lane *n)
         d[4] - (l[3] * n[6] + l[4] * n[7] + l[5] * n[8]), d[5] - (l[6] * n[6] + l[7] * n[7] + l[8] * n[8]),
     };
     flag kept = (s[0] >= WEAKEST * d[0]) & (s[3] >= WEAKEST * d[3]) & (s[5] >= WEAKEST * d[5]);
+    lane entries = d[0] * d[3] * d[5];
     kernel_rank rank = kernel_invert(s, d);
     rank.firm &= kept;
+    rank.lost *= entries;
     return rank;
 }
 
@@ -299,7 +315,7 @@ static inline lane kernel_hold_one(lane d, const kernel_node *node)
 static inline kernel_rank kernel_pivot_one(lane *s, lane d, lane n)
 {
     *s = d - n * n / *s;
-    return (kernel_rank){.sound = (*s > 0.0) & (*s < INFINITY), .firm = *s >= WEAKEST * d};
+    return (kernel_rank){.sound = (*s > 0.0) & (*s < INFINITY), .firm = *s >= WEAKEST * d, .lost = d / *s};
 }
 
 #endif

@@ -91,7 +91,7 @@ static kernel_rank forward_blocks(const chain_group *g, lane_row *rows, int coun
     const state_form h = chain_start_form(g->common);
     const lane zero = {0};
     const lane h11 = zero + h.h11, h01_re = zero + h.h01.re, h01_im = zero + h.h01.im;
-    kernel_rank all = {(flag){0} - 1, (flag){0} - 1};
+    kernel_rank all = {(flag){0} - 1, (flag){0} - 1, (flag){0} - 1, (lane){0}};
     kernel_node node = gather_node(g, 0);
     kernel_slope slope;
     lane_row before = {0}, row = {0};
@@ -126,7 +126,7 @@ static kernel_rank forward_blocks(const chain_group *g, lane_row *rows, int coun
         kernel_hold_pull(row.right, &node);
 
         kernel_rank rank = kernel_pivot(row.pivot, before.lower, n_before);
-        all.sound &= rank.sound, all.firm &= rank.firm;
+        kernel_add_rank(&all, rank);
         kernel_lower(row.lower, n, row.pivot);
         kernel_forward(row.right, before.lower, before.right);
         rows[j] = before = row;
@@ -141,7 +141,7 @@ static kernel_rank forward_scalars(const chain_group *g, lane_row *rows, int cou
 {
     const state_form h = chain_start_form(g->common);
     const lane zero = {0};
-    kernel_rank all = {(flag){0} - 1, (flag){0} - 1};
+    kernel_rank all = {(flag){0} - 1, (flag){0} - 1, (flag){0} - 1, (lane){0}};
     kernel_node node = gather_node(g, 0);
     kernel_slope slope;
     lane n_before = zero, l_before = zero, z_before = zero, s = zero + 1.0;
@@ -170,7 +170,7 @@ static kernel_rank forward_scalars(const chain_group *g, lane_row *rows, int cou
         n *= node.keep_d * next.keep_d;
 
         kernel_rank rank = kernel_pivot_one(&s, kernel_hold_one(d, &node), n_before);
-        all.sound &= rank.sound, all.firm &= rank.firm;
+        kernel_add_rank(&all, rank);
         row->pivot[0] = 1.0 / s;
         row->lower[0] = n * row->pivot[0];
         row->right[0] = right * node.keep_d - l_before * z_before;
@@ -202,7 +202,8 @@ void chain_solve_by_lanes(chain_group *g)
     kernel_rank rank = g->common->is_complex ? forward_blocks(g, rows, count) : forward_scalars(g, rows, count);
     backward(g, rows, count);
     for (int k = 0; k < g->count; k++) {
-        g->rank[k] = !rank.sound[k] ? CHAIN_LOST : rank.firm[k] ? CHAIN_FIRM : CHAIN_WEAK;
+        bool firm = rank.firm[k] && rank.quiet[k];
+        g->rank[k] = !rank.sound[k] ? CHAIN_LOST : firm ? CHAIN_FIRM : CHAIN_WEAK;
         for (int j = 0; j < g->node_count[k]; j++) {
             const lane *r = rows[j].right;
             chain_add_to_node(g->common, &g->nodes[k][j], (const double[3]){r[0][k], r[1][k], r[2][k]});

@@ -1,5 +1,7 @@
 /// The nodes' block-tridiagonal system of one spline: assembled from stretches, start and slopes, factored, solved (see chain.c for
 /// the mathematics, chain_kernel.h for the rows).
+#include <float.h>
+
 typedef double lane;
 typedef int flag;
 #include "spline/chain_kernel.h"
@@ -175,15 +177,29 @@ void chain_assemble(chain *c)
 
 static chain_rank rank_of(kernel_rank rank) { return !rank.sound ? CHAIN_LOST : rank.firm ? CHAIN_FIRM : CHAIN_WEAK; }
 
+static void add_rank(kernel_rank *all, kernel_rank rank)
+{
+    kernel_add_rank(all, rank);
+    all->lost = rank.lost > all->lost ? rank.lost : all->lost;
+}
+
+/// The rank of a factor, and what it has lost.
+static chain_rank rank_with_loss(chain *c, kernel_rank rank)
+{
+    c->lost = rank.lost;
+    rank.firm &= rank.lost < GREATEST_LOSS;
+    return rank_of(rank);
+}
+
 chain_rank chain_invert(const double *s, double *p) { return rank_of(kernel_invert(s, p)); }
 
 static kernel_rank factor_blocks(chain *c)
 {
-    kernel_rank all = {1, 1};
+    kernel_rank all = {1, 1, 1, 1};
     double n[9] = {0}, l[9] = {0};
     for (chain_row *row = c->rows; row < c->rows + c->node_count; row++) {
         kernel_rank rank = kernel_pivot(row->diagonal, l, n);
-        all.sound &= rank.sound, all.firm &= rank.firm;
+        add_rank(&all, rank);
         for (int i = 0; i < 9; i++) n[i] = row->below[i];
         kernel_lower(l, n, row->diagonal);
         for (int i = 0; i < 9; i++) row->below[i] = l[i];
@@ -193,11 +209,11 @@ static kernel_rank factor_blocks(chain *c)
 
 static kernel_rank factor_scalars(chain *c)
 {
-    kernel_rank all = {1, 1};
+    kernel_rank all = {1, 1, 1, 1};
     double n = 0, s = 1;
     for (chain_row *row = c->rows; row < c->rows + c->node_count; row++) {
         kernel_rank rank = kernel_pivot_one(&s, row->diagonal[0], n);
-        all.sound &= rank.sound, all.firm &= rank.firm;
+        add_rank(&all, rank);
         n = row->below[0];
         row->diagonal[0] = 1.0 / s;
         row->below[0] = n * row->diagonal[0];
@@ -213,7 +229,7 @@ static kernel_rank close_blocks(chain *c)
     const int last = c->node_count - 1;
     chain_row *first = &c->rows[0];
     double f[9], n[9] = {0}, l[9] = {0};
-    kernel_rank all = {1, 1};
+    kernel_rank all = {1, 1, 1, 1};
     if (last == 0) { // to itself: A + Aᵀ
         const double *a = first->below;
         const double twice[6] = {2 * a[0], a[1] + a[3], a[2] + a[6], 2 * a[4], a[5] + a[7], 2 * a[8]};
@@ -225,7 +241,7 @@ static kernel_rank close_blocks(chain *c)
         double *g = c->to_first + 9 * k;
         for (int i = 0; k == last && i < 9; i++) f[i] += row->below[3 * (i % 3) + i / 3];
         kernel_rank rank = kernel_pivot(row->diagonal, l, n);
-        all.sound &= rank.sound, all.firm &= rank.firm;
+        add_rank(&all, rank);
         kernel_times(g, row->diagonal, f);
         kernel_subtract_square(first->diagonal, f, g);
         if (k == last) break;
@@ -236,7 +252,8 @@ static kernel_rank close_blocks(chain *c)
     }
     const double none[9] = {0};
     kernel_rank rank = kernel_pivot(first->diagonal, none, none);
-    return (kernel_rank){all.sound & rank.sound, all.firm & rank.firm};
+    add_rank(&all, rank);
+    return all;
 }
 
 static kernel_rank close_scalars(chain *c)
@@ -244,12 +261,12 @@ static kernel_rank close_scalars(chain *c)
     const int last = c->node_count - 1;
     chain_row *first = &c->rows[0];
     double s = 1, n = 0, f = first->below[0], closed = first->diagonal[0] + (last == 0 ? 2 * f : 0), whole = closed;
-    kernel_rank all = {1, 1};
+    kernel_rank all = {1, 1, 1, 1};
     for (int k = 1; k <= last; k++) {
         chain_row *row = &c->rows[k];
         if (k == last) f += row->below[0];
         kernel_rank rank = kernel_pivot_one(&s, row->diagonal[0], n);
-        all.sound &= rank.sound, all.firm &= rank.firm;
+        add_rank(&all, rank);
         n = row->below[0];
         row->diagonal[0] = 1 / s;
         c->to_first[k] = f * row->diagonal[0];
@@ -259,7 +276,7 @@ static kernel_rank close_scalars(chain *c)
         f *= -row->below[0];
     }
     first->diagonal[0] = 1 / closed;
-    all.sound &= (closed > 0) & (closed < INFINITY), all.firm &= closed >= WEAKEST * whole;
+    add_rank(&all, (kernel_rank){(closed > 0) & (closed < INFINITY), closed >= WEAKEST * whole, 1, whole / closed});
     return all;
 }
 
@@ -306,10 +323,17 @@ static void solve_loop(chain *c)
     }
 }
 
+double chain_error(const chain *c, double size)
+{
+    if (c->rank == CHAIN_WEAK) return 16 * DBL_EPSILON * sqrt(c->lost) * size; // refined: what is left is the coefficients' rounding
+    if (c->loose) return 100 * DBL_EPSILON * c->lost * size;
+    return c->lost > TELLING_LOSS ? 16 * DBL_EPSILON * c->lost * size : 0;
+}
+
 chain_rank chain_factor(chain *c)
 {
-    if (c->cyclic) return rank_of(c->is_complex ? close_blocks(c) : close_scalars(c));
-    return rank_of(c->is_complex ? factor_blocks(c) : factor_scalars(c));
+    if (c->cyclic) return rank_with_loss(c, c->is_complex ? close_blocks(c) : close_scalars(c));
+    return rank_with_loss(c, c->is_complex ? factor_blocks(c) : factor_scalars(c));
 }
 
 static void solve_scalars(chain *c)

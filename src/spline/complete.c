@@ -1,4 +1,5 @@
 /// What follows once x is found: whether it can be meant, the samples outside the system, the total and what else a curve holds.
+#include "spline/poles_block.h"
 #include "spline/problem.h"
 #include "spline/wide.h"
 #include <math.h>
@@ -98,7 +99,12 @@ static void set_centre(wiggly_solver *solver, const problem *p, double *omega)
     if (poles_are_constant(desc)) {
         fill(omega, problem_filter(solver, p)->at.centre, desc->samples);
     } else {
-        for (int i = 0; i < desc->samples; i++) omega[i] = poles_at(desc, i, problem_least_damping(p)).centre;
+        poles_block block;
+        for (int i = 0; i < desc->samples; i += POLES_BLOCK) {
+            int count = desc->samples - i < POLES_BLOCK ? desc->samples - i : POLES_BLOCK;
+            poles_block_fill(desc, i, count, problem_least_damping(p), &block);
+            memcpy(omega + i, block.centre, sizeof *omega * (size_t)count);
+        }
     }
 }
 

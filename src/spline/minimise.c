@@ -15,9 +15,11 @@
 #include <math.h>
 
 enum { MAX_SWEEPS = 16 };
-static const double enough = 1e-11;  ///< estimated error of one plain solve, relative to the largest |x|, that needs no refinement
+/// Estimated error, relative to the largest |x|, up to which one plain solve needs no refinement, and refinement not the rows
+/// themselves: a fifth of the tolerance.
+static const double enough_complex = 2e-9, enough_real = 2e-10;
 static const double rounding = 2 * DBL_EPSILON; ///< of a coefficient
-static const double too_much = 1e-3; ///< beyond, the squared matrix is no help to refinement
+static const double too_much = 1e-1; ///< beyond, the squared matrix is no help to refinement
 
 static double largest_modulus(const double *x, int count, bool is_complex)
 {
@@ -29,8 +31,13 @@ static double largest_modulus(const double *x, int count, bool is_complex)
     return is_complex ? sqrt(largest) : largest;
 }
 
-/// What the factor's lost digits make of rounding, relative to x.
-static double estimated_error(const pentadiagonal *m) { return DBL_EPSILON * m->lost * cbrt(m->lost); }
+/// What rounding does to x, as a part of it: by the digits that the pivots have lost, and by the knot-free stretch of G samples, whose
+/// condition is G⁴ / 31 where nothing swings back.
+static double estimated_error(const system_rows *rows, const pentadiagonal *m)
+{
+    double g2 = rows->stretch * rows->stretch;
+    return 16 * DBL_EPSILON * fmax(m->lost * cbrt(m->lost), g2 * g2 / 31);
+}
 
 /// A factorisation: of the squared matrix, else of the rows.
 typedef struct factorisation {
@@ -39,6 +46,13 @@ typedef struct factorisation {
     double error; ///< of one solve, estimated, relative to x
 } factorisation;
 
+static double enough(const system_rows *rows) { return rows->is_complex ? enough_complex : enough_real; }
+
+static factorisation factor_rows(wiggly_solver *solver)
+{
+    return (factorisation){.rank = orthogonal_factor(&solver->rows, &solver->matrix, solver->stop), .error = INFINITY};
+}
+
 static factorisation factor(wiggly_solver *solver)
 {
     const system_rows *rows = &solver->rows;
@@ -46,12 +60,10 @@ static factorisation factor(wiggly_solver *solver)
     if (rows->count <= solver->longest_squared) {
         system_matrix(rows, &solver->matrix);
         f.rank = pentadiagonal_factor(&solver->matrix);
-        if (f.rank != RANK_BROKEN) f.error = estimated_error(&solver->matrix);
+        if (f.rank != RANK_BROKEN) f.error = estimated_error(rows, &solver->matrix);
         if (f.error <= too_much || rows->count < 3) return f;
     }
-    f.squared = false;
-    f.rank = orthogonal_factor(rows, &solver->matrix, solver->stop);
-    return f;
+    return factor_rows(solver);
 }
 
 static void solve(wiggly_solver *solver, const factorisation *f)
@@ -71,50 +83,84 @@ static double sensitivity(wiggly_solver *solver, const factorisation *f)
         rows->at[k].m = cplx_scale(1 + rounding, rows->at[k].m);
         rows->at[k].p = cplx_scale(1 - rounding, rows->at[k].p);
     }
+    for (int s = 0; s < rows->slope_count; s++) {
+        rows->slopes[s].here = cplx_scale(1 + rounding, rows->slopes[s].here);
+    }
+    for (int i = 0; i < 2; i++) rows->start.row[i].on_x = cplx_scale(1 + rounding, rows->start.row[i].on_x);
     system_gradient(rows);
     solve(solver, f);
-    return largest_modulus(rows->gradient, rows->count, rows->is_complex);
+    return 4 * largest_modulus(rows->gradient, rows->count, rows->is_complex);
 }
 
-minimum solver_minimise(wiggly_solver *solver)
+/// Refines x, at first from what is known alone. false where a number overflowed or it was stopped.
+static bool refine(wiggly_solver *solver, const factorisation *f, minimum *result)
 {
     system_rows *rows = &solver->rows;
-    minimum result = {0};
-    factorisation f = factor(solver);
-    if (f.rank == RANK_BROKEN) return result;
-    result.weak = f.rank == RANK_WEAK;
     int unknowns = rows->count * (rows->is_complex ? 2 : 1);
     double before = INFINITY;
-    while (result.sweeps < MAX_SWEEPS) {
-        if (solver_must_stop(solver->stop)) return result;
-        if (result.sweeps == 0) {
+    for (result->sweeps = 0; result->sweeps < MAX_SWEEPS;) {
+        if (solver_must_stop(solver->stop)) return false;
+        if (result->sweeps == 0) {
             system_right_side(rows);
         } else {
             system_gradient(rows);
         }
-        solve(solver, &f);
-        double change = largest_modulus(rows->gradient, rows->count, rows->is_complex);
-        if (!(change < INFINITY)) return result;
+        solve(solver, f);
+        bool first = result->sweeps == 0;
+        double change = first ? 0 : largest_modulus(rows->gradient, rows->count, rows->is_complex);
+        if (!(change < INFINITY)) return false;
         if (change > 0.5 * before) { // at the last digit, or not converging: x stays as it was
-            result.error = fmax(change, before);
+            result->error = fmax(change, before);
             break;
         }
         for (int i = 0; i < unknowns; i++) rows->x[i] += rows->gradient[i];
-        result.sweeps++;
-        result.largest = largest_modulus(rows->x, rows->count, rows->is_complex);
+        result->sweeps++;
+        result->largest = largest_modulus(rows->x, rows->count, rows->is_complex);
+        if (!(result->largest < INFINITY)) return false;
+        if (first) change = result->largest;
         double contraction = before < INFINITY ? change / before : 0.5;
-        result.error = change * contraction / (1 - contraction);
-        before = change;
-        if (result.sweeps == 1 && rows->is_held && f.error <= enough) {
-            result.error = f.error * result.largest;
-            result.solved = result.largest < INFINITY;
-            return result;
+        result->error = change * contraction / (1 - contraction);
+        // The first solve, through the rows' factor but from a right-hand side in double, can be all wrong, and the next one right.
+        before = f->squared || result->sweeps > 1 ? change : INFINITY;
+        if (result->sweeps == 1 && rows->is_held && f->error <= enough(rows)) {
+            result->error = f->error * result->largest;
+            result->unrefined = true;
+            return true;
         }
-        if (result.error <= 1e-15 * result.largest) break;
+        if (before < INFINITY && result->error <= 1e-15 * result->largest) break;
     }
-    result.solved = result.largest < INFINITY;
-    if (result.error > 1e-6 * result.largest) result.weak = true; // it never settled
-    result.error += sensitivity(solver, &f);
+    return true;
+}
+
+/// Everything that is not known 0 again.
+static void reset(const system_rows *rows)
+{
+    for (int k = 0; k < rows->count; k++) {
+        if (!rows->is_complex) {
+            if (!(rows->fixed[k] & FIXED_RE)) rows->x[k] = 0;
+            continue;
+        }
+        if (!(rows->fixed[k] & FIXED_RE)) rows->x[2 * k] = 0;
+        if (!(rows->fixed[k] & FIXED_IM)) rows->x[2 * k + 1] = 0;
+    }
+}
+
+minimum solver_minimise(wiggly_solver *solver)
+{
+    const system_rows *rows = &solver->rows;
+    minimum result = {0};
+    factorisation f = factor(solver);
+    if (f.rank != RANK_BROKEN) result.solved = refine(solver, &f, &result);
+    bool settled = result.solved && result.error <= enough(rows) * result.largest;
+    if (f.squared && !settled && rows->count >= 3 && !solver_must_stop(solver->stop)) {
+        reset(rows);
+        f = factor_rows(solver);
+        if (f.rank == RANK_BROKEN) return (minimum){0};
+        result.solved = refine(solver, &f, &result);
+    }
+    if (!result.solved) return result;
+    result.weak = f.rank == RANK_WEAK || result.error > 1e-6 * result.largest; // it never settled
+    if (!result.unrefined) result.error += sensitivity(solver, &f);
     return result;
 }
 

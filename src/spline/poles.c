@@ -46,13 +46,26 @@ poles poles_at(const wiggly_desc *desc, int sample, double floor)
     if (desc->mode == WIGGLY_REAL) return real_poles(zeta * omega, omega);
     zeta = fmin(zeta, 1.0);
     double centre = omega * sqrt((1 - zeta) * (1 + zeta));
-    double turn = omega * at_sample(desc->bandwidth, sample, 1.0);
+    double bandwidth = at_sample(desc->bandwidth, sample, 1.0), turn = omega * bandwidth;
+    // √(1−ζ²) − β of a pole near 0, without cancellation
+    double lower = ((1 - bandwidth) * (1 + bandwidth) - zeta * zeta) / (sqrt((1 - zeta) * (1 + zeta)) + bandwidth);
     return (poles){
-        .s = {{-zeta * omega, centre + turn}, {-zeta * omega, centre - turn}},
+        .s = {{-zeta * omega, centre + turn}, {-zeta * omega, zeta < 1 ? omega * lower : -turn}},
         .natural = omega,
         .centre = centre,
         .decay = zeta * omega,
     };
+}
+
+int poles_fastest(const wiggly_desc *desc, int from, int to, double *natural)
+{
+    const double *track = desc->spring_friction ? desc->spring.track : desc->frequency.track;
+    int fastest = from;
+    for (int i = from + 1; track && i <= to; i++) {
+        if (track[i] > 0 && track[i] > track[fastest]) fastest = i;
+    }
+    if (natural) *natural = poles_at(desc, fastest, 0).natural;
+    return fastest;
 }
 
 bool poles_are_constant(const wiggly_desc *desc)
@@ -131,12 +144,9 @@ start_cost poles_start_cost(const poles *at, double step)
     return (start_cost){{{h00, e, {e.re - 1, e.im}}, {det / h00, {1, 0}, {1, 0}}}};
 }
 
-/// Fading below what a double tells apart, so that weights and their products stay finite.
-static const double deepest = 100;
-
 double poles_weight_exponent(const poles *at, double step)
 {
-    return fmin(-step * (at->s[0].re + at->s[1].re), deepest);
+    return fmin(-step * (at->s[0].re + at->s[1].re), DEEPEST);
 }
 
 /// z / sinh z of a z whose square is real.
@@ -155,12 +165,13 @@ static const double steepest = 1e8;
 speed_form poles_speed(const poles *at, double step, bool backwards)
 {
     double h = backwards ? -step : step;
-    cplx s0 = {fmax(at->s[0].re * step, -deepest) / step, at->s[0].im};
-    cplx s1 = {fmax(at->s[1].re * step, -deepest) / step, at->s[1].im};
+    cplx s0 = {fmax(at->s[0].re * step, -DEEPEST) / step, at->s[0].im};
+    cplx s1 = {fmax(at->s[1].re * step, -DEEPEST) / step, at->s[1].im};
     cplx z = cplx_scale(0.5 * h, cplx_sub(s0, s1)), mean = cplx_scale(0.5 * h, cplx_add(s0, s1));
     double ratio = fmin(fmax(z_over_sinh(z.re * z.re - z.im * z.im), -steepest), steepest);
     cplx q = cplx_scale(ratio, cplx_exp(cplx_scale(-1, mean)));
     cplx on_x = cplx_sub(cplx_scale(h, s0), cplx_mul(q, cplx_expm1(cplx_scale(h, s0))));
+    if (s0.im == -s1.im) on_x.im = q.im = 0; // poles that are conjugates or real: not even rounding ties Im x to Re x
     return backwards ? (speed_form){cplx_scale(-1, on_x), q} : (speed_form){on_x, q};
 }
 

@@ -48,6 +48,12 @@ typedef struct speed_form {
     cplx on_x, on_e;
 } speed_form;
 
+/// Fading below what a double tells apart, so that weights and their products stay finite.
+#define DEEPEST 100.0
+
+/// The first of the samples from … to with the largest natural frequency, and that, rad/s.
+int poles_fastest(const wiggly_desc *desc, int from, int to, double *natural);
+
 /// ln |g|⁻² of a sample, by which its jet row is weighed; no more than a double can hold the square of.
 double poles_weight_exponent(const poles *at, double step);
 

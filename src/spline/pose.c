@@ -108,24 +108,12 @@ static void set_about(wiggly_solver *solver, problem *p)
     }
 }
 
-/// The sample of [first, latest] with the largest natural frequency, the first of equals.
-static int fastest_sample(const problem *p)
-{
-    int fastest = p->first;
-    double largest = -1;
-    for (int i = p->first; i <= p->latest; i++) {
-        double natural = poles_at(p->desc, i, 0).natural;
-        if (natural > largest) largest = natural, fastest = i;
-    }
-    return fastest;
-}
-
 /// The filter's start is that of the first sample; the oscillator's that of the fastest, seen from the first.
 static start_cost cost_of_start(wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
     if (poles_are_constant(desc)) return problem_filter(solver, p)->start[problem_oscillates(p)];
-    int at = problem_oscillates(p) ? fastest_sample(p) : p->first;
+    int at = problem_oscillates(p) ? poles_fastest(desc, p->first, p->latest, NULL) : p->first;
     poles damped = poles_at(desc, at, LEAST_DAMPING), here = poles_at(desc, p->first, 0);
     start_cost cost = poles_start_cost(&damped, desc->step);
     if (!problem_oscillates(p)) return cost;

@@ -11,7 +11,7 @@
 /// A slope row heavier than this is met to the last digit anyway, and could overflow.
 #define STIFFEST 1e20
 
-/// Below this calm next to nothing may hold the start, or brake a loop.
+/// Below this calm a start or a loop may be loose.
 #define LOOSE_CALM 0.05
 
 /// What a singular document is solved with in place of calm 0.
@@ -32,6 +32,7 @@ typedef struct problem {
     int count;            ///< samples from there to the domain's end (in a loop, round it)
     int earliest, latest; ///< samples of the earliest and of the latest knot, or -1
     bool settles;         ///< behind the latest knot w moves by itself: the system ends there
+    bool strict;          ///< one plain solve is not enough: the total is far smaller than x
     bool level_slope;     ///< a level slope is implied at the earliest knot
     bool free_end;        ///< c·H = 0
     start_cost cost;      ///< of the start's swing, times calm; weights 0 where it is free
@@ -55,6 +56,12 @@ static inline int problem_rows(const problem *p)
 static inline double problem_least_damping(const problem *p)
 {
     return p->start == WIGGLY_LOOP ? LEAST_DAMPING * p->calm : 0;
+}
+
+/// Whether next to nothing holds the start, or brakes a loop.
+static inline bool problem_is_loose(const problem *p)
+{
+    return p->calm < LOOSE_CALM && p->start != WIGGLY_REST && p->desc->mode != WIGGLY_CUBIC;
 }
 
 /// The filter of a problem without pole tracks.
@@ -88,6 +95,9 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p);
 /// Checks a description and applies the rules of the start; y receives the equilibrium where it moves, N numbers. What is wrong,
 /// or WIGGLY_OK.
 wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p);
+
+/// What a chain without the imaginary rows may be off by, as a part of x; 0 where that is next to nothing.
+double problem_omission(wiggly_solver *solver, const problem *p);
 
 /// Writes what a knot says into a node, with the knot on the next sample where there is one; true where only values changed.
 bool problem_put_knot(const problem *p, chain_node *node, const wiggly_knot *knot, const wiggly_knot *pair);

@@ -9,6 +9,7 @@
 // double-double the cancellation leaves full double precision for any G that a double can count.
 #include "spline/dd.h"
 #include "spline/system.h"
+#include <string.h>
 
 typedef struct ddc {
     dd re, im;
@@ -202,43 +203,43 @@ static void hold_fixed(const system_rows *rows)
     }
 }
 
-/// The jets at x in plain double, weighted, into the scratch: 2M or M numbers.
-static void plain_jets(const system_rows *rows)
+/// w c* r off the gradient at a sample.
+static inline void pull_jet(const system_rows *rows, int k, cplx c, cplx r)
 {
+    cplx pulled = cplx_mul(cplx_conj(c), r);
+    if (!rows->is_complex) {
+        rows->gradient[k] -= pulled.re;
+        return;
+    }
+    rows->gradient[2 * k] -= pulled.re, rows->gradient[2 * k + 1] -= pulled.im;
+}
+
+/// The jets at x in plain double: far from what is known and drives there are none.
+static void pull_plainly(const system_rows *rows)
+{
+    const int last = rows->count - 1;
     for (int i = rows->jet_from; i <= rows->jet_to; i++) {
         const coefficients *at = &rows->at[i];
         cplx before = sample_of(rows, i - 1), here = sample_of(rows, i), after = sample_of(rows, i + 1);
-        cplx step = cplx_sub(here, before), next = cplx_sub(after, here);
-        if (!rows->loop && i == rows->count - 1) next = cplx_mul(rows->tail, here);
+        if (before.re == 0 && here.re == 0 && after.re == 0 && rows->drive[i].re == 0 && rows->drive[i].im == 0) continue;
+        bool is_tail = !rows->loop && i == last;
+        cplx step = cplx_sub(here, before), next = is_tail ? cplx_mul(rows->tail, here) : cplx_sub(after, here);
         cplx r = cplx_add(cplx_add(cplx_sub(next, step), rows->drive[i]),
                           cplx_sub(cplx_mul(at->p, before), cplx_mul(at->m, step)));
-        ((cplx *)(void *)rows->jet)[i] = cplx_scale(rows->jet_weight[i], r);
-    }
-}
-
-static void plain_adjoint(const system_rows *rows)
-{
-    const cplx *jet = (const cplx *)(const void *)rows->jet;
-    for (int k = 0; k < rows->count; k++) {
-        int b = jet_beside(rows, k - 1), a = jet_beside(rows, k + 1), h = jet_beside(rows, k);
-        cplx none = {0, 0}, before = b >= 0 ? jet[b] : none, after = a >= 0 ? jet[a] : none, here = h >= 0 ? jet[h] : none;
-        cplx second = cplx_sub(cplx_sub(before, here), cplx_sub(here, after));
-        cplx g = cplx_sub(cplx_mul(cplx_conj(rows->at[k].m), here), second);
-        if (a >= 0) g = cplx_sub(g, cplx_mul(cplx_conj(cplx_add(rows->at[a].m, rows->at[a].p)), after));
-        if (!rows->loop && k == rows->count - 1)
-            g = cplx_sub(g, cplx_add(here, cplx_mul(cplx_conj(rows->tail), here)));
-        if (rows->is_complex) {
-            rows->gradient[2 * k] = g.re, rows->gradient[2 * k + 1] = g.im;
-        } else {
-            rows->gradient[k] = g.re;
-        }
+        r = cplx_scale(rows->jet_weight[i], r);
+        cplx middle = {-2 - at->m.re, -at->m.im};
+        if (is_tail) middle = cplx_add(middle, (cplx){1 + rows->tail.re, rows->tail.im});
+        pull_jet(rows, i, middle, r);
+        if (i > 0 || rows->loop)
+            pull_jet(rows, i > 0 ? i - 1 : last, (cplx){1 + at->m.re + at->p.re, at->m.im + at->p.im}, r);
+        if (i < last || rows->loop) pull_jet(rows, i < last ? i + 1 : 0, (cplx){1, 0}, r);
     }
 }
 
 void system_right_side(const system_rows *rows)
 {
-    plain_jets(rows);
-    plain_adjoint(rows);
+    memset(rows->gradient, 0, sizeof(double) * (size_t)(rows->is_complex ? 2 * rows->count : rows->count));
+    pull_plainly(rows);
     add_other_rows(rows);
     hold_fixed(rows);
 }

@@ -1,8 +1,10 @@
 /// From the problem to its rows, one after the other (system.h), for the solvers of the band.
+#include "spline/poles_block.h"
 #include "spline/problem.h"
 #include <math.h>
 #include <string.h>
 
+static const double little = 1e-3;
 static const double implied_stiffness = 1000;
 
 /// Where the oscillator's frequency is below this part of the fastest one's, Im x is held.
@@ -28,46 +30,91 @@ static cplx drive_at(const problem *p, int k, cplx g)
 static double slowness(double natural, double highest, double step)
 {
     if (!(natural < slow_part * highest)) return 0;
-    double ratio = natural / (slow_part * highest), lack = 1 - ratio * ratio;
-    return pow(highest * step, 4) * lack * lack;
+    double ratio = natural / (slow_part * highest), lack = 1 - ratio * ratio, whole = highest * step * (highest * step);
+    return whole * whole * lack * lack;
 }
 
-static double highest_frequency(const problem *p, int rows)
+/// What Im x costs at a sample, times h³: T⁻⁴ (1 + (ω_n T)⁸)⁻¹.
+static double im_weight_of(double natural, double t, double intervals)
 {
-    double highest = 0;
-    for (int k = 0; k < rows; k++) highest = fmax(highest, poles_at(p->desc, p->first + k, 0).natural);
-    return highest;
+    double phase2 = natural * t * (natural * t), phase4 = phase2 * phase2, i2 = intervals * intervals;
+    return 1 / (i2 * i2 * (1 + phase4 * phase4));
 }
 
-/// Coefficients, drive, weights of jets and of Im x of every row. Weights are relative to the first sample's |g|⁻².
+/// Coefficients of a sample's row, its drive, and where it stands among the weights.
+static void set_row(system_rows *rows, const problem *p, int k, coefficients at, double jet_weight, double im_weight)
+{
+    rows->at[k] = at;
+    rows->jet_weight[k] = jet_weight;
+    rows->im_weight[k] = im_weight;
+    rows->drive[k] = drive_at(p, k, at.g);
+}
+
+/// Every row of parameters that vary, a block at a time; returns the lowest natural frequency. Weights are relative to the first sample's |g|⁻².
+static double set_varying(system_rows *rows, const problem *p, double t, double intervals, bool weighted)
+{
+    const wiggly_desc *desc = p->desc;
+    const bool oscillates = problem_oscillates(p), driven = !oscillates && p->about;
+    const double floor = problem_least_damping(p);
+    poles_block block;
+    double weight[POLES_BLOCK], reference = 0, scale = 1, highest = 0;
+    double slowest = INFINITY;
+    if (oscillates) poles_fastest(desc, p->first, p->first + rows->count - 1, &highest);
+    for (int k = 0; k < rows->count; k += POLES_BLOCK) {
+        int count = rows->count - k < POLES_BLOCK ? rows->count - k : POLES_BLOCK;
+        poles_block_fill(desc, p->first + k, count, floor, &block);
+        if (k == 0 && oscillates) reference = block.exponent[0], scale = exp(-reference);
+        for (int i = 0; i < count; i++) weight[i] = oscillates ? block.exponent[i] - reference : 0;
+        poles_block_exp(weight, count, weight);
+        for (int i = 0; i < count; i++) {
+            coefficients at = {.m = {block.m_re[i], block.m_im[i]}, .p = {block.p_re[i], block.p_im[i]}};
+            if (driven) {
+                poles here = poles_at(desc, p->first + k + i, floor);
+                at.g = poles_coefficients(&here, desc->step).g;
+            }
+            double im = weighted ? im_weight_of(block.natural[i], t, intervals) : 0;
+            if (oscillates) im = (im + slowness(block.natural[i], highest, desc->step)) * scale;
+            set_row(rows, p, k + i, at, weight[i], im);
+            slowest = block.natural[i] < slowest ? block.natural[i] : slowest;
+        }
+    }
+    return slowest;
+}
+
+/// Radians after which a stretch is no worse for being longer.
+static const double swings_back = 8;
+
+static void set_stretch(system_rows *rows, const wiggly_solver *solver, const problem *p, double slowest)
+{
+    const wiggly_desc *desc = p->desc;
+    int before = p->start == WIGGLY_REST ? 0 : p->earliest, longest = 0;
+    if (p->start == WIGGLY_LOOP) before = p->latest - p->count;
+    for (int n = 0; n < desc->knot_count; n++) {
+        int sample = desc->knots[solver->order[n]].sample;
+        if (sample - before > longest) longest = sample - before;
+        before = sample;
+    }
+    rows->stretch = fmin(longest, swings_back / (slowest * desc->step));
+}
+
+/// Coefficients, drive, weights of jets and of Im x of every row.
 static void set_filter(wiggly_solver *solver, const problem *p)
 {
     chain_forget(&solver->chain); // its tables lie where the matrix will be
     system_rows *rows = &solver->rows;
     const wiggly_desc *desc = p->desc;
-    double h = desc->step, intervals = p->start == WIGGLY_LOOP ? p->count : p->count - 1, t = intervals * h;
-    bool constant = poles_are_constant(desc), weighted = p->start != WIGGLY_REST || desc->knot_count > 0;
-    bool oscillates = problem_oscillates(p);
-    double highest = oscillates && !constant ? highest_frequency(p, rows->count) : 0;
-    double reference = 0, im_weight = 0, jet_weight = 1;
-    for (int k = 0; k < rows->count; k++) {
-        if (k == 0 || !constant) {
-            poles at = poles_at(desc, p->first + k, problem_least_damping(p));
-            rows->at[k] = poles_coefficients(&at, h);
-            im_weight = weighted ? 1 / (pow(intervals, 4) * (1 + pow(at.natural * t, 8))) : 0;
-            if (oscillates) {
-                double exponent = poles_weight_exponent(&at, h);
-                if (k == 0) reference = exponent;
-                jet_weight = exp(exponent - reference);
-                im_weight = (im_weight + slowness(at.natural, highest, h)) * exp(-reference);
-            }
-        } else {
-            rows->at[k] = rows->at[0];
-        }
-        rows->jet_weight[k] = jet_weight;
-        rows->im_weight[k] = im_weight;
-        rows->drive[k] = drive_at(p, k, rows->at[k].g);
+    double intervals = p->start == WIGGLY_LOOP ? p->count : p->count - 1, t = intervals * desc->step;
+    bool weighted = desc->mode == WIGGLY_COMPLEX && (p->start != WIGGLY_REST || desc->knot_count > 0);
+    if (!poles_are_constant(desc)) {
+        set_stretch(rows, solver, p, set_varying(rows, p, t, intervals, weighted));
+        return;
     }
+    const poles *at = &problem_filter(solver, p)->at;
+    coefficients row = poles_coefficients(at, desc->step);
+    double im = weighted ? im_weight_of(at->natural, t, intervals) : 0;
+    if (problem_oscillates(p)) im *= exp(-poles_weight_exponent(at, desc->step));
+    for (int k = 0; k < rows->count; k++) set_row(rows, p, k, row, 1, im);
+    set_stretch(rows, solver, p, at->natural);
 }
 
 /// The paper's: a difference of the total.
@@ -186,6 +233,18 @@ static void set_tail(system_rows *rows, const problem *p)
     rows->tail = poles_tail(&at, &ahead, p->desc->step);
 }
 
+/// Whether the knots are next to nothing beside what w has to take away for them: then w needs all its digits.
+static bool cancels(const problem *p)
+{
+    double values = 0, needed = 0;
+    for (int k = 0; k < p->desc->knot_count; k++) {
+        const wiggly_knot *knot = &p->desc->knots[k];
+        values = fmax(values, fabs(knot->value));
+        needed = fmax(needed, fabs(knot->value - problem_about(p, knot->sample)));
+    }
+    return values < little * needed;
+}
+
 void problem_set_rows(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
@@ -195,7 +254,7 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     rows->jet_from = rows->loop ? 0 : 1;
     rows->jet_to = rows->loop ? rows->count - 1 : rows->count - 2;
     rows->start = p->cost;
-    rows->is_held = p->start == WIGGLY_REST || p->calm >= LOOSE_CALM;
+    rows->is_held = !p->strict && !problem_is_loose(p) && !cancels(p);
     set_filter(solver, p);
     set_tail(rows, p);
     set_constraints(solver, p);

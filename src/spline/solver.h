@@ -28,6 +28,7 @@ struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
     solver_stop *stop;   ///< or NULL
+    wiggly_method method;
     int longest_squared; ///< longer domains are factored without squaring: none, but tests set it
     system_rows rows;
     pentadiagonal matrix;
@@ -43,6 +44,7 @@ struct wiggly_solver {
 typedef struct minimum {
     bool solved;    ///< false: the factorisation broke down or a number overflowed
     bool by_chain;  ///< the chain found it
+    bool unrefined; ///< one plain solve found it
     bool weak;      ///< a pivot was lost in rounding: if the problem can be singular, it is
     double largest; ///< max |x|
     double error;   ///< estimated error of x, absolute

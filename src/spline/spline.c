@@ -123,7 +123,10 @@ static double tolerance(wiggly_mode mode) { return mode == WIGGLY_CUBIC ? 1e-9 :
 static void measure(const double *values, int count, double *magnitude, double *range)
 {
     double low = values[0], high = low;
-    for (int i = 1; i < count; i++) low = fmin(low, values[i]), high = fmax(high, values[i]);
+    for (int i = 1; i < count; i++) {
+        low = values[i] < low ? values[i] : low;
+        high = values[i] > high ? values[i] : high;
+    }
     *magnitude = fmax(fabs(low), fabs(high));
     *range = high - low;
 }
@@ -198,23 +201,28 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     wiggly_curve all = with_arrays(solver, curve);
     wiggly_status status = problem_pose(solver, desc, all.y ? all.y : solver->y, &p);
     if (status != WIGGLY_OK) return status;
-    minimum result = {.solved = true};
-    status = p.status;
-    if (is_plain(&p)) {
-        solve_plain(solver, &p, &all);
-    } else {
-        status = minimise_safely(solver, &p, &all, &result);
+    for (;;) {
+        minimum result = {.solved = true};
+        status = p.status;
+        if (is_plain(&p)) {
+            solve_plain(solver, &p, &all);
+        } else {
+            status = minimise_safely(solver, &p, &all, &result);
+        }
+        problem_complete(solver, &p, &all);
+        result.error += p.swing.error;
+        status = judge(&all, &result, status);
+        if (status != WIGGLY_INEXACT || !result.unrefined) break;
+        p.strict = true;
     }
-    problem_complete(solver, &p, &all);
-    status = judge(&all, &result, status);
     keep_asked(curve, all);
     return status;
 }
 
 bool problem_pose_for_group(wiggly_solver *solver, const wiggly_desc *desc, problem *p)
 {
-    return problem_pose(solver, desc, solver->y, p) == WIGGLY_OK && p->start != WIGGLY_LOOP && !is_plain(p) &&
-           problem_fits_chain(solver, p) && !problem_ends_in_pair(solver, p);
+    return problem_pose(solver, desc, solver->y, p) == WIGGLY_OK && p->start != WIGGLY_LOOP && !problem_is_loose(p) && !is_plain(p) &&
+           problem_fits_chain(solver, p) && problem_omission(solver, p) == 0 && !problem_ends_in_pair(solver, p);
 }
 
 bool problem_finish(wiggly_solver *solver, const problem *p, wiggly_curve *curve)

@@ -9,6 +9,7 @@
 #include "spline/swing.h"
 #include "spline/oscillator.h"
 #include "spline/problem.h"
+#include <float.h>
 #include <math.h>
 
 static const double blow_up = 1e4;
@@ -137,7 +138,7 @@ static void look_for_forces(const wiggly_desc *desc, double floor, bool *pulled,
 }
 
 /// The periodic q, by the state that comes back to itself. false where there is none or one that is far too large.
-static bool run_loop(const wiggly_desc *desc, const double *y, double floor, const swing *u)
+static bool run_loop(const wiggly_desc *desc, const double *y, double floor, swing *u)
 {
     bool pulled, braked;
     int period = desc->samples - 1;
@@ -160,6 +161,7 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, con
     if (!(fabsl(det) > 1e-16L * (fabsl(a[0][0] * a[1][1]) + fabsl(a[0][1] * a[1][0])))) return false;
     double q = (double)((a[1][1] * end[0] - a[0][1] * end[1]) / det);
     double v = (double)((a[0][0] * end[1] - a[1][0] * end[0]) / det);
+    u->error = 8 * DBL_EPSILON * (double)((fabsl(a[1][1] * end[0]) + fabsl(a[0][1] * end[1])) / fabsl(det));
     run(desc, y, floor, q, v, u, end);
     double largest = 0, low = y[0], high = y[0];
     for (int i = 0; i < period; i++) {
@@ -184,9 +186,10 @@ static void set_imaginary(const wiggly_desc *desc, double floor, const swing *u)
     }
 }
 
-wiggly_status swing_answer(const wiggly_desc *desc, const double *y, double calm, const swing *u)
+wiggly_status swing_answer(const wiggly_desc *desc, const double *y, double calm, swing *u)
 {
     wiggly_status status = WIGGLY_OK;
+    u->error = 0;
     double end[2], floor = desc->start == WIGGLY_LOOP ? LEAST_DAMPING * calm : 0;
     if (desc->start != WIGGLY_LOOP) {
         run(desc, y, floor, 0, 0, u, end);

@@ -24,13 +24,27 @@ struct wiggly_take {
     problem problem;     ///< as it was posed, with its knots as they are now
 };
 
+/// A slope row as heavy as this costs the tree the digits of what stands beside it.
+static const double heaviest = 1e5;
+
+/// Whether the tree can promise what wiggly_solve() says of it: nothing may be singular, or ask to be refined.
+static bool is_for_tree(const wiggly_take *take, const problem *p)
+{
+    for (int k = 0; k < take->desc.knot_count; k++) {
+        const wiggly_knot *knot = &take->knots[k];
+        if (!knot->has_slope || knot->stiffness * take->desc.step <= heaviest) continue;
+        if (problem_slope(p, knot->sample, knot->slope, knot->stiffness).weight > heaviest) return false;
+    }
+    return p->start != WIGGLY_LOOP && !problem_is_loose(p) && problem_fits_chain(take->solver, p);
+}
+
 static wiggly_status build(wiggly_take *take)
 {
     chain *c = &take->solver->chain;
     problem *p = &take->problem;
     wiggly_status status = problem_pose(take->solver, &take->desc, take->y, p);
     if (status != WIGGLY_OK) return status;
-    if (!problem_fits_chain(take->solver, p)) return WIGGLY_ERROR_ARGUMENT;
+    if (!is_for_tree(take, p)) return WIGGLY_ERROR_ARGUMENT;
     problem_make_chain(take->solver, p);
     if (c->node_count < 2) return WIGGLY_ERROR_ARGUMENT;
     for (int k = 0, j = p->start == WIGGLY_REST; k < take->desc.knot_count; k++) {
@@ -202,7 +216,7 @@ static wiggly_status check_knot(const wiggly_take *take, int index, const wiggly
 {
     if (!take || index < 0 || index >= take->desc.knot_count) return WIGGLY_ERROR_ARGUMENT;
     const wiggly_knot *knots = take->knots;
-    int low = index > 0 ? knots[index - 1].sample + 1 : take->desc.start == WIGGLY_REST ? 2 : 0;
+    int low = index > 0 ? knots[index - 1].sample + 1 : 0;
     int high = index + 1 < take->desc.knot_count ? knots[index + 1].sample - 1 : take->desc.samples - 1;
     if (knot->sample < low || knot->sample > high) return WIGGLY_ERROR_KNOT;
     bool good = isfinite(knot->value) && fabs(knot->value) <= LARGEST_VALUE;
@@ -221,7 +235,8 @@ static bool patch(wiggly_take *take, int index, wiggly_knot knot, wiggly_status 
     bool changes_end = is_last && knot.has_slope != before.has_slope;
     bool on_last = knot.has_slope && knot.sample == take->desc.samples - 1;
     int j = take->node_of[index], last = take->solver->chain.node_count - 1;
-    if (shared || moves_start || changes_end || (on_last && !problem_oscillates(&take->problem))) return false;
+    bool heavy = knot.has_slope && knot.stiffness * take->desc.step > heaviest;
+    if (shared || moves_start || changes_end || heavy || (on_last && !problem_oscillates(&take->problem))) return false;
     if (is_last) {
         take->problem.latest = knot.sample;
         take->solver->chain.count = problem_rows(&take->problem);
