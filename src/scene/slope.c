@@ -60,7 +60,7 @@ static double speed_of_equilibrium(struct place *place)
 {
     const double *y = place->curve->y;
     const size_t n = (size_t)place->curve->samples;
-    swing u = {place->answer, place->answer + n, place->answer + 2 * n};
+    swing u = {.total = place->answer, .im = place->answer + n, .speed = place->answer + 2 * n};
     if (place->desc.mode == WIGGLY_CUBIC) {
         for (size_t i = 0; i < n; i++) u.total[i] = y[i];
     } else {
