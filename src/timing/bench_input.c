@@ -1,0 +1,93 @@
+/// The benchmark's splines: frequency 1, damping 0.05, at 24 samples a second, about a knot a second.
+#include "timing/bench_input.h"
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { KNOT_EVERY = 24, EDIT_EVERY = 100, LEAST_GAP = 12, GAPS = 25 };
+static const double pi = 3.14159265358979323846;
+
+static bool has_slope(enum bench_kind kind, int knot, bool last)
+{
+    if (kind == BENCH_SLOPES) return knot % 2 == 1;
+    return kind == BENCH_END_SLOPES && (knot == 0 || last);
+}
+
+static void add_knot(struct bench_input *input, int sample, bool with_slope)
+{
+    int k = input->desc.knot_count++;
+    input->knots[k] = (wiggly_knot){.sample = sample,
+                                    .value = sin(1.7 * k),
+                                    .has_slope = with_slope,
+                                    .slope = with_slope ? 2 * cos(0.9 * k) : 0,
+                                    .stiffness = 1000};
+}
+
+/// Gaps from LEAST_GAP to twice KNOT_EVERY less that, in no order.
+static void add_knots(struct bench_input *input, enum bench_kind kind)
+{
+    bool even = kind == BENCH_SINGLE || kind == BENCH_EDIT, ends = kind == BENCH_ENDS || kind == BENCH_END_SLOPES;
+    int gap = kind == BENCH_EDIT ? EDIT_EVERY : KNOT_EVERY, last = input->desc.samples - 1;
+    uint32_t seed = 11;
+    int sample = even || ends ? 0 : LEAST_GAP / 2;
+    while (sample < last - (ends ? LEAST_GAP : 0)) {
+        add_knot(input, sample, has_slope(kind, input->desc.knot_count, false));
+        seed = seed * 1664525 + 1013904223;
+        sample += even ? gap : LEAST_GAP + (int)(seed >> 24) % GAPS;
+    }
+    if (ends) add_knot(input, last, has_slope(kind, input->desc.knot_count, true));
+}
+
+static double periods_of(enum bench_kind kind)
+{
+    return kind >= BENCH_SHORT_1 && kind <= BENCH_SHORT_8 ? 1 << (kind - BENCH_SHORT_1) : 0;
+}
+
+/// Up and down about every 15 seconds; a loop's would close.
+static void add_track(struct bench_input *input, wiggly_param *param, double middle, double by)
+{
+    for (int i = 0; i < input->desc.samples; i++) input->track[i] = middle + by * sin(2 * pi * i / (15 * KNOT_EVERY));
+    param->track = input->track;
+}
+
+static bool allocate(struct bench_input *input, int knots, int track)
+{
+    input->knots = calloc((size_t)knots + 1, sizeof *input->knots);
+    input->track = track ? calloc((size_t)track, sizeof *input->track) : NULL;
+    input->desc.knots = input->knots;
+    return input->knots && (input->track || !track);
+}
+
+bool bench_input_create(struct bench_input *input, enum bench_kind kind, wiggly_mode mode, int samples)
+{
+    bool moves = kind == BENCH_EQUILIBRIUM || kind == BENCH_TRACK;
+    *input = (struct bench_input){.desc = wiggly_default_desc()};
+    wiggly_desc *desc = &input->desc;
+    desc->samples = samples;
+    desc->mode = mode;
+    desc->frequency.value = 1;
+    desc->damping.value = 0.05;
+    if (!allocate(input, samples / LEAST_GAP + 2, moves ? samples : 0)) return false;
+    if (kind == BENCH_LOOP) desc->start = WIGGLY_LOOP;
+    if (kind == BENCH_REST) desc->start = WIGGLY_REST;
+    if (kind == BENCH_EQUILIBRIUM) add_track(input, &desc->equilibrium, 0, 1);
+    if (kind == BENCH_TRACK) add_track(input, &desc->frequency, 1, 0.4);
+    if (periods_of(kind) > 0) desc->frequency.value = periods_of(kind) / ((samples - 1) * desc->step);
+    add_knots(input, kind);
+    return true;
+}
+
+bool bench_input_copy(struct bench_input *input, const wiggly_desc *desc)
+{
+    *input = (struct bench_input){.desc = *desc};
+    if (!allocate(input, desc->knot_count, 0)) return false;
+    memcpy(input->knots, desc->knots, sizeof *desc->knots * (size_t)desc->knot_count);
+    return true;
+}
+
+void bench_input_destroy(struct bench_input *input)
+{
+    free(input->knots);
+    free(input->track);
+}
