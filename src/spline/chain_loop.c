@@ -1,0 +1,110 @@
+/// The nodes' system of a loop: block-tridiagonal, with a corner.
+#include "spline/chain_nodes.h"
+
+/// Rows 1 … of a loop are factored as a chain's; beside, each couples to row 0 by F, which fills down from the row after it:
+///     F_1 = A_10,   F_{k+1} = −L_k F_k,   in the last row also A_0k*,     A_00 −= Σ F_k* P_k F_k.
+/// What is kept of it is P_k F_k. One row couples to itself; two rows to each other twice.
+static kernel_rank close_blocks(chain *c)
+{
+    const int last = c->node_count - 1;
+    chain_row *first = &c->rows[0];
+    double f[9], n[9] = {0}, l[9] = {0};
+    kernel_rank all = {1, 1, 1, 1};
+    if (last == 0) { // to itself: A + Aᵀ
+        const double *a = first->below;
+        const double twice[6] = {2 * a[0], a[1] + a[3], a[2] + a[6], 2 * a[4], a[5] + a[7], 2 * a[8]};
+        for (int i = 0; i < 6; i++) first->diagonal[i] += twice[i];
+    }
+    for (int i = 0; i < 9; i++) f[i] = first->below[i];
+    for (int k = 1; k <= last; k++) {
+        chain_row *row = &c->rows[k];
+        double *g = c->to_first + 9 * k;
+        for (int i = 0; k == last && i < 9; i++) f[i] += row->below[3 * (i % 3) + i / 3];
+        kernel_rank rank = kernel_pivot(row->diagonal, l, n);
+        chain_add_rank(&all, rank);
+        kernel_times(g, row->diagonal, f);
+        kernel_subtract_square(first->diagonal, f, g);
+        if (k == last) break;
+        for (int i = 0; i < 9; i++) n[i] = row->below[i];
+        kernel_lower(l, n, row->diagonal);
+        for (int i = 0; i < 9; i++) row->below[i] = l[i];
+        kernel_fill_down(f, l);
+    }
+    const double none[9] = {0};
+    kernel_rank rank = kernel_pivot(first->diagonal, none, none);
+    chain_add_rank(&all, rank);
+    return all;
+}
+
+static kernel_rank close_scalars(chain *c)
+{
+    const int last = c->node_count - 1;
+    chain_row *first = &c->rows[0];
+    double s = 1, n = 0, f = first->below[0], closed = first->diagonal[0] + (last == 0 ? 2 * f : 0), whole = closed;
+    kernel_rank all = {1, 1, 1, 1};
+    for (int k = 1; k <= last; k++) {
+        chain_row *row = &c->rows[k];
+        if (k == last) f += row->below[0];
+        kernel_rank rank = kernel_pivot_one(&s, row->diagonal[0], n);
+        chain_add_rank(&all, rank);
+        n = row->below[0];
+        row->diagonal[0] = 1 / s;
+        c->to_first[k] = f * row->diagonal[0];
+        closed -= f * c->to_first[k];
+        if (k == last) break;
+        row->below[0] = n * row->diagonal[0];
+        f *= -row->below[0];
+    }
+    first->diagonal[0] = 1 / closed;
+    chain_add_rank(&all,
+                   (kernel_rank){(closed > 0) & (closed < INFINITY), closed >= WEAKEST * whole, 1, whole / closed});
+    return all;
+}
+
+static void solve_loop_scalars(chain *c)
+{
+    const int last = c->node_count - 1;
+    chain_row *first = &c->rows[0];
+    for (int k = 1; k <= last; k++) {
+        if (k > 1) c->rows[k].right[0] -= c->rows[k - 1].below[0] * c->rows[k - 1].right[0];
+        first->right[0] -= c->to_first[k] * c->rows[k].right[0];
+    }
+    double closed = first->right[0] *= first->diagonal[0], after = 0;
+    for (int k = last; k > 0; k--) {
+        chain_row *row = &c->rows[k];
+        row->right[0] = row->diagonal[0] * row->right[0] - c->to_first[k] * closed;
+        if (k < last) row->right[0] -= row->below[0] * after;
+        after = row->right[0];
+    }
+}
+
+static void solve_loop_blocks(chain *c)
+{
+    const int last = c->node_count - 1;
+    chain_row *first = &c->rows[0];
+    const double none[9] = {0};
+    for (int k = 1; k <= last; k++) {
+        if (k > 1) kernel_forward(c->rows[k].right, c->rows[k - 1].below, c->rows[k - 1].right);
+        kernel_subtract_transposed(first->right, c->to_first + 9 * k, c->rows[k].right);
+    }
+    kernel_backward(first->right, first->diagonal, none, none);
+    for (int k = last; k > 0; k--) {
+        chain_row *row = &c->rows[k];
+        kernel_backward(row->right, row->diagonal, k < last ? row->below : none, k < last ? row[1].right : none);
+        kernel_forward(row->right, c->to_first + 9 * k, first->right);
+    }
+}
+
+void chain_solve_loop(chain *c)
+{
+    if (c->is_complex) {
+        solve_loop_blocks(c);
+    } else {
+        solve_loop_scalars(c);
+    }
+}
+
+chain_rank chain_close(chain *c)
+{
+    return chain_rank_with_loss(c, c->is_complex ? close_blocks(c) : close_scalars(c));
+}
