@@ -58,7 +58,7 @@ static void open_threaded(struct session *s, const char *scene)
 {
     session_open(s, scene);
     s->table.threaded = true;
-    assert_true(background_serves(s->document));
+    assert_true(background_serves(s->document, WIGGLY_CHAIN));
     session_frame(s);
 }
 
@@ -71,7 +71,7 @@ static void settle(struct session *s)
 
 static void solve_whole(const struct session *s, struct evaluation *whole)
 {
-    memset(whole, 0, sizeof *whole);
+    *whole = (struct evaluation){.method = s->table.evaluation.method};
     assert_true(evaluation_resize(whole, s->document, NULL));
     evaluation_update(whole, s->document, NULL, s->table.solved_cubic);
 }
