@@ -92,6 +92,8 @@ typedef struct company {
     int count; ///< not a multiple of the lanes
     int grid;  ///< knots only on multiples of this
     bool pairs_only;
+    wiggly_passive passive;
+    bool moves; ///< equilibria that move, each another way
 } company;
 
 static const company companies[] = {
@@ -103,6 +105,11 @@ static const company companies[] = {
     {"cubic", WIGGLY_CUBIC, WIGGLY_FREE, 0, 0, 1, 37, 1, false},
     {"pivots that lose digits", WIGGLY_COMPLEX, WIGGLY_FREE, 1.5, 0, 0.001, 29, 8, false},
     {"more lengths than there is room for", WIGGLY_COMPLEX, WIGGLY_FREE, 1.5, 0.1, 1, SAMPLES - 1, 1, true},
+    {"complex filters", WIGGLY_COMPLEX, WIGGLY_FREE, 1.5, 0.1, 1, 37, 1, false, WIGGLY_FILTER},
+    {"filters from rest", WIGGLY_COMPLEX, WIGGLY_REST, 2.5, 0.3, 1, 21, 1, false, WIGGLY_FILTER},
+    {"loops", WIGGLY_COMPLEX, WIGGLY_LOOP, 1.5, 0.1, 1, 21, 1, false},
+    {"moving equilibria", WIGGLY_COMPLEX, WIGGLY_FREE, 1.5, 0.1, 1, 21, 1, false, .moves = true},
+    {"cubics on moving equilibria", WIGGLY_CUBIC, WIGGLY_FREE, 0, 0, 1, 21, 1, false, .moves = true},
 };
 
 /// Knots of spline i: from none on, in twos side by side now and then, some with slopes.
@@ -143,6 +150,7 @@ static void assert_same_curve(const wiggly_curve *one, const wiggly_curve *many)
 static int check_company(const company *c, int lanes)
 {
     static wiggly_knot knots[SAMPLES][KNOTS];
+    static double equilibria[SAMPLES][SAMPLES];
     wiggly_desc desc[SAMPLES];
     wiggly_curve curve[SAMPLES];
     wiggly_status status[SAMPLES];
@@ -159,6 +167,9 @@ static int check_company(const company *c, int lanes)
         desc[i].frequency.value = c->frequency, desc[i].damping.value = c->damping;
         desc[i].bandwidth.value = c->damping;
         desc[i].equilibrium.value = 0.25 * i;
+        desc[i].passive = c->passive;
+        for (int k = 0; k < SAMPLES; k++) equilibria[i][k] = sin(0.01 * k * (1 + i));
+        if (c->moves) desc[i].equilibrium.track = equilibria[i];
         desc[i].knots = knots[i];
         desc[i].knot_count = make_knots(c, i, &seed, knots[i]);
         curve[i] = curve_create(SAMPLES);

@@ -24,6 +24,11 @@ static const char WIDE[] =
     "\"damping\": 0.1, \"bandwidth\": 0.2, \"knots\": [{\"frame\": 0, \"value\": 1},"
     "{\"frame\": 24, \"value\": 1}, {\"frame\": 84, \"value\": 1}]}]}";
 
+/// Knots on both samples beside a slope: nothing is left for it to say.
+static const char IDLE[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
+                           "\"damping\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 0.2},"
+                           "{\"frame\": 11, \"value\": 0.3, \"slope\": 5}, {\"frame\": 12, \"value\": 0.38}]}]}";
+
 /// Opens a scene that has a warning, clicks it, and finds it gone by one step that undo takes back byte by byte.
 static void assert_remedied(struct session *s, const char *scene, enum warning_kind kind)
 {
@@ -68,6 +73,15 @@ static void test_a_fast_spline_gets_substeps(void **state)
     assert_remedied(&s, FAST, WARNING_RATE);
     assert_int_equal(s.document->substeps, 2);
     assert_near(s.document->splines[0].parameter[PARAMETER_FREQUENCY].value, 9, 0);
+    session_close(&s);
+}
+
+static void test_a_slope_without_effect_is_switched_off(void **state)
+{
+    (void)state;
+    struct session s;
+    assert_remedied(&s, IDLE, WARNING_SLOPE);
+    assert_false(s.document->splines[0].knots[1].has_slope);
     session_close(&s);
 }
 
@@ -119,6 +133,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_swing_is_tamed_by_what_helps),
         cmocka_unit_test(test_a_fast_spline_gets_substeps),
+        cmocka_unit_test(test_a_slope_without_effect_is_switched_off),
         cmocka_unit_test(test_a_wide_band_is_narrowed_to_what_the_knots_hold),
         cmocka_unit_test(test_the_scenes_of_the_program_are_quiet),
         cmocka_unit_test(test_a_cubic_has_nothing_to_warn_of),

@@ -25,7 +25,9 @@
 #include <math.h>
 
 enum { MAX_SWEEPS = 30 };
-enum { LONGEST_FOR_BAND = 1000 }; ///< samples up to which a system that loses digits is left to the band, which knows its error
+enum {
+    LONGEST_FOR_BAND = 1000
+}; ///< samples up to which a system that loses digits is left to the band, which knows its error
 static const double refined = 1e-13;   ///< of the largest unknown
 static const double acceptable = 1e-6; ///< of the same: still a curve to show, though one that is said to be inexact
 
@@ -39,9 +41,9 @@ static bool is_tame_real(double size) { return size < 1e250; }
 static cplx slope_pull(const chain *c, const chain_stretch *s, const chain_node *q, cplx nu_d)
 {
     const chain_speed *speed = &c->speed[q->view];
-    cplx seen = cplx_sub(cplx_add(cplx_mul(speed->on_x, (cplx){q->value, q->x_im}),
-                                  cplx_mul(speed->on_d, (cplx){q->d_re, q->d_im})),
-                         cplx_mul(speed->on_r, nu_d));
+    cplx seen = cplx_sub(
+        cplx_add(cplx_mul(speed->on_x, (cplx){q->value, q->x_im}), cplx_mul(speed->on_d, (cplx){q->d_re, q->d_im})),
+        cplx_mul(speed->on_r, nu_d));
     double weight = chain_slope_weight(q->slope_weight, speed, s->form[FORM_V11]);
     return cplx_scale(weight * (seen.re - q->slope), cplx_conj(speed->on_r));
 }
@@ -199,8 +201,7 @@ void chain_reset_nodes(chain *c)
 /// r with r(0) = r(L) = 0, and |r| ≤ L (|u| + |v|) where u, v are the differences at the ends less the line's.
 static double bound_of_piece(const chain_node *from, const chain_node *to, int length)
 {
-    return 5 * (fabs(from->value) + fabs(to->value)) +
-           length * (fabs(from->d_re) + fabs(to->d_re));
+    return 5 * (fabs(from->value) + fabs(to->value)) + length * (fabs(from->d_re) + fabs(to->d_re));
 }
 
 bool chain_fill(chain *c, double *x_re, double *x_im)

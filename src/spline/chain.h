@@ -40,20 +40,14 @@ typedef struct chain_stretch {
 
 /// What is known of a node's state (x, d) beside Re x.
 enum {
-    NODE_FIXED_E = 1, ///< Re e: the next sample is keyed
-    NODE_AT_REST = 2, ///< all of it
+    NODE_FIXED_E = 1,   ///< Re e: the next sample is keyed
+    NODE_AT_REST = 2,   ///< all of it
     NODE_FROM_REST = 4, ///< x
-    NODE_SETTLED = 8, ///< that d follows x: what is behind moves by itself
+    NODE_SETTLED = 8,   ///< that d follows x: what is behind moves by itself
 };
 
 /// From where a node's speed is seen: the sample ahead, both neighbours, the sample behind, or what moves by itself.
-typedef enum chain_view {
-    VIEW_AHEAD,
-    VIEW_BOTH,
-    VIEW_BEHIND,
-    VIEW_TAIL,
-    VIEW_COUNT
-} chain_view;
+typedef enum chain_view { VIEW_AHEAD, VIEW_BOTH, VIEW_BEHIND, VIEW_TAIL, VIEW_COUNT } chain_view;
 
 /// h times a speed: Re(on_x x + on_d d − on_r r), r the jet at the node itself.
 typedef struct chain_speed {
@@ -95,12 +89,13 @@ typedef struct chain {
     cplx lambda, delta2; ///< mean of the poles, square of half their difference
     start_cost start;    ///< times calm; on the first node
     chain_speed speed[VIEW_COUNT];
-    cplx tail;   ///< d / x of a settled node
+    cplx tail;       ///< d / x of a settled node
     bool oscillates; ///< whether the speeds are those that the poles see
     bool settles;    ///< the last node is settled, or the second sample of a last pair is
     chain_powers powers;
     cplx_array forced[2]; ///< (first row of W_i F*^{L−i}) for each stretch, i = 0 … L − 1
-    int *stretch_of[2]; ///< 1 + index of the stretch of each length, 0 where there is none yet; the second are those that settle
+    int *stretch_of
+        [2]; ///< 1 + index of the stretch of each length, 0 where there is none yet; the second are those that settle
     chain_stretch *stretches;
     int stretch_count, stretch_capacity;
     unsigned forgotten; ///< how often all stretches were forgotten
@@ -109,7 +104,8 @@ typedef struct chain {
     chain_node *nodes;
     int node_count;
     chain_row *rows;
-    double *to_first; ///< a loop's: of each node's row but the first, the inverse of its pivot times its coupling to the first, 3×3 or 1
+    double *
+        to_first; ///< a loop's: of each node's row but the first, the inverse of its pivot times its coupling to the first, 3×3 or 1
     bool kept; ///< tables and factor are those of the nodes' samples, fixed and slope_weight, and of everything above
     chain_rank rank;    ///< of the factor
     bool loose;         ///< next to nothing holds the start: its errors are larger

@@ -11,6 +11,9 @@
 #include "spline/chain.h"
 #include <math.h>
 
+/// A row's numbers stay in registers from one of its steps to the next.
+#define ALWAYS_INLINE static inline __attribute__((always_inline))
+
 /// A pivot below this part of what its diagonal would give has lost digits that refinement must bring back.
 #define WEAKEST 1e-6
 
@@ -21,8 +24,8 @@
 
 /// What a row takes from its node. A known unknown is kept out of the system by 0 in place of 1.
 typedef struct kernel_node {
-    lane x, d, d_im;            ///< Re x, and d as far as it is known
-    lane tie, tie_im;           ///< Re d and Im d follow Im x by this much
+    lane x, d, d_im;             ///< Re x, and d as far as it is known
+    lane tie, tie_im;            ///< Re d and Im d follow Im x by this much
     lane keep_x, keep_d, keep_i; ///< whether Im x, Re d, Im d is unknown
 } kernel_node;
 
@@ -44,7 +47,7 @@ typedef struct kernel_rank {
 } kernel_rank;
 
 /// The Hermitian form [h00 h01; h01* h11] of a node's state.
-static inline void kernel_form(lane *d, lane h00, lane h01_re, lane h01_im, lane h11)
+ALWAYS_INLINE void kernel_form(lane *d, lane h00, lane h01_re, lane h01_im, lane h11)
 {
     d[0] += h00;
     d[1] += h01_im;
@@ -54,7 +57,7 @@ static inline void kernel_form(lane *d, lane h00, lane h01_re, lane h01_im, lane
 }
 
 /// Its gradient, times −½, at a state that is real.
-static inline void kernel_form_pull(lane *r, lane h01_re, lane h01_im, lane h11, lane x, lane d)
+ALWAYS_INLINE void kernel_form_pull(lane *r, lane h01_re, lane h01_im, lane h11, lane x, lane d)
 {
     r[0] -= h01_im * d;
     r[1] -= h01_re * x + h11 * d;
@@ -62,7 +65,7 @@ static inline void kernel_form_pull(lane *r, lane h01_re, lane h01_im, lane h11,
 }
 
 /// A stretch in the row of its first node, p, and the coupling.
-static inline void kernel_leave(lane *d, lane *n, const lane *f)
+ALWAYS_INLINE void kernel_leave(lane *d, lane *n, const lane *f)
 {
     kernel_form(d, f[FORM_P00], f[FORM_P01], f[FORM_P01 + 1], f[FORM_P11]);
     n[0] = -f[FORM_C00], n[1] = -f[FORM_C01 + 1], n[2] = -f[FORM_C01];
@@ -71,13 +74,13 @@ static inline void kernel_leave(lane *d, lane *n, const lane *f)
 }
 
 /// The same in the row of its last node.
-static inline void kernel_enter(lane *d, const lane *f)
+ALWAYS_INLINE void kernel_enter(lane *d, const lane *f)
 {
     kernel_form(d, f[FORM_V00], f[FORM_V01], f[FORM_V01 + 1], f[FORM_V11]);
 }
 
 /// C* s_q − P s_p at the first node.
-static inline void kernel_leave_pull(lane *r, const lane *f, const kernel_node *p, const kernel_node *q)
+ALWAYS_INLINE void kernel_leave_pull(lane *r, const lane *f, const kernel_node *p, const kernel_node *q)
 {
     r[0] += f[FORM_C10] * q->d_im - (f[FORM_C00 + 1] * q->x + f[FORM_C10 + 1] * q->d);
     r[1] += f[FORM_C01] * q->x + f[FORM_C11] * q->d + f[FORM_C11 + 1] * q->d_im;
@@ -86,7 +89,7 @@ static inline void kernel_leave_pull(lane *r, const lane *f, const kernel_node *
 }
 
 /// C s_p − V s_q at the last node.
-static inline void kernel_enter_pull(lane *r, const lane *f, const kernel_node *p, const kernel_node *q)
+ALWAYS_INLINE void kernel_enter_pull(lane *r, const lane *f, const kernel_node *p, const kernel_node *q)
 {
     r[0] += f[FORM_C00 + 1] * p->x + f[FORM_C01 + 1] * p->d;
     r[1] += f[FORM_C10] * p->x + f[FORM_C11] * p->d;
@@ -97,14 +100,16 @@ static inline void kernel_enter_pull(lane *r, const lane *f, const kernel_node *
 }
 
 /// The slope at node q, the jet there being ν_d = V₁₀ x_q + V₁₁ d_q − C₁₀ x_p − C₁₁ d_p of the stretch from p (see chain.c).
-static inline kernel_link kernel_link_of(const kernel_slope *s, const lane *f, const kernel_node *p,
+ALWAYS_INLINE kernel_link kernel_link_of(const kernel_slope *s, const lane *f, const kernel_node *p,
                                          const kernel_node *q)
 {
     lane a_re = s->x_re - (s->r_re * f[FORM_V01] + s->r_im * f[FORM_V01 + 1]);
     lane a_im = s->x_im - (s->r_im * f[FORM_V01] - s->r_re * f[FORM_V01 + 1]);
     lane b_re = s->d_re - s->r_re * f[FORM_V11], b_im = s->d_im - s->r_im * f[FORM_V11];
-    lane c_re = s->r_re * f[FORM_C10] - s->r_im * f[FORM_C10 + 1], c_im = s->r_re * f[FORM_C10 + 1] + s->r_im * f[FORM_C10];
-    lane e_re = s->r_re * f[FORM_C11] - s->r_im * f[FORM_C11 + 1], e_im = s->r_re * f[FORM_C11 + 1] + s->r_im * f[FORM_C11];
+    lane c_re = s->r_re * f[FORM_C10] - s->r_im * f[FORM_C10 + 1],
+         c_im = s->r_re * f[FORM_C10 + 1] + s->r_im * f[FORM_C10];
+    lane e_re = s->r_re * f[FORM_C11] - s->r_im * f[FORM_C11 + 1],
+         e_im = s->r_re * f[FORM_C11 + 1] + s->r_im * f[FORM_C11];
     lane seen = (a_re * q->x + (b_re * q->d - b_im * q->d_im)) + (c_re * p->x + e_re * p->d);
     lane size = s->r_re * s->r_re + s->r_im * s->r_im;
     lane weight = s->weight / (1.0 + s->weight * size * (1.0 - f[FORM_V11]));
@@ -112,15 +117,16 @@ static inline kernel_link kernel_link_of(const kernel_slope *s, const lane *f, c
 }
 
 /// The slope at the first node, where there is no jet.
-static inline kernel_link kernel_link_first(const kernel_slope *s, const kernel_node *q)
+ALWAYS_INLINE kernel_link kernel_link_first(const kernel_slope *s, const kernel_node *q)
 {
     lane seen = s->x_re * q->x + (s->d_re * q->d - s->d_im * q->d_im);
     lane none = s->weight * 0.0;
-    return (kernel_link){{none, none, none}, {-s->x_im, s->d_re, -s->d_im}, s->weight, s->weight * (s->target - seen)};
+    return (kernel_link){
+        {none, none, none}, {-s->x_im, s->d_re, -s->d_im}, s->weight, s->weight * (s->target - seen)};
 }
 
 /// w g g* into a diagonal block.
-static inline void kernel_add_square(lane *d, lane w, const lane *g)
+ALWAYS_INLINE void kernel_add_square(lane *d, lane w, const lane *g)
 {
     lane w0 = w * g[0], w1 = w * g[1];
     d[0] += w0 * g[0], d[1] += w0 * g[1], d[2] += w0 * g[2];
@@ -128,7 +134,7 @@ static inline void kernel_add_square(lane *d, lane w, const lane *g)
 }
 
 /// The coupling's part of a link.
-static inline void kernel_add_coupling(lane *n, const kernel_link *l)
+ALWAYS_INLINE void kernel_add_coupling(lane *n, const kernel_link *l)
 {
     for (int v = 0; v < 3; v++) {
         lane w = l->weight * l->at[v];
@@ -136,13 +142,13 @@ static inline void kernel_add_coupling(lane *n, const kernel_link *l)
     }
 }
 
-static inline void kernel_add_pull(lane *r, lane miss, const lane *g)
+ALWAYS_INLINE void kernel_add_pull(lane *r, lane miss, const lane *g)
 {
     for (int v = 0; v < 3; v++) r[v] += miss * g[v];
 }
 
 /// Folds a tied d into Im x, and takes what is known out of the block; 1 on its diagonal.
-static inline void kernel_hold(lane *d, const kernel_node *node)
+ALWAYS_INLINE void kernel_hold(lane *d, const kernel_node *node)
 {
     lane kx = node->keep_x, kd = node->keep_d, ki = node->keep_i, t = node->tie, s = node->tie_im;
     lane d1 = d[1] + t * d[3] + s * d[4], d2 = d[2] + t * d[4] + s * d[5];
@@ -155,7 +161,7 @@ static inline void kernel_hold(lane *d, const kernel_node *node)
 }
 
 /// The same in the columns of the coupling to the next node.
-static inline void kernel_hold_columns(lane *n, const kernel_node *node)
+ALWAYS_INLINE void kernel_hold_columns(lane *n, const kernel_node *node)
 {
     for (int v = 0; v < 9; v += 3) {
         n[v] = (n[v] + (node->tie * n[v + 1] + node->tie_im * n[v + 2])) * node->keep_x;
@@ -165,7 +171,7 @@ static inline void kernel_hold_columns(lane *n, const kernel_node *node)
 }
 
 /// The same in the rows of the coupling to the node before.
-static inline void kernel_hold_rows(lane *n, const kernel_node *node)
+ALWAYS_INLINE void kernel_hold_rows(lane *n, const kernel_node *node)
 {
     for (int v = 0; v < 3; v++) {
         n[v] = (n[v] + (node->tie * n[3 + v] + node->tie_im * n[6 + v])) * node->keep_x;
@@ -174,7 +180,7 @@ static inline void kernel_hold_rows(lane *n, const kernel_node *node)
     }
 }
 
-static inline void kernel_hold_pull(lane *r, const kernel_node *node)
+ALWAYS_INLINE void kernel_hold_pull(lane *r, const kernel_node *node)
 {
     r[0] = (r[0] + (node->tie * r[1] + node->tie_im * r[2])) * node->keep_x;
     r[1] *= node->keep_d;
@@ -182,14 +188,14 @@ static inline void kernel_hold_pull(lane *r, const kernel_node *node)
 }
 
 /// One row's rank added to all's.
-static inline void kernel_add_rank(kernel_rank *all, kernel_rank rank)
+ALWAYS_INLINE void kernel_add_rank(kernel_rank *all, kernel_rank rank)
 {
     all->sound &= rank.sound, all->firm &= rank.firm;
     all->quiet &= rank.lost <= TELLING_LOSS;
 }
 
 /// p ← inverse of the symmetric s.
-static inline kernel_rank kernel_invert(const lane *s, lane *p)
+ALWAYS_INLINE kernel_rank kernel_invert(const lane *s, lane *p)
 {
     lane c00 = s[3] * s[5] - s[4] * s[4], c01 = s[2] * s[4] - s[1] * s[5], c02 = s[1] * s[4] - s[2] * s[3];
     lane det = s[0] * c00 + s[1] * c01 + s[2] * c02;
@@ -206,7 +212,7 @@ static inline kernel_rank kernel_invert(const lane *s, lane *p)
 }
 
 /// d ← inverse of the pivot d − L N*, with L and N the coupling to the node before: L = N times the inverse of its pivot.
-static inline kernel_rank kernel_pivot(lane *d, const lane *l, const lane *n)
+ALWAYS_INLINE kernel_rank kernel_pivot(lane *d, const lane *l, const lane *n)
 {
     lane s[6] = {
         d[0] - (l[0] * n[0] + l[1] * n[1] + l[2] * n[2]), d[1] - (l[0] * n[3] + l[1] * n[4] + l[2] * n[5]),
@@ -222,7 +228,7 @@ static inline kernel_rank kernel_pivot(lane *d, const lane *l, const lane *n)
 }
 
 /// L = N P for a symmetric P.
-static inline void kernel_lower(lane *l, const lane *n, const lane *p)
+ALWAYS_INLINE void kernel_lower(lane *l, const lane *n, const lane *p)
 {
     for (int v = 0; v < 9; v += 3) {
         lane a = n[v], b = n[v + 1], c = n[v + 2];
@@ -233,13 +239,13 @@ static inline void kernel_lower(lane *l, const lane *n, const lane *p)
 }
 
 /// r −= L z.
-static inline void kernel_forward(lane *r, const lane *l, const lane *z)
+ALWAYS_INLINE void kernel_forward(lane *r, const lane *l, const lane *z)
 {
     for (int i = 0; i < 3; i++) r[i] -= l[3 * i] * z[0] + l[3 * i + 1] * z[1] + l[3 * i + 2] * z[2];
 }
 
 /// r ← P r − L* u, u the solution at the next node.
-static inline void kernel_backward(lane *r, const lane *p, const lane *l, const lane *u)
+ALWAYS_INLINE void kernel_backward(lane *r, const lane *p, const lane *l, const lane *u)
 {
     lane z0 = r[0], z1 = r[1], z2 = r[2];
     r[0] = p[0] * z0 + p[1] * z1 + p[2] * z2 - (l[0] * u[0] + l[3] * u[1] + l[6] * u[2]);
@@ -247,18 +253,18 @@ static inline void kernel_backward(lane *r, const lane *p, const lane *l, const 
     r[2] = p[2] * z0 + p[4] * z1 + p[5] * z2 - (l[2] * u[0] + l[5] * u[1] + l[8] * u[2]);
 }
 
-static inline lane kernel_leave_pull_one(const lane *f, const kernel_node *p, const kernel_node *q)
+ALWAYS_INLINE lane kernel_leave_pull_one(const lane *f, const kernel_node *p, const kernel_node *q)
 {
     return f[FORM_C01] * q->x + f[FORM_C11] * q->d - (f[FORM_P01] * p->x + f[FORM_P11] * p->d);
 }
 
-static inline lane kernel_enter_pull_one(const lane *f, const kernel_node *p, const kernel_node *q)
+ALWAYS_INLINE lane kernel_enter_pull_one(const lane *f, const kernel_node *p, const kernel_node *q)
 {
     return f[FORM_C10] * p->x + f[FORM_C11] * p->d - (f[FORM_V01] * q->x + f[FORM_V11] * q->d);
 }
 
 /// g = P F for a symmetric P.
-static inline void kernel_times(lane *g, const lane *p, const lane *f)
+ALWAYS_INLINE void kernel_times(lane *g, const lane *p, const lane *f)
 {
     for (int v = 0; v < 3; v++) {
         lane a = f[v], b = f[3 + v], c = f[6 + v];
@@ -269,7 +275,7 @@ static inline void kernel_times(lane *g, const lane *p, const lane *f)
 }
 
 /// d −= F* G, of which the upper triangle is kept.
-static inline void kernel_subtract_square(lane *d, const lane *f, const lane *g)
+ALWAYS_INLINE void kernel_subtract_square(lane *d, const lane *f, const lane *g)
 {
     for (int r = 0, i = 0; r < 3; r++) {
         for (int c = r; c < 3; c++, i++) d[i] -= f[r] * g[c] + f[3 + r] * g[3 + c] + f[6 + r] * g[6 + c];
@@ -277,7 +283,7 @@ static inline void kernel_subtract_square(lane *d, const lane *f, const lane *g)
 }
 
 /// f ← −L f.
-static inline void kernel_fill_down(lane *f, const lane *l)
+ALWAYS_INLINE void kernel_fill_down(lane *f, const lane *l)
 {
     for (int v = 0; v < 3; v++) {
         lane a = f[v], b = f[3 + v], c = f[6 + v];
@@ -286,7 +292,7 @@ static inline void kernel_fill_down(lane *f, const lane *l)
 }
 
 /// r −= G* z.
-static inline void kernel_subtract_transposed(lane *r, const lane *g, const lane *z)
+ALWAYS_INLINE void kernel_subtract_transposed(lane *r, const lane *g, const lane *z)
 {
     for (int v = 0; v < 3; v++) r[v] -= g[v] * z[0] + g[3 + v] * z[1] + g[6 + v] * z[2];
 }
@@ -296,7 +302,7 @@ typedef struct kernel_link_one {
     lane before, at, weight, miss;
 } kernel_link_one;
 
-static inline kernel_link_one kernel_link_of_one(const kernel_slope *s, const lane *f, const kernel_node *p,
+ALWAYS_INLINE kernel_link_one kernel_link_of_one(const kernel_slope *s, const lane *f, const kernel_node *p,
                                                  const kernel_node *q)
 {
     lane a = s->x_re - s->r_re * f[FORM_V01], at = s->d_re - s->r_re * f[FORM_V11];
@@ -306,13 +312,13 @@ static inline kernel_link_one kernel_link_of_one(const kernel_slope *s, const la
     return (kernel_link_one){before, at, weight, weight * (s->target - seen)};
 }
 
-static inline lane kernel_hold_one(lane d, const kernel_node *node)
+ALWAYS_INLINE lane kernel_hold_one(lane d, const kernel_node *node)
 {
     return d * node->keep_d + (1.0 - node->keep_d);
 }
 
 /// s ← d − n² / s, the pivot: only a division and a difference wait for the pivot before.
-static inline kernel_rank kernel_pivot_one(lane *s, lane d, lane n)
+ALWAYS_INLINE kernel_rank kernel_pivot_one(lane *s, lane d, lane n)
 {
     *s = d - n * n / *s;
     return (kernel_rank){.sound = (*s > 0.0) & (*s < INFINITY), .firm = *s >= WEAKEST * d, .lost = d / *s};

@@ -44,7 +44,8 @@ static kernel_node gather_node(const chain_group *g, int j)
 #define KEEP_D(k) (n[k]->fixed & (NODE_AT_REST | NODE_FIXED_E | NODE_SETTLED) ? 0.0 : 1.0)
 #define KEEP_I(k) (n[k]->fixed & (NODE_AT_REST | NODE_SETTLED) ? 0.0 : 1.0)
     return (kernel_node){
-        GATHER(X), GATHER(D), GATHER(D_IM), GATHER(TIE), GATHER(TIE_IM), GATHER(KEEP_X), GATHER(KEEP_D), GATHER(KEEP_I),
+        GATHER(X),      GATHER(D),      GATHER(D_IM),   GATHER(TIE),
+        GATHER(TIE_IM), GATHER(KEEP_X), GATHER(KEEP_D), GATHER(KEEP_I),
     };
 }
 

@@ -27,11 +27,12 @@ state_form chain_end_form(const chain *c)
     const chain_node *last = &c->nodes[c->node_count - 1];
     if (!c->settles || last->fixed & NODE_SETTLED) return (state_form){0};
     cplx on_x = cplx_sub(cplx_mul(c->tail, c->lambda), c->delta2), on_d = cplx_sub(c->tail, c->lambda);
-    return (state_form){
-        .h00 = 2 * cplx_norm(on_x), .h01 = cplx_scale(2, cplx_mul(cplx_conj(on_x), on_d)), .h11 = 2 * cplx_norm(on_d)};
+    return (state_form){.h00 = 2 * cplx_norm(on_x),
+                        .h01 = cplx_scale(2, cplx_mul(cplx_conj(on_x), on_d)),
+                        .h11 = 2 * cplx_norm(on_d)};
 }
 
-static kernel_node kernel_node_of(const chain *c, const chain_node *node)
+ALWAYS_INLINE kernel_node kernel_node_of(const chain *c, const chain_node *node)
 {
     const unsigned fixed = node->fixed;
     const cplx tie = chain_node_tie(c, node);
@@ -55,8 +56,8 @@ static kernel_slope kernel_slope_of(const chain *c, const chain_node *node)
 static const double *form_after(const chain *c, int j) { return c->stretches[c->nodes[j].stretch].form; }
 
 /// A stretch and the slope at its end: into the block of its first node, the coupling, and the block of its last.
-static void assemble_stretch(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *d, double *n,
-                             double *entering)
+ALWAYS_INLINE void assemble_stretch(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *d,
+                                    double *n, double *entering)
 {
     const double *form = form_after(c, j);
     const chain_node *end = &c->nodes[chain_next(c, j)];
@@ -113,8 +114,8 @@ static void assemble_blocks(chain *c)
     }
 }
 
-static void assemble_stretch_one(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *d, double *n,
-                                 double *entering)
+ALWAYS_INLINE void assemble_stretch_one(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *d,
+                                        double *n, double *entering)
 {
     const double *form = form_after(c, j);
     const chain_node *end = &c->nodes[chain_next(c, j)];
@@ -325,7 +326,8 @@ static void solve_loop(chain *c)
 
 double chain_error(const chain *c, double size)
 {
-    if (c->rank == CHAIN_WEAK) return 16 * DBL_EPSILON * sqrt(c->lost) * size; // refined: what is left is the coefficients' rounding
+    if (c->rank == CHAIN_WEAK)
+        return 16 * DBL_EPSILON * sqrt(c->lost) * size; // refined: what is left is the coefficients' rounding
     if (c->loose) return 100 * DBL_EPSILON * c->lost * size;
     return c->lost > TELLING_LOSS ? 16 * DBL_EPSILON * c->lost * size : 0;
 }
@@ -368,7 +370,8 @@ void chain_solve_nodes(chain *c)
 }
 
 /// What a stretch and the slope at its end pull where everything unknown is 0.
-static void pull_along(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *right, double *entering)
+ALWAYS_INLINE void pull_along(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *right,
+                              double *entering)
 {
     const double *form = form_after(c, j);
     const chain_node *end = &c->nodes[chain_next(c, j)];
@@ -419,8 +422,8 @@ static void pull_blocks(chain *c)
     }
 }
 
-static void pull_along_one(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *right,
-                           double *entering)
+ALWAYS_INLINE void pull_along_one(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *right,
+                                  double *entering)
 {
     const double *form = form_after(c, j);
     const chain_node *end = &c->nodes[chain_next(c, j)];

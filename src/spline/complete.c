@@ -12,8 +12,8 @@ static double range_of(const double *values, int count)
 {
     double low = values[0], high = values[0];
     for (int i = 1; i < count; i++) {
-        low = fmin(low, values[i]);
-        high = fmax(high, values[i]);
+        low = values[i] < low ? values[i] : low;
+        high = values[i] > high ? values[i] : high;
     }
     return high - low;
 }

@@ -15,7 +15,7 @@
     X(friction, PARAM, true)                                                                                         \
     X(equilibrium, PARAM, false)                                                                                     \
     X(calm, NUMBER, false)                                                                                           \
-    X(passive, CHOICE, false)
+    X(passive, CHOICE, true)
 
 #define ROW(member, kind, filters)                                                                                   \
     {#member, DESC_##kind, filters, offsetof(wiggly_desc, member), sizeof(((wiggly_desc *)0)->member)},

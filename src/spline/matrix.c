@@ -62,11 +62,15 @@ static void jet_rows_real(const system_rows *rows, pentadiagonal *m)
 stencil system_slope_stencil(const system_rows *rows, const slope_row *slope)
 {
     int n = rows->count, k = slope->sample;
-    stencil s = {.before = k > 0 ? k - 1 : rows->loop ? n - 1 : -1,
+    stencil s = {.before = k > 0        ? k - 1
+                           : rows->loop ? n - 1
+                                        : -1,
                  .at = k,
-                 .after = k < n - 1 ? k + 1 : rows->loop ? 0 : -1,
-                 .c = {cplx_scale(-1, slope->behind),
-                       cplx_add(slope->here, cplx_sub(slope->behind, slope->ahead)), slope->ahead}};
+                 .after = k < n - 1    ? k + 1
+                          : rows->loop ? 0
+                                       : -1,
+                 .c = {cplx_scale(-1, slope->behind), cplx_add(slope->here, cplx_sub(slope->behind, slope->ahead)),
+                       slope->ahead}};
     if (s.after < 0) s.c[1] = cplx_add(s.c[1], cplx_mul(slope->ahead, (cplx){1 + rows->tail.re, rows->tail.im}));
     return s;
 }

@@ -19,7 +19,7 @@ enum { MAX_SWEEPS = 16 };
 /// themselves: a fifth of the tolerance.
 static const double enough_complex = 2e-9, enough_real = 2e-10;
 static const double rounding = 2 * DBL_EPSILON; ///< of a coefficient
-static const double too_much = 1e-1; ///< beyond, the squared matrix is no help to refinement
+static const double too_much = 1e-1;            ///< beyond, the squared matrix is no help to refinement
 
 static double largest_modulus(const double *x, int count, bool is_complex)
 {
@@ -50,7 +50,8 @@ static double enough(const system_rows *rows) { return rows->is_complex ? enough
 
 static factorisation factor_rows(wiggly_solver *solver)
 {
-    return (factorisation){.rank = orthogonal_factor(&solver->rows, &solver->matrix, solver->stop), .error = INFINITY};
+    return (factorisation){.rank = orthogonal_factor(&solver->rows, &solver->matrix, solver->stop),
+                           .error = INFINITY};
 }
 
 static factorisation factor(wiggly_solver *solver)

@@ -19,7 +19,8 @@ typedef struct pentadiagonal {
     int edge_row[BORDER_MAX];
     int edge_count;
     double corner[BORDER_MAX][BORDER_MAX]; ///< Cholesky factor of the border's Schur complement
-    double lost; ///< largest part of its diagonal entry that a pivot has lost, as entry / pivot; from the factorisation
+    double
+        lost; ///< largest part of its diagonal entry that a pivot has lost, as entry / pivot; from the factorisation
 } pentadiagonal;
 
 typedef enum pentadiagonal_rank {

@@ -77,8 +77,8 @@ bool poles_are_constant(const wiggly_desc *desc)
 
 cplx cplx_exp(cplx z)
 {
-    double size = exp(z.re);
-    return (cplx){size * cos(z.im), size * sin(z.im)};
+    double size = exp(z.re), c = cos(z.im), s = sin(z.im);
+    return (cplx){size * c, size * s};
 }
 
 cplx cplx_divide(cplx a, cplx b)

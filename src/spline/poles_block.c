@@ -89,8 +89,8 @@ static void load(wiggly_param param, int from, int count, double *out)
     }
 }
 
-WIDEST static void set_complex(const double *restrict f, const double *restrict z, const double *restrict b, double floor,
-                               double h, int count, poles_block *restrict block, exponents *restrict e)
+WIDEST static void set_complex(const double *restrict f, const double *restrict z, const double *restrict b,
+                               double floor, double h, int count, poles_block *restrict block, exponents *restrict e)
 {
     for (int i = 0; i < count; i++) {
         double omega = 2 * 3.14159265358979323846 * f[i], zeta = z[i] > floor ? z[i] : floor;

@@ -112,7 +112,7 @@ static void set_about(wiggly_solver *solver, problem *p)
 static start_cost cost_of_start(wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    if (poles_are_constant(desc)) return problem_filter(solver, p)->start[problem_oscillates(p)];
+    if (poles_are_constant(desc)) return problem_filter(solver, p)->start;
     int at = problem_oscillates(p) ? poles_fastest(desc, p->first, p->latest, NULL) : p->first;
     poles damped = poles_at(desc, at, LEAST_DAMPING), here = poles_at(desc, p->first, 0);
     start_cost cost = poles_start_cost(&damped, desc->step);

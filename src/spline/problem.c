@@ -129,7 +129,8 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
     for (int i = 0; i < knots; i++, node++) {
         int n = (begin + i) % knots;
         bool pair = has_company(solver, p, n);
-        same = problem_put_knot(p, node, knot_at(solver, p, n), pair ? knot_at(solver, p, (n + 1) % knots) : NULL) && same;
+        same = problem_put_knot(p, node, knot_at(solver, p, n), pair ? knot_at(solver, p, (n + 1) % knots) : NULL) &&
+               same;
         if (p->start == WIGGLY_LOOP) node->sample = (node->sample - turned + p->count) % p->count;
         if (pair) i++;
     }
@@ -147,7 +148,10 @@ static bool same_row(struct start_row a, struct start_row b)
     return a.weight == b.weight && same_cplx(a.on_x, b.on_x) && same_cplx(a.on_e, b.on_e);
 }
 
-static bool same_start(start_cost a, start_cost b) { return same_row(a.row[0], b.row[0]) && same_row(a.row[1], b.row[1]); }
+static bool same_start(start_cost a, start_cost b)
+{
+    return same_row(a.row[0], b.row[0]) && same_row(a.row[1], b.row[1]);
+}
 
 static bool same_filter(const wiggly_solver *solver, const problem *p)
 {
@@ -191,7 +195,8 @@ static void set_chain(wiggly_solver *solver, const problem *p)
     if (!same_filter(solver, p)) chain_forget(c);
     start_cost start = start_of(p);
     if (!same_start(start, c->start)) c->kept = false;
-    if (c->settles != p->settles || c->cyclic != (p->start == WIGGLY_LOOP) || c->oscillates != problem_oscillates(p)) c->kept = false;
+    if (c->settles != p->settles || c->cyclic != (p->start == WIGGLY_LOOP) || c->oscillates != problem_oscillates(p))
+        c->kept = false;
     c->is_complex = p->desc->mode == WIGGLY_COMPLEX;
     c->count = problem_rows(p);
     c->start = start;
@@ -208,7 +213,8 @@ bool problem_shares_chain(wiggly_solver *solver, const problem *p)
 {
     problem_filter(solver, p);
     return same_filter(solver, p) && same_start(start_of(p), solver->chain.start) &&
-           solver->chain.settles == p->settles && !solver->chain.cyclic && solver->chain.oscillates == problem_oscillates(p);
+           solver->chain.settles == p->settles && !solver->chain.cyclic &&
+           solver->chain.oscillates == problem_oscillates(p);
 }
 
 /// One knot without any hold has no single answer.

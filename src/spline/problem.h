@@ -47,10 +47,7 @@ static inline double problem_y(const problem *p, int sample)
 static inline double problem_about(const problem *p, int sample) { return p->about ? p->about[sample] : p->level; }
 
 /// Rows of the system: the samples that are solved for.
-static inline int problem_rows(const problem *p)
-{
-    return p->settles ? p->latest - p->first + 1 : p->count;
-}
+static inline int problem_rows(const problem *p) { return p->settles ? p->latest - p->first + 1 : p->count; }
 
 /// The least damping ratio that the problem takes.
 static inline double problem_least_damping(const problem *p)

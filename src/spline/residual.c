@@ -53,7 +53,7 @@ static inline dd real_jet(const system_rows *rows, int i)
     int last = rows->count - 1;
     double before = i > 0 ? x[i - 1] : rows->loop ? x[last] : 0, here = x[i];
     dd step = dd_difference(here, before);
-    dd next = i < last      ? dd_difference(x[i + 1], here)
+    dd next = i < last     ? dd_difference(x[i + 1], here)
               : rows->loop ? dd_difference(x[0], here)
                            : dd_product(rows->tail.re, here);
     dd spring = dd_subtract(dd_product(rows->at[i].p.re, before), dd_scale(rows->at[i].m.re, step));
@@ -221,7 +221,8 @@ static void pull_plainly(const system_rows *rows)
     for (int i = rows->jet_from; i <= rows->jet_to; i++) {
         const coefficients *at = &rows->at[i];
         cplx before = sample_of(rows, i - 1), here = sample_of(rows, i), after = sample_of(rows, i + 1);
-        if (before.re == 0 && here.re == 0 && after.re == 0 && rows->drive[i].re == 0 && rows->drive[i].im == 0) continue;
+        if (before.re == 0 && here.re == 0 && after.re == 0 && rows->drive[i].re == 0 && rows->drive[i].im == 0)
+            continue;
         bool is_tail = !rows->loop && i == last;
         cplx step = cplx_sub(here, before), next = is_tail ? cplx_mul(rows->tail, here) : cplx_sub(after, here);
         cplx r = cplx_add(cplx_add(cplx_sub(next, step), rows->drive[i]),

@@ -30,7 +30,8 @@ static cplx drive_at(const problem *p, int k, cplx g)
 static double slowness(double natural, double highest, double step)
 {
     if (!(natural < slow_part * highest)) return 0;
-    double ratio = natural / (slow_part * highest), lack = 1 - ratio * ratio, whole = highest * step * (highest * step);
+    double ratio = natural / (slow_part * highest), lack = 1 - ratio * ratio,
+           whole = highest * step * (highest * step);
     return whole * whole * lack * lack;
 }
 
@@ -153,7 +154,8 @@ static slope_row oscillator_slope(const problem *p, int k, double slope, double 
         int sides = ahead + behind;
         if (sides == 0) return (slope_row){.sample = k};
         speed_form forward = poles_speed(&at, h, false), backward = poles_speed(&at, h, true);
-        if (ahead) row.here = cplx_scale(1.0 / sides, forward.on_x), row.ahead = cplx_scale(1.0 / sides, forward.on_e);
+        if (ahead)
+            row.here = cplx_scale(1.0 / sides, forward.on_x), row.ahead = cplx_scale(1.0 / sides, forward.on_e);
         if (behind) {
             row.here = cplx_add(row.here, cplx_scale(1.0 / sides, backward.on_x));
             row.behind = cplx_scale(1.0 / sides, backward.on_e);
@@ -259,4 +261,3 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     set_tail(rows, p);
     set_constraints(solver, p);
 }
-

@@ -12,8 +12,8 @@ enum {
     CHAIN_DOUBLES = 12,
     BYTES_PER_SAMPLE = (int)((MATRIX_DOUBLES + 2 + 2 + 2 + 4 + 4) * sizeof(double) + sizeof(coefficients) +
                              sizeof(cplx) + 3 * sizeof(int) + sizeof(unsigned char)),
-    BYTES_PER_KNOT =
-        (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) + 9 * sizeof(double) + sizeof(int)),
+    BYTES_PER_KNOT = (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) +
+                           9 * sizeof(double) + sizeof(int)),
 };
 
 _Static_assert((int)CHAIN_DOUBLES <= (int)MATRIX_DOUBLES, "the chain's tables lie over the matrix");
@@ -121,17 +121,19 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
 {
     constant_filter *f = &solver->filter;
     if (f->known && f->floor == floor && desc_same_filter(&f->desc, desc)) return f;
-    poles damped = poles_at(desc, 0, LEAST_DAMPING);
-    *f = (constant_filter){.known = true, .desc = desc_settings(desc), .floor = floor, .at = poles_at(desc, 0, floor)};
-    f->start[0] = poles_start_cost(&damped, desc->step);
-    f->start[1] = poles_start_seen_from(f->start[0], &damped, &f->at, desc->step);
-    double weight =
-        exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&f->at, desc->step));
-    for (int i = 0; i < 2; i++) f->start[1].row[i].weight *= weight;
+    *f =
+        (constant_filter){.known = true, .desc = desc_settings(desc), .floor = floor, .at = poles_at(desc, 0, floor)};
     poles_mean(&f->at, desc->step, &f->lambda, &f->delta2);
+    poles damped = poles_at(desc, 0, fmax(floor, LEAST_DAMPING));
+    f->start = poles_start_cost(&damped, desc->step);
+    if (desc->passive != WIGGLY_OSCILLATOR) return f;
     f->ahead = poles_speed(&f->at, desc->step, false);
     f->passive = cplx_scale(desc->step, poles_passive(&f->at));
     f->tail = poles_tail(&f->at, &f->ahead, desc->step);
+    if (damped.decay == f->at.decay) return f;
+    f->start = poles_start_seen_from(f->start, &damped, &f->at, desc->step);
+    double weight = exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&f->at, desc->step));
+    for (int i = 0; i < 2; i++) f->start.row[i].weight *= weight;
     return f;
 }
 

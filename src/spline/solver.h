@@ -17,7 +17,7 @@ typedef struct constant_filter {
     wiggly_desc desc; ///< that it is of, without knots
     double floor;     ///< least damping ratio
     poles at;
-    start_cost start[2]; ///< at calm 1: the filter's; the oscillator's, in units of the jets' weight
+    start_cost start; ///< at calm 1; the oscillator's is in units of the jets' weight
     cplx lambda, delta2;
     speed_form ahead; ///< the speed that the poles see in a sample and the one ahead
     cplx passive;     ///< h p of what moves by itself
@@ -27,7 +27,7 @@ typedef struct constant_filter {
 struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
-    solver_stop *stop;   ///< or NULL
+    solver_stop *stop; ///< or NULL
     wiggly_method method;
     int longest_squared; ///< longer domains are factored without squaring: none, but tests set it
     system_rows rows;

@@ -9,6 +9,7 @@
 #include "spline/swing.h"
 #include "spline/oscillator.h"
 #include "spline/problem.h"
+#include "spline/wide.h"
 #include <float.h>
 #include <math.h>
 
@@ -29,10 +30,23 @@ static double y_beyond(const wiggly_desc *desc, const double *y, int i)
     return i < n ? y[i] : 2 * y[n - 1] - y[n > 1 ? n - 2 : 0];
 }
 
-static double kick_at(const wiggly_desc *desc, const double *y, int i)
+/// What q' jumps by at each sample, less the sign.
+WIDEST static void bends(const double *restrict y, int from, int to, double per_step, double *restrict out)
 {
-    if (desc->samples < 2) return 0;
-    return ((y[i] - y_beyond(desc, y, i - 1)) - (y_beyond(desc, y, i + 1) - y[i])) / desc->step;
+    for (int i = from; i < to; i++) out[i] = ((y[i] - y[i - 1]) - (y[i + 1] - y[i])) * per_step;
+}
+
+static void set_kicks(const wiggly_desc *desc, const double *y, double *out)
+{
+    const int last = desc->samples - 1;
+    const double per_step = 1 / desc->step;
+    bends(y, 1, last, per_step, out);
+    const int ends[] = {0, last};
+    for (int e = 0; e < 2; e++) {
+        int i = ends[e];
+        double before = y_beyond(desc, y, i - 1), after = y_beyond(desc, y, i + 1);
+        out[i] = last > 0 ? ((y[i] - before) - (after - y[i])) * per_step : 0;
+    }
 }
 
 /// Where the state goes sample by sample: constant parameters have one step.
@@ -46,7 +60,8 @@ typedef struct path {
 
 static path begin(const wiggly_desc *desc, double floor)
 {
-    path p = {.desc = desc, .floor = floor, .constant = poles_are_constant(desc), .here = oscillator_at(desc, 0, floor)};
+    path p = {
+        .desc = desc, .floor = floor, .constant = poles_are_constant(desc), .here = oscillator_at(desc, 0, floor)};
     p.step = oscillator_step(p.here, desc->step);
     return p;
 }
@@ -62,17 +77,18 @@ static step_matrix next_step(path *p, int i)
     return oscillator_step(mean, p->desc->step);
 }
 
-/// q into `total` and q' in the middle of its jumps into `speed`, from a state before sample 0; returns the state after the last step.
-static void run(const wiggly_desc *desc, const double *y, double floor, double q, double v, const swing *u, double end[2])
+/// q into `total` and q' in the middle of its jumps into `speed`, from a state before sample 0, with the jumps in `im`; returns the
+/// state after the last step.
+static void run(const wiggly_desc *desc, double floor, double q, double v, const swing *u, double end[2])
 {
     path p = begin(desc, floor);
     int n = desc->samples;
     for (int i = 0; i < n; i++) {
-        double kick = kick_at(desc, y, i);
+        double kick = u->im[i];
         u->total[i] = q;
         u->speed[i] = v + 0.5 * kick;
         if (i + 1 == n) break;
-        step_matrix m = next_step(&p, i);
+        step_matrix m = p.constant ? p.step : next_step(&p, i);
         v += kick;
         double moved = m.q_q * q + m.q_v * v;
         v = m.v_q * q + m.v_v * v;
@@ -144,13 +160,13 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, swi
     int period = desc->samples - 1;
     double end[2];
     look_for_forces(desc, floor, &pulled, &braked);
-    run(desc, y, floor, 0, 0, u, end);
+    run(desc, floor, 0, 0, u, end);
     if (!pulled) { // of a family that differs by constants the one of mean 0
         long double mean = 0;
         wide_matrix a;
         around(desc, floor, a);
         double v = braked ? end[1] / (double)a[1][1] : -end[0] / (period * desc->step);
-        run(desc, y, floor, 0, v, u, end);
+        run(desc, floor, 0, v, u, end);
         for (int i = 0; i < period; i++) mean += u->total[i];
         for (int i = 0; i <= period; i++) u->total[i] -= (double)(mean / period);
         return true;
@@ -162,37 +178,59 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, swi
     double q = (double)((a[1][1] * end[0] - a[0][1] * end[1]) / det);
     double v = (double)((a[0][0] * end[1] - a[1][0] * end[0]) / det);
     u->error = 8 * DBL_EPSILON * (double)((fabsl(a[1][1] * end[0]) + fabsl(a[0][1] * end[1])) / fabsl(det));
-    run(desc, y, floor, q, v, u, end);
+    run(desc, floor, q, v, u, end);
     double largest = 0, low = y[0], high = y[0];
     for (int i = 0; i < period; i++) {
-        largest = fmax(largest, fabs(u->total[i]));
-        low = fmin(low, y[i]), high = fmax(high, y[i]);
+        double size = fabs(u->total[i]);
+        largest = size > largest ? size : largest;
+        low = y[i] < low ? y[i] : low, high = y[i] > high ? y[i] : high;
     }
     return largest <= blow_up * (high - low);
 }
 
-/// Im u: the one-sided form, faded out where ω_d is so slow or so small a part of ω_n that it would diverge.
+/// Im u per q' + d q: the one-sided form, faded out where ω_d is so slow or so small a part of ω_n that it would diverge.
+static double imaginary_gain(oscillator o, double t)
+{
+    double omega2 = fmax(0, o.k - o.d * o.d);
+    if (!(omega2 > 0)) return 0;
+    double phase2 = omega2 * t * t, phase4 = phase2 * phase2, turns = phase4 * phase4;
+    double part = omega2 / o.k, ratio = part * part * (part * part);
+    return -ratio / (ratio + 1e-8) / (1 + 1 / turns) / sqrt(omega2);
+}
+
+WIDEST static void follow_constant(const double *restrict q, const double *restrict speed, double gain, double d,
+                                   int count, double *restrict im)
+{
+    for (int i = 0; i < count; i++) im[i] = gain * (speed[i] + d * q[i]);
+}
+
 static void set_imaginary(const wiggly_desc *desc, double floor, const swing *u)
 {
-    bool constant = poles_are_constant(desc);
-    double t = (desc->samples - 1) * desc->step, gain = 0, d = 0;
-    for (int i = 0; i < desc->samples; i++) {
-        if (i == 0 || !constant) {
-            oscillator o = oscillator_at(desc, i, floor);
-            d = o.d;
-            gain = oscillator_turn(o, t);
-        }
-        u->im[i] = gain * (u->speed[i] + d * u->total[i]);
+    double t = (desc->samples - 1) * desc->step;
+    if (poles_are_constant(desc)) {
+        oscillator o = oscillator_at(desc, 0, floor);
+        follow_constant(u->total, u->speed, imaginary_gain(o, t), o.d, desc->samples, u->im);
+        return;
     }
+    for (int i = 0; i < desc->samples; i++) {
+        oscillator o = oscillator_at(desc, i, floor);
+        u->im[i] = imaginary_gain(o, t) * (u->speed[i] + o.d * u->total[i]);
+    }
+}
+
+WIDEST static void add(double *restrict total, const double *restrict y, int count)
+{
+    for (int i = 0; i < count; i++) total[i] += y[i];
 }
 
 wiggly_status swing_answer(const wiggly_desc *desc, const double *y, double calm, swing *u)
 {
     wiggly_status status = WIGGLY_OK;
     u->error = 0;
+    set_kicks(desc, y, u->im);
     double end[2], floor = desc->start == WIGGLY_LOOP ? LEAST_DAMPING * calm : 0;
     if (desc->start != WIGGLY_LOOP) {
-        run(desc, y, floor, 0, 0, u, end);
+        run(desc, floor, 0, 0, u, end);
     } else if (!run_loop(desc, y, floor, u) && calm == 0) {
         floor = LEAST_DAMPING * FALLBACK_CALM;
         run_loop(desc, y, floor, u);
@@ -203,7 +241,7 @@ wiggly_status swing_answer(const wiggly_desc *desc, const double *y, double calm
     } else {
         for (int i = 0; i < desc->samples; i++) u->im[i] = 0;
     }
-    for (int i = 0; i < desc->samples; i++) u->total[i] += y[i];
+    add(u->total, y, desc->samples);
     if (desc->start == WIGGLY_LOOP) { // not even the rounding of a turn apart
         u->total[desc->samples - 1] = u->total[0];
         u->im[desc->samples - 1] = u->im[0];

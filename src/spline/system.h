@@ -24,11 +24,13 @@ typedef struct slope_row {
 typedef struct system_rows {
     int count; ///< M
     bool loop, is_complex;
-    bool is_held;         ///< the start costs enough, or there is none, that no more than its knot-free stretches cost it digits
+    bool
+        is_held; ///< the start costs enough, or there is none, that no more than its knot-free stretches cost it digits
     int jet_from, jet_to; ///< a loop has a jet at every sample
-    double stretch;       ///< samples of the longest knot-free stretch, or as many as it takes to swing back where that is less
-    coefficients *at;     ///< of row i; g is folded into `drive` and not kept
-    cplx *drive;          ///< f_i
+    double
+        stretch; ///< samples of the longest knot-free stretch, or as many as it takes to swing back where that is less
+    coefficients *at; ///< of row i; g is folded into `drive` and not kept
+    cplx *drive;      ///< f_i
     double *jet_weight;
     double *im_weight;
     unsigned char *fixed;

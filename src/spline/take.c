@@ -236,7 +236,8 @@ static bool patch(wiggly_take *take, int index, wiggly_knot knot, wiggly_status 
     bool on_last = knot.has_slope && knot.sample == take->desc.samples - 1;
     int j = take->node_of[index], last = take->solver->chain.node_count - 1;
     bool heavy = knot.has_slope && knot.stiffness * take->desc.step > heaviest;
-    if (shared || moves_start || changes_end || heavy || (on_last && !problem_oscillates(&take->problem))) return false;
+    if (shared || moves_start || changes_end || heavy || (on_last && !problem_oscillates(&take->problem)))
+        return false;
     if (is_last) {
         take->problem.latest = knot.sample;
         take->solver->chain.count = problem_rows(&take->problem);

@@ -92,6 +92,19 @@ static bool resolve_rate(struct core *core, const struct editor_world *world, co
     return core_edit(core, world, &edit);
 }
 
+static bool switch_off(struct core *core, const struct editor_world *world, const struct warning *warning,
+                       char text[96])
+{
+    const struct spline *spline = core_active_spline(core, world);
+    int k = spline_find_knot(world->document, spline, document_sample(world->document, warning->frame));
+    struct edit edit = core_edit_of(EDIT_KNOT_SET, core->active);
+    if (k < 0) return false;
+    edit.knot = spline->knots[k];
+    edit.knot.has_slope = false;
+    snprintf(text, 96, "The slope at frame %.6g is off.", warning->frame);
+    return core_edit(core, world, &edit);
+}
+
 void curves_remedy_first(struct curves *curves, struct core *core, const struct editor_world *world)
 {
     warnings_update(curves, core, world);
@@ -105,8 +118,10 @@ void curves_remedy_first(struct curves *curves, struct core *core, const struct 
 void warning_remedy(const struct curves *curves, struct core *core, const struct editor_world *world,
                     const struct warning *warning)
 {
-    static const char *const labels[] = {
-        [WARNING_SWING] = "Tame swing", [WARNING_RATE] = "Add substeps", [WARNING_DRIFT] = "Narrow bandwidth"};
+    static const char *const labels[] = {[WARNING_SWING] = "Tame swing",
+                                         [WARNING_RATE] = "Add substeps",
+                                         [WARNING_DRIFT] = "Narrow bandwidth",
+                                         [WARNING_SLOPE] = "Slope off"};
     const struct warning chosen = *warning;
     char text[96] = "";
     bool good = false;
@@ -119,6 +134,7 @@ void warning_remedy(const struct curves *curves, struct core *core, const struct
         good = core_edit(core, world, &edit);
         snprintf(text, sizeof text, "Bandwidth %.3g.", chosen.remedy);
     }
+    if (chosen.kind == WARNING_SLOPE) good = switch_off(core, world, &chosen, text);
     history_end(world->history);
     core_reserve(core, world->document);
     if (good) {

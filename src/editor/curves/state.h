@@ -56,6 +56,7 @@ enum warning_kind {
     WARNING_SWING, ///< the curve swings more than twice as far as its knots
     WARNING_RATE,  ///< a frequency near half the sample rate
     WARNING_DRIFT, ///< bandwidth times the periods between two knots
+    WARNING_SLOPE, ///< a slope between knots on the samples beside it, which say it all
 };
 
 /// A problem of the active spline.

@@ -1,5 +1,5 @@
 /// Finds problems: swings that outgrow their knots, frequencies too high for the sample rate, bandwidths that let the phase
-/// drift.
+/// drift, slopes that have no effect.
 #include "editor/curves/warnings.h"
 #include "base/hash.h"
 #include "editor/core/arrange.h"
@@ -99,6 +99,16 @@ static void find_swing(const struct document *document, const wiggly_curve *curv
                                  .remedy = curve->y[peak] + copysign(limit, curve->total[peak] - curve->y[peak])});
 }
 
+static void find_idle_slope(const struct document *document, const struct spline *spline, int k,
+                            struct warnings *found)
+{
+    const struct knot *knot = &spline->knots[k];
+    const bool filters = spline->parameter[PARAMETER_PASSIVE].value == WIGGLY_FILTER; // it sees one side alone
+    if (!knot->has_slope || filters || k == 0 || k + 1 == spline->knot_count) return;
+    if (document_sample(document, knot[1].frame) - document_sample(document, knot[-1].frame) != 2) return;
+    add(found, &(struct warning){.kind = WARNING_SLOPE, .frame = knot->frame, .value = knot->value});
+}
+
 /// The worst drift alone is kept: its remedy is the others' too.
 static void find_drift(const struct document *document, const wiggly_curve *curve, const struct span *span,
                        struct warning_search *search)
@@ -143,6 +153,7 @@ static void go_on(const struct document *document, const struct evaluation *eval
     for (; search->measured < spline->knot_count && samples > 0; search->measured++, samples -= COST_OF_A_KNOT) {
         int sample = document_sample(document, spline->knots[search->measured].frame);
         search->highest = fmax(search->highest, height(&evaluation->curves[of], sample));
+        find_idle_slope(document, spline, search->measured, found);
     }
     for (; search->next < spline->knot_count && samples > 0; search->next++) {
         struct span span;

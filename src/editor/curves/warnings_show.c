@@ -46,6 +46,11 @@ static void put_words(const struct warning *warning, char what[160], char remedy
                  warning->limit, warning->amount, warning->from, warning->to);
         snprintf(remedy, 96, "Click to narrow it to %.3g.", warning->remedy);
         break;
+    case WARNING_SLOPE:
+        snprintf(what, 160, "Frame %.6g: the slope has no effect, as both samples beside it have knots.",
+                 warning->frame);
+        snprintf(remedy, 96, "Click to switch it off.");
+        break;
     }
 }
 

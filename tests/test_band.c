@@ -1,0 +1,107 @@
+/// The band of long domains: what one plain solve leaves, or the refinement of the squared matrix, against the factored rows
+/// themselves; and an estimate of the error that is no smaller than it.
+#include "near.h"
+
+#include "curve.h"
+#include "spline/solver.h"
+#include <math.h>
+#include <stdlib.h>
+
+enum { SAMPLES = 2000 };
+
+typedef struct pair {
+    wiggly_solver *solver;
+    wiggly_curve usual, rows;
+} pair;
+
+static int create(void **state)
+{
+    pair *p = calloc(1, sizeof *p);
+    if (!p || wiggly_create(SAMPLES, SAMPLES, &p->solver) != WIGGLY_OK) return -1;
+    p->usual = curve_create(SAMPLES);
+    p->rows = curve_create(SAMPLES);
+    *state = p;
+    return 0;
+}
+
+static int destroy(void **state)
+{
+    pair *p = *state;
+    curve_destroy(&p->usual);
+    curve_destroy(&p->rows);
+    wiggly_destroy(p->solver);
+    free(p);
+    return 0;
+}
+
+/// Solves both ways: as ever, and with no matrix squared.
+static void compare(pair *p, const wiggly_desc *desc)
+{
+    int usual = p->solver->longest_squared;
+    wiggly_set_method(p->solver, WIGGLY_BAND);
+    wiggly_status said = wiggly_solve(p->solver, desc, &p->usual);
+    p->solver->longest_squared = 2;
+    assert_int_equal(wiggly_solve(p->solver, desc, &p->rows), WIGGLY_OK);
+    p->solver->longest_squared = usual;
+    double size = 0, worst = 0;
+    for (int i = 0; i < desc->samples; i++) {
+        size = fmax(size, fabs(p->rows.total[i]));
+        worst = fmax(worst, fabs(p->usual.total[i] - p->rows.total[i]));
+        worst = fmax(worst, fabs(p->usual.im[i] - p->rows.im[i]));
+    }
+    double error = worst / size;
+    if (said == WIGGLY_OK && !(error <= 1e-8))
+        fail_msg("said OK, and is off by %g (estimate %g)", error, p->usual.error);
+    if (!(error <= 10 * fmax(p->usual.error, 1e-12))) fail_msg("off by %g, estimate %g", error, p->usual.error);
+}
+
+/// A frequency that rises from 0, and knots hundreds of samples apart: the worst that a knot-free stretch can be.
+static void a_track_from_0_over_long_gaps(void **state)
+{
+    static double rising[SAMPLES];
+    const wiggly_knot knots[] = {{.sample = 0, .value = 0.5, .has_slope = true, .stiffness = 1000},
+                                 {.sample = 200, .value = 1},
+                                 {.sample = 600, .value = 0}};
+    for (int i = 0; i < 961; i++) rising[i] = 5.0 * i / 960;
+    for (int mode = WIGGLY_COMPLEX; mode <= WIGGLY_REAL; mode++) {
+        for (int passive = WIGGLY_OSCILLATOR; passive <= WIGGLY_FILTER; passive++) {
+            wiggly_desc desc = wiggly_default_desc();
+            desc.samples = 961;
+            desc.mode = (wiggly_mode)mode;
+            desc.passive = (wiggly_passive)passive;
+            desc.frequency.track = rising;
+            desc.damping.value = 0.1;
+            desc.knots = knots;
+            desc.knot_count = 3;
+            compare(*state, &desc);
+        }
+    }
+}
+
+static void gaps_of_every_length(void **state)
+{
+    static wiggly_knot knots[SAMPLES];
+    for (int gap = 2; gap <= 800; gap *= 2) {
+        for (int kind = 0; kind < 18; kind++) {
+            wiggly_desc desc = wiggly_default_desc();
+            desc.samples = SAMPLES;
+            desc.mode = (wiggly_mode)(kind % 3);
+            desc.start = (wiggly_start)(kind / 3 % 3);
+            desc.frequency.value = kind < 9 ? 0.1 : 2;
+            desc.damping.value = 0.1;
+            desc.knots = knots;
+            for (int i = 5; i < SAMPLES - 1; i += gap)
+                knots[desc.knot_count++] = (wiggly_knot){.sample = i, .value = sin(0.7 * i)};
+            compare(*state, &desc);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_track_from_0_over_long_gaps),
+        cmocka_unit_test(gaps_of_every_length),
+    };
+    return cmocka_run_group_tests(tests, create, destroy);
+}
