@@ -34,9 +34,11 @@ static inline step_matrix oscillator_step(oscillator o, double h)
 /// over `seconds` or so small a part of ω_n that it would diverge.
 static inline double oscillator_turn(oscillator o, double seconds)
 {
-    double omega = sqrt(fmax(0, o.k - o.d * o.d)), turns = pow(omega * seconds, 8);
-    double ratio = o.k > 0 ? pow(omega * omega / o.k, 4) : 0;
-    return omega > 0 ? -ratio / (ratio + 1e-8) / (1 + 1 / turns) / omega : 0;
+    double omega2 = fmax(0, o.k - o.d * o.d);
+    if (!(omega2 > 0)) return 0;
+    double phase2 = omega2 * seconds * seconds, phase4 = phase2 * phase2, turns = phase4 * phase4;
+    double part = omega2 / o.k, ratio = part * part * (part * part);
+    return -ratio / (ratio + 1e-8) / (1 + 1 / turns) / sqrt(omega2);
 }
 
 #endif

@@ -31,21 +31,20 @@ static double y_beyond(const wiggly_desc *desc, const double *y, int i)
 }
 
 /// What q' jumps by at each sample, less the sign.
-WIDEST static void bends(const double *restrict y, int from, int to, double per_step, double *restrict out)
+WIDEST static void bends(const double *restrict y, int from, int to, double step, double *restrict out)
 {
-    for (int i = from; i < to; i++) out[i] = ((y[i] - y[i - 1]) - (y[i + 1] - y[i])) * per_step;
+    for (int i = from; i < to; i++) out[i] = ((y[i] - y[i - 1]) - (y[i + 1] - y[i])) / step;
 }
 
 static void set_kicks(const wiggly_desc *desc, const double *y, double *out)
 {
     const int last = desc->samples - 1;
-    const double per_step = 1 / desc->step;
-    bends(y, 1, last, per_step, out);
+    bends(y, 1, last, desc->step, out);
     const int ends[] = {0, last};
     for (int e = 0; e < 2; e++) {
         int i = ends[e];
         double before = y_beyond(desc, y, i - 1), after = y_beyond(desc, y, i + 1);
-        out[i] = last > 0 ? ((y[i] - before) - (after - y[i])) * per_step : 0;
+        out[i] = last > 0 ? ((y[i] - before) - (after - y[i])) / desc->step : 0;
     }
 }
 
@@ -188,16 +187,6 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, swi
     return largest <= blow_up * (high - low);
 }
 
-/// Im u per q' + d q: the one-sided form, faded out where ω_d is so slow or so small a part of ω_n that it would diverge.
-static double imaginary_gain(oscillator o, double t)
-{
-    double omega2 = fmax(0, o.k - o.d * o.d);
-    if (!(omega2 > 0)) return 0;
-    double phase2 = omega2 * t * t, phase4 = phase2 * phase2, turns = phase4 * phase4;
-    double part = omega2 / o.k, ratio = part * part * (part * part);
-    return -ratio / (ratio + 1e-8) / (1 + 1 / turns) / sqrt(omega2);
-}
-
 WIDEST static void follow_constant(const double *restrict q, const double *restrict speed, double gain, double d,
                                    int count, double *restrict im)
 {
@@ -209,12 +198,12 @@ static void set_imaginary(const wiggly_desc *desc, double floor, const swing *u)
     double t = (desc->samples - 1) * desc->step;
     if (poles_are_constant(desc)) {
         oscillator o = oscillator_at(desc, 0, floor);
-        follow_constant(u->total, u->speed, imaginary_gain(o, t), o.d, desc->samples, u->im);
+        follow_constant(u->total, u->speed, oscillator_turn(o, t), o.d, desc->samples, u->im);
         return;
     }
     for (int i = 0; i < desc->samples; i++) {
         oscillator o = oscillator_at(desc, i, floor);
-        u->im[i] = imaginary_gain(o, t) * (u->speed[i] + o.d * u->total[i]);
+        u->im[i] = oscillator_turn(o, t) * (u->speed[i] + o.d * u->total[i]);
     }
 }
 
