@@ -122,6 +122,40 @@ static void takes_agree_with_solve_and_with_fresh_ones(void **state)
     }
 }
 
+/// Keys that come one by one, from two on: after each the take is the same as a fresh one, and reads as one.
+static void keys_are_appended_one_by_one(void **state)
+{
+    (void)state;
+    static struct example e;
+    static double total[4000], im[4000], fresh_total[4000], fresh_im[4000];
+    for (uint64_t seed = 1; seed <= 12; seed++) {
+        uint64_t random = seed;
+        make_example(&e, &random, 4000, 4);
+        int all = e.desc.knot_count, start = 2;
+        while (start < 10 && e.knots[start].sample == e.knots[start - 1].sample + 1) start++;
+        size_t size = wiggly_take_memsize(e.desc.samples, all);
+        void *memory = malloc(size);
+        wiggly_take *take = NULL;
+        wiggly_desc desc = e.desc;
+        desc.knot_count = start;
+        assert_int_equal(wiggly_take_create_at(memory, size, &desc, &take), WIGGLY_OK);
+        for (int k = start; k < all; k++) {
+            assert_int_equal(wiggly_take_append(take, e.knots[k]), WIGGLY_OK);
+            desc.knot_count = k + 1;
+            if (k > 70 && k % 97 != 0 && k + 1 < all) continue;
+            wiggly_take *fresh = NULL;
+            assert_int_equal(wiggly_take_create(&desc, &fresh), WIGGLY_OK);
+            wiggly_status said = wiggly_take_read(fresh, 0, 4000, fresh_total, fresh_im);
+            assert_int_equal(wiggly_take_read(take, 0, 4000, total, im), said);
+            assert_memory_equal(total, fresh_total, sizeof total);
+            assert_memory_equal(im, fresh_im, sizeof im);
+            wiggly_take_destroy(fresh);
+        }
+        assert_int_equal(wiggly_take_append(take, (wiggly_knot){.sample = 3999}), WIGGLY_ERROR_CAPACITY);
+        free(memory);
+    }
+}
+
 static void what_is_no_take_is_refused(void **state)
 {
     (void)state;
@@ -191,6 +225,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(takes_agree_with_solve_and_with_fresh_ones),
+        cmocka_unit_test(keys_are_appended_one_by_one),
         cmocka_unit_test(what_is_no_take_is_refused),
         cmocka_unit_test(a_take_fits_the_callers_memory),
     };

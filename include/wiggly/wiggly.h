@@ -183,12 +183,18 @@ wiggly_status wiggly_take_create(const wiggly_desc *desc, wiggly_take **take);
 /// Bytes that wiggly_take_create_at() needs, or 0 where samples < 1 or knots < 1 or the size does not fit.
 size_t wiggly_take_memsize(int samples, int knots);
 
-/// The same in the caller's memory (aligned for double, `size` bytes); never destroyed, only forgotten.
+/// The same in the caller's memory (aligned for double, `size` bytes); never destroyed, only forgotten. Memory for more knots than
+/// the description has is room for wiggly_take_append().
 wiggly_status wiggly_take_create_at(void *memory, size_t size, const wiggly_desc *desc, wiggly_take **take);
 
 /// Replaces the knot at `index` (in order of samples), which must stay between its neighbours: WIGGLY_ERROR_KNOT. The take is the
 /// same to the last bit as one created with that knot. Allocates nothing.
 wiggly_status wiggly_take_set_knot(wiggly_take *take, int index, wiggly_knot knot);
+
+/// Adds a knot behind the last one, in O(log knots) where that is not on the sample just before and has a slope just if this one has:
+/// for keys that come one by one. WIGGLY_ERROR_CAPACITY where there is no room, WIGGLY_ERROR_KNOT where it is not behind. The take is
+/// the same to the last bit as one created with that knot. Allocates nothing.
+wiggly_status wiggly_take_append(wiggly_take *take, wiggly_knot knot);
 
 /// The samples `from` … `from + count − 1`: total and Im x (each may be NULL). WIGGLY_INEXACT where pivots lost digits: then
 /// wiggly_solve() is the better one.

@@ -15,6 +15,7 @@ enum { AROUND = 2 }; ///< nodes on each side that a changed node's neighbours' r
 
 struct wiggly_take {
     bool owned;
+    int capacity;          ///< knots
     wiggly_solver *solver; ///< whose chain this is
     tree tree;
     wiggly_desc desc;
@@ -107,6 +108,7 @@ static wiggly_take *lay_out(void *memory, int samples, int knots)
     if (!plan(&l, samples, knots)) return NULL;
     wiggly_take *take = memory;
     unsigned char *at = memory;
+    take->capacity = knots;
     take->knots = (wiggly_knot *)(void *)(at + l.knots);
     take->node_of = (int *)(void *)(at + l.node_of);
     take->y = (double *)(void *)(at + l.y);
@@ -158,15 +160,33 @@ wiggly_status wiggly_take_create(const wiggly_desc *desc, wiggly_take **out)
     return status;
 }
 
+/// The most knots, but no more than samples, that a take of so many bytes has room for; 0 where not even `least`.
+static int capacity_of(size_t size, int samples, int least)
+{
+    int low = least, high = samples > least ? samples : least;
+    size_t needed = wiggly_take_memsize(samples, least);
+    if (!needed || size < needed) return 0;
+    while (low < high) {
+        int middle = low + (high - low + 1) / 2;
+        needed = wiggly_take_memsize(samples, middle);
+        if (needed && needed <= size) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    return low;
+}
+
 wiggly_status wiggly_take_create_at(void *memory, size_t size, const wiggly_desc *desc, wiggly_take **out)
 {
     wiggly_status status = check_desc(desc);
     if (!memory || !out || (uintptr_t)memory % sizeof(double) != 0) return WIGGLY_ERROR_ARGUMENT;
     if (status != WIGGLY_OK) return status;
-    size_t needed = wiggly_take_memsize(desc->samples, desc->knot_count);
-    if (!needed || size < needed) return WIGGLY_ERROR_MEMORY;
-    memset(memory, 0, needed);
-    wiggly_take *take = lay_out(memory, desc->samples, desc->knot_count);
+    int capacity = capacity_of(size, desc->samples, desc->knot_count);
+    if (!capacity) return WIGGLY_ERROR_MEMORY;
+    memset(memory, 0, wiggly_take_memsize(desc->samples, capacity));
+    wiggly_take *take = lay_out(memory, desc->samples, capacity);
     status = condense(take, desc);
     if (status == WIGGLY_OK) *out = take;
     return status;
@@ -211,6 +231,12 @@ static bool renew_rows(wiggly_take *take, int j)
     return true;
 }
 
+static bool is_good(const wiggly_knot *knot)
+{
+    bool good = isfinite(knot->value) && fabs(knot->value) <= LARGEST_VALUE;
+    return good && (!knot->has_slope || (isfinite(knot->slope) && knot->stiffness > 0 && isfinite(knot->stiffness)));
+}
+
 /// Where a knot may go and what it may say.
 static wiggly_status check_knot(const wiggly_take *take, int index, const wiggly_knot *knot)
 {
@@ -219,9 +245,13 @@ static wiggly_status check_knot(const wiggly_take *take, int index, const wiggly
     int low = index > 0 ? knots[index - 1].sample + 1 : 0;
     int high = index + 1 < take->desc.knot_count ? knots[index + 1].sample - 1 : take->desc.samples - 1;
     if (knot->sample < low || knot->sample > high) return WIGGLY_ERROR_KNOT;
-    bool good = isfinite(knot->value) && fabs(knot->value) <= LARGEST_VALUE;
-    if (knot->has_slope) good = good && isfinite(knot->slope) && knot->stiffness > 0 && isfinite(knot->stiffness);
-    return good ? WIGGLY_OK : WIGGLY_ERROR_NUMBER;
+    return is_good(knot) ? WIGGLY_OK : WIGGLY_ERROR_NUMBER;
+}
+
+/// Whether a slope is so heavy that the take may have to be refused.
+static bool is_heavy(const wiggly_take *take, const wiggly_knot *knot)
+{
+    return knot->has_slope && knot->stiffness * take->desc.step > heaviest;
 }
 
 /// Replaces a checked knot; false where more than the rows around it has to be made anew.
@@ -235,8 +265,8 @@ static bool patch(wiggly_take *take, int index, wiggly_knot knot, wiggly_status 
     bool changes_end = is_last && knot.has_slope != before.has_slope;
     bool on_last = knot.has_slope && knot.sample == take->desc.samples - 1;
     int j = take->node_of[index], last = take->solver->chain.node_count - 1;
-    bool heavy = knot.has_slope && knot.stiffness * take->desc.step > heaviest;
-    if (shared || moves_start || changes_end || heavy || (on_last && !problem_oscillates(&take->problem)))
+    if (shared || moves_start || changes_end || is_heavy(take, &knot) ||
+        (on_last && !problem_oscillates(&take->problem)))
         return false;
     if (is_last) {
         take->problem.latest = knot.sample;
@@ -258,6 +288,44 @@ wiggly_status wiggly_take_set_knot(wiggly_take *take, int index, wiggly_knot kno
     status = build(take);
     if (status == WIGGLY_OK) return status;
     take->knots[index] = before; // what cannot be a take is refused, and the take is as it was
+    build(take);
+    return status;
+}
+
+/// Moves the end of the spline to its last knot and makes the rows there; false where more than these has to be made anew.
+static bool extend(wiggly_take *take, wiggly_status *status)
+{
+    chain *c = &take->solver->chain;
+    const int index = take->desc.knot_count - 1, j = take->node_of[index - 1] + 1;
+    const wiggly_knot *knot = &take->knots[index], *before = knot - 1;
+    bool on_last = knot->has_slope && knot->sample == take->desc.samples - 1;
+    if (has_company(take, index) || has_company(take, index - 1) || knot->has_slope != before->has_slope)
+        return false;
+    if (is_heavy(take, knot) || (on_last && !problem_oscillates(&take->problem))) return false;
+    take->problem.latest = knot->sample;
+    c->count = problem_rows(&take->problem);
+    problem_put_knot(&take->problem, &c->nodes[j - 1], before, NULL);
+    problem_put_knot(&take->problem, &c->nodes[j], knot, NULL);
+    take->node_of[index] = j;
+    c->node_count = j + 1;
+    if (!renew_rows(take, j - 1)) return false;
+    *status = tree_grow(&take->tree) ? WIGGLY_OK : WIGGLY_SINGULAR;
+    return true;
+}
+
+wiggly_status wiggly_take_append(wiggly_take *take, wiggly_knot knot)
+{
+    if (!take) return WIGGLY_ERROR_ARGUMENT;
+    if (take->desc.knot_count == take->capacity) return WIGGLY_ERROR_CAPACITY;
+    if (knot.sample <= take->knots[take->desc.knot_count - 1].sample || knot.sample >= take->desc.samples)
+        return WIGGLY_ERROR_KNOT;
+    if (!is_good(&knot)) return WIGGLY_ERROR_NUMBER;
+    wiggly_status status = WIGGLY_OK;
+    take->knots[take->desc.knot_count++] = knot;
+    if (extend(take, &status)) return status;
+    status = build(take);
+    if (status == WIGGLY_OK) return status;
+    take->desc.knot_count--; // what cannot be a take is refused, and the take is as it was
     build(take);
     return status;
 }

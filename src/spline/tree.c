@@ -190,6 +190,19 @@ bool tree_update(tree *t, int from, int to)
     return true;
 }
 
+bool tree_grow(tree *t)
+{
+    int run_rows[TREE_MAX_LEVELS];
+    t->levels = tree_shape(t->chain->node_count, t->count, run_rows);
+    for (int level = 0; level < t->levels; level++) { // the last element may have split in two
+        int last = t->count[level] - 1;
+        for (int e = last > 0 ? last - 1 : 0; e <= last; e++) {
+            if (!condense_element(t, level, e)) return false;
+        }
+    }
+    return true;
+}
+
 /// Solution of a run whose ends are known: u_k = P_k (r_k − A_{k+1,k}ᵀ u_{k+1} − F_k u_0).
 static void expand(const tree_row *run, int rows, double (*u)[3])
 {

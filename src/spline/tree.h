@@ -36,6 +36,9 @@ int tree_shape(int rows, int count[TREE_MAX_LEVELS], int run_rows[TREE_MAX_LEVEL
 /// Condenses what depends on the chain's rows `from` … `to`; everything for 0 … rows − 1. false where a pivot is not positive.
 bool tree_update(tree *tree, int from, int to);
 
+/// The same where the chain has one row more than at the last time, and only its last rows differ.
+bool tree_grow(tree *tree);
+
 /// Solves for the chain's nodes `from` … `to` at least: adds the solution to them. false where the root cannot be solved.
 bool tree_solve(const tree *tree, int from, int to);
 
