@@ -58,7 +58,7 @@ static void open_threaded(struct session *s, const char *scene)
 {
     session_open(s, scene);
     s->table.threaded = true;
-    assert_true(background_serves(s->document));
+    assert_true(background_serves(s->document, WIGGLY_CHAIN));
     session_frame(s);
 }
 
@@ -71,7 +71,7 @@ static void settle(struct session *s)
 
 static void solve_whole(const struct session *s, struct evaluation *whole)
 {
-    memset(whole, 0, sizeof *whole);
+    *whole = (struct evaluation){.method = s->table.evaluation.method};
     assert_true(evaluation_resize(whole, s->document, NULL));
     evaluation_update(whole, s->document, NULL, s->table.solved_cubic);
 }
@@ -167,6 +167,31 @@ static struct edit moved(const struct session *s, int knot, double frames, doubl
     edit.knot.frame += frames;
     edit.knot.value += by;
     return edit;
+}
+
+/// The band has no takes, and a switch while the thread is at work ends in the chosen one's rows.
+static void the_band_solves_all_whole(void **state)
+{
+    (void)state;
+    struct session s;
+    open_long(&s);
+    editor_set_method(s.editor, WIGGLY_BAND);
+    session_frame(&s);
+    assert_true(s.table.evaluation.stale);
+    settle(&s);
+    assert_same_bits(&s);
+    uint64_t revision = s.table.evaluation.revision;
+    change(&s, moved(&s, KNOT_SHOWN, 0, 0.5));
+    session_frame(&s);
+    assert_true(s.table.evaluation.stale && s.table.evaluation.revision == revision); // nothing was read from a take
+    for (int turn = 0; turn < 3; turn++) {
+        editor_set_method(s.editor, turn % 2 == 0 ? WIGGLY_CHAIN : WIGGLY_BAND);
+        session_frame(&s);
+    }
+    settle(&s);
+    assert_int_equal(s.table.evaluation.method, WIGGLY_CHAIN);
+    assert_same_bits(&s);
+    session_close(&s);
 }
 
 static void newer_edits_come_before_older_ones_are_solved(void **state)
@@ -351,6 +376,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_dragged_knot_is_seen_at_once),
+        cmocka_unit_test(the_band_solves_all_whole),
         cmocka_unit_test(newer_edits_come_before_older_ones_are_solved),
         cmocka_unit_test(what_a_take_cannot_is_solved_whole),
         cmocka_unit_test(ends_with_the_thread_at_work),

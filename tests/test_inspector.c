@@ -146,6 +146,47 @@ static void test_only_what_counts_is_shown(void **state)
     session_close(&f);
 }
 
+/// The largest difference between the first spline's curve and a copy of it.
+static double change_of(const struct session *f, const double *total)
+{
+    double worst = 0;
+    const wiggly_curve *curve = &f->table.evaluation.curves[0];
+    for (int i = 0; i < curve->samples; i++) worst = fmax(worst, fabs(curve->total[i] - total[i]));
+    return worst;
+}
+
+static void test_the_solver_is_a_setting_of_the_session(void **state)
+{
+    (void)state;
+    struct session f;
+    double total[512];
+    panel_open(&f, scene, 1280, 720);
+    const struct evaluation *evaluation = &f.table.evaluation;
+    assert_true(evaluation->samples <= 512);
+    memcpy(total, evaluation->curves[0].total, sizeof(double) * (size_t)evaluation->samples);
+    uint64_t revision = evaluation->revision;
+    panel_click(&f, "section.scene");
+    panel_click(&f, "scene.solver.band");
+    assert_int_equal(editor_method(f.editor), WIGGLY_BAND);
+    assert_int_equal(evaluation->method, WIGGLY_BAND);
+    assert_true(evaluation->revision > revision); // all was solved anew
+    double change = change_of(&f, total);
+    assert_true(change > 0 && change <= 1e-9);
+    assert_null(history_undo_label(f.history));
+    assert_true(history_is_saved(f.history));
+    f.editor->inspector->ui.focus = ui_id("damping");
+    session_key(&f, KEY_RIGHT, 0);
+    session_key(&f, 'Z', MOD_CTRL);
+    assert_int_equal(editor_method(f.editor), WIGGLY_BAND);
+    editor_open(f.editor, &f.world);
+    assert_int_equal(editor_method(f.editor), WIGGLY_BAND);
+    f.editor->inspector->ui.focus = ui_id("scene.solver");
+    session_key(&f, KEY_LEFT, 0);
+    assert_int_equal(evaluation->method, WIGGLY_CHAIN);
+    assert_near(change_of(&f, total), 0, 0);
+    session_close(&f);
+}
+
 static void test_knot_is_edited_in_place(void **state)
 {
     (void)state;
@@ -426,6 +467,7 @@ int main(void)
         cmocka_unit_test(test_typing_keeps_keys_from_the_editor),
         cmocka_unit_test(test_arrows_belong_to_the_focus),
         cmocka_unit_test(test_only_what_counts_is_shown),
+        cmocka_unit_test(test_the_solver_is_a_setting_of_the_session),
         cmocka_unit_test(test_knot_is_edited_in_place),
         cmocka_unit_test(test_several_knots),
         cmocka_unit_test(test_frame_drag_passes_through_a_neighbour),

@@ -90,6 +90,7 @@ static void test_header_says_where_it_was_measured(void **state)
                           "# gl_renderer: test\n",
                           "# size: 1280x720 scale 1\n",
                           "# vsync: 0\n",
+                          "# solver: NA\n",
                           "# warm_up_frames: 2\n",
                           "# reference_frame_ms: 9.500\n",
                           "# first_frame_ms: NA\n"};
@@ -98,6 +99,37 @@ static void test_header_says_where_it_was_measured(void **state)
     }
     assert_non_null(
         strstr(file_text, "\n2,0.040000,10.0200,15.0200,10.0,0.0,0.0,1002.0,0.0,0.0,0.0,NA,0.0,0,121,5,0,NA,NA,0\n"));
+}
+
+/// A switch in the middle of a session is said where it is made; reading finds both names, each once.
+static void test_a_log_names_every_solver(void **state)
+{
+    (void)state;
+    struct error error = {0};
+    struct frame_header chain = header;
+    chain.solver = "chain";
+    struct framelog *log = framelog_open(path, &chain, 256, &error);
+    assert_non_null(log);
+    for (int i = 0; i < 30; i++) {
+        struct frame_row frame = row(i, 10);
+        frame.solver = i >= 10 && i < 20 ? "band" : "chain";
+        framelog_push(log, &frame);
+    }
+    assert_true(framelog_close(log, NULL, &error));
+    char text[8192] = "";
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    fclose(file);
+    const char *first = strstr(text, "\n# solver: chain\n"), *names = strstr(text, "\nframe,");
+    const char *switched = strstr(text, "\n# solver: band\n10,"), *back = strstr(text, "\n# solver: chain\n20,");
+    assert_true(first && names && switched && back && first < names && names < switched && switched < back);
+    struct timing_log read;
+    assert_true(timing_log_read(path, &read, &error));
+    assert_int_equal(read.rows, 28);
+    assert_int_equal(read.runs, 1);
+    assert_string_equal(read.solvers, "chain, band");
+    timing_log_free(&read);
 }
 
 static void test_summary(void **state)
@@ -384,6 +416,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_is_written_reads_back),
         cmocka_unit_test(test_header_says_where_it_was_measured),
+        cmocka_unit_test(test_a_log_names_every_solver),
         cmocka_unit_test(test_summary),
         cmocka_unit_test(test_long_session_keeps_the_last_frames),
         cmocka_unit_test(test_pushing_allocates_nothing),

@@ -43,6 +43,7 @@ static bool open_log(struct app *app, struct error *error)
     const struct app_options *o = app->options;
     struct frame_header header = {
         .gl_renderer = draw_renderer_name(),
+        .solver = evaluation_solver(app->table.evaluation.method),
         .vsync = platform_is_window(app->platform) && !app->replay && !o->frames,
         .warm_up = WARM_UP,
         .reference_ms = NAN,
@@ -147,6 +148,7 @@ static bool start(struct app *app, struct error *error)
     if (!(app->draw = draw_create(scale, error)) || !(app->table.editor = editor_create(error))) return false;
     if (!(app->table.history = history_create()) || !(app->table.models = models_create()))
         return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    editor_set_method(app->table.editor, o->method);
     app_connect_files(app);
     app_resize(app, (float)width / scale, (float)height / scale, scale);
     if (!app_open(app, o->scene, error)) return false;

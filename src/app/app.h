@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include <stdbool.h>
+#include <wiggly/wiggly.h>
 
 /// Zero means default throughout.
 struct app_options {
@@ -14,6 +15,7 @@ struct app_options {
     double scale;            ///< device pixels a logical pixel; 0: the replay's, else the display's (headless 1)
     const char *stage_scale; ///< of the stage while it moves: "auto" or a number; NULL: auto in a window, else 1
     const char *theme;       ///< a theme's name, or NULL: the user's own in a window, else dark
+    wiggly_method method;    ///< how the splines are solved
     bool gl_debug;           ///< prints the OpenGL driver's messages; a complaint among them is a failure
     bool welcome;            ///< shows what to try first
     const char *log;         ///< timing log, CSV

@@ -49,8 +49,12 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
     uint64_t revision = history_revision(table->history);
     row->edited = revision != table->solved_revision;
     if ((resized || row->edited) && !fit_evaluation(table, resized, error)) return false;
-    bool threaded = table->threaded && background_serves(document);
-    if (!resized && !row->edited && cubic == table->solved_cubic && !threaded && !evaluation->stale) return true;
+    wiggly_method method = editor_method(table->editor);
+    bool threaded = table->threaded && background_serves(document, method);
+    bool same_way = cubic == table->solved_cubic && method == evaluation->method;
+    row->solver = evaluation_solver(method);
+    if (!resized && !row->edited && same_way && !threaded && !evaluation->stale) return true;
+    table->evaluation.method = method;
     evaluate(table, resized, cubic, threaded);
     row->splines_solved = evaluation->solved_splines;
     row->samples = evaluation->solved_samples;

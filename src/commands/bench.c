@@ -5,6 +5,7 @@
 #include "commands/bench_scenes.h"
 #include "commands/commands.h"
 #include "commands/options.h"
+#include "scene/evaluate.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -75,8 +76,8 @@ static bool run_all(struct bench *bench, bool large, struct report *report, stru
     return true;
 }
 
-static bool write_json(const char *path, const struct bench_machine *machine, const char *date, const char *cases,
-                       struct error *error)
+static bool write_json(const char *path, wiggly_method method, const struct bench_machine *machine, const char *date,
+                       const char *cases, struct error *error)
 {
     char *text = NULL;
     size_t size = 0;
@@ -84,32 +85,33 @@ static bool write_json(const char *path, const struct bench_machine *machine, co
     if (!json) return fail(error, ERROR_ENVIRONMENT, "out of memory");
     fprintf(json,
             "{\n  \"machine\": \"%s\",\n  \"compiler\": \"%s\",\n  \"flags\": \"%s\",\n  \"commit\": \"%s\",\n"
-            "  \"date\": \"%s\",\n  \"lapack\": \"%s\",\n  \"cases\": [\n%s\n  ]\n}\n",
-            machine->cpu, build_compiler, build_flags, build_commit, date, machine->blas, cases);
+            "  \"date\": \"%s\",\n  \"lapack\": \"%s\",\n  \"solver\": \"%s\",\n  \"cases\": [\n%s\n  ]\n}\n",
+            machine->cpu, build_compiler, build_flags, build_commit, date, machine->blas, evaluation_solver(method),
+            cases);
     fclose(json);
     bool good = file_write_atomic(path, text, size, error);
     free(text);
     return good;
 }
 
-static bool run(const char *path, bool large, struct error *error)
+static bool run(const char *path, bool large, wiggly_method method, struct error *error)
 {
     char *cases = NULL, date[32];
     size_t size = 0;
     struct report report = {.json = open_memstream(&cases, &size)};
     if (!report.json) return fail(error, ERROR_ENVIRONMENT, "out of memory");
     struct bench_machine machine;
-    struct bench *bench = bench_open(&machine, error);
+    struct bench *bench = bench_open(&machine, method, error);
     bool good = bench && run_all(bench, large, &report, error);
     bench_close(bench);
     fclose(report.json);
     time_t seconds = time(NULL);
     strftime(date, sizeof date, "%Y-%m-%d", gmtime(&seconds));
     if (good) {
-        printf("\n%s; %s %s; commit %s; %s\nLAPACKE: %s\n", machine.cpu, build_compiler, build_flags, build_commit,
-               date, machine.blas);
+        printf("\n%s; %s %s; commit %s; %s\nsolver: %s; LAPACKE: %s\n", machine.cpu, build_compiler, build_flags,
+               build_commit, date, evaluation_solver(method), machine.blas);
     }
-    if (good && path) good = write_json(path, &machine, date, cases, error);
+    if (good && path) good = write_json(path, method, &machine, date, cases, error);
     free(cases);
     return good;
 }
@@ -118,10 +120,12 @@ int command_bench(int argc, char **argv)
 {
     const char *json = NULL;
     bool large = false;
+    wiggly_method method = WIGGLY_CHAIN;
     const struct option_spec specs[] = {
         {"--json", NULL, "FILE", "also write the table as JSON", OPTION_TEXT, &json, 0, 0},
         {"--large", NULL, NULL, "also a loop of 10,000,000 samples, and the memory that it takes", OPTION_FLAG,
          &large, 0, 0},
+        options_solver(&method),
     };
     const struct usage usage = {
         .command = "bench",
@@ -133,7 +137,7 @@ int command_bench(int argc, char **argv)
     enum options_result result = options_parse(&usage, argc, argv, NULL);
     if (result != OPTIONS_RUN) return (int)result;
     struct error error = {0};
-    if (run(json, large, &error)) return 0;
+    if (run(json, large, method, &error)) return 0;
     fprintf(stderr, "wiggly bench: %s\n", error.text);
     return (int)error.kind;
 }

@@ -1,5 +1,6 @@
 /// Parses options by a table, prints help, and suggests the nearest word.
 #include "commands/options.h"
+#include "scene/evaluate.h"
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
@@ -117,6 +118,16 @@ static bool read_size(const char *text, double minimum, double maximum, int size
     return true;
 }
 
+static bool read_method(const char *text, wiggly_method *method)
+{
+    for (wiggly_method m = WIGGLY_CHAIN; m <= WIGGLY_BAND; m++) {
+        if (strcmp(text, evaluation_solver(m)) != 0) continue;
+        *method = m;
+        return true;
+    }
+    return false;
+}
+
 static enum options_result store(const struct usage *usage, const struct option_spec *option, const char *text)
 {
     const char *rest;
@@ -141,6 +152,9 @@ static enum options_result store(const struct usage *usage, const struct option_
         if (read_size(text, low, high, option->target)) return OPTIONS_RUN;
         return options_wrong(usage, "%s: expected WIDTHxHEIGHT, each from %.10g to %.10g, got '%s'", option->name,
                              low, high, text);
+    case OPTION_METHOD:
+        if (read_method(text, option->target)) return OPTIONS_RUN;
+        return options_wrong(usage, "%s: expected chain or band, got '%s'", option->name, text);
     }
     return OPTIONS_WRONG;
 }
@@ -200,6 +214,16 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
     }
     if (count < usage->operand_minimum) return options_wrong(usage, "an argument is missing: %s", usage->operands);
     return OPTIONS_RUN;
+}
+
+struct option_spec options_solver(wiggly_method *method)
+{
+    return (struct option_spec){
+        .name = "--solver",
+        .argument = "METHOD",
+        .help = "chain (default) or band: condenses stretches between knots, or factors all samples",
+        .kind = OPTION_METHOD,
+        .target = method};
 }
 
 bool options_direction(const char *text, double direction[3])

@@ -3,13 +3,15 @@
 #define COMMANDS_OPTIONS_H
 
 #include <stdbool.h>
+#include <wiggly/wiggly.h>
 
 enum option_kind {
-    OPTION_FLAG, ///< bool: set to true; takes no value
-    OPTION_TEXT, ///< const char *: points into argv
-    OPTION_INT,  ///< int in [minimum, maximum]
-    OPTION_REAL, ///< double in [minimum, maximum]
-    OPTION_SIZE, ///< int[2] from "1280x720", each in [minimum, maximum]
+    OPTION_FLAG,   ///< bool: set to true; takes no value
+    OPTION_TEXT,   ///< const char *: points into argv
+    OPTION_INT,    ///< int in [minimum, maximum]
+    OPTION_REAL,   ///< double in [minimum, maximum]
+    OPTION_SIZE,   ///< int[2] from "1280x720", each in [minimum, maximum]
+    OPTION_METHOD, ///< wiggly_method, by its name
 };
 
 /// One option, `--name value` or `--name=value`. Without the option the target keeps its value.
@@ -32,6 +34,9 @@ struct usage {
     int option_count;
     int operand_minimum, operand_maximum;
 };
+
+/// "--solver", the same for every command that has it.
+struct option_spec options_solver(wiggly_method *method);
 
 /// What options_parse() returns: whether to go on, or the exit status at once.
 enum options_result {

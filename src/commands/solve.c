@@ -78,9 +78,9 @@ static void warn_statuses(const char *path, const struct document *document, con
     }
 }
 
-static bool solve(const char *scene, const char *out, struct error *error)
+static bool solve(const char *scene, wiggly_method method, const char *out, struct error *error)
 {
-    struct evaluation evaluation = {0};
+    struct evaluation evaluation = {.method = method};
     struct document *document = scene_load(scene, NULL, error);
     if (!document) return false;
     bool done = evaluation_resize(&evaluation, document, error);
@@ -97,22 +97,24 @@ static bool solve(const char *scene, const char *out, struct error *error)
 int command_solve(int argc, char **argv)
 {
     const char *scene, *out = NULL;
+    wiggly_method method = WIGGLY_CHAIN;
     const struct option_spec options[] = {
         {"--output", "-o", "FILE", "file to write (default: standard output)", OPTION_TEXT, &out, 0, 0},
+        options_solver(&method),
     };
     const struct usage usage = {
         .command = "solve",
         .operands = "scene.json",
         .summary = "Solves every spline of a scene and writes every sample as CSV: total, Re x, Im x.",
         .options = options,
-        .option_count = 1,
+        .option_count = sizeof options / sizeof *options,
         .operand_minimum = 1,
         .operand_maximum = 1,
     };
     enum options_result result = options_parse(&usage, argc, argv, &scene);
     if (result != OPTIONS_RUN) return (int)result;
     struct error error;
-    if (solve(scene, out, &error)) return 0;
+    if (solve(scene, method, out, &error)) return 0;
     fprintf(stderr, "%s\n", error.text);
     return (int)error.kind;
 }

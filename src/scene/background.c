@@ -51,11 +51,11 @@ static bool uses_band(const struct spline *spline)
     return spline_start(spline) == WIGGLY_LOOP;
 }
 
-bool background_serves(const struct document *document)
+bool background_serves(const struct document *document, wiggly_method method)
 {
     double samples = document_samples(document);
     if (samples * BAND_COST <= LONG) return false;
-    if (samples * CHAIN_COST > LONG) return document->spline_count > 0;
+    if (samples * CHAIN_COST > LONG || method == WIGGLY_BAND) return document->spline_count > 0;
     for (int s = 0; s < document->spline_count; s++) {
         if (uses_band(&document->splines[s])) return true;
     }
@@ -159,15 +159,22 @@ static void show_solved(struct evaluation *evaluation, const struct document *do
     }
 }
 
+/// Brings the take up to what the document says of its spline; the band has none.
+static void follow_edits(const struct evaluation *evaluation, const struct document *document)
+{
+    struct preview *preview = &evaluation->storage->background->preview;
+    wiggly_desc desc = storage_describe(evaluation->curves, document, preview->spline, evaluation->cubic);
+    preview->is_current = false;
+    if (evaluation->method == WIGGLY_CHAIN) preview_follow(preview, document, &desc);
+}
+
 static void adopt_take(struct evaluation *evaluation, const struct document *document, const struct job *job)
 {
     struct background *b = evaluation->storage->background;
     b->preview = (struct preview){.take = job->take, .spline = b->condensing, .moved = -1};
     if (!job->take) b->unfit = b->condensing;
     b->condensing = -1;
-    if (!job->take) return;
-    wiggly_desc desc = storage_describe(evaluation->curves, document, b->preview.spline, evaluation->cubic);
-    preview_follow(&b->preview, document, &desc);
+    if (job->take) follow_edits(evaluation, document);
 }
 
 /// Collects the thread's job if it finishes within `seconds`.
@@ -192,6 +199,7 @@ static void give(struct evaluation *evaluation, const struct document *document,
     storage_add_knots(&desc, document, spline, storage->knots);
     struct job job = {.kind = kind, .desc = desc, .solver = storage->solver};
     if (kind == WORK_SOLVE) {
+        wiggly_set_method(storage->solver, storage->method);
         job.curve = b->spare;
         job.extremes = b->spare_extremes;
         b->knots_alone = desc_same_settings(&b->desc, &desc);
@@ -226,7 +234,7 @@ static bool wants_take(const struct evaluation *evaluation, const struct documen
 {
     const struct background *b = evaluation->storage->background;
     bool has = b->preview.take && b->preview.spline == focus->spline && b->preview.is_current;
-    if (focus->spline < 0 || has || focus->spline == b->unfit) return false;
+    if (focus->spline < 0 || has || focus->spline == b->unfit || evaluation->method == WIGGLY_BAND) return false;
     wiggly_desc desc = storage_describe(evaluation->curves, document, focus->spline, evaluation->cubic);
     return preview_serves(&desc);
 }
@@ -295,16 +303,16 @@ static void drop_superseded(const struct evaluation *evaluation, const struct do
 /// Marks what an edit made out of date; false if nothing was edited.
 static bool mark(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic)
 {
-    struct background *b = evaluation->storage->background;
-    bool all = cubic != evaluation->cubic, any = false;
+    struct storage *storage = evaluation->storage;
+    struct background *b = storage->background;
+    bool all = cubic != evaluation->cubic || evaluation->method != storage->method, any = false;
     evaluation->cubic = cubic;
+    storage->method = evaluation->method;
     for (int s = 0; s < evaluation->count; s++) {
         if (!all && !dirty[s]) continue;
         b->pending[s] = any = true;
         if (s == b->unfit) b->unfit = -1;
-        if (s != b->preview.spline || !b->preview.take) continue;
-        wiggly_desc desc = storage_describe(evaluation->curves, document, s, cubic);
-        preview_follow(&b->preview, document, &desc);
+        if (s == b->preview.spline && b->preview.take) follow_edits(evaluation, document);
     }
     return any;
 }

@@ -2,7 +2,7 @@
 ///
 /// What is on screen does not wait. While knots are dragged, the visible range and the surroundings of the playhead and of the knot
 /// are read from a take (wiggly.h) into the rows in the same frame, to 1e-9. The thread's full solve follows, so the rows end up
-/// as evaluation_update() leaves them, bit for bit.
+/// as evaluation_update() leaves them, bit for bit. A take is a chain: with the band there is none, and the curves wait for the solve.
 #ifndef SCENE_BACKGROUND_H
 #define SCENE_BACKGROUND_H
 
@@ -15,8 +15,8 @@ struct focus {
     int at;           ///< sample of the playhead
 };
 
-/// Whether solving one of the document's splines could make a frame late.
-bool background_serves(const struct document *document);
+/// Whether solving one of the document's splines by that method could make a frame late.
+bool background_serves(const struct document *document, wiggly_method method);
 
 /// Replaces evaluation_update(); to be called once a frame, whether anything changed or not. Solves what is quick and starts the rest;
 /// evaluation->stale says whether some is left. Allocates only for a new document, the first take and added knots. Without a

@@ -171,6 +171,7 @@ static void solve(struct evaluation *evaluation, const struct document *document
     if (knots <= storage->solver_knots) {
         desc = storage_describe(evaluation->curves, document, spline, cubic);
         storage_add_knots(&desc, document, spline, storage->knots);
+        wiggly_set_method(storage->solver, storage->method);
         status = wiggly_solve(storage->solver, &desc, curve);
     }
     if (status >= WIGGLY_ERROR_ARGUMENT) storage_flatten(curve, &desc);
@@ -190,8 +191,10 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     if (evaluation->count != document->spline_count || evaluation->samples != document_samples(document))
         return; // evaluation_resize() failed and reported it
     background_forget(evaluation);
-    bool all = !dirty || storage->is_new || cubic != evaluation->cubic || evaluation->stale;
+    bool same_way = cubic == evaluation->cubic && evaluation->method == storage->method;
+    bool all = !dirty || storage->is_new || !same_way || evaluation->stale;
     evaluation->cubic = cubic;
+    storage->method = evaluation->method;
     if (!scene_order(document, storage->space, storage->order, &cycle)) return; // a document has no cycles
     for (int i = 0; i < evaluation->count; i++) storage->solved[i] = false;
     for (int i = 0; i < evaluation->count; i++) {
@@ -202,6 +205,8 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     }
     storage->is_new = evaluation->stale = false;
 }
+
+const char *evaluation_solver(wiggly_method method) { return method == WIGGLY_BAND ? "band" : "chain"; }
 
 wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, double position)
 {

@@ -11,6 +11,7 @@ struct evaluation {
     int count;             ///< splines
     int samples;           ///< N
     bool cubic;            ///< all solved in cubic mode (the "cubic" of the A/B comparison)
+    wiggly_method method;  ///< of every solve; set it at any time: the next update solves all by it
     uint64_t revision;     ///< changes whenever a curve does
     bool stale;            ///< some curves are out of date: background.h is still solving them
     long solved_splines;   ///< solved by the last update
@@ -27,6 +28,9 @@ void evaluation_free(struct evaluation *evaluation);
 /// Solves the splines marked in `dirty` (NULL: all) and those that follow them by tracks. Allocates nothing. `cubic` solves every
 /// spline as a cubic on the same knots, keeping its equilibrium and, behind the last knot, its value; changing it solves all.
 void evaluation_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic);
+
+/// What a method is called: "chain" or "band".
+const char *evaluation_solver(wiggly_method method);
 
 /// A spline's value at a position in samples, possibly between two. Zeros if there is no such spline or `evaluation` is NULL.
 wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, double position);

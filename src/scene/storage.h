@@ -16,8 +16,9 @@ struct storage {
     size_t mark_capacity;
     wiggly_solver *solver;
     int solver_samples, solver_knots;
-    wiggly_knot *knots; ///< of the spline being solved; solver_knots
-    int *order;         ///< one for each spline, as the next four
+    wiggly_method method; ///< of the last update
+    wiggly_knot *knots;   ///< of the spline being solved; solver_knots
+    int *order;           ///< one for each spline, as the next four
     bool *solved;
     struct order_space space;
     struct extremes *extremes;

@@ -121,13 +121,14 @@ static void name_cpu(char *name, size_t size)
     if (file) fclose(file);
 }
 
-struct bench *bench_open(struct bench_machine *machine, struct error *error)
+struct bench *bench_open(struct bench_machine *machine, wiggly_method method, struct error *error)
 {
     struct bench *bench = calloc(1, sizeof *bench);
     if (!bench) {
         fail(error, ERROR_ENVIRONMENT, "out of memory");
         return NULL;
     }
+    bench->method = method;
     lapack_load(&bench->lapack, machine->blas, sizeof machine->blas);
     name_cpu(machine->cpu, sizeof machine->cpu);
     return bench;
@@ -168,6 +169,7 @@ bool bench_large(struct bench *bench, struct bench_result *result, struct error 
         status = wiggly_create(LARGE, input.desc.knot_count, &solver);
     for (int run = 0; run < LARGE_RUNS && status == WIGGLY_OK; run++) {
         solver_forget(solver);
+        wiggly_set_method(solver, bench->method);
         double start = clock_now();
         status = wiggly_solve(solver, &input.desc, &curve);
         bench->times[run] = clock_now() - start;

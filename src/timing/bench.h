@@ -28,8 +28,9 @@ struct bench_machine {
 /// What all cases share.
 struct bench;
 
-/// Says what machine it is. NULL with a sentence where memory is short.
-struct bench *bench_open(struct bench_machine *machine, struct error *error);
+/// Solves by `method`, but for batches and edits, which are chains; says what machine it is. NULL with a sentence where memory is
+/// short.
+struct bench *bench_open(struct bench_machine *machine, wiggly_method method, struct error *error);
 void bench_close(struct bench *bench);
 
 /// Runs every case; `done` is called after each. false with a sentence if a result is wrong.

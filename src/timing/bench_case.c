@@ -137,6 +137,7 @@ static bool run(struct bench *bench, struct work *w, bool values_only, struct be
 {
     const struct lapack *lapack = &bench->lapack;
     const wiggly_desc *desc = &w->input.desc;
+    wiggly_set_method(w->solver, bench->method);
     wiggly_status status = wiggly_solve(w->solver, desc, &w->curve);
     if (status != WIGGLY_OK)
         return fail(error, ERROR_ENVIRONMENT, "%s: %s", result->name, wiggly_status_text(status));

@@ -9,6 +9,7 @@ enum { MIN_RUNS = 5, MAX_RUNS = 20000 };
 
 struct bench {
     struct lapack lapack;
+    wiggly_method method;
     double times[MAX_RUNS]; ///< seconds of each run of a case
 };
 

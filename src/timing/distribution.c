@@ -126,6 +126,7 @@ bool distribution_print(const struct timing_log *log, const char *name, FILE *ou
     if (!values) return fail_no_memory(error, "a timing log");
     fprintf(out, "%s: %d frames of %d %s, without the warm-up ones\n", name, log->rows, log->runs,
             log->runs == 1 ? "run" : "runs");
+    if (log->solvers[0]) fprintf(out, "solver: %s\n", log->solvers);
     print_percentiles(log, values, out);
     print_budgets(log, values, out);
     print_histogram(log, values, out);

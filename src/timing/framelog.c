@@ -17,6 +17,7 @@ struct framelog {
     char *path;
     int write_errno; ///< of the first failed write
     int warm_up;
+    const char *solver;     ///< as the file says so far
     struct frame_row *rows; ///< ring: row n of the run at n % capacity
     double *scratch;        ///< capacity numbers, for sorting
     int capacity;
@@ -47,6 +48,8 @@ static void write_milliseconds(FILE *file, const char *key, double value)
     }
 }
 
+static void write_solver(FILE *file, const char *solver) { fprintf(file, "# solver: %s\n", solver ? solver : "NA"); }
+
 static void write_header(FILE *file, const struct frame_header *header)
 {
     struct utsname os;
@@ -59,6 +62,7 @@ static void write_header(FILE *file, const struct frame_header *header)
     fprintf(file, "# gl_renderer: %s\n", header->gl_renderer ? header->gl_renderer : "NA");
     fprintf(file, "# size: %dx%d scale %g\n", header->width, header->height, (double)header->scale);
     fprintf(file, "# vsync: %d\n", header->vsync);
+    write_solver(file, header->solver);
     fprintf(file, "# warm_up_frames: %d\n", header->warm_up);
     write_milliseconds(file, "reference_frame_ms", header->reference_ms);
     write_milliseconds(file, "first_frame_ms", header->first_frame_ms);
@@ -92,7 +96,10 @@ static void check_written(struct framelog *log)
 static void write_rows(struct framelog *log, long end)
 {
     for (; log->file && log->written < end; log->written++) {
-        write_row(log->file, &log->rows[log->written % log->capacity]);
+        const struct frame_row *row = &log->rows[log->written % log->capacity];
+        if (row->solver != log->solver) write_solver(log->file, row->solver);
+        log->solver = row->solver;
+        write_row(log->file, row);
     }
     if (log->file) check_written(log);
 }
@@ -113,6 +120,7 @@ struct framelog *framelog_open(const char *path, const struct frame_header *head
     if (log) {
         log->capacity = capacity > BLOCK_ROWS ? capacity : BLOCK_ROWS;
         log->warm_up = header->warm_up;
+        log->solver = header->solver;
         log->rows = calloc((size_t)log->capacity, sizeof *log->rows);
         log->scratch = calloc((size_t)log->capacity, sizeof *log->scratch);
         log->path = path ? strdup(path) : NULL;

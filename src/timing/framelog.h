@@ -18,11 +18,13 @@ struct frame_row {
     long edited;                         ///< 1 where the document is not what the frame before it showed
     double event_to_swap_us;             ///< oldest event of the frame to the end of the swap; NAN where none came
     long allocations, uploaded_bytes;
+    const char *solver; ///< as in struct frame_header; no column: a line says where it changes
 };
 
-/// What the header says; strings are copied.
+/// What the header says.
 struct frame_header {
     const char *gl_renderer;
+    const char *solver; ///< by what the splines are solved; must outlive the log; NULL: NA
     int width, height;
     float scale;
     int vsync;

@@ -24,9 +24,17 @@ static bool bad(const struct log_reader *at, const char *expected, const char *g
     return fail(at->error, ERROR_INPUT, "%s:%d: expected %s, got '%.80s'", at->path, at->line, expected, got);
 }
 
+/// Adds a solver to those that the log names.
+static void add_solver(struct timing_log *log, const char *name)
+{
+    size_t used = strlen(log->solvers);
+    if (strcmp(name, "NA") == 0 || strstr(log->solvers, name)) return;
+    snprintf(log->solvers + used, sizeof log->solvers - used, "%s%s", used ? ", " : "", name);
+}
+
 static bool read_comment(struct log_reader *at, const char *text)
 {
-    static const char schema[] = "# schema: ", warm_up[] = "# warm_up_frames: ";
+    static const char schema[] = "# schema: ", warm_up[] = "# warm_up_frames: ", solver[] = "# solver: ";
     if (strncmp(text, schema, sizeof schema - 1) == 0) {
         const char *name = text + sizeof schema - 1;
         if (strcmp(name, TIMING_SCHEMA) != 0 && strcmp(name, TIMING_SCHEMA_BEFORE) != 0) {
@@ -37,6 +45,8 @@ static bool read_comment(struct log_reader *at, const char *text)
         at->named = false;
     } else if (strncmp(text, warm_up, sizeof warm_up - 1) == 0) {
         at->warm_up = atoi(text + sizeof warm_up - 1);
+    } else if (strncmp(text, solver, sizeof solver - 1) == 0) {
+        add_solver(at->log, text + sizeof solver - 1);
     }
     return true;
 }

@@ -9,6 +9,7 @@ struct timing_log {
     double *values; ///< rows × COLUMN_COUNT, NAN where NA
     int *run;       ///< per row, from 0
     int rows, runs;
+    char solvers[64]; ///< by what the splines were solved: "chain", "chain, band"; "" where the log does not say
 };
 
 /// false with a sentence: not readable, another schema, not a number, no frames. Then there is nothing to free.

@@ -1,4 +1,4 @@
-/// The inspector's section on the scene: frames per second, range and substeps.
+/// The inspector's section on the scene: frames per second, range and substeps; and how it is solved.
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
@@ -63,6 +63,17 @@ static void build_substeps(struct inspection *in)
     core_step(in->core, in->world, "Set substeps", 0, &edit);
 }
 
+/// A setting of the session, not of the scene: no step of the history.
+static void build_solver(struct inspection *in)
+{
+    static const struct ui_choice methods[] = {[WIGGLY_CHAIN] = {"chain", "Chain"}, [WIGGLY_BAND] = {"band", "Band"}};
+    struct rect r = inspector_labelled(in, "solver");
+    if (ui_hovered(in->ui, r))
+        in->ui->hint = "The same curves: stretches between knots condensed, or the paper's whole band";
+    int method = (int)in->core->method;
+    if (ui_segments(in->ui, r, "scene.solver", methods, 2, &method)) in->core->method = (wiggly_method)method;
+}
+
 void inspector_scene(struct inspection *in)
 {
     const struct document *document = in->document;
@@ -91,4 +102,5 @@ void inspector_scene(struct inspection *in)
     end.hint = "Last frame of the scene; in a loop it repeats the first";
     if (build_whole(in, end, &last)) arrange_range(in->core, in->world, document->first_frame, last);
     build_substeps(in);
+    build_solver(in);
 }

@@ -80,7 +80,7 @@ static void insert_sorted(int *knots, int count, int sample)
     knots[i] = sample;
 }
 
-int record_simplify(const double *values, int count, double tolerance, int *knots, int capacity)
+int record_simplify(const double *values, int count, double tolerance, wiggly_method method, int *knots, int capacity)
 {
     wiggly_solver *solver = NULL;
     double *total = malloc((size_t)count * sizeof *total), miss = 0;
@@ -89,6 +89,7 @@ int record_simplify(const double *values, int count, double tolerance, int *knot
     knots[0] = 0;
     knots[1] = count - 1;
     bool good = total && buffer && wiggly_create(count, capacity, &solver) == WIGGLY_OK;
+    if (good) wiggly_set_method(solver, method);
     while (good && solve_through(solver, values, count, knots, made, buffer, total)) {
         int at = farthest(values, total, count, &miss);
         if (miss <= tolerance || made == capacity) break;

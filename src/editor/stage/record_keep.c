@@ -107,7 +107,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
         if (before.track >= 0) value = evaluation_at(world->evaluation, before.track, record->first + i);
         from[i] = value.y + value.re + record->way[coordinate][i];
     }
-    int made = count >= 2 ? record_simplify(from, count, TOLERANCE, knots, MAX_KNOTS) : 0;
+    int made = count >= 2 ? record_simplify(from, count, TOLERANCE, core->method, knots, MAX_KNOTS) : 0;
     if (before.track >= 0) clear_knots(core, world, spline, record->first, record->first + count - 1);
     for (int i = 0; i < made; i++) {
         put_knot(core, world, spline, record->first + knots[i], from[knots[i]], i == 0 || i == made - 1);

@@ -101,7 +101,9 @@ static void figures_text(const struct transport *transport, const struct core *c
     if (world->evaluation && world->evaluation->stale) {
         snprintf(solve, sizeof solve, "solving…");
     } else if (status->solve_us >= SOLVED) {
-        snprintf(solve, sizeof solve, "solve %.0f µs", status->solve_us);
+        snprintf(solve, sizeof solve, "solve %.0f µs (%s)", status->solve_us, evaluation_solver(core->method));
+    } else if (core->method != WIGGLY_CHAIN) {
+        snprintf(solve, sizeof solve, "%s", evaluation_solver(core->method));
     }
     if (transport->stage_scale > 0 && transport->stage_scale < 1) {
         snprintf(stage, sizeof stage, "stage at %.0f %%", 100 * (double)transport->stage_scale);
