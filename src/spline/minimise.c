@@ -16,8 +16,8 @@
 
 enum { MAX_SWEEPS = 16 };
 /// Estimated error, relative to the largest |x|, up to which one plain solve needs no refinement, and refinement not the rows
-/// themselves: a fifth of the tolerance.
-static const double enough_complex = 2e-9, enough_real = 2e-10;
+/// themselves: below the tolerance.
+static const double enough_complex = 8e-9, enough_real = 2e-10;
 static const double rounding = 2 * DBL_EPSILON; ///< of a coefficient
 static const double too_much = 1e-1;            ///< beyond, the squared matrix is no help to refinement
 

@@ -262,7 +262,7 @@ static void build_slopes(struct inspection *in)
     for (size_t i = 0; i < sizeof buttons / sizeof buttons[0]; i++, r.x += r.w + GAP) {
         if (ui_hovered(ui, r)) ui->hint = buttons[i].hint;
         if (ui_button(ui, r, buttons[i].name, buttons[i].label, false))
-            slopes_set(in->core, in->world, buttons[i].how);
+            slopes_set(in->core, in->world, (int)buttons[i].how);
     }
 }
 
