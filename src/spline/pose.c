@@ -122,9 +122,18 @@ static start_cost cost_of_start(wiggly_solver *solver, const problem *p)
     return poles_start_seen_from(cost, &damped, &here, desc->step);
 }
 
+static double unit_of(wiggly_solver *solver, const problem *p)
+{
+    if (!problem_oscillates(p)) return 1;
+    if (poles_are_constant(p->desc)) return problem_filter(solver, p)->unit;
+    poles at = poles_at(p->desc, p->first, problem_least_damping(p));
+    return exp(-poles_weight_exponent(&at, p->desc->step));
+}
+
 void problem_set_start(wiggly_solver *solver, problem *p)
 {
     p->cost = (start_cost){0};
+    p->unit = unit_of(solver, p);
     if (p->start == WIGGLY_FREE && p->latest >= 0) {
         p->cost = cost_of_start(solver, p);
         for (int i = 0; i < 2; i++) p->cost.row[i].weight *= p->calm;

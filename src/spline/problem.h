@@ -35,6 +35,7 @@ typedef struct problem {
     bool strict;          ///< one plain solve is not enough: the total is far smaller than x
     bool level_slope;     ///< a level slope is implied at the earliest knot
     bool free_end;        ///< c·H = 0
+    double unit;          ///< what weights are times that are not jets': the oscillator's |g|² at `first`, else 1
     start_cost cost;      ///< of the start's swing, times calm; weights 0 where it is free
 } problem;
 
@@ -73,7 +74,7 @@ static inline bool problem_oscillates(const problem *p) { return p->desc->passiv
 /// Puts everything of the system into the solver's rows; x holds the fixed values and 0 elsewhere.
 void problem_set_rows(wiggly_solver *solver, const problem *p);
 
-/// Slope row of a knot that has one, or of the implied one; weight 0 where it is without effect.
+/// Slope row of a knot that has one, or of the implied one, without an oscillator's coefficients; weight 0 where it is without effect.
 slope_row problem_slope(const problem *p, int sample, double slope, double stiffness);
 
 /// c·H of the start, for the calm that the problem has now.

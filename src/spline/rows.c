@@ -58,13 +58,13 @@ static double set_varying(system_rows *rows, const problem *p, double t, double 
     const bool oscillates = problem_oscillates(p), driven = !oscillates && p->about;
     const double floor = problem_least_damping(p);
     poles_block block;
-    double weight[POLES_BLOCK], reference = 0, scale = 1, highest = 0;
+    double weight[POLES_BLOCK], reference = 0, highest = 0;
     double slowest = INFINITY;
     if (oscillates) poles_fastest(desc, p->first, p->first + rows->count - 1, &highest);
     for (int k = 0; k < rows->count; k += POLES_BLOCK) {
         int count = rows->count - k < POLES_BLOCK ? rows->count - k : POLES_BLOCK;
         poles_block_fill(desc, p->first + k, count, floor, &block);
-        if (k == 0 && oscillates) reference = block.exponent[0], scale = exp(-reference);
+        if (k == 0 && oscillates) reference = block.exponent[0];
         for (int i = 0; i < count; i++) weight[i] = oscillates ? block.exponent[i] - reference : 0;
         poles_block_exp(weight, count, weight);
         for (int i = 0; i < count; i++) {
@@ -74,7 +74,7 @@ static double set_varying(system_rows *rows, const problem *p, double t, double 
                 at.g = poles_coefficients(&here, desc->step).g;
             }
             double im = weighted ? im_weight_of(block.natural[i], t, intervals) : 0;
-            if (oscillates) im = (im + slowness(block.natural[i], highest, desc->step)) * scale;
+            if (oscillates) im = (im + slowness(block.natural[i], highest, desc->step)) * p->unit;
             set_row(rows, p, k + i, at, weight[i], im);
             slowest = block.natural[i] < slowest ? block.natural[i] : slowest;
         }
@@ -113,7 +113,7 @@ static void set_filter(wiggly_solver *solver, const problem *p)
     const poles *at = &problem_filter(solver, p)->at;
     coefficients row = poles_coefficients(at, desc->step);
     double im = weighted ? im_weight_of(at->natural, t, intervals) : 0;
-    if (problem_oscillates(p)) im *= exp(-poles_weight_exponent(at, desc->step));
+    im *= p->unit;
     for (int k = 0; k < rows->count; k++) set_row(rows, p, k, row, 1, im);
     set_stretch(rows, solver, p, at->natural);
 }
@@ -139,33 +139,53 @@ static double bend_beside(const problem *p, int k)
     return k == 0 ? bend : -bend;
 }
 
-/// The oscillator's: the speed that the poles see from both sides, or the one there is; on the tail that of the tail.
+/// From which sides an oscillator's speed at a row is seen, or that it is what moves by itself.
+typedef struct sides {
+    bool ahead, behind, tied;
+} sides;
+
+static sides sides_of(const problem *p, int k)
+{
+    bool loop = p->start == WIGGLY_LOOP, last = p->settles && p->first + k == p->latest;
+    return (sides){.ahead = loop || (k + 1 < p->count && !last),
+                   .behind = loop || k > 0,
+                   .tied = last && p->desc->mode == WIGGLY_COMPLEX};
+}
+
+/// The oscillator's: a speed seen from both sides, or from the one there is.
 static slope_row oscillator_slope(const problem *p, int k, double slope, double stiffness)
 {
     const wiggly_desc *desc = p->desc;
-    bool loop = p->start == WIGGLY_LOOP, tied = p->settles && p->first + k == p->latest;
-    bool ahead = loop || (k + 1 < p->count && !tied), behind = loop || k > 0;
+    const sides from = sides_of(p, k);
+    const int count = from.ahead + from.behind;
     double h = desc->step, known = p->swing.speed ? swing_speed(desc, p->y, &p->swing, p->first + k) : 0;
-    poles at = poles_at(desc, p->first + k, problem_least_damping(p));
     slope_row row = {.sample = k, .target = h * (slope - known), .weight = stiffness * h};
-    if (tied && desc->mode == WIGGLY_COMPLEX) {
-        row.here = cplx_scale(h, poles_passive(&at));
-    } else {
-        int sides = ahead + behind;
-        if (sides == 0) return (slope_row){.sample = k};
-        speed_form forward = poles_speed(&at, h, false), backward = poles_speed(&at, h, true);
-        if (ahead)
-            row.here = cplx_scale(1.0 / sides, forward.on_x), row.ahead = cplx_scale(1.0 / sides, forward.on_e);
-        if (behind) {
-            row.here = cplx_add(row.here, cplx_scale(1.0 / sides, backward.on_x));
-            row.behind = cplx_scale(1.0 / sides, backward.on_e);
-        }
-        row.weight /= 1 + row.weight / (2 * sides);
-        if (sides == 1) row.target += bend_beside(p, k);
+    if (!from.tied) {
+        if (count == 0) return (slope_row){.sample = k};
+        row.weight /= 1 + row.weight / (2 * count);
+        if (count == 1) row.target += bend_beside(p, k);
     }
-    poles first = poles_at(desc, p->first, problem_least_damping(p));
-    row.weight = fmin(row.weight, STIFFEST) * exp(-poles_weight_exponent(&first, h));
+    row.weight = fmin(row.weight, STIFFEST) * p->unit;
     return row;
+}
+
+/// What the poles say of the speed from both sides, or the one there is; on the tail that of the tail.
+static void see_speed(const problem *p, slope_row *row)
+{
+    const double h = p->desc->step;
+    const sides from = sides_of(p, row->sample);
+    poles at = poles_at(p->desc, p->first + row->sample, problem_least_damping(p));
+    if (from.tied) {
+        row->here = cplx_scale(h, poles_passive(&at));
+        return;
+    }
+    const double part = 1.0 / (from.ahead + from.behind);
+    speed_form forward = poles_speed(&at, h, false), backward = poles_speed(&at, h, true);
+    if (from.ahead) row->here = cplx_scale(part, forward.on_x), row->ahead = cplx_scale(part, forward.on_e);
+    if (from.behind) {
+        row->here = cplx_add(row->here, cplx_scale(part, backward.on_x));
+        row->behind = cplx_scale(part, backward.on_e);
+    }
 }
 
 slope_row problem_slope(const problem *p, int sample, double slope, double stiffness)
@@ -177,7 +197,9 @@ slope_row problem_slope(const problem *p, int sample, double slope, double stiff
 static void add_slope(system_rows *rows, const problem *p, int sample, double slope, double stiffness)
 {
     slope_row row = problem_slope(p, sample, slope, stiffness);
-    if (row.weight > 0) rows->slopes[rows->slope_count++] = row;
+    if (!(row.weight > 0)) return;
+    if (problem_oscillates(p)) see_speed(p, &row);
+    rows->slopes[rows->slope_count++] = row;
 }
 
 /// One knot without any hold: a level slope is implied.

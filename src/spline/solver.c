@@ -127,6 +127,7 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
     poles damped = poles_at(desc, 0, fmax(floor, LEAST_DAMPING));
     f->start = poles_start_cost(&damped, desc->step);
     if (desc->passive != WIGGLY_OSCILLATOR) return f;
+    f->unit = exp(-poles_weight_exponent(&f->at, desc->step));
     f->ahead = poles_speed(&f->at, desc->step, false);
     f->passive = cplx_scale(desc->step, poles_passive(&f->at));
     f->tail = poles_tail(&f->at, &f->ahead, desc->step);
