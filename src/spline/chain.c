@@ -108,13 +108,13 @@ bool chain_fill_stretch(const chain *c, const chain_node *p, const chain_node *q
         cplx weight[4];
         bool tame = weigh_complex(c, p, q, weight);
         chain_fill_complex(c, s, weight, 0, part, re + at, im + at);
-        chain_fill_complex(c, s, weight, part, n - part, re, im);
+        if (part < n) chain_fill_complex(c, s, weight, part, n - part, re, im);
         return tame;
     }
     double weight[4];
     bool tame = weigh_real(c, p, q, weight);
     chain_fill_real(c, s, weight, 0, part, re + at);
-    chain_fill_real(c, s, weight, part, n - part, re);
+    if (part < n) chain_fill_real(c, s, weight, part, n - part, re);
     return tame;
 }
 
@@ -212,8 +212,10 @@ bool chain_fill(chain *c, double *x_re, double *x_im)
     c->cubic_bound = fabs(last->value) + (c->count - last->sample) * fabs(last->d_re);
     for (int j = 0; j < chain_stretches(c); j++) {
         const chain_node *p = &c->nodes[j], *q = &c->nodes[chain_next(c, j)];
-        double piece = bound_of_piece(p, q, chain_length_after(c, j));
-        c->cubic_bound = piece > c->cubic_bound ? piece : c->cubic_bound;
+        if (!c->is_complex) {
+            double piece = bound_of_piece(p, q, chain_length_after(c, j));
+            c->cubic_bound = piece > c->cubic_bound ? piece : c->cubic_bound;
+        }
         tame = chain_fill_stretch(c, p, q, x_re, im) && tame;
     }
     if (c->cyclic) return tame;

@@ -18,6 +18,9 @@ static const wiggly_knot *knot_at(const wiggly_solver *solver, const problem *p,
     return &p->desc->knots[solver->order[n]];
 }
 
+/// The knot after n, or after more than the last.
+static int in_turn(const problem *p, int n) { return n < p->desc->knot_count ? n : n - p->desc->knot_count; }
+
 /// Whether knot n has one on the sample after it; in a loop the first comes after the last.
 static bool has_company(const wiggly_solver *solver, const problem *p, int n)
 {
@@ -45,7 +48,7 @@ static bool slopes_fit(wiggly_solver *solver, const problem *p, int begin)
     bool oscillates = problem_oscillates(p), faint = exp(2 * desc->step * (at->s[0].re + at->s[1].re)) < least_b;
     bool second = false;
     for (int i = 0; i < desc->knot_count; i++) {
-        int n = (begin + i) % desc->knot_count;
+        int n = in_turn(p, begin + i);
         const wiggly_knot *knot = knot_at(solver, p, n);
         bool on_last = !oscillates && p->start != WIGGLY_LOOP && knot->sample == desc->samples - 1;
         if (knot->has_slope && (second || on_last || (oscillates && faint))) return false;
@@ -127,10 +130,11 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
         node++;
     }
     for (int i = 0; i < knots; i++, node++) {
-        int n = (begin + i) % knots;
+        int n = in_turn(p, begin + i);
         bool pair = has_company(solver, p, n);
-        same = problem_put_knot(p, node, knot_at(solver, p, n), pair ? knot_at(solver, p, (n + 1) % knots) : NULL) &&
-               same;
+        same =
+            problem_put_knot(p, node, knot_at(solver, p, n), pair ? knot_at(solver, p, in_turn(p, n + 1)) : NULL) &&
+            same;
         if (p->start == WIGGLY_LOOP) node->sample = (node->sample - turned + p->count) % p->count;
         if (pair) i++;
     }
