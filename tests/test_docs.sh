@@ -18,7 +18,7 @@ unset DISPLAY WAYLAND_DISPLAY
 
 # --- what a command line finds, and how it is cut short where it would last
 
-mkdir "$scratch/bin" "$scratch/work" "$scratch/work/build"
+mkdir "$scratch/bin" "$scratch/place" "$scratch/place/build"
 make BORROWED=yes B="$B" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
 ok "make install" $?
 export PKG_CONFIG_PATH=$scratch/stage/opt/wiggly/lib/pkgconfig LD_LIBRARY_PATH=$scratch/stage/opt/wiggly/lib
@@ -48,9 +48,9 @@ END
 printf '#!/bin/bash\nexec %s %s "$@"\n' "$CC" "$sanitizers" >"$scratch/bin/cc"
 chmod +x "$scratch"/bin/*
 mkdir -p "$build/models" # which the first of the commands fills
-for file in "$build"/*; do ln -s "$file" "$scratch/work/build/"; done
-ln -sf "$scratch/bin/wiggly" "$scratch/bin/timing_diff" "$scratch/work/build/"
-for file in assets examples tests tools; do ln -s "$root/$file" "$scratch/work/$file"; done
+for file in "$build"/*; do ln -s "$file" "$scratch/place/build/"; done
+ln -sf "$scratch/bin/wiggly" "$scratch/bin/timing_diff" "$scratch/place/build/"
+for file in assets examples tests tools; do ln -s "$root/$file" "$scratch/place/$file"; done
 export PATH=$scratch/bin:$PATH
 
 # --- blocks
@@ -59,15 +59,15 @@ run() { # <where> <command lines>
     local line
     while IFS= read -r line; do
         [[ -n $line ]] || continue
-        expect 0 "$1: $line" bash -c "cd '$scratch/work' && $line"
-        printf '%s\n' "$out" "$err" >>"$scratch/work/said"
+        expect 0 "$1: $line" bash -c "cd '$scratch/place' && $line"
+        printf '%s\n' "$out" "$err" >>"$scratch/place/said"
     done <<<"$2"
 }
 
 compile() { # <where> <name> <text>
-    printf '%s' "$3" >"$scratch/work/$2"
+    printf '%s' "$3" >"$scratch/place/$2"
     # shellcheck disable=SC2046
-    expect 0 "$1: $2 compiles" cc -std=c11 -Wall -Wextra -Wconversion -Werror "$scratch/work/$2" \
+    expect 0 "$1: $2 compiles" cc -std=c11 -Wall -Wextra -Wconversion -Werror "$scratch/place/$2" \
         $(pkg-config --cflags --libs wiggly) -o "$scratch/program"
     expect 0 "$1: $2 runs" "$scratch/program"
 }
@@ -91,7 +91,7 @@ paste() { # <where> <text>
 shown() { # <where> <text>
     local line found=0
     while IFS= read -r line; do
-        [[ -z $line ]] || grep -qrF --exclude-dir=build -e "$line" "$scratch/work" || found=1
+        [[ -z $line ]] || grep -qrF --exclude-dir=build -e "$line" "$scratch/place" || found=1
     done <<<"$2"
     ok "$1: is what the commands put out" $found
 }
@@ -101,8 +101,8 @@ block() { # <where> <language> <name> <text>
     "sh ") run "$1" "$4" ;;
     "c NAME") compile "$1" "$3" "$4" ;;
     "json NAME")
-        printf '%s' "$4" >"$scratch/work/$3"
-        expect 0 "$1: $3 is a scene" "$build/wiggly" check "$scratch/work/$3"
+        printf '%s' "$4" >"$scratch/place/$3"
+        expect 0 "$1: $3 is a scene" "$build/wiggly" check "$scratch/place/$3"
         ;;
     "json " | "csv ") paste "$1" "$4" ;;
     "text ") shown "$1" "$4" ;;

@@ -81,14 +81,14 @@ cplx cplx_exp(cplx z)
     return (cplx){size * c, size * s};
 }
 
-cplx cplx_divide(cplx a, cplx b)
+static cplx cplx_divide(cplx a, cplx b)
 {
     double size = cplx_norm(b);
     return (cplx){(a.re * b.re + a.im * b.im) / size, (a.im * b.re - a.re * b.im) / size};
 }
 
 /// exp(z) − 1 without cancellation.
-cplx cplx_expm1(cplx z)
+static cplx cplx_expm1(cplx z)
 {
     if (z.re == 0 && z.im == 0) return z;
     double s = sin(z.im), c = cos(z.im);

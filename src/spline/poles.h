@@ -75,7 +75,5 @@ static inline cplx poles_passive(const poles *at) { return (cplx){-at->decay, at
 /// What one sample of moving by itself adds, as a part, where the poles see the speed as in `ahead`.
 cplx poles_tail(const poles *at, const speed_form *ahead, double step);
 cplx cplx_exp(cplx z);
-cplx cplx_expm1(cplx z);
-cplx cplx_divide(cplx a, cplx b);
 
 #endif

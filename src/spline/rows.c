@@ -51,6 +51,13 @@ static void set_row(system_rows *rows, const problem *p, int k, coefficients at,
     rows->drive[k] = drive_at(p, k, at.g);
 }
 
+/// g = exp((s₀+s₁)h/2) of a block's sample; outside complex mode it is real.
+static cplx drive_phase(const poles_block *block, int i, const wiggly_desc *desc)
+{
+    double turn = desc->mode == WIGGLY_COMPLEX ? block->centre[i] * desc->step : 0;
+    return cplx_exp((cplx){-0.5 * block->exponent[i], turn});
+}
+
 /// Every row of parameters that vary, a block at a time; returns the lowest natural frequency. Weights are relative to the first sample's |g|⁻².
 static double set_varying(system_rows *rows, const problem *p, double t, double intervals, bool weighted)
 {
@@ -69,10 +76,7 @@ static double set_varying(system_rows *rows, const problem *p, double t, double 
         poles_block_exp(weight, count, weight);
         for (int i = 0; i < count; i++) {
             coefficients at = {.m = {block.m_re[i], block.m_im[i]}, .p = {block.p_re[i], block.p_im[i]}};
-            if (driven) {
-                poles here = poles_at(desc, p->first + k + i, floor);
-                at.g = poles_coefficients(&here, desc->step).g;
-            }
+            if (driven) at.g = drive_phase(&block, i, desc);
             double im = weighted ? im_weight_of(block.natural[i], t, intervals) : 0;
             if (oscillates) im = (im + slowness(block.natural[i], highest, desc->step)) * p->unit;
             set_row(rows, p, k + i, at, weight[i], im);

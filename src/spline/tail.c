@@ -4,13 +4,6 @@
 
 enum { RUN = 64 }; ///< samples that are filled from one power
 
-/// h p of an interval from a sample on, the mean of its ends'; constant parameters have one.
-static cplx exponent_at(const problem *p, int sample)
-{
-    poles here = poles_at(p->desc, sample, 0), next = poles_at(p->desc, sample + 1, 0);
-    return cplx_scale(0.5 * p->desc->step, cplx_add(poles_passive(&here), poles_passive(&next)));
-}
-
 WIDEST static void scale_powers(const double *restrict power_re, const double *restrict power_im, cplx w, int count,
                                 double *restrict re, double *restrict im)
 {
@@ -41,8 +34,12 @@ static void fill_constant(cplx exponent, cplx w, int from, int count, double *re
 
 static void fill_varying(const problem *p, cplx w, int from, int count, double *re, double *im)
 {
-    for (int k = 1; k < from + count; k++) {
-        w = cplx_mul(cplx_exp(exponent_at(p, p->latest + k - 1)), w);
+    poles here = poles_at(p->desc, p->latest, 0);
+    for (int k = 1; k < from + count; k++) { // p of an interval is the mean of its ends'
+        poles next = poles_at(p->desc, p->latest + k, 0);
+        cplx both = cplx_add(poles_passive(&here), poles_passive(&next));
+        w = cplx_mul(cplx_exp(cplx_scale(0.5 * p->desc->step, both)), w);
+        here = next;
         if (k >= from) re[k - from] = w.re, im[k - from] = w.im;
     }
 }
