@@ -37,15 +37,20 @@ static bool is_tame(cplx z) { return fabs(z.re) < 1e250 && fabs(z.im) < 1e250; }
 /// The same for a real sum; NaN is not tame.
 static bool is_tame_real(double size) { return size < 1e250; }
 
-/// What a slope at the stretch's last node pulls on the jet there beside the costate ν_d (see the top of this file).
-static cplx slope_pull(const chain *c, const chain_stretch *s, const chain_node *q, cplx nu_d)
+double chain_slope_pull(const chain *c, const chain_node *node, cplx jet, double v11)
 {
-    const chain_speed *speed = &c->speed[q->view];
-    cplx seen = cplx_sub(
-        cplx_add(cplx_mul(speed->on_x, (cplx){q->value, q->x_im}), cplx_mul(speed->on_d, (cplx){q->d_re, q->d_im})),
-        cplx_mul(speed->on_r, nu_d));
-    double weight = chain_slope_weight(q->slope_weight, speed, s->form[FORM_V11]);
-    return cplx_scale(weight * (seen.re - q->slope), cplx_conj(speed->on_r));
+    const chain_speed *speed = &c->speed[node->view];
+    cplx seen = cplx_sub(cplx_add(cplx_mul(speed->on_x, (cplx){node->value, node->x_im}),
+                                  cplx_mul(speed->on_d, (cplx){node->d_re, node->d_im})),
+                         cplx_mul(speed->on_r, jet));
+    double weight = node->slope_weight / (1 + node->slope_weight * cplx_norm(speed->on_r) * (1 - v11));
+    return weight * (seen.re - node->slope);
+}
+
+/// What a slope at a stretch's last node adds to the jet there beside the costate ν_d: η of the top of this file.
+static cplx jet_of_slope(const chain *c, const chain_stretch *s, const chain_node *q, cplx nu_d)
+{
+    return cplx_scale(chain_slope_pull(c, q, nu_d, s->form[FORM_V11]), cplx_conj(c->speed[q->view].on_r));
 }
 
 /// What the columns of a stretch are weighted with; false where sums might overflow.
@@ -58,7 +63,7 @@ static bool weigh_real(const chain *c, const chain_node *p, const chain_node *q,
     weight[2] = f[FORM_V00] * q->value + f[FORM_V01] * q->d_re - (f[FORM_C00] * p->value + f[FORM_C01] * p->d_re);
     weight[3] = f[FORM_V01] * q->value + f[FORM_V11] * q->d_re - (f[FORM_C10] * p->value + f[FORM_C11] * p->d_re);
     if (q->slope_weight > 0) {
-        double eta = slope_pull(c, s, q, (cplx){weight[3], 0}).re;
+        double eta = jet_of_slope(c, s, q, (cplx){weight[3], 0}).re;
         weight[2] -= f[FORM_V01] * eta, weight[3] -= f[FORM_V11] * eta;
     }
     return is_tame_real(fabs(weight[0]) + fabs(weight[1]) + fabs(weight[2]) + fabs(weight[3]));
@@ -77,7 +82,7 @@ static bool weigh_complex(const chain *c, const chain_node *p, const chain_node 
     weight[3] = cplx_sub(cplx_add(cplx_mul(cplx_conj(v01), xq), cplx_scale(s->form[FORM_V11], dq)),
                          cplx_add(cplx_mul(c10, xp), cplx_mul(c11, dp)));
     if (q->slope_weight > 0) {
-        cplx eta = slope_pull(c, s, q, weight[3]);
+        cplx eta = jet_of_slope(c, s, q, weight[3]);
         weight[2] = cplx_sub(weight[2], cplx_mul(v01, eta));
         weight[3] = cplx_sub(weight[3], cplx_scale(s->form[FORM_V11], eta));
     }

@@ -143,11 +143,9 @@ static inline cplx chain_node_tie(const chain *c, const chain_node *node)
     return (cplx){node->fixed & NODE_FIXED_E && c->is_complex ? c->lambda.im : 0, 0};
 }
 
-/// A slope's weight where the jet at its node is what the stretch before it (V₁₁ of its form, or 1) makes of it.
-static inline double chain_slope_weight(double weight, const chain_speed *speed, double v11)
-{
-    return weight / (1 + weight * cplx_norm(speed->on_r) * (1 - v11));
-}
+/// Weight times what a slope's speed is too large, at the nodes' present state: seen with a jet that the stretch before makes `jet`, as
+/// far as V₁₁ of its form holds it; 0 and 1 where there is none.
+double chain_slope_pull(const chain *chain, const chain_node *node, cplx jet, double v11);
 
 /// An entry of a table of powers.
 static inline cplx chain_power(const chain *c, const cplx_array *table, int k)

@@ -31,6 +31,13 @@ static void pull(const chain *c, int j, cplx on_x, cplx on_d)
     right[0] += on_x.im, right[1] += on_d.re, right[2] += on_d.im;
 }
 
+/// A slope's pull on the state that it sees.
+static void pull_speed(const chain *c, int j, double pulled)
+{
+    const chain_speed *speed = &c->speed[c->nodes[j].view];
+    pull(c, j, cplx_scale(-pulled, cplx_conj(speed->on_x)), cplx_scale(-pulled, cplx_conj(speed->on_d)));
+}
+
 /// What the stretch from node j pulls, and the slope at its end, whose jet is the costate's second part.
 static void pull_stretch(const chain *c, int j)
 {
@@ -48,13 +55,9 @@ static void pull_stretch(const chain *c, int j)
     cplx n0 = cplx_add(cplx_scale(s->form[FORM_V00], e0), cplx_mul(v01, e1));
     cplx n1 = cplx_add(cplx_mul(cplx_conj(v01), e0), cplx_scale(v11, e1));
     if (q->slope_weight > 0) {
-        const chain_speed *speed = &c->speed[q->view];
-        cplx seen = cplx_add(cplx_mul(speed->on_x, (cplx){q->value, q->x_im}),
-                             cplx_mul(speed->on_d, (cplx){q->d_re, q->d_im}));
-        seen = cplx_sub(seen, cplx_mul(speed->on_r, n1));
-        double pulled = -chain_slope_weight(q->slope_weight, speed, v11) * (seen.re - q->slope);
-        pull(c, next, cplx_scale(pulled, cplx_conj(speed->on_x)), cplx_scale(pulled, cplx_conj(speed->on_d)));
-        cplx eta = cplx_scale(-pulled, cplx_conj(speed->on_r)); // ν − V B η
+        double pulled = chain_slope_pull(c, q, n1, v11);
+        pull_speed(c, next, pulled);
+        cplx eta = cplx_scale(pulled, cplx_conj(c->speed[q->view].on_r)); // ν − V B η
         n0 = cplx_sub(n0, cplx_mul(v01, eta));
         n1 = cplx_sub(n1, cplx_scale(v11, eta));
     }
@@ -84,17 +87,6 @@ static void pull_form(const chain *c, int j, const state_form *h)
     pull(c, j, cplx_scale(-1, on_x), cplx_scale(-1, on_d));
 }
 
-/// The first node's slope, where there is no jet.
-static void pull_first_slope(const chain *c)
-{
-    const chain_node *node = &c->nodes[0];
-    const chain_speed *speed = &c->speed[node->view];
-    cplx seen = cplx_add(cplx_mul(speed->on_x, (cplx){node->value, node->x_im}),
-                         cplx_mul(speed->on_d, (cplx){node->d_re, node->d_im}));
-    double pulled = -node->slope_weight * (seen.re - node->slope);
-    pull(c, 0, cplx_scale(pulled, cplx_conj(speed->on_x)), cplx_scale(pulled, cplx_conj(speed->on_d)));
-}
-
 /// Known unknowns take no correction; a tied d follows Im x.
 static void hold_known(const chain *c, int j)
 {
@@ -119,7 +111,7 @@ void chain_gradient(chain *c)
     if (!c->cyclic) {
         const state_form end = chain_end_form(c);
         pull_start(c);
-        if (c->nodes[0].slope_weight > 0) pull_first_slope(c);
+        if (c->nodes[0].slope_weight > 0) pull_speed(c, 0, chain_slope_pull(c, &c->nodes[0], (cplx){0, 0}, 1));
         pull_form(c, c->node_count - 1, &end);
     }
     for (int j = 0; j < c->node_count; j++) {
