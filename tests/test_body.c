@@ -116,6 +116,33 @@ static void test_a_tail_that_goes_while_held(void **state)
     session_close(&s);
 }
 
+/// A press in the frame in which an edit takes the tail away finds nothing to take hold of.
+static void press_as_it_goes(const char *target)
+{
+    struct session s;
+    struct error error;
+    session_open(&s, scene);
+    session_frame(&s);
+    session_point(&s, target);
+    history_begin(s.history, "Remove tail", 0);
+    assert_true(history_apply(s.history, s.document, &(struct edit){.kind = EDIT_TAIL_REMOVE}, &error));
+    history_end(s.history);
+    char *without = session_saved(&s);
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, 40, 10, 3);
+    session_release(&s, BUTTON_LEFT);
+    assert_saved(&s, without);
+    free(without);
+    session_close(&s);
+}
+
+static void test_a_press_as_the_tail_goes(void **state)
+{
+    (void)state;
+    press_as_it_goes("tail(tail,0.5)");
+    press_as_it_goes("body(tail)");
+}
+
 static void test_axes_lock_and_shift_is_fine(void **state)
 {
     (void)state;
@@ -189,6 +216,7 @@ int main(void)
         cmocka_unit_test(test_swing_runs_along_the_tail),
         cmocka_unit_test(test_escape_takes_it_back),
         cmocka_unit_test(test_a_tail_that_goes_while_held),
+        cmocka_unit_test(test_a_press_as_the_tail_goes),
         cmocka_unit_test(test_axes_lock_and_shift_is_fine),
         cmocka_unit_test(test_a_tracked_body_gets_a_knot),
         cmocka_unit_test(test_clicks_leave_the_body_alone),

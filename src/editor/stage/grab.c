@@ -58,6 +58,12 @@ static int sample_for(const struct stage *stage, const struct core *core, const 
     return sample < 0 ? 0 : sample;
 }
 
+bool grab_holds(const struct document *document, int tail, int joint)
+{
+    const struct tail *held = document_tail(document, tail);
+    return held && joint <= held->joints;
+}
+
 void grab_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover)
 {
     const struct tail *tail = document_tail(world->document, hover->tail);
@@ -155,6 +161,7 @@ void grab_apply(struct stage *stage, struct core *core, const struct editor_worl
     const struct drag *drag = &core->drag;
     if (drag->kind != DRAG_GRAB || !drag->moved) return;
     if (!grab->axis[AXIS_SIDE].active && !grab->axis[AXIS_UP].active) return;
+    if (!grab_holds(world->document, grab->tail, grab->joint)) return;
     struct rig_pose pose;
     float at[2];
     stage_pose_tail(stage, core, world, grab->tail, core->playback.position, NULL, &pose);

@@ -58,6 +58,16 @@ struct hover stage_hover(const struct stage *stage, const struct core *core, flo
     return hover.kind == HOVER_NONE ? body_hover(stage, x, y) : hover;
 }
 
+/// What is under a point and still in the document: an edit in the same frame may have taken away what was last shown.
+static struct hover hover_now(const struct stage *stage, const struct core *core, const struct document *document,
+                              float x, float y)
+{
+    struct hover hover = stage_hover(stage, core, x, y);
+    if (hover.kind == HOVER_JOINT && !grab_holds(document, hover.tail, hover.joint)) hover.kind = HOVER_NONE;
+    if (hover.kind == HOVER_BODY && !document_tail(document, hover.tail)) hover.kind = HOVER_NONE;
+    return hover;
+}
+
 void stage_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event)
 {
     bool pan = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
@@ -67,7 +77,7 @@ void stage_press(struct stage *stage, struct core *core, const struct editor_wor
         return;
     }
     if (brush_press(stage, core, world, event)) return;
-    struct hover hover = stage_hover(stage, core, event->x, event->y);
+    struct hover hover = hover_now(stage, core, world->document, event->x, event->y);
     if (event->button == BUTTON_LEFT && hover.kind == HOVER_BODY) {
         drag_begin(core, DRAG_BODY, "Move body", event);
         body_begin(stage, core, hover.tail);
