@@ -1,0 +1,152 @@
+/// A character of somebody else's: what a glTF 2.0 file holds that can be shown, and its poses.
+///
+/// Units and axes are the file's: metres, y up, right-handed. Matrices are column-major. Nothing here is changed after reading.
+#ifndef MODEL_GLTF_H
+#define MODEL_GLTF_H
+
+#include "base/error.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { GLTF_INFLUENCES = 8 };
+
+/// Translation, rotation (unit quaternion x y z w) and scale of a node against its parent.
+struct gltf_place {
+    float translation[3], rotation[4], scale[3];
+};
+
+struct gltf_node {
+    char *name;              ///< "node 7" where the file has none
+    int parent;              ///< −1: a root
+    struct gltf_place place; ///< at rest
+    float matrix[16];        ///< instead of `place` where `has_matrix`: clips and chains leave such a node alone
+    bool has_matrix;
+    int mesh, skin;   ///< −1: none
+    int first_weight; ///< of its mesh's morph targets, in gltf_pose.weights
+};
+
+struct gltf_skin {
+    int *joints; ///< nodes
+    int joint_count;
+    float (*inverse_bind)[16];
+};
+
+struct gltf_material {
+    float color[4]; ///< base colour, linear, with opacity
+    int image;      ///< its texture, −1: none
+    float cutoff;   ///< alpha below it is not drawn; 0: all is
+    bool blended, double_sided;
+};
+
+/// Decoded pixels, sRGB with opacity, 8 bits each, top row first.
+struct gltf_image {
+    int width, height;
+    unsigned char *pixels;
+};
+
+/// How far a morph target takes each vertex; NULL where it leaves positions or normals alone.
+struct gltf_target {
+    float (*position)[3], (*normal)[3];
+};
+
+/// Triangles of one material (glTF's primitive).
+struct gltf_part {
+    int vertex_count;
+    float (*position)[3], (*normal)[3];  ///< normals are made where the file has none
+    float (*uv)[2];                      ///< NULL: none
+    float (*color)[4];                   ///< linear, NULL: white
+    uint16_t (*joints)[GLTF_INFLUENCES]; ///< into the skin's joints; NULL: not skinned
+    float (*weights)[GLTF_INFLUENCES];   ///< their sum is 1
+    uint32_t *indices;
+    int index_count;
+    struct gltf_target *targets; ///< as many as the mesh has
+    int material;                ///< −1: plain white
+};
+
+struct gltf_mesh {
+    char *name;
+    struct gltf_part *parts;
+    int part_count;
+    int target_count;
+    float *weights; ///< of its targets at rest
+};
+
+enum gltf_path { GLTF_TRANSLATION, GLTF_ROTATION, GLTF_SCALE, GLTF_WEIGHTS };
+enum gltf_interpolation { GLTF_STEP, GLTF_LINEAR, GLTF_CUBIC };
+
+struct gltf_channel {
+    int node;
+    enum gltf_path path;
+    enum gltf_interpolation interpolation;
+    int key_count, components; ///< components: 3, 4 or the mesh's targets
+    const float *times;        ///< seconds, ascending
+    const float *values; ///< `components` a key; three times as many for GLTF_CUBIC: tangent in, value, tangent out
+};
+
+struct gltf_clip {
+    char *name; ///< "clip 2" where the file has none
+    double duration;
+    struct gltf_channel *channels;
+    int channel_count;
+};
+
+struct gltf {
+    char *path;
+    struct gltf_node *nodes;
+    int *order; ///< all nodes, parents before children
+    int node_count;
+    struct gltf_skin *skins;
+    int skin_count;
+    struct gltf_mesh *meshes;
+    int mesh_count;
+    struct gltf_material *materials;
+    int material_count;
+    struct gltf_image *images;
+    int image_count;
+    struct gltf_clip *clips;
+    int clip_count;
+    int weight_count;   ///< morph weights of all nodes together
+    float lo[3], hi[3]; ///< the box around it at rest
+    char *not_shown;    ///< names of what is in the file and not shown, comma separated; NULL: all is shown
+    uint64_t id;        ///< tells it from any other that was read in this process; never 0
+    void *owned;        ///< private: memory that clips point into
+};
+
+/// Reads a .glb or .gltf (with its files or data URIs). What it takes in memory is bounded by a small multiple of the sizes of the files
+/// read, whatever they claim. Errors name file, place, what was expected and what was found; on error nothing is left to free.
+bool gltf_read(const char *path, struct gltf *gltf, struct error *error);
+void gltf_free(struct gltf *gltf);
+
+/// The node, or clip, with that name, or −1.
+int gltf_find_node(const struct gltf *gltf, const char *name);
+int gltf_find_clip(const struct gltf *gltf, const char *name);
+
+/// Where everything is at one time. Memory is made once for a model and reused.
+struct gltf_pose {
+    struct gltf_place *place; ///< of each node against its parent
+    float (*world)[16];       ///< of each node, in the model's space
+    float *weights;           ///< of the morph targets of all nodes (gltf_node.first_weight)
+};
+
+bool gltf_pose_create(const struct gltf *gltf, struct gltf_pose *pose);
+void gltf_pose_free(struct gltf_pose *pose);
+
+/// Places and weights at rest (clip −1) or at a clip's time in seconds, held before the first and after the last key. Leaves `world`
+/// alone. Allocates nothing.
+void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_pose *pose);
+
+/// World matrices from places. Allocates nothing.
+void gltf_pose_world(const struct gltf *gltf, struct gltf_pose *pose);
+
+/// What skinning multiplies the vertices of a skin's joint `j` by: world of the joint · inverse bind.
+void gltf_joint_matrix(const struct gltf *gltf, const struct gltf_pose *pose, int skin, int joint, float matrix[16]);
+
+/// Positions of all vertices of one node's mesh in the model's space, part after part, morphed and skinned: the reference for what the
+/// stage draws and what is exported. `normals` may be NULL. Allocates nothing.
+void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, int node, float (*positions)[3],
+                        float (*normals)[3]);
+
+/// Vertices of one node's mesh; 0 without one.
+int gltf_vertex_count(const struct gltf *gltf, int node);
+
+#endif
