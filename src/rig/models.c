@@ -1,18 +1,10 @@
 /// Reads the models of a document's characters, and keeps them by path.
 #include "rig/models.h"
 #include "base/path.h"
+#include "rig/model_files.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-
-/// A file that was read, and its state at that time.
-struct model_file {
-    char *path; ///< absolute
-    struct timespec changed;
-    off_t size;
-    struct figure figure;
-};
 
 /// The model of one character.
 struct character_model {
@@ -22,21 +14,12 @@ struct character_model {
 };
 
 struct models {
-    struct model_file **files;
-    int file_count;
+    struct model_files files;
     struct character_model *characters; ///< in the order of the document
     int character_count;
 };
 
 struct models *models_create(void) { return calloc(1, sizeof(struct models)); }
-
-static void file_destroy(struct model_file *file)
-{
-    if (!file) return;
-    figure_free(&file->figure);
-    free(file->path);
-    free(file);
-}
 
 static void drop_characters(struct models *models)
 {
@@ -48,73 +31,9 @@ void models_destroy(struct models *models)
 {
     if (!models) return;
     drop_characters(models);
-    for (int i = 0; i < models->file_count; i++) file_destroy(models->files[i]);
-    free(models->files);
+    model_files_free(&models->files);
     free(models->characters);
     free(models);
-}
-
-static bool is_current(const struct model_file *file, const struct stat *about)
-{
-    return file->size == about->st_size && file->changed.tv_sec == about->st_mtim.tv_sec &&
-           file->changed.tv_nsec == about->st_mtim.tv_nsec;
-}
-
-static int find_file(const struct models *models, const char *path)
-{
-    for (int i = 0; i < models->file_count; i++) {
-        if (strcmp(models->files[i]->path, path) == 0) return i;
-    }
-    return -1;
-}
-
-static struct model_file *read_file(const char *path, struct error *error)
-{
-    struct character character = {0};
-    struct model_file *file = calloc(1, sizeof *file);
-    if (!file || !(file->path = strdup(path))) {
-        file_destroy(file);
-        fail_no_memory(error, path);
-        return NULL;
-    }
-    if (!character_read(path, &character, error)) {
-        file_destroy(file);
-        return NULL;
-    }
-    if (!figure_create(&file->figure, &character)) {
-        file_destroy(file);
-        fail_no_memory(error, path);
-        return NULL;
-    }
-    return file;
-}
-
-/// The figure in a file, read again only if the file has changed; NULL with a sentence.
-static const struct figure *obtain(struct models *models, const char *path, struct error *error)
-{
-    struct stat about = {0};
-    bool is_there = stat(path, &about) == 0;
-    int at = find_file(models, path);
-    if (at >= 0 && is_there && is_current(models->files[at], &about)) return &models->files[at]->figure;
-    struct model_file *file = read_file(path, error);
-    if (!file) return NULL;
-    file->changed = about.st_mtim;
-    file->size = about.st_size;
-    if (at >= 0) {
-        file_destroy(models->files[at]);
-    } else {
-        struct model_file **files =
-            realloc(models->files, ((size_t)models->file_count + 1) * sizeof(struct model_file *));
-        if (!files) {
-            file_destroy(file);
-            fail_no_memory(error, path);
-            return NULL;
-        }
-        models->files = files;
-        at = models->file_count++;
-    }
-    models->files[at] = file;
-    return &file->figure;
 }
 
 /// Whether the model has all coordinates that the scene names.
@@ -154,7 +73,7 @@ static const struct figure *find_figure(struct models *models, const struct docu
         fail(error, ERROR_INPUT, "%s: the path is too long", rig->model);
         return NULL;
     }
-    const struct figure *figure = obtain(models, path, error);
+    const struct figure *figure = model_files_figure(&models->files, path, error);
     if (figure && check_names(rig, figure, error)) check_paint(rig, figure, error);
     return figure;
 }
