@@ -47,7 +47,11 @@ static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f;
 
 /// In this order they are posed, hashed and drawn.
 static const struct stage_kind *const kinds[RIG_KINDS] = {
-    [RIG_TAIL] = &stage_tails, [RIG_CHARACTER] = &stage_characters};
+    [RIG_TAIL] = &stage_tails,
+    [RIG_CHARACTER] = &stage_characters,
+    [RIG_MODEL] = &stage_models,
+    [RIG_CHAIN] = &stage_chains,
+};
 
 /// Adds all motion of a kind to the box lo … hi; false where nothing of it is to be seen.
 static bool add_bounds(const struct stage *stage, const struct core *core, const struct editor_world *world,
