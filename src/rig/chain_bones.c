@@ -23,9 +23,9 @@ bool chain_find(const struct gltf *gltf, const char *from, const char *to, struc
         if (n < 0)
             return fail(error, ERROR_INPUT, "%s: expected \"%s\" below \"%s\", got it elsewhere", gltf->path, to,
                         from);
-        if (bones->count == CHANNEL_MAX_JOINTS)
+        if (bones->count == ANGLES_MAX_JOINTS)
             return fail(error, ERROR_INPUT, "%s: expected at most %d bones from \"%s\" to \"%s\", got more",
-                        gltf->path, CHANNEL_MAX_JOINTS, from, to);
+                        gltf->path, ANGLES_MAX_JOINTS, from, to);
     }
     for (int i = bones->count - 1, n = last; i >= 0; i--, n = gltf->nodes[n].parent) {
         bones->node[i] = n;
@@ -48,7 +48,7 @@ static int child_of(const struct gltf *gltf, int node, int n)
 int chain_end(const struct gltf *gltf, int from, struct error *error)
 {
     int last = from;
-    for (int count = 1; count <= CHANNEL_MAX_JOINTS; count++) {
+    for (int count = 1; count <= ANGLES_MAX_JOINTS; count++) {
         const int child = child_of(gltf, last, 0), other = child_of(gltf, last, 1);
         if (child < 0) return last;
         if (other >= 0) {
@@ -60,7 +60,7 @@ int chain_end(const struct gltf *gltf, int from, struct error *error)
         last = child;
     }
     fail(error, ERROR_INPUT, "below \"%s\" there are more than %d bones: choose the one where the chain is to end",
-         gltf->nodes[from].name, CHANNEL_MAX_JOINTS);
+         gltf->nodes[from].name, ANGLES_MAX_JOINTS);
     return -1;
 }
 

@@ -10,7 +10,7 @@
 
 struct chain_bones {
     int count;
-    int node[CHANNEL_MAX_JOINTS]; ///< each the parent of the next
+    int node[ANGLES_MAX_JOINTS]; ///< each the parent of the next
 };
 
 /// The bones from one to another below it, both by name. false with a sentence.

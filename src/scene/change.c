@@ -246,7 +246,9 @@ bool change_concerns_all(const struct change *change)
         (b) = swapped;                                                                                               \
     } while (0)
 
-struct angles *angles_at(struct document *document, struct angles_place at)
+_Static_assert(sizeof(struct ramp_point) == 2 * sizeof(double), "a ramp is places and angles in turn");
+
+struct angles *change_angles(struct document *document, struct angles_place at)
 {
     struct tail *tail = &document->rigs[at.rig].tail;
     if (at.kind == ANGLE_REST) return &tail->rest;
@@ -320,11 +322,12 @@ void change_swap(struct change *change, struct document *document)
     case CHANGE_RIG_OUT:
         swap_rig(change, document);
         break;
-    case CHANGE_EACH:
-        SWAP(bool, angles_at(document, change->each.at)->each, change->each.each);
+    case CHANGE_FORM:
+        SWAP(enum angle_form, change_angles(document, change->form.at)->form, change->form.form);
+        SWAP(int, change_angles(document, change->form.at)->count, change->form.count);
         break;
     case CHANGE_ANGLE:
-        SWAP(double, angles_at(document, change->angle.at)->value[change->angle.joint], change->angle.value);
+        SWAP(double, change_angles(document, change->angle.at)->value[change->angle.index], change->angle.value);
         break;
     case CHANGE_DRIVES:
         swap_drives(change, document);

@@ -140,16 +140,22 @@ bool plan_tail_name(struct document *document, const struct edit *edit, struct c
     return rig->name ? finish(edit, rig, list, error) : abandon(rig, error);
 }
 
-/// Resamples angles of `from` joints along the tail for `to` joints, times `factor`.
-static void resample(struct angles *angles, int from, int to, double factor)
+static double rounded(double degrees) { return round(degrees * ANGLE_RESOLUTION) / ANGLE_RESOLUTION + 0.0; }
+
+/// Resamples angles of a tail for `to` joints, times `factor`. A ramp goes along the tail already.
+static void resample(struct angles *angles, int to, double factor)
 {
     const struct angles old = *angles;
-    for (int n = 0; n < (old.each ? to : 1); n++) {
-        double at = to > 1 ? (double)n * (from - 1) / (to - 1) : 0;
-        int low = (int)at;
-        double high = old.value[low + 1 < from ? low + 1 : low];
-        double value = old.each ? old.value[low] + (high - old.value[low]) * (at - low) : old.value[0];
-        angles->value[n] = round(value * factor * ANGLE_RESOLUTION) / ANGLE_RESOLUTION + 0.0;
+    if (old.form == ANGLES_EACH) angles->count = to;
+    for (int n = 0; n < angles_count(angles); n++) {
+        double value = angles_number(&old, old.form == ANGLES_EACH ? 0 : n);
+        if (old.form == ANGLES_EACH && to > 1) {
+            double at = (double)n * (old.count - 1) / (to - 1);
+            int low = (int)at;
+            double high = old.value[low + 1 < old.count ? low + 1 : low];
+            value = old.value[low] + (high - old.value[low]) * (at - low);
+        }
+        angles_set_number(angles, n, rounded(value * factor));
     }
 }
 
@@ -167,11 +173,11 @@ bool plan_joints(struct document *document, const struct edit *edit, struct chan
     struct tail *tail = &rig->tail;
     const double factor = (double)from / to;
     tail->joints = to;
-    resample(&tail->rest, from, to, factor);
+    resample(&tail->rest, to, factor);
     for (int c = 0; c < tail->channel_count; c++) {
         struct channel *channel = &tail->channels[c];
-        resample(&channel->gain, from, to, factor);
-        resample(&channel->lag, from, to, channel->lag.each ? 1 : factor);
+        resample(&channel->gain, to, factor);
+        resample(&channel->lag, to, channel->lag.form == ANGLES_ONE ? factor : 1);
     }
     return finish(edit, rig, list, error);
 }

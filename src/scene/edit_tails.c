@@ -10,22 +10,50 @@ static struct channel *find_channel(struct document *document, const struct edit
 
 static bool no_channel(struct error *error) { return fail(error, ERROR_INPUT, "there is no such channel"); }
 
+static bool check_ramp(const struct angles *ramp, struct error *error)
+{
+    if (ramp->count < 2 || ramp->count > RAMP_MAX_POINTS) {
+        return fail(error, ERROR_INPUT, "a ramp has from 2 to %d points", RAMP_MAX_POINTS);
+    }
+    for (int i = 0; i < ramp->count; i++) {
+        const double at = ramp->ramp[i].at;
+        if (!(at >= 0 && at <= 1)) return fail(error, ERROR_INPUT, "the places of a ramp are from 0 to 1");
+        if (i > 0 && at <= ramp->ramp[i - 1].at) return fail(error, ERROR_INPUT, "the places of a ramp must ascend");
+    }
+    return true;
+}
+
+static bool check_angles(const struct rig *rig, const struct angles *angles, struct error *error)
+{
+    if ((unsigned)angles->form > ANGLES_RAMP) return fail(error, ERROR_INPUT, "there is no such form of angles");
+    if (angles->form == ANGLES_RAMP && !check_ramp(angles, error)) return false;
+    if (angles->form == ANGLES_EACH && rig->kind == RIG_TAIL && angles->count != rig->tail.joints) {
+        return fail(error, ERROR_INPUT, "%s: there must be one angle for each of the %d joints", rig->name,
+                    rig->tail.joints);
+    }
+    if (angles->form == ANGLES_EACH && (angles->count < 1 || angles->count > ANGLES_MAX_JOINTS)) {
+        return fail(error, ERROR_INPUT, "there must be from 1 to %d angles", ANGLES_MAX_JOINTS);
+    }
+    for (int i = 0; i < angles_count(angles); i++) {
+        if (!isfinite(angles_number(angles, i))) return fail(error, ERROR_INPUT, "angles must be finite");
+    }
+    return true;
+}
+
 bool plan_angles(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
     if (edit->angle != ANGLE_REST && !find_channel(document, edit)) return no_channel(error);
+    if (!check_angles(&document->rigs[edit->rig], edit->angles, error)) return false;
     const struct angles_place at = {edit->rig, edit->channel, edit->angle};
-    const struct angles *target = angles_at(document, at);
-    int count = edit->angles->each ? document->rigs[edit->rig].tail.joints : 1;
-    for (int i = 0; i < count; i++) {
-        if (!isfinite(edit->angles->value[i])) return fail(error, ERROR_INPUT, "angles must be finite");
-    }
-    if (!change_list_reserve(list, 1 + TAIL_MAX_JOINTS)) return plan_no_memory(error);
-    if (target->each != edit->angles->each) {
+    const struct angles *target = change_angles(document, at), *wanted = edit->angles;
+    const int numbers = angles_count(wanted) * (wanted->form == ANGLES_RAMP ? 2 : 1);
+    if (!change_list_reserve(list, 1 + ANGLES_MAX_JOINTS)) return plan_no_memory(error);
+    if (target->form != wanted->form || angles_count(target) != angles_count(wanted)) {
         list->items[list->count++] =
-            (struct change){.kind = CHANGE_EACH, .spline = -1, .each = {at, edit->angles->each}};
+            (struct change){.kind = CHANGE_FORM, .spline = -1, .form = {at, wanted->form, wanted->count}};
     }
-    for (int i = 0; i < count; i++) {
-        double value = edit->angles->value[i] + 0.0;
+    for (int i = 0; i < numbers; i++) {
+        double value = wanted->value[i] + 0.0;
         if (target->value[i] == value) continue;
         list->items[list->count++] = (struct change){.kind = CHANGE_ANGLE, .spline = -1, .angle = {at, i, value}};
     }

@@ -42,7 +42,7 @@ static void print(struct members *members, const struct document *document, cons
     member_string(members, "to", chain->to);
     member_number(members, "turn", chain->turn);
     member_flag(members, "mirror", chain->mirror);
-    print_channels(members, document, chain->channels, chain->channel_count, JOINTS_UNKNOWN);
+    print_channels(members, document, chain->channels, chain->channel_count);
 }
 
 static int input_count(const struct rig *rig) { return rig->chain.channel_count; }
