@@ -207,7 +207,7 @@ static int close_scene(void **state)
 
 static void pose_at(const struct scene *scene, double frame, struct pose *pose)
 {
-    const struct posing posing = {scene->document, &scene->evaluation, NULL, LOOK_WIGGLY};
+    const struct posing posing = {.document = scene->document, .evaluation = &scene->evaluation};
     struct rig_pose posed;
     assert_true(rig_pose(&posing, 0, frame, NULL, &posed));
     *pose = posed.tail;
