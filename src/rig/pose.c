@@ -17,7 +17,13 @@ static double lag_at(const struct channel *channel, int n, enum look look)
     return channel->lag.each ? angle_at(&channel->lag, n) : n * angle_at(&channel->lag, 0);
 }
 
-/// Eq. 27 for every channel: the angles by which joint n turns about +y (`side`) and lifts (`up`), in radians.
+double pose_channel(const struct channel *channel, wiggly_value value, enum look look, int n)
+{
+    if (channel->of == PART_DISPLACEMENT) value.y = 0.0;
+    return angle_at(&channel->gain, n) * wiggly_lagged(value, lag_at(channel, n, look));
+}
+
+/// The angles by which joint n turns about +y (`side`) and lifts (`up`), in radians.
 static void bend_at(const struct tail *tail, const wiggly_value *values, enum look look, int n, double *side,
                     double *up)
 {
@@ -25,10 +31,7 @@ static void bend_at(const struct tail *tail, const wiggly_value *values, enum lo
     *up = angle_at(&tail->rest, n);
     for (int c = 0; c < tail->channel_count; c++) {
         const struct channel *channel = &tail->channels[c];
-        wiggly_value value = values[c];
-        if (channel->of == PART_DISPLACEMENT) value.y = 0.0;
-        const double bend = angle_at(&channel->gain, n) * wiggly_lagged(value, lag_at(channel, n, look));
-        *(channel->axis == AXIS_UP ? up : side) += bend;
+        *(channel->axis == AXIS_UP ? up : side) += pose_channel(channel, values[c], look, n);
     }
 }
 

@@ -51,6 +51,9 @@ void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]);
 /// `side` turns before `up`. Allocates nothing.
 void pose_tail(const struct tail *tail, const wiggly_value *values, enum look look, struct pose *pose);
 
+/// Eq. 27: the angle in radians by which a channel bends joint n, given its spline's value.
+double pose_channel(const struct channel *channel, wiggly_value value, enum look look, int n);
+
 /// Poses a soft character: its complex normal coordinates, each turned and scaled by its own drive (the paper's
 /// section 7.2, eq. 29 and 30).
 ///
