@@ -1,5 +1,5 @@
-"""Evaluates a .glb, .usda or .bvh in Blender (bpy) at ten of its keys against point caches of the same rigs. A .bvh has no vertices: the
-heads of its bones must be where the joints' own vertices are, so it is compared with the .glb.
+"""Evaluates a .glb in Blender (bpy) at ten of its keys against point caches of the same rigs. A .bvh has no vertices: the heads of its
+bones must be where those of the .glb are.
 
 Usage: python blender.py file.glb rig.pc2...    |    python blender.py file.bvh file.glb
 """
@@ -11,12 +11,12 @@ from compare import judge, read_cache, ten_of
 
 
 def load(path):
-    """The objects of a file, in an empty scene that runs as many keys a second as the file."""
+    """The objects of a file."""
     before = set(bpy.data.objects)
     if path.endswith('.glb'):
         bpy.ops.import_scene.gltf(filepath=path)
     else:
-        bpy.ops.import_anim.bvh(filepath=path, update_scene_fps=True)
+        bpy.ops.import_anim.bvh(filepath=path)
     return [o for o in bpy.data.objects if o not in before]
 
 
@@ -41,10 +41,27 @@ def compare_meshes(path, cache_paths):
     return judge(f'Blender {bpy.app.version_string}', off, caches[0])
 
 
+def heads(armature, bones):
+    return np.array([armature.matrix_world @ armature.pose.bones[name].head for name in bones])
+
+
+def compare_bones(path, reference):
+    read, known = (next(o for o in load(p) if o.type == 'ARMATURE') for p in (path, reference))
+    bones, off, all_heads = [b.name for b in read.pose.bones], 0.0, []
+    first, last = (round(frame) for frame in read.animation_data.action.frame_range)
+    for key in ten_of(last - first + 1):
+        bpy.context.scene.frame_set(key)
+        all_heads.append(heads(known, bones))
+        bpy.context.scene.frame_set(first + key)
+        off = max(off, float(np.linalg.norm(heads(read, bones) - all_heads[-1], axis=1).max()))
+    return judge(f'Blender {bpy.app.version_string}, {len(bones)} bones', off, np.array(all_heads))
+
+
 def main():
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    bpy.context.scene.render.fps = 24
-    return compare_meshes(sys.argv[1], sys.argv[2:])
+    bpy.context.scene.render.fps = 24  # as the scenes that are compared
+    compare = compare_bones if sys.argv[1].endswith('.bvh') else compare_meshes
+    return compare(sys.argv[1], *([sys.argv[2]] if compare is compare_bones else [sys.argv[2:]]))
 
 
 try:
