@@ -70,7 +70,7 @@ static void model_destroy(struct model *model)
 
 static bool program_create(struct animals *painter, struct error *error)
 {
-    painter->program = gl_program("stage_mesh.vert", "stage_mesh.frag", error);
+    painter->program = gl_program("stage_mesh.vert", "stage_mesh.frag", NULL, error);
     if (!painter->program) return false;
     painter->shape = glGetUniformLocation(painter->program, "shape");
     painter->shared = painter_find_uniforms(painter->program);

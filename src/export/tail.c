@@ -126,7 +126,8 @@ static void columns(const struct take *take, int rig, const struct rig_pose *pos
         const struct channel *channel = &tail->channels[c];
         const wiggly_value value = take_value(take, channel->spline, key);
         for (int n = 0; n < tail->joints; n++) {
-            column(user, 180 / 3.14159265358979323846 * pose_channel(channel, value, take->posing->look, n),
+            column(user,
+                   180 / 3.14159265358979323846 * channel_bend(channel, value, n, tail->joints, take->posing->look),
                    "%s.%s.%s.%d", form_name(&document->rigs[rig]), axes[channel->axis],
                    document->splines[channel->spline].name, n);
         }
