@@ -3,8 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const struct form_kind tail_form, character_form;
-
 static const struct form_kind *const kinds[RIG_KINDS] = {
     [RIG_TAIL] = &tail_form,
     [RIG_CHARACTER] = &character_form,
