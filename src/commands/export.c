@@ -58,7 +58,8 @@ static bool run(struct job *job, struct error *error)
 {
     struct document *document = scene_load(job->scene, NULL, error);
     if (!document) return false;
-    const bool done = export_document(job, document, error);
+    const bool done = document_set_path(document, job->scene) ? export_document(job, document, error)
+                                                              : fail_no_memory(error, job->scene);
     document_destroy(document);
     return done;
 }

@@ -40,7 +40,7 @@ static void list_endings(bool with_meshes, char text[EXPORT_ENDINGS])
         if (with_meshes && formats[i].needs_joints) continue;
         strcat(text, formats[i].ending);
         left--;
-        strcat(text, left > 1 ? ", " : left == 1 ? " and " : "");
+        strcat(text, left > 1 ? ", " : left == 1 ? (with_meshes ? " or " : " and ") : "");
     }
 }
 
@@ -76,8 +76,9 @@ static bool fail_rigs(const struct take *take, const struct format *format, cons
         return fail(error, ERROR_INPUT, "the scene has no rig to export: its splines go into a .csv file");
     if (wanted && !found)
         return fail(error, ERROR_INPUT, "--rig: expected the name of a rig, %s, got \"%s\"", names, wanted);
-    return fail(error, ERROR_INPUT, "a %s file holds joints, which %s has not: %s files hold it", format->ending,
-                wanted ? wanted : names, endings);
+    if (wanted) snprintf(names, sizeof names, "\"%s\"", wanted);
+    return fail(error, ERROR_INPUT, "a %s file holds joints, and %s has none: export it as %s", format->ending, names,
+                endings);
 }
 
 static bool choose_rigs(struct take *take, const struct format *format, const char *wanted, struct error *error)

@@ -63,6 +63,8 @@ struct form_kind {
                     void *user);
 };
 
+extern const struct form_kind tail_form, character_form;
+
 /// How a kind is exported; NULL if it is not.
 const struct form_kind *form_kind(enum rig_kind kind);
 

@@ -33,7 +33,7 @@ static void name_joints(struct form *form, int joints, const struct rig_pose *po
 {
     const float segment = pose_length(&pose->tail) / (float)joints;
     form->joints[0] = (struct form_joint){.parent = -1};
-    snprintf(form->joints[0].name, FORM_NAME, "%.50s", form->name);
+    snprintf(form->joints[0].name, FORM_NAME, "%.50s_body", form->name);
     form->tip[2] = segment;
     memcpy(form->joints[0].offset, pose->tail.matrix[0] + 12, 3 * sizeof(float));
     for (int n = 0; n < joints; n++) {
