@@ -78,10 +78,24 @@ struct dog_limb {
 };
 extern const struct dog_limb dog_limbs[DOG_LIMBS];
 
+/// The ground colours of the coat, sRGB.
+#define DOG_COAT_WHITE 0xF1E7D8u
+#define DOG_COAT_EAR 0x70402Cu
+
 /// The coat: about so many triangles. mesh->failed where memory is short.
 void dog_coat(int triangles, struct mesh *mesh);
 
-enum dog_material { DOG_COAT, DOG_WHITE, DOG_IRIS, DOG_DARK, DOG_GLINT, DOG_COLLAR, DOG_TAG, DOG_MATERIALS };
+enum dog_material {
+    DOG_COAT,
+    DOG_WHITE,
+    DOG_IRIS,
+    DOG_DARK,
+    DOG_GLINT,
+    DOG_TONGUE,
+    DOG_COLLAR,
+    DOG_TAG,
+    DOG_MATERIALS
+};
 
 /// A part of the dog of one material. `joint`: all of it follows that one; −1: each vertex by dog_influences().
 struct dog_piece {

@@ -138,8 +138,8 @@ static void rest(struct figure_pose *pose, float time)
                                     {2.9f, -4}, {3.7f, -4}, {3.85f, 10}, {4.4f, 0}, {5, 0}};
     static const float lean[][2] = {{0, 0},     {1.2f, 0},  {1.7f, 8}, {2.3f, 8},
                                     {2.9f, -5}, {3.7f, -5}, {4.4f, 0}, {5, 0}};
-    static const float blink[][2] = {{0, 0},    {0.70f, 0}, {0.80f, 62}, {0.88f, 62}, {1.05f, 0},
-                                     {2.3f, 0}, {2.4f, 62}, {2.48f, 62}, {2.65f, 0},  {5, 0}};
+    static const float blink[][2] = {{0, 0},    {0.70f, 0}, {0.80f, 86}, {0.88f, 86}, {1.05f, 0},
+                                     {2.3f, 0}, {2.4f, 86}, {2.48f, 86}, {2.65f, 0},  {5, 0}};
     const float seconds = time * (float)dog_clips[IDLE].frames / DOG_FPS;
     const float breath = sinf(4.0f * GLM_PIf * time), slow = sinf(2.0f * GLM_PIf * time);
     const float turned = EASED(look, seconds), leant = EASED(lean, seconds), shut = EASED(blink, seconds);
@@ -152,8 +152,9 @@ static void rest(struct figure_pose *pose, float time)
     turn(pose, "jaw", 1.5f + 2.0f * sinf(12.0f * GLM_PIf * time), 0, 0);
     for (int side = 0; side < 2; side++) {
         turn(pose, side ? "eye_R" : "eye_L", 0, EASED(gaze, seconds), 0);
-        const versors lid = glms_quatv(glm_rad(shut), (vec3s){{cosf(0.33f), 0, side ? sinf(0.33f) : -sinf(0.33f)}});
-        pose->turn[dog_joint(pose->skeleton, side ? "lid_R" : "lid_L")] = lid;
+        const int lid = dog_joint(pose->skeleton, side ? "lid_R" : "lid_L");
+        const vec3s hinge = glms_vec3_sub(vec3_from(pose->skeleton->joints[lid].tip), place(pose->skeleton, lid));
+        pose->turn[lid] = glms_quatv(glm_rad(side ? -shut : shut), glms_vec3_normalize(hinge));
     }
 }
 

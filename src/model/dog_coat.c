@@ -3,6 +3,7 @@
 #include "model/decimate.h"
 #include "model/dog.h"
 #include "model/isosurface.h"
+#include "model/parts.h"
 #include "model/refine.h"
 #include "model/vector.h"
 #include <math.h>
@@ -10,11 +11,11 @@
 
 #define CHESTNUT 0xA5633Au
 #define MOUTH 0x4A1F22u
-#define LIPS 0x3A2420u
+#define SOFT 0.009f /* half the width of a patch's edge */
 
 #define CELL 0.0105f
 #define TOLERANCE 0.0006f
-enum { REFINE_ROUNDS = 2 };
+enum { REFINE_ROUNDS = 3 };
 
 static const float lo[3] = {-0.26f, -0.02f, -0.82f}, hi[3] = {0.26f, 0.95f, 0.66f};
 
@@ -26,27 +27,37 @@ static float beyond(float a, float b, float edge) { return glm_smoothstep(-edge,
 static float patches(const float p[3])
 {
     const float side = fabsf(p[0]);
-    const float saddle = beyond(0.19f, hypotf(hypotf(0.8f * p[0], p[1] - 0.61f), p[2] + 0.10f), 0.008f);
-    const float nape = beyond(p[1] - 0.50f, 1.1f * (p[2] - 0.12f), 0.006f) * beyond(p[1], 0.60f, 0.006f);
-    const float tail = beyond(-0.27f, p[2], 0.006f) * beyond(p[1], 0.45f, 0.02f) * beyond(0.735f, p[1], 0.008f);
-    const float mask = beyond(side, 0.014f + 0.25f * fmaxf(0.80f - p[1], 0.0f), 0.005f) *
-                       beyond(0.448f, p[2], 0.006f) * beyond(p[1], 0.675f + 0.25f * (p[2] - 0.36f), 0.006f);
+    const float saddle = beyond(0.19f, hypotf(hypotf(0.8f * p[0], p[1] - 0.61f), p[2] + 0.10f), SOFT);
+    const float nape =
+        beyond(p[1] - 0.50f, 1.1f * (p[2] - 0.12f), SOFT) * beyond(p[1], 0.60f, SOFT) * beyond(p[2], 0.0f, 0.01f);
+    const float tail = beyond(-0.27f, p[2], SOFT) * beyond(p[1], 0.45f, 0.02f) * beyond(0.735f, p[1], SOFT);
+    const float mask = beyond(side, 0.014f + 0.25f * fmaxf(0.80f - p[1], 0.0f), 0.005f) * beyond(0.448f, p[2], SOFT) *
+                       beyond(p[1], 0.675f + 0.25f * (p[2] - 0.36f), SOFT);
     return fmaxf(fmaxf(saddle, tail), fmaxf(p[2] < 0.30f ? nape : 0.0f, mask * beyond(p[2], 0.22f, 0.02f)));
 }
 
-/// White with chestnut patches: a saddle, a mask with a blaze, the nape and the tail up to its white tip. What is near both lips is the
-/// inside of the mouth.
+/// Distance to the lines around the muzzle: from the nose down to the lip, and up from the corner of the mouth, so that it smiles.
+static float smile(const float p[3])
+{
+    static const struct part lines[] = {
+        {{0, 0.715f, 0.565f}, {0, 0.660f, 0.557f}, 0.0035f, 0.0025f, 0.001f, 0, false},
+        {{0.056f, 0.670f, 0.430f}, {0.073f, 0.692f, 0.398f}, 0.0050f, 0.0035f, 0.001f, 0, true},
+    };
+    return parts_add(lines, sizeof lines / sizeof *lines, p, 1e3f, NULL);
+}
+
+/// White with chestnut patches: a saddle, a mask with a blaze, the nape and the tail up to its white tip. The ears are darker, and dark is
+/// what is near both lips: the inside of the mouth.
 static void paint(struct vertex *vertex)
 {
     const float *p = vertex->position;
-    float own[3];
-    dog_distance(p, vertex->color);
-    memcpy(own, vertex->color, sizeof own);
-    coat_mix(vertex->color, CHESTNUT, patches(p));
+    coat_linear(DOG_COAT_WHITE, vertex->color);
     const float head = dog_limb_distance(DOG_HEAD, p, NULL), jaw = dog_limb_distance(DOG_JAW, p, NULL);
     const float ear = fminf(dog_limb_distance(DOG_EAR_LEFT, p, NULL), dog_limb_distance(DOG_EAR_RIGHT, p, NULL));
-    glm_vec3_lerp(vertex->color, own, beyond(0.5f * fmaxf(head, 0.0f) + 0.004f, ear, 0.002f), vertex->color);
-    glm_vec3_lerp(vertex->color, own, beyond(head, jaw + 0.002f, 0.002f), vertex->color);
+    coat_mix(vertex->color, CHESTNUT, patches(p) * beyond(jaw, head - 0.004f, 0.004f));
+    coat_mix(vertex->color, DOG_COAT_EAR, glm_smoothstep(0.010f, -0.002f, ear - 0.3f * glm_clamp(head, 0.0f, 0.03f)));
+    coat_mix(vertex->color, MOUTH, 0.8f * glm_smoothstep(0.006f, 0.0f, smile(p)));
+    coat_mix(vertex->color, MOUTH, glm_smoothstep(0.014f, 0.003f, fmaxf(head, jaw)) * beyond(p[2], 0.405f, 0.01f));
 }
 
 /// The mesh as a character, which decimate() takes. It borrows nothing.

@@ -7,7 +7,7 @@
 
 #define LID 0x8C5231u
 #define LASHES 0x2B1D18u
-enum { AROUND = 28, RINGS = 6 };
+enum { AROUND = 24, RINGS = 5 };
 
 /// A frame for round things: `axis` points out of it.
 struct frame {
@@ -85,7 +85,7 @@ static void ball_cap(struct mesh *mesh, const struct frame *eye, float across, f
 /// ahead upwards.
 static void lid(struct mesh *mesh, const struct frame *eye, float radius, float from, float to)
 {
-    enum { ROWS = 9 };
+    enum { ROWS = 7 };
     const uint32_t first = (uint32_t)mesh->vertex_count;
     const float sign = to > from ? 1.0f : -1.0f;
     for (int r = 0; r < ROWS; r++) {
@@ -101,34 +101,42 @@ static void lid(struct mesh *mesh, const struct frame *eye, float radius, float 
     }
     const int from_index = mesh->index_count;
     weave(mesh, first, ROWS, AROUND + 1);
-    for (int i = from_index; sign > 0.0f && i < mesh->index_count; i += 3) {
+    for (int i = from_index; sign < 0.0f && i < mesh->index_count; i += 3) {
         const uint32_t swapped = mesh->indices[i + 1];
         mesh->indices[i + 1] = mesh->indices[i + 2];
         mesh->indices[i + 2] = swapped;
     }
 }
 
+/// The lids' frame: across is the hinge, which is the lid's bone.
+static struct frame socket_of(const struct dog_joint *joint, float side)
+{
+    struct frame f = {.middle = vec3_from(joint->position)};
+    const vec3s outwards = glms_vec3_sub(vec3_from(joint->tip), f.middle);
+    f.across = glms_vec3_scale(glms_vec3_normalize(outwards), side);
+    f.axis = glms_vec3_normalize(glms_vec3_cross(f.across, (vec3s){{0, 1, 0}}));
+    f.up = glms_vec3_cross(f.axis, f.across);
+    return f;
+}
+
 static void eyes(const struct dog_skeleton *skeleton, struct dog_pieces *pieces)
 {
     for (int side = 1; side >= -1; side -= 2) {
         const float s = (float)side, r = DOG_EYE_RADIUS;
-        const char *suffix = side > 0 ? "_L" : "_R";
         const int eye_joint = dog_joint(skeleton, side > 0 ? "eye_L" : "eye_R");
         const int lid_joint = dog_joint(skeleton, side > 0 ? "lid_L" : "lid_R");
-        (void)suffix;
         const vec3s middle = {{s * dog_eye[0], dog_eye[1], dog_eye[2]}}, up = {{0, 1, 0}};
-        const struct frame gaze = frame_towards(middle, (vec3s){{s * 0.10f, -0.02f, 1.0f}}, up);
-        const struct frame socket =
-            frame_towards(middle, (vec3s){{s * 0.34f, 0.0f, 1.0f}}, (vec3s){{s * 0.10f, 1.0f, 0}});
-        ball_cap(start(pieces, DOG_WHITE, eye_joint), &gaze, 0, 0, r, 0.66f, 2.2f, RINGS);
-        ball_cap(start(pieces, DOG_IRIS, eye_joint), &gaze, 0, 0, r, 0.44f, 0.66f, 2);
-        ball_cap(start(pieces, DOG_DARK, eye_joint), &gaze, 0, 0, r, 0.0f, 0.44f, 4);
+        const struct frame gaze = frame_towards(middle, (vec3s){{s * 0.24f, 0.0f, 1.0f}}, up);
+        const struct frame socket = socket_of(&skeleton->joints[lid_joint], s);
+        ball_cap(start(pieces, DOG_WHITE, eye_joint), &gaze, 0, 0, r, 0.76f, 2.2f, RINGS);
+        ball_cap(start(pieces, DOG_IRIS, eye_joint), &gaze, 0, 0, r, 0.52f, 0.76f, 2);
+        ball_cap(start(pieces, DOG_DARK, eye_joint), &gaze, 0, 0, r, 0.0f, 0.52f, 4);
         struct mesh *glint = start(pieces, DOG_GLINT, eye_joint);
         ball_cap(glint, &gaze, -0.24f, 0.30f, r + 0.0008f, 0.0f, 0.15f, 2);
         ball_cap(glint, &gaze, 0.22f, -0.24f, r + 0.0008f, 0.0f, 0.07f, 1);
         struct mesh *lids = start(pieces, DOG_COAT, lid_joint);
-        lid(lids, &socket, r + 0.0035f, 0.52f, 2.6f);
-        lid(start(pieces, DOG_COAT, dog_joint(skeleton, "head")), &socket, r + 0.0025f, -0.62f, -2.4f);
+        lid(lids, &socket, r + 0.0035f, 0.86f, 2.7f);
+        lid(start(pieces, DOG_COAT, dog_joint(skeleton, "head")), &socket, r + 0.0025f, -0.72f, -2.4f);
     }
 }
 
@@ -136,9 +144,23 @@ static void nose(const struct dog_skeleton *skeleton, struct dog_pieces *pieces)
 {
     const int head = dog_joint(skeleton, "head");
     const struct frame f = frame_towards((vec3s){{0, 0.732f, 0.556f}}, (vec3s){{0, 0.25f, 1.0f}}, (vec3s){{0, 1, 0}});
-    cap(start(pieces, DOG_DARK, head), &f, (const float[3]){0.031f, 0.023f, 0.020f}, 0.0f, GLM_PIf, 12);
+    cap(start(pieces, DOG_DARK, head), &f, (const float[3]){0.031f, 0.023f, 0.020f}, 0.0f, GLM_PIf, 9);
     const struct frame shine = frame_towards(f.middle, (vec3s){{-0.25f, 0.95f, 0.75f}}, (vec3s){{0, 1, 0}});
     cap(start(pieces, DOG_GLINT, head), &shine, (const float[3]){0.0255f, 0.0255f, 0.0225f}, 0.0f, 0.22f, 2);
+}
+
+/// Out of the mouth and over the lip.
+static void tongue(const struct dog_skeleton *skeleton, struct dog_pieces *pieces)
+{
+    struct mesh *mesh = start(pieces, DOG_TONGUE, dog_joint(skeleton, "jaw"));
+    const struct frame f = frame_towards((vec3s){{0, 0.652f, 0.480f}}, (vec3s){{0, -0.16f, 1}}, (vec3s){{0, 1, 0}});
+    cap(mesh, &f, (const float[3]){0.026f, 0.010f, 0.060f}, 0.0f, GLM_PIf, 10);
+    for (int v = 0; v < mesh->vertex_count; v++) {
+        // It hangs: the further out, the lower.
+        float *p = mesh->vertices[v].position;
+        const float out = fmaxf(p[2] - 0.495f, 0.0f);
+        p[1] -= 16.0f * out * out;
+    }
 }
 
 /// A band around the neck.
@@ -170,7 +192,7 @@ static void collar_and_tag(const struct dog_skeleton *skeleton, struct dog_piece
     collar(&f, 0.095f, start(pieces, DOG_COLLAR, -1));
     const struct frame tag = frame_towards((vec3s){{0, 0.525f, 0.332f}}, (vec3s){{0, 0.18f, 1}}, (vec3s){{0, 1, 0}});
     cap(start(pieces, DOG_TAG, dog_joint(skeleton, "neck")), &tag, (const float[3]){0.026f, 0.026f, 0.005f}, 0.0f,
-        GLM_PIf, 12);
+        GLM_PIf, 8);
     memcpy(pieces->tag_middle, tag.middle.raw, sizeof pieces->tag_middle);
     pieces->tag_radius = 0.026f;
 }
@@ -179,5 +201,6 @@ void dog_face(const struct dog_skeleton *skeleton, struct dog_pieces *pieces)
 {
     eyes(skeleton, pieces);
     nose(skeleton, pieces);
+    tongue(skeleton, pieces);
     collar_and_tag(skeleton, pieces);
 }

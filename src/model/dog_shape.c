@@ -5,9 +5,7 @@
 #include "model/vector.h"
 #include <math.h>
 
-#define WHITE 0xF1E7D8u
-#define EAR 0x70402Cu
-#define TONGUE 0xE2707Au
+#define WHITE DOG_COAT_WHITE
 
 /// How much flatter than wide the ears are.
 #define EAR_FLATNESS 2.6f
@@ -21,15 +19,14 @@ static const struct part trunk[] = {
 };
 
 static const struct part head[] = {
-    {{-0.016f, 0.748f, 0.312f}, {0.016f, 0.748f, 0.312f}, 0.117f, 0.117f, 0.001f, WHITE, false}, // skull
+    {{-0.016f, 0.752f, 0.312f}, {0.016f, 0.752f, 0.312f}, 0.120f, 0.120f, 0.001f, WHITE, false}, // skull
     {{0.055f, 0.705f, 0.335f}, {0.036f, 0.700f, 0.400f}, 0.072f, 0.056f, 0.06f, WHITE, true},    // cheeks
     {{0, 0.712f, 0.400f}, {0, 0.712f, 0.515f}, 0.066f, 0.046f, 0.05f, WHITE, false},             // muzzle
-    {{0.030f, 0.690f, 0.430f}, {0.025f, 0.690f, 0.520f}, 0.042f, 0.036f, 0.025f, WHITE, true},   // lips
+    {{0.036f, 0.704f, 0.415f}, {0.026f, 0.690f, 0.520f}, 0.040f, 0.037f, 0.025f, WHITE, true},   // lips
 };
 
 static const struct part jaw[] = {
-    {{0, 0.655f, 0.360f}, {0, 0.622f, 0.490f}, 0.046f, 0.030f, 0.001f, WHITE, false},
-    {{0, 0.662f, 0.420f}, {0, 0.640f, 0.510f}, 0.026f, 0.022f, 0.004f, TONGUE, false},
+    {{0.016f, 0.664f, 0.365f}, {0.011f, 0.630f, 0.490f}, 0.042f, 0.027f, 0.02f, WHITE, true},
 };
 
 /// Front and hind leg, of the left side.
@@ -53,9 +50,9 @@ static const struct part hind_leg[] = {
     {{0.125f, 0.026f, -0.205f}, {0.127f, 0.024f, -0.183f}, 0.025f, 0.022f, 0.010f, WHITE, false},
 };
 
-static const float tail_radius[DOG_TAIL_JOINTS + 1] = {0.044f, 0.036f, 0.033f, 0.034f, 0.036f,
-                                                       0.037f, 0.035f, 0.028f, 0.012f};
-static const float ear_radius[DOG_EAR_JOINTS + 1] = {0.034f, 0.044f, 0.054f, 0.060f, 0.040f};
+static const float tail_radius[DOG_TAIL_JOINTS + 1] = {0.046f, 0.037f, 0.033f, 0.034f, 0.037f,
+                                                       0.040f, 0.040f, 0.034f, 0.018f};
+static const float ear_radius[DOG_EAR_JOINTS + 1] = {0.034f, 0.046f, 0.056f, 0.062f, 0.040f};
 
 /// How limbs join the ones before them, and their colours.
 static const struct {
@@ -89,15 +86,33 @@ const struct dog_limb dog_limbs[DOG_LIMBS] = {
     {{"thigh_back_R", "shin_back_R", "foot_back_R", "toe_back_R"}, 0.08f, 0.35f},
 };
 
-/// Round cones from point to point, x stretched by `flatness`, which makes distances that much too large.
+/// A point of the Catmull–Rom curve through the points, `t` of the way from number i to the next.
+static vec3s curve_point(const float (*points)[3], int count, int i, float t)
+{
+    vec3s at = glms_vec3_zero();
+    const float *p[4];
+    for (int n = 0; n < 4; n++) p[n] = points[i + n - 1 < 0 ? 0 : i + n - 1 > count ? count : i + n - 1];
+    for (int k = 0; k < 3; k++)
+        at.raw[k] = glm_hermite(t, p[1][k], 0.5f * (p[2][k] - p[0][k]), 0.5f * (p[3][k] - p[1][k]), p[2][k]);
+    return at;
+}
+
+/// Round cones along a curve; x is stretched by `flatness` for that, and distances shrink again.
 static float tube(const float (*points)[3], const float *radii, int count, float flatness, const float p[3])
 {
+    enum { CONES = 3 }; // from point to point
     const float q[3] = {flatness * p[0], p[1], p[2]};
     float distance = 1e3f;
-    for (int i = 0; i < count; i++) {
-        const float *a = points[i], *b = points[i + 1];
-        const struct part part = {
-            {flatness * a[0], a[1], a[2]}, {flatness * b[0], b[1], b[2]}, radii[i], radii[i + 1], 0.02f, 0, false};
+    for (int n = 0; n < CONES * count; n++) {
+        struct part part = {.blend = 0.002f};
+        for (int end = 0; end < 2; end++) {
+            const int i = n / CONES;
+            const float t = (float)(n % CONES + end) / CONES;
+            const vec3s at = curve_point(points, count, i, t);
+            float *to = end ? part.b : part.a;
+            to[0] = flatness * at.x, to[1] = at.y, to[2] = at.z;
+            *(end ? &part.radius_b : &part.radius_a) = glm_lerp(radii[i], radii[i + 1], t);
+        }
         distance = parts_add(&part, 1, q, distance, NULL);
     }
     return distance / flatness;
@@ -107,7 +122,7 @@ float dog_limb_distance(int limb, const float p[3], float rgb[3])
 {
     const float q[3] = {solids[limb].side * p[0], p[1], p[2]};
     if (solids[limb].parts) return parts_add(solids[limb].parts, solids[limb].count, q, 1e3f, rgb);
-    if (rgb) coat_linear(limb == DOG_TAIL ? WHITE : EAR, rgb);
+    if (rgb) coat_linear(limb == DOG_TAIL ? DOG_COAT_WHITE : DOG_COAT_EAR, rgb);
     if (limb == DOG_TAIL) return tube(dog_tail, tail_radius, DOG_TAIL_JOINTS, 1.0f, q);
     return tube(dog_ear, ear_radius, DOG_EAR_JOINTS, EAR_FLATNESS, q);
 }

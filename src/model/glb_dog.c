@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 enum { BYTE = 5121, SHORT = 5123, FLOAT = 5126, VERTICES = 34962, INDICES = 34963 };
-enum { TAG_PIXELS = 48, KEY_LIMIT = 256 };
+enum { TAG_PIXELS = 64, KEY_LIMIT = 256 };
 
 /// A file being written. The first node is the root of the skeleton, then come its joints, then the mesh.
 struct output {
@@ -192,6 +192,7 @@ static json_t *make_materials(void)
         [DOG_IRIS] = {"iris", {0.20, 0.075, 0.025}, 0.3},
         [DOG_DARK] = {"pupil and nose", {0.016, 0.011, 0.010}, 0.3},
         [DOG_GLINT] = {"glint", {1, 1, 1}, 1},
+        [DOG_TONGUE] = {"tongue", {0.75, 0.17, 0.20}, 0.5},
         [DOG_COLLAR] = {"collar", {0.02, 0.30, 0.33}, 0.6},
         [DOG_TAG] = {"tag", {1, 1, 1}, 0.4},
     };
