@@ -36,10 +36,6 @@ struct dog_skeleton {
 /// Points of the tail from its root to its tip, and of the left ear.
 extern const float dog_tail[DOG_TAIL_JOINTS + 1][3], dog_ear[DOG_EAR_JOINTS + 1][3];
 
-/// The middle and radius of the left eye.
-extern const float dog_eye[3];
-#define DOG_EYE_RADIUS 0.040f
-
 void dog_skeleton_make(struct dog_skeleton *skeleton);
 
 /// The number of a joint; there must be one with that name.

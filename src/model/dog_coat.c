@@ -13,7 +13,7 @@
 #define MOUTH 0x4A1F22u
 #define SOFT 0.009f /* half the width of a patch's edge */
 
-#define CELL 0.0105f
+#define CELL 0.0090f
 #define TOLERANCE 0.0006f
 enum { REFINE_ROUNDS = 3 };
 
@@ -27,11 +27,11 @@ static float beyond(float a, float b, float edge) { return glm_smoothstep(-edge,
 static float patches(const float p[3])
 {
     const float side = fabsf(p[0]);
-    const float saddle = beyond(0.19f, hypotf(hypotf(0.8f * p[0], p[1] - 0.61f), p[2] + 0.10f), SOFT);
+    const float saddle = beyond(0.19f, hypotf(hypotf(0.8f * p[0], p[1] - 0.61f), 0.8f * fabsf(p[2] + 0.11f)), SOFT);
     const float nape =
         beyond(p[1] - 0.50f, 1.1f * (p[2] - 0.12f), SOFT) * beyond(p[1], 0.60f, SOFT) * beyond(p[2], 0.0f, 0.01f);
     const float tail = beyond(-0.27f, p[2], SOFT) * beyond(p[1], 0.45f, 0.02f) * beyond(0.735f, p[1], SOFT);
-    const float mask = beyond(side, 0.014f + 0.25f * fmaxf(0.80f - p[1], 0.0f), 0.005f) * beyond(0.448f, p[2], SOFT) *
+    const float mask = beyond(side, 0.016f + 0.25f * fmaxf(0.80f - p[1], 0.0f), SOFT) * beyond(0.448f, p[2], SOFT) *
                        beyond(p[1], 0.675f + 0.25f * (p[2] - 0.36f), SOFT);
     return fmaxf(fmaxf(saddle, tail), fmaxf(p[2] < 0.30f ? nape : 0.0f, mask * beyond(p[2], 0.22f, 0.02f)));
 }
@@ -41,7 +41,7 @@ static float smile(const float p[3])
 {
     static const struct part lines[] = {
         {{0, 0.715f, 0.565f}, {0, 0.660f, 0.557f}, 0.0035f, 0.0025f, 0.001f, 0, false},
-        {{0.056f, 0.670f, 0.430f}, {0.073f, 0.692f, 0.398f}, 0.0050f, 0.0035f, 0.001f, 0, true},
+        {{0.062f, 0.684f, 0.418f}, {0.078f, 0.712f, 0.392f}, 0.0045f, 0.0030f, 0.001f, 0, true},
     };
     return parts_add(lines, sizeof lines / sizeof *lines, p, 1e3f, NULL);
 }

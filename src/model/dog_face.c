@@ -6,6 +6,7 @@
 #include <math.h>
 
 #define LID 0x8C5231u
+#define EYE_RADIUS 0.044f
 #define LASHES 0x2B1D18u
 enum { AROUND = 24, RINGS = 5 };
 
@@ -56,6 +57,16 @@ static void weave(struct mesh *mesh, uint32_t first, int rows, int columns)
     }
 }
 
+/// Makes triangles from an index on face the other way.
+static void turn_over(struct mesh *mesh, int first_index)
+{
+    for (int i = first_index; i < mesh->index_count; i += 3) {
+        const uint32_t swapped = mesh->indices[i + 1];
+        mesh->indices[i + 1] = mesh->indices[i + 2];
+        mesh->indices[i + 2] = swapped;
+    }
+}
+
 /// The part of an ellipsoid from `inner` to `outer` radians off its axis.
 static void cap(struct mesh *mesh, const struct frame *f, const float radius[3], float inner, float outer, int rings)
 {
@@ -85,27 +96,23 @@ static void ball_cap(struct mesh *mesh, const struct frame *eye, float across, f
 /// ahead upwards.
 static void lid(struct mesh *mesh, const struct frame *eye, float radius, float from, float to)
 {
-    enum { ROWS = 7 };
+    enum { ROWS = 10, RIM = 3 }; // of the rim: its edge on the eyeball, its edge outside, its end
     const uint32_t first = (uint32_t)mesh->vertex_count;
-    const float sign = to > from ? 1.0f : -1.0f;
+    const float sign = to > from ? 1.0f : -1.0f, rim_end = from + 0.11f * sign;
     for (int r = 0; r < ROWS; r++) {
-        // The first two rows are the rim's edge, from the eyeball outwards.
-        const float angle = r < 2 ? from : from + (to - from) * (float)(r - 1) / (ROWS - 2);
+        const float angle =
+            r < RIM - 1 ? from : rim_end + (to - rim_end) * (float)(r < RIM ? 0 : r - RIM) / (ROWS - RIM - 1);
         const float reach = r == 0 ? radius - 0.006f : radius;
         for (int c = 0; c <= AROUND; c++) {
             const float polar = GLM_PIf * (float)c / AROUND;
             const vec3s out = in_frame(eye, cosf(polar), sinf(polar) * sinf(angle), sinf(polar) * cosf(angle));
-            const vec3s rim = in_frame(eye, 0.0f, -sign * cosf(angle), sign * sinf(angle));
-            put(mesh, glms_vec3_muladds(out, reach, eye->middle), r == 0 ? rim : out, r < 2 ? LASHES : LID);
+            const vec3s edge = in_frame(eye, 0.0f, -sign * cosf(angle), sign * sinf(angle));
+            put(mesh, glms_vec3_muladds(out, reach, eye->middle), r == 0 ? edge : out, r < RIM ? LASHES : LID);
         }
     }
     const int from_index = mesh->index_count;
     weave(mesh, first, ROWS, AROUND + 1);
-    for (int i = from_index; sign < 0.0f && i < mesh->index_count; i += 3) {
-        const uint32_t swapped = mesh->indices[i + 1];
-        mesh->indices[i + 1] = mesh->indices[i + 2];
-        mesh->indices[i + 2] = swapped;
-    }
+    if (sign < 0.0f) turn_over(mesh, from_index);
 }
 
 /// The lids' frame: across is the hinge, which is the lid's bone.
@@ -122,11 +129,11 @@ static struct frame socket_of(const struct dog_joint *joint, float side)
 static void eyes(const struct dog_skeleton *skeleton, struct dog_pieces *pieces)
 {
     for (int side = 1; side >= -1; side -= 2) {
-        const float s = (float)side, r = DOG_EYE_RADIUS;
+        const float s = (float)side, r = EYE_RADIUS;
         const int eye_joint = dog_joint(skeleton, side > 0 ? "eye_L" : "eye_R");
         const int lid_joint = dog_joint(skeleton, side > 0 ? "lid_L" : "lid_R");
-        const vec3s middle = {{s * dog_eye[0], dog_eye[1], dog_eye[2]}}, up = {{0, 1, 0}};
-        const struct frame gaze = frame_towards(middle, (vec3s){{s * 0.24f, 0.0f, 1.0f}}, up);
+        const vec3s middle = vec3_from(skeleton->joints[eye_joint].position), up = {{0, 1, 0}};
+        const struct frame gaze = frame_towards(middle, (vec3s){{s * 0.20f, 0.0f, 1.0f}}, up);
         const struct frame socket = socket_of(&skeleton->joints[lid_joint], s);
         ball_cap(start(pieces, DOG_WHITE, eye_joint), &gaze, 0, 0, r, 0.76f, 2.2f, RINGS);
         ball_cap(start(pieces, DOG_IRIS, eye_joint), &gaze, 0, 0, r, 0.52f, 0.76f, 2);
@@ -135,7 +142,7 @@ static void eyes(const struct dog_skeleton *skeleton, struct dog_pieces *pieces)
         ball_cap(glint, &gaze, -0.24f, 0.30f, r + 0.0008f, 0.0f, 0.15f, 2);
         ball_cap(glint, &gaze, 0.22f, -0.24f, r + 0.0008f, 0.0f, 0.07f, 1);
         struct mesh *lids = start(pieces, DOG_COAT, lid_joint);
-        lid(lids, &socket, r + 0.0035f, 0.86f, 2.7f);
+        lid(lids, &socket, r + 0.0035f, 0.86f, 4.0f);
         lid(start(pieces, DOG_COAT, dog_joint(skeleton, "head")), &socket, r + 0.0025f, -0.72f, -2.4f);
     }
 }
@@ -178,11 +185,7 @@ static void collar(const struct frame *f, float radius, struct mesh *mesh)
         }
     }
     weave(mesh, first, SECTION + 1, TURNS + 1);
-    for (int i = 0; i < mesh->index_count; i += 3) {
-        const uint32_t swapped = mesh->indices[i + 1];
-        mesh->indices[i + 1] = mesh->indices[i + 2];
-        mesh->indices[i + 2] = swapped;
-    }
+    turn_over(mesh, 0);
 }
 
 static void collar_and_tag(const struct dog_skeleton *skeleton, struct dog_pieces *pieces)

@@ -35,10 +35,10 @@ struct key {
 enum { KEYS = 8 };
 
 static const struct key foot_keys[2][KEYS] = {
-    {{0, -8}, {0.12f, 0}, {0.30f, 3}, {0.44f, 20}, {0.56f, 62}, {0.70f, 78}, {0.86f, 22}, {0.95f, -8}},
+    {{0, -8}, {0.12f, 0}, {0.30f, 3}, {0.44f, 20}, {0.56f, 50}, {0.70f, 58}, {0.86f, 18}, {0.95f, -8}},
     {{0, -8}, {0.12f, -4}, {0.30f, 2}, {0.44f, 18}, {0.56f, 46}, {0.70f, 48}, {0.86f, 8}, {0.95f, -8}},
 };
-static const float toe_curl[2] = {48.0f, 36.0f};
+static const float toe_curl[2] = {42.0f, 36.0f};
 
 static float step_time(float place, float duty)
 {

@@ -20,13 +20,13 @@ static const struct part trunk[] = {
 
 static const struct part head[] = {
     {{-0.016f, 0.752f, 0.312f}, {0.016f, 0.752f, 0.312f}, 0.120f, 0.120f, 0.001f, WHITE, false}, // skull
-    {{0.055f, 0.705f, 0.335f}, {0.036f, 0.700f, 0.400f}, 0.072f, 0.056f, 0.06f, WHITE, true},    // cheeks
+    {{0.055f, 0.715f, 0.335f}, {0.042f, 0.716f, 0.395f}, 0.074f, 0.052f, 0.06f, WHITE, true},    // cheeks
     {{0, 0.712f, 0.400f}, {0, 0.712f, 0.515f}, 0.066f, 0.046f, 0.05f, WHITE, false},             // muzzle
-    {{0.036f, 0.704f, 0.415f}, {0.026f, 0.690f, 0.520f}, 0.040f, 0.037f, 0.025f, WHITE, true},   // lips
+    {{0.040f, 0.716f, 0.410f}, {0.027f, 0.690f, 0.520f}, 0.040f, 0.037f, 0.025f, WHITE, true},   // lips
 };
 
 static const struct part jaw[] = {
-    {{0.016f, 0.664f, 0.365f}, {0.011f, 0.630f, 0.490f}, 0.042f, 0.027f, 0.02f, WHITE, true},
+    {{0.018f, 0.682f, 0.365f}, {0.011f, 0.628f, 0.492f}, 0.044f, 0.027f, 0.02f, WHITE, true},
 };
 
 /// Front and hind leg, of the left side.
@@ -80,10 +80,10 @@ const struct dog_limb dog_limbs[DOG_LIMBS] = {
     {{"tail_1", "tail_2", "tail_3", "tail_4", "tail_5", "tail_6", "tail_7", "tail_8"}, 0.05f, 0.75f},
     {{"ear_1_L", "ear_2_L", "ear_3_L", "ear_4_L"}, 0.020f, 0.6f},
     {{"ear_1_R", "ear_2_R", "ear_3_R", "ear_4_R"}, 0.020f, 0.6f},
-    {{"thigh_front_L", "shin_front_L", "foot_front_L", "toe_front_L"}, 0.07f, 0.35f},
-    {{"thigh_front_R", "shin_front_R", "foot_front_R", "toe_front_R"}, 0.07f, 0.35f},
-    {{"thigh_back_L", "shin_back_L", "foot_back_L", "toe_back_L"}, 0.08f, 0.35f},
-    {{"thigh_back_R", "shin_back_R", "foot_back_R", "toe_back_R"}, 0.08f, 0.35f},
+    {{"thigh_front_L", "shin_front_L", "foot_front_L", "toe_front_L"}, 0.07f, 0.5f},
+    {{"thigh_front_R", "shin_front_R", "foot_front_R", "toe_front_R"}, 0.07f, 0.5f},
+    {{"thigh_back_L", "shin_back_L", "foot_back_L", "toe_back_L"}, 0.08f, 0.5f},
+    {{"thigh_back_R", "shin_back_R", "foot_back_R", "toe_back_R"}, 0.08f, 0.5f},
 };
 
 /// A point of the Catmull–Rom curve through the points, `t` of the way from number i to the next.

@@ -12,7 +12,6 @@ const float dog_ear[DOG_EAR_JOINTS + 1][3] = {
     {0.088f, 0.812f, 0.292f}, {0.137f, 0.800f, 0.292f}, {0.174f, 0.745f, 0.300f},
     {0.186f, 0.672f, 0.312f}, {0.184f, 0.594f, 0.326f},
 };
-const float dog_eye[3] = {0.057f, 0.768f, 0.404f};
 
 /// A bone. Those of the left side are mirrored to the right; names get _L and _R.
 struct bone {
@@ -30,8 +29,8 @@ static const struct bone bones[] = {
     {"neck", "chest", {0, 0.520f, 0.200f}, {0, 0.665f, 0.278f}, 15, false},
     {"head", "neck", {0, 0.665f, 0.278f}, {0, 0.780f, 0.380f}, 15, false},
     {"jaw", "head", {0, 0.668f, 0.375f}, {0, 0.630f, 0.500f}, -10, false},
-    {"eye", "head", {0.057f, 0.768f, 0.404f}, {0.063f, 0.768f, 0.444f}, 0, true},
-    {"lid", "head", {0.057f, 0.768f, 0.404f}, {0.084f, 0.757f, 0.395f}, 90, true},
+    {"eye", "head", {0.060f, 0.788f, 0.399f}, {0.068f, 0.788f, 0.439f}, 0, true},
+    {"lid", "head", {0.060f, 0.788f, 0.399f}, {0.087f, 0.781f, 0.390f}, 90, true},
     {"thigh_front", "chest", {0.085f, 0.430f, 0.160f}, {0.093f, 0.290f, 0.070f}, 20, true},
     {"shin_front", "thigh_front", {0.093f, 0.290f, 0.070f}, {0.091f, 0.105f, 0.110f}, 20, true},
     {"foot_front", "shin_front", {0.091f, 0.105f, 0.110f}, {0.092f, 0.042f, 0.135f}, 20, true},
