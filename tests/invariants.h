@@ -83,7 +83,12 @@ static inline void assert_splines(const struct document *d)
 
 static inline void assert_angles(const struct angles *angles, int joints)
 {
-    for (int j = 0; j < (angles->each ? joints : 1); j++) assert_true(isfinite(angles->value[j]));
+    if (angles->form == ANGLES_EACH && joints > 0) assert_int_equal(angles->count, joints);
+    for (int i = 0; i < angles_count(angles); i++) assert_true(isfinite(angles_number(angles, i)));
+    for (int i = 0; angles->form == ANGLES_RAMP && i < angles->count; i++) {
+        assert_true(angles->ramp[i].at >= 0 && angles->ramp[i].at <= 1);
+        assert_true(i == 0 || angles->ramp[i].at > angles->ramp[i - 1].at);
+    }
 }
 
 static inline void assert_tails(const struct document *d)

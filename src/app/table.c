@@ -64,13 +64,15 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
     return true;
 }
 
-/// Reads the models of a document that is new on the table, or back by undo.
+/// Reads the models of a document that is new on the table, or back by undo, or has other models since the last edit.
 static void read_models(struct table *table)
 {
     struct error error;
-    if (!table->models || table->models_serial == table->document->serial) return;
+    if (!table->models) return;
+    const bool is_new = table->models_serial != table->document->serial;
+    if (!is_new && models_suit(table->models, table->document)) return;
     table->models_serial = table->document->serial;
-    if (!scene_read_paint(table->document, &error)) editor_message(table->editor, true, error.text);
+    if (is_new && !scene_read_paint(table->document, &error)) editor_message(table->editor, true, error.text);
     if (!models_update(table->models, table->document, &error)) editor_message(table->editor, true, error.text);
 }
 

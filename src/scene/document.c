@@ -172,6 +172,16 @@ struct character_rig *document_character(const struct document *document, int n)
     return found >= 0 ? &document->rigs[found].character : NULL;
 }
 
+int document_find_model(const struct document *document, const char *text, bool by_file)
+{
+    int rig = document_next_rig(document, RIG_MODEL, 0);
+    for (; rig >= 0; rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
+        const char *own = by_file ? document->rigs[rig].model.model : document->rigs[rig].name;
+        if (own && strcmp(own, text) == 0) break;
+    }
+    return rig;
+}
+
 int spline_find_knot(const struct document *document, const struct spline *spline, int sample)
 {
     int at = spline_lower_bound(document, spline, sample);

@@ -124,6 +124,9 @@ int document_count_rigs(const struct document *document, enum rig_kind kind);
 struct tail *document_tail(const struct document *document, int n);
 struct character_rig *document_character(const struct document *document, int n);
 
+/// Index of the first model rig with that name, or with that file; -1 if there is none.
+int document_find_model(const struct document *document, const char *text, bool by_file);
+
 /// Index of the knot on that sample, or -1 (binary search).
 int spline_find_knot(const struct document *document, const struct spline *spline, int sample);
 

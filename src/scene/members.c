@@ -1,5 +1,6 @@
 /// Writes an object's members, known keys first.
 #include "scene/members.h"
+#include "base/path.h"
 
 void member(struct members *members, const char *key)
 {
@@ -15,10 +16,23 @@ void member_number(struct members *members, const char *key, double value)
     text_number(members->text, value);
 }
 
+void member_flag(struct members *members, const char *key, bool value)
+{
+    member(members, key);
+    text_string(members->text, value ? "true" : "false");
+}
+
 void member_string(struct members *members, const char *key, const char *string)
 {
     member(members, key);
     text_quoted(members->text, string);
+}
+
+void member_path(struct members *members, const char *key, const struct document *document, const char *path,
+                 const char *folder)
+{
+    char moved[PATH_LIMIT];
+    member_string(members, key, path_rebase(path, document->folder, folder, moved) ? moved : path);
 }
 
 void members_extra(struct members *members, json_t *extra, holds_tracks *skips)

@@ -16,7 +16,12 @@ struct members {
 /// Writes a key; its value follows.
 void member(struct members *members, const char *key);
 void member_number(struct members *members, const char *key, double value);
+void member_flag(struct members *members, const char *key, bool value);
 void member_string(struct members *members, const char *key, const char *string);
+
+/// A path of the document, for a file in `folder`.
+void member_path(struct members *members, const char *key, const struct document *document, const char *path,
+                 const char *folder);
 
 /// Whether a key of an extra object holds the unknown keys of a track instead of being one itself.
 typedef bool holds_tracks(const char *key);

@@ -141,6 +141,15 @@ bool reader_integer(struct reader *reader, struct value value, int minimum, int 
     return reader_fail(reader, &value.at, "expected a whole number from %d to %d, got %s", minimum, maximum, got);
 }
 
+void reader_flag(struct reader *reader, struct value value, bool *target)
+{
+    if (value.json && !json_is_boolean(value.json)) {
+        reader_unexpected(reader, value, "true or false");
+    } else if (value.json) {
+        *target = json_is_true(value.json);
+    }
+}
+
 /// "a", "b" or "c"
 static const char *list_words(const char *const *words, char *text, size_t size)
 {
@@ -189,6 +198,12 @@ bool reader_array(struct reader *reader, struct value value, size_t count, const
     if (!json_is_array(value.json)) return reader_unexpected(reader, value, expected);
     if (json_array_size(value.json) == count) return true;
     return reader_fail(reader, &value.at, "expected %s, got %zu elements", expected, json_array_size(value.json));
+}
+
+void reader_point(struct reader *reader, struct value value, double point[3])
+{
+    if (!value.json || !reader_array(reader, value, 3, "[x, y, z]")) return;
+    for (int i = 0; i < 3; i++) reader_number(reader, reader_element(&value, i), true, range_any, &point[i]);
 }
 
 int reader_objects(struct reader *reader, struct value value, int limit)

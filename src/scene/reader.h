@@ -72,6 +72,9 @@ bool reader_number(struct reader *reader, struct value value, bool required, str
 /// Reads an optional whole number from minimum to maximum (120, 120.0 and 1.2e2 are the same).
 bool reader_integer(struct reader *reader, struct value value, int minimum, int maximum, int *target);
 
+/// Reads an optional true or false.
+void reader_flag(struct reader *reader, struct value value, bool *target);
+
 /// Index of a string among `words` (which ends with NULL); `missing` if there is no string, -1 after an error.
 int reader_word(struct reader *reader, struct value value, const char *const *words, int missing);
 
@@ -89,6 +92,9 @@ int reader_objects(struct reader *reader, struct value value, int limit);
 
 /// Whether a value is an array of `count` elements; fails with "expected `expected`, got …" if not.
 bool reader_array(struct reader *reader, struct value value, size_t count, const char *expected);
+
+/// Reads an optional [x, y, z].
+void reader_point(struct reader *reader, struct value value, double point[3]);
 
 /// Index of the spline that a required string names; -1 after an error.
 int reader_spline_name(struct reader *reader, struct value value);
