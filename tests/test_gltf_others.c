@@ -111,8 +111,9 @@ static void a_skin_moves_as_in_three_js(void **state)
     for (int i = 0; i < 24; i++) { // without normals in the file each triangle has vertices of its own
         const int corners[] = {0, 1, 3, 0, 3, 2};
         const double *expected = strip[i / 6 * 2 + corners[i % 6]];
-        assert_near(vertices[i][0], expected[0], 2e-6);
-        assert_near(vertices[i][1], expected[1], 2e-6);
+        assert_near(vertices[i][0], expected[0],
+                    1e-4); // its quaternions have three digits, and three.js leaves them at that
+        assert_near(vertices[i][1], expected[1], 2e-4);
         assert_near(vertices[i][2], 0, 0);
     }
 }
