@@ -55,7 +55,11 @@ static inline void assert_knots(const struct document *d)
 static inline void assert_param(const struct document *d, const struct param *param)
 {
     assert_in_range(param->track + 1, 0, d->spline_count);
-    if (param->track < 0) assert_true(isfinite(param->value));
+    if (!param_follows(param)) assert_true(isfinite(param->value));
+    if (!param->motion) return;
+    assert_int_equal(param->track, -1);
+    assert_true(isfinite(param->gain) && param->motion->joint[0]);
+    assert_true(document_find_model(d, param->motion->model, param->motion->by_file) >= 0);
 }
 
 /// Parameters are in their ranges, names and ids unique, and no spline follows itself.
@@ -83,7 +87,12 @@ static inline void assert_splines(const struct document *d)
 
 static inline void assert_angles(const struct angles *angles, int joints)
 {
-    for (int j = 0; j < (angles->each ? joints : 1); j++) assert_true(isfinite(angles->value[j]));
+    if (angles->form == ANGLES_EACH && joints > 0) assert_int_equal(angles->count, joints);
+    for (int i = 0; i < angles_count(angles); i++) assert_true(isfinite(angles_number(angles, i)));
+    for (int i = 0; angles->form == ANGLES_RAMP && i < angles->count; i++) {
+        assert_true(angles->ramp[i].at >= 0 && angles->ramp[i].at <= 1);
+        assert_true(i == 0 || angles->ramp[i].at > angles->ramp[i - 1].at);
+    }
 }
 
 static inline void assert_tails(const struct document *d)

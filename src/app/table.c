@@ -53,7 +53,8 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
     bool threaded = table->threaded && background_serves(document, method);
     bool same_way = cubic == table->solved_cubic && method == evaluation->method;
     row->solver = evaluation_solver(method);
-    if (!resized && !row->edited && same_way && !threaded && !evaluation->stale) return true;
+    bool moved = motions_bake(&table->evaluation, document, &table->motions);
+    if (!resized && !row->edited && same_way && !threaded && !evaluation->stale && !moved) return true;
     table->evaluation.method = method;
     evaluate(table, resized, cubic, threaded);
     row->splines_solved = evaluation->solved_splines;
@@ -64,13 +65,15 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
     return true;
 }
 
-/// Reads the models of a document that is new on the table, or back by undo.
+/// Reads the models of a document that is new on the table, or back by undo, or has other models since the last edit.
 static void read_models(struct table *table)
 {
     struct error error;
-    if (!table->models || table->models_serial == table->document->serial) return;
+    if (!table->models) return;
+    const bool is_new = table->models_serial != table->document->serial;
+    if (!is_new && models_suit(table->models, table->document)) return;
     table->models_serial = table->document->serial;
-    if (!scene_read_paint(table->document, &error)) editor_message(table->editor, true, error.text);
+    if (is_new && !scene_read_paint(table->document, &error)) editor_message(table->editor, true, error.text);
     if (!models_update(table->models, table->document, &error)) editor_message(table->editor, true, error.text);
 }
 
@@ -89,10 +92,10 @@ bool table_frame(struct table *table, double dt, const struct table_hooks *hooks
     double start = clock_now();
     advance(table, dt, hooks);
     row->edit_us = since(start);
+    read_models(table);
     start = clock_now();
     if (!solve(table, row, error)) return false;
     row->solve_us = since(start);
-    read_models(table);
     start = clock_now();
     show(table, hooks);
     row->pose_us = since(start);
