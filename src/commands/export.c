@@ -4,8 +4,7 @@
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/progress.h"
-#include "rig/models.h"
-#include "scene/load.h"
+#include "rig/opened.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,30 +36,16 @@ static bool write_export(struct job *job, const struct posing *posing, struct er
     return done;
 }
 
-/// Solves the splines and reads the models.
-static bool export_document(struct job *job, struct document *document, struct error *error)
-{
-    struct evaluation evaluation = {0};
-    struct models *models = models_create();
-    bool done = models ? scene_read_paint(document, error) : fail_no_memory(error, job->scene);
-    done = done && models_update(models, document, error) && evaluation_resize(&evaluation, document, error);
-    if (done) {
-        const struct posing posing = {.document = document, .evaluation = &evaluation, .models = models};
-        evaluation_update(&evaluation, document, NULL, false);
-        done = write_export(job, &posing, error);
-    }
-    evaluation_free(&evaluation);
-    models_destroy(models);
-    return done;
-}
-
 static bool run(struct job *job, struct error *error)
 {
-    struct document *document = scene_load(job->scene, NULL, error);
-    if (!document) return false;
-    const bool done = document_set_path(document, job->scene) ? export_document(job, document, error)
-                                                              : fail_no_memory(error, job->scene);
-    document_destroy(document);
+    struct opened opened;
+    if (!opened_read(&opened, job->scene, error)) return false;
+    bool done = opened_solve(&opened, WIGGLY_CHAIN, error);
+    if (done) {
+        const struct posing posing = opened_posing(&opened);
+        done = write_export(job, &posing, error);
+    }
+    opened_free(&opened);
     return done;
 }
 

@@ -28,6 +28,7 @@ struct models {
     int placed_count;
     struct character_model *characters; ///< in the order of the document
     int character_count;
+    uint64_t version;
 };
 
 struct models *models_create(void) { return calloc(1, sizeof(struct models)); }
@@ -185,6 +186,7 @@ static bool check_chains(const struct models *models, const struct document *doc
 bool models_update(struct models *models, const struct document *document, struct error *error)
 {
     struct error first = {0}, trouble = {0};
+    models->version++;
     update_characters(models, document, &first);
     update_placed(models, document, &first);
     check_chains(models, document, &trouble);
@@ -226,6 +228,8 @@ const struct figure *models_figure(const struct models *models, int character)
     const struct character_model *model = &models->characters[character];
     return model->painted ? &model->painted->figure : model->plain;
 }
+
+uint64_t models_version(const struct models *models) { return models ? models->version : 0; }
 
 const struct imported *models_imported(const struct models *models, int model)
 {
