@@ -164,13 +164,24 @@ void film_progress(const struct film *film, long *done, long *total)
     *total = film->shape.count;
 }
 
+/// What to look for if that is not the name that was given.
+static const char *print_names(const struct film *film, char text[64])
+{
+    const char *slash = strrchr(film->path, '/'), *name = slash ? slash + 1 : film->path;
+    const bool numbered = film->format->file == &film_png && film->shape.count > 1 && !strchr(name, '%');
+    text[0] = '\0';
+    if (numbered) snprintf(text, 64, ", as %.*s-0001.png and so on", (int)fmin(30, (double)strlen(name) - 4), name);
+    return text;
+}
+
 void film_report(const struct film *film, struct export_report *report)
 {
     const double megabytes = (double)film->bytes / 1e6;
+    char names[64];
     *report = (struct export_report){.note = ""};
-    snprintf(report->text, sizeof report->text, "%ld picture%s of %d × %d, %g a second, %.*f MB", film->shape.count,
+    snprintf(report->text, sizeof report->text, "%ld picture%s of %d × %d, %g a second, %.*f MB%s", film->shape.count,
              film->shape.count == 1 ? "" : "s", film->shape.width, film->shape.height, film->shape.rate,
-             megabytes < 1 ? 2 : 1, megabytes);
+             megabytes < 1 ? 2 : 1, megabytes, print_names(film, names));
 }
 
 void film_close(struct film *film)

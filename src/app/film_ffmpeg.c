@@ -66,6 +66,8 @@ static struct film_file *open_mp4(const char *path, const struct film_shape *sha
                                          "libx264",
                                          "-crf",
                                          "18",
+                                         "-aq-mode", // bits for dark gradients, which else fall into bands
+                                         "3",
                                          "-movflags",
                                          "+faststart",
                                          "-f",

@@ -87,7 +87,13 @@ static enum film_state put(struct film_file *file, const unsigned char *pixels, 
         fail(error, ERROR_INPUT, "%s: the path is too long", file->path);
         return FILM_FAILED;
     }
-    if (!png_write(name, file->shape.width, file->shape.height, pixels, error)) return FILM_FAILED;
+    struct error inner;
+    if (!png_write(name, file->shape.width, file->shape.height, pixels, &inner)) {
+        // The folder is ours alone: what the user knows is the path.
+        const bool named = strncmp(inner.text, name, strlen(name)) == 0;
+        fail(error, inner.kind, "%s%s", file->path, named ? inner.text + strlen(name) : ": cannot be written");
+        return FILM_FAILED;
+    }
     file->written++;
     return FILM_DONE;
 }

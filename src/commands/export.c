@@ -126,7 +126,7 @@ int command_export(int argc, char **argv)
          "required: .glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd, .npy, .mp4, .webm, .gif or .png, by its name's end",
          OPTION_TEXT, &job.output, 0, 0},
         {"--frames", NULL, "A:B", "from frame A to frame B (default: all)", OPTION_TEXT, &job.frames, 0, 0},
-        {"--fps", NULL, "N", "N keys a second (default: one a sample of the scene)", OPTION_REAL, &o->rate, 1e-3,
+        {"--fps", NULL, "N", "N keys or pictures a second (default: one a sample; pictures: the scene's frames)", OPTION_REAL, &o->rate, 1e-3,
          1e5},
         {"--substeps", NULL, "N", "N keys a frame, instead of --fps", OPTION_INT, &o->substeps, 1, 1024},
         {"--clip", NULL, "NAME", "what the animation is called (default: as the scene's file)", OPTION_TEXT, &o->clip,
