@@ -343,7 +343,7 @@ static void refusals_say_what_to_do(void **state)
     assert_fails(tail, "a.fbx", usual, ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd and .npy");
     assert_fails("tests/vectors/complex_default.json", "a.glb", usual,
                  "no rig to export: its splines go into a .csv");
-    assert_fails("assets/scenes/character.json", "a.bvh", usual, "\"character\" has none: export it as .glb, .gltf");
+    assert_fails("assets/scenes/character.json", "a.bvh", usual, "cannot hold the character \"character\": export it as .glb, .gltf");
     assert_fails(two, "a.pc2", usual, "choose one of \"nodder\", \"swayer\" with --rig");
     assert_fails(two, "a.glb", (struct export_options){.rig = "noder"}, "\"nodder\", \"swayer\", got \"noder\"");
     assert_fails(tail, "a.glb", (struct export_options){.has_frames = true, .first = 5, .last = 500},
