@@ -20,6 +20,15 @@ def load(path):
     return [o for o in bpy.data.objects if o not in before]
 
 
+def choose_clip(objects, name):
+    """A file with several clips comes with a track for each."""
+    for data in (d for o in objects for d in (o, getattr(o.data, 'shape_keys', None)) if d and d.animation_data):
+        if data.animation_data.nla_tracks:
+            data.animation_data.action = None
+        for track in data.animation_data.nla_tracks:
+            track.mute = track.name != name
+
+
 def vertices(mesh):
     """Of the mesh as it is deformed now, in glTF's axes (y up)."""
     shown = mesh.evaluated_get(bpy.context.evaluated_depsgraph_get())
@@ -32,7 +41,10 @@ def vertices(mesh):
 def compare_meshes(path, cache_paths):
     caches = [read_cache(p)[0] for p in cache_paths]
     counts = [c.shape[1] for c in caches]
-    meshes = [o for o in load(path) if o.type == 'MESH' and len(o.data.vertices) in counts]  # not the importer's shapes for bones
+    objects = load(path)
+    if 'CLIP' in os.environ:
+        choose_clip(objects, os.environ['CLIP'])
+    meshes = [o for o in objects if o.type == 'MESH' and len(o.data.vertices) in counts]  # not the importer's shapes for bones
     off = 0.0
     for key in ten_of(len(caches[0])):
         bpy.context.scene.frame_set(key)
