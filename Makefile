@@ -140,7 +140,6 @@ $(B)/models/%.glb: $(B)/%_glb
 
 # Programs of others evaluate every file that wiggly writes; fetched into the build folder.
 proof: $(B)/wiggly
-	$(Q)tools/install-missing.sh proof
 	$(Q)B=$(B) WIGGLY=$(B)/wiggly tests/others/proof.sh
 
 check: | packages

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that the named sets need and that are not there. Fast and silent when nothing is missing.
 # "a|b": a, or b where the system has no package a.
-# Usage: tools/install-missing.sh [build] [test] [bench] [check] [clang] [bare] [proof]
+# Usage: tools/install-missing.sh [build] [test] [bench] [check] [clang] [bare]
 set -eu
 
 packages_of() {
@@ -13,9 +13,8 @@ packages_of() {
     check) echo clang-format-14 cppcheck ;;
     clang) echo clang ;;
     bare) echo debootstrap ;;
-    proof) echo nodejs npm python3-venv ;;
     *)
-        echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench, check, clang, bare and proof" >&2
+        echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench, check, clang and bare" >&2
         exit 2
         ;;
     esac
@@ -30,7 +29,6 @@ probes_of() {
     check) echo clang-format-14 cppcheck ;;
     clang) echo clang ;;
     bare) echo debootstrap ;;
-    proof) echo node npm python3 ;;
     esac
 }
 
