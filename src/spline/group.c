@@ -3,10 +3,6 @@
 #include "spline/problem.h"
 #include <stdint.h>
 
-/// Columns of forced responses are kept for so many times the samples of a spline: for all lengths of stretches up to eight times
-/// that number's root.
-enum { TABLES = 32 };
-
 /// A spline in a lane.
 typedef struct member {
     int index;
@@ -27,28 +23,25 @@ struct group {
 };
 
 typedef struct layout {
-    size_t rows, nodes, stretches, forced, solver, size; ///< bytes
-    int columns, lengths;
+    size_t rows, nodes, stretches, solver, size; ///< bytes
+    int lengths;
 } layout;
 
 static bool plan(layout *l, int samples, int knots)
 {
     size_t k = (size_t)knots + 1, n = (size_t)samples;
-    l->columns = samples > INT32_MAX / TABLES ? INT32_MAX : TABLES * samples;
     l->lengths = samples;
     l->solver = wiggly_memsize(samples, knots);
     return l->solver && !__builtin_mul_overflow(k, DOUBLES_PER_LANE_ROW * sizeof(double), &l->rows) &&
            !__builtin_mul_overflow(k, MOST_LANES * sizeof(chain_node), &l->nodes) &&
            !__builtin_mul_overflow(n, sizeof(chain_stretch), &l->stretches) &&
-           !__builtin_mul_overflow((size_t)l->columns, 4 * sizeof(double), &l->forced) &&
            !__builtin_add_overflow(l->rows, l->nodes, &l->size) &&
            !__builtin_add_overflow(l->size, l->stretches, &l->size) &&
-           !__builtin_add_overflow(l->size, l->forced, &l->size) &&
            !__builtin_add_overflow(l->size, l->solver, &l->size) &&
            !__builtin_add_overflow(l->size, sizeof(group) + 2 * LANE_ALIGNMENT, &l->size);
 }
 
-/// Memory of the lanes, and larger tables than a single spline needs: many splines have many lengths of stretches.
+/// Memory of the lanes, and room for more stretches than a single spline has: many splines have many lengths.
 static void hand_out(group *g, const layout *l, int samples, int knots)
 {
     unsigned char *at = (unsigned char *)(g + 1);
@@ -57,14 +50,10 @@ static void hand_out(group *g, const layout *l, int samples, int knots)
     at += l->rows;
     for (int k = 0; k < MOST_LANES; k++) g->chains.nodes[k] = (chain_node *)(void *)at + k * (knots + 1);
     at += l->nodes;
-    g->solver = solver_lay_out(at + l->stretches + l->forced, samples, knots);
+    g->solver = solver_lay_out(at + l->stretches, samples, knots);
     chain *c = &g->solver->chain;
     c->stretches = (chain_stretch *)(void *)at;
     c->stretch_capacity = l->lengths;
-    double *columns = (double *)(void *)(at + l->stretches);
-    double **const forced[] = {&c->forced[0].re, &c->forced[0].im, &c->forced[1].re, &c->forced[1].im};
-    for (int i = 0; i < 4; i++) *forced[i] = columns + (size_t)i * (size_t)l->columns;
-    c->forced_capacity = l->columns;
     g->chains.common = c;
 }
 
