@@ -88,14 +88,14 @@ static void extend_real(chain *c, int longest)
 }
 
 /// The columns of a costate, first row of W_i F*^{−i}: (w00 p* − w01 q*, w01 p* − w00 (δ² q)*) / (det F)*^i.
-WIDEST static void set_pulled_complex(const chain *c, int from, int end)
+/// Where they go are parameters because the compiler believes these alone to be apart.
+WIDEST static void set_pulled_complex(const chain *c, int from, int end, double *restrict g0r, double *restrict g0i,
+                                      double *restrict g1r, double *restrict g1i)
 {
     const chain_powers *t = &c->powers;
     const double *restrict pr = t->p.re, *restrict pi = t->p.im, *restrict qr = t->q.re, *restrict qi = t->q.im;
     const double *restrict w = t->w00, *restrict vr = t->w01.re, *restrict vi = t->w01.im;
     const double *restrict er = c->back.re, *restrict ei = c->back.im;
-    double *restrict g0r = c->pulled[0].re, *restrict g0i = c->pulled[0].im;
-    double *restrict g1r = c->pulled[1].re, *restrict g1i = c->pulled[1].im;
     const cplx d = c->delta2;
     for (int i = from; i < end; i++) {
         double rr = d.re * qr[i] - d.im * qi[i], ri = d.re * qi[i] + d.im * qr[i];
@@ -107,27 +107,30 @@ WIDEST static void set_pulled_complex(const chain *c, int from, int end)
     }
 }
 
-WIDEST static void set_pulled_real(const chain *c, int from, int end)
+static void set_pulled_real(const chain *c, int from, int end)
 {
-    const double *restrict p = c->powers.p.re, *restrict q = c->powers.q.re, *restrict e = c->back.re;
-    const double *restrict w = c->powers.w00, *restrict v = c->powers.w01.re;
-    double *restrict g0 = c->pulled[0].re, *restrict g1 = c->pulled[1].re;
-    const double d = c->delta2.re;
+    const chain_powers *t = &c->powers;
     for (int i = from; i < end; i++) {
-        g0[i] = (w[i] * p[i] - v[i] * q[i]) * e[i];
-        g1[i] = (v[i] * p[i] - w[i] * (d * q[i])) * e[i];
+        double p = t->p.re[i], q = t->q.re[i], w = t->w00[i], v = t->w01.re[i], e = c->back.re[i];
+        c->pulled[0].re[i] = (w * p - v * q) * e;
+        c->pulled[1].re[i] = (v * p - w * (c->delta2.re * q)) * e;
     }
 }
 
+/// Whole blocks, each a multiple of the one before.
 static void set_pulled(const chain *c, int from, int end)
 {
-    cplx det = cplx_conj(cplx_sub(cplx_mul(c->lambda, c->lambda), c->delta2)), e = {1, 0};
+    const cplx det = cplx_conj(cplx_sub(cplx_mul(c->lambda, c->lambda), c->delta2));
     const double size = cplx_norm(det);
     const cplx inverse = {det.re / size, -det.im / size};
-    if (from > 0) e = cplx_mul((cplx){c->back.re[from - 1], c->back.im[from - 1]}, inverse);
-    for (int i = from; i < end; i++, e = cplx_mul(e, inverse)) c->back.re[i] = e.re, c->back.im[i] = e.im;
+    cplx e = {1, 0};
+    for (int i = 0; i < CHAIN_BLOCK; i++, e = cplx_mul(e, inverse)) c->back.re[i] = e.re, c->back.im[i] = e.im;
+    for (int i = from > 0 ? from : CHAIN_BLOCK; i < end; i++) {
+        cplx next = cplx_mul(e, (cplx){c->back.re[i - CHAIN_BLOCK], c->back.im[i - CHAIN_BLOCK]});
+        c->back.re[i] = next.re, c->back.im[i] = next.im;
+    }
     if (c->is_complex) {
-        set_pulled_complex(c, from, end);
+        set_pulled_complex(c, from, end, c->pulled[0].re, c->pulled[0].im, c->pulled[1].re, c->pulled[1].im);
     } else {
         set_pulled_real(c, from, end);
     }
