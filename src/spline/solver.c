@@ -140,7 +140,7 @@ static const double most_unlike = 5, most_decay = 50;
 /// Samples after which the chain takes a state anew.
 static int run_of(const poles *at, double step)
 {
-    double decay = -step * fmin(at->s[0].re, at->s[1].re), unlike = step * fabs(at->s[0].re - at->s[1].re);
+    double decay = step * fabs(fmin(at->s[0].re, at->s[1].re)), unlike = step * fabs(at->s[0].re - at->s[1].re);
     double run = fmin(most_unlike / unlike, most_decay / decay); // of nothing: infinite
     return run < CHAIN_RUN ? (int)fmax(run, 1) : CHAIN_RUN;
 }
