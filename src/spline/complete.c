@@ -122,12 +122,7 @@ static void set_centre(wiggly_solver *solver, const problem *p, double *omega)
     if (poles_are_constant(desc)) {
         fill(omega, problem_filter(solver, p)->at.centre, desc->samples);
     } else {
-        poles_block block;
-        for (int i = 0; i < desc->samples; i += POLES_BLOCK) {
-            int count = desc->samples - i < POLES_BLOCK ? desc->samples - i : POLES_BLOCK;
-            poles_block_fill(desc, i, count, problem_least_damping(p), &block);
-            memcpy(omega + i, block.centre, sizeof *omega * (size_t)count);
-        }
+        poles_block_centres(desc, 0, desc->samples, problem_least_damping(p), omega);
     }
 }
 

@@ -1,6 +1,9 @@
 /// From parameters to poles, coefficients and the cost of the start.
 #include "spline/poles.h"
+#include "spline/wide.h"
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 static const double pi = 3.14159265358979323846;
 
@@ -57,12 +60,28 @@ poles poles_at(const wiggly_desc *desc, int sample, double floor)
     };
 }
 
+static inline int64_t bits_of(double x)
+{
+    int64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/// The largest number's bits: positive ones are ordered as their bits are, above all that are not.
+WIDEST static int64_t largest_bits(const double *x, int count)
+{
+    int64_t most = 0;
+    for (int i = 0; i < count; i++) most = bits_of(x[i]) > most ? bits_of(x[i]) : most;
+    return most;
+}
+
 int poles_fastest(const wiggly_desc *desc, int from, int to, double *natural)
 {
     const double *track = desc->spring_friction ? desc->spring.track : desc->frequency.track;
     int fastest = from;
-    for (int i = from + 1; track && i <= to; i++) {
-        if (track[i] > 0 && track[i] > track[fastest]) fastest = i;
+    if (track && from < to) {
+        const int64_t most = largest_bits(track + from, to - from + 1);
+        while (most > 0 && bits_of(track[fastest]) != most) fastest++;
     }
     if (natural) *natural = poles_at(desc, fastest, 0).natural;
     return fastest;
