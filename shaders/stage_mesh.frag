@@ -10,6 +10,13 @@ uniform vec3 key_from;
 uniform vec3 earth; // the light that comes up from the ground
 uniform float seam; // 0 in the first pass
 uniform float line; // pixels: width of the phase map's lines; 0 where no phases are shown
+#ifdef PICTURED // an imported character's
+in vec2 at; // in the picture
+in float opacity;
+uniform sampler2D picture;
+uniform float cutoff;   // opacity below which nothing is drawn
+uniform bool both_sides;
+#endif
 out vec4 pixel;
 
 const vec3 KEY = vec3(1.0, 0.8796, 0.7157);      // #FFF1DC
@@ -58,6 +65,12 @@ vec3 with_phase_lines(vec3 color)
 void main()
 {
     vec3 n = direction(world_normal);
+    vec4 surface = vec4(fur, 1.0);
+#ifdef PICTURED
+    surface = vec4(fur, opacity) * texture(picture, at);
+    if (surface.a < cutoff) discard;
+    if (both_sides && !gl_FrontFacing) n = -n;
+#endif
     vec3 to_eye = normalize(eye - world);
     float facing = dot(n, to_eye);
     float key = max((dot(n, key_from) + 0.4) / 1.4, 0.0);
@@ -65,7 +78,7 @@ void main()
     float upward = 0.5 + 0.5 * n.y;
     vec3 light = KEY * key + mix(earth, SKY, upward) * open_sky;
     // The rim is the sky's: what faces the ground has less of it.
-    vec3 coat = line > 0.0 ? with_phase_lines(fur) : fur;
+    vec3 coat = line > 0.0 ? with_phase_lines(surface.rgb) : surface.rgb;
     vec3 linear = coat * light * EXPOSURE + RIM * (0.35 * graze * graze * graze * open_sky * upward);
-    pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), seam > 0.0 ? seam_opacity(to_eye) : 1.0);
+    pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), seam > 0.0 ? seam_opacity(to_eye) : surface.a);
 }

@@ -73,7 +73,7 @@ static void bad_characters_are_refused(void **state)
         const char *text, *sentence;
     } cases[] = {
         {SCENE("{\"type\": \"bear\"}"),
-         "scene.json:3: rigs[0].type: expected \"tail\" or \"character\", got \"bear\""},
+         "scene.json:3: rigs[0].type: expected \"tail\", \"character\", \"model\" or \"chain\", got \"bear\""},
         {SCENE("{\"type\": \"character\"}"), "scene.json:3: rigs[0].model: expected a string, got nothing"},
         {SCENE("{\"type\": \"character\", \"model\": 3}"),
          "scene.json:3: rigs[0].model: expected a string, got a number"},
@@ -163,11 +163,11 @@ static void rigs_keep_their_order(void **state)
     assert_order(document, "tct");
     apply(history, document, &(struct edit){.kind = EDIT_TAIL_ADD, .rig = 2});
     assert_order(document, "tctt");
-    apply(history, document, &(struct edit){.kind = EDIT_TAIL_REMOVE, .rig = 0});
+    apply(history, document, &(struct edit){.kind = EDIT_RIG_REMOVE, .rig = 0});
     assert_order(document, "ctt");
     const struct drive drive = {.name = "up", .spline = 1, .amplitude = 1};
     apply(history, document, &(struct edit){.kind = EDIT_DRIVE_ADD, .rig = 0, .drive = drive});
-    apply(history, document, &(struct edit){.kind = EDIT_TAIL_REMOVE, .rig = 1});
+    apply(history, document, &(struct edit){.kind = EDIT_RIG_REMOVE, .rig = 1});
     assert_order(document, "ct");
     assert_string_equal(document->rigs[1].name, "tail");
     while (history_undo(history, document)) continue;

@@ -107,7 +107,7 @@ static void it_stands_on_its_feet(void **state)
         struct scene scene = open_scene(paths[s]);
         struct evaluation evaluation = {0};
         struct error error = {0};
-        const struct posing posing = {scene.document, &evaluation, scene.models, LOOK_WIGGLY};
+        const struct posing posing = {.document = scene.document, .evaluation = &evaluation, .models = scene.models};
         assert_true(evaluation_resize(&evaluation, scene.document, &error));
         evaluation_update(&evaluation, scene.document, NULL, false);
         for (int i = 0; i < evaluation.samples; i++) {

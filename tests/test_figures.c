@@ -176,7 +176,7 @@ static void test_figure6(void **state)
     enum { BASE = 0, LATE = 18 };
     open_figure("assets/scenes/figure6.json");
     const struct tail *tail = document_tail(document, 0);
-    const struct posing posing = {document, &evaluation, NULL, LOOK_WIGGLY};
+    const struct posing posing = {.document = document, .evaluation = &evaluation};
     double bend[2][128], best = -INFINITY;
     int lag = 0, count = evaluation.samples;
     assert_in_range(count, 100, 128);

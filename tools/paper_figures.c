@@ -277,7 +277,7 @@ static void write_tail(const char *folder)
 {
     enum { POSES = 9, EVERY = 6, PER_ROW = 3 };
     struct solved s = solve("figure6");
-    const struct posing posing = {s.document, &s.evaluation, NULL, LOOK_WIGGLY};
+    const struct posing posing = {.document = s.document, .evaluation = &s.evaluation};
     struct rig_pose pose;
     FILE *svg = svg_begin(folder, "figure6", TOP + POSES / PER_ROW * (ROW + GAP));
     FILE *csv = create(folder, "figure6", "csv");

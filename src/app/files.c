@@ -1,10 +1,12 @@
 /// Carries out what the editor may only ask for: files, the window, and the end of the run.
 #include "app/assets.h"
+#include "app/exporting.h"
 #include "app/state.h"
 #include "base/embedded.h"
 #include "base/path.h"
 #include "base/png.h"
 #include "editor/dialogs/dialog_files.h"
+#include "rig/import.h"
 #include "scene/load.h"
 #include <dirent.h>
 #include <stdio.h>
@@ -75,13 +77,17 @@ bool app_open(struct app *app, const char *path, struct error *error)
         return fail(error, ERROR_INPUT, "expected a path of at most %d bytes, got %zu: %s", PATH_LIMIT - 1,
                     strlen(path), path);
     }
-    if (path) {
+    const bool imports = path && import_suits(path);
+    if (imports) {
+        document = import_scene(path, error);
+    } else if (path) {
         document = scene_load(path, NULL, error);
     } else {
         document = parse_built_in("tail.json", error);
     }
     if (!document) return false;
-    bool is_users = path && !assets_has(path); // saving must not write over the scenes that come with the program
+    // Saving must write over neither a character's file nor the scenes that come with the program.
+    bool is_users = path && !imports && !assets_has(path);
     if (is_users && !document_set_path(document, path)) {
         document_destroy(document);
         return fail_no_memory(error, path);
@@ -113,7 +119,7 @@ static bool save(struct app *app, const char *path, struct error *error)
 {
     char folder[PATH_LIMIT];
     if (!scene_save(app->table.document, path, error)) return false;
-    if (!path_folder(path, folder) || !document_set_folder(app->table.document, folder)) {
+    if (!path_folder(path, folder) || !history_set_folder(app->table.history, app->table.document, folder)) {
         return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to continue", path);
     }
     if (path != app->table.document->path && !document_set_path(app->table.document, path)) {
@@ -185,6 +191,11 @@ static bool carry_out(struct app *app, const struct request *request, struct err
         return save(app, app_path(app), error);
     case REQUEST_SAVE_AS:
         return may_replace(app, request->path, error) && save(app, request->path, error);
+    case REQUEST_EXPORT:
+        return may_replace(app, request->path, error) && exporting_start(app, request, error);
+    case REQUEST_EXPORT_STOP:
+        exporting_stop(app);
+        return true;
     case REQUEST_QUIT:
         app->quit = true;
         return true;
@@ -214,16 +225,14 @@ void app_requests(struct app *app)
         if (request.kind == REQUEST_NONE) break;
         struct error error = {0};
         bool done = carry_out(app, &request, &error);
-        editor_answer(app->table.editor, &request, done, error.text);
+        const bool goes_on = done && request.kind == REQUEST_EXPORT;
+        if (!goes_on) editor_answer(app->table.editor, &request, done, error.text);
     }
+    exporting_step(app);
     if (history_is_saved(app->table.history) != app->shown_saved) show_title(app);
 }
 
-static bool is_scene_name(const char *name)
-{
-    size_t length = strlen(name);
-    return length > 5 && strcmp(name + length - 5, ".json") == 0;
-}
+static bool is_scene_name(const char *name) { return path_has_end(name, ".json") || import_suits(name); }
 
 static int compare_names(const void *a, const void *b) { return strcmp(a, b); }
 
@@ -251,6 +260,9 @@ static int list_folder(void *user, const char *folder, char names[][256], int ma
 
 void app_connect_files(struct app *app)
 {
-    editor_set_files(app->table.editor,
-                     &(struct dialog_files){.list = list_folder, .recent = personal_recent, .user = app});
+    editor_set_files(app->table.editor, &(struct dialog_files){.list = list_folder,
+                                                               .recent = personal_recent,
+                                                               .formats = exporting_formats,
+                                                               .format_count = exporting_format_count,
+                                                               .user = app});
 }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 bool path_folder(const char *path, char folder[PATH_LIMIT])
@@ -93,4 +94,21 @@ bool path_rebase(const char *path, const char *from, const char *to, char moved[
     if (!path_resolve(from, ".", old_folder) || !path_resolve(to, ".", new_folder)) return false;
     if (strcmp(old_folder, new_folder) == 0) return false;
     return path_resolve(from, path, absolute) && relative(absolute, new_folder, moved);
+}
+
+bool path_move(char **path, const char *from, const char *to)
+{
+    char moved[PATH_LIMIT];
+    if (!*path || !path_rebase(*path, from, to, moved)) return true;
+    char *copy = strdup(moved);
+    if (!copy) return false;
+    free(*path);
+    *path = copy;
+    return true;
+}
+
+bool path_has_end(const char *path, const char *end)
+{
+    size_t length = strlen(path), n = strlen(end);
+    return length > n && strcasecmp(path + length - n, end) == 0;
 }

@@ -37,7 +37,7 @@ bool batch_create(struct batch *batch, struct error *error)
         batch_destroy(batch);
         return fail(error, ERROR_ENVIRONMENT, "out of memory for drawing");
     }
-    batch->program = gl_program("ui.vert", "ui.frag", error);
+    batch->program = gl_program("ui.vert", "ui.frag", NULL, error);
     if (!batch->program) {
         batch_destroy(batch);
         return false;

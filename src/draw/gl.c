@@ -12,7 +12,7 @@ static void first_line(char *log)
     if (!*log) snprintf(log, 2, "?");
 }
 
-static GLuint compile(GLenum kind, const char *name, struct error *error)
+static GLuint compile(GLenum kind, const char *name, const char *define, struct error *error)
 {
     char path[64];
     snprintf(path, sizeof path, "shaders/%s", name);
@@ -22,9 +22,13 @@ static GLuint compile(GLenum kind, const char *name, struct error *error)
         return 0;
     }
     GLuint shader = glCreateShader(kind);
+    char line[64] = "";
+    if (define) snprintf(line, sizeof line, "#define %s\n", define);
     const GLchar *text = (const GLchar *)source->data;
-    GLint length = (GLint)source->size;
-    glShaderSource(shader, 1, &text, &length);
+    const GLint first = (GLint)strcspn(text, "\n") + 1; // "#version …" comes before all else
+    const GLchar *texts[] = {text, line, text + first};
+    const GLint lengths[] = {first, (GLint)strlen(line), (GLint)source->size - first};
+    glShaderSource(shader, 3, texts, lengths);
     glCompileShader(shader);
     GLint ok = 0;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
@@ -54,10 +58,10 @@ static GLuint link_program(GLuint vertex, GLuint fragment, const char *name, str
     return 0;
 }
 
-GLuint gl_program(const char *vertex_name, const char *fragment_name, struct error *error)
+GLuint gl_program(const char *vertex_name, const char *fragment_name, const char *define, struct error *error)
 {
-    GLuint vertex = compile(GL_VERTEX_SHADER, vertex_name, error);
-    GLuint fragment = vertex ? compile(GL_FRAGMENT_SHADER, fragment_name, error) : 0;
+    GLuint vertex = compile(GL_VERTEX_SHADER, vertex_name, define, error);
+    GLuint fragment = vertex ? compile(GL_FRAGMENT_SHADER, fragment_name, define, error) : 0;
     GLuint program = fragment ? link_program(vertex, fragment, vertex_name, error) : 0;
     if (vertex) glDeleteShader(vertex);
     if (fragment) glDeleteShader(fragment);

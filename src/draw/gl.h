@@ -6,9 +6,9 @@
 #include <epoxy/gl.h>
 #include <stdint.h>
 
-/// Compiles and links the embedded shaders "shaders/<vertex_name>" and "shaders/<fragment_name>". On failure 0, with the
-/// compiler's first complaint as a sentence.
-GLuint gl_program(const char *vertex_name, const char *fragment_name, struct error *error);
+/// Compiles and links the embedded shaders "shaders/<vertex_name>" and "shaders/<fragment_name>", in which `define` (NULL: nothing)
+/// is defined. On failure 0, with the compiler's first complaint as a sentence.
+GLuint gl_program(const char *vertex_name, const char *fragment_name, const char *define, struct error *error);
 
 /// Side of the largest texture, texels.
 int gl_largest_texture(void);

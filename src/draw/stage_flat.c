@@ -31,7 +31,7 @@ struct stage_flat *stage_flat_create(struct error *error)
         fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
         return NULL;
     }
-    flat->program = gl_program("stage_flat.vert", "stage_flat.frag", error);
+    flat->program = gl_program("stage_flat.vert", "stage_flat.frag", NULL, error);
     if (!flat->program) {
         free(flat);
         return NULL;

@@ -43,7 +43,7 @@ static void *create(struct error *error)
         fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
         return NULL;
     }
-    morph->program = gl_program("stage_character.vert", "stage_mesh.frag", error);
+    morph->program = gl_program("stage_character.vert", "stage_mesh.frag", NULL, error);
     if (!morph->program) {
         free(morph);
         return NULL;

@@ -28,6 +28,7 @@ struct gltf_node {
 struct gltf_skin {
     int *joints; ///< nodes
     int joint_count;
+    int first_joint; ///< in gltf_pose.joints
     float (*inverse_bind)[16];
 };
 
@@ -106,6 +107,8 @@ struct gltf {
     struct gltf_clip *clips;
     int clip_count;
     int weight_count;   ///< morph weights of all nodes together
+    float *weights;     ///< those at rest
+    int joint_count;    ///< joints of all skins together
     float lo[3], hi[3]; ///< the box around it at rest
     char *not_shown;    ///< names of what is in the file and not shown, comma separated; NULL: all is shown
     uint64_t id;        ///< tells it from any other that was read in this process; never 0
@@ -125,6 +128,7 @@ int gltf_find_clip(const struct gltf *gltf, const char *name);
 struct gltf_pose {
     struct gltf_place *place; ///< of each node against its parent
     float (*world)[16];       ///< of each node, in the model's space
+    float (*joints)[16];      ///< what skinning multiplies vertices by, of all skins (gltf_skin.first_joint)
     float *weights;           ///< of the morph targets of all nodes (gltf_node.first_weight)
 };
 
@@ -135,10 +139,10 @@ void gltf_pose_free(struct gltf_pose *pose);
 /// alone. Allocates nothing.
 void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_pose *pose);
 
-/// World matrices from places. Allocates nothing.
+/// World and joint matrices from places. Allocates nothing.
 void gltf_pose_world(const struct gltf *gltf, struct gltf_pose *pose);
 
-/// What skinning multiplies the vertices of a skin's joint `j` by: world of the joint · inverse bind.
+/// What skinning multiplies the vertices of a skin's joint by: world of the joint · inverse bind. The same as in `joints`.
 void gltf_joint_matrix(const struct gltf *gltf, const struct gltf_pose *pose, int skin, int joint, float matrix[16]);
 
 /// Positions of all vertices of one node's mesh in the model's space, part after part, morphed and skinned: the reference for what the

@@ -1,18 +1,11 @@
 /// Reads the models of a document's characters, and keeps them by path.
 #include "rig/models.h"
 #include "base/path.h"
+#include "rig/bones.h"
+#include "rig/model_files.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-
-/// A file that was read, and its state at that time.
-struct model_file {
-    char *path; ///< absolute
-    struct timespec changed;
-    off_t size;
-    struct figure figure;
-};
 
 /// The model of one character.
 struct character_model {
@@ -21,22 +14,23 @@ struct character_model {
     uint64_t version;           ///< of the paint on it, 0: none
 };
 
+/// An imported character of one rig, and memory for its poses.
+struct placed_model {
+    char *path;                      ///< as the rig names it
+    const struct imported *imported; ///< NULL: it could not be read
+    struct gltf_pose pose[2];        ///< [1] is shown
+};
+
 struct models {
-    struct model_file **files;
-    int file_count;
+    struct model_files files;
+    struct placed_model *placed; ///< in the order of the document
+    int placed_count;
     struct character_model *characters; ///< in the order of the document
     int character_count;
+    uint64_t version;
 };
 
 struct models *models_create(void) { return calloc(1, sizeof(struct models)); }
-
-static void file_destroy(struct model_file *file)
-{
-    if (!file) return;
-    figure_free(&file->figure);
-    free(file->path);
-    free(file);
-}
 
 static void drop_characters(struct models *models)
 {
@@ -44,77 +38,24 @@ static void drop_characters(struct models *models)
     models->character_count = 0;
 }
 
+static void drop_placed(struct models *models)
+{
+    for (int i = 0; i < models->placed_count; i++) {
+        for (int k = 0; k < 2; k++) gltf_pose_free(&models->placed[i].pose[k]);
+        free(models->placed[i].path);
+    }
+    models->placed_count = 0;
+}
+
 void models_destroy(struct models *models)
 {
     if (!models) return;
     drop_characters(models);
-    for (int i = 0; i < models->file_count; i++) file_destroy(models->files[i]);
-    free(models->files);
+    drop_placed(models);
+    free(models->placed);
+    model_files_free(&models->files);
     free(models->characters);
     free(models);
-}
-
-static bool is_current(const struct model_file *file, const struct stat *about)
-{
-    return file->size == about->st_size && file->changed.tv_sec == about->st_mtim.tv_sec &&
-           file->changed.tv_nsec == about->st_mtim.tv_nsec;
-}
-
-static int find_file(const struct models *models, const char *path)
-{
-    for (int i = 0; i < models->file_count; i++) {
-        if (strcmp(models->files[i]->path, path) == 0) return i;
-    }
-    return -1;
-}
-
-static struct model_file *read_file(const char *path, struct error *error)
-{
-    struct character character = {0};
-    struct model_file *file = calloc(1, sizeof *file);
-    if (!file || !(file->path = strdup(path))) {
-        file_destroy(file);
-        fail_no_memory(error, path);
-        return NULL;
-    }
-    if (!character_read(path, &character, error)) {
-        file_destroy(file);
-        return NULL;
-    }
-    if (!figure_create(&file->figure, &character)) {
-        file_destroy(file);
-        fail_no_memory(error, path);
-        return NULL;
-    }
-    return file;
-}
-
-/// The figure in a file, read again only if the file has changed; NULL with a sentence.
-static const struct figure *obtain(struct models *models, const char *path, struct error *error)
-{
-    struct stat about = {0};
-    bool is_there = stat(path, &about) == 0;
-    int at = find_file(models, path);
-    if (at >= 0 && is_there && is_current(models->files[at], &about)) return &models->files[at]->figure;
-    struct model_file *file = read_file(path, error);
-    if (!file) return NULL;
-    file->changed = about.st_mtim;
-    file->size = about.st_size;
-    if (at >= 0) {
-        file_destroy(models->files[at]);
-    } else {
-        struct model_file **files =
-            realloc(models->files, ((size_t)models->file_count + 1) * sizeof(struct model_file *));
-        if (!files) {
-            file_destroy(file);
-            fail_no_memory(error, path);
-            return NULL;
-        }
-        models->files = files;
-        at = models->file_count++;
-    }
-    models->files[at] = file;
-    return &file->figure;
 }
 
 /// Whether the model has all coordinates that the scene names.
@@ -145,39 +86,124 @@ static bool check_paint(const struct character_rig *rig, const struct figure *fi
                 rig->model, paint->coordinates, paint->vertices);
 }
 
+static bool resolve(const struct document *document, const char *model, char path[PATH_LIMIT], struct error *error)
+{
+    return path_resolve(document->folder, model, path) || fail(error, ERROR_INPUT, "%s: the path is too long", model);
+}
+
 /// The model of one rig, or NULL with a sentence; `error` is also set if the model does not suit the rig.
 static const struct figure *find_figure(struct models *models, const struct document *document,
                                         const struct character_rig *rig, struct error *error)
 {
     char path[PATH_LIMIT];
-    if (!path_resolve(document->folder, rig->model, path)) {
-        fail(error, ERROR_INPUT, "%s: the path is too long", rig->model);
-        return NULL;
-    }
-    const struct figure *figure = obtain(models, path, error);
+    if (!resolve(document, rig->model, path, error)) return NULL;
+    const struct figure *figure = model_files_figure(&models->files, path, error);
     if (figure && check_names(rig, figure, error)) check_paint(rig, figure, error);
     return figure;
 }
 
-bool models_update(struct models *models, const struct document *document, struct error *error)
+/// Keeps the first of several sentences.
+static void keep_first(struct error *first, const struct error *trouble)
 {
-    struct error first = {0};
+    if (first->kind == ERROR_NONE) *first = *trouble;
+}
+
+static bool update_characters(struct models *models, const struct document *document, struct error *first)
+{
     drop_characters(models);
     const int count = document_count_rigs(document, RIG_CHARACTER);
     struct character_model *characters = realloc(models->characters, ((size_t)count + 1) * sizeof *characters);
-    if (!characters) return fail(error, ERROR_ENVIRONMENT, "not enough memory for the characters");
+    if (!characters) return fail(first, ERROR_ENVIRONMENT, "not enough memory for the characters");
     models->characters = characters;
     int rig = document_next_rig(document, RIG_CHARACTER, 0);
     for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_CHARACTER, rig + 1)) {
         struct error trouble = {0};
         characters[i] = (struct character_model){
             .plain = find_figure(models, document, &document->rigs[rig].character, &trouble)};
-        if (first.kind == ERROR_NONE) first = trouble;
+        keep_first(first, &trouble);
     }
     models->character_count = count;
     models_paint(models, document);
+    return true;
+}
+
+static bool check_clip(const struct model_rig *rig, const struct gltf *gltf, struct error *error)
+{
+    if (!rig->clip || gltf_find_clip(gltf, rig->clip) >= 0) return true;
+    return fail(error, ERROR_INPUT, "%s: expected a clip called \"%s\", got %s%s", rig->model, rig->clip,
+                gltf->clip_count > 0 ? "others, such as " : "none", gltf->clip_count > 0 ? gltf->clips[0].name : "");
+}
+
+/// Reads the model of one rig and makes room for its poses.
+static bool place_model(struct models *models, const struct document *document, const struct model_rig *rig,
+                        struct placed_model *placed, struct error *error)
+{
+    char path[PATH_LIMIT];
+    *placed = (struct placed_model){.path = strdup(rig->model)};
+    if (!placed->path) return fail_no_memory(error, rig->model);
+    if (!resolve(document, rig->model, path, error)) return false;
+    const struct imported *imported = model_files_imported(&models->files, path, error);
+    if (!imported) return false;
+    for (int k = 0; k < 2; k++) {
+        if (!gltf_pose_create(&imported->gltf, &placed->pose[k])) return fail_no_memory(error, rig->model);
+    }
+    placed->imported = imported;
+    return check_clip(rig, &imported->gltf, error);
+}
+
+static bool update_placed(struct models *models, const struct document *document, struct error *first)
+{
+    drop_placed(models);
+    const int count = document_count_rigs(document, RIG_MODEL);
+    struct placed_model *placed = realloc(models->placed, ((size_t)count + 1) * sizeof *placed);
+    if (!placed) return fail(first, ERROR_ENVIRONMENT, "not enough memory for the characters");
+    models->placed = placed;
+    int rig = document_next_rig(document, RIG_MODEL, 0);
+    for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
+        struct error trouble = {0};
+        place_model(models, document, &document->rigs[rig].model, &placed[i], &trouble);
+        models->placed_count++;
+        keep_first(first, &trouble);
+    }
+    return true;
+}
+
+/// Whether all chains find their bones.
+static bool check_chains(const struct models *models, const struct document *document, struct error *error)
+{
+    for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
+         r = document_next_rig(document, RIG_CHAIN, r + 1)) {
+        const struct chain *chain = &document->rigs[r].chain;
+        const int model = document_find_model(document, chain->model, chain->by_file);
+        const struct imported *imported =
+            model < 0 ? NULL : models_imported(models, document_rig_number(document, model));
+        struct chain_bones bones;
+        if (imported && !chain_find(&imported->gltf, chain->from, chain->to, &bones, error)) return false;
+    }
+    return true;
+}
+
+bool models_update(struct models *models, const struct document *document, struct error *error)
+{
+    struct error first = {0}, trouble = {0};
+    models->version++;
+    update_characters(models, document, &first);
+    update_placed(models, document, &first);
+    check_chains(models, document, &trouble);
+    keep_first(&first, &trouble);
     if (first.kind != ERROR_NONE && error) *error = first;
     return first.kind == ERROR_NONE;
+}
+
+bool models_suit(const struct models *models, const struct document *document)
+{
+    int rig = document_next_rig(document, RIG_MODEL, 0);
+    if (document_count_rigs(document, RIG_CHARACTER) != models->character_count) return false;
+    for (int i = 0; i < models->placed_count; i++, rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
+        const char *path = models->placed[i].path;
+        if (rig < 0 || !path || strcmp(path, document->rigs[rig].model.model) != 0) return false;
+    }
+    return rig < 0;
 }
 
 void models_paint(struct models *models, const struct document *document)
@@ -201,4 +227,16 @@ const struct figure *models_figure(const struct models *models, int character)
     if (!models || character >= models->character_count) return NULL;
     const struct character_model *model = &models->characters[character];
     return model->painted ? &model->painted->figure : model->plain;
+}
+
+uint64_t models_version(const struct models *models) { return models ? models->version : 0; }
+
+const struct imported *models_imported(const struct models *models, int model)
+{
+    return models && model < models->placed_count ? models->placed[model].imported : NULL;
+}
+
+struct gltf_pose *models_pose(const struct models *models, int model, bool shown)
+{
+    return models_imported(models, model) ? &models->placed[model].pose[shown] : NULL;
 }

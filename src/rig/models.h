@@ -1,9 +1,10 @@
-/// The models of a document's characters: read when a document is opened, and kept by path, so that
+/// The models of a document's characters, soft and imported: read when a document is opened, and kept by path, so that
 /// another scene with the same models reads nothing.
 #ifndef RIG_MODELS_H
 #define RIG_MODELS_H
 
 #include "model/painted.h"
+#include "rig/imported.h"
 #include "scene/document.h"
 
 struct models;
@@ -13,9 +14,12 @@ struct models *models_create(void);
 void models_destroy(struct models *models);
 
 /// Reads the models that are missing or have changed on disk; figures handed out before are stale afterwards. false with the
-/// first sentence if a model is missing or broken, or lacks a coordinate that the scene names; the others are loaded
+/// first sentence if a model is missing or broken, or lacks a coordinate, clip or bone that the scene names; the others are loaded
 /// all the same.
 bool models_update(struct models *models, const struct document *document, struct error *error);
+
+/// Whether these are the models that the document's rigs name, as when edits have added or removed some since models_update().
+bool models_suit(const struct models *models, const struct document *document);
 
 /// Applies the document's paint to the figures of its characters: call it once a frame after models_update(), before posing.
 /// Only changes cost time, and only the first paint on a character allocates; if memory is short, or the paint is for
@@ -27,5 +31,14 @@ bool models_paint_fits(const struct paint *paint, const struct figure *figure);
 
 /// The figure of the document's i-th character, painted; NULL if it could not be read. `models` may be NULL.
 const struct figure *models_figure(const struct models *models, int character);
+
+/// Changes whenever models_update() is called; 0 for none. `models` may be NULL.
+uint64_t models_version(const struct models *models);
+
+/// The document's i-th model rig; NULL if it could not be read. `models` may be NULL.
+const struct imported *models_imported(const struct models *models, int model);
+
+/// Memory for a pose of it: one for what is shown, one for all else. NULL where models_imported() is.
+struct gltf_pose *models_pose(const struct models *models, int model, bool shown);
 
 #endif

@@ -24,19 +24,11 @@ void pose_character(const struct character_rig *rig, const struct figure *figure
     }
 }
 
-/// The rig's number among the document's characters.
-static int number_of(const struct document *document, int rig)
-{
-    int number = 0;
-    for (int i = 0; i < rig; i++) number += document->rigs[i].kind == RIG_CHARACTER;
-    return number;
-}
-
 static bool pose(const struct posing *posing, int rig, double position, const wiggly_value *values,
                  const struct by_hand *by_hand, struct rig_pose *posed)
 {
     const struct character_rig *character = &posing->document->rigs[rig].character;
-    const struct figure *figure = models_figure(posing->models, number_of(posing->document, rig));
+    const struct figure *figure = models_figure(posing->models, document_rig_number(posing->document, rig));
     (void)position;
     if (!figure) return false;
     posed->character.figure = figure;

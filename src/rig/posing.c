@@ -6,11 +6,9 @@
 static const struct posing_functions *const kinds[RIG_KINDS] = {RIG_KIND_LIST(POSING_ROW)};
 #undef POSING_ROW
 
-bool rig_pose(const struct posing *posing, int index, double position, const struct by_hand *by_hand,
-              struct rig_pose *pose)
+void posing_values(const struct posing *posing, int index, double position, const struct by_hand *by_hand,
+                   wiggly_value values[RIG_MAX_INPUTS])
 {
-    wiggly_value values[RIG_MAX_INPUTS];
-    if (index < 0 || index >= posing->document->rig_count) return false;
     const struct rig *rig = &posing->document->rigs[index];
     for (int i = 0; i < rig_input_count(rig); i++) {
         values[i] = evaluation_at(posing->evaluation, rig_input(rig, i), position);
@@ -18,6 +16,15 @@ bool rig_pose(const struct posing *posing, int index, double position, const str
         values[i].re += by_hand->input[i].re;
         values[i].im += by_hand->input[i].im;
     }
+}
+
+bool rig_pose(const struct posing *posing, int index, double position, const struct by_hand *by_hand,
+              struct rig_pose *pose)
+{
+    wiggly_value values[RIG_MAX_INPUTS];
+    if (index < 0 || index >= posing->document->rig_count) return false;
+    const struct rig *rig = &posing->document->rigs[index];
+    posing_values(posing, index, position, by_hand, values);
     pose->kind = rig->kind;
     return kinds[rig->kind]->pose(posing, index, position, values, by_hand, pose);
 }

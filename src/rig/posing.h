@@ -16,12 +16,19 @@ struct posing {
     const struct evaluation *evaluation; ///< NULL: all splines are 0
     const struct models *models;         ///< the characters' models; NULL: none
     enum look look;
+    bool shown; ///< an imported character's pose is the one that stays until its next like that; else until any other
 };
 
 /// What moves a rig besides the document, as a drag does.
 struct by_hand {
     wiggly_value input[RIG_MAX_INPUTS]; ///< added to each of its inputs (rig.h)
     double base[3];                     ///< metres
+};
+
+/// Where the bones of a chain begin, and its tip, in the world.
+struct chain_pose {
+    int count; ///< bones + 1
+    float point[ANGLES_MAX_JOINTS + 1][3];
 };
 
 struct rig_pose {
@@ -33,6 +40,13 @@ struct rig_pose {
             struct morph morph;
             float position[3]; ///< what it stands on, metres
         } character;
+        struct {
+            const struct imported *imported;
+            const struct gltf_pose *pose; ///< the models' own: see struct posing
+            float root[16];               ///< its space → world
+            float ground;                 ///< height of what it stands on, metres
+        } model;
+        struct chain_pose chain;
     };
 };
 
@@ -43,6 +57,10 @@ bool rig_pose(const struct posing *posing, int rig, double position, const struc
 
 /// The box around a posed rig, metres.
 void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]);
+
+/// The angle, radians, by which a channel bends joint n of `joints` (eq. 27): gain·(y + Re(e^{−j·lag} x)), without y for
+/// PART_DISPLACEMENT. LOOK_STIFF takes every lag as 0.
+double channel_bend(const struct channel *channel, wiggly_value value, int n, int joints, enum look look);
 
 /// Poses a tail at its position, with 0 for coordinates that follow a spline (see pose_move()). `values[c]` is the spline value of
 /// channel c at the time shown. Joint n bends by gain·(y + Re(e^{−j·n·lag} x)) about each channel's axis, without y for

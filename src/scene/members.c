@@ -1,5 +1,6 @@
 /// Writes an object's members, known keys first.
 #include "scene/members.h"
+#include "base/path.h"
 
 void member(struct members *members, const char *key)
 {
@@ -15,10 +16,23 @@ void member_number(struct members *members, const char *key, double value)
     text_number(members->text, value);
 }
 
+void member_flag(struct members *members, const char *key, bool value)
+{
+    member(members, key);
+    text_string(members->text, value ? "true" : "false");
+}
+
 void member_string(struct members *members, const char *key, const char *string)
 {
     member(members, key);
     text_quoted(members->text, string);
+}
+
+void member_path(struct members *members, const char *key, const struct document *document, const char *path,
+                 const char *folder)
+{
+    char moved[PATH_LIMIT];
+    member_string(members, key, path_rebase(path, document->folder, folder, moved) ? moved : path);
 }
 
 void members_extra(struct members *members, json_t *extra, holds_tracks *skips)
@@ -44,14 +58,18 @@ void text_numbers(struct text *text, const double *values, int count)
 }
 
 void print_param(struct text *text, const struct document *document, const struct param *param, json_t *extras,
-                 const char *key)
+                 const char *key, const char *folder)
 {
-    if (param->track < 0) {
+    if (!param_follows(param)) {
         text_number(text, param->value);
         return;
     }
     struct members track = {text, "{ ", ", ", false};
-    member_string(&track, "spline", document->splines[param->track].name);
+    if (param->motion) {
+        print_motion(&track, document, param, folder);
+    } else {
+        member_string(&track, "spline", document->splines[param->track].name);
+    }
     members_extra(&track, json_object_get(extras, key), NULL);
     text_string(text, " }");
 }

@@ -16,7 +16,12 @@ struct members {
 /// Writes a key; its value follows.
 void member(struct members *members, const char *key);
 void member_number(struct members *members, const char *key, double value);
+void member_flag(struct members *members, const char *key, bool value);
 void member_string(struct members *members, const char *key, const char *string);
+
+/// A path of the document, for a file in `folder`.
+void member_path(struct members *members, const char *key, const struct document *document, const char *path,
+                 const char *folder);
 
 /// Whether a key of an extra object holds the unknown keys of a track instead of being one itself.
 typedef bool holds_tracks(const char *key);
@@ -27,9 +32,13 @@ void members_extra(struct members *members, json_t *extra, holds_tracks *skips);
 /// A knot on one line.
 void print_knot(struct text *text, const struct knot *knot);
 
-/// A number or a track; `extras` holds the unknown keys of tracks, by `key`.
+/// A number, a track or a motion, for a file in `folder`; `extras` holds the unknown keys of the latter two, by `key`.
 void print_param(struct text *text, const struct document *document, const struct param *param, json_t *extras,
-                 const char *key);
+                 const char *key, const char *folder);
+
+/// The members of a motion.
+void print_motion(struct members *members, const struct document *document, const struct param *param,
+                  const char *folder);
 
 /// The rigs as an array, with paths relative to `folder`, that of the file.
 void print_rigs(struct text *text, const struct document *document, const char *folder);

@@ -31,6 +31,15 @@ void paint_destroy(struct paint *paint)
     free(paint);
 }
 
+struct paint *paint_copy(const struct paint *paint)
+{
+    struct paint *copy = paint_create(paint->coordinates, paint->vertices);
+    if (!copy) return NULL;
+    memcpy(copy->values, paint->values, paint_bytes(paint) - sizeof *paint);
+    copy->version = paint->version;
+    return copy;
+}
+
 bool paint_is_plain(const struct paint *paint)
 {
     const size_t count = (size_t)paint->coordinates * (size_t)paint->vertices;

@@ -24,6 +24,9 @@ struct paint {
 struct paint *paint_create(int coordinates, int vertices);
 void paint_destroy(struct paint *paint);
 
+/// A copy with the same version, for its values are the same; NULL if memory runs out.
+struct paint *paint_copy(const struct paint *paint);
+
 /// Whether it changes nothing at all.
 bool paint_is_plain(const struct paint *paint);
 

@@ -141,6 +141,15 @@ bool reader_integer(struct reader *reader, struct value value, int minimum, int 
     return reader_fail(reader, &value.at, "expected a whole number from %d to %d, got %s", minimum, maximum, got);
 }
 
+void reader_flag(struct reader *reader, struct value value, bool *target)
+{
+    if (value.json && !json_is_boolean(value.json)) {
+        reader_unexpected(reader, value, "true or false");
+    } else if (value.json) {
+        *target = json_is_true(value.json);
+    }
+}
+
 /// "a", "b" or "c"
 static const char *list_words(const char *const *words, char *text, size_t size)
 {
@@ -189,6 +198,12 @@ bool reader_array(struct reader *reader, struct value value, size_t count, const
     if (!json_is_array(value.json)) return reader_unexpected(reader, value, expected);
     if (json_array_size(value.json) == count) return true;
     return reader_fail(reader, &value.at, "expected %s, got %zu elements", expected, json_array_size(value.json));
+}
+
+void reader_point(struct reader *reader, struct value value, double point[3])
+{
+    if (!value.json || !reader_array(reader, value, 3, "[x, y, z]")) return;
+    for (int i = 0; i < 3; i++) reader_number(reader, reader_element(&value, i), true, range_any, &point[i]);
 }
 
 int reader_objects(struct reader *reader, struct value value, int limit)
@@ -267,24 +282,38 @@ json_t *reader_extra(struct reader *reader, const struct value *object, const ch
     return extra;
 }
 
-/// `{"spline": "other"}`
-static void read_track(struct reader *reader, const struct value *object, const char *key, struct param *param,
-                       json_t **extra)
+/// `{"spline": "other"}`; returns its unknown keys, or NULL.
+static json_t *read_track(struct reader *reader, const struct value *object, struct param *param)
 {
     static const char *const known[] = {"spline", NULL};
     int track = reader_spline_name(reader, reader_member(object, "spline"));
-    if (track >= 0) *param = (struct param){0, track};
-    json_t *unknown = reader_extra(reader, object, known);
-    if (!unknown) return;
-    if (!*extra) *extra = json_object();
-    if (!*extra || json_object_set_new(*extra, key, unknown) != 0) reader_no_memory(reader);
+    if (track >= 0) *param = param_track(track);
+    return reader_extra(reader, object, known);
 }
 
-void reader_param(struct reader *reader, struct value value, struct range range, const char *key, struct param *param,
-                  json_t **extra)
+static json_t *read_followed(struct reader *reader, const struct value *object, bool may_be_motion,
+                             struct param *param)
+{
+    const bool is_motion = json_object_get(object->json, "model") != NULL;
+    if (is_motion && json_object_get(object->json, "spline")) {
+        reader_fail(reader, &object->at, "expected either a spline or a model, got both");
+    } else if (is_motion && !may_be_motion) {
+        reader_fail(reader, &object->at,
+                    "expected a number or {\"spline\": name}: only an equilibrium follows a model");
+    } else {
+        return is_motion ? reader_motion(reader, object, param) : read_track(reader, object, param);
+    }
+    return NULL;
+}
+
+void reader_param(struct reader *reader, struct value value, struct range range, const char *key, bool may_be_motion,
+                  struct param *param, json_t **extra)
 {
     if (json_is_object(value.json)) {
-        read_track(reader, &value, key, param, extra);
+        json_t *unknown = read_followed(reader, &value, may_be_motion, param);
+        if (!unknown) return;
+        if (!*extra) *extra = json_object();
+        if (!*extra || json_object_set_new(*extra, key, unknown) != 0) reader_no_memory(reader);
     } else if (!json_is_number(value.json)) {
         reader_unexpected(reader, value, "a number or {\"spline\": name}");
     } else {

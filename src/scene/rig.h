@@ -3,12 +3,15 @@
 #ifndef SCENE_RIG_H
 #define SCENE_RIG_H
 
+#include "scene/chain.h"
 #include "scene/character.h"
+#include "scene/model_rig.h"
 #include "scene/tail.h"
 #include <stddef.h>
 
 /// Every kind: its constant RIG_… and the name that its rows of functions begin with. Layers make their tables from this list.
-#define RIG_KIND_LIST(KIND) KIND(RIG_TAIL, tail) KIND(RIG_CHARACTER, character)
+#define RIG_KIND_LIST(KIND)                                                                                          \
+    KIND(RIG_TAIL, tail) KIND(RIG_CHARACTER, character) KIND(RIG_MODEL, model) KIND(RIG_CHAIN, chain)
 
 #define RIG_CONSTANT(constant, name) constant,
 enum rig_kind { RIG_KIND_LIST(RIG_CONSTANT) RIG_KINDS };
@@ -22,6 +25,8 @@ struct rig {
     union {
         struct tail tail;
         struct character_rig character;
+        struct model_rig model;
+        struct chain chain;
     };
     struct json_t *extra;
 };
@@ -29,9 +34,18 @@ struct rig {
 /// The file's word for a kind: "tail" …
 const char *rig_word(enum rig_kind kind);
 
+/// What to call it in a sentence: its name, or the file or joint that it is about.
+const char *rig_title(const struct rig *rig);
+
 /// The splines that bend or drive it, by index: those of its channels or drives.
 int rig_input_count(const struct rig *rig);
 int rig_input(const struct rig *rig, int input);
+
+/// Its channels and how many; NULL and 0 for a kind that has none.
+struct channel *rig_channels(const struct rig *rig, int *count);
+
+/// Gives it other channels, which it then owns, in place of those, which the caller has dealt with.
+void rig_set_channels(struct rig *rig, struct channel *channels, int count);
 
 /// A copy that owns its memory; false, with nothing to free, if memory runs out.
 bool rig_copy(const struct rig *rig, struct rig *copy);

@@ -11,12 +11,6 @@ static const char *const character_keys[] = {"type",        "name",   "model", "
 static const char *const axes[] = {"x", "y", "z", NULL};
 static const char *const drive_keys[] = {"name", "spline", "amplitude", "lag", NULL};
 
-static void load_position(struct reader *reader, struct value value, double position[3])
-{
-    if (!value.json || !reader_array(reader, value, 3, "[x, y, z]")) return;
-    for (int i = 0; i < 3; i++) reader_number(reader, reader_element(&value, i), true, range_any, &position[i]);
-}
-
 static void load_drive(struct reader *reader, struct value object, struct drive *drive)
 {
     drive->amplitude = DRIVE_DEFAULT_AMPLITUDE;
@@ -38,19 +32,12 @@ static void load(struct reader *reader, const struct value *object, struct rig *
     if (name.json) rig->name = reader_name(reader, name);
     character->model = reader_name(reader, reader_member(object, "model"));
     if (paint.json) character->paint = reader_name(reader, paint);
-    load_position(reader, reader_member(object, "position"), character->position);
+    reader_point(reader, reader_member(object, "position"), character->position);
     character->phases = phases.json ? reader_word(reader, phases, axes, -1) : -1;
     int count = reader_objects(reader, coordinates, CHARACTER_MAX_DRIVES);
     for (int i = 0; i < count; i++) load_drive(reader, reader_element(&coordinates, i), &character->drives[i]);
     character->drive_count = count > 0 ? count : 0;
     rig->extra = reader_keep(reader, reader_extra(reader, object, character_keys));
-}
-
-static void member_path(struct members *members, const char *key, const struct document *document, const char *path,
-                        const char *folder)
-{
-    char moved[PATH_LIMIT];
-    member_string(members, key, path_rebase(path, document->folder, folder, moved) ? moved : path);
 }
 
 static void print_drive(struct text *text, const struct document *document, const struct drive *drive)
@@ -104,6 +91,18 @@ static void set_reference(struct rig *rig, const struct reference *reference, in
     rig->character.drives[reference->which].spline = spline;
 }
 
+static bool copy(struct rig *copy)
+{
+    struct character_rig *character = &copy->character;
+    const struct paint *painted = character->painted;
+    char **const texts[] = {&character->model, &character->paint};
+    if (!rig_own_texts(texts, 2)) return false;
+    character->painted = painted ? paint_copy(painted) : NULL;
+    if (!painted || character->painted) return true;
+    for (int i = 0; i < 2; i++) free(*texts[i]);
+    return false;
+}
+
 static void release(struct rig *rig)
 {
     free(rig->character.model);
@@ -113,25 +112,16 @@ static void release(struct rig *rig)
 
 static size_t bytes(const struct rig *rig)
 {
-    return strlen(rig->character.model) + 1 + paint_bytes(rig->character.painted);
+    const struct character_rig *character = &rig->character;
+    return text_size(character->model) + text_size(character->paint) + paint_bytes(character->painted);
 }
 
-/// Rewrites a path for the new folder.
-static bool rebase_path(char **path, const char *from, const char *to)
-{
-    char moved[PATH_LIMIT];
-    if (!*path || !path_rebase(*path, from, to, moved)) return true;
-    char *copy = strdup(moved);
-    if (!copy) return false;
-    free(*path);
-    *path = copy;
-    return true;
-}
+static const char *title(const struct rig *rig) { return rig->character.model; }
 
 static bool rebase(struct rig *rig, const char *from, const char *to)
 {
-    bool model = rebase_path(&rig->character.model, from, to);
-    return rebase_path(&rig->character.paint, from, to) && model;
+    bool model = path_move(&rig->character.model, from, to);
+    return path_move(&rig->character.paint, from, to) && model;
 }
 
 const struct rig_functions character_functions = {.word = "character",
@@ -141,6 +131,8 @@ const struct rig_functions character_functions = {.word = "character",
                                                   .input = input,
                                                   .references = references,
                                                   .set_reference = set_reference,
+                                                  .copy = copy,
                                                   .release = release,
                                                   .bytes = bytes,
-                                                  .rebase = rebase};
+                                                  .rebase = rebase,
+                                                  .title = title};

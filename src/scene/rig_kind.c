@@ -3,14 +3,35 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct rig_functions *const kinds[RIG_KINDS] = {
-    [RIG_TAIL] = &tail_functions, [RIG_CHARACTER] = &character_functions};
+#define RIG_ROW(constant, name) [constant] = &name##_functions,
+static const struct rig_functions *const kinds[RIG_KINDS] = {RIG_KIND_LIST(RIG_ROW)};
+#undef RIG_ROW
 
 const char *rig_word(enum rig_kind kind) { return kinds[kind]->word; }
+
+const char *rig_title(const struct rig *rig) { return rig->name ? rig->name : kinds[rig->kind]->title(rig); }
 
 int rig_input_count(const struct rig *rig) { return kinds[rig->kind]->input_count(rig); }
 
 int rig_input(const struct rig *rig, int input) { return kinds[rig->kind]->input(rig, input); }
+
+struct channel *rig_channels(const struct rig *rig, int *count)
+{
+    const bool is_tail = rig->kind == RIG_TAIL, is_chain = rig->kind == RIG_CHAIN;
+    *count = is_tail ? rig->tail.channel_count : is_chain ? rig->chain.channel_count : 0;
+    return is_tail ? rig->tail.channels : is_chain ? rig->chain.channels : NULL;
+}
+
+void rig_set_channels(struct rig *rig, struct channel *channels, int count)
+{
+    if (rig->kind == RIG_TAIL) {
+        rig->tail.channels = channels;
+        rig->tail.channel_count = count;
+    } else {
+        rig->chain.channels = channels;
+        rig->chain.channel_count = count;
+    }
+}
 
 void rig_references(const struct rig *rig, int index, reference_visitor *visit, void *context)
 {
@@ -20,6 +41,18 @@ void rig_references(const struct rig *rig, int index, reference_visitor *visit, 
 void rig_set_reference(struct rig *rig, const struct reference *reference, int spline)
 {
     kinds[rig->kind]->set_reference(rig, reference, spline);
+}
+
+bool rig_own_texts(char **const *texts, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (!*texts[i]) continue;
+        *texts[i] = strdup(*texts[i]);
+        if (*texts[i]) continue;
+        while (i > 0) free(*texts[--i]);
+        return false;
+    }
+    return true;
 }
 
 bool rig_copy(const struct rig *rig, struct rig *copy)
@@ -38,10 +71,7 @@ void rig_release(struct rig *rig)
     free(rig->name);
 }
 
-size_t rig_bytes(const struct rig *rig)
-{
-    return sizeof *rig + (rig->name ? strlen(rig->name) + 1 : 0) + kinds[rig->kind]->bytes(rig);
-}
+size_t rig_bytes(const struct rig *rig) { return sizeof *rig + text_size(rig->name) + kinds[rig->kind]->bytes(rig); }
 
 bool rig_rebase(struct rig *rig, const char *from, const char *to)
 {
@@ -87,6 +117,11 @@ void load_rigs(struct reader *reader, const struct value *scene)
         rig->kind = kind < 0 ? RIG_TAIL : (enum rig_kind)kind; // any will do: the scene is refused
         if (kind >= 0) kinds[kind]->load(reader, &object, rig);
         check_name(reader, &object.at, i);
+    }
+    for (int i = 0; i < count; i++) {
+        const struct value object = reader_element(&rigs, i);
+        struct rig *rig = &document->rigs[i];
+        if (kinds[rig->kind]->resolve) kinds[rig->kind]->resolve(reader, &object, rig);
     }
 }
 

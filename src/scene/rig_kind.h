@@ -10,6 +10,8 @@ struct rig_functions {
     const char *word; ///< in the file
     /// Reads all but the type.
     void (*load)(struct reader *reader, const struct value *object, struct rig *rig);
+    /// Looks up what it names among the rigs, all of which are read; NULL: nothing.
+    void (*resolve)(struct reader *reader, const struct value *object, struct rig *rig);
     /// Writes all but type, name and unknown keys. `folder` is that of the file that the text is for.
     void (*print)(struct members *members, const struct document *document, const struct rig *rig,
                   const char *folder);
@@ -19,12 +21,19 @@ struct rig_functions {
     /// Visits the splines that the rig at `index` in the list names.
     void (*references)(const struct rig *rig, int index, reference_visitor *visit, void *context);
     void (*set_reference)(struct rig *rig, const struct reference *reference, int spline);
-    bool (*copy)(struct rig *copy); ///< gives a shallow copy memory of its own; NULL: no edit needs one
+    bool (*copy)(struct rig *copy); ///< gives a shallow copy memory of its own; nothing to free on failure
     void (*release)(struct rig *rig);
     size_t (*bytes)(const struct rig *rig);                            ///< that it owns
     bool (*rebase)(struct rig *rig, const char *from, const char *to); ///< NULL: it names no files
+    /// What to call it where it has no name; NULL: it always has one.
+    const char *(*title)(const struct rig *rig);
 };
 
-extern const struct rig_functions tail_functions, character_functions;
+#define RIG_FUNCTIONS(constant, name) extern const struct rig_functions name##_functions;
+RIG_KIND_LIST(RIG_FUNCTIONS)
+#undef RIG_FUNCTIONS
+
+/// Gives a shallow copy texts of its own; NULL stays NULL. On failure none is left.
+bool rig_own_texts(char **const *texts, int count);
 
 #endif

@@ -1,8 +1,9 @@
-/// The stage's contents: a camera, posed tails and characters, and their shadows. Made by the editor, drawn by draw/.
+/// The stage's contents: a camera, posed tails, soft and imported characters, and their shadows. Made by the editor, drawn by draw/.
 #ifndef UI_STAGE_H
 #define UI_STAGE_H
 
 #include "base/hash.h"
+#include "model/gltf.h"
 #include "model/morph.h"
 #include "model/pose.h"
 #include "ui/drawlist.h"
@@ -12,7 +13,8 @@
 enum {
     STAGE_MAX_TAILS = 8,
     STAGE_MAX_CHARACTERS = 4,
-    STAGE_MAX_BLOBS = 16 * STAGE_MAX_TAILS + 4 * STAGE_MAX_CHARACTERS,
+    STAGE_MAX_MODELS = 4,
+    STAGE_MAX_BLOBS = 16 * STAGE_MAX_TAILS + 4 * STAGE_MAX_CHARACTERS + 4 * STAGE_MAX_MODELS,
 };
 
 /// One tail to draw; its mesh is rebuilt only when joints or length change.
@@ -34,6 +36,15 @@ struct stage_character {
     int map_axis;       ///< of movement, 0 … 2: x, y, z
 };
 
+/// One imported character to draw.
+struct stage_model {
+    const struct gltf *gltf;      ///< both live until the next frame at least
+    const struct gltf_pose *pose; ///< as the file has it
+    float root[16];               ///< its space → world
+    float ground;                 ///< height of what it stands on, metres
+    float lo[3], hi[3];           ///< the box around it, world
+};
+
 /// A soft contact shadow on the ground: a disc that darkens; `strength` 0 … 1, more where nearer.
 struct stage_blob {
     float x, z, radius, strength;
@@ -51,6 +62,8 @@ struct stage_view {
     int tail_count;
     struct stage_character characters[STAGE_MAX_CHARACTERS];
     int character_count;
+    struct stage_model models[STAGE_MAX_MODELS];
+    int model_count;
     struct stage_blob blobs[STAGE_MAX_BLOBS];
     int blob_count;
     uint64_t hash; ///< of everything above: equal hash, equal pixels

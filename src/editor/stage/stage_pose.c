@@ -14,7 +14,8 @@
 
 struct posing stage_posing(const struct core *core, const struct editor_world *world)
 {
-    return (struct posing){world->document, world->evaluation, world->models, core->look};
+    return (struct posing){
+        .document = world->document, .evaluation = world->evaluation, .models = world->models, .look = core->look};
 }
 
 bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2])
@@ -47,7 +48,11 @@ static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f;
 
 /// In this order they are posed, hashed and drawn.
 static const struct stage_kind *const kinds[RIG_KINDS] = {
-    [RIG_TAIL] = &stage_tails, [RIG_CHARACTER] = &stage_characters};
+    [RIG_TAIL] = &stage_tails,
+    [RIG_CHARACTER] = &stage_characters,
+    [RIG_MODEL] = &stage_models,
+    [RIG_CHAIN] = &stage_chains,
+};
 
 /// Adds all motion of a kind to the box lo … hi; false where nothing of it is to be seen.
 static bool add_bounds(const struct stage *stage, const struct core *core, const struct editor_world *world,
@@ -71,7 +76,7 @@ void stage_fit(struct stage *stage, const struct core *core, const struct editor
         any |= seen[kind];
     }
     stage->camera = camera_default();
-    if (seen[RIG_CHARACTER] && !seen[RIG_TAIL])
+    if ((seen[RIG_CHARACTER] || seen[RIG_MODEL]) && !seen[RIG_TAIL])
         stage->camera.azimuth = core->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
     camera_lamp(&stage->camera, stage->view.key_from); // it stays there while the camera goes round
     if (!any) return;
@@ -96,7 +101,7 @@ void stage_pose(struct stage *stage, struct core *core, const struct editor_worl
     core->refit_stage = false;
     struct stage_view *view = &stage->view;
     const struct document *document = world->document;
-    view->tail_count = view->character_count = view->blob_count = 0;
+    view->tail_count = view->character_count = view->model_count = view->blob_count = 0;
     for (int kind = 0; kind < RIG_KINDS; kind++) {
         int rig = document_next_rig(document, (enum rig_kind)kind, 0);
         for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, (enum rig_kind)kind, rig + 1)) {
@@ -127,8 +132,8 @@ static void show_hold(struct stage *stage, struct core *core)
 static const char *empty_text(const struct stage *stage, const struct core *core, const struct editor_world *world)
 {
     const struct stage_view *view = &stage->view;
-    if (view->tail_count > 0 || view->character_count > 0) return NULL;
-    if (document_character(world->document, 0))
+    if (view->tail_count > 0 || view->character_count > 0 || view->model_count > 0) return NULL;
+    if (document_character(world->document, 0) || document_find_rig(world->document, RIG_MODEL, 0) >= 0)
         return "wiggly could not read this scene's character. Its curves are below.";
     return core->active < 0 ? "This scene is empty." : "This scene has no tail. Its curves are below.";
 }

@@ -1,0 +1,89 @@
+/// Imported characters on the stage.
+#include "base/hash.h"
+#include "editor/stage/rigs.h"
+#include "model/vector.h"
+#include <math.h>
+
+enum { BOUND_STEPS = 60, FEET = 8 };
+
+static const float FOOT_HEIGHT = 0.1f, FOOT_RADIUS = 0.085f; ///< in heights of the character
+static const float FOOT_STRENGTH = 0.55f, BODY_STRENGTH = 0.4f;
+
+static void add_blob(struct stage_view *view, float x, float z, float radius, float strength)
+{
+    if (view->blob_count < STAGE_MAX_BLOBS)
+        view->blobs[view->blob_count++] = (struct stage_blob){x, z, radius, strength};
+}
+
+/// A shadow under the whole, and one under each joint that is near the ground.
+static void add_shadows(struct stage_view *view, const struct stage_model *shown)
+{
+    const struct gltf *gltf = shown->gltf;
+    const mat4s root = mat4_from(shown->root);
+    const float height = fmaxf(shown->hi[1] - shown->lo[1], 1e-6f);
+    const float width = shown->hi[0] - shown->lo[0], depth = shown->hi[2] - shown->lo[2];
+    add_blob(view, 0.5f * (shown->lo[0] + shown->hi[0]), 0.5f * (shown->lo[2] + shown->hi[2]),
+             0.28f * (width + depth), BODY_STRENGTH);
+    int feet = 0;
+    for (int s = 0; s < gltf->skin_count; s++) {
+        for (int j = 0; j < gltf->skins[s].joint_count && feet < FEET; j++) {
+            const float *at = shown->pose->world[gltf->skins[s].joints[j]] + 12;
+            const vec3s joint = glms_mat4_mulv3(root, vec3_from(at), 1.0f);
+            const float near = 1.0f - (joint.y - shown->ground) / (FOOT_HEIGHT * height);
+            if (near <= 0.0f) continue;
+            add_blob(view, joint.x, joint.z, FOOT_RADIUS * height, FOOT_STRENGTH * fminf(near, 1.0f));
+            feet++;
+        }
+    }
+}
+
+static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
+{
+    struct stage_view *view = &stage->view;
+    struct posing posing = stage_posing(core, world);
+    struct rig_pose posed;
+    (void)n;
+    posing.shown = true;
+    if (view->model_count == STAGE_MAX_MODELS || !rig_pose(&posing, rig, core->playback.position, NULL, &posed))
+        return;
+    struct stage_model *shown = &view->models[view->model_count++];
+    *shown = (struct stage_model){
+        .gltf = &posed.model.imported->gltf, .pose = posed.model.pose, .ground = posed.model.ground};
+    memcpy(shown->root, posed.model.root, sizeof shown->root);
+    rig_bounds(&posed, shown->lo, shown->hi);
+    add_shadows(view, shown);
+}
+
+static bool bounds(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
+                   int n, float lo[3], float hi[3])
+{
+    const struct posing posing = stage_posing(core, world);
+    const double last = document_samples(world->document) - 1;
+    bool any = false;
+    (void)stage, (void)n;
+    for (int step = 0; step <= BOUND_STEPS; step++) {
+        struct rig_pose posed;
+        float low[3], high[3];
+        if (!rig_pose(&posing, rig, last * step / BOUND_STEPS, NULL, &posed)) break;
+        rig_bounds(&posed, low, high);
+        glm_vec3_minv(low, lo, lo);
+        glm_vec3_maxv(high, hi, hi);
+        any = true;
+    }
+    return any;
+}
+
+static uint64_t hash(uint64_t sum, const struct stage_view *view)
+{
+    for (int m = 0; m < view->model_count; m++) {
+        const struct stage_model *shown = &view->models[m];
+        const struct gltf *gltf = shown->gltf;
+        sum = hash_word(sum, gltf->id);
+        sum = hash_bytes(sum, shown->root, sizeof shown->root);
+        sum = hash_bytes(sum, shown->pose->world, (size_t)gltf->node_count * sizeof *shown->pose->world);
+        sum = hash_bytes(sum, shown->pose->weights, (size_t)gltf->weight_count * sizeof *shown->pose->weights);
+    }
+    return sum;
+}
+
+const struct stage_kind stage_models = {pose, bounds, hash};

@@ -1,0 +1,87 @@
+/// Finds things in a glTF character, and frees it.
+#include "model/gltf.h"
+#include "model/gltf_read.h"
+#include <stdlib.h>
+#include <string.h>
+
+int gltf_find_node(const struct gltf *gltf, const char *name)
+{
+    for (int i = 0; i < gltf->node_count; i++) {
+        if (strcmp(gltf->nodes[i].name, name) == 0) return i;
+    }
+    return -1;
+}
+
+int gltf_find_clip(const struct gltf *gltf, const char *name)
+{
+    for (int i = 0; i < gltf->clip_count; i++) {
+        if (strcmp(gltf->clips[i].name, name) == 0) return i;
+    }
+    return -1;
+}
+
+int gltf_vertex_count(const struct gltf *gltf, int node)
+{
+    const struct gltf_mesh *mesh = gltf->nodes[node].mesh >= 0 ? &gltf->meshes[gltf->nodes[node].mesh] : NULL;
+    int count = 0;
+    for (int i = 0; mesh && i < mesh->part_count; i++) count += mesh->parts[i].vertex_count;
+    return count;
+}
+
+static void free_part(struct gltf_part *part, int targets)
+{
+    for (int i = 0; part->targets && i < targets; i++) {
+        free(part->targets[i].position);
+        free(part->targets[i].normal);
+    }
+    free(part->targets);
+    free(part->position);
+    free(part->normal);
+    free(part->uv);
+    free(part->color);
+    free(part->joints);
+    free(part->weights);
+    free(part->indices);
+}
+
+static void free_mesh(struct gltf_mesh *mesh)
+{
+    for (int i = 0; i < mesh->part_count; i++) free_part(&mesh->parts[i], mesh->target_count);
+    free(mesh->parts);
+    free(mesh->weights);
+    free(mesh->name);
+}
+
+static void free_clips(struct gltf *gltf)
+{
+    struct gltf_owned *owned = gltf->owned;
+    for (size_t i = 0; owned && i < owned->count; i++) free(owned->accessors[i].values);
+    free(owned);
+    for (int i = 0; i < gltf->clip_count; i++) {
+        free(gltf->clips[i].name);
+        free(gltf->clips[i].channels);
+    }
+    free(gltf->clips);
+}
+
+void gltf_free(struct gltf *gltf)
+{
+    for (int i = 0; i < gltf->node_count; i++) free(gltf->nodes[i].name);
+    for (int i = 0; i < gltf->mesh_count; i++) free_mesh(&gltf->meshes[i]);
+    for (int i = 0; i < gltf->image_count; i++) free(gltf->images[i].pixels);
+    for (int i = 0; i < gltf->skin_count; i++) {
+        free(gltf->skins[i].joints);
+        free(gltf->skins[i].inverse_bind);
+    }
+    free_clips(gltf);
+    free(gltf->nodes);
+    free(gltf->order);
+    free(gltf->skins);
+    free(gltf->meshes);
+    free(gltf->materials);
+    free(gltf->images);
+    free(gltf->weights);
+    free(gltf->not_shown);
+    free(gltf->path);
+    *gltf = (struct gltf){0};
+}

@@ -1,0 +1,14 @@
+/// A scene for a glTF character: it stands on the stage and plays its first clip.
+#ifndef RIG_IMPORT_H
+#define RIG_IMPORT_H
+
+#include "scene/document.h"
+
+/// Whether a file is a character by its name: .glb or .gltf.
+bool import_suits(const char *path);
+
+/// A new document, without a path of its own, whose one model rig shows the file. Its range is the first clip's, its frame rate the
+/// one that the clip's keys lie on. NULL with a sentence.
+struct document *import_scene(const char *path, struct error *error);
+
+#endif
