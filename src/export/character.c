@@ -111,4 +111,4 @@ static void columns(const struct take *take, int rig, const struct rig_pose *pos
     }
 }
 
-const struct form_kind character_form = {false, open, close, key, vertices, columns};
+const struct form_kind character_form = {FORM_VERTICES | FORM_MESH, open, close, key, vertices, columns};

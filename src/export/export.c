@@ -9,14 +9,14 @@
 #include <sys/types.h>
 
 static const struct format formats[] = {
-    {.ending = ".glb", .write = glb_write},
-    {.ending = ".gltf", .write = gltf_write},
-    {.ending = ".usda", .write = usda_write},
-    {.ending = ".bvh", .write = bvh_write, .needs_joints = true, .one_rig = true},
-    {.ending = ".csv", .write = csv_write, .without_rigs = true},
-    {.ending = ".pc2", .write = pc2_write, .one_rig = true},
-    {.ending = ".mdd", .write = mdd_write, .one_rig = true},
-    {.ending = ".npy", .write = npy_write, .one_rig = true},
+    {.ending = ".glb", .write = glb_write, .holds = FORM_MESH | FORM_FILE, .part = "meshes"},
+    {.ending = ".gltf", .write = gltf_write, .holds = FORM_MESH | FORM_FILE, .part = "meshes"},
+    {.ending = ".usda", .write = usda_write, .holds = FORM_MESH, .part = "meshes of wiggly's own"},
+    {.ending = ".bvh", .write = bvh_write, .holds = FORM_JOINTS, .part = "joints", .one_rig = true},
+    {.ending = ".csv", .write = csv_write},
+    {.ending = ".pc2", .write = pc2_write, .holds = FORM_VERTICES, .part = "vertices", .one_rig = true},
+    {.ending = ".mdd", .write = mdd_write, .holds = FORM_VERTICES, .part = "vertices", .one_rig = true},
+    {.ending = ".npy", .write = npy_write, .holds = FORM_VERTICES, .part = "vertices", .one_rig = true},
 };
 
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats, MAX_KEYS = 100000000 };
@@ -30,23 +30,25 @@ static const struct format *find_format(const char *path)
     return NULL;
 }
 
-/// The endings of all formats or of those that hold more than joints.
-static void list_endings(bool with_meshes, char text[EXPORT_ENDINGS])
+static bool holds(const struct format *format, unsigned parts) { return !format->holds || (format->holds & parts); }
+
+/// The endings of the formats that can be made of such parts.
+static void list_endings(unsigned parts, const char *last, char text[EXPORT_ENDINGS])
 {
     int left = 0;
-    for (int i = 0; i < FORMAT_COUNT; i++) left += !with_meshes || !formats[i].needs_joints;
+    for (int i = 0; i < FORMAT_COUNT; i++) left += holds(&formats[i], parts);
     text[0] = '\0';
     for (int i = 0; i < FORMAT_COUNT; i++) {
-        if (with_meshes && formats[i].needs_joints) continue;
+        if (!holds(&formats[i], parts)) continue;
         strcat(text, formats[i].ending);
         left--;
-        strcat(text, left > 1 ? ", " : left == 1 ? (with_meshes ? " or " : " and ") : "");
+        strcat(text, left > 1 ? ", " : left == 1 ? last : "");
     }
 }
 
 bool export_knows(const char *path) { return find_format(path) != NULL; }
 
-void export_endings(char text[EXPORT_ENDINGS]) { list_endings(false, text); }
+void export_endings(char text[EXPORT_ENDINGS]) { list_endings(~0u, " and ", text); }
 
 /// The names of all rigs, as far as there is room.
 static void list_names(const struct document *document, char *text, size_t size)
@@ -61,41 +63,51 @@ static void list_names(const struct document *document, char *text, size_t size)
 static bool fits(const struct format *format, const struct rig *rig)
 {
     const struct form_kind *kind = form_kind(rig->kind);
-    return kind && (kind->has_joints || !format->needs_joints);
+    return kind && holds(format, kind->holds);
 }
 
-/// Why there is no rig to write.
-static bool fail_rigs(const struct take *take, const struct format *format, const char *wanted, bool found,
+/// Why there is no rig to write; `found` is the one that was wanted or else the first, −1: there is none of that name.
+static bool fail_rigs(const struct take *take, const struct format *format, const char *wanted, int found,
                       struct error *error)
 {
     const struct document *document = take->posing->document;
     char names[256], endings[EXPORT_ENDINGS];
     list_names(document, names, sizeof names);
-    list_endings(true, endings);
     if (document->rig_count == 0)
         return fail(error, ERROR_INPUT, "the scene has no rig to export: its splines go into a .csv file");
-    if (wanted && !found)
+    if (found < 0)
         return fail(error, ERROR_INPUT, "--rig: expected the name of a rig, %s, got \"%s\"", names, wanted);
+    const struct form_kind *kind = form_kind(document->rigs[found].kind);
+    list_endings(kind ? kind->holds : 0, " or ", endings);
     if (wanted) snprintf(names, sizeof names, "\"%s\"", wanted);
-    return fail(error, ERROR_INPUT, "a %s file holds joints, and %s has none: export it as %s", format->ending, names,
-                endings);
+    return fail(error, ERROR_INPUT, "a %s file holds %s, and %s has none: export it as %s", format->ending,
+                format->part, names, endings);
+}
+
+/// Whether the rigs go into one file: a character goes on in its own file, which has no room for others.
+static bool check_company(const struct take *take, const struct format *format, struct error *error)
+{
+    const struct document *document = take->posing->document;
+    bool is_file = false;
+    char names[256];
+    for (int r = 0; r < take->rig_count; r++)
+        is_file |= (form_kind(document->rigs[take->rigs[r]].kind)->holds & FORM_FILE) != 0;
+    if (take->rig_count <= 1 || !(format->one_rig || (is_file && format->holds & FORM_FILE))) return true;
+    list_names(document, names, sizeof names);
+    return fail(error, ERROR_INPUT, "a %s file holds one rig: choose one of %s with --rig", format->ending, names);
 }
 
 static bool choose_rigs(struct take *take, const struct format *format, const char *wanted, struct error *error)
 {
     const struct document *document = take->posing->document;
-    bool found = false;
+    int found = wanted ? -1 : 0;
     for (int i = 0; i < document->rig_count && i < SCENE_MAX_RIGS; i++) {
         if (wanted && strcmp(form_name(&document->rigs[i]), wanted) != 0) continue;
-        found = true;
+        if (found < 0) found = i;
         if (fits(format, &document->rigs[i])) take->rigs[take->rig_count++] = i;
     }
-    if (take->rig_count == 0 && !(format->without_rigs && !wanted))
-        return fail_rigs(take, format, wanted, found, error);
-    if (take->rig_count <= 1 || !format->one_rig) return true;
-    char names[256];
-    list_names(document, names, sizeof names);
-    return fail(error, ERROR_INPUT, "a %s file holds one rig: choose one of %s with --rig", format->ending, names);
+    if (take->rig_count == 0 && (format->holds || wanted)) return fail_rigs(take, format, wanted, found, error);
+    return check_company(take, format, error);
 }
 
 static bool choose_keys(struct take *take, const struct export_options *options, struct export_report *report,
@@ -122,17 +134,18 @@ static bool choose_keys(struct take *take, const struct export_options *options,
     return true;
 }
 
-/// The scene's own name, or "wiggly".
+/// What an imported character plays; else the scene's own name, or "wiggly".
 static void name_clip(struct take *take, const char *wanted, char name[FORM_NAME])
 {
-    const char *path = take->posing->document->path;
+    const struct document *document = take->posing->document;
+    const struct rig *rig = take->rig_count > 0 ? &document->rigs[take->rigs[0]] : NULL;
+    const char *path = document->path;
     const char *slash = path ? strrchr(path, '/') : NULL;
     const char *file = slash ? slash + 1 : path;
     const char *dot = file ? strrchr(file, '.') : NULL;
-    if (wanted) {
-        take->clip = wanted;
-        return;
-    }
+    const char *playing = rig && rig->kind == RIG_MODEL ? rig->model.clip : NULL;
+    take->clip = wanted ? wanted : playing;
+    if (take->clip) return;
     snprintf(name, FORM_NAME, "%.*s", dot ? (int)(dot - file) : 60, file ? file : "wiggly");
     take->clip = name;
 }
@@ -173,6 +186,7 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
     char name[FORM_NAME], endings[EXPORT_ENDINGS];
     struct take take = {
         .posing = posing,
+        .path = path,
         .is_signed = options->is_signed,
         .is_cubic = options->is_cubic,
         .proceed = options->proceed,

@@ -6,6 +6,8 @@
 static const struct form_kind *const kinds[RIG_KINDS] = {
     [RIG_TAIL] = &tail_form,
     [RIG_CHARACTER] = &character_form,
+    [RIG_MODEL] = &model_form,
+    [RIG_CHAIN] = &chain_form,
 };
 
 const struct form_kind *form_kind(enum rig_kind kind) { return kinds[kind]; }
@@ -39,4 +41,20 @@ void form_close(struct form *form)
 {
     if (form->kind) form->kind->close(form);
     *form = (struct form){0};
+}
+
+void form_channels(const struct take *take, int rig, const struct channel *channels, int count, int joints,
+                   double key, form_column *column, void *user)
+{
+    static const char *const axes[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up", [AXIS_TWIST] = "twist"};
+    const struct document *document = take->posing->document;
+    for (int c = 0; c < count; c++) {
+        const wiggly_value value = take_value(take, channels[c].spline, key);
+        for (int n = 0; n < joints; n++) {
+            column(user,
+                   180 / 3.14159265358979323846 * channel_bend(&channels[c], value, n, joints, take->posing->look),
+                   "%s.%s.%s.%d", form_name(&document->rigs[rig]), axes[channels[c].axis],
+                   document->splines[channels[c].spline].name, n);
+        }
+    }
 }

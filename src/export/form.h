@@ -49,8 +49,16 @@ struct form_key {
 /// Takes a named number of a rig at one time: a column of a table.
 typedef void form_column(void *user, double value, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
+/// What a form gives a file.
+enum form_part {
+    FORM_JOINTS = 1,   ///< key() and joints
+    FORM_VERTICES = 2, ///< vertices()
+    FORM_MESH = 4,     ///< the mesh, and what moves it
+    FORM_FILE = 8,     ///< it came from a glTF file, in which it goes on
+};
+
 struct form_kind {
-    bool has_joints;
+    unsigned holds; ///< FORM_JOINTS | …
     /// Fills all but kind and name, from a pose at any time. On failure close() frees what there is.
     bool (*open)(const struct document *document, int rig, const struct rig_pose *pose, struct form *form,
                  struct error *error);
@@ -58,12 +66,16 @@ struct form_kind {
     void (*key)(const struct form *form, const struct rig_pose *pose, struct form_key *key);
     /// Where the vertices are, as the stage shows them.
     void (*vertices)(const struct form *form, const struct rig_pose *pose, float (*positions)[3]);
-    /// What moves the rig at a key: always the same columns in the same order.
+    /// What moves the rig at a key: always the same columns in the same order. NULL: nothing.
     void (*columns)(const struct take *take, int rig, const struct rig_pose *pose, double key, form_column *column,
                     void *user);
 };
 
-extern const struct form_kind tail_form, character_form;
+extern const struct form_kind tail_form, character_form, model_form, chain_form;
+
+/// columns() of channels: by how many degrees each bends each joint.
+void form_channels(const struct take *take, int rig, const struct channel *channels, int count, int joints,
+                   double key, form_column *column, void *user);
 
 /// How a kind is exported; NULL if it is not.
 const struct form_kind *form_kind(enum rig_kind kind);

@@ -9,9 +9,9 @@ enum { FORMAT_SUMMARY = 96 };
 
 struct format {
     const char *ending;
-    bool without_rigs; ///< it makes sense without one
-    bool needs_joints; ///< it holds nothing but joints
-    bool one_rig;      ///< it holds one rig
+    unsigned holds;   ///< of which parts it can be made: FORM_JOINTS | …; 0: of what any rig has, and without one
+    const char *part; ///< what that is called
+    bool one_rig;     ///< it holds one rig
     /// Writes all of it to a stream, whose errors the caller sees, and says in a few words what it wrote.
     bool (*write)(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
 };

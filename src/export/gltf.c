@@ -1,6 +1,7 @@
 /// Rigs as glTF 2.0: meshes with skins or morph targets, and one clip that moves them all.
 #include "export/format.h"
 #include "export/gltf_file.h"
+#include "export/gltf_splice.h"
 #include "export/keys.h"
 #include "export/targets.h"
 #include <math.h>
@@ -313,12 +314,20 @@ static bool write_scene(struct take *take, bool binary, FILE *out, char summary[
     return done;
 }
 
+/// An imported character goes on in its own file.
+static bool write_any(struct take *take, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+{
+    if (take->posing->document->rigs[take->rigs[0]].kind == RIG_MODEL)
+        return gltf_splice_write(take, take->rigs[0], binary, out, summary, error);
+    return write_scene(take, binary, out, summary, error);
+}
+
 bool glb_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_scene(take, true, out, summary, error);
+    return write_any(take, true, out, summary, error);
 }
 
 bool gltf_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_scene(take, false, out, summary, error);
+    return write_any(take, false, out, summary, error);
 }

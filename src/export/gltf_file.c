@@ -91,19 +91,18 @@ static void write_binary(const struct gltf_file *file, const char *text, FILE *o
     fwrite(file->data, 1, file->size, out);
 }
 
-/// "data:…": the bytes in base 64, as the address of the buffer.
-static char *print_address(const struct gltf_file *file)
+char *gltf_file_address(const char *data, size_t size)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     static const char start[] = "data:application/octet-stream;base64,";
-    const size_t groups = (file->size + 2) / 3;
+    const size_t groups = (size + 2) / 3;
     char *text = malloc(sizeof start + 4 * groups), *at = text;
     if (!text) return NULL;
     at = stpcpy(at, start);
-    for (size_t i = 0; i < file->size; i += 3) {
+    for (size_t i = 0; i < size; i += 3) {
         uint32_t bits = 0;
-        for (size_t k = 0; k < 3; k++) bits = bits << 8 | (i + k < file->size ? (unsigned char)file->data[i + k] : 0);
-        for (size_t k = 0; k < 4; k++) *at++ = i + k > file->size ? '=' : digits[bits >> (18 - 6 * k) & 63];
+        for (size_t k = 0; k < 3; k++) bits = bits << 8 | (i + k < size ? (unsigned char)data[i + k] : 0);
+        for (size_t k = 0; k < 4; k++) *at++ = i + k > size ? '=' : digits[bits >> (18 - 6 * k) & 63];
     }
     *at = '\0';
     return text;
@@ -112,7 +111,7 @@ static char *print_address(const struct gltf_file *file)
 static bool complete(struct gltf_file *file, json_t *root, bool binary)
 {
     json_t *buffer = json_pack("{s:I}", "byteLength", (json_int_t)file->size);
-    char *address = binary ? NULL : print_address(file);
+    char *address = binary ? NULL : gltf_file_address(file->data, file->size);
     if (address) json_object_set_new(buffer, "uri", json_string(address));
     const bool whole = buffer && (binary || address);
     free(address);

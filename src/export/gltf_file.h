@@ -35,4 +35,7 @@ json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, co
 bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *out, struct error *error);
 void gltf_file_free(struct gltf_file *file);
 
+/// "data:…": bytes in base 64, as the address of a buffer; the caller frees it. NULL if memory is short.
+char *gltf_file_address(const char *data, size_t size);
+
 #endif

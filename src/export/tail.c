@@ -114,24 +114,12 @@ static void vertices(const struct form *form, const struct rig_pose *pose, float
     tail_skin(&pose->tail, &fox->mesh, positions, NULL);
 }
 
-/// By how many degrees each channel bends each joint.
 static void columns(const struct take *take, int rig, const struct rig_pose *pose, double key, form_column *column,
                     void *user)
 {
-    static const char *const axes[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up"};
-    const struct document *document = take->posing->document;
-    const struct tail *tail = &document->rigs[rig].tail;
+    const struct tail *tail = &take->posing->document->rigs[rig].tail;
     (void)pose;
-    for (int c = 0; c < tail->channel_count; c++) {
-        const struct channel *channel = &tail->channels[c];
-        const wiggly_value value = take_value(take, channel->spline, key);
-        for (int n = 0; n < tail->joints; n++) {
-            column(user,
-                   180 / 3.14159265358979323846 * channel_bend(channel, value, n, tail->joints, take->posing->look),
-                   "%s.%s.%s.%d", form_name(&document->rigs[rig]), axes[channel->axis],
-                   document->splines[channel->spline].name, n);
-        }
-    }
+    form_channels(take, rig, tail->channels, tail->channel_count, tail->joints, key, column, user);
 }
 
-const struct form_kind tail_form = {true, open, close, key, vertices, columns};
+const struct form_kind tail_form = {FORM_JOINTS | FORM_VERTICES | FORM_MESH, open, close, key, vertices, columns};

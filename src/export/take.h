@@ -6,6 +6,7 @@
 
 struct take {
     const struct posing *posing;
+    const char *path;         ///< of the file that is written
     int rigs[SCENE_MAX_RIGS]; ///< by index in the document
     int rig_count;
     double first;   ///< frame of the first key
