@@ -187,7 +187,7 @@ bool chain_make(struct history *history, struct document *document, const struct
                 const struct chain_wish *wish, int *rig, struct error *error)
 {
     const struct rig *model = &document->rigs[wish->model];
-    const struct imported *imported = models_imported(models, posing_number(document, wish->model));
+    const struct imported *imported = models_imported(models, document_rig_number(document, wish->model));
     char name[NAME_SIZE];
     struct chain_bones bones;
     if (!imported)

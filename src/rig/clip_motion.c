@@ -40,7 +40,7 @@ static bool find(const struct models *models, const struct document *document, c
     const int rig = document_find_model(document, motion->model, motion->by_file);
     if (rig < 0) return false;
     const struct model_rig *model = &document->rigs[rig].model;
-    const int number = posing_number(document, rig);
+    const int number = document_rig_number(document, rig);
     const struct imported *imported = models_imported(models, number);
     if (!imported) return false;
     const int clip = model->clip ? gltf_find_clip(&imported->gltf, model->clip) : -1;

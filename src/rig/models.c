@@ -1,9 +1,8 @@
 /// Reads the models of a document's characters, and keeps them by path.
 #include "rig/models.h"
 #include "base/path.h"
-#include "rig/chain_bones.h"
+#include "rig/bones.h"
 #include "rig/model_files.h"
-#include "rig/posing_kind.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -176,7 +175,8 @@ static bool check_chains(const struct models *models, const struct document *doc
          r = document_next_rig(document, RIG_CHAIN, r + 1)) {
         const struct chain *chain = &document->rigs[r].chain;
         const int model = document_find_model(document, chain->model, chain->by_file);
-        const struct imported *imported = model < 0 ? NULL : models_imported(models, posing_number(document, model));
+        const struct imported *imported =
+            model < 0 ? NULL : models_imported(models, document_rig_number(document, model));
         struct chain_bones bones;
         if (imported && !chain_find(&imported->gltf, chain->from, chain->to, &bones, error)) return false;
     }

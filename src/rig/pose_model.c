@@ -46,7 +46,7 @@ bool posing_model(const struct posing *posing, int rig, double position, int han
 {
     const struct document *document = posing->document;
     const struct model_rig *model = &document->rigs[rig].model;
-    const int number = posing_number(document, rig);
+    const int number = document_rig_number(document, rig);
     const struct imported *imported = models_imported(posing->models, number);
     struct gltf_pose *pose = models_pose(posing->models, number, posing->shown);
     if (!imported || !pose) return false;
