@@ -228,6 +228,34 @@ static void an_imported_character_gets_a_clip(void **state)
     free(points.number);
 }
 
+/// A .gltf of ours goes in as a character, gets a chain, and comes out as a .gltf; as nothing else, for it would not be the same file.
+static void text_files_get_a_clip_too(void **state)
+{
+    static const char scene_text[] =
+        "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": "
+        "[{\"frame\": 0, "
+        "\"value\": 2}]}], \"rigs\": [{\"type\": \"model\", \"name\": \"fox\", \"model\": \"fox.gltf\", \"clip\": "
+        "\"tail\"}, "
+        "{\"type\": \"chain\", \"name\": \"end\", \"model\": \"fox\", \"from\": \"tail_12\", \"to\": \"tail_23\", "
+        "\"channels\": [{\"spline\": \"s\"}]}]}";
+    (void)state;
+    struct export_report report;
+    struct error error = {0};
+    const struct export_options usual = {0}, signed_weights = {.is_signed = true};
+    export_scene("tail", "fox.gltf", usual);
+    assert_true(file_write_atomic(folder_path("scene.json"), scene_text, strlen(scene_text), &error));
+    struct opened scene = open_scene(folder_path("scene.json"));
+    assert_true(export_write(posing_of(&scene), folder_path("fox.npy"), &usual, &report, &error));
+    struct points points = read_points(folder_path("fox.npy"));
+    if (!export_write(posing_of(&scene), folder_path("out.gltf"), &signed_weights, &report, &error))
+        fail_msg("%s", error.text);
+    assert_near(glb_clip_is_off(folder_path("out.gltf"), "tail", &points), 0, 5e-6);
+    assert_false(export_write(posing_of(&scene), folder_path("out.glb"), &usual, &report, &error));
+    assert_non_null(strstr(error.text, "expected a name ending in .gltf, as "));
+    close_scene(&scene);
+    free(points.number);
+}
+
 /// Every change is made, and no other byte: spaces, numbers and unknown members stay as they are.
 static void splices_touch_nothing_else(void **state)
 {
@@ -444,7 +472,7 @@ static void refusals_say_what_to_do(void **state)
     (void)state;
     const char *tail = "assets/scenes/tail.json", *two = "assets/scenes/compositing.json";
     const struct export_options usual = {0};
-    assert_fails(tail, "a.fbx", usual, ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd and .npy");
+    assert_fails(tail, "a.fbx", usual, ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd or .npy");
     assert_fails("tests/vectors/complex_default.json", "a.glb", usual,
                  "no rig to export: its splines go into a .csv");
     assert_fails("assets/scenes/character.json", "a.bvh", usual,
@@ -480,6 +508,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(glb_moves_as_the_stage_does, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(without_a_chain_the_file_stays_the_same, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(an_imported_character_gets_a_clip, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(text_files_get_a_clip_too, folder_make, folder_remove),
         cmocka_unit_test(splices_touch_nothing_else),
         cmocka_unit_test_setup_teardown(tangents_make_up_for_keys, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(keys_loop_and_turn_the_short_way, folder_make, folder_remove),

@@ -32,8 +32,8 @@ static const struct format *find_format(const char *path)
 
 static bool fits(const struct format *format, unsigned holds) { return !format->holds || (format->holds & holds); }
 
-/// The endings of the formats for something that gives what `holds` says, and the word before the last.
-static void list_endings(unsigned holds, const char *word, char text[EXPORT_ENDINGS])
+/// The endings of the formats for something that gives what `holds` says.
+static void list_endings(unsigned holds, char text[EXPORT_ENDINGS])
 {
     int left = 0;
     for (int i = 0; i < FORMAT_COUNT; i++) left += fits(&formats[i], holds);
@@ -42,13 +42,13 @@ static void list_endings(unsigned holds, const char *word, char text[EXPORT_ENDI
         if (!fits(&formats[i], holds)) continue;
         strcat(text, formats[i].ending);
         left--;
-        strcat(text, left > 1 ? ", " : left == 1 ? word : "");
+        strcat(text, left > 1 ? ", " : left == 1 ? " or " : "");
     }
 }
 
 bool export_knows(const char *path) { return find_format(path) != NULL; }
 
-void export_endings(char text[EXPORT_ENDINGS]) { list_endings(~0u, " and ", text); }
+void export_endings(char text[EXPORT_ENDINGS]) { list_endings(~0u, text); }
 
 /// The names of all rigs, as far as there is room.
 static void list_names(const struct document *document, char *text, size_t size)
@@ -72,7 +72,7 @@ static bool fail_rigs(const struct take *take, const struct format *format, cons
     if (unfit < 0)
         return fail(error, ERROR_INPUT, "--rig: expected the name of a rig, %s, got \"%s\"", names, wanted);
     const struct rig *rig = &document->rigs[unfit];
-    list_endings(form_kind(rig->kind)->holds, " or ", endings);
+    list_endings(form_kind(rig->kind)->holds, endings);
     return fail(error, ERROR_INPUT, "a %s file cannot hold the %s \"%s\": export it as %s", format->ending,
                 rig_word(rig->kind), form_name(rig), endings);
 }

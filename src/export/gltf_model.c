@@ -43,7 +43,7 @@ static const float *values_of(const struct gltf *gltf, const struct gltf_pose *p
     return pose->weights + gltf->nodes[channel->node].first_weight;
 }
 
-static bool collect_body(const struct take *take, struct body *body, struct error *error)
+static bool collect_body(struct take *take, struct body *body, struct error *error)
 {
     for (int c = 0; c < body->clip->channel_count; c++) body->width += body->clip->channels[c].components;
     body->rows = malloc(((size_t)take->key_count * (size_t)body->width + 1) * sizeof *body->rows);
@@ -51,7 +51,7 @@ static bool collect_body(const struct take *take, struct body *body, struct erro
     for (int k = 0; k < take->key_count; k++) {
         struct rig_pose pose;
         float *at = body->rows + (size_t)k * (size_t)body->width;
-        if (!take_pose(take, take->rigs[0], k, &pose, error)) return false;
+        if (!take_pose(take, take->rigs[0], k, &pose, error) || !take_proceed(take, error)) return false;
         for (int c = 0; c < body->clip->channel_count; c++) {
             const struct gltf_channel *channel = &body->clip->channels[c];
             memcpy(at, values_of(body->gltf, pose.model.pose, channel), (size_t)channel->components * sizeof *at);
@@ -254,6 +254,7 @@ static bool write_model(struct take *take, const struct form *form, bool binary,
         .gltf = own->gltf, .clip = clip >= 0 ? &own->gltf->clips[clip] : NULL, .is_bone = own->is_bone};
     struct glb source;
     struct keys keys;
+    if (body.clip) take->total += take->key_count;
     if (!take->clip) take->clip = model->clip ? model->clip : take->title;
     if (!glb_open_any(&source, own->gltf->path, error)) return false;
     bool done = check_place(take, &source, binary, error);

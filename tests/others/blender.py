@@ -21,12 +21,10 @@ def load(path):
 
 
 def choose_clip(objects, name):
-    """A file with several clips comes with a track for each."""
+    """A file with several clips comes with an action for each, and one of them plays."""
     for data in (d for o in objects for d in (o, getattr(o.data, 'shape_keys', None)) if d and d.animation_data):
-        if data.animation_data.nla_tracks:
-            data.animation_data.action = None
-        for track in data.animation_data.nla_tracks:
-            track.mute = track.name != name
+        data.animation_data.action = bpy.data.actions[name]
+        data.animation_data.action_slot = data.animation_data.action_suitable_slots[0]
 
 
 def vertices(mesh):
