@@ -6,7 +6,7 @@
 #include "editor/dialogs/dialog_files.h"
 
 struct app;
-struct exporting;
+struct export_job;
 
 /// The formats, in the order that the dialog lists them.
 extern const struct dialog_format exporting_formats[];

@@ -55,6 +55,7 @@ struct dialog {
 struct exporting {
     struct export_memory memory; ///< as it is being edited
     unsigned serial;             ///< of the document that it is about
+    int format;                  ///< among the dialog's: what the path's ending says, or said last
     uint32_t typed;              ///< the field whose text is in `ui.text`; 0: none
     const char *dragged;         ///< the number that the pointer drags, and what it was before
     double before;
