@@ -107,7 +107,7 @@ static void test_a_tail_that_goes_while_held(void **state)
     struct error error;
     session_open(&s, scene);
     hold_and_drag(&s, 80, 30, 6);
-    assert_true(history_apply(s.history, s.document, &(struct edit){.kind = EDIT_TAIL_REMOVE}, &error));
+    assert_true(history_apply(s.history, s.document, &(struct edit){.kind = EDIT_RIG_REMOVE}, &error));
     char *without = session_saved(&s);
     session_button(&s, BUTTON_LEFT, ACTION_RELEASE, 1);
     session_frame(&s);
@@ -125,7 +125,7 @@ static void press_as_it_goes(const char *target)
     session_frame(&s);
     session_point(&s, target);
     history_begin(s.history, "Remove tail", 0);
-    assert_true(history_apply(s.history, s.document, &(struct edit){.kind = EDIT_TAIL_REMOVE}, &error));
+    assert_true(history_apply(s.history, s.document, &(struct edit){.kind = EDIT_RIG_REMOVE}, &error));
     history_end(s.history);
     char *without = session_saved(&s);
     session_press(&s, BUTTON_LEFT, 1);
@@ -173,7 +173,7 @@ static void test_a_tracked_body_gets_a_knot(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    document_tail(s.document, 0)->position[0] = (struct param){0, 1};
+    document_tail(s.document, 0)->position[0] = param_track(1);
     session_key(&s, KEY_RIGHT, 0);
     session_key(&s, KEY_RIGHT, 0);
     assert_near(joint(&s, 0)[X], 0.1, 1e-6);

@@ -89,7 +89,7 @@ static void test_angles_one_for_each_joint(void **state)
     panel_enter(&s, "lag.last", "24");
     for (int n = 0; n < 4; n++) assert_near(tail(&s)->channels[0].lag.value[n], 8 * n, 1e-9);
     panel_click(&s, "lag.each");
-    assert_false(tail(&s)->channels[0].lag.each);
+    assert_int_equal(tail(&s)->channels[0].lag.form, ANGLES_ONE);
     assert_near(tail(&s)->channels[0].lag.value[0], 8, 1e-9);
     panel_click(&s, "gain.each");
     panel_click(&s, "gain.list");
@@ -107,7 +107,7 @@ static void test_angles_one_for_each_joint(void **state)
     assert_saved(&s, good);
     free(good);
     panel_click(&s, "rest.each");
-    assert_true(tail(&s)->rest.each);
+    assert_int_equal(tail(&s)->rest.form, ANGLES_EACH);
     close_undone(&s, before);
 }
 

@@ -71,7 +71,8 @@ static void rest_bends_without_any_channel(void **state)
     static struct pose pose;
     struct tail tail = plain_tail(AXIS_SIDE);
     tail.channel_count = 0;
-    tail.rest.each = true;
+    tail.rest.form = ANGLES_EACH;
+    tail.rest.count = JOINTS;
     tail.rest.value[0] = 90.0;
     pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
     assert_near(pose.matrix[JOINTS][12], 0.1, 1e-5);
@@ -154,7 +155,8 @@ static void arrays_give_each_joint_its_own_lag_and_gain(void **state)
     (void)state;
     static struct pose pose;
     const struct tail tail = plain_tail(AXIS_SIDE);
-    channels[0].lag.each = channels[0].gain.each = true;
+    channels[0].lag.form = channels[0].gain.form = ANGLES_EACH;
+    channels[0].lag.count = channels[0].gain.count = JOINTS;
     channels[0].lag.value[7] = 40.0;
     channels[0].gain.value[7] = 8.0;
     const wiggly_value value = oscillation(0.3);
@@ -282,7 +284,8 @@ static void shadows_are_stronger_near_the_ground(void **state)
     struct shadow_blob blobs[32];
     struct tail tail = plain_tail(AXIS_SIDE);
     tail.channel_count = 0;
-    tail.rest.each = true;
+    tail.rest.form = ANGLES_EACH;
+    tail.rest.count = JOINTS;
     float total[2];
     for (int high = 0; high < 2; high++) {
         tail.rest.value[0] = high ? 60.0 : -3.0;

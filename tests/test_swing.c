@@ -195,7 +195,8 @@ static void test_scale_and_direction(void **state)
     double direction[3];
     swing_direction(&tail, AXIS_SIDE, direction);
     assert_near(direction[0], 1, 0);
-    tail.rest.each = true;
+    tail.rest.form = ANGLES_EACH;
+    tail.rest.count = tail.joints;
     tail.rest.value[0] = 30; // lifted by 30 degrees: moving away in front of it presses it down
     swing_direction(&tail, AXIS_UP, direction);
     assert_near(direction[1], cos(turn / 12), 1e-6);

@@ -5,8 +5,7 @@
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/progress.h"
-#include "rig/models.h"
-#include "scene/load.h"
+#include "rig/opened.h"
 #include "ui/theme.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,30 +59,17 @@ static bool write_export(struct job *job, const struct editor_world *world, stru
     return done;
 }
 
-/// Solves the splines and reads the models.
-static bool export_document(struct job *job, struct document *document, struct error *error)
-{
-    struct evaluation evaluation = {0};
-    struct models *models = models_create();
-    bool done = models ? scene_read_paint(document, error) : fail_no_memory(error, job->scene);
-    done = done && models_update(models, document, error) && evaluation_resize(&evaluation, document, error);
-    if (done) {
-        const struct editor_world world = {.document = document, .evaluation = &evaluation, .models = models};
-        evaluation_update(&evaluation, document, NULL, false);
-        models_paint(models, document);
-        done = write_export(job, &world, error);
-    }
-    evaluation_free(&evaluation);
-    models_destroy(models);
-    return done;
-}
-
 static bool run(struct job *job, struct error *error)
 {
-    struct document *document = scene_load(job->scene, NULL, error);
-    if (!document) return false;
-    const bool done = export_document(job, document, error);
-    document_destroy(document);
+    struct opened opened;
+    if (!opened_read(&opened, job->scene, error)) return false;
+    bool done = opened_solve(&opened, WIGGLY_CHAIN, error);
+    if (done) {
+        const struct editor_world world = {
+            .document = opened.document, .evaluation = &opened.evaluation, .models = opened.models};
+        done = write_export(job, &world, error);
+    }
+    opened_free(&opened);
     return done;
 }
 
@@ -126,11 +112,11 @@ int command_export(int argc, char **argv)
          "required: .glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd, .npy, .mp4, .webm, .gif or .png, by its name's end",
          OPTION_TEXT, &job.output, 0, 0},
         {"--frames", NULL, "A:B", "from frame A to frame B (default: all)", OPTION_TEXT, &job.frames, 0, 0},
-        {"--fps", NULL, "N", "N keys or pictures a second (default: one a sample; pictures: the scene's frames)", OPTION_REAL, &o->rate, 1e-3,
-         1e5},
+        {"--fps", NULL, "N", "N keys or pictures a second (default: one a sample; pictures: the scene's frames)",
+         OPTION_REAL, &o->rate, 1e-3, 1e5},
         {"--substeps", NULL, "N", "N keys a frame, instead of --fps", OPTION_INT, &o->substeps, 1, 1024},
-        {"--clip", NULL, "NAME", "what the animation is called (default: as the scene's file)", OPTION_TEXT, &o->clip,
-         0, 0},
+        {"--clip", NULL, "NAME", "what the animation is called (default: the clip that is played, else as the scene)",
+         OPTION_TEXT, &o->clip, 0, 0},
         {"--rig", NULL, "NAME", "that rig alone (default: all that the file can hold)", OPTION_TEXT, &o->rig, 0, 0},
         {"--signed", NULL, NULL, "one morph target instead of two, with weights of either sign; Blender clamps them",
          OPTION_FLAG, &o->is_signed, 0, 0},

@@ -1,17 +1,28 @@
 /// Which kinds of rigs are exported.
 #include "export/form.h"
 #include <stdio.h>
-
-extern const struct form_kind tail_form, character_form;
+#include <string.h>
 
 static const struct form_kind *const kinds[RIG_KINDS] = {
     [RIG_TAIL] = &tail_form,
     [RIG_CHARACTER] = &character_form,
+    [RIG_MODEL] = &model_form,
+    [RIG_CHAIN] = &chain_form,
 };
 
 const struct form_kind *form_kind(enum rig_kind kind) { return kinds[kind]; }
 
 const char *form_name(const struct rig *rig) { return rig->name ? rig->name : rig_word(rig->kind); }
+
+/// Other programs tell what is in a file by its name: rigs of the same name get a number.
+static void make_name(const struct document *document, int rig, char name[FORM_NAME])
+{
+    const char *wanted = form_name(&document->rigs[rig]);
+    int number = 1;
+    for (int i = 0; i < rig; i++) number += strcmp(form_name(&document->rigs[i]), wanted) == 0;
+    snprintf(name, FORM_NAME, "%.40s", wanted);
+    if (number > 1) snprintf(name + strlen(name), 16, "_%d", number);
+}
 
 bool form_open(const struct take *take, int rig, struct form *form, struct error *error)
 {
@@ -20,10 +31,27 @@ bool form_open(const struct take *take, int rig, struct form *form, struct error
     const struct rig *source = &document->rigs[rig];
     *form = (struct form){.kind = kinds[source->kind]};
     if (!take_pose(take, rig, 0, &pose, error)) return false;
-    snprintf(form->name, sizeof form->name, "%s", form_name(source));
-    if (form->kind->open(document, rig, &pose, form, error)) return true;
+    make_name(document, rig, form->name);
+    if (form->kind->open(take->posing, rig, &pose, form, error)) return true;
     form_close(form);
     return false;
+}
+
+void form_channels(const struct take *take, int rig, const struct channel *channels, int count, int joints,
+                   double key, form_column *column, void *user)
+{
+    static const char *const axes[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up", [AXIS_TWIST] = "twist"};
+    const struct document *document = take->posing->document;
+    const char *name = form_name(&document->rigs[rig]);
+    for (int c = 0; c < count; c++) {
+        const struct channel *channel = &channels[c];
+        const wiggly_value value = take_value(take, channel->spline, key);
+        for (int n = 0; n < joints; n++) {
+            const double angle = channel_bend(channel, value, n, joints, take->posing->look);
+            column(user, 180 / 3.14159265358979323846 * angle, "%s.%s.%s.%d", name, axes[channel->axis],
+                   document->splines[channel->spline].name, n);
+        }
+    }
 }
 
 void form_close(struct form *form)

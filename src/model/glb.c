@@ -1,11 +1,10 @@
-/// Reads the container of a .glb file, and numbers from its accessors.
+/// Opens .glb and .gltf files.
 #include "model/glb.h"
 #include "base/file.h"
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILE_LIMIT = 1 << 30, HEADER = 12, CHUNK_HEADER = 8, COUNT_LIMIT = 1 << 27 };
+enum { HEADER = 12, CHUNK_HEADER = 8 };
 
 static uint32_t word_at(const char *bytes)
 {
@@ -19,6 +18,14 @@ static bool expected(const struct glb *glb, const char *what, struct error *erro
     return fail(error, ERROR_INPUT, "%s: expected %s, got something else", glb->path, what);
 }
 
+static bool read_json(struct glb *glb, const char *text, size_t length, struct error *error)
+{
+    json_error_t wrong;
+    glb->json = json_loadb(text, length, 0, &wrong);
+    if (!glb->json) return fail(error, ERROR_INPUT, "%s: JSON, line %d: %s", glb->path, wrong.line, wrong.text);
+    return true;
+}
+
 static bool read_chunks(struct glb *glb, size_t size, struct error *error)
 {
     bool is_glb = size >= HEADER + CHUNK_HEADER && word_at(glb->data) == GLB_MAGIC && word_at(glb->data + 4) == 2;
@@ -29,29 +36,56 @@ static bool read_chunks(struct glb *glb, size_t size, struct error *error)
                     word_at(glb->data + 8), size);
     if (word_at(glb->data + HEADER + 4) != GLB_JSON) return expected(glb, "JSON in the first chunk", error);
     if (end + CHUNK_HEADER <= size && word_at(glb->data + end + 4) == GLB_BIN) {
-        glb->bin = (const unsigned char *)glb->data + end + CHUNK_HEADER;
-        glb->bin_size = word_at(glb->data + end);
-        if (glb->bin_size > size - end - CHUNK_HEADER)
-            return expected(glb, "a binary chunk as long as it says", error);
+        struct glb_bytes *chunk = &glb->chunk;
+        *chunk = (struct glb_bytes){(const unsigned char *)glb->data + end + CHUNK_HEADER, word_at(glb->data + end)};
+        if (chunk->size > size - end - CHUNK_HEADER) return expected(glb, "a binary chunk as long as it says", error);
     }
-    json_error_t wrong;
-    glb->json = json_loadb(glb->data + HEADER + CHUNK_HEADER, length, 0, &wrong);
-    if (!glb->json) return fail(error, ERROR_INPUT, "%s: JSON, line %d: %s", glb->path, wrong.line, wrong.text);
+    return read_json(glb, glb->data + HEADER + CHUNK_HEADER, length, error);
+}
+
+/// Reads the file; `parse` its bytes. False leaves nothing to close.
+static bool open_file(struct glb *glb, const char *path, bool (*parse)(struct glb *, size_t, struct error *),
+                      struct error *error)
+{
+    size_t size;
+    *glb = (struct glb){.path = path, .room = GLB_ROOM};
+    if (!file_read(path, GLB_FILE_LIMIT, &glb->data, &size, error)) return false;
+    glb->room += GLB_GROWTH * size;
+    if (parse(glb, size, error)) return true;
+    glb_close(glb);
+    return false;
+}
+
+static bool read_glb(struct glb *glb, size_t size, struct error *error)
+{
+    if (!read_chunks(glb, size, error)) return false;
+    glb->buffers = calloc(1, sizeof *glb->buffers);
+    if (!glb->buffers) return fail_no_memory(error, glb->path);
+    glb->buffers[glb->buffer_count++].bytes = glb->chunk;
     return true;
 }
 
 bool glb_open(struct glb *glb, const char *path, struct error *error)
 {
-    size_t size;
-    *glb = (struct glb){.path = path};
-    if (!file_read(path, FILE_LIMIT, &glb->data, &size, error)) return false;
-    if (read_chunks(glb, size, error)) return true;
-    glb_close(glb);
-    return false;
+    return open_file(glb, path, read_glb, error);
+}
+
+static bool read_either(struct glb *glb, size_t size, struct error *error)
+{
+    bool binary = size >= 4 && word_at(glb->data) == GLB_MAGIC;
+    bool parsed = binary ? read_chunks(glb, size, error) : read_json(glb, glb->data, size, error);
+    return parsed && (json_is_object(glb->json) || expected(glb, "a JSON object", error));
+}
+
+bool glb_open_any(struct glb *glb, const char *path, struct error *error)
+{
+    return open_file(glb, path, read_either, error);
 }
 
 void glb_close(struct glb *glb)
 {
+    for (int i = 0; i < glb->buffer_count; i++) free(glb->buffers[i].owned);
+    free(glb->buffers);
     json_decref(glb->json);
     free(glb->data);
     *glb = (struct glb){0};
@@ -63,151 +97,4 @@ int64_t glb_integer(const json_t *object, const char *key, int64_t otherwise)
     if (!member) return otherwise;
     json_int_t value = json_is_integer(member) ? json_integer_value(member) : -1;
     return value >= 0 && value <= INT32_MAX ? (int64_t)value : -1;
-}
-
-/// Elements in the binary chunk: each `components` numbers of one type, `stride` bytes apart.
-struct elements {
-    const unsigned char *bytes;
-    int type, components;
-    size_t stride;
-    bool normalised;
-};
-
-static size_t size_of_type(int64_t type)
-{
-    switch (type) {
-    case 5120: // byte
-    case 5121: // unsigned byte
-        return 1;
-    case 5122: // short
-    case 5123: // unsigned short
-        return 2;
-    case GLB_UNSIGNED_INT:
-    case GLB_FLOAT:
-        return 4;
-    default:
-        return 0;
-    }
-}
-
-static double number_at(const struct elements *e, int element, int component)
-{
-    const unsigned char *at = e->bytes + (size_t)element * e->stride + (size_t)component * size_of_type(e->type);
-    float single;
-    uint32_t word;
-    uint16_t half = 0;
-    if (e->type != 5120 && e->type != 5121) memcpy(&half, at, sizeof half);
-    switch (e->type) {
-    case 5120:
-        return e->normalised ? (int8_t)*at / 127.0 : (int8_t)*at;
-    case 5121:
-        return e->normalised ? *at / 255.0 : *at;
-    case 5122:
-        return e->normalised ? (int16_t)half / 32767.0 : (int16_t)half;
-    case 5123:
-        return e->normalised ? half / 65535.0 : half;
-    case GLB_UNSIGNED_INT:
-        memcpy(&word, at, sizeof word);
-        return word;
-    default:
-        memcpy(&single, at, sizeof single);
-        return (double)single;
-    }
-}
-
-/// Finds `count` elements in the buffer view named by `place`, and checks that they lie within it.
-static bool find_elements(const struct glb *glb, const json_t *place, int64_t count, struct elements *e)
-{
-    const json_t *views = json_object_get(glb->json, "bufferViews");
-    int64_t view_index = glb_integer(place, "bufferView", -1), at = glb_integer(place, "byteOffset", 0);
-    const json_t *view = view_index >= 0 ? json_array_get(views, (size_t)view_index) : NULL;
-    int64_t start = glb_integer(view, "byteOffset", 0), length = glb_integer(view, "byteLength", -1);
-    int64_t element = (int64_t)size_of_type(e->type) * e->components;
-    int64_t stride = glb_integer(view, "byteStride", element);
-    if (at < 0 || start < 0 || length < 0 || stride < element || element == 0) return false;
-    if (glb_integer(view, "buffer", 0) != 0 || start + length > (int64_t)glb->bin_size) return false;
-    if (count > 0 && at + stride * (count - 1) + element > length) return false;
-    e->bytes = glb->bin + start + at;
-    e->stride = (size_t)stride;
-    return true;
-}
-
-/// Applies a sparse accessor's changes.
-static bool apply_sparse(const struct glb *glb, const json_t *sparse, struct elements *values,
-                         struct glb_numbers *numbers)
-{
-    const json_t *places = json_object_get(sparse, "indices");
-    int64_t count = glb_integer(sparse, "count", -1);
-    struct elements indices = {.type = (int)glb_integer(places, "componentType", -1), .components = 1};
-    if (count < 0 || count > numbers->count || !find_elements(glb, places, count, &indices)) return false;
-    if (!find_elements(glb, json_object_get(sparse, "values"), count, values)) return false;
-    for (int i = 0; i < (int)count; i++) {
-        double index = number_at(&indices, i, 0);
-        if (!(index >= 0 && index < numbers->count)) return false;
-        double *element = numbers->values + (size_t)index * (size_t)numbers->components;
-        for (int k = 0; k < numbers->components; k++) element[k] = number_at(values, i, k);
-    }
-    return true;
-}
-
-static int components_of(const json_t *accessor)
-{
-    static const char *const types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-    const char *type = json_string_value(json_object_get(accessor, "type"));
-    for (int i = 0; type && i < 4; i++) {
-        if (strcmp(type, types[i]) == 0) return i + 1;
-    }
-    return 0;
-}
-
-/// Reads all numbers; false if some lie outside the file. Without a buffer view (and bytes) all are zero.
-static bool fill(const struct glb *glb, const json_t *accessor, struct elements *e, struct glb_numbers *numbers)
-{
-    const json_t *sparse = json_object_get(accessor, "sparse");
-    for (int i = 0; e->bytes && i < numbers->count; i++) {
-        for (int k = 0; k < e->components; k++)
-            numbers->values[(size_t)i * (size_t)e->components + (size_t)k] = number_at(e, i, k);
-    }
-    return !sparse || apply_sparse(glb, sparse, e, numbers);
-}
-
-static bool all_finite(const struct glb_numbers *numbers)
-{
-    size_t count = (size_t)numbers->count * (size_t)numbers->components;
-    for (size_t i = 0; i < count; i++) {
-        if (!isfinite(numbers->values[i])) return false;
-    }
-    return true;
-}
-
-static bool outside(const struct glb *glb, int64_t index, struct error *error)
-{
-    return fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected data within the file, got a place outside of it",
-                glb->path, (long long)index);
-}
-
-bool glb_numbers(const struct glb *glb, int64_t index, struct glb_numbers *numbers, struct error *error)
-{
-    const json_t *accessors = json_object_get(glb->json, "accessors");
-    const json_t *accessor = index >= 0 ? json_array_get(accessors, (size_t)index) : NULL;
-    int64_t count = glb_integer(accessor, "count", -1), type = glb_integer(accessor, "componentType", -1);
-    struct elements e = {.type = (int)type,
-                         .components = components_of(accessor),
-                         .normalised = json_is_true(json_object_get(accessor, "normalized"))};
-    *numbers = (struct glb_numbers){.components = e.components};
-    if (count < 1 || count > COUNT_LIMIT || size_of_type(type) == 0 || e.components == 0)
-        return fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected numbers or vectors, got something else",
-                    glb->path, (long long)index);
-    bool within = !json_object_get(accessor, "bufferView") || find_elements(glb, accessor, count, &e);
-    if (!within) return outside(glb, index, error);
-    numbers->count = (int)count;
-    numbers->values = calloc((size_t)count * (size_t)e.components, sizeof *numbers->values);
-    if (!numbers->values) return fail_no_memory(error, glb->path);
-    bool read = fill(glb, accessor, &e, numbers), finite = read && all_finite(numbers);
-    if (finite) return true;
-    free(numbers->values);
-    numbers->values = NULL;
-    if (!read) return outside(glb, index, error);
-    return fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected finite numbers, got NaN or infinity", glb->path,
-                (long long)index);
 }

@@ -1,4 +1,4 @@
-/// The binary form of glTF 2.0: a header, a chunk of JSON, a chunk of bytes, and the numbers that accessors find in them.
+/// Files of glTF 2.0: JSON, buffers of bytes (a .glb holds both), and the numbers that accessors find in them.
 #ifndef MODEL_GLB_H
 #define MODEL_GLB_H
 
@@ -16,22 +16,50 @@ enum {
     GLB_UNSIGNED_INT = 5125,
 };
 
+/// The largest file, and what may be made of a file: so many bytes, and so many for each of its own.
+enum { GLB_FILE_LIMIT = 1 << 30, GLB_ROOM = 64 << 20, GLB_GROWTH = 32 };
+
+struct glb_bytes {
+    const unsigned char *at;
+    size_t size;
+};
+
+struct glb_buffer {
+    struct glb_bytes bytes;
+    void *owned; ///< its memory, unless that is another's
+};
+
 struct glb {
     const char *path; ///< the caller's, for messages
     char *data;       ///< the whole file
     json_t *json;
-    const unsigned char *bin;
-    size_t bin_size;
+    struct glb_bytes chunk; ///< of a .glb
+    struct glb_buffer *buffers;
+    int buffer_count;
+    size_t room; ///< bytes that may still be made of it, so that no claim of a small file fills the memory
 };
 
-/// Reads a file and its JSON. False leaves nothing to close.
+/// Reads a .glb and its JSON; its chunk is the only buffer. False leaves nothing to close.
 bool glb_open(struct glb *glb, const char *path, struct error *error);
+
+/// Reads a .glb or .gltf and its JSON, no buffers yet. False leaves nothing to close.
+bool glb_open_any(struct glb *glb, const char *path, struct error *error);
 void glb_close(struct glb *glb);
+
+/// The buffers that the JSON names: the chunk, files beside it and data URIs.
+bool glb_read_buffers(struct glb *glb, struct error *error);
+
+/// The bytes of a data URI, or of a file named from the folder of ours; the caller frees `owned`. The error says what is wrong without
+/// naming our file.
+bool glb_read_uri(struct glb *glb, const char *uri, struct glb_buffer *bytes, struct error *error);
 
 /// A member that is a whole number ≥ 0; `otherwise` if it is missing, −1 if it is something else.
 int64_t glb_integer(const json_t *object, const char *key, int64_t otherwise);
 
-/// The numbers of an accessor: normalised integers as 0 … 1, sparse elements in their places.
+/// The bytes of a buffer view; false where there are none.
+bool glb_view(const struct glb *glb, int64_t index, struct glb_bytes *bytes);
+
+/// The numbers of an accessor: normalised integers as −1 … 1, sparse elements in their places.
 struct glb_numbers {
     double *values; ///< the caller frees it
     int count, components;

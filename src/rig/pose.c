@@ -7,21 +7,11 @@ _Static_assert((int)TAIL_MAX_JOINTS <= (int)POSE_MAX_JOINTS, "a pose holds every
 
 static double radians(double degrees) { return degrees * 3.14159265358979323846 / 180.0; }
 
-/// Angle of joint n in radians; the file has one for all joints or one each.
-static double angle_at(const struct angles *angles, int n) { return radians(angles->value[angles->each ? n : 0]); }
-
-/// How far joint n lags behind the base: n times the common lag, or its own.
-static double lag_at(const struct channel *channel, int n, enum look look)
-{
-    if (look == LOOK_STIFF) return 0.0;
-    return channel->lag.each ? angle_at(&channel->lag, n) : n * angle_at(&channel->lag, 0);
-}
-
 double channel_bend(const struct channel *channel, wiggly_value value, int n, int joints, enum look look)
 {
-    (void)joints;
+    const double lag = look == LOOK_STIFF ? 0.0 : radians(angles_lag(&channel->lag, n, joints));
     if (channel->of == PART_DISPLACEMENT) value.y = 0.0;
-    return angle_at(&channel->gain, n) * wiggly_lagged(value, lag_at(channel, n, look));
+    return radians(angles_at(&channel->gain, n, joints)) * wiggly_lagged(value, lag);
 }
 
 /// The angles by which joint n turns about +y (`side`) and lifts (`up`), in radians.
@@ -29,7 +19,7 @@ static void bend_at(const struct tail *tail, const wiggly_value *values, enum lo
                     double *up)
 {
     *side = 0.0;
-    *up = angle_at(&tail->rest, n);
+    *up = radians(angles_at(&tail->rest, n, tail->joints));
     for (int c = 0; c < tail->channel_count; c++) {
         const struct channel *channel = &tail->channels[c];
         *(channel->axis == AXIS_UP ? up : side) += channel_bend(channel, values[c], n, tail->joints, look);

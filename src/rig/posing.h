@@ -28,7 +28,7 @@ struct by_hand {
 /// Where the bones of a chain begin, and its tip, in the world.
 struct chain_pose {
     int count; ///< bones + 1
-    float point[CHANNEL_MAX_JOINTS + 1][3];
+    float point[ANGLES_MAX_JOINTS + 1][3];
 };
 
 struct rig_pose {

@@ -11,13 +11,13 @@ struct posing_functions {
     void (*bounds)(const struct rig_pose *pose, float lo[3], float hi[3]);
 };
 
-/// A rig's number among those of its kind.
-int posing_number(const struct document *document, int rig);
-
 /// Poses an imported character with all its chains; `by_hand` moves the rig `hand`, which is the model or one of its chains. false if
 /// there is no model.
 bool posing_model(const struct posing *posing, int rig, double position, int hand, const struct by_hand *by_hand,
                   struct rig_pose *posed);
+
+/// Seconds into a clip, which starts at frame 0 and repeats, at a position in samples.
+double posing_clip_time(const struct document *document, double position, double duration);
 
 /// The values of a rig's inputs, with what `by_hand` (may be NULL) adds.
 void posing_values(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,

@@ -103,7 +103,7 @@ static double lever(const struct tail *tail, const struct channel *channel)
 {
     double sum = 0;
     for (int n = 0; n < tail->joints; n++) {
-        sum += RADIANS * channel->gain.value[channel->gain.each ? n : 0] * (1 - (double)n / tail->joints);
+        sum += RADIANS * angles_at(&channel->gain, n, tail->joints) * (1 - (double)n / tail->joints);
     }
     return sum * tail->length;
 }

@@ -208,6 +208,12 @@ static void swap_place(struct change *change, struct document *document)
     change->to = from;
 }
 
+bool change_rebase(struct change *change, const char *from, const char *to)
+{
+    const bool holds_rig = change->kind == CHANGE_RIG || change->kind == CHANGE_RIG_OUT;
+    return !holds_rig || rig_rebase(change->rig.held, from, to);
+}
+
 size_t change_settle(struct change *change)
 {
     if (change->kind != CHANGE_PAINT) return 0;
@@ -246,17 +252,21 @@ bool change_concerns_all(const struct change *change)
         (b) = swapped;                                                                                               \
     } while (0)
 
-struct angles *angles_at(struct document *document, struct angles_place at)
+_Static_assert(sizeof(struct ramp_point) == 2 * sizeof(double), "a ramp is places and angles in turn");
+
+struct angles *change_angles(struct document *document, struct angles_place at)
 {
-    struct tail *tail = &document->rigs[at.rig].tail;
-    if (at.kind == ANGLE_REST) return &tail->rest;
-    struct channel *channel = &tail->channels[at.channel];
+    struct rig *rig = &document->rigs[at.rig];
+    int count;
+    if (at.kind == ANGLE_REST) return &rig->tail.rest;
+    struct channel *channel = &rig_channels(rig, &count)[at.channel];
     return at.kind == ANGLE_LAG ? &channel->lag : &channel->gain;
 }
 
 static void swap_channel(struct change *change, struct document *document)
 {
-    struct channel *channel = &document->rigs[change->channel.rig].tail.channels[change->channel.channel];
+    int count;
+    struct channel *channel = &rig_channels(&document->rigs[change->channel.rig], &count)[change->channel.channel];
     SWAP(int, channel->spline, change->channel.spline);
     SWAP(enum axis, channel->axis, change->channel.axis);
     SWAP(enum channel_part, channel->of, change->channel.of);
@@ -320,11 +330,12 @@ void change_swap(struct change *change, struct document *document)
     case CHANGE_RIG_OUT:
         swap_rig(change, document);
         break;
-    case CHANGE_EACH:
-        SWAP(bool, angles_at(document, change->each.at)->each, change->each.each);
+    case CHANGE_FORM:
+        SWAP(enum angle_form, change_angles(document, change->form.at)->form, change->form.form);
+        SWAP(int, change_angles(document, change->form.at)->count, change->form.count);
         break;
     case CHANGE_ANGLE:
-        SWAP(double, angles_at(document, change->angle.at)->value[change->angle.joint], change->angle.value);
+        SWAP(double, change_angles(document, change->angle.at)->value[change->angle.index], change->angle.value);
         break;
     case CHANGE_DRIVES:
         swap_drives(change, document);

@@ -24,8 +24,8 @@ enum change_kind {
     CHANGE_RIG,         ///< all of a rig
     CHANGE_RIG_IN,      ///< the rig is in the document, at `rig.at`
     CHANGE_RIG_OUT,     ///< and the other way round
-    CHANGE_EACH,        ///< whether there is one angle for all joints or one for each
-    CHANGE_ANGLE,       ///< one of them
+    CHANGE_FORM,        ///< the form of angles, and how many there are
+    CHANGE_ANGLE,       ///< one of their numbers: an angle, or a place of a ramp
     CHANGE_DRIVES,      ///< the drives of a character
     CHANGE_SHEET,       ///< all of the paint on a character
     CHANGE_PAINT,       ///< a stroke on it
@@ -37,7 +37,7 @@ struct settings {
     struct param parameter[PARAMETER_COUNT];
 };
 
-/// Angles of a tail.
+/// Angles of a rig.
 struct angles_place {
     int rig, channel; ///< `channel` is unused for ANGLE_REST
     enum angle_kind kind;
@@ -79,11 +79,12 @@ struct change {
         } place;
         struct {
             struct angles_place at;
-            bool each;
-        } each;
+            enum angle_form form;
+            int count;
+        } form;
         struct {
             struct angles_place at;
-            int joint;
+            int index; ///< of value[]: a ramp is places and angles in turn
             double value;
         } angle;
         struct {
@@ -113,7 +114,7 @@ bool change_list_reserve(struct change_list *list, size_t count);
 size_t change_bytes(const struct change *change, const struct document *document);
 
 /// The angles at a place, which must exist.
-struct angles *angles_at(struct document *document, struct angles_place at);
+struct angles *change_angles(struct document *document, struct angles_place at);
 
 struct settings settings_of(const struct spline *spline);
 
@@ -121,6 +122,9 @@ struct timing timing_of(const struct document *document);
 
 /// Swaps the change's state with the document's. There must be room for a knot in its spline and for a spline in the document.
 void change_swap(struct change *change, struct document *document);
+
+/// Rewrites the paths in what it holds for another folder; false if memory runs out.
+bool change_rebase(struct change *change, const char *from, const char *to);
 
 /// Frees memory that a change needed only while its step was open. Returns how much.
 size_t change_settle(struct change *change);

@@ -2,19 +2,9 @@
 #ifndef SCENE_CHANNEL_H
 #define SCENE_CHANNEL_H
 
-#include <stdbool.h>
+#include "scene/angles.h"
 
-enum {
-    SCENE_MAX_CHANNELS = 64, ///< of one rig
-    CHANNEL_MAX_JOINTS = 256,
-};
-
-/// One angle for all joints, or one for each (degrees).
-struct angles {
-    bool each;
-    int count;                        ///< of `each`
-    double value[CHANNEL_MAX_JOINTS]; ///< value[0] alone unless `each`
-};
+enum { SCENE_MAX_CHANNELS = 64 }; ///< of one rig
 
 /// About what a joint bends. Tails do not twist.
 enum axis { AXIS_SIDE, AXIS_UP, AXIS_TWIST };
@@ -27,7 +17,7 @@ struct channel {
     int spline; ///< index
     enum axis axis;
     enum channel_part of;
-    struct angles lag;  ///< n·lag at joint n, or one for each joint
+    struct angles lag;  ///< see angles_lag()
     struct angles gain; ///< degrees per unit of the spline
     struct json_t *extra;
 };

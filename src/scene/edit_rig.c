@@ -1,38 +1,43 @@
-/// Edits that add, remove and rename tails, add and remove channels, and set the number of joints.
-#include "scene/edit_plan.h"
-#include <math.h>
+/// Edits that rename and remove rigs, and what edits of rigs share.
+#include "scene/edit_rig.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { NAME_SIZE = 512 };
 
-static const double NEW_REST = 1.5;         ///< degrees a joint, so that a new tail is no straight cone
-static const double NEW_HEIGHT = 0.26;      ///< metres; the body of a tail of 1.6 m then sits on the ground
-static const double ASIDE = 0.75;           ///< distance from a tail to its copy, in tail lengths
-static const double ANGLE_RESOLUTION = 1e6; ///< resampled angles are rounded to 1/this degrees
-
-/// A copy of the edit's rig for the caller to change; NULL with a sentence.
-static struct rig *begin(const struct document *document, const struct edit *edit, struct error *error)
+struct rig *plan_rig_begin(const struct document *document, int index, struct error *error)
 {
     struct rig *rig = malloc(sizeof *rig);
-    if (rig && rig_copy(&document->rigs[edit->rig], rig)) return rig;
+    if (rig && rig_copy(&document->rigs[index], rig)) return rig;
     free(rig);
     plan_no_memory(error);
     return NULL;
 }
 
-/// Adds the swap with a copy, which the change now owns.
-static bool finish(const struct edit *edit, struct rig *rig, struct change_list *list, struct error *error)
+bool plan_rig_finish(int index, struct rig *rig, struct change_list *list, struct error *error)
 {
-    return plan_add(list, &(struct change){.kind = CHANGE_RIG, .spline = -1, .rig = {edit->rig, rig}}, error);
+    return plan_add(list, &(struct change){.kind = CHANGE_RIG, .spline = -1, .rig = {index, rig}}, error);
 }
 
-static bool abandon(struct rig *rig, struct error *error)
+bool plan_rig_abandon(struct rig *rig, struct error *error)
 {
     rig_release(rig);
     free(rig);
     return plan_no_memory(error);
+}
+
+bool plan_rig_append(struct document *document, struct rig *rig, struct change_list *list, struct error *error)
+{
+    const int count = document->rig_count;
+    if (!document_reserve_rigs(document, count + 1)) return plan_rig_abandon(rig, error);
+    return plan_add(list, &(struct change){.kind = CHANGE_RIG_OUT, .spline = -1, .rig = {count, rig}}, error);
+}
+
+bool plan_rig_fits(const struct document *document, struct error *error)
+{
+    return document->rig_count < SCENE_MAX_RIGS ||
+           fail(error, ERROR_INPUT, "there are %d rigs, and no more fit", SCENE_MAX_RIGS);
 }
 
 static bool is_taken(const struct document *document, const char *name, int own)
@@ -44,164 +49,141 @@ static bool is_taken(const struct document *document, const char *name, int own)
     return false;
 }
 
-static char *free_name(const struct document *document)
+/// Whether a chain of the document is on the model rig at `model`.
+static bool is_on(const struct document *document, int chain, int model)
 {
-    char name[NAME_SIZE] = "tail";
-    for (int n = 2; is_taken(document, name, -1); n++) snprintf(name, sizeof name, "tail %d", n);
-    return strdup(name);
+    const struct rig *rig = &document->rigs[chain];
+    return rig->kind == RIG_CHAIN && document_find_model(document, rig->chain.model, rig->chain.by_file) == model;
 }
 
-/// A tail without channels, with the file format's defaults but slightly bent and on the ground.
-static struct rig plain_tail(void)
+static const struct joint_motion *motion_of_spline(const struct document *document, int spline)
 {
-    struct rig rig = {
-        .kind = RIG_TAIL,
-        .tail = {.joints = TAIL_DEFAULT_JOINTS, .length = TAIL_DEFAULT_LENGTH, .rest = {.value = {NEW_REST}}}};
-    for (int k = 0; k < 3; k++) rig.tail.position[k] = (struct param){k == 1 ? NEW_HEIGHT : 0, -1};
-    return rig;
+    return document->splines[spline].parameter[PARAMETER_EQUILIBRIUM].motion;
 }
 
-/// Appends a channel with the file format's defaults.
-static bool append_channel(struct tail *tail, const struct edit *edit)
+/// Whether a spline follows a joint of the model or chain at `rig`.
+static bool follows(const struct document *document, int spline, int rig)
 {
-    size_t count = (size_t)tail->channel_count + 1;
-    struct channel *channels = realloc(tail->channels, count * sizeof *channels);
-    if (!channels) return false;
-    struct channel *channel = &channels[tail->channel_count++];
-    memset(channel, 0, sizeof *channel);
-    channel->spline = edit->spline;
-    channel->axis = edit->axis;
-    channel->of = edit->of;
-    channel->lag.value[0] = CHANNEL_DEFAULT_LAG;
-    channel->gain.value[0] = CHANNEL_DEFAULT_GAIN;
-    tail->channels = channels;
-    return true;
+    const struct joint_motion *motion = motion_of_spline(document, spline);
+    if (!motion) return false;
+    if (document->rigs[rig].kind == RIG_MODEL)
+        return document_find_model(document, motion->model, motion->by_file) == rig;
+    return motion->chain && document_find_chain(document, motion->chain) == rig;
 }
 
-static bool is_tail(const struct document *document, int rig)
+static void append_name(char list[NAME_SIZE], const char *name)
 {
-    return rig >= 0 && rig < document->rig_count && document->rigs[rig].kind == RIG_TAIL;
+    const size_t used = strlen(list);
+    snprintf(list + used, NAME_SIZE - used, "%s%s", used > 0 ? ", " : "", name);
 }
 
-/// Makes a copy of `edit->rig` beside it, or a plain tail if that is no tail. On failure the caller must release it.
-static bool fill_new(const struct document *document, const struct edit *edit, struct rig *added)
+bool plan_rig_remove(struct document *document, const struct edit *edit, struct change_list *list,
+                     struct error *error)
 {
-    *added = plain_tail();
-    if (is_tail(document, edit->rig)) {
-        if (!rig_copy(&document->rigs[edit->rig], added)) {
-            *added = plain_tail();
-            return false;
-        }
-        free(added->name);
-        added->name = NULL;
-        added->extra = NULL;
-        struct tail *tail = &added->tail;
-        if (tail->position[0].track < 0) tail->position[0].value += ASIDE * tail->length;
-    } else if (plan_has_spline(document, edit->spline, NULL) && !append_channel(&added->tail, edit)) {
-        return false;
+    const struct rig *rig = &document->rigs[edit->rig];
+    char users[NAME_SIZE] = "";
+    for (int r = 0; r < document->rig_count; r++) {
+        if (is_on(document, r, edit->rig)) append_name(users, rig_title(&document->rigs[r]));
     }
-    added->name = free_name(document);
-    return added->name != NULL;
-}
-
-bool plan_tail_add(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
-{
-    const int count = document->rig_count;
-    if (count >= SCENE_MAX_RIGS) {
-        return fail(error, ERROR_INPUT, "there are %d rigs, and no more fit", SCENE_MAX_RIGS);
+    for (int s = 0; s < document->spline_count; s++) {
+        if (follows(document, s, edit->rig)) append_name(users, document->splines[s].name);
     }
-    struct rig *rig = malloc(sizeof *rig);
-    if (!rig) return plan_no_memory(error);
-    if (!fill_new(document, edit, rig) || !document_reserve_rigs(document, count + 1)) return abandon(rig, error);
-    return plan_add(list, &(struct change){.kind = CHANGE_RIG_OUT, .spline = -1, .rig = {count, rig}}, error);
-}
-
-bool plan_tail_remove(struct document *document, const struct edit *edit, struct change_list *list,
-                      struct error *error)
-{
-    (void)document;
+    if (users[0]) {
+        return fail(error, ERROR_INPUT, "%s: still needed by %s; remove those first", rig_title(rig), users);
+    }
     struct rig *room = malloc(sizeof *room);
     if (!room) return plan_no_memory(error);
     return plan_add(list, &(struct change){.kind = CHANGE_RIG_IN, .spline = -1, .rig = {edit->rig, room}}, error);
 }
 
-bool plan_tail_name(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+/// Whether a chain or a spline goes by that file: a model of that name would take it over.
+static bool is_file_of_any(const struct document *document, const char *name)
 {
-    const char *name = edit->text ? edit->text : "";
-    if (!name[0]) return fail(error, ERROR_INPUT, "a tail needs a name");
+    bool any = false;
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = &document->rigs[r];
+        any |= rig->kind == RIG_CHAIN && rig->chain.by_file && strcmp(rig->chain.model, name) == 0;
+    }
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct joint_motion *motion = motion_of_spline(document, s);
+        any |= motion && motion->by_file && strcmp(motion->model, name) == 0;
+    }
+    return any;
+}
+
+char *plan_rig_free_name(const struct document *document, const char *wanted)
+{
+    char name[NAME_SIZE];
+    snprintf(name, sizeof name, "%s", wanted);
+    for (int n = 2; is_taken(document, name, -1) || is_file_of_any(document, name); n++)
+        snprintf(name, sizeof name, "%.*s %d", NAME_SIZE - 16, wanted, n);
+    return strdup(name);
+}
+
+static bool check_name(const struct document *document, const struct edit *edit, const char *name,
+                       struct error *error)
+{
+    const enum rig_kind kind = document->rigs[edit->rig].kind;
+    if (!name[0]) return fail(error, ERROR_INPUT, "a %s needs a name", rig_word(kind));
     if (is_taken(document, name, edit->rig)) {
         return fail(error, ERROR_INPUT, "there is a rig called %s already", name);
     }
-    if (strcmp(document->rigs[edit->rig].name, name) == 0) return true;
-    struct rig *rig = begin(document, edit, error);
-    if (!rig) return false;
-    free(rig->name);
-    rig->name = strdup(name);
-    return rig->name ? finish(edit, rig, list, error) : abandon(rig, error);
+    if (kind == RIG_MODEL && is_file_of_any(document, name)) {
+        return fail(error, ERROR_INPUT, "%s is the file by which a model is found", name);
+    }
+    return true;
 }
 
-/// Resamples angles of `from` joints along the tail for `to` joints, times `factor`.
-static void resample(struct angles *angles, int from, int to, double factor)
+/// Adds the change of one text of a rig.
+static bool set_text(struct document *document, int index, char **(*text)(struct rig *rig), const char *value,
+                     struct change_list *list, struct error *error)
 {
-    const struct angles old = *angles;
-    for (int n = 0; n < (old.each ? to : 1); n++) {
-        double at = to > 1 ? (double)n * (from - 1) / (to - 1) : 0;
-        int low = (int)at;
-        double high = old.value[low + 1 < from ? low + 1 : low];
-        double value = old.each ? old.value[low] + (high - old.value[low]) * (at - low) : old.value[0];
-        angles->value[n] = round(value * factor * ANGLE_RESOLUTION) / ANGLE_RESOLUTION + 0.0;
-    }
-}
-
-/// The tail keeps its shape and swing: with twice the joints, each bends and lags half as much.
-bool plan_joints(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
-{
-    const struct rig *old = &document->rigs[edit->rig];
-    int from = old->tail.joints, to = edit->to;
-    if (to < 1 || to > TAIL_MAX_JOINTS) {
-        return fail(error, ERROR_INPUT, "%s: joints must be from 1 to %d", old->name, TAIL_MAX_JOINTS);
-    }
-    if (from == to) return true;
-    struct rig *rig = begin(document, edit, error);
+    struct rig *rig = plan_rig_begin(document, index, error);
     if (!rig) return false;
-    struct tail *tail = &rig->tail;
-    const double factor = (double)from / to;
-    tail->joints = to;
-    resample(&tail->rest, from, to, factor);
-    for (int c = 0; c < tail->channel_count; c++) {
-        struct channel *channel = &tail->channels[c];
-        resample(&channel->gain, from, to, factor);
-        resample(&channel->lag, from, to, channel->lag.each ? 1 : factor);
-    }
-    return finish(edit, rig, list, error);
+    free(*text(rig));
+    *text(rig) = strdup(value);
+    return *text(rig) ? plan_rig_finish(index, rig, list, error) : plan_rig_abandon(rig, error);
 }
 
-bool plan_channel_add(struct document *document, const struct edit *edit, struct change_list *list,
-                      struct error *error)
+static char **name_of(struct rig *rig) { return &rig->name; }
+static char **model_of(struct rig *rig) { return &rig->chain.model; }
+
+/// Lets a spline follow the same joint under the rig's new name.
+static bool rename_followed(struct document *document, int spline, const char *old, const char *name,
+                            struct change_list *list, struct error *error)
 {
-    const struct rig *old = &document->rigs[edit->rig];
-    if (!plan_has_spline(document, edit->spline, error)) return false;
-    if (old->tail.channel_count >= SCENE_MAX_CHANNELS) {
-        return fail(error, ERROR_INPUT, "%s: there are %d channels, and no more fit", old->name, SCENE_MAX_CHANNELS);
-    }
-    struct rig *rig = begin(document, edit, error);
-    if (!rig) return false;
-    if (append_channel(&rig->tail, edit)) return finish(edit, rig, list, error);
-    return abandon(rig, error);
+    struct change change = {
+        .kind = CHANGE_SETTINGS, .spline = spline, .settings = settings_of(&document->splines[spline])};
+    struct param *param = &change.settings.parameter[PARAMETER_EQUILIBRIUM];
+    struct joint_motion motion = *param->motion;
+    char *const copy = strdup(name);
+    if (!motion.by_file && strcmp(motion.model, old) == 0) motion.model = copy;
+    if (motion.chain && strcmp(motion.chain, old) == 0) motion.chain = copy;
+    param->motion = copy ? motion_list_keep(&document->motions, &motion) : NULL;
+    free(copy);
+    return param->motion ? plan_add(list, &change, error) : plan_no_memory(error);
 }
 
-bool plan_channel_remove(struct document *document, const struct edit *edit, struct change_list *list,
+/// All that goes by the rig's name goes by the new one.
+static bool rename_users(struct document *document, int rig, const char *name, struct change_list *list,
                          struct error *error)
 {
-    const struct tail *old = &document->rigs[edit->rig].tail;
-    if (edit->channel < 0 || edit->channel >= old->channel_count) {
-        return fail(error, ERROR_INPUT, "there is no such channel");
+    const char *old = document->rigs[rig].name;
+    for (int r = 0; r < document->rig_count; r++) {
+        const bool goes_by_name = is_on(document, r, rig) && !document->rigs[r].chain.by_file;
+        if (goes_by_name && !set_text(document, r, model_of, name, list, error)) return false;
     }
-    struct rig *rig = begin(document, edit, error);
-    if (!rig) return false;
-    struct tail *tail = &rig->tail;
-    struct channel *channel = &tail->channels[edit->channel];
-    tail->channel_count--;
-    memmove(channel, channel + 1, (size_t)(tail->channel_count - edit->channel) * sizeof *channel);
-    return finish(edit, rig, list, error);
+    for (int s = 0; old && s < document->spline_count; s++) {
+        if (follows(document, s, rig) && !rename_followed(document, s, old, name, list, error)) return false;
+    }
+    return true;
+}
+
+bool plan_rig_name(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+{
+    const char *name = edit->text ? edit->text : "", *old = document->rigs[edit->rig].name;
+    if (!check_name(document, edit, name, error)) return false;
+    if (old && strcmp(old, name) == 0) return true;
+    return rename_users(document, edit->rig, name, list, error) &&
+           set_text(document, edit->rig, name_of, name, list, error);
 }

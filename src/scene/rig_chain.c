@@ -1,4 +1,5 @@
 /// Chains as a kind of rig: loading, printing, references and memory.
+#include "base/path.h"
 #include "scene/rig_channels.h"
 #include "scene/rig_kind.h"
 #include <stdlib.h>
@@ -42,7 +43,7 @@ static void print(struct members *members, const struct document *document, cons
     member_string(members, "to", chain->to);
     member_number(members, "turn", chain->turn);
     member_flag(members, "mirror", chain->mirror);
-    print_channels(members, document, chain->channels, chain->channel_count, JOINTS_UNKNOWN);
+    print_channels(members, document, chain->channels, chain->channel_count);
 }
 
 static int input_count(const struct rig *rig) { return rig->chain.channel_count; }
@@ -87,7 +88,7 @@ static size_t bytes(const struct rig *rig)
 
 static bool rebase(struct rig *rig, const char *from, const char *to)
 {
-    return !rig->chain.by_file || rig_rebase_path(&rig->chain.model, from, to);
+    return !rig->chain.by_file || path_move(&rig->chain.model, from, to);
 }
 
 static const char *title(const struct rig *rig) { return rig->chain.from; }

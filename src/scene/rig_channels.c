@@ -16,11 +16,11 @@ static void load_each(struct reader *reader, struct value value, int joints, str
     const size_t count = json_array_size(value.json);
     if (joints != JOINTS_UNKNOWN && count != (size_t)joints) {
         reader_fail(reader, &value.at, "expected one number for each of the %d joints, got %zu", joints, count);
-    } else if (count < 1 || count > CHANNEL_MAX_JOINTS) {
-        reader_fail(reader, &value.at, "expected from 1 to %d numbers, one per joint, got %zu", CHANNEL_MAX_JOINTS,
+    } else if (count < 1 || count > ANGLES_MAX_JOINTS) {
+        reader_fail(reader, &value.at, "expected from 1 to %d numbers, one per joint, got %zu", ANGLES_MAX_JOINTS,
                     count);
     } else {
-        angles->each = true;
+        angles->form = ANGLES_EACH;
         angles->count = (int)count;
         for (int i = 0; i < angles->count; i++) {
             reader_number(reader, reader_element(&value, i), true, range_any, &angles->value[i]);
@@ -28,20 +28,56 @@ static void load_each(struct reader *reader, struct value value, int joints, str
     }
 }
 
-void load_angles(struct reader *reader, struct value value, int joints, struct angles *angles)
+/// A point behind `before`, which is NULL for the first.
+static void load_ramp_point(struct reader *reader, struct value value, const struct ramp_point *before,
+                            struct ramp_point *point)
+{
+    const struct range range = {before ? before->at : 0, 1, before != NULL};
+    if (!reader_array(reader, value, 2, "[place, degrees]")) return;
+    reader_number(reader, reader_element(&value, 0), true, range, &point->at);
+    reader_number(reader, reader_element(&value, 1), true, range_any, &point->angle);
+}
+
+/// { "ramp": [[0, 0], [1, 120]] }
+static void load_ramp(struct reader *reader, const struct value *object, struct angles *angles, json_t **extra)
+{
+    static const char *const known[] = {"ramp", NULL};
+    const struct value ramp = reader_member(object, "ramp");
+    const size_t count = json_array_size(ramp.json);
+    json_t *unknown = reader_extra(reader, object, known);
+    if (unknown && !*extra) *extra = json_object();
+    if (unknown && (!*extra || json_object_set_new(*extra, object->at.key, unknown) != 0)) reader_no_memory(reader);
+    if (!json_is_array(ramp.json)) {
+        reader_unexpected(reader, ramp, "an array of points [place, degrees]");
+    } else if (count < 2 || count > RAMP_MAX_POINTS) {
+        reader_fail(reader, &ramp.at, "expected from 2 to %d points, got %zu", RAMP_MAX_POINTS, count);
+    } else {
+        angles->form = ANGLES_RAMP;
+        angles->count = (int)count;
+        for (int i = 0; i < angles->count; i++) {
+            struct ramp_point *point = &angles->ramp[i];
+            *point = (struct ramp_point){0};
+            load_ramp_point(reader, reader_element(&ramp, i), i > 0 ? point - 1 : NULL, point);
+        }
+    }
+}
+
+void load_angles(struct reader *reader, struct value value, int joints, struct angles *angles, json_t **extra)
 {
     if (!value.json) return;
     if (json_is_number(value.json)) {
         reader_number(reader, value, true, range_any, &angles->value[0]);
     } else if (json_is_array(value.json)) {
         load_each(reader, value, joints, angles);
+    } else if (json_is_object(value.json)) {
+        load_ramp(reader, &value, angles, extra);
     } else {
-        reader_unexpected(reader, value, "a number or an array of one per joint");
+        reader_unexpected(reader, value, "a number, an array of one per joint or {\"ramp\": points}");
     }
 }
 
 void load_channel(struct reader *reader, const struct value *object, const char *const *axes, int joints,
-                  struct channel *channel)
+                  struct channel *channel, json_t *extra)
 {
     channel->spline = reader_spline_name(reader, reader_member(object, "spline"));
     int word = reader_word(reader, reader_member(object, "axis"), axes, AXIS_SIDE);
@@ -50,8 +86,9 @@ void load_channel(struct reader *reader, const struct value *object, const char 
     channel->of = word < 0 ? PART_TOTAL : (enum channel_part)word;
     channel->lag.value[0] = CHANNEL_DEFAULT_LAG;
     channel->gain.value[0] = CHANNEL_DEFAULT_GAIN;
-    load_angles(reader, reader_member(object, "lag"), joints, &channel->lag);
-    load_angles(reader, reader_member(object, "gain"), joints, &channel->gain);
+    load_angles(reader, reader_member(object, "lag"), joints, &channel->lag, &extra);
+    load_angles(reader, reader_member(object, "gain"), joints, &channel->gain, &extra);
+    channel->extra = reader_keep(reader, extra);
 }
 
 struct channel *load_channels(struct reader *reader, struct value value, const char *const *axes, int joints,
@@ -67,44 +104,60 @@ struct channel *load_channels(struct reader *reader, struct value value, const c
     }
     for (int i = 0; i < found; i++) {
         const struct value object = reader_element(&value, i);
-        load_channel(reader, &object, axes, joints, &channels[i]);
-        channels[i].extra = reader_keep(reader, reader_extra(reader, &object, channel_keys));
+        load_channel(reader, &object, axes, joints, &channels[i], reader_extra(reader, &object, channel_keys));
     }
     *count = found;
     return channels;
 }
 
-void print_angles(struct members *members, const char *key, const struct angles *angles, int joints)
+static void print_ramp(struct text *text, const struct angles *angles, json_t *extra)
+{
+    struct members members = {text, "{ ", ", ", false};
+    member(&members, "ramp");
+    for (int i = 0; i < angles->count; i++) {
+        const double point[] = {angles->ramp[i].at, angles->ramp[i].angle};
+        text_string(text, i > 0 ? ", " : "[");
+        text_numbers(text, point, 2);
+    }
+    text_string(text, "]");
+    members_extra(&members, extra, NULL);
+    text_string(text, " }");
+}
+
+void print_angles(struct members *members, const char *key, const struct angles *angles, json_t *extra)
 {
     member(members, key);
-    if (angles->each) {
-        text_numbers(members->text, angles->value, joints != JOINTS_UNKNOWN ? joints : angles->count);
+    if (angles->form == ANGLES_EACH) {
+        text_numbers(members->text, angles->value, angles->count);
+    } else if (angles->form == ANGLES_RAMP) {
+        print_ramp(members->text, angles, json_object_get(extra, key));
     } else {
         text_number(members->text, angles->value[0]);
     }
 }
 
-static void print_channel(struct text *text, const struct document *document, const struct channel *channel,
-                          int joints)
+static bool holds_ramp(const char *key) { return strcmp(key, "lag") == 0 || strcmp(key, "gain") == 0; }
+
+static void print_channel(struct text *text, const struct document *document, const struct channel *channel)
 {
     struct members members = {text, "{ ", ", ", false};
     member_string(&members, "spline", document->splines[channel->spline].name);
     member_string(&members, "axis", chain_axes[channel->axis]);
     if (channel->of != PART_TOTAL) member_string(&members, "of", parts[channel->of]);
-    print_angles(&members, "lag", &channel->lag, joints);
-    print_angles(&members, "gain", &channel->gain, joints);
-    members_extra(&members, channel->extra, NULL);
+    print_angles(&members, "lag", &channel->lag, channel->extra);
+    print_angles(&members, "gain", &channel->gain, channel->extra);
+    members_extra(&members, channel->extra, holds_ramp);
     text_string(text, " }");
 }
 
 void print_channels(struct members *members, const struct document *document, const struct channel *channels,
-                    int count, int joints)
+                    int count)
 {
     struct text *text = members->text;
     member(members, "channels");
     for (int i = 0; i < count; i++) {
         text_string(text, i > 0 ? ",\n        " : "[\n        ");
-        print_channel(text, document, &channels[i], joints);
+        print_channel(text, document, &channels[i]);
     }
     text_string(text, count > 0 ? "\n      ]" : "[]");
 }

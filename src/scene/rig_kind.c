@@ -1,6 +1,5 @@
 /// The table of rig kinds, and what all kinds share.
 #include "scene/rig_kind.h"
-#include "base/path.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +14,24 @@ const char *rig_title(const struct rig *rig) { return rig->name ? rig->name : ki
 int rig_input_count(const struct rig *rig) { return kinds[rig->kind]->input_count(rig); }
 
 int rig_input(const struct rig *rig, int input) { return kinds[rig->kind]->input(rig, input); }
+
+struct channel *rig_channels(const struct rig *rig, int *count)
+{
+    const bool is_tail = rig->kind == RIG_TAIL, is_chain = rig->kind == RIG_CHAIN;
+    *count = is_tail ? rig->tail.channel_count : is_chain ? rig->chain.channel_count : 0;
+    return is_tail ? rig->tail.channels : is_chain ? rig->chain.channels : NULL;
+}
+
+void rig_set_channels(struct rig *rig, struct channel *channels, int count)
+{
+    if (rig->kind == RIG_TAIL) {
+        rig->tail.channels = channels;
+        rig->tail.channel_count = count;
+    } else {
+        rig->chain.channels = channels;
+        rig->chain.channel_count = count;
+    }
+}
 
 void rig_references(const struct rig *rig, int index, reference_visitor *visit, void *context)
 {
@@ -38,8 +55,6 @@ bool rig_own_texts(char **const *texts, int count)
     return true;
 }
 
-size_t text_size(const char *text) { return text ? strlen(text) + 1 : 0; }
-
 bool rig_copy(const struct rig *rig, struct rig *copy)
 {
     *copy = *rig;
@@ -57,17 +72,6 @@ void rig_release(struct rig *rig)
 }
 
 size_t rig_bytes(const struct rig *rig) { return sizeof *rig + text_size(rig->name) + kinds[rig->kind]->bytes(rig); }
-
-bool rig_rebase_path(char **path, const char *from, const char *to)
-{
-    char moved[PATH_LIMIT];
-    if (!*path || !path_rebase(*path, from, to, moved)) return true;
-    char *copy = strdup(moved);
-    if (!copy) return false;
-    free(*path);
-    *path = copy;
-    return true;
-}
 
 bool rig_rebase(struct rig *rig, const char *from, const char *to)
 {

@@ -14,7 +14,7 @@ static void load_position(struct reader *reader, struct value value, struct para
     json_t *tracks = NULL;
     if (!value.json || !reader_array(reader, value, 3, "[x, y, z]")) return;
     for (int i = 0; i < 3; i++) {
-        reader_param(reader, reader_element(&value, i), range_any, coordinate_name(i), &position[i], &tracks);
+        reader_param(reader, reader_element(&value, i), range_any, coordinate_name(i), false, &position[i], &tracks);
     }
     if (!tracks) return;
     if (!*extra) *extra = json_object();
@@ -33,7 +33,7 @@ static void load_tail_channels(struct reader *reader, const struct value *object
         tail->channels = load_channels(reader, channels, tail_axes, tail->joints, &tail->channel_count);
     } else if ((tail->channels = calloc(1, sizeof *tail->channels)) != NULL) {
         tail->channel_count = 1;
-        load_channel(reader, object, tail_axes, tail->joints, &tail->channels[0]);
+        load_channel(reader, object, tail_axes, tail->joints, &tail->channels[0], NULL);
     } else {
         reader_no_memory(reader);
     }
@@ -51,18 +51,19 @@ static void load(struct reader *reader, const struct value *object, struct rig *
     reader_number(reader, reader_member(object, "length"), false, positive, &tail->length);
     load_position(reader, reader_member(object, "position"), tail->position, &unknown);
     if (reader_integer(reader, reader_member(object, "joints"), 1, TAIL_MAX_JOINTS, &tail->joints)) {
-        load_angles(reader, reader_member(object, "rest"), tail->joints, &tail->rest);
+        load_angles(reader, reader_member(object, "rest"), tail->joints, &tail->rest, &unknown);
         load_tail_channels(reader, object, tail);
     }
     rig->extra = reader_keep(reader, unknown);
 }
 
-static void print_position(struct text *text, const struct document *document, const struct rig *rig)
+static void print_position(struct text *text, const struct document *document, const struct rig *rig,
+                           const char *folder)
 {
     json_t *extras = json_object_get(rig->extra, "position");
     for (int i = 0; i < 3; i++) {
         text_string(text, i > 0 ? ", " : "[");
-        print_param(text, document, &rig->tail.position[i], extras, coordinate_name(i));
+        print_param(text, document, &rig->tail.position[i], extras, coordinate_name(i), folder);
     }
     text_string(text, "]");
 }
@@ -71,16 +72,16 @@ static void print(struct members *members, const struct document *document, cons
 {
     const struct tail *tail = &rig->tail;
     struct text *text = members->text;
-    (void)folder;
     member_number(members, "joints", tail->joints);
     member_number(members, "length", tail->length);
     member(members, "position");
-    print_position(text, document, rig);
-    print_angles(members, "rest", &tail->rest, tail->joints);
-    print_channels(members, document, tail->channels, tail->channel_count, tail->joints);
+    print_position(text, document, rig, folder);
+    print_angles(members, "rest", &tail->rest, rig->extra);
+    print_channels(members, document, tail->channels, tail->channel_count);
 }
 
-static bool is_position(const char *key) { return strcmp(key, "position") == 0; }
+/// Of tracks, and of a ramp.
+static bool holds_keys(const char *key) { return strcmp(key, "position") == 0 || strcmp(key, "rest") == 0; }
 
 static int input_count(const struct rig *rig) { return rig->tail.channel_count; }
 
@@ -117,7 +118,7 @@ static size_t bytes(const struct rig *rig) { return (size_t)rig->tail.channel_co
 const struct rig_functions tail_functions = {.word = "tail",
                                              .load = load,
                                              .print = print,
-                                             .has_tracks = is_position,
+                                             .has_tracks = holds_keys,
                                              .input_count = input_count,
                                              .input = input,
                                              .references = references,

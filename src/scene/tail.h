@@ -5,7 +5,7 @@
 #include "scene/channel.h"
 #include "scene/param.h"
 
-enum { TAIL_MAX_JOINTS = CHANNEL_MAX_JOINTS };
+enum { TAIL_MAX_JOINTS = ANGLES_MAX_JOINTS };
 
 struct tail {
     int joints; ///< 1 … TAIL_MAX_JOINTS

@@ -88,8 +88,11 @@ static void nudge_lag(struct core *core, const struct editor_world *world, doubl
         return;
     }
     struct angles lag = active->lag;
-    int count = lag.each ? document_tail(world->document, tail)->joints : 1;
-    for (int n = 0; n < count; n++) lag.value[n] += lag.each ? n * degrees : degrees;
+    const int joints = document_tail(world->document, tail)->joints;
+    for (int i = 0; i < angles_count(&lag); i++) {
+        double behind = lag.form == ANGLES_ONE ? 1 : lag.form == ANGLES_EACH ? i : lag.ramp[i].at * (joints - 1);
+        angles_set_number(&lag, i, angles_number(&lag, i) + behind * degrees);
+    }
     struct edit edit = core_edit_of(EDIT_ANGLES, core->active);
     edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
     edit.channel = channel;

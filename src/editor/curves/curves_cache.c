@@ -81,7 +81,7 @@ static int fan_lags(const struct core *core, const struct document *document, do
             if (channel->spline != core->active) continue;
             for (int i = 0; i < CURVES_FAN; i++) {
                 int joint = (tail->joints - 1) * (i + 1) / CURVES_FAN;
-                double degrees = channel->lag.each ? channel->lag.value[joint] : joint * channel->lag.value[0];
+                double degrees = angles_lag(&channel->lag, joint, tail->joints);
                 lags[i] = degrees * (acos(-1.0) / 180);
             }
             return CURVES_FAN;

@@ -18,24 +18,24 @@ const struct angle_row angle_row_gain = {
 const struct angle_row angle_row_rest = {
     ANGLE_REST, "rest", "Upward bend of each joint at rest", "Set rest pose", -15, 15, 0, 0.5};
 
-/// Joint with the largest angle: what a slider shows and sets where there is one angle a joint.
-static int peak_joint(const struct angles *angles, int joints)
+/// Which of them is the largest: what a slider shows and sets where there are several.
+static int peak(const struct angles *angles)
 {
-    int peak = 0;
-    for (int n = 1; angles->each && n < joints; n++) {
-        if (fabs(angles->value[n]) > fabs(angles->value[peak])) peak = n;
+    int found = 0;
+    for (int i = 1; i < angles_count(angles); i++) {
+        if (fabs(angles_number(angles, i)) > fabs(angles_number(angles, found))) found = i;
     }
-    return peak;
+    return found;
 }
 
 /// All angles in proportion, so that the largest becomes `value`.
-static void scale_angles(struct angles *angles, int joints, double value)
+static void scale_angles(struct angles *angles, double value)
 {
-    int peak = peak_joint(angles, joints);
-    double before = angles->value[peak];
-    angles->value[peak] = value;
-    for (int n = 0; angles->each && n < joints; n++) {
-        if (n != peak) angles->value[n] = before == 0 ? value : angles->value[n] * (value / before);
+    const int largest = peak(angles);
+    const double before = angles_number(angles, largest);
+    for (int i = 0; i < angles_count(angles); i++) {
+        const double scaled = before == 0 ? value : angles_number(angles, i) * (value / before);
+        angles_set_number(angles, i, i == largest ? value : scaled);
     }
 }
 
@@ -50,12 +50,12 @@ static struct edit angles_edit(const struct inspection *in, const struct angle_r
     return edit;
 }
 
-static void build_slider(struct inspection *in, const struct angle_row *row, const struct angles *angles, int joints,
+static void build_slider(struct inspection *in, const struct angle_row *row, const struct angles *angles,
                          struct rect r)
 {
     char shown[64];
-    bool lags =
-        row->kind == ANGLE_LAG && angles->each; // each joint's own lag: up to a few turns, not degrees a joint
+    const bool several = angles->form != ANGLES_ONE;
+    bool lags = row->kind == ANGLE_LAG && several; // each joint's own lag: up to a few turns, not degrees a joint
     struct ui_number number = {.name = row->name,
                                .label = row->name,
                                .unit = "°",
@@ -64,35 +64,37 @@ static void build_slider(struct inspection *in, const struct angle_row *row, con
                                .maximum = lags ? 720 : row->maximum,
                                .lowest = -36000,
                                .highest = 36000,
-                               .fallback = angles->each ? NAN : row->fallback,
+                               .fallback = several ? NAN : row->fallback,
                                .step = row->step,
                                .decimals = 1};
-    if (angles->each) {
-        snprintf(shown, sizeof shown, "%.1f → %.1f°", angles->value[0], angles->value[joints - 1]);
+    if (several) {
+        snprintf(shown, sizeof shown, "%.1f → %.1f°", angles_number(angles, 0),
+                 angles_number(angles, angles->count - 1));
         number.shown = shown;
     }
-    double value = angles->value[peak_joint(angles, joints)];
+    double value = angles_number(angles, peak(angles));
     enum ui_change change = ui_value(in->ui, r, &number, &value);
     if (change == UI_NONE) return;
     inspector_take_back(in, change); // scaled from where the drag began, so that a drag through 0 loses no proportion
     struct angles next = *angles;
-    scale_angles(&next, joints, value);
+    scale_angles(&next, value);
     struct edit edit = angles_edit(in, row, &next);
     inspector_change(in, change, row->undo, row->name, &edit);
 }
 
-/// One angle as one for each joint, or back, with as little change of the pose as there can be.
+/// One angle as one for each joint, or several as one, with as little change of the pose as there can be.
 static struct angles converted(const struct angles *angles, enum angle_kind kind, int joints)
 {
-    struct angles next = {.each = !angles->each};
+    struct angles next = {.form = angles->form == ANGLES_ONE ? ANGLES_EACH : ANGLES_ONE, .count = joints};
     double sum = 0;
     for (int n = 0; n < joints; n++) {
-        next.value[n] = kind == ANGLE_LAG ? n * angles->value[0] : angles->value[0];
-        sum += angles->value[n];
+        next.value[n] = kind == ANGLE_LAG ? angles_lag(angles, n, joints) : angles_at(angles, n, joints);
+        sum += next.value[n];
     }
-    if (next.each) return next;
+    if (next.form == ANGLES_EACH) return next;
+    const double last = angles_at(angles, joints - 1, joints);
     memset(next.value, 0, sizeof next.value);
-    next.value[0] = kind != ANGLE_LAG ? sum / joints : joints > 1 ? angles->value[joints - 1] / (joints - 1) : 0;
+    next.value[0] = kind != ANGLE_LAG ? sum / joints : joints > 1 ? last / (joints - 1) : 0;
     next.value[0] = round(next.value[0] * 1e4) / 1e4;
     return next;
 }
@@ -115,7 +117,7 @@ static void build_end(struct inspection *in, const struct angle_row *row, const 
                                      .decimals = 1};
     enum ui_change change = ui_value(in->ui, r, &number, &ends[last]);
     if (change == UI_NONE) return;
-    struct angles next = {.each = true};
+    struct angles next = {.form = ANGLES_EACH, .count = joints};
     for (int n = 0; n < joints; n++) {
         double share = joints > 1 ? (double)n / (joints - 1) : last;
         next.value[n] = round((ends[0] + (ends[1] - ends[0]) * share) * 1e4) / 1e4;
@@ -159,7 +161,7 @@ static void build_list(struct inspection *in, const struct angle_row *row, const
         return;
     }
     if (ui_line(in->ui, r, name) != UI_LINE_DONE) return;
-    struct angles next = {.each = true};
+    struct angles next = {.form = ANGLES_EACH, .count = joints};
     if (parse_list(in->ui->text.bytes, next.value, joints)) {
         struct edit edit = angles_edit(in, row, &next);
         core_step(in->core, in->world, row->undo, 0, &edit);
@@ -174,17 +176,18 @@ void inspector_angles(struct inspection *in, const struct angle_row *row, const 
     struct ui *ui = in->ui;
     int joints = document_tail(in->document, in->inspector->tail)->joints;
     struct rect r = ui_row(ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y + 2, SWITCH, r.h - 4};
+    const bool several = angles->form != ANGLES_ONE;
     char name[32];
-    build_slider(in, row, angles, joints, (struct rect){r.x, r.y, r.w - SWITCH - 4, r.h});
+    build_slider(in, row, angles, (struct rect){r.x, r.y, r.w - SWITCH - 4, r.h});
     snprintf(name, sizeof name, "%s.each", row->name);
-    if (ui_hovered(ui, right)) ui->hint = angles->each ? "Use one angle for all joints" : "Use one angle per joint";
-    if (ui_button(ui, right, name, angles->each ? "n" : "1", false)) {
+    if (ui_hovered(ui, right)) ui->hint = several ? "Use one angle for all joints" : "Use one angle per joint";
+    if (ui_button(ui, right, name, several ? "n" : "1", false)) {
         struct angles next = converted(angles, row->kind, joints);
         struct edit edit = angles_edit(in, row, &next);
         core_step(in->core, in->world, row->undo, 0, &edit);
         return;
     }
-    if (!angles->each) return;
+    if (angles->form != ANGLES_EACH) return;
     struct rect line = ui_row(ui, UI_ROW);
     snprintf(name, sizeof name, "%s.list", row->name);
     float x = line.x + UI_LABEL + UI_GAP, w = (line.x + line.w - x - 2 * 4) / 3;

@@ -41,7 +41,7 @@ static void build_name(struct inspection *in)
         if (ui_hovered(in->ui, field)) in->ui->hint = "Click to rename";
         if (ui_button(in->ui, field, "tail.name", rig->name, false)) ui_line_begin(in->ui, rename_line, rig->name);
     } else if (ui_line(in->ui, r, rename_line) == UI_LINE_DONE) {
-        struct edit edit = tail_edit(in, EDIT_TAIL_NAME);
+        struct edit edit = tail_edit(in, EDIT_RIG_NAME);
         edit.text = in->ui->text.bytes;
         core_step(in->core, in->world, "Rename tail", 0, &edit);
     }
@@ -62,7 +62,7 @@ static void build_buttons(struct inspection *in)
     }
     icon.x += ICON + 6;
     if (!any || !ui_icon_button(in->ui, icon, "tail.delete", UI_ICON_DELETE, false, "Delete this tail")) return;
-    struct edit edit = tail_edit(in, EDIT_TAIL_REMOVE);
+    struct edit edit = tail_edit(in, EDIT_RIG_REMOVE);
     core_step(in->core, in->world, "Delete tail", 0, &edit);
 }
 
@@ -86,7 +86,7 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
         if (!ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false,
                             "Stop following; stay at the current position"))
             return;
-        edit.param = (struct param){core_round(now.y + now.re, 1e-3), -1};
+        edit.param = param_number(core_round(now.y + now.re, 1e-3));
         core_step(in->core, in->world, "Stop following", 0, &edit);
         return;
     }
@@ -120,7 +120,7 @@ static void place_popup(struct inspection *in)
     if (picked < 0) return;
     struct edit edit = tail_edit(in, EDIT_POSITION);
     edit.coordinate = k;
-    edit.param = (struct param){0, picked};
+    edit.param = param_track(picked);
     core_step(in->core, in->world, "Follow spline", 0, &edit);
 }
 

@@ -19,11 +19,6 @@ static const double PROBE = 0.01;                          ///< radians of bend 
 static const double RESOLUTION = 1e-4;                     ///< radians of bend
 static const double DEGREE = 0.017453292519943295;
 
-static double angle_of(const struct angles *angles, int joint)
-{
-    return angles->each ? angles->value[joint] : angles->value[0];
-}
-
 /// The channel of a tail for an axis: the active spline's where there is a choice. NULL where there is none.
 static const struct channel *channel_for(const struct core *core, const struct tail *tail, enum axis axis)
 {
@@ -40,7 +35,7 @@ static struct grab_axis axis_for(const struct core *core, const struct tail *tai
     const struct channel *channel = channel_for(core, tail, axis);
     double gain = 0;
     for (int n = 0; channel && n <= joint && n < tail->joints; n++)
-        gain += fabs(angle_of(&channel->gain, n)) * DEGREE;
+        gain += fabs(angles_at(&channel->gain, n, tail->joints)) * DEGREE;
     if (!(gain > 1e-9)) return (struct grab_axis){0};
     return (struct grab_axis){.active = true, .spline = channel->spline, .values_per_radian = 1 / gain};
 }

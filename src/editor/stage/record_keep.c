@@ -180,8 +180,8 @@ static void add_channel(const struct stage *stage, struct core *core, const stru
     edit.axis = model->axis;
     edit.of = PART_DISPLACEMENT;
     if (edit.spline < 0) return;
-    for (int n = 0; n < (gain.each ? TAIL_MAX_JOINTS : 1); n++)
-        gain.value[n] = round(gain.value[n] * scale * 1e4) / 1e4;
+    for (int i = 0; i < angles_count(&gain); i++)
+        angles_set_number(&gain, i, round(angles_number(&gain, i) * scale * 1e4) / 1e4);
     if (!core_edit(core, world, &edit)) return;
     int added = document_tail(document, stage->body_drag.tail)->channel_count - 1;
     set_angles(stage, core, world, added, ANGLE_LAG, &lag);
@@ -203,7 +203,7 @@ static void hang_channels(const struct stage *stage, struct core *core, const st
         if (!swung) continue;
         if (channel.of == PART_TOTAL) {
             add_channel(stage, core, world, &channel, scale * direction[coordinate], base);
-        } else if (equilibrium->track < 0) {
+        } else if (!param_follows(equilibrium)) {
             follow_base(core, world, channel.spline, base);
         }
     }

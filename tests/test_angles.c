@@ -1,0 +1,147 @@
+/// Angles along a tail: looked up, read, printed, edited, and resampled for another number of joints.
+#include "near.h"
+
+#include "rig/posing.h"
+#include "world.h"
+#include <stdlib.h>
+#include <string.h>
+
+enum { JOINTS = 5 };
+
+static const struct angles ramp = {.form = ANGLES_RAMP, .count = 3, .ramp = {{0.25, 10}, {0.5, 40}, {1, 120}}};
+
+static void a_ramp_is_straight_between_its_points(void **state)
+{
+    (void)state;
+    static const double expected[JOINTS] = {10, 10, 40, 80, 120};
+    for (int n = 0; n < JOINTS; n++) assert_near(angles_at(&ramp, n, JOINTS), expected[n], 1e-12);
+    assert_near(angles_at(&ramp, 3, 9), 25, 1e-12);
+    assert_near(angles_at(&ramp, 0, 1), 10, 0);
+}
+
+static void only_a_lag_of_one_number_grows_by_itself(void **state)
+{
+    (void)state;
+    const struct angles one = {.value = {6}}, each = {.form = ANGLES_EACH, .count = 3, .value = {1, 5, 2}};
+    assert_near(angles_at(&one, 4, JOINTS), 6, 0);
+    assert_near(angles_lag(&one, 4, JOINTS), 24, 0);
+    assert_near(angles_lag(&each, 1, JOINTS), 5, 0);
+    assert_near(angles_lag(&each, 4, JOINTS), 2, 0);
+    assert_near(angles_lag(&ramp, 2, JOINTS), 40, 1e-12);
+}
+
+static const char text[] =
+    "{\"frames\": [0, 9], \"splines\": [{\"name\": \"s\"}], \"rigs\": [{\"type\": \"tail\", \"name\": \"t\","
+    " \"joints\": 5, \"rest\": {\"ramp\": [[0, 1], [1, 2]], \"mood\": 1}, \"spline\": \"s\","
+    " \"lag\": {\"ramp\": [[0.25, 10], [0.5, 40], [1, 120]], \"ease\": \"in\"}}]}";
+
+static struct document *parse(const char *json)
+{
+    struct error error = {0};
+    struct document *document = scene_parse("scene.json", json, strlen(json), NULL, &error);
+    if (!document) fail_msg("%s", error.text);
+    return document;
+}
+
+static void ramps_are_printed_as_they_were_read(void **state)
+{
+    (void)state;
+    struct document *document = parse(text);
+    assert_memory_equal(&document->rigs[0].tail.channels[0].lag.ramp, &ramp.ramp, 3 * sizeof *ramp.ramp);
+    size_t size;
+    char *first = scene_print(document, &size);
+    assert_non_null(strstr(first, "\"rest\": { \"ramp\": [[0, 1], [1, 2]], \"mood\": 1 }"));
+    assert_non_null(
+        strstr(first, "\"lag\": { \"ramp\": [[0.25, 10], [0.5, 40], [1, 120]], \"ease\": \"in\" }, \"gain\": 5 }"));
+    struct document *again = parse(first);
+    char *second = scene_print(again, &size);
+    assert_string_equal(first, second);
+    free(first);
+    free(second);
+    document_destroy(document);
+    document_destroy(again);
+}
+
+/// A ramp poses a tail exactly as the numbers that it stands for.
+static void a_ramp_poses_like_its_numbers(void **state)
+{
+    (void)state;
+    static struct pose posed[2];
+    struct document *document = parse(text);
+    struct tail *tail = &document->rigs[0].tail;
+    const wiggly_value value = {.y = 0.1, .re = 0.7, .im = -0.4};
+    pose_tail(tail, &value, LOOK_WIGGLY, &posed[0]);
+    struct angles *const all[] = {&tail->rest, &tail->channels[0].lag, &tail->channels[0].gain};
+    for (int a = 0; a < 3; a++) {
+        struct angles each = {.form = ANGLES_EACH, .count = tail->joints};
+        for (int n = 0; n < tail->joints; n++) each.value[n] = angles_at(all[a], n, tail->joints);
+        *all[a] = each;
+    }
+    pose_tail(tail, &value, LOOK_WIGGLY, &posed[1]);
+    assert_memory_equal(posed[0].matrix, posed[1].matrix, (size_t)posed[0].count * sizeof *posed[0].matrix);
+    document_destroy(document);
+}
+
+static struct edit edit_lag(const struct angles *angles)
+{
+    return (struct edit){.kind = EDIT_ANGLES, .channel = 1, .angle = ANGLE_LAG, .angles = angles};
+}
+
+static void forms_are_edited_and_undone(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    const struct angles one = {.value = {3}}, each = {.form = ANGLES_EACH, .count = 3, .value = {1, 2, 9}};
+    struct angles longer = ramp;
+    longer.ramp[longer.count++] = (struct ramp_point){1, 7};
+    longer.ramp[2].at = 0.75;
+    const struct angles *const turns[] = {&ramp, &longer, &each, &ramp, &one, &each};
+    for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) assert_reversible(&world, edit_lag(turns[i]));
+    struct angles wrong = ramp;
+    wrong.ramp[1].at = 0.25;
+    assert_refused(&world, edit_lag(&wrong), "the places of a ramp must ascend");
+    wrong.ramp[1].at = 2;
+    assert_refused(&world, edit_lag(&wrong), "the places of a ramp are from 0 to 1");
+    wrong.count = 1;
+    assert_refused(&world, edit_lag(&wrong), "a ramp has from 2 to 32 points");
+    wrong = each;
+    wrong.count = 2;
+    assert_refused(&world, edit_lag(&wrong), "t: there must be one angle for each of the 3 joints");
+    world_undo_all(&world);
+    world_close(&world);
+}
+
+/// With twice the joints each bends half as much; where along the tail is where it was.
+static void a_ramp_stays_as_joints_are_added(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    world_must(&world, edit_lag(&ramp));
+    struct edit gain = edit_lag(&ramp);
+    gain.angle = ANGLE_GAIN;
+    world_must(&world, gain);
+    assert_reversible(&world, (struct edit){.kind = EDIT_JOINTS, .to = 6});
+    const struct channel *channel = &document_tail(world.document, 0)->channels[1];
+    assert_int_equal(channel->gain.form, ANGLES_RAMP);
+    for (int i = 0; i < ramp.count; i++) {
+        assert_near(channel->gain.ramp[i].at, ramp.ramp[i].at, 0);
+        assert_near(channel->gain.ramp[i].angle, ramp.ramp[i].angle / 2, 1e-6);
+        assert_near(channel->lag.ramp[i].angle, ramp.ramp[i].angle, 0);
+    }
+    world_close(&world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_ramp_is_straight_between_its_points),
+        cmocka_unit_test(only_a_lag_of_one_number_grows_by_itself),
+        cmocka_unit_test(ramps_are_printed_as_they_were_read),
+        cmocka_unit_test(a_ramp_poses_like_its_numbers),
+        cmocka_unit_test(forms_are_edited_and_undone),
+        cmocka_unit_test(a_ramp_stays_as_joints_are_added),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
