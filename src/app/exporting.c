@@ -16,7 +16,7 @@ enum { MORPHS = CHOICE_KEYS | CHOICE_RIG | CHOICE_CLIP | CHOICE_SIGNED, POINTS =
 const struct dialog_format exporting_formats[] = {
     {".glb", "character and motion: Blender, three.js, game engines", .choices = MORPHS | CHOICE_CUBIC},
     {".gltf", "the same as readable text", .choices = MORPHS | CHOICE_CUBIC},
-    {".usda", "character and motion: USD, Houdini, Omniverse", .choices = MORPHS},
+    {".usda", "character and motion: USD, Houdini, Omniverse", .choices = MORPHS & ~CHOICE_CLIP},
     {".bvh", "joints and their motion: motion-capture tools", .choices = POINTS},
     {".csv", "every spline and angle as a table", .choices = CHOICE_KEYS | CHOICE_RIG},
     {".pc2", "every vertex at every key: Blender's Mesh Cache", .choices = POINTS},
