@@ -6,11 +6,10 @@
 #include "ui/font.h"
 #include <string.h>
 
-static const char scene[] =
-    "{\"frames\": [0, 48], \"substeps\": 2, \"splines\": [{\"name\": \"sway\", \"knots\": "
-    "[{\"frame\": 0, \"value\": 0}, {\"frame\": 12, \"value\": 1}]}],"
-    "\"rigs\": [{\"type\": \"tail\", \"name\": \"fox\", \"spline\": \"sway\"},"
-    " {\"type\": \"tail\", \"name\": \"cat\", \"spline\": \"sway\"}]}";
+static const char scene[] = "{\"frames\": [0, 48], \"substeps\": 2, \"splines\": [{\"name\": \"sway\", \"knots\": "
+                            "[{\"frame\": 0, \"value\": 0}, {\"frame\": 12, \"value\": 1}]}],"
+                            "\"rigs\": [{\"type\": \"tail\", \"name\": \"fox\", \"spline\": \"sway\"},"
+                            " {\"type\": \"tail\", \"name\": \"cat\", \"spline\": \"sway\"}]}";
 
 static struct dialog *dialog_of(struct session *s) { return &s->editor->dialogs->dialog; }
 static struct exporting *of(struct session *s) { return &s->editor->dialogs->exporting; }
@@ -18,8 +17,8 @@ static struct exporting *of(struct session *s) { return &s->editor->dialogs->exp
 static void open_session(struct session *s, const char *path, float width, float height)
 {
     panel_open(s, scene, width, height);
-    editor_set_files(s->editor, &(struct dialog_files){.formats = exporting_formats,
-                                                       .format_count = exporting_format_count});
+    editor_set_files(s->editor,
+                     &(struct dialog_files){.formats = exporting_formats, .format_count = exporting_format_count});
     editor_set_path(s->editor, path);
     session_key(s, 'E', MOD_CTRL);
     assert_int_equal(dialog_of(s)->kind, DIALOG_EXPORT);
@@ -236,11 +235,16 @@ static void test_small_windows(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_enter_exports_the_scene), cmocka_unit_test(test_the_ending_is_the_format),
-        cmocka_unit_test(test_a_name_without_an_ending_gets_one), cmocka_unit_test(test_choices_are_asked_for),
-        cmocka_unit_test(test_one_rig_only), cmocka_unit_test(test_size_of_pictures),
-        cmocka_unit_test(test_cancelling), cmocka_unit_test(test_escape_in_a_number),
-        cmocka_unit_test(test_remembered), cmocka_unit_test(test_small_windows),
+        cmocka_unit_test(test_enter_exports_the_scene),
+        cmocka_unit_test(test_the_ending_is_the_format),
+        cmocka_unit_test(test_a_name_without_an_ending_gets_one),
+        cmocka_unit_test(test_choices_are_asked_for),
+        cmocka_unit_test(test_one_rig_only),
+        cmocka_unit_test(test_size_of_pictures),
+        cmocka_unit_test(test_cancelling),
+        cmocka_unit_test(test_escape_in_a_number),
+        cmocka_unit_test(test_remembered),
+        cmocka_unit_test(test_small_windows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

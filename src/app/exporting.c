@@ -11,7 +11,10 @@
 #include <threads.h>
 
 enum { WIDTH = 1280, HEIGHT = 720, SMALL_WIDTH = 640, SMALL_HEIGHT = 360 };
-enum { MORPHS = CHOICE_KEYS | CHOICE_RIG | CHOICE_CLIP | CHOICE_SIGNED, POINTS = CHOICE_KEYS | CHOICE_RIG | CHOICE_ONE };
+enum {
+    MORPHS = CHOICE_KEYS | CHOICE_RIG | CHOICE_CLIP | CHOICE_SIGNED,
+    POINTS = CHOICE_KEYS | CHOICE_RIG | CHOICE_ONE
+};
 
 const struct dialog_format exporting_formats[] = {
     {".glb", "character and motion: Blender, three.js, game engines", .choices = MORPHS | CHOICE_CUBIC},
@@ -84,8 +87,7 @@ static bool proceed(void *user, long done, long total)
 static bool write_motion(struct export_job *job)
 {
     const struct export_wish *wish = &job->request.wish;
-    const struct posing posing = {
-        .document = job->document, .evaluation = &job->evaluation, .models = job->models};
+    const struct posing posing = {.document = job->document, .evaluation = &job->evaluation, .models = job->models};
     const struct export_options options = {.rig = wish->rig[0] ? wish->rig : NULL,
                                            .clip = wish->clip[0] ? wish->clip : NULL,
                                            .has_frames = wish->part,
@@ -104,8 +106,7 @@ static bool prepare(struct export_job *job)
 {
     struct document *document = job->document;
     struct error *error = &job->error;
-    if (!models_update(job->models, document, error) ||
-        !evaluation_resize(&job->evaluation, document, error))
+    if (!models_update(job->models, document, error) || !evaluation_resize(&job->evaluation, document, error))
         return false;
     evaluation_update(&job->evaluation, document, NULL, false);
     models_paint(job->models, document);
@@ -219,10 +220,10 @@ void exporting_step(struct app *app)
     editor_tell_export(app->table.editor, atomic_load(&job->done), atomic_load(&job->total));
     if (state == FILM_RUNS) return;
     answer(app, state == FILM_DONE);
-    exporting_free(app);
+    app_stop_export(app);
 }
 
-void exporting_free(struct app *app)
+void app_stop_export(struct app *app)
 {
     exporting_stop(app);
     if (app->export_job) destroy(app->export_job);

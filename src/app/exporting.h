@@ -18,7 +18,4 @@ bool exporting_start(struct app *app, const struct request *request, struct erro
 void exporting_stop(struct app *app);
 /// Call it once a frame: goes on with the running one, and tells the editor. Under a fixed clock it ends in the frame it began in.
 void exporting_step(struct app *app);
-/// Gives up whatever runs.
-void exporting_free(struct app *app);
-
 #endif

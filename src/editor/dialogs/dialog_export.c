@@ -218,7 +218,8 @@ static bool build_number(struct dialogs *dialogs, struct rect r, struct ui_numbe
 
 static struct rect labelled(struct ui *ui, struct rect *row, float width, const char *label)
 {
-    const struct rect r = {row->x, row->y, UI_LABEL, row->h}, field = {row->x + UI_LABEL + UI_GAP, row->y, width, row->h};
+    const struct rect r = {row->x, row->y, UI_LABEL, row->h},
+                      field = {row->x + UI_LABEL + UI_GAP, row->y, width, row->h};
     ui_label(ui, r, label, theme()->text_dim);
     row->x += UI_LABEL + width + 3 * UI_GAP;
     row->w -= UI_LABEL + width + 3 * UI_GAP;
@@ -243,9 +244,9 @@ static void build_frames(struct dialogs *dialogs, const struct document *documen
     r.w = NUMBER_WIDTH;
     bool changed = build_number(
         dialogs, r, (struct ui_number){.name = "export.first", .lowest = first, .highest = wish->last}, &wish->first);
-    changed |= build_number(dialogs, second(&dialogs->dialog.ui, r, "to"),
-                            (struct ui_number){.name = "export.last", .lowest = wish->first, .highest = last},
-                            &wish->last);
+    changed |=
+        build_number(dialogs, second(&dialogs->dialog.ui, r, "to"),
+                     (struct ui_number){.name = "export.last", .lowest = wish->first, .highest = last}, &wish->last);
     if (changed) wish->part = wish->first > first || wish->last < last;
 }
 
@@ -270,8 +271,8 @@ static void build_keys(struct dialogs *dialogs, const struct document *document,
     struct export_wish *wish = &dialogs->exporting.memory.wish;
     double keys = wish->keys > 0 ? wish->keys : document->substeps;
     const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH, "keys a frame");
-    if (build_number(dialogs, r, (struct ui_number){.name = "export.keys", .lowest = 1, .highest = SCENE_MAX_SUBSTEPS},
-                     &keys))
+    if (build_number(dialogs, r,
+                     (struct ui_number){.name = "export.keys", .lowest = 1, .highest = SCENE_MAX_SUBSTEPS}, &keys))
         wish->keys = (int)keys;
 }
 
@@ -324,8 +325,7 @@ static void build_flags(struct dialogs *dialogs, const struct document *document
     if (choices & CHOICE_CUBIC) build_toggle(ui, &row, "export.cubic", "keys with tangents", &wish->is_cubic);
     if ((choices & CHOICE_SIGNED) && morphs)
         build_toggle(ui, &row, "export.signed", "signed morph targets", &wish->is_signed);
-    if (choices & CHOICE_ALPHA)
-        build_toggle(ui, &row, "export.transparent", "transparent", &wish->transparent);
+    if (choices & CHOICE_ALPHA) build_toggle(ui, &row, "export.transparent", "transparent", &wish->transparent);
 }
 
 /// Always as many rows, so that nothing jumps when another format is chosen.
@@ -346,8 +346,7 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
         if (!memory->wish.clip[0] && ui->focus != ui_id(clip_field))
             ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, "as the scene", theme()->text_dim);
     }
-    if (format->choices & CHOICE_RIG)
-        build_rig(dialogs, document, (format->choices & CHOICE_ONE) != 0, &rows[1]);
+    if (format->choices & CHOICE_RIG) build_rig(dialogs, document, (format->choices & CHOICE_ONE) != 0, &rows[1]);
     build_flags(dialogs, document, format->choices, rows[2]);
 }
 
@@ -357,12 +356,14 @@ static void build_formats(struct dialogs *dialogs, float room)
     struct exporting *exporting = &dialogs->exporting;
     struct ui *ui = &dialogs->dialog.ui;
     const int chosen = exporting->format, fitting = (int)(room / UI_ROW);
-    const int rows = fitting < LEAST_ROWS ? LEAST_ROWS : fitting > files->format_count ? files->format_count : fitting;
+    const int rows = fitting < LEAST_ROWS            ? LEAST_ROWS
+                     : fitting > files->format_count ? files->format_count
+                                                     : fitting;
     const struct rect view = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
     // Where not all fit, the chosen one is in sight as soon as it is typed.
     if (ui->focus == ui_id(path_field))
-        exporting->scroll.offset = fmaxf(fminf(exporting->scroll.offset, (float)chosen * UI_ROW),
-                                         (float)(chosen + 1 - rows) * UI_ROW);
+        exporting->scroll.offset =
+            fmaxf(fminf(exporting->scroll.offset, (float)chosen * UI_ROW), (float)(chosen + 1 - rows) * UI_ROW);
     int taken = -1;
     ui_scroll_begin(ui, &exporting->scroll, view);
     for (int f = 0; f < files->format_count; f++) {
@@ -371,8 +372,8 @@ static void build_formats(struct dialogs *dialogs, float room)
         snprintf(name, sizeof name, "export%s", files->formats[f].ending);
         if (ui_list_row(ui, r, name, "", 0, f == chosen)) taken = f;
         ui_label(ui, (struct rect){r.x + 6, r.y, ENDING_WIDTH, r.h}, files->formats[f].ending, theme()->text);
-        ui_label(ui, (struct rect){r.x + 6 + ENDING_WIDTH, r.y, r.w - 12 - ENDING_WIDTH, r.h}, files->formats[f].holds,
-                 theme()->text_dim);
+        ui_label(ui, (struct rect){r.x + 6 + ENDING_WIDTH, r.y, r.w - 12 - ENDING_WIDTH, r.h},
+                 files->formats[f].holds, theme()->text_dim);
     }
     ui_scroll_end(ui);
     if (taken >= 0) choose_format(dialogs, taken);
@@ -404,11 +405,15 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
         const float part = exporting->total > 0 ? (float)exporting->done / (float)exporting->total : 0;
         if (ui->pass == UI_PASS_DRAW) {
             drawlist_rounded(ui->list, bar, 4, theme()->fill);
-            drawlist_rounded(ui->list, (struct rect){bar.x, bar.y, fmaxf(8, bar.w * part), bar.h}, 4, theme()->accent);
+            drawlist_rounded(ui->list, (struct rect){bar.x, bar.y, fmaxf(8, bar.w * part), bar.h}, 4,
+                             theme()->accent);
         }
         ui_space(ui, 4);
     }
-    ui_paragraph(ui, dialog->error[0] ? dialog->error : ui->complaint[0] ? ui->complaint : text,
+    ui_paragraph(ui,
+                 dialog->error[0]   ? dialog->error
+                 : ui->complaint[0] ? ui->complaint
+                                    : text,
                  dialog->error[0] || ui->complaint[0] ? theme()->error : theme()->text_dim);
     ui_space(ui, fmaxf(8, NOTE_HEIGHT - (ui->y - top)));
 }

@@ -11,7 +11,15 @@ struct help {
     float offset; ///< pixels that it is scrolled by, where the window is too low for all of it
 };
 
-enum dialog_kind { DIALOG_NONE, DIALOG_OPEN, DIALOG_SAVE_AS, DIALOG_UNSAVED, DIALOG_RECOVER, DIALOG_ASK, DIALOG_EXPORT };
+enum dialog_kind {
+    DIALOG_NONE,
+    DIALOG_OPEN,
+    DIALOG_SAVE_AS,
+    DIALOG_UNSAVED,
+    DIALOG_RECOVER,
+    DIALOG_ASK,
+    DIALOG_EXPORT
+};
 
 enum { DIALOG_MAX_NAMES = 256, DIALOG_NAME_SIZE = 256, DIALOG_ERROR_SIZE = 400 };
 
