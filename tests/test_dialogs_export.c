@@ -48,7 +48,7 @@ static void click(struct session *s, const char *text)
     click_at(s, command->x + 4, command->y - 4, 1);
 }
 
-/// Types over the number right of a word: `fields` fields further.
+/// Types over the number that is so far right of a word.
 static void enter(struct session *s, const char *word, float right, const char *number)
 {
     const struct draw_command *command = shown(s, word);
@@ -92,7 +92,9 @@ static void test_the_ending_is_the_format(void **state)
     click(&s, ".mp4");
     assert_non_null(shown(&s, "Write take.mp4"));
     assert_non_null(shown(&s, "49 pictures, 24 a second. ↑ ↓ choose the format, Tab goes to the choices."));
-    session_key(&s, KEY_TAB, MOD_SHIFT); // back to the name, which no list row has overwritten
+    click(&s, "take.mp4"); // back in the name, where typing goes on
+    panel_type(&s, "2");
+    assert_non_null(shown(&s, "Write take.mp42.mp4"));
     session_close(&s);
 }
 
