@@ -74,8 +74,7 @@ static bool read_either(struct glb *glb, size_t size, struct error *error)
 {
     bool binary = size >= 4 && word_at(glb->data) == GLB_MAGIC;
     bool parsed = binary ? read_chunks(glb, size, error) : read_json(glb, glb->data, size, error);
-    if (parsed && !json_is_object(glb->json)) parsed = expected(glb, "a JSON object", error);
-    return parsed && glb_read_buffers(glb, error);
+    return parsed && (json_is_object(glb->json) || expected(glb, "a JSON object", error));
 }
 
 bool glb_open_any(struct glb *glb, const char *path, struct error *error)

@@ -42,11 +42,11 @@ struct glb {
 /// Reads a .glb and its JSON; its chunk is the only buffer. False leaves nothing to close.
 bool glb_open(struct glb *glb, const char *path, struct error *error);
 
-/// Reads a .glb or .gltf and all its buffers, from files beside it and data URIs too.
+/// Reads a .glb or .gltf and its JSON, no buffers yet. False leaves nothing to close.
 bool glb_open_any(struct glb *glb, const char *path, struct error *error);
 void glb_close(struct glb *glb);
 
-/// The buffers that the JSON names.
+/// The buffers that the JSON names: the chunk, files beside it and data URIs.
 bool glb_read_buffers(struct glb *glb, struct error *error);
 
 /// The bytes of a data URI, or of a file named from the folder of ours; the caller frees `owned`. The error says what is wrong without

@@ -1,14 +1,8 @@
-/// Stands in for the reader of glTF characters until it is here: every file is refused.
+/// Finds things in a glTF character, and frees it.
 #include "model/gltf.h"
+#include "model/gltf_read.h"
+#include <stdlib.h>
 #include <string.h>
-
-bool gltf_read(const char *path, struct gltf *gltf, struct error *error)
-{
-    *gltf = (struct gltf){0};
-    return fail(error, ERROR_INPUT, "%s: expected a file that can be read, got glTF", path);
-}
-
-void gltf_free(struct gltf *gltf) { *gltf = (struct gltf){0}; }
 
 int gltf_find_node(const struct gltf *gltf, const char *name)
 {
@@ -26,38 +20,68 @@ int gltf_find_clip(const struct gltf *gltf, const char *name)
     return -1;
 }
 
-bool gltf_pose_create(const struct gltf *gltf, struct gltf_pose *pose)
-{
-    (void)gltf;
-    *pose = (struct gltf_pose){0};
-    return false;
-}
-
-void gltf_pose_free(struct gltf_pose *pose) { *pose = (struct gltf_pose){0}; }
-
-void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_pose *pose)
-{
-    (void)gltf, (void)clip, (void)time, (void)pose;
-}
-
-void gltf_pose_world(const struct gltf *gltf, struct gltf_pose *pose) { (void)gltf, (void)pose; }
-
-void gltf_joint_matrix(const struct gltf *gltf, const struct gltf_pose *pose, int skin, int joint, float matrix[16])
-{
-    (void)gltf, (void)pose, (void)skin, (void)joint;
-    memset(matrix, 0, 16 * sizeof *matrix);
-}
-
-void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, int node, float (*positions)[3],
-                        float (*normals)[3])
-{
-    (void)gltf, (void)pose, (void)node, (void)positions, (void)normals;
-}
-
 int gltf_vertex_count(const struct gltf *gltf, int node)
 {
     const struct gltf_mesh *mesh = gltf->nodes[node].mesh >= 0 ? &gltf->meshes[gltf->nodes[node].mesh] : NULL;
     int count = 0;
     for (int i = 0; mesh && i < mesh->part_count; i++) count += mesh->parts[i].vertex_count;
     return count;
+}
+
+static void free_part(struct gltf_part *part, int targets)
+{
+    for (int i = 0; part->targets && i < targets; i++) {
+        free(part->targets[i].position);
+        free(part->targets[i].normal);
+    }
+    free(part->targets);
+    free(part->position);
+    free(part->normal);
+    free(part->uv);
+    free(part->color);
+    free(part->joints);
+    free(part->weights);
+    free(part->indices);
+}
+
+static void free_mesh(struct gltf_mesh *mesh)
+{
+    for (int i = 0; i < mesh->part_count; i++) free_part(&mesh->parts[i], mesh->target_count);
+    free(mesh->parts);
+    free(mesh->weights);
+    free(mesh->name);
+}
+
+static void free_clips(struct gltf *gltf)
+{
+    struct gltf_owned *owned = gltf->owned;
+    for (size_t i = 0; owned && i < owned->count; i++) free(owned->accessors[i].values);
+    free(owned);
+    for (int i = 0; i < gltf->clip_count; i++) {
+        free(gltf->clips[i].name);
+        free(gltf->clips[i].channels);
+    }
+    free(gltf->clips);
+}
+
+void gltf_free(struct gltf *gltf)
+{
+    for (int i = 0; i < gltf->node_count; i++) free(gltf->nodes[i].name);
+    for (int i = 0; i < gltf->mesh_count; i++) free_mesh(&gltf->meshes[i]);
+    for (int i = 0; i < gltf->image_count; i++) free(gltf->images[i].pixels);
+    for (int i = 0; i < gltf->skin_count; i++) {
+        free(gltf->skins[i].joints);
+        free(gltf->skins[i].inverse_bind);
+    }
+    free_clips(gltf);
+    free(gltf->nodes);
+    free(gltf->order);
+    free(gltf->skins);
+    free(gltf->meshes);
+    free(gltf->materials);
+    free(gltf->images);
+    free(gltf->weights);
+    free(gltf->not_shown);
+    free(gltf->path);
+    *gltf = (struct gltf){0};
 }

@@ -1,0 +1,71 @@
+/// Decodes the pictures of glTF files: PNG and JPEG from buffer views, data URIs and files.
+#include "model/gltf_read.h"
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+// The implementation lives here and nowhere else; the library is not written for our warnings.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_NO_STDIO
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_MAX_DIMENSIONS 16384
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
+
+enum { PIXELS_A_BYTE = 8256 }; // what deflate packs into a byte at most, at a bit a pixel
+
+/// The encoded bytes. `why` says what is wrong with them.
+static bool find_bytes(struct gltf_reader *r, const json_t *image, struct glb_buffer *bytes, struct error *why)
+{
+    const char *uri = json_string_value(json_object_get(image, "uri"));
+    size_t before = r->file.room;
+    *bytes = (struct glb_buffer){0};
+    bool found = uri ? glb_read_uri(&r->file, uri, bytes, why)
+                     : glb_view(&r->file, glb_integer(image, "bufferView", -1), &bytes->bytes);
+    r->pixel_room += r->file.room - before;
+    if (!found && !uri) return fail(why, ERROR_INPUT, "no bytes in the file");
+    return found;
+}
+
+static bool decode(struct gltf_reader *r, struct glb_bytes bytes, struct gltf_image *image, struct error *why)
+{
+    int channels, size = bytes.size <= INT_MAX ? (int)bytes.size : 0;
+    if (!stbi_info_from_memory(bytes.at, size, &image->width, &image->height, &channels))
+        return fail(why, ERROR_INPUT, "expected PNG or JPEG: %s", stbi_failure_reason());
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    if (pixels / PIXELS_A_BYTE > bytes.size || 4 * pixels > r->pixel_room)
+        return fail(why, ERROR_INPUT, "too large with %d by %d", image->width, image->height);
+    image->pixels = stbi_load_from_memory(bytes.at, size, &image->width, &image->height, &channels, 4);
+    if (!image->pixels) return fail(why, ERROR_INPUT, "%s", stbi_failure_reason());
+    r->pixel_room -= 4 * pixels;
+    return true;
+}
+
+/// The name for people: the image's own, or its file's.
+static const char *name_of(const json_t *image)
+{
+    const char *name = json_string_value(json_object_get(image, "name"));
+    const char *uri = json_string_value(json_object_get(image, "uri"));
+    if (name && name[0]) return name;
+    return uri && strncmp(uri, "data:", 5) != 0 ? uri : "of no name";
+}
+
+bool gltf_read_image(struct gltf_reader *r, int number, int *index)
+{
+    const json_t *json = json_array_get(gltf_array(r, "images"), (size_t)number);
+    struct gltf_image *image = &r->gltf->images[r->gltf->image_count];
+    struct glb_buffer bytes;
+    struct error why = {0};
+    if (r->image_of[number] == -2) {
+        bool decoded = find_bytes(r, json, &bytes, &why) && decode(r, bytes.bytes, image, &why);
+        free(bytes.owned);
+        r->image_of[number] = decoded ? r->gltf->image_count++ : -1;
+        if (!decoded && !gltf_not_shown(r, "image %.40s (%.60s)", name_of(json), why.text)) return false;
+    }
+    *index = r->image_of[number];
+    return true;
+}

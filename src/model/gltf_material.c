@@ -1,0 +1,80 @@
+/// Reads materials: base colour, its texture, and what is transparent.
+#include "model/gltf_read.h"
+#include <stdlib.h>
+#include <string.h>
+
+/// What a material may have that is not shown, where it lies and how it is called.
+static const struct {
+    const char *key, *name;
+} ignored[] = {
+    {"normalTexture", "normal maps"}, {"occlusionTexture", "occlusion maps"}, {"emissiveTexture", "emission"}};
+
+static bool read_texture(struct gltf_reader *r, const json_t *info, struct gltf_uv *uv, int *image)
+{
+    const json_t *textures = gltf_array(r, "textures"), *images = gltf_array(r, "images");
+    const json_t *transform = json_object_get(json_object_get(info, "extensions"), "KHR_texture_transform");
+    float rotation = (float)json_number_value(json_object_get(transform, "rotation"));
+    int texture, source;
+    if (!gltf_index(r, info, "index", (int)json_array_size(textures), &texture) || texture < 0) return texture < 0;
+    int64_t set = glb_integer(transform, "texCoord", glb_integer(info, "texCoord", 0));
+    if (set < 0) return gltf_bad(r, ".texCoord: expected the number of a set of coordinates, got something else");
+    uv->set = (int)set;
+    uv->rotation = rotation;
+    if (!gltf_reals(r, transform, "offset", uv->offset, 2) || !gltf_reals(r, transform, "scale", uv->scale, 2))
+        return false;
+    gltf_at(r, "textures[%d]", texture);
+    const json_t *described = json_array_get(textures, (size_t)texture);
+    if (!gltf_index(r, described, "source", (int)json_array_size(images), &source)) return false;
+    return source < 0 || gltf_read_image(r, source, image);
+}
+
+/// The base colour, which the older of two ways of describing materials calls diffuse.
+static bool read_color(struct gltf_reader *r, const json_t *json, struct gltf_material *material, struct gltf_uv *uv)
+{
+    const json_t *metal = json_object_get(json, "pbrMetallicRoughness"),
+                 *extensions = json_object_get(json, "extensions");
+    const json_t *gloss = json_object_get(extensions, "KHR_materials_pbrSpecularGlossiness");
+    if (json_object_get(metal, "metallicRoughnessTexture") && !gltf_not_shown(r, "metal and roughness maps"))
+        return false;
+    if (metal || !gloss)
+        return gltf_reals(r, metal, "baseColorFactor", material->color, 4) &&
+               read_texture(r, json_object_get(metal, "baseColorTexture"), uv, &material->image);
+    return gltf_reals(r, gloss, "diffuseFactor", material->color, 4) &&
+           read_texture(r, json_object_get(gloss, "diffuseTexture"), uv, &material->image);
+}
+
+static bool read_material(struct gltf_reader *r, const json_t *json, struct gltf_material *material,
+                          struct gltf_uv *uv)
+{
+    const char *mode = json_string_value(json_object_get(json, "alphaMode"));
+    const json_t *cutoff = json_object_get(json, "alphaCutoff");
+    *material = (struct gltf_material){.color = {1, 1, 1, 1}, .image = -1};
+    *uv = (struct gltf_uv){.scale = {1, 1}};
+    material->double_sided = json_is_true(json_object_get(json, "doubleSided"));
+    material->blended = mode && strcmp(mode, "BLEND") == 0;
+    if (mode && strcmp(mode, "MASK") == 0) material->cutoff = cutoff ? (float)json_number_value(cutoff) : 0.5f;
+    for (size_t i = 0; i < sizeof ignored / sizeof *ignored; i++) {
+        if (json_object_get(json, ignored[i].key) && !gltf_not_shown(r, "%s", ignored[i].name)) return false;
+    }
+    return read_color(r, json, material, uv);
+}
+
+bool gltf_read_materials(struct gltf_reader *r)
+{
+    const json_t *materials = gltf_array(r, "materials"), *material;
+    size_t i, count = json_array_size(materials), images = json_array_size(gltf_array(r, "images"));
+    gltf_at(r, "materials");
+    r->gltf->materials = gltf_make(r, count, sizeof *r->gltf->materials);
+    r->uvs = r->gltf->materials ? gltf_make(r, count, sizeof *r->uvs) : NULL;
+    r->gltf->images = r->uvs ? gltf_make(r, images, sizeof *r->gltf->images) : NULL;
+    r->image_of = r->gltf->images ? gltf_make(r, images, sizeof *r->image_of) : NULL;
+    if (!r->image_of) return false;
+    for (i = 0; i < images; i++) r->image_of[i] = -2;
+    json_array_foreach(materials, i, material)
+    {
+        gltf_at(r, "materials[%zu]", i);
+        if (!read_material(r, material, &r->gltf->materials[i], &r->uvs[i])) return false;
+        r->gltf->material_count++;
+    }
+    return true;
+}

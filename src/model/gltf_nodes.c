@@ -1,0 +1,216 @@
+/// Reads nodes, their order and what the scene shows of them, and skins.
+#include "model/gltf_read.h"
+#include "model/vector.h"
+#include <math.h>
+#include <stdlib.h>
+
+static bool read_place(struct gltf_reader *r, const json_t *json, struct gltf_node *node)
+{
+    node->place = (struct gltf_place){.rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
+    node->has_matrix = json_object_get(json, "matrix");
+    if (!gltf_reals(r, json, "matrix", node->matrix, 16) ||
+        !gltf_reals(r, json, "translation", node->place.translation, 3) ||
+        !gltf_reals(r, json, "rotation", node->place.rotation, 4) ||
+        !gltf_reals(r, json, "scale", node->place.scale, 3))
+        return false;
+    float *q = node->place.rotation, length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(length > 0) || !isfinite(length)) return gltf_bad(r, ".rotation: expected a unit quaternion, got another");
+    for (int k = 0; k < 4; k++) q[k] /= length;
+    return true;
+}
+
+static bool read_node(struct gltf_reader *r, const json_t *json, size_t number)
+{
+    struct gltf_node *node = &r->gltf->nodes[number];
+    int skins = (int)json_array_size(gltf_array(r, "skins"));
+    gltf_at(r, "nodes[%zu]", number);
+    node->name = gltf_name(r, json, "node", number);
+    return node->name && read_place(r, json, node) && gltf_index(r, json, "mesh", r->gltf->mesh_count, &node->mesh) &&
+           gltf_index(r, json, "skin", skins, &node->skin);
+}
+
+/// An element of an array that numbers a node.
+static bool read_member(struct gltf_reader *r, const json_t *element, const char *key, size_t i, int *node)
+{
+    json_int_t value = json_is_integer(element) ? json_integer_value(element) : -1;
+    if (value < 0 || value >= r->gltf->node_count)
+        return gltf_bad(r, ".%s[%zu]: expected a node from 0 to %d, got %s", key, i, r->gltf->node_count - 1,
+                        json_is_integer(element) ? "another number" : "something else");
+    *node = (int)value;
+    return true;
+}
+
+static bool read_parents(struct gltf_reader *r, const json_t *nodes)
+{
+    const json_t *json, *element;
+    size_t i, k;
+    for (int n = 0; n < r->gltf->node_count; n++) r->gltf->nodes[n].parent = -1;
+    json_array_foreach(nodes, i, json)
+    {
+        gltf_at(r, "nodes[%zu]", i);
+        json_array_foreach(json_object_get(json, "children"), k, element)
+        {
+            int child;
+            if (!read_member(r, element, "children", k, &child)) return false;
+            if (r->gltf->nodes[child].parent >= 0)
+                return gltf_bad(r,
+                                ".children[%zu]: expected a node of one parent, got node %d, which nodes[%d] has too",
+                                k, child, r->gltf->nodes[child].parent);
+            r->gltf->nodes[child].parent = (int)i;
+        }
+    }
+    return true;
+}
+
+/// Roots, then the children of each that is in the list already. Nodes that are never reached go round in a circle.
+static bool put_in_order(struct gltf_reader *r, const json_t *nodes)
+{
+    struct gltf *gltf = r->gltf;
+    int count = 0;
+    for (int n = 0; n < gltf->node_count; n++) {
+        if (gltf->nodes[n].parent < 0) gltf->order[count++] = n;
+    }
+    for (int at = 0; at < count; at++) {
+        const json_t *children = json_object_get(json_array_get(nodes, (size_t)gltf->order[at]), "children");
+        for (size_t k = 0; k < json_array_size(children); k++)
+            gltf->order[count++] = (int)json_integer_value(json_array_get(children, k));
+    }
+    gltf_at(r, "nodes");
+    return count == gltf->node_count || gltf_bad(r, ": expected a tree, got a node that is below itself");
+}
+
+/// Takes the meshes from nodes that the scene does not show. Without scenes all are shown.
+static bool choose_scene(struct gltf_reader *r)
+{
+    struct gltf *gltf = r->gltf;
+    const json_t *scenes = gltf_array(r, "scenes"), *element;
+    size_t i;
+    int scene;
+    gltf_at(r, "scene");
+    if (json_array_size(scenes) == 0) return true;
+    if (!gltf_index(r, r->file.json, "scene", (int)json_array_size(scenes), &scene)) return false;
+    if (scene < 0) scene = 0;
+    bool *shown = gltf_make(r, (size_t)gltf->node_count, sizeof *shown), done = shown;
+    gltf_at(r, "scenes[%d]", scene);
+    json_array_foreach(json_object_get(json_array_get(scenes, (size_t)scene), "nodes"), i, element)
+    {
+        int root;
+        done = done && read_member(r, element, "nodes", i, &root);
+        if (done) shown[root] = true;
+    }
+    for (int n = 0; done && n < gltf->node_count; n++) {
+        struct gltf_node *node = &gltf->nodes[gltf->order[n]];
+        bool *is_shown = &shown[gltf->order[n]];
+        *is_shown = *is_shown || (node->parent >= 0 && shown[node->parent]);
+        if (*is_shown || node->mesh < 0) continue;
+        node->mesh = -1;
+        done = gltf_not_shown(r, "other scenes");
+    }
+    free(shown);
+    return done;
+}
+
+/// Morph weights at rest: the node's own, else its mesh's.
+static bool read_weights(struct gltf_reader *r, const json_t *nodes)
+{
+    struct gltf *gltf = r->gltf;
+    size_t total = 0;
+    for (int n = 0; n < gltf->node_count; n++) {
+        struct gltf_node *node = &gltf->nodes[n];
+        node->first_weight = (int)total;
+        if (node->mesh >= 0) total += (size_t)gltf->meshes[node->mesh].target_count;
+        if (total > r->file.room / sizeof *gltf->weights) break; // gltf_make() says so
+    }
+    gltf_at(r, "nodes");
+    gltf->weights = gltf_make(r, total, sizeof *gltf->weights);
+    if (!gltf->weights) return false;
+    gltf->weight_count = (int)total;
+    for (int n = 0; n < gltf->node_count; n++) {
+        const struct gltf_node *node = &gltf->nodes[n];
+        if (node->mesh < 0) continue;
+        const struct gltf_mesh *mesh = &gltf->meshes[node->mesh];
+        float *weights = gltf->weights + node->first_weight;
+        for (int k = 0; k < mesh->target_count; k++) weights[k] = mesh->weights[k];
+        gltf_at(r, "nodes[%d]", n);
+        if (!gltf_reals(r, json_array_get(nodes, (size_t)n), "weights", weights, (size_t)mesh->target_count))
+            return false;
+    }
+    return true;
+}
+
+bool gltf_read_nodes(struct gltf_reader *r)
+{
+    const json_t *nodes = gltf_array(r, "nodes"), *json;
+    size_t i, count = json_array_size(nodes);
+    gltf_at(r, "nodes");
+    if (count == 0) return gltf_bad(r, ": expected something to show, got no nodes");
+    r->gltf->nodes = gltf_make(r, count, sizeof *r->gltf->nodes);
+    r->gltf->order = r->gltf->nodes ? gltf_make(r, count, sizeof *r->gltf->order) : NULL;
+    if (!r->gltf->order) return false;
+    r->gltf->node_count = (int)count;
+    json_array_foreach(nodes, i, json)
+    {
+        if (!read_node(r, json, i)) return false;
+    }
+    return read_parents(r, nodes) && put_in_order(r, nodes) && choose_scene(r) && read_weights(r, nodes);
+}
+
+static bool read_inverse_bind(struct gltf_reader *r, const json_t *json, struct gltf_skin *skin)
+{
+    struct glb_numbers numbers;
+    if (!json_object_get(json, "inverseBindMatrices")) {
+        for (int i = 0; i < skin->joint_count; i++)
+            for (int k = 0; k < 4; k++) skin->inverse_bind[i][5 * k] = 1;
+        return true;
+    }
+    if (!glb_numbers(&r->file, glb_integer(json, "inverseBindMatrices", -1), &numbers, r->error)) return false;
+    bool fits = numbers.components == 16 && numbers.count >= skin->joint_count;
+    for (int n = 0; fits && n < 16 * skin->joint_count; n++)
+        skin->inverse_bind[n / 16][n % 16] = (float)numbers.values[n];
+    free(numbers.values);
+    return fits || gltf_bad(r, ".inverseBindMatrices: expected %d matrices of 16 numbers, got %d of %d",
+                            skin->joint_count, numbers.count, numbers.components);
+}
+
+static bool read_skin(struct gltf_reader *r, const json_t *json, struct gltf_skin *skin)
+{
+    const json_t *joints = json_object_get(json, "joints"), *element;
+    size_t i, count = json_array_size(joints);
+    if (count == 0) return gltf_bad(r, ".joints: expected a joint or more, got none");
+    skin->joints = gltf_make(r, count, sizeof *skin->joints);
+    skin->inverse_bind = skin->joints ? gltf_make(r, count, sizeof *skin->inverse_bind) : NULL;
+    if (!skin->inverse_bind) return false;
+    skin->joint_count = (int)count;
+    skin->first_joint = r->gltf->joint_count;
+    r->gltf->joint_count += skin->joint_count;
+    json_array_foreach(joints, i, element)
+    {
+        if (!read_member(r, element, "joints", i, &skin->joints[i])) return false;
+    }
+    return read_inverse_bind(r, json, skin);
+}
+
+bool gltf_read_skins(struct gltf_reader *r)
+{
+    const json_t *skins = gltf_array(r, "skins"), *json;
+    size_t i;
+    gltf_at(r, "skins");
+    r->gltf->skins = gltf_make(r, json_array_size(skins), sizeof *r->gltf->skins);
+    if (!r->gltf->skins) return false;
+    json_array_foreach(skins, i, json)
+    {
+        gltf_at(r, "skins[%zu]", i);
+        r->gltf->skin_count++;
+        if (!read_skin(r, json, &r->gltf->skins[i])) return false;
+    }
+    for (int n = 0; n < r->gltf->node_count; n++) {
+        const struct gltf_node *node = &r->gltf->nodes[n];
+        if (node->mesh < 0 || node->skin < 0) continue;
+        int joints = r->gltf->skins[node->skin].joint_count;
+        gltf_at(r, "nodes[%d]", n);
+        if (r->joints_of[node->mesh] > joints)
+            return gltf_bad(r, ".skin: expected a skin of %d joints, which its mesh uses, got %d",
+                            r->joints_of[node->mesh], joints);
+    }
+    return true;
+}

@@ -1,0 +1,241 @@
+/// Reads a glTF character: what its parts have in common, and their order.
+#include "model/gltf_read.h"
+#include "model/vector.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PIXEL_ROOM = 256 << 20, VERTEX_LIMIT = 1 << 26 };
+
+void gltf_at(struct gltf_reader *r, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(r->place, sizeof r->place, format, arguments);
+    va_end(arguments);
+}
+
+bool gltf_bad(struct gltf_reader *r, const char *format, ...)
+{
+    char text[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return fail(r->error, ERROR_INPUT, "%s: %s%s", r->file.path, r->place, text);
+}
+
+void *gltf_make(struct gltf_reader *r, size_t count, size_t size)
+{
+    if (count > r->file.room / size) {
+        gltf_bad(r, ": expected no more data than fits a file of this size, got %zu times %zu bytes", count, size);
+        return NULL;
+    }
+    r->file.room -= count * size;
+    void *memory = calloc(count + 1, size);
+    if (!memory) fail_no_memory(r->error, r->file.path);
+    return memory;
+}
+
+bool gltf_index(struct gltf_reader *r, const json_t *object, const char *key, int limit, int *index)
+{
+    const json_t *member = json_object_get(object, key);
+    json_int_t value = json_is_integer(member) ? json_integer_value(member) : -1;
+    *index = -1;
+    if (!member) return true;
+    if (value < 0 || value >= limit)
+        return limit == 0 ? gltf_bad(r, ".%s: expected none, for there are none in the file", key)
+                          : gltf_bad(r, ".%s: expected a number from 0 to %d, got %s%.0f", key, limit - 1,
+                                     json_is_number(member) ? "" : "something else than a number, not ",
+                                     json_number_value(member));
+    *index = (int)value;
+    return true;
+}
+
+bool gltf_reals(struct gltf_reader *r, const json_t *object, const char *key, float *numbers, size_t count)
+{
+    const json_t *array = json_object_get(object, key);
+    if (!array) return true;
+    if (json_array_size(array) != count)
+        return gltf_bad(r, ".%s: expected %zu numbers, got %zu", key, count, json_array_size(array));
+    for (size_t i = 0; i < count; i++) {
+        const json_t *number = json_array_get(array, i);
+        float value = (float)json_number_value(number);
+        if (!json_is_number(number) || !isfinite(value))
+            return gltf_bad(r, ".%s[%zu]: expected a finite number, got something else", key, i);
+        numbers[i] = value;
+    }
+    return true;
+}
+
+char *gltf_name(struct gltf_reader *r, const json_t *object, const char *kind, size_t n)
+{
+    char made[64];
+    const char *name = json_string_value(json_object_get(object, "name"));
+    snprintf(made, sizeof made, "%s %zu", kind, n);
+    char *copy = strdup(name && name[0] ? name : made);
+    if (!copy) fail_no_memory(r->error, r->file.path);
+    return copy;
+}
+
+const json_t *gltf_array(const struct gltf_reader *r, const char *key) { return json_object_get(r->file.json, key); }
+
+/// Whether the list, whose names are separated by ", ", has this one.
+static bool listed(const char *list, const char *name)
+{
+    size_t length = strlen(name);
+    for (const char *at = list; at && (at = strstr(at, name)); at++) {
+        bool begins = at == list || at[-1] == ' ', ends = at[length] == ',' || at[length] == '\0';
+        if (begins && ends) return true;
+    }
+    return false;
+}
+
+bool gltf_not_shown(struct gltf_reader *r, const char *format, ...)
+{
+    char name[128];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(name, sizeof name, format, arguments);
+    va_end(arguments);
+    if (listed(r->gltf->not_shown, name)) return true;
+    size_t end = r->not_shown_end, length = strlen(name);
+    char *longer = realloc(r->gltf->not_shown, end + length + 3);
+    if (!longer) return fail_no_memory(r->error, r->file.path);
+    r->gltf->not_shown = longer;
+    r->not_shown_end = end + (size_t)sprintf(longer + end, "%s%s", end ? ", " : "", name);
+    return true;
+}
+
+static bool check_version(struct gltf_reader *r)
+{
+    const json_t *asset = json_object_get(r->file.json, "asset");
+    const char *version = json_string_value(json_object_get(asset, "minVersion"));
+    if (!version) version = json_string_value(json_object_get(asset, "version"));
+    gltf_at(r, "asset");
+    if (version && strncmp(version, "2.", 2) == 0 &&
+        (!json_object_get(asset, "minVersion") || !strcmp(version, "2.0")))
+        return true;
+    return gltf_bad(r, ".version: expected glTF 2.0, got %.20s", version ? version : "none");
+}
+
+static bool check_arrays(struct gltf_reader *r)
+{
+    static const char *const keys[] = {"accessors", "animations", "buffers",  "bufferViews", "extensionsRequired",
+                                       "images",    "materials",  "meshes",   "nodes",       "extensionsUsed",
+                                       "scenes",    "skins",      "textures", "cameras",     "samplers"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        const json_t *member = json_object_get(r->file.json, keys[i]);
+        gltf_at(r, "%s", keys[i]);
+        if (member && !json_is_array(member)) return gltf_bad(r, ": expected an array, got something else");
+        if (json_array_size(member) > INT32_MAX / 2) return gltf_bad(r, ": expected fewer");
+    }
+    return true;
+}
+
+/// Extensions whose content is shown, and those without which no mesh can be read.
+static bool is_shown(const char *extension)
+{
+    return !strcmp(extension, "KHR_mesh_quantization") || !strcmp(extension, "KHR_texture_transform");
+}
+
+static bool packs_meshes(const char *extension)
+{
+    return strstr(extension, "_draco_") || strstr(extension, "_meshopt_");
+}
+
+static bool check_extensions(struct gltf_reader *r)
+{
+    size_t i;
+    const json_t *extension;
+    json_array_foreach(gltf_array(r, "extensionsRequired"), i, extension)
+    {
+        const char *name = json_string_value(extension);
+        gltf_at(r, "extensionsRequired[%zu]", i);
+        if (name && packs_meshes(name))
+            return gltf_bad(r, ": expected meshes that are not compressed, got %.60s; export without compression",
+                            name);
+    }
+    json_array_foreach(gltf_array(r, "extensionsUsed"), i, extension)
+    {
+        const char *name = json_string_value(extension);
+        if (name && !is_shown(name) && !gltf_not_shown(r, "%.100s", name)) return false;
+    }
+    return json_array_size(gltf_array(r, "cameras")) == 0 || gltf_not_shown(r, "cameras");
+}
+
+static void widen(struct gltf *gltf, const float at[3])
+{
+    for (int k = 0; k < 3; k++) {
+        gltf->lo[k] = fminf(gltf->lo[k], at[k]);
+        gltf->hi[k] = fmaxf(gltf->hi[k], at[k]);
+    }
+}
+
+/// The box of all vertices at rest, or of the nodes where there are none.
+static bool measure(struct gltf_reader *r)
+{
+    struct gltf *gltf = r->gltf;
+    struct gltf_pose pose;
+    int most = 0;
+    int64_t total = 0;
+    for (int i = 0; i < gltf->node_count; i++) {
+        int count = gltf_vertex_count(gltf, i);
+        total += count;
+        if (count > most) most = count;
+    }
+    if (total > VERTEX_LIMIT)
+        return fail(r->error, ERROR_INPUT, "%s: nodes: expected at most %d vertices together, got %lld", gltf->path,
+                    VERTEX_LIMIT, (long long)total);
+    float(*positions)[3] = malloc(((size_t)most + 1) * sizeof *positions);
+    if (!positions || !gltf_pose_create(gltf, &pose)) {
+        free(positions);
+        return fail_no_memory(r->error, r->file.path);
+    }
+    glm_vec3_fill(gltf->lo, INFINITY);
+    glm_vec3_fill(gltf->hi, -INFINITY);
+    for (int i = 0; i < gltf->node_count; i++) {
+        int count = gltf_vertex_count(gltf, i);
+        gltf_pose_vertices(gltf, &pose, i, positions, NULL);
+        for (int n = 0; n < count; n++) widen(gltf, positions[n]);
+    }
+    for (int i = 0; most == 0 && i < gltf->node_count; i++) widen(gltf, pose.world[i] + 12);
+    gltf_pose_free(&pose);
+    free(positions);
+    for (int k = 0; k < 3; k++) {
+        if (!isfinite(gltf->lo[k]) || !isfinite(gltf->hi[k]))
+            return fail(r->error, ERROR_INPUT, "%s: expected a size that can be shown, got an infinite one",
+                        gltf->path);
+    }
+    return true;
+}
+
+static bool read_all(struct gltf_reader *r)
+{
+    static atomic_uint_fast64_t last;
+    if (!check_version(r) || !check_arrays(r) || !check_extensions(r)) return false;
+    if (!glb_read_buffers(&r->file, r->error)) return false;
+    r->pixel_room = PIXEL_ROOM + r->file.room;
+    r->gltf->path = strdup(r->file.path);
+    r->gltf->id = atomic_fetch_add(&last, 1) + 1;
+    if (!r->gltf->path) return fail_no_memory(r->error, r->file.path);
+    return gltf_read_materials(r) && gltf_read_meshes(r) && gltf_read_nodes(r) && gltf_read_skins(r) &&
+           gltf_read_clips(r) && measure(r);
+}
+
+bool gltf_read(const char *path, struct gltf *gltf, struct error *error)
+{
+    struct gltf_reader r = {.gltf = gltf, .error = error};
+    *gltf = (struct gltf){0};
+    if (!glb_open_any(&r.file, path, error)) return false;
+    bool done = read_all(&r);
+    free(r.uvs);
+    free(r.joints_of);
+    free(r.image_of);
+    glb_close(&r.file);
+    if (!done) gltf_free(gltf);
+    return done;
+}

@@ -1,0 +1,87 @@
+/// What the files that read glTF characters share. Private to src/model/gltf_*.c.
+#ifndef MODEL_GLTF_READ_H
+#define MODEL_GLTF_READ_H
+
+#include "model/glb.h"
+#include "model/gltf.h"
+
+/// Where the base colour of a material lies on its texture.
+struct gltf_uv {
+    int set; ///< TEXCOORD_n
+    float offset[2], rotation, scale[2];
+};
+
+/// The floats of an accessor of a clip, read once.
+struct gltf_floats {
+    float *values;
+    int count, components;
+};
+
+/// Arrays that clips point into.
+struct gltf_owned {
+    size_t count;
+    struct gltf_floats accessors[];
+};
+
+/// What is known while a file is read. Functions fail with a sentence in `error`; what was read so far is freed with `gltf`.
+struct gltf_reader {
+    struct glb file;
+    struct gltf *gltf;
+    struct error *error;
+    char place[96];       ///< in the JSON, for messages
+    struct gltf_uv *uvs;  ///< of each material
+    int *joints_of;       ///< of each mesh: its joints' numbers are below
+    int *image_of;        ///< gltf.images of each image of the file: −1 cannot be shown, −2 not tried yet
+    size_t pixel_room;    ///< bytes of pixels that may still be decoded
+    size_t not_shown_end; ///< length of gltf.not_shown
+};
+
+/// The part of the JSON that is read now.
+void gltf_at(struct gltf_reader *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/// Fails with "file: place" and then the text, which begins with ".member: " or ": ".
+bool gltf_bad(struct gltf_reader *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/// Zeroed memory, as long as the file is large enough for so much; else NULL and an error.
+void *gltf_make(struct gltf_reader *r, size_t count, size_t size);
+
+/// A member that counts into an array of `limit` things; −1 where it is missing.
+bool gltf_index(struct gltf_reader *r, const json_t *object, const char *key, int limit, int *index);
+
+/// A member that is an array of `count` numbers; left alone where it is missing.
+bool gltf_reals(struct gltf_reader *r, const json_t *object, const char *key, float *numbers, size_t count);
+
+/// The name of a thing, or "kind n".
+char *gltf_name(struct gltf_reader *r, const json_t *object, const char *kind, size_t n);
+
+/// An array of the file's root; NULL where there is none.
+const json_t *gltf_array(const struct gltf_reader *r, const char *key);
+
+/// Names something that is not shown, once.
+bool gltf_not_shown(struct gltf_reader *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+bool gltf_read_materials(struct gltf_reader *r);
+bool gltf_read_meshes(struct gltf_reader *r);
+bool gltf_read_nodes(struct gltf_reader *r);
+bool gltf_read_skins(struct gltf_reader *r);
+bool gltf_read_clips(struct gltf_reader *r);
+
+/// The joints (of a file's own numbers) and weights of a part's vertices, in that order.
+struct gltf_vertices {
+    int in_file;           ///< how many the accessors have
+    const uint32_t *order; ///< which of them each vertex is; NULL: the same
+    int count;
+};
+
+/// An attribute as rows of `width` floats, NULL where it is missing. Of four, a missing fourth is 1.
+bool gltf_rows(struct gltf_reader *r, const json_t *attributes, const char *name, int width,
+               const struct gltf_vertices *vertices, float **rows);
+
+/// Joints and weights of a part; `joints` becomes more than any joint's number.
+bool gltf_read_influences(struct gltf_reader *r, const json_t *attributes, const struct gltf_vertices *vertices,
+                          struct gltf_part *part, int *joints);
+
+/// Decodes an image of the file into gltf.images, once; −1 and named as not shown where it cannot be.
+bool gltf_read_image(struct gltf_reader *r, int image, int *index);
+
+#endif
