@@ -163,11 +163,11 @@ static void rigs_keep_their_order(void **state)
     assert_order(document, "tct");
     apply(history, document, &(struct edit){.kind = EDIT_TAIL_ADD, .rig = 2});
     assert_order(document, "tctt");
-    apply(history, document, &(struct edit){.kind = EDIT_TAIL_REMOVE, .rig = 0});
+    apply(history, document, &(struct edit){.kind = EDIT_RIG_REMOVE, .rig = 0});
     assert_order(document, "ctt");
     const struct drive drive = {.name = "up", .spline = 1, .amplitude = 1};
     apply(history, document, &(struct edit){.kind = EDIT_DRIVE_ADD, .rig = 0, .drive = drive});
-    apply(history, document, &(struct edit){.kind = EDIT_TAIL_REMOVE, .rig = 1});
+    apply(history, document, &(struct edit){.kind = EDIT_RIG_REMOVE, .rig = 1});
     assert_order(document, "ct");
     assert_string_equal(document->rigs[1].name, "tail");
     while (history_undo(history, document)) continue;

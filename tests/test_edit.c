@@ -148,7 +148,7 @@ static void test_angles(void **state)
     edit.channel = 2;
     assert_refused(&world, edit, "there is no such channel");
     edit.rig = 1;
-    assert_refused(&world, edit, "there is no such tail");
+    assert_refused(&world, edit, "there is no such rig");
     while (history_undo(world.history, world.document)) continue;
     assert_document(&world, before);
     free(before);

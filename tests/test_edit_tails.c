@@ -61,17 +61,17 @@ static void test_which_tails_there_are(void **state)
     assert_int_equal(copy->channel_count, 2);
     assert_near(copy->channels[1].gain.value[2], 3, 0);
     assert_true(copy->position[0].value > document_tail(world.document, 0)->position[0].value);
-    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_NAME, .rig = 1, .text = "other"});
-    assert_refused(&world, (struct edit){.kind = EDIT_TAIL_NAME, .rig = 1, .text = "t"},
+    assert_reversible(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = 1, .text = "other"});
+    assert_refused(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = 1, .text = "t"},
                    "there is a rig called t already");
-    assert_refused(&world, (struct edit){.kind = EDIT_TAIL_NAME, .rig = 1, .text = ""}, "a tail needs a name");
+    assert_refused(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = 1, .text = ""}, "a tail needs a name");
     struct edit lag = {.kind = EDIT_ANGLES, .rig = 1, .channel = 1, .angle = ANGLE_LAG};
     const struct angles angles = {.value = {9}};
     lag.angles = &angles;
     assert_reversible(&world, lag); // angles go by index: they find their place in a list that came back
-    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_REMOVE, .rig = 0});
+    assert_reversible(&world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = 0});
     assert_string_equal(world.document->rigs[0].name, "other");
-    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_REMOVE, .rig = 0});
+    assert_reversible(&world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = 0});
     assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_ADD, .rig = -1, .spline = PLUCK});
     assert_int_equal(document_tail(world.document, 0)->channels[0].spline, PLUCK);
     world_undo_all(&world);

@@ -228,8 +228,12 @@ static struct edit random_setting_edit(struct angles *angles)
     edit.last = 40 + rand() % 20;
     edit.angle = (enum angle_kind)(rand() % 3);
     edit.axis = (enum axis)(rand() % 2);
-    angles->each = rand() % 2;
-    for (int i = 0; i < 3; i++) angles->value[i] = random_number();
+    angles->form = (enum angle_form)(rand() % 3);
+    angles->count = 3;
+    for (int i = 0; i < 3; i++) {
+        if (angles->form == ANGLES_RAMP) angles->ramp[i].at = i / 2.0;
+        angles_set_number(angles, i, random_number());
+    }
     return edit;
 }
 

@@ -1,8 +1,8 @@
-/// Imported characters and their chains in scene files: read, printed, refused, copied, and carried along when the scene is saved elsewhere.
+/// Imported characters and their chains: read, printed, copied, edited, and carried along when the scene is saved elsewhere.
 #include "near.h"
 
-#include "scene/edit.h"
-#include "scene/load.h"
+#include "world.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -169,6 +169,156 @@ static void paths_lead_to_the_same_models_from_another_folder(void **state)
     document_destroy(document);
 }
 
+// --- edits
+
+/// A world with that scene under edit.
+static void open_whole(struct world *world)
+{
+    world_open(world);
+    document_destroy(world->document);
+    world->document = parse(whole);
+}
+
+static struct edit edit_rig(enum edit_kind kind, int rig, const struct rig *contents)
+{
+    return (struct edit){.kind = kind, .rig = rig, .contents = contents};
+}
+
+static void channels_of_a_chain_are_edited_as_those_of_a_tail(void **state)
+{
+    (void)state;
+    struct world world;
+    open_whole(&world);
+    const struct angles ramp = {.form = ANGLES_RAMP, .count = 2, .ramp = {{0, 1}, {1, 30}}};
+    const struct angles many = {.form = ANGLES_EACH, .count = 7, .value = {1, 2, 3, 4, 5, 6, 7}};
+    assert_reversible(&world, (struct edit){.kind = EDIT_ANGLES, .rig = TAIL, .angle = ANGLE_LAG, .angles = &ramp});
+    assert_reversible(&world, (struct edit){.kind = EDIT_ANGLES, .rig = TAIL, .angle = ANGLE_GAIN, .angles = &many});
+    assert_reversible(&world, (struct edit){.kind = EDIT_AXIS, .rig = TAIL, .axis = AXIS_TWIST});
+    assert_reversible(&world, (struct edit){.kind = EDIT_PART, .rig = TAIL, .of = PART_DISPLACEMENT});
+    assert_reversible(&world, (struct edit){.kind = EDIT_CHANNEL_ADD, .rig = EAR, .axis = AXIS_TWIST});
+    assert_reversible(&world, (struct edit){.kind = EDIT_SPLINE_ADD, .spline = 0, .text = "first"});
+    assert_int_equal(document_find_spline(world.document, "s"), world.document->rigs[TAIL].chain.channels[1].spline);
+    assert_reversible(&world, (struct edit){.kind = EDIT_FEED, .rig = TAIL, .channel = 1, .spline = 0});
+    assert_reversible(&world, (struct edit){.kind = EDIT_CHANNEL_REMOVE, .rig = TAIL, .channel = 0});
+    assert_int_equal(world.document->rigs[TAIL].chain.channel_count, 1);
+    assert_refused(&world, (struct edit){.kind = EDIT_ANGLES, .rig = TAIL, .angle = ANGLE_REST, .angles = &ramp},
+                   "only a tail has angles at rest");
+    assert_refused(&world, (struct edit){.kind = EDIT_AXIS, .rig = WALK}, "there is no such rig");
+    assert_refused(&world, (struct edit){.kind = EDIT_LENGTH, .rig = TAIL, .number = 1}, "there is no such tail");
+    assert_refused(&world, (struct edit){.kind = EDIT_SPLINE_REMOVE, .spline = 1},
+                   "s: still used in 1 place; remove those first");
+    world_close(&world);
+}
+
+static void models_and_chains_are_added(void **state)
+{
+    (void)state;
+    struct world world;
+    open_whole(&world);
+    char file[] = "../films/walk.glb", from[] = "leg", to[] = "foot";
+    struct channel channel = {.axis = AXIS_UP, .lag = {.value = {3}}, .gain = {.value = {4}}};
+    struct rig model = {.kind = RIG_MODEL, .model = {.model = file, .clip = from, .scale = 2}};
+    struct rig chain = {.kind = RIG_CHAIN,
+                        .chain = {.model = file, .from = from, .to = to, .channels = &channel, .channel_count = 1}};
+    assert_refused(&world, edit_rig(EDIT_CHAIN_ADD, 0, &chain),
+                   "there is no model \"../films/walk.glb\" in the scene");
+    assert_reversible(&world, edit_rig(EDIT_MODEL_ADD, 0, &model));
+    assert_string_equal(world.document->rigs[4].name, "walk 2");
+    assert_reversible(&world, edit_rig(EDIT_CHAIN_ADD, 0, &chain));
+    assert_string_equal(world.document->rigs[5].name, "leg");
+    assert_true(world.document->rigs[5].chain.by_file);
+    chain.chain.model = world.document->rigs[4].name;
+    assert_reversible(&world, edit_rig(EDIT_CHAIN_ADD, 0, &chain));
+    assert_string_equal(world.document->rigs[6].name, "leg 2");
+    memset(file, 'x', sizeof file - 1);
+    memset(from, 'x', sizeof from - 1);
+    channel.gain.value[0] = 100;
+    assert_string_equal(world.document->rigs[4].model.clip, "leg");
+    assert_string_equal(world.document->rigs[4].model.model, "../films/walk.glb");
+    assert_near(world.document->rigs[6].chain.channels[0].gain.value[0], 4, 0);
+    model.model.scale = 0;
+    assert_refused(&world, edit_rig(EDIT_MODEL_ADD, 0, &model), "the scale must be above 0 and finite");
+    channel.spline = 1;
+    assert_refused(&world, edit_rig(EDIT_CHAIN_ADD, 0, &chain), "there is no such spline");
+    world_undo_all(&world);
+    assert_document(&world, whole);
+    world_close(&world);
+}
+
+static void models_and_chains_are_set(void **state)
+{
+    (void)state;
+    struct world world;
+    open_whole(&world);
+    char from[] = "a", to[] = "b", nothing[] = "";
+    struct rig place = {.model = {.position = {1, 2, 3}, .scale = 4, .turn = -5}};
+    struct rig ends = {.chain = {.from = from, .to = to, .turn = 7}};
+    assert_reversible(&world, edit_rig(EDIT_PLACE, WALK, &place));
+    assert_near(world.document->rigs[WALK].model.position[2], 3, 0);
+    assert_reversible(&world, (struct edit){.kind = EDIT_CLIP, .rig = WALK, .text = "Run"});
+    assert_reversible(&world, (struct edit){.kind = EDIT_CLIP, .rig = WALK});
+    assert_null(world.document->rigs[WALK].model.clip);
+    assert_reversible(&world, edit_rig(EDIT_CHAIN, TAIL, &ends));
+    assert_string_equal(world.document->rigs[TAIL].chain.to, "b");
+    assert_false(world.document->rigs[TAIL].chain.mirror);
+    ends.chain.to = nothing;
+    assert_refused(&world, edit_rig(EDIT_CHAIN, TAIL, &ends),
+                   "a chain needs the names of its first joint and its last");
+    place.model.turn = NAN;
+    assert_refused(&world, edit_rig(EDIT_PLACE, WALK, &place), "position and turn must be finite");
+    assert_refused(&world, edit_rig(EDIT_PLACE, TAIL, &place), "there is no such model");
+    world_undo_all(&world);
+    assert_document(&world, whole);
+    world_close(&world);
+}
+
+static void chains_keep_to_their_model(void **state)
+{
+    (void)state;
+    struct world world;
+    open_whole(&world);
+    assert_refused(&world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = WALK},
+                   "walk: still moved by tail; remove those first");
+    assert_reversible(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = WALK, .text = "dog"});
+    assert_string_equal(world.document->rigs[TAIL].chain.model, "dog");
+    assert_reversible(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = CAT, .text = "cat"});
+    assert_string_equal(world.document->rigs[EAR].chain.model, "models/cat.glb");
+    assert_refused(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = WALK, .text = "models/cat.glb"},
+                   "a chain takes models/cat.glb for the file of its model");
+    assert_refused(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = EAR, .text = "tail"},
+                   "there is a rig called tail already");
+    assert_refused(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = EAR}, "a chain needs a name");
+    assert_reversible(&world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = EAR});
+    assert_reversible(&world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = CAT});
+    world_undo_all(&world);
+    assert_document(&world, whole);
+    world_close(&world);
+}
+
+/// What undo brings back after "save as" leads to the same files, too.
+static void paths_in_the_history_move_along(void **state)
+{
+    (void)state;
+    struct world world;
+    open_whole(&world);
+    world.document->folder = strdup("/films");
+    char file[] = "new.glb";
+    const struct rig model = {.kind = RIG_MODEL, .model = {.model = file, .scale = 2}};
+    world_must(&world, (struct edit){.kind = EDIT_CLIP, .rig = WALK});
+    world_must(&world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = EAR});
+    world_must(&world, edit_rig(EDIT_MODEL_ADD, 0, &model));
+    assert_true(history_undo(world.history, world.document));
+    assert_true(history_set_folder(world.history, world.document, "/films/deeper"));
+    assert_true(history_redo(world.history, world.document));
+    assert_string_equal(world.document->rigs[3].model.model, "../new.glb");
+    world_undo_all(&world);
+    assert_string_equal(world.document->rigs[WALK].model.model, "../walk.glb");
+    assert_string_equal(world.document->rigs[EAR].chain.model, "../models/cat.glb");
+    assert_true(history_set_folder(world.history, world.document, "/films"));
+    assert_document(&world, whole);
+    world_close(&world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -176,6 +326,11 @@ int main(void)
         cmocka_unit_test(a_file_may_leave_out_what_is_usual),
         cmocka_unit_test(every_kind_of_rig_can_be_copied),
         cmocka_unit_test(paths_lead_to_the_same_models_from_another_folder),
+        cmocka_unit_test(channels_of_a_chain_are_edited_as_those_of_a_tail),
+        cmocka_unit_test(models_and_chains_are_added),
+        cmocka_unit_test(models_and_chains_are_set),
+        cmocka_unit_test(chains_keep_to_their_model),
+        cmocka_unit_test(paths_in_the_history_move_along),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

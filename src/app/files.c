@@ -118,7 +118,7 @@ static bool save(struct app *app, const char *path, struct error *error)
 {
     char folder[PATH_LIMIT];
     if (!scene_save(app->table.document, path, error)) return false;
-    if (!path_folder(path, folder) || !document_set_folder(app->table.document, folder)) {
+    if (!path_folder(path, folder) || !history_set_folder(app->table.history, app->table.document, folder)) {
         return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to continue", path);
     }
     if (path != app->table.document->path && !document_set_path(app->table.document, path)) {

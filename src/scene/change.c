@@ -208,6 +208,12 @@ static void swap_place(struct change *change, struct document *document)
     change->to = from;
 }
 
+bool change_rebase(struct change *change, const char *from, const char *to)
+{
+    const bool holds_rig = change->kind == CHANGE_RIG || change->kind == CHANGE_RIG_OUT;
+    return !holds_rig || rig_rebase(change->rig.held, from, to);
+}
+
 size_t change_settle(struct change *change)
 {
     if (change->kind != CHANGE_PAINT) return 0;
@@ -250,15 +256,17 @@ _Static_assert(sizeof(struct ramp_point) == 2 * sizeof(double), "a ramp is place
 
 struct angles *change_angles(struct document *document, struct angles_place at)
 {
-    struct tail *tail = &document->rigs[at.rig].tail;
-    if (at.kind == ANGLE_REST) return &tail->rest;
-    struct channel *channel = &tail->channels[at.channel];
+    struct rig *rig = &document->rigs[at.rig];
+    int count;
+    if (at.kind == ANGLE_REST) return &rig->tail.rest;
+    struct channel *channel = &rig_channels(rig, &count)[at.channel];
     return at.kind == ANGLE_LAG ? &channel->lag : &channel->gain;
 }
 
 static void swap_channel(struct change *change, struct document *document)
 {
-    struct channel *channel = &document->rigs[change->channel.rig].tail.channels[change->channel.channel];
+    int count;
+    struct channel *channel = &rig_channels(&document->rigs[change->channel.rig], &count)[change->channel.channel];
     SWAP(int, channel->spline, change->channel.spline);
     SWAP(enum axis, channel->axis, change->channel.axis);
     SWAP(enum channel_part, channel->of, change->channel.of);

@@ -123,6 +123,9 @@ struct timing timing_of(const struct document *document);
 /// Swaps the change's state with the document's. There must be room for a knot in its spline and for a spline in the document.
 void change_swap(struct change *change, struct document *document);
 
+/// Rewrites the paths in what it holds for another folder; false if memory runs out.
+bool change_rebase(struct change *change, const char *from, const char *to);
+
 /// Frees memory that a change needed only while its step was open. Returns how much.
 size_t change_settle(struct change *change);
 

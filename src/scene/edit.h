@@ -33,8 +33,8 @@ enum edit_kind {
     EDIT_LENGTH,      ///< rig, number: metres, above 0
     EDIT_JOINTS,      ///< rig, to: how many; the tail keeps its shape
     EDIT_TAIL_ADD,    ///< rig: a copy goes beside it; if it is no tail, a plain one bent by `spline` (-1: by nothing)
-    EDIT_TAIL_REMOVE, ///< rig
-    EDIT_TAIL_NAME,   ///< rig, text: not empty, and no other rig's
+    EDIT_RIG_REMOVE,  ///< rig; refused for a model with chains on it
+    EDIT_RIG_NAME,    ///< rig, text: not empty, and no other rig's. What goes by the old name goes by the new one
     EDIT_CHANNEL_ADD, ///< rig, spline, axis, of: one more, the last
     EDIT_CHANNEL_REMOVE, ///< rig, channel
     EDIT_DRIVE,          ///< rig, channel: which drive, drive: replaces spline, amplitude and lag
@@ -42,6 +42,11 @@ enum edit_kind {
     EDIT_DRIVE_REMOVE,   ///< rig, channel: which drive
     EDIT_PAINT_NEW, ///< rig, coordinates, vertices (of its model): replaces its paint by one that changes nothing
     EDIT_PAINT,     ///< rig, dab. All dabs of a step on one coordinate make one change
+    EDIT_MODEL_ADD, ///< contents: a model rig, which becomes the last. Its name, or else its file's, gets a number if it is taken
+    EDIT_CHAIN_ADD, ///< contents: a chain, likewise; without a name it is called after its first joint
+    EDIT_CLIP,      ///< rig, text: the model's clip, or NULL
+    EDIT_PLACE,     ///< rig, contents: the model's position, scale and turn
+    EDIT_CHAIN,     ///< rig, contents: the chain's from, to, turn and mirror
 };
 
 enum range_fit {
@@ -64,7 +69,7 @@ struct edit {
     struct document *document;
     int substeps, first, last;
     enum range_fit fit;
-    int rig; ///< index of a rig of the kind that the edit is for
+    int rig; ///< index of a rig of a kind that the edit is for
     int channel;
     enum angle_kind angle;
     enum axis axis;
@@ -75,6 +80,7 @@ struct edit {
     int coordinates, vertices;
     const struct dab *dab;       ///< read during the call only
     const struct angles *angles; ///< read during the call only
+    const struct rig *contents;  ///< read during the call only
 };
 
 /// Undo and redo of one document. Opaque.
@@ -82,6 +88,8 @@ struct history;
 
 struct history *history_create(void);
 void history_destroy(struct history *history);
+/// document_set_folder(), for what undo and redo bring back as well.
+bool history_set_folder(struct history *history, struct document *document, const char *folder);
 /// Forgets everything, as for a new document.
 void history_clear(struct history *history);
 

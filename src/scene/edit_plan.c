@@ -22,10 +22,14 @@ bool plan_add(struct change_list *list, const struct change *change, struct erro
 /// What an edit's index must name.
 enum target { TARGET_SCENE, TARGET_SPLINE, TARGET_RIG };
 
+#define KIND(kind) (1u << (kind))
+#define CHANNELS (KIND(RIG_TAIL) | KIND(RIG_CHAIN)) ///< kinds that have them
+#define ANY_KIND (KIND(RIG_KINDS) - 1)
+
 static const struct {
     planner *plan;
     enum target target;
-    enum rig_kind kind; ///< of TARGET_RIG
+    unsigned kinds; ///< of TARGET_RIG
 } planners[] = {
     [EDIT_KNOT_INSERT] = {plan_knot_insert, TARGET_SPLINE, 0},
     [EDIT_KNOT_REMOVE] = {plan_knot_remove, TARGET_SPLINE, 0},
@@ -42,32 +46,47 @@ static const struct {
     [EDIT_FPS] = {plan_fps, TARGET_SCENE, 0},
     [EDIT_SUBSTEPS] = {plan_substeps, TARGET_SCENE, 0},
     [EDIT_RANGE] = {plan_range, TARGET_SCENE, 0},
-    [EDIT_ANGLES] = {plan_angles, TARGET_RIG, RIG_TAIL},
-    [EDIT_AXIS] = {plan_axis, TARGET_RIG, RIG_TAIL},
-    [EDIT_PART] = {plan_part, TARGET_RIG, RIG_TAIL},
-    [EDIT_FEED] = {plan_feed, TARGET_RIG, RIG_TAIL},
-    [EDIT_POSITION] = {plan_position, TARGET_RIG, RIG_TAIL},
-    [EDIT_LENGTH] = {plan_length, TARGET_RIG, RIG_TAIL},
-    [EDIT_JOINTS] = {plan_joints, TARGET_RIG, RIG_TAIL},
+    [EDIT_ANGLES] = {plan_angles, TARGET_RIG, CHANNELS},
+    [EDIT_AXIS] = {plan_axis, TARGET_RIG, CHANNELS},
+    [EDIT_PART] = {plan_part, TARGET_RIG, CHANNELS},
+    [EDIT_FEED] = {plan_feed, TARGET_RIG, CHANNELS},
+    [EDIT_POSITION] = {plan_position, TARGET_RIG, KIND(RIG_TAIL)},
+    [EDIT_LENGTH] = {plan_length, TARGET_RIG, KIND(RIG_TAIL)},
+    [EDIT_JOINTS] = {plan_joints, TARGET_RIG, KIND(RIG_TAIL)},
     [EDIT_TAIL_ADD] = {plan_tail_add, TARGET_SCENE, 0},
-    [EDIT_TAIL_REMOVE] = {plan_tail_remove, TARGET_RIG, RIG_TAIL},
-    [EDIT_TAIL_NAME] = {plan_tail_name, TARGET_RIG, RIG_TAIL},
-    [EDIT_CHANNEL_ADD] = {plan_channel_add, TARGET_RIG, RIG_TAIL},
-    [EDIT_CHANNEL_REMOVE] = {plan_channel_remove, TARGET_RIG, RIG_TAIL},
-    [EDIT_DRIVE] = {plan_drive, TARGET_RIG, RIG_CHARACTER},
-    [EDIT_DRIVE_ADD] = {plan_drive_add, TARGET_RIG, RIG_CHARACTER},
-    [EDIT_DRIVE_REMOVE] = {plan_drive_remove, TARGET_RIG, RIG_CHARACTER},
-    [EDIT_PAINT_NEW] = {plan_paint_new, TARGET_RIG, RIG_CHARACTER},
-    [EDIT_PAINT] = {plan_dab, TARGET_RIG, RIG_CHARACTER},
+    [EDIT_RIG_REMOVE] = {plan_rig_remove, TARGET_RIG, ANY_KIND},
+    [EDIT_RIG_NAME] = {plan_rig_name, TARGET_RIG, ANY_KIND},
+    [EDIT_CHANNEL_ADD] = {plan_channel_add, TARGET_RIG, CHANNELS},
+    [EDIT_CHANNEL_REMOVE] = {plan_channel_remove, TARGET_RIG, CHANNELS},
+    [EDIT_DRIVE] = {plan_drive, TARGET_RIG, KIND(RIG_CHARACTER)},
+    [EDIT_DRIVE_ADD] = {plan_drive_add, TARGET_RIG, KIND(RIG_CHARACTER)},
+    [EDIT_DRIVE_REMOVE] = {plan_drive_remove, TARGET_RIG, KIND(RIG_CHARACTER)},
+    [EDIT_PAINT_NEW] = {plan_paint_new, TARGET_RIG, KIND(RIG_CHARACTER)},
+    [EDIT_PAINT] = {plan_dab, TARGET_RIG, KIND(RIG_CHARACTER)},
+    [EDIT_MODEL_ADD] = {plan_model_add, TARGET_SCENE, 0},
+    [EDIT_CHAIN_ADD] = {plan_chain_add, TARGET_SCENE, 0},
+    [EDIT_CLIP] = {plan_clip, TARGET_RIG, KIND(RIG_MODEL)},
+    [EDIT_PLACE] = {plan_place, TARGET_RIG, KIND(RIG_MODEL)},
+    [EDIT_CHAIN] = {plan_chain, TARGET_RIG, KIND(RIG_CHAIN)},
 };
+
+/// What to call a rig of one of those kinds.
+static const char *word_for(unsigned kinds)
+{
+    for (int k = 0; k < RIG_KINDS; k++) {
+        if (kinds == KIND(k)) return rig_word((enum rig_kind)k);
+    }
+    return "rig";
+}
 
 bool edit_plan(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
     enum target target = planners[edit->kind].target;
     if (target == TARGET_SPLINE && !plan_has_spline(document, edit->spline, error)) return false;
-    if (target == TARGET_RIG && (edit->rig < 0 || edit->rig >= document->rig_count ||
-                                 document->rigs[edit->rig].kind != planners[edit->kind].kind)) {
-        return fail(error, ERROR_INPUT, "there is no such %s", rig_word(planners[edit->kind].kind));
+    const unsigned kinds = planners[edit->kind].kinds;
+    const bool is_rig = edit->rig >= 0 && edit->rig < document->rig_count;
+    if (target == TARGET_RIG && !(is_rig && kinds & KIND(document->rigs[edit->rig].kind))) {
+        return fail(error, ERROR_INPUT, "there is no such %s", word_for(kinds));
     }
     return planners[edit->kind].plan(document, edit, list, error);
 }

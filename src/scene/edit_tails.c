@@ -1,101 +1,98 @@
-/// Edits of a tail and its channels.
-#include "scene/edit_plan.h"
+/// Edits of a tail: where and how long it is, how many joints it has, and one more.
+#include "scene/edit_rig.h"
 #include <math.h>
+#include <stdlib.h>
 
-static struct channel *find_channel(struct document *document, const struct edit *edit)
+static const double NEW_REST = 1.5;         ///< degrees a joint, so that a new tail is no straight cone
+static const double NEW_HEIGHT = 0.26;      ///< metres; the body of a tail of 1.6 m then sits on the ground
+static const double ASIDE = 0.75;           ///< distance from a tail to its copy, in tail lengths
+static const double ANGLE_RESOLUTION = 1e6; ///< resampled angles are rounded to 1/this degrees
+
+/// A tail without channels, with the file format's defaults but slightly bent and on the ground.
+static struct rig plain_tail(void)
 {
-    struct tail *tail = &document->rigs[edit->rig].tail;
-    return edit->channel >= 0 && edit->channel < tail->channel_count ? &tail->channels[edit->channel] : NULL;
+    struct rig rig = {
+        .kind = RIG_TAIL,
+        .tail = {.joints = TAIL_DEFAULT_JOINTS, .length = TAIL_DEFAULT_LENGTH, .rest = {.value = {NEW_REST}}}};
+    for (int k = 0; k < 3; k++) rig.tail.position[k] = (struct param){k == 1 ? NEW_HEIGHT : 0, -1};
+    return rig;
 }
 
-static bool no_channel(struct error *error) { return fail(error, ERROR_INPUT, "there is no such channel"); }
-
-static bool check_ramp(const struct angles *ramp, struct error *error)
+static bool is_tail(const struct document *document, int rig)
 {
-    if (ramp->count < 2 || ramp->count > RAMP_MAX_POINTS) {
-        return fail(error, ERROR_INPUT, "a ramp has from 2 to %d points", RAMP_MAX_POINTS);
-    }
-    for (int i = 0; i < ramp->count; i++) {
-        const double at = ramp->ramp[i].at;
-        if (!(at >= 0 && at <= 1)) return fail(error, ERROR_INPUT, "the places of a ramp are from 0 to 1");
-        if (i > 0 && at <= ramp->ramp[i - 1].at) return fail(error, ERROR_INPUT, "the places of a ramp must ascend");
-    }
-    return true;
+    return rig >= 0 && rig < document->rig_count && document->rigs[rig].kind == RIG_TAIL;
 }
 
-static bool check_angles(const struct rig *rig, const struct angles *angles, struct error *error)
+/// Makes a copy of `edit->rig` beside it, or a plain tail if that is no tail. On failure the caller must release it.
+static bool fill_new(const struct document *document, const struct edit *edit, struct rig *added)
 {
-    if ((unsigned)angles->form > ANGLES_RAMP) return fail(error, ERROR_INPUT, "there is no such form of angles");
-    if (angles->form == ANGLES_RAMP && !check_ramp(angles, error)) return false;
-    if (angles->form == ANGLES_EACH && rig->kind == RIG_TAIL && angles->count != rig->tail.joints) {
-        return fail(error, ERROR_INPUT, "%s: there must be one angle for each of the %d joints", rig->name,
-                    rig->tail.joints);
+    *added = plain_tail();
+    if (is_tail(document, edit->rig)) {
+        if (!rig_copy(&document->rigs[edit->rig], added)) {
+            *added = plain_tail();
+            return false;
+        }
+        free(added->name);
+        added->name = NULL;
+        added->extra = NULL;
+        struct tail *tail = &added->tail;
+        if (tail->position[0].track < 0) tail->position[0].value += ASIDE * tail->length;
+    } else if (plan_has_spline(document, edit->spline, NULL) && !plan_append_channel(added, edit)) {
+        return false;
     }
-    if (angles->form == ANGLES_EACH && (angles->count < 1 || angles->count > ANGLES_MAX_JOINTS)) {
-        return fail(error, ERROR_INPUT, "there must be from 1 to %d angles", ANGLES_MAX_JOINTS);
-    }
-    for (int i = 0; i < angles_count(angles); i++) {
-        if (!isfinite(angles_number(angles, i))) return fail(error, ERROR_INPUT, "angles must be finite");
-    }
-    return true;
+    added->name = plan_rig_free_name(document, "tail");
+    return added->name != NULL;
 }
 
-bool plan_angles(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+bool plan_tail_add(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
-    if (edit->angle != ANGLE_REST && !find_channel(document, edit)) return no_channel(error);
-    if (!check_angles(&document->rigs[edit->rig], edit->angles, error)) return false;
-    const struct angles_place at = {edit->rig, edit->channel, edit->angle};
-    const struct angles *target = change_angles(document, at), *wanted = edit->angles;
-    const int numbers = angles_count(wanted) * (wanted->form == ANGLES_RAMP ? 2 : 1);
-    if (!change_list_reserve(list, 1 + ANGLES_MAX_JOINTS)) return plan_no_memory(error);
-    if (target->form != wanted->form || angles_count(target) != angles_count(wanted)) {
-        list->items[list->count++] =
-            (struct change){.kind = CHANGE_FORM, .spline = -1, .form = {at, wanted->form, wanted->count}};
+    if (!plan_rig_fits(document, error)) return false;
+    struct rig *rig = malloc(sizeof *rig);
+    if (!rig) return plan_no_memory(error);
+    if (!fill_new(document, edit, rig)) return plan_rig_abandon(rig, error);
+    return plan_rig_append(document, rig, list, error);
+}
+
+static double rounded(double degrees) { return round(degrees * ANGLE_RESOLUTION) / ANGLE_RESOLUTION + 0.0; }
+
+/// Resamples angles of a tail for `to` joints, times `factor`. A ramp goes along the tail already.
+static void resample(struct angles *angles, int to, double factor)
+{
+    const struct angles old = *angles;
+    if (old.form == ANGLES_EACH) angles->count = to;
+    for (int n = 0; n < angles_count(angles); n++) {
+        double value = angles_number(&old, old.form == ANGLES_EACH ? 0 : n);
+        if (old.form == ANGLES_EACH && to > 1) {
+            double at = (double)n * (old.count - 1) / (to - 1);
+            int low = (int)at;
+            double high = old.value[low + 1 < old.count ? low + 1 : low];
+            value = old.value[low] + (high - old.value[low]) * (at - low);
+        }
+        angles_set_number(angles, n, rounded(value * factor));
     }
-    for (int i = 0; i < numbers; i++) {
-        double value = wanted->value[i] + 0.0;
-        if (target->value[i] == value) continue;
-        list->items[list->count++] = (struct change){.kind = CHANGE_ANGLE, .spline = -1, .angle = {at, i, value}};
+}
+
+/// The tail keeps its shape and swing: with twice the joints, each bends and lags half as much.
+bool plan_joints(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+{
+    const struct rig *old = &document->rigs[edit->rig];
+    int from = old->tail.joints, to = edit->to;
+    if (to < 1 || to > TAIL_MAX_JOINTS) {
+        return fail(error, ERROR_INPUT, "%s: joints must be from 1 to %d", old->name, TAIL_MAX_JOINTS);
     }
-    return true;
-}
-
-/// A change that leaves the channel as it is, for the caller to fill in.
-static struct change channel_change(const struct edit *edit, const struct channel *channel)
-{
-    return (struct change){.kind = CHANGE_CHANNEL,
-                           .spline = -1,
-                           .channel = {edit->rig, edit->channel, channel->spline, channel->axis, channel->of}};
-}
-
-bool plan_axis(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
-{
-    const struct channel *channel = find_channel(document, edit);
-    if (!channel) return no_channel(error);
-    if ((unsigned)edit->axis > AXIS_UP) return fail(error, ERROR_INPUT, "there is no such axis");
-    struct change change = channel_change(edit, channel);
-    change.channel.axis = edit->axis;
-    return channel->axis == edit->axis || plan_add(list, &change, error);
-}
-
-bool plan_part(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
-{
-    const struct channel *channel = find_channel(document, edit);
-    if (!channel) return no_channel(error);
-    if ((unsigned)edit->of > PART_DISPLACEMENT) return fail(error, ERROR_INPUT, "there is no such part of a spline");
-    struct change change = channel_change(edit, channel);
-    change.channel.of = edit->of;
-    return channel->of == edit->of || plan_add(list, &change, error);
-}
-
-bool plan_feed(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
-{
-    const struct channel *channel = find_channel(document, edit);
-    if (!channel) return no_channel(error);
-    if (!plan_has_spline(document, edit->spline, error)) return false;
-    struct change change = channel_change(edit, channel);
-    change.channel.spline = edit->spline;
-    return channel->spline == edit->spline || plan_add(list, &change, error);
+    if (from == to) return true;
+    struct rig *rig = plan_rig_begin(document, edit->rig, error);
+    if (!rig) return false;
+    struct tail *tail = &rig->tail;
+    const double factor = (double)from / to;
+    tail->joints = to;
+    resample(&tail->rest, to, factor);
+    for (int c = 0; c < tail->channel_count; c++) {
+        struct channel *channel = &tail->channels[c];
+        resample(&channel->gain, to, factor);
+        resample(&channel->lag, to, channel->lag.form == ANGLES_ONE ? factor : 1);
+    }
+    return plan_rig_finish(edit->rig, rig, list, error);
 }
 
 /// A change that leaves the tail's place as it is, for the caller to fill in.

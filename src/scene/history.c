@@ -96,6 +96,21 @@ void history_clear(struct history *history)
     history->all_dirty = true;
 }
 
+bool history_set_folder(struct history *history, struct document *document, const char *folder)
+{
+    const struct change_list *all = &history->changes, *open = &history->open;
+    const size_t now = history->done > 0 ? history->steps[history->done - 1].end : 0;
+    bool moved = true;
+    // beyond a change of the document it is another's, which has a folder of its own
+    for (size_t i = now; i > 0 && all->items[i - 1].kind != CHANGE_DOCUMENT; i--)
+        moved &= change_rebase(&all->items[i - 1], document->folder, folder);
+    for (size_t i = now; i < all->count && all->items[i].kind != CHANGE_DOCUMENT; i++)
+        moved &= change_rebase(&all->items[i], document->folder, folder);
+    for (size_t i = 0; history->is_open && i < open->count; i++)
+        moved &= change_rebase(&open->items[i], document->folder, folder);
+    return document_set_folder(document, folder) && moved;
+}
+
 static uint64_t current_state(const struct history *history)
 {
     return history->done > 0 ? history->steps[history->done - 1].state : history->first_state;

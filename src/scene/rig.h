@@ -41,6 +41,12 @@ const char *rig_title(const struct rig *rig);
 int rig_input_count(const struct rig *rig);
 int rig_input(const struct rig *rig, int input);
 
+/// Its channels and how many; NULL and 0 for a kind that has none.
+struct channel *rig_channels(const struct rig *rig, int *count);
+
+/// Gives it other channels, which it then owns, in place of those, which the caller has dealt with.
+void rig_set_channels(struct rig *rig, struct channel *channels, int count);
+
 /// A copy that owns its memory; false, with nothing to free, if memory runs out.
 bool rig_copy(const struct rig *rig, struct rig *copy);
 

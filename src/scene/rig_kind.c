@@ -16,6 +16,24 @@ int rig_input_count(const struct rig *rig) { return kinds[rig->kind]->input_coun
 
 int rig_input(const struct rig *rig, int input) { return kinds[rig->kind]->input(rig, input); }
 
+struct channel *rig_channels(const struct rig *rig, int *count)
+{
+    const bool is_tail = rig->kind == RIG_TAIL, is_chain = rig->kind == RIG_CHAIN;
+    *count = is_tail ? rig->tail.channel_count : is_chain ? rig->chain.channel_count : 0;
+    return is_tail ? rig->tail.channels : is_chain ? rig->chain.channels : NULL;
+}
+
+void rig_set_channels(struct rig *rig, struct channel *channels, int count)
+{
+    if (rig->kind == RIG_TAIL) {
+        rig->tail.channels = channels;
+        rig->tail.channel_count = count;
+    } else {
+        rig->chain.channels = channels;
+        rig->chain.channel_count = count;
+    }
+}
+
 void rig_references(const struct rig *rig, int index, reference_visitor *visit, void *context)
 {
     kinds[rig->kind]->references(rig, index, visit, context);

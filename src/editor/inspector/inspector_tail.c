@@ -41,7 +41,7 @@ static void build_name(struct inspection *in)
         if (ui_hovered(in->ui, field)) in->ui->hint = "Click to rename";
         if (ui_button(in->ui, field, "tail.name", rig->name, false)) ui_line_begin(in->ui, rename_line, rig->name);
     } else if (ui_line(in->ui, r, rename_line) == UI_LINE_DONE) {
-        struct edit edit = tail_edit(in, EDIT_TAIL_NAME);
+        struct edit edit = tail_edit(in, EDIT_RIG_NAME);
         edit.text = in->ui->text.bytes;
         core_step(in->core, in->world, "Rename tail", 0, &edit);
     }
@@ -62,7 +62,7 @@ static void build_buttons(struct inspection *in)
     }
     icon.x += ICON + 6;
     if (!any || !ui_icon_button(in->ui, icon, "tail.delete", UI_ICON_DELETE, false, "Delete this tail")) return;
-    struct edit edit = tail_edit(in, EDIT_TAIL_REMOVE);
+    struct edit edit = tail_edit(in, EDIT_RIG_REMOVE);
     core_step(in->core, in->world, "Delete tail", 0, &edit);
 }
 
