@@ -11,9 +11,6 @@ struct posing_functions {
     void (*bounds)(const struct rig_pose *pose, float lo[3], float hi[3]);
 };
 
-/// A rig's number among those of its kind.
-int posing_number(const struct document *document, int rig);
-
 /// Poses an imported character with all its chains; `by_hand` moves the rig `hand`, which is the model or one of its chains. false if
 /// there is no model.
 bool posing_model(const struct posing *posing, int rig, double position, int hand, const struct by_hand *by_hand,
