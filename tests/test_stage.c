@@ -1,6 +1,7 @@
 /// What a person sees on the stage, drawn offscreen; and the skinning of the real vertex shader, read back.
 #include "base/embedded.h"
 #include "model/creature.h"
+#include "model/tail_skin.h"
 #include "offscreen.h"
 #include "rig/camera.h"
 #include "rig/posing.h"
@@ -263,6 +264,48 @@ static void normals_are_right_under_bending(void **state)
     }
 }
 
+/// tail_skin(), which exports take their vertices from, is the shader; and the influences that files name are the same skin.
+static void the_skin_on_the_cpu_is_the_shaders(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    struct mesh mesh = {0};
+    mesh_creature(0, &mesh);
+    const size_t count = (size_t)mesh.vertex_count;
+    struct skinned *drawn = calloc(count, sizeof *drawn);
+    float(*place)[3] = calloc(count, sizeof *place), (*normal)[3] = calloc(count, sizeof *normal);
+    static float rows[TAIL_SLOTS][3][4];
+    assert_true(drawn && place && normal);
+    arrange(9.0);
+    draw();
+    skin(mesh.vertices, mesh.vertex_count, drawn);
+    tail_skin(&view.tails[0].pose, &mesh, place, normal);
+    tail_slots(&view.tails[0].pose, rows);
+    for (int i = 0; i < mesh.vertex_count; i++) {
+        const struct vertex *v = &mesh.vertices[i];
+        uint16_t slot[TAIL_INFLUENCES];
+        float weight[TAIL_INFLUENCES], sum = 0.0f;
+        tail_influences(v, JOINTS, CREATURE_TAIL_LENGTH / JOINTS, slot, weight);
+        for (int n = 0; n < TAIL_INFLUENCES; n++) sum += weight[n];
+        assert_near(sum, 1.0, 1e-6);
+        for (int k = 0; k < 3; k++) {
+            float blended = 0.0f;
+            for (int n = 0; n < TAIL_INFLUENCES; n++) {
+                const float *row = rows[slot[n]][k];
+                blended += weight[n] *
+                           (row[0] * v->position[0] + row[1] * v->position[1] + row[2] * v->position[2] + row[3]);
+            }
+            assert_near(place[i][k], drawn[i].world[k], 1e-6);
+            assert_near(blended, drawn[i].world[k], 1e-6);
+            assert_near(normal[i][k], drawn[i].normal[k], 1e-4);
+        }
+    }
+    free(drawn);
+    free(place);
+    free(normal);
+    mesh_free(&mesh);
+}
+
 /// However tight a bend, places are finite and normals unit vectors: the picture has no holes and no sparks.
 static void extreme_bends_stay_finite(void **state)
 {
@@ -313,6 +356,7 @@ int main(void)
         cmocka_unit_test(the_ground_is_darker_under_the_animal),
         cmocka_unit_test(silhouettes_are_soft),
         cmocka_unit_test(normals_are_right_under_bending),
+        cmocka_unit_test(the_skin_on_the_cpu_is_the_shaders),
         cmocka_unit_test(extreme_bends_stay_finite),
         cmocka_unit_test(skin_follows_the_joints),
     };

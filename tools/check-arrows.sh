@@ -1,6 +1,6 @@
 #!/bin/sh
 # Proves that includes follow the arrows of the house, headers' own includes among them: no file reaches a folder that is not
-# listed here for its own. GL stays in draw and platform, JSON in scene and the glTF files of model, cglm comes through
+# listed here for its own. GL stays in draw and platform, JSON in scene and the glTF files of model and export, cglm comes through
 # model/vector.h, and the spline core does no I/O. Between the rooms of the editor are walls: a panel sees core and itself, core
 # sees no panel, the editor's own files see the panels' doors (curves/curves.h) alone. Usage: tools/check-arrows.sh [root of the tree]
 set -eu
@@ -14,13 +14,14 @@ BEGIN {
     sees["simulation"] = "simulation model base"
     sees["scene"]    = "scene spline base include"
     sees["rig"]      = "rig scene model spline base include"
+    sees["export"]   = "export rig scene model spline base include"
     sees["ui"]       = "ui model base"
     sees["editor"]   = "editor ui rig scene model spline base include"
     sees["draw"]     = "draw ui model base"
     sees["platform"] = "platform ui model base"
     sees["timing"]   = "timing spline base include"
     sees["analysis"] = "analysis model base"
-    sees["app"]      = "app draw platform timing " sees["editor"]
+    sees["app"]      = "app draw platform timing export " sees["editor"]
     sees["commands"] = "commands simulation analysis " sees["app"]
     sees["main"]     = "commands base include"
 }
@@ -40,8 +41,8 @@ function reason(file, header,    room) {
         return index(" " sees[room] " ", " " room_of(header) " ") ? "" : room " must not include " short(header)
     if (header ~ /^(epoxy|GL|GLES[0-9]*|EGL|GLFW)\// && room != "draw" && room != "platform")
         return header " belongs in src/draw and src/platform alone"
-    if (header ~ /^jansson/ && room != "scene" && file !~ /^src\/model\/gl(b|tf)/)
-        return header " belongs in src/scene and the glTF files of src/model alone"
+    if (header ~ /^jansson/ && room != "scene" && file !~ /^src\/(model\/gl(b|tf)|export\/gltf)/)
+        return header " belongs in src/scene and the glTF files of src/model and src/export alone"
     if (header ~ /^(stdio|unistd|fcntl)\.h$/ && room == "spline") return "the spline core does no I/O: " header
     return ""
 }

@@ -3,15 +3,14 @@
 #include "base/file.h"
 #include "commands/commands.h"
 #include "commands/options.h"
+#include "commands/progress.h"
 #include "model/motion.h"
 #include "simulation/soft.h"
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <unistd.h>
 
 struct job {
     const char *mesh, *output;
@@ -24,32 +23,12 @@ struct job {
     bool modal, verbose;
 };
 
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int signal_number)
-{
-    (void)signal_number;
-    interrupted = 1;
-}
-
-/// Shows progress and the time left: on a terminal in one line, else ten times.
-static void report_progress(const struct job *job, int done, int frames, double started)
-{
-    bool terminal = isatty(STDERR_FILENO);
-    if (!terminal && !(job->verbose && done * 10 / frames != (done - 1) * 10 / frames)) return;
-    double left = (clock_now() - started) * (frames - done) / done;
-    fprintf(stderr, "%sframe %d of %d, %.0f s left%s", terminal ? "\r" : "", done, frames, ceil(left),
-            terminal ? "   " : "\n");
-    if (terminal && done == frames) fputs("\r\033[K", stderr);
-    fflush(stderr);
-}
-
 /// One frame: the integrator's substeps, then the surface.
 static bool simulate_frame(const struct job *job, const struct soft *soft, struct integrator *integrator, int frame,
                            float (*position)[3], struct error *error)
 {
     for (int s = 0; frame > 0 && s < job->substeps; s++) {
-        if (interrupted) return fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
+        if (progress_interrupted()) return fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
         if (integrator_step(integrator)) continue;
         return fail(error, ERROR_INPUT,
                     "frame %d: the simulation became unstable: try more --substeps or a smaller --amplitude", frame);
@@ -62,7 +41,8 @@ static bool write_frames(const struct job *job, const struct soft *soft, struct 
                          float (*position)[3], struct error *error)
 {
     struct motion_writer writer;
-    double started = clock_now();
+    const double started = clock_now();
+    struct progress progress = {.started = started, .lines = job->verbose};
     if (!motion_write_open(&writer, job->output, frames, soft->lattice.vertex_count, error)) return false;
     for (int frame = 0; frame < frames; frame++) {
         if (!simulate_frame(job, soft, integrator, frame, position, error) ||
@@ -70,7 +50,7 @@ static bool write_frames(const struct job *job, const struct soft *soft, struct 
             motion_write_discard(&writer);
             return false;
         }
-        report_progress(job, frame + 1, frames, started);
+        progress_show(&progress, frame + 1, frames);
     }
     if (!motion_write_commit(&writer, error)) return false;
     printf("%s: %d frames of %d vertices at %g fps, in %.1f s\n", job->output, frames, soft->lattice.vertex_count,
@@ -186,14 +166,6 @@ static const char *check(struct job *job)
     return set_material(&job->soft);
 }
 
-/// Lets Ctrl+C end the run cleanly, without a temporary file left.
-static void catch_interrupts(void)
-{
-    struct sigaction action = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
-
 int command_simulate(int argc, char **argv)
 {
     struct job job = {.soft = soft_default_options(),
@@ -247,7 +219,7 @@ int command_simulate(int argc, char **argv)
     if (job.modal) job.soft.modes = modes;
     const char *wrong = check(&job);
     if (wrong) return (int)options_wrong(&usage, "%s", wrong);
-    catch_interrupts();
+    progress_catch_interrupts();
     struct error error;
     if (run(&job, &error)) return 0;
     fprintf(stderr, "wiggly simulate: %s\n", error.text);

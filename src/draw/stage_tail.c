@@ -2,15 +2,14 @@
 #include "draw/painter.h"
 #include "draw/stage_extent.h"
 #include "model/creature.h"
+#include "model/tail_skin.h"
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum {
     JOINT_BINDING = 0,
-    MAX_SLOTS = POSE_MAX_JOINTS + 1,  ///< slot 0 does not bend, slot n + 1 follows joint n (see stage_mesh.vert)
-    BLOCK_BYTES = MAX_SLOTS * 3 * 16, ///< what the shader's block holds: three rows a slot
+    BLOCK_BYTES = TAIL_SLOTS * 3 * 16, ///< what the shader's block holds: three rows a slot (model/tail_skin.h)
     BLOCK_STRIDE = (BLOCK_BYTES + 255) / 256 * 256, ///< 256: the largest offset alignment a driver may ask for
 };
 
@@ -25,7 +24,7 @@ struct animals {
     GLint shape;
     struct painter_uniforms shared;
     struct model models[CREATURE_LEVELS];
-    float rows[MAX_SLOTS][3][4];
+    float rows[TAIL_SLOTS][3][4];
 };
 
 static void attribute(GLuint index, GLint size, size_t offset)
@@ -107,24 +106,9 @@ static void *create(struct error *error)
     return NULL;
 }
 
-/// matrix · translation by −along on z, as three rows: takes a point of the straight tail to its place on
-/// the posed one.
-static void slot_rows(mat4s matrix, float along, float rows[3][4])
-{
-    glm_translate_z(matrix.raw, -along);
-    glm_mat4_transpose(matrix.raw);
-    memcpy(rows, matrix.raw, 3 * sizeof *rows);
-}
-
 static int upload_joints(struct animals *painter, const struct stage_tail *tail, int block)
 {
-    const int joints = tail->pose.count - 1;
-    const float segment = pose_length(&tail->pose) / (float)joints;
-    const mat4s root = glms_translate_make(vec3_from(tail->pose.matrix[0] + 12));
-    slot_rows(root, 0.0f, painter->rows[0]);
-    for (int n = 0; n < joints; n++)
-        slot_rows(mat4_from(tail->pose.matrix[n]), (float)n * segment, painter->rows[n + 1]);
-    const int bytes = (joints + 1) * (int)sizeof *painter->rows;
+    const int bytes = tail_slots(&tail->pose, painter->rows) * (int)sizeof *painter->rows;
     glBufferSubData(GL_UNIFORM_BUFFER, block * BLOCK_STRIDE, bytes, painter->rows);
     return bytes;
 }

@@ -2,7 +2,8 @@
 ///
 /// creature.glb is plain glTF 2.0. Each coordinate is two morph targets, NAME.re = Re Ñ and NAME.im = −Im Ñ, so that with
 /// the weights Re z and Im z of z = A e^{jφ} x the deformation is Re(z Ñ) (equations 29 and 30) in any viewer. The mesh's
-/// extras say {"targetNames": […], "wiggly": {"coordinates": [{"name", "frequency", "damping", …}]}}.
+/// extras say {"targetNames": […], "wiggly": {"coordinates": [{"name", "frequency", "damping", …}]}}; "scale" there says by how
+/// much an export has scaled both targets up.
 #ifndef MODEL_CHARACTER_H
 #define MODEL_CHARACTER_H
 

@@ -183,8 +183,21 @@ static double real_of(const json_t *object, const char *key)
     return json_number_value(json_object_get(object, key));
 }
 
+/// An export scales the targets up so that weights stay within 0 … 1, and says by how much.
+static void unscale(const json_t *known, int vertex_count, struct coordinate *c)
+{
+    const double scale = real_of(known, "scale");
+    if (!(scale > 0)) return;
+    for (int i = 0; i < vertex_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            c->re[i][k] = (float)((double)c->re[i][k] / scale);
+            c->im[i][k] = (float)((double)c->im[i][k] / scale);
+        }
+    }
+}
+
 /// What our extras say about a coordinate, else zeros.
-static void read_extras(const json_t *extras, struct coordinate *c)
+static void read_extras(const json_t *extras, int vertex_count, struct coordinate *c)
 {
     size_t i;
     const json_t *known;
@@ -197,6 +210,7 @@ static void read_extras(const json_t *extras, struct coordinate *c)
         c->explained = real_of(known, "explained");
         c->pca1 = real_of(known, "pca1");
         c->pca2 = real_of(known, "pca2");
+        unscale(known, vertex_count, c);
         return;
     }
 }
@@ -214,7 +228,7 @@ static bool read_coordinates(const struct glb *glb, const json_t *mesh, struct c
         if (!coordinate->name) return fail_no_memory(error, glb->path);
         if (!read_target(glb, primitives, (int)i, 1, coordinate->re, error)) return false;
         if (!read_target(glb, primitives, im, -1, coordinate->im, error)) return false;
-        read_extras(extras, coordinate++);
+        read_extras(extras, c->vertex_count, coordinate++);
     }
     return true;
 }

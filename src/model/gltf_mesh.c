@@ -69,7 +69,6 @@ static bool make_flat(struct gltf_reader *r, struct gltf_part *part)
         vec3s normal = triangle_normal(corner[0], corner[1], corner[2]);
         for (int k = 0; k < 3; k++) glm_vec3_copy(normal.raw, part->normal[i + k]);
     }
-    for (int i = 0; part->normal && i < part->index_count; i++) part->indices[i] = (uint32_t)i;
     return part->normal;
 }
 
@@ -158,11 +157,14 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, int mode, 
     }
     if (!make_triangles(r, mode, corners, count, part)) return false;
     struct gltf_vertices vertices = {.in_file = (int)in_file, .count = (int)in_file};
-    if (!json_object_get(attributes, "NORMAL")) {
+    bool flat = !json_object_get(attributes, "NORMAL");
+    if (flat) {
         vertices.order = part->indices;
         vertices.count = part->index_count;
     }
-    return read_vertices(r, primitive, &vertices, targets, joints, part);
+    if (!read_vertices(r, primitive, &vertices, targets, joints, part)) return false;
+    for (int i = 0; flat && i < part->index_count; i++) part->indices[i] = (uint32_t)i;
+    return true;
 }
 
 /// Whether a primitive has triangles; what else it has is named.
@@ -187,6 +189,8 @@ static bool read_mesh(struct gltf_reader *r, const json_t *json, size_t number)
     const json_t *primitives = json_object_get(json, "primitives"), *primitive;
     struct gltf_mesh *mesh = &r->gltf->meshes[number];
     size_t i;
+    gltf_at(r, "meshes[%zu]", number);
+    if (!json_is_array(primitives)) return gltf_bad(r, ".primitives: expected an array, got something else");
     mesh->name = gltf_name(r, json, "mesh", number);
     mesh->parts = mesh->name ? gltf_make(r, json_array_size(primitives), sizeof *mesh->parts) : NULL;
     if (!mesh->parts) return false;

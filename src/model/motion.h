@@ -32,14 +32,27 @@ bool motion_columns(const struct motion *motion, int first, int count, double *s
 
 void motion_close(struct motion *motion);
 
+enum motion_form { MOTION_NPY, MOTION_PC2, MOTION_MDD };
+
+/// What the start of a written motion says; .npy tells nothing of time.
+struct motion_span {
+    int frames, vertices;
+    double first, spacing; ///< where the first frame is, and from one to the next: PC2 in frames, MDD in seconds
+};
+
+/// The start of a motion, and one frame, into a file that the caller opens and checks. Numbers are float32; .npy has C order and shape
+/// (frames, vertices, 3).
+void motion_print_start(FILE *out, enum motion_form form, const struct motion_span *span);
+void motion_print_frame(FILE *out, enum motion_form form, const float (*position)[3], int vertices);
+
 /// A motion being written.
 struct motion_writer {
     struct file_output output; // all private
+    enum motion_form form;
     int frames, vertices, written;
 };
 
-/// Starts a file of `frames` frames: .npy (float32, C order, (frames, vertices, 3)) or, where the path ends in .pc2,
-/// PC2. `path` must live until the end.
+/// Starts a file of `frames` frames: .npy or, where the path ends in .pc2, PC2. `path` must live until the end.
 bool motion_write_open(struct motion_writer *writer, const char *path, int frames, int vertices, struct error *error);
 
 /// Appends a frame of vertices × 3 numbers.

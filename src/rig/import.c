@@ -2,10 +2,9 @@
 #include "rig/import.h"
 #include "base/path.h"
 #include "model/gltf.h"
-#include "scene/load.h"
-#include <jansson.h>
+#include "scene/edit.h"
 #include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { STANDARD_FRAMES = 120, LEAST_FRAMES = 2, MOST_FRAMES = 100000 };
@@ -57,37 +56,37 @@ static int last_frame(const struct gltf_clip *clip, double fps)
     return (int)fmin(fmax(round(clip->duration * fps), LEAST_FRAMES), MOST_FRAMES);
 }
 
-static json_t *describe(const struct gltf *gltf, const char *file)
+/// Adds the character to an empty document.
+static bool add_character(struct document *document, const struct gltf *gltf, const char *path, struct error *error)
 {
     const struct gltf_clip *clip = gltf->clip_count > 0 ? &gltf->clips[0] : NULL;
-    const double fps = frame_rate(clip);
-    const size_t name = strlen(file) - strlen(strrchr(file, '.'));
-    json_t *rig = json_pack("{s:s, s:s%, s:s, s:f}", "type", "model", "name", file, name, "model", file, "scale",
-                            scale_of(gltf));
-    if (rig && clip) json_object_set_new(rig, "clip", json_string(clip->name));
-    return json_pack("{s:i, s:f, s:[i, i], s:[], s:[o]}", "wiggly", 1, "fps", fps, "frames", 0, last_frame(clip, fps),
-                     "splines", "rigs", rig);
-}
-
-static struct document *build(const struct gltf *gltf, const char *path, struct error *error)
-{
-    char folder[PATH_LIMIT];
     const char *slash = strrchr(path, '/');
-    json_t *scene = describe(gltf, slash ? slash + 1 : path);
-    char *text = scene ? json_dumps(scene, 0) : NULL;
-    struct document *document = text ? scene_parse(path, text, strlen(text), NULL, error) : NULL;
-    if (!text) fail_no_memory(error, path);
-    if (document && path_folder(path, folder) && folder[0]) document->folder = strdup(folder);
-    free(text);
-    json_decref(scene);
-    return document;
+    char folder[PATH_LIMIT], file[PATH_LIMIT];
+    struct history *history = history_create();
+    snprintf(file, sizeof file, "%s", slash ? slash + 1 : path);
+    struct rig rig = {.kind = RIG_MODEL,
+                      .model = {.model = file, .clip = clip ? clip->name : NULL, .scale = scale_of(gltf)}};
+    if (path_folder(path, folder) && folder[0]) document->folder = strdup(folder);
+    document->fps = frame_rate(clip);
+    document->last_frame = last_frame(clip, document->fps);
+    if (!history) return fail_no_memory(error, path);
+    history_begin(history, "Import", 0);
+    bool added = history_apply(history, document, &(struct edit){.kind = EDIT_MODEL_ADD, .contents = &rig}, error);
+    history_end(history);
+    history_destroy(history);
+    return added;
 }
 
 struct document *import_scene(const char *path, struct error *error)
 {
     struct gltf gltf = {0};
     if (!gltf_read(path, &gltf, error)) return NULL;
-    struct document *document = build(&gltf, path, error);
+    struct document *document = document_create();
+    if (!document) fail_no_memory(error, path);
+    if (document && !add_character(document, &gltf, path, error)) {
+        document_destroy(document);
+        document = NULL;
+    }
     gltf_free(&gltf);
     return document;
 }

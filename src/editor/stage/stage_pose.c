@@ -58,7 +58,7 @@ void stage_fit(struct stage *stage, const struct core *core, const struct editor
         any |= seen[kind];
     }
     stage->camera = camera_default();
-    if (seen[RIG_CHARACTER] && !seen[RIG_TAIL])
+    if ((seen[RIG_CHARACTER] || seen[RIG_MODEL]) && !seen[RIG_TAIL])
         stage->camera.azimuth = core->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
     camera_lamp(&stage->camera, stage->view.key_from); // it stays there while the camera goes round
     if (!any) return;

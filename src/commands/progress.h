@@ -1,0 +1,23 @@
+/// Long commands: how far they are, and Ctrl+C.
+#ifndef COMMANDS_PROGRESS_H
+#define COMMANDS_PROGRESS_H
+
+#include <stdbool.h>
+
+/// Lets Ctrl+C (or an end of the session) be noticed, so that a command ends cleanly; the second time it ends at once.
+void progress_catch_interrupts(void);
+bool progress_interrupted(void);
+
+struct progress {
+    double started; ///< clock_now() when the work began
+    bool lines;     ///< ten lines where standard error is no terminal; else it is then quiet
+    double shown;   ///< private
+};
+
+/// Shows on a terminal how many of the frames are done and the time left, once the work has taken a second; wipes it out at the end.
+void progress_show(struct progress *progress, long done, long total);
+
+/// Wipes out what is shown, for work that ends before.
+void progress_clear(const struct progress *progress);
+
+#endif

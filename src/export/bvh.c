@@ -1,0 +1,103 @@
+/// Joints as .bvh. Metres, y up; a joint turns by R_y · R_x · R_z, so that a tail's side and up are the first two of its channels.
+#include "export/format.h"
+#include "export/keys.h"
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+/// A name without spaces, at which readers end one.
+static void write_name(FILE *out, const char *name)
+{
+    for (const char *c = name; *c; c++) fputc(isspace((unsigned char)*c) ? '_' : *c, out);
+}
+
+static void indent(FILE *out, int depth)
+{
+    for (int i = 0; i < depth; i++) fputs("  ", out);
+}
+
+static void write_end(FILE *out, const float tip[3], int depth)
+{
+    indent(out, depth);
+    fputs("End Site\n", out);
+    indent(out, depth);
+    fputs("{\n", out);
+    indent(out, depth + 1);
+    fprintf(out, "OFFSET %.9g %.9g %.9g\n", (double)tip[0], (double)tip[1], (double)tip[2]);
+    indent(out, depth);
+    fputs("}\n", out);
+}
+
+static void write_joint(FILE *out, const struct form *form, int j, int depth)
+{
+    const struct form_joint *joint = &form->joints[j];
+    const bool root = j == form->first_bone;
+    bool is_last = true;
+    indent(out, depth);
+    fputs(root ? "ROOT " : "JOINT ", out);
+    write_name(out, joint->name);
+    fputc('\n', out);
+    indent(out, depth);
+    fputs("{\n", out);
+    indent(out, depth + 1);
+    fprintf(out, "OFFSET %.9g %.9g %.9g\n", root ? 0.0 : (double)joint->offset[0],
+            root ? 0.0 : (double)joint->offset[1], root ? 0.0 : (double)joint->offset[2]);
+    indent(out, depth + 1);
+    fputs(root ? "CHANNELS 6 Xposition Yposition Zposition Yrotation Xrotation Zrotation\n"
+               : "CHANNELS 3 Yrotation Xrotation Zrotation\n",
+          out);
+    for (int child = j + 1; child < form->joint_count; child++) {
+        if (form->joints[child].parent != j) continue;
+        is_last = false;
+        write_joint(out, form, child, depth + 1);
+    }
+    if (is_last) write_end(out, form->tip, depth + 1);
+    indent(out, depth);
+    fputs("}\n", out);
+}
+
+/// Angles with q = R_y(angle[0]) · R_x(angle[1]) · R_z(angle[2]), degrees.
+static void to_angles(const float q[4], double angle[3])
+{
+    const double x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
+    const double degrees = 180 / 3.14159265358979323846;
+    angle[0] = degrees * atan2(2 * (x * z + w * y), 1 - 2 * (x * x + y * y));
+    angle[1] = degrees * asin(fmin(fmax(2 * (w * x - y * z), -1), 1));
+    angle[2] = degrees * atan2(2 * (x * y + w * z), 1 - 2 * (x * x + z * z));
+}
+
+/// The joints in the order in which write_joint() names them, parents before children.
+static void write_key(FILE *out, const struct form *form, const struct keys *keys, int j, int key)
+{
+    double angle[3];
+    to_angles(keys->at.rotation[j * keys->count + key], angle);
+    fprintf(out, " %.9g %.9g %.9g", angle[0], angle[1], angle[2]);
+    for (int child = j + 1; child < form->joint_count; child++) {
+        if (form->joints[child].parent == j) write_key(out, form, keys, child, key);
+    }
+}
+
+bool bvh_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+{
+    struct form form;
+    struct keys keys;
+    take->total = take->key_count;
+    take->is_cubic = false;
+    if (!form_open(take, take->rigs[0], &form, error)) return false;
+    const bool done = keys_collect(take, take->rigs[0], &form, &keys, error);
+    if (done) {
+        fputs("HIERARCHY\n", out);
+        write_joint(out, &form, form.first_bone, 0);
+        fprintf(out, "MOTION\nFrames: %d\nFrame Time: %.12g\n", keys.count, take_seconds(take, 1));
+        for (int k = 0; k < keys.count; k++) {
+            const float *place = keys.at.translation[k];
+            fprintf(out, "%.9g %.9g %.9g", (double)place[0], (double)place[1], (double)place[2]);
+            write_key(out, &form, &keys, form.first_bone, k);
+            fputc('\n', out);
+        }
+        snprintf(summary, FORMAT_SUMMARY, "%d joints, %d frames", form.joint_count - form.first_bone, keys.count);
+    }
+    keys_free(&keys);
+    form_close(&form);
+    return done;
+}

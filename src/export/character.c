@@ -1,0 +1,114 @@
+/// A soft character as a form: its mesh, and two morph targets a coordinate, as in its own file (model/character.h).
+#include "export/form.h"
+#include "model/vector.h"
+#include <stdio.h>
+#include <stdlib.h>
+
+/// How a target turns a normal, to first order: n = t₁ × t₂, and the target moves both tangents.
+static void turn_normals(const struct figure *figure, int coordinate, bool imaginary, float (*turn)[3])
+{
+    const struct character *c = &figure->character;
+    for (int i = 0; i < c->vertex_count; i++) {
+        const struct slope *s = &figure->slopes[coordinate * c->vertex_count + i];
+        const vec3s u = vec3_from(figure->tangent[i]), v = glms_vec3_cross(vec3_from(c->normal[i]), u);
+        const vec3s du = vec3_from(imaginary ? s->im_u : s->re_u), dv = vec3_from(imaginary ? s->im_v : s->re_v);
+        const vec3s sum = glms_vec3_add(glms_vec3_cross(du, v), glms_vec3_cross(u, dv));
+        for (int k = 0; k < 3; k++) turn[i][k] = imaginary ? -sum.raw[k] : sum.raw[k];
+    }
+}
+
+/// Re Ñ and −Im Ñ of one coordinate, for the weights Re z and Im z.
+static bool add_targets(struct form *form, const struct figure *figure, int coordinate)
+{
+    static const char *const parts[] = {"re", "im"};
+    const struct coordinate *n = &figure->character.coordinates[coordinate];
+    const size_t count = (size_t)form->vertex_count + 1;
+    for (int part = 0; part < 2; part++) {
+        struct form_target *target = &form->targets[form->target_count++];
+        float(*position)[3] = malloc(count * sizeof *position), (*normal)[3] = malloc(count * sizeof *normal);
+        *target = (struct form_target){
+            .position = (const float(*)[3])position, .normal = (const float(*)[3])normal, .group = coordinate};
+        if (!position || !normal || asprintf(&target->name, "%s.%s", n->name, parts[part]) < 0) return false;
+        for (int i = 0; i < form->vertex_count; i++) {
+            for (int k = 0; k < 3; k++) position[i][k] = part ? -n->im[i][k] : n->re[i][k];
+        }
+        turn_normals(figure, coordinate, part == 1, normal);
+    }
+    return true;
+}
+
+static bool open(const struct document *document, int rig, const struct rig_pose *pose, struct form *form,
+                 struct error *error)
+{
+    const struct figure *figure = pose->character.figure;
+    const struct character *c = &figure->character;
+    (void)document;
+    (void)rig;
+    form->character = c;
+    form->vertex_count = c->vertex_count;
+    form->position = (const float(*)[3])c->position;
+    form->normal = (const float(*)[3])c->normal;
+    form->color = (const float(*)[3])c->color;
+    form->indices = c->indices;
+    form->index_count = c->index_count;
+    form->targets = calloc((size_t)c->coordinate_count * 2 + 1, sizeof *form->targets);
+    if (!form->targets) return fail_no_memory(error, form->name);
+    for (int k = 0; k < c->coordinate_count; k++) {
+        if (!add_targets(form, figure, k)) return fail_no_memory(error, form->name);
+    }
+    return true;
+}
+
+static void close(struct form *form)
+{
+    for (int t = 0; t < form->target_count; t++) {
+        free(form->targets[t].name);
+        free((void *)form->targets[t].position);
+        free((void *)form->targets[t].normal);
+    }
+    free(form->targets);
+}
+
+/// Its position is where it stands: the lowest point of the mesh at rest comes there.
+static void stand(const struct rig_pose *pose, float place[3])
+{
+    for (int k = 0; k < 3; k++)
+        place[k] = pose->character.position[k] - (k == 1 ? pose->character.figure->lo[1] : 0.0f);
+}
+
+static void key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
+{
+    const struct morph *morph = &pose->character.morph;
+    stand(pose, key->translation);
+    for (int t = 0; t < form->target_count; t++) key->weight[t] = 0;
+    for (int k = 0; k < morph->count; k++) {
+        for (int part = 0; part < 2; part++) key->weight[2 * morph->coordinate[k] + part] += morph->weight[k][part];
+    }
+}
+
+static void vertices(const struct form *form, const struct rig_pose *pose, float (*positions)[3])
+{
+    float place[3];
+    stand(pose, place);
+    for (int i = 0; i < form->vertex_count; i++) {
+        morph_vertex(pose->character.figure, &pose->character.morph, i, positions[i], NULL);
+        glm_vec3_add(positions[i], place, positions[i]);
+    }
+}
+
+/// The weight of each coordinate: a complex number.
+static void columns(const struct take *take, int rig, const struct rig_pose *pose, double key, form_column *column,
+                    void *user)
+{
+    const char *name = form_name(&take->posing->document->rigs[rig]);
+    const struct character *c = &pose->character.figure->character;
+    const struct morph *morph = &pose->character.morph;
+    (void)key;
+    for (int k = 0; k < morph->count; k++) {
+        const char *coordinate = c->coordinates[morph->coordinate[k]].name;
+        column(user, (double)morph->weight[k][0], "%s.%s.re", name, coordinate);
+        column(user, (double)morph->weight[k][1], "%s.%s.im", name, coordinate);
+    }
+}
+
+const struct form_kind character_form = {false, open, close, key, vertices, columns};

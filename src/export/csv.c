@@ -1,0 +1,75 @@
+/// A table: a row a key, a column for every spline and every channel of the rigs.
+#include "export/format.h"
+#include "scene/number.h"
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// A row being written: names at first, then numbers.
+struct row {
+    FILE *out;
+    bool names;
+    int columns;
+};
+
+/// Writes a field by RFC 4180: quoted if it has a comma, a quote or a line break.
+static void write_name(FILE *out, const char *name)
+{
+    const bool quotes = strpbrk(name, ",\"\r\n") != NULL;
+    if (quotes) fputc('"', out);
+    for (const char *c = name; *c; c++) {
+        if (*c == '"') fputc('"', out);
+        fputc(*c, out);
+    }
+    if (quotes) fputc('"', out);
+}
+
+static void write_column(void *user, double value, const char *format, ...)
+{
+    struct row *row = user;
+    char text[NUMBER_TEXT_SIZE], *name = NULL;
+    if (row->columns++ > 0) fputc(',', row->out);
+    if (!row->names) {
+        number_print(value, text);
+        fputs(text, row->out);
+        return;
+    }
+    va_list arguments;
+    va_start(arguments, format);
+    if (vasprintf(&name, format, arguments) < 0) name = NULL;
+    va_end(arguments);
+    if (name) write_name(row->out, name);
+    free(name);
+}
+
+static bool write_row(struct take *take, double key, struct row *row, struct error *error)
+{
+    struct rig_pose pose;
+    const struct document *document = take->posing->document;
+    row->columns = 0;
+    write_column(row, take_frame(take, key), "frame");
+    for (int i = 0; i < document->spline_count; i++) {
+        const wiggly_value value = take_value(take, i, key);
+        write_column(row, value.y + value.re, "%s", document->splines[i].name);
+    }
+    for (int r = 0; r < take->rig_count; r++) {
+        const int rig = take->rigs[r];
+        if (!take_pose(take, rig, key, &pose, error)) return false;
+        form_kind(document->rigs[rig].kind)->columns(take, rig, &pose, key, write_column, row);
+    }
+    fputc('\n', row->out);
+    return true;
+}
+
+bool csv_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+{
+    struct row row = {.out = out, .names = true};
+    take->total = take->key_count;
+    if (!write_row(take, 0, &row, error)) return false;
+    row.names = false;
+    for (int k = 0; k < take->key_count; k++) {
+        if (!write_row(take, k, &row, error) || !take_proceed(take, error)) return false;
+    }
+    snprintf(summary, FORMAT_SUMMARY, "%d columns, %d rows", row.columns, take->key_count);
+    return true;
+}

@@ -1,0 +1,38 @@
+/// Motion out: a document's rigs and splines into the files of other programs. What a file holds follows from its name's end.
+#ifndef EXPORT_EXPORT_H
+#define EXPORT_EXPORT_H
+
+#include "rig/posing.h"
+
+/// What to export; all zero: every rig that the file can hold, over all frames, a key a sample.
+struct export_options {
+    const char *rig;    ///< its name, or NULL
+    const char *clip;   ///< what the animation is called; NULL: as the scene
+    bool has_frames;    ///< else all
+    double first, last; ///< frames
+    double rate;        ///< keys a second, or 0
+    int substeps;       ///< keys a frame, or 0
+    bool is_signed;     ///< morph weights may be negative, which takes half as many targets
+    bool is_cubic;      ///< keys have tangents (glTF)
+    bool (*proceed)(void *user, long done, long total); ///< called as it goes on; false: stop. May be NULL
+    void *user;
+};
+
+struct export_report {
+    char text[128]; ///< what is in the file and how large it is: "24 joints, 121 keys, 47 KB"
+    char note[128]; ///< what the user should know besides, or empty
+};
+
+enum { EXPORT_ENDINGS = 256 };
+
+/// Whether there is a format for a file of that name.
+bool export_knows(const char *path);
+
+/// The endings there are, as a sentence lists them: ".glb, .gltf … and .npy".
+void export_endings(char text[EXPORT_ENDINGS]);
+
+/// Writes the file, whole or not at all. The document's splines must be solved and its models read.
+bool export_write(const struct posing *posing, const char *path, const struct export_options *options,
+                  struct export_report *report, struct error *error);
+
+#endif

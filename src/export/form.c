@@ -1,0 +1,42 @@
+/// Which kinds of rigs are exported.
+#include "export/form.h"
+#include <stdio.h>
+#include <string.h>
+
+static const struct form_kind *const kinds[RIG_KINDS] = {
+    [RIG_TAIL] = &tail_form,
+    [RIG_CHARACTER] = &character_form,
+};
+
+const struct form_kind *form_kind(enum rig_kind kind) { return kinds[kind]; }
+
+const char *form_name(const struct rig *rig) { return rig->name ? rig->name : rig_word(rig->kind); }
+
+/// Other programs tell what is in a file by its name: rigs of the same name get a number.
+static void make_name(const struct document *document, int rig, char name[FORM_NAME])
+{
+    const char *wanted = form_name(&document->rigs[rig]);
+    int number = 1;
+    for (int i = 0; i < rig; i++) number += strcmp(form_name(&document->rigs[i]), wanted) == 0;
+    snprintf(name, FORM_NAME, "%.40s", wanted);
+    if (number > 1) snprintf(name + strlen(name), 16, "_%d", number);
+}
+
+bool form_open(const struct take *take, int rig, struct form *form, struct error *error)
+{
+    struct rig_pose pose;
+    const struct document *document = take->posing->document;
+    const struct rig *source = &document->rigs[rig];
+    *form = (struct form){.kind = kinds[source->kind]};
+    if (!take_pose(take, rig, 0, &pose, error)) return false;
+    make_name(document, rig, form->name);
+    if (form->kind->open(document, rig, &pose, form, error)) return true;
+    form_close(form);
+    return false;
+}
+
+void form_close(struct form *form)
+{
+    if (form->kind) form->kind->close(form);
+    *form = (struct form){0};
+}

@@ -1,0 +1,78 @@
+/// A rig as other programs know one: a mesh with joints or morph targets, and what moves them. What each kind of rig gives is one
+/// row, and every file format is made of that alone. Private to src/export.
+#ifndef EXPORT_FORM_H
+#define EXPORT_FORM_H
+
+#include "export/take.h"
+
+enum { FORM_INFLUENCES = 4, FORM_NAME = 64 };
+
+struct form_joint {
+    char name[FORM_NAME];
+    int parent;      ///< −1: the root
+    float offset[3]; ///< at rest, in its parent
+    float bind[3];   ///< where it is in the space of the mesh; joints at rest are not turned
+};
+
+struct form_target {
+    char *name;
+    const float (*position)[3], (*normal)[3]; ///< how far it moves vertices and turns normals at weight 1
+    int group;                                ///< targets of one group keep their proportion
+};
+
+struct form {
+    const struct form_kind *kind;
+    char name[FORM_NAME];
+    int vertex_count;
+    const float (*position)[3], (*normal)[3], (*color)[3]; ///< colours are linear
+    const uint32_t *indices;
+    int index_count;
+    int joint_count; ///< 0: the mesh moves as a whole, and by its targets
+    struct form_joint *joints;
+    int first_bone; ///< joints before it only carry the mesh
+    float tip[3];   ///< of a chain, in its last joint
+    uint16_t (*slots)[FORM_INFLUENCES];
+    float (*weights)[FORM_INFLUENCES];
+    int target_count;
+    struct form_target *targets;
+    const struct character *character; ///< whose coordinates the targets are, or NULL
+    void *owned;                       ///< the kind's own
+};
+
+/// Where joints and weights are at one time.
+struct form_key {
+    float translation[3]; ///< of the root, metres
+    float (*rotation)[4]; ///< of each joint in its parent, unit quaternions x y z w
+    float *weight;        ///< of each target
+};
+
+/// Takes a named number of a rig at one time: a column of a table.
+typedef void form_column(void *user, double value, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+struct form_kind {
+    bool has_joints;
+    /// Fills all but kind and name, from a pose at any time. On failure close() frees what there is.
+    bool (*open)(const struct document *document, int rig, const struct rig_pose *pose, struct form *form,
+                 struct error *error);
+    void (*close)(struct form *form);
+    void (*key)(const struct form *form, const struct rig_pose *pose, struct form_key *key);
+    /// Where the vertices are, as the stage shows them.
+    void (*vertices)(const struct form *form, const struct rig_pose *pose, float (*positions)[3]);
+    /// What moves the rig at a key: always the same columns in the same order.
+    void (*columns)(const struct take *take, int rig, const struct rig_pose *pose, double key, form_column *column,
+                    void *user);
+};
+
+extern const struct form_kind tail_form, character_form;
+
+/// How a kind is exported; NULL if it is not.
+const struct form_kind *form_kind(enum rig_kind kind);
+
+/// What a rig is called in files and messages: its name, or its kind's word.
+const char *form_name(const struct rig *rig);
+
+/// The form of a rig. False with a sentence, and nothing to close.
+bool form_open(const struct take *take, int rig, struct form *form, struct error *error);
+void form_close(struct form *form);
+
+#endif

@@ -1,0 +1,28 @@
+/// The file formats, each a row. Private to src/export.
+#ifndef EXPORT_FORMAT_H
+#define EXPORT_FORMAT_H
+
+#include "export/form.h"
+#include <stdio.h>
+
+enum { FORMAT_SUMMARY = 96 };
+
+struct format {
+    const char *ending;
+    bool without_rigs; ///< it makes sense without one
+    bool needs_joints; ///< it holds nothing but joints
+    bool one_rig;      ///< it holds one rig
+    /// Writes all of it to a stream, whose errors the caller sees, and says in a few words what it wrote.
+    bool (*write)(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+};
+
+bool csv_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool pc2_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool mdd_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool npy_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool glb_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool gltf_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool bvh_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool usda_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+
+#endif

@@ -1,0 +1,324 @@
+/// Rigs as glTF 2.0: meshes with skins or morph targets, and one clip that moves them all.
+#include "export/format.h"
+#include "export/gltf_file.h"
+#include "export/keys.h"
+#include "export/targets.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct scene {
+    struct take *take;
+    struct gltf_file file;
+    json_t *roots, *nodes, *meshes, *skins, *samplers, *channels;
+    json_int_t times; ///< the accessor of the keys' times
+    int joints, targets;
+};
+
+/// One rig on its way into a scene.
+struct part {
+    const struct form *form;
+    const struct keys *keys;
+    const struct file_targets *targets;
+    json_int_t mesh_node, first_joint;
+};
+
+static json_t *numbers(const float *values, int count)
+{
+    json_t *array = json_array();
+    for (int i = 0; i < count; i++) json_array_append_new(array, json_real((double)values[i]));
+    return array;
+}
+
+static json_int_t append(json_t *array, json_t *value)
+{
+    json_array_append_new(array, value);
+    return (json_int_t)json_array_size(array) - 1;
+}
+
+// --- mesh
+
+static json_int_t add_vectors(struct scene *scene, const struct form *form, const float (*vectors)[3], bool bounds)
+{
+    return gltf_file_add(&scene->file, ELEMENTS_VECTORS, vectors, (size_t)form->vertex_count, bounds);
+}
+
+/// Colours within 0 … 1, which glTF asks for.
+static json_int_t add_colors(struct scene *scene, const struct form *form, float (*scratch)[3])
+{
+    for (int i = 0; i < form->vertex_count; i++) {
+        for (int k = 0; k < 3; k++) scratch[i][k] = fminf(fmaxf(form->color[i][k], 0.0f), 1.0f);
+    }
+    return add_vectors(scene, form, (const float(*)[3])scratch, false);
+}
+
+static json_t *make_attributes(struct scene *scene, const struct form *form, float (*scratch)[3])
+{
+    const json_int_t position = add_vectors(scene, form, form->position, true);
+    const json_int_t normal = add_vectors(scene, form, form->normal, false);
+    json_t *attributes = json_pack("{s:I, s:I, s:I}", "POSITION", position, "NORMAL", normal, "COLOR_0",
+                                   add_colors(scene, form, scratch));
+    if (form->joint_count == 0) return attributes;
+    const size_t count = (size_t)form->vertex_count;
+    json_object_set_new(attributes, "JOINTS_0",
+                        json_integer(gltf_file_add(&scene->file, ELEMENTS_JOINTS, form->slots, count, false)));
+    json_object_set_new(attributes, "WEIGHTS_0",
+                        json_integer(gltf_file_add(&scene->file, ELEMENTS_WEIGHTS, form->weights, count, false)));
+    return attributes;
+}
+
+static json_t *make_targets(struct scene *scene, const struct part *part, float (*scratch)[3])
+{
+    const struct form *form = part->form;
+    json_t *targets = json_array();
+    for (int t = 0; t < part->targets->count; t++) {
+        const struct file_target *target = &part->targets->list[t];
+        targets_scale(target, form->targets[target->source].position, form->vertex_count, scratch);
+        const json_int_t position = add_vectors(scene, form, (const float(*)[3])scratch, true);
+        targets_scale(target, form->targets[target->source].normal, form->vertex_count, scratch);
+        const json_int_t normal = add_vectors(scene, form, (const float(*)[3])scratch, false);
+        append(targets, json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal));
+    }
+    return targets;
+}
+
+/// What model/character.h reads: the names of the targets, and what is known of each coordinate.
+static json_t *make_extras(const struct part *part)
+{
+    const struct character *character = part->form->character;
+    json_t *names = json_array(), *coordinates = json_array();
+    for (int t = 0; t < part->targets->count; t++) append(names, json_string(part->targets->list[t].name));
+    for (int i = 0; character && i < character->coordinate_count; i++) {
+        const struct coordinate *c = &character->coordinates[i];
+        json_t *known = json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "name", c->name, "frequency", c->frequency,
+                                  "damping", c->damping, "explained", c->explained, "pca1", c->pca1, "pca2", c->pca2);
+        const double scale = (double)part->targets->list[2 * i].scale;
+        if (scale != 1) json_object_set_new(known, "scale", json_real(scale));
+        append(coordinates, known);
+    }
+    return json_pack("{s:o, s:{s:o}}", "targetNames", names, "wiggly", "coordinates", coordinates);
+}
+
+static json_int_t add_mesh(struct scene *scene, const struct part *part, float (*scratch)[3])
+{
+    const struct form *form = part->form;
+    json_t *attributes = make_attributes(scene, form, scratch);
+    const json_int_t indices =
+        gltf_file_add(&scene->file, ELEMENTS_INDICES, form->indices, (size_t)form->index_count, false);
+    json_t *primitive = json_pack("{s:o, s:I, s:i}", "attributes", attributes, "indices", indices, "material", 0);
+    json_t *mesh = json_pack("{s:s, s:[O]}", "name", form->name, "primitives", primitive);
+    if (part->targets->count > 0) {
+        json_t *weights = json_array();
+        for (int t = 0; t < part->targets->count; t++) append(weights, json_integer(0));
+        json_object_set_new(primitive, "targets", make_targets(scene, part, scratch));
+        json_object_set_new(mesh, "weights", weights);
+        json_object_set_new(mesh, "extras", make_extras(part));
+    }
+    json_decref(primitive);
+    return append(scene->meshes, mesh);
+}
+
+// --- nodes
+
+/// The joints as nodes, posed as at the first key; returns the skin.
+static json_int_t add_skin(struct scene *scene, struct part *part)
+{
+    const struct form *form = part->form;
+    json_t *joints = json_array();
+    part->first_joint = (json_int_t)json_array_size(scene->nodes);
+    for (int j = 0; j < form->joint_count; j++) {
+        const struct form_joint *joint = &form->joints[j];
+        const float *place = joint->parent < 0 ? part->keys->at.translation[0] : joint->offset;
+        json_t *node = json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", numbers(place, 3), "rotation",
+                                 numbers(part->keys->at.rotation[j * part->keys->count], 4));
+        append(joints, json_integer(append(scene->nodes, node)));
+        if (joint->parent < 0) continue;
+        json_t *parent = json_array_get(scene->nodes, (size_t)(part->first_joint + joint->parent));
+        if (!json_object_get(parent, "children")) json_object_set_new(parent, "children", json_array());
+        append(json_object_get(parent, "children"), json_integer(part->first_joint + j));
+    }
+    append(scene->roots, json_integer(part->first_joint));
+    float(*inverse)[16] = calloc((size_t)form->joint_count, sizeof *inverse);
+    for (int j = 0; inverse && j < form->joint_count; j++) {
+        for (int k = 0; k < 4; k++) inverse[j][5 * k] = 1;
+        for (int k = 0; k < 3; k++) inverse[j][12 + k] = -form->joints[j].bind[k];
+    }
+    if (!inverse) scene->file.without_memory = true;
+    const json_int_t matrices =
+        inverse ? gltf_file_add(&scene->file, ELEMENTS_MATRICES, inverse, (size_t)form->joint_count, false) : 0;
+    free(inverse);
+    return append(scene->skins, json_pack("{s:o, s:I, s:I}", "joints", joints, "inverseBindMatrices", matrices,
+                                          "skeleton", part->first_joint));
+}
+
+static void add_nodes(struct scene *scene, struct part *part, json_int_t mesh)
+{
+    const struct form *form = part->form;
+    json_t *node = json_pack("{s:s, s:I}", "name", form->name, "mesh", mesh);
+    part->mesh_node = append(scene->nodes, node);
+    append(scene->roots, json_integer(part->mesh_node));
+    if (form->joint_count > 0) {
+        json_object_set_new(node, "skin", json_integer(add_skin(scene, part)));
+    } else {
+        json_object_set_new(node, "translation", numbers(part->keys->at.translation[0], 3));
+    }
+}
+
+// --- the clip
+
+static bool is_cubic(const struct keys *keys) { return keys->slope.translation != NULL; }
+
+static void add_channel(struct scene *scene, const struct keys *keys, json_int_t node, const char *path,
+                        json_int_t output)
+{
+    const json_int_t sampler =
+        append(scene->samplers, json_pack("{s:I, s:I, s:s}", "input", scene->times, "output", output, "interpolation",
+                                          is_cubic(keys) ? "CUBICSPLINE" : "LINEAR"));
+    append(scene->channels,
+           json_pack("{s:I, s:{s:I, s:s}}", "sampler", sampler, "target", "node", node, "path", path));
+}
+
+/// Rows of `width` numbers at each key; with slopes, tangent in, value and tangent out.
+static json_int_t add_keys(struct scene *scene, enum gltf_elements elements, const float *values, const float *slopes,
+                           int width, int count)
+{
+    const size_t row = (size_t)width;
+    const size_t each = (size_t)(elements == ELEMENTS_KEYS ? width : 1) * (slopes ? 3 : 1);
+    if (!slopes) return gltf_file_add(&scene->file, elements, values, (size_t)count * each, false);
+    float *keys = malloc(3 * row * (size_t)count * sizeof *keys);
+    for (size_t k = 0; keys && k < (size_t)count; k++) {
+        memcpy(keys + 3 * k * row, slopes + k * row, row * sizeof *keys);
+        memcpy(keys + (3 * k + 1) * row, values + k * row, row * sizeof *keys);
+        memcpy(keys + (3 * k + 2) * row, slopes + k * row, row * sizeof *keys);
+    }
+    if (!keys) scene->file.without_memory = true;
+    const json_int_t accessor = keys ? gltf_file_add(&scene->file, elements, keys, (size_t)count * each, false) : 0;
+    free(keys);
+    return accessor;
+}
+
+static void add_weights(struct scene *scene, const struct part *part)
+{
+    const struct keys *keys = part->keys;
+    const int width = part->targets->count, count = keys->count;
+    if (width == 0) return;
+    float *values = malloc((size_t)(width * count) * sizeof *values);
+    float *slopes = is_cubic(keys) ? malloc((size_t)(width * count) * sizeof *slopes) : NULL;
+    if (!values || (is_cubic(keys) && !slopes)) {
+        scene->file.without_memory = true;
+    } else {
+        for (int i = 0; i < width * count; i++) {
+            values[i] = targets_weight(part->targets, i % width, keys, i / width);
+            if (slopes) slopes[i] = targets_slope(part->targets, i % width, keys, i / width);
+        }
+        add_channel(scene, keys, part->mesh_node, "weights",
+                    add_keys(scene, ELEMENTS_KEYS, values, slopes, width, count));
+    }
+    free(values);
+    free(slopes);
+}
+
+static void add_animation(struct scene *scene, const struct part *part)
+{
+    const struct form *form = part->form;
+    const struct keys *keys = part->keys;
+    if (keys->travels) {
+        const float *slopes = is_cubic(keys) ? keys->slope.translation[0] : NULL;
+        add_channel(scene, keys, form->joint_count > 0 ? part->first_joint : part->mesh_node, "translation",
+                    add_keys(scene, ELEMENTS_KEY_VECTORS, keys->at.translation[0], slopes, 3, keys->count));
+    }
+    for (int j = form->first_bone; j < form->joint_count; j++) {
+        const float *slopes = is_cubic(keys) ? keys->slope.rotation[j * keys->count] : NULL;
+        add_channel(scene, keys, part->first_joint + j, "rotation",
+                    add_keys(scene, ELEMENTS_TURNS, keys->at.rotation[j * keys->count], slopes, 4, keys->count));
+    }
+    add_weights(scene, part);
+}
+
+// --- all of it
+
+static bool add_rig(struct scene *scene, int rig, struct error *error)
+{
+    struct form form;
+    struct keys keys;
+    struct file_targets targets = {0};
+    if (!form_open(scene->take, rig, &form, error)) return false;
+    bool done = keys_collect(scene->take, rig, &form, &keys, error);
+    float(*scratch)[3] = done ? malloc(((size_t)form.vertex_count + 1) * sizeof *scratch) : NULL;
+    if (done && (!scratch || !targets_create(scene->take, &form, &keys, &targets)))
+        done = fail_no_memory(error, form.name);
+    if (done) {
+        struct part part = {.form = &form, .keys = &keys, .targets = &targets};
+        add_nodes(scene, &part, add_mesh(scene, &part, scratch));
+        add_animation(scene, &part);
+        scene->joints += form.joint_count - form.first_bone;
+        scene->targets += targets.count;
+    }
+    free(scratch);
+    targets_free(&targets);
+    keys_free(&keys);
+    form_close(&form);
+    return done;
+}
+
+static void add_times(struct scene *scene)
+{
+    const int count = scene->take->key_count;
+    float *times = malloc((size_t)count * sizeof *times);
+    for (int k = 0; times && k < count; k++) times[k] = (float)take_seconds(scene->take, k);
+    if (!times) scene->file.without_memory = true;
+    if (times) scene->times = gltf_file_add(&scene->file, ELEMENTS_KEYS, times, (size_t)count, true);
+    free(times);
+}
+
+static json_t *make_root(const struct scene *scene)
+{
+    json_t *material = json_pack("{s:s, s:{s:f, s:f}}", "name", "skin", "pbrMetallicRoughness", "metallicFactor", 0.0,
+                                 "roughnessFactor", 0.8);
+    json_t *root = json_pack("{s:{s:s, s:s}, s:i, s:[{s:O}], s:O, s:O, s:[o]}", "asset", "version", "2.0",
+                             "generator", "wiggly", "scene", 0, "scenes", "nodes", scene->roots, "nodes",
+                             scene->nodes, "meshes", scene->meshes, "materials", material);
+    if (json_array_size(scene->skins) > 0) json_object_set(root, "skins", scene->skins);
+    if (json_array_size(scene->channels) > 0) {
+        json_t *clip = json_pack("{s:s, s:O, s:O}", "name", scene->take->clip, "samplers", scene->samplers,
+                                 "channels", scene->channels);
+        json_object_set_new(root, "animations", json_pack("[o]", clip));
+    }
+    return root;
+}
+
+static void summarise(const struct scene *scene, char summary[FORMAT_SUMMARY])
+{
+    char joints[32] = "", targets[32] = "";
+    if (scene->joints > 0) snprintf(joints, sizeof joints, "%d joints, ", scene->joints);
+    if (scene->targets > 0) snprintf(targets, sizeof targets, "%d morph targets, ", scene->targets);
+    snprintf(summary, FORMAT_SUMMARY, "%s%s%d keys", joints, targets, scene->take->key_count);
+}
+
+static bool write_scene(struct take *take, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+{
+    struct scene scene = {.take = take};
+    json_t **const arrays[] = {&scene.roots, &scene.nodes,    &scene.meshes,
+                               &scene.skins, &scene.samplers, &scene.channels};
+    enum { ARRAYS = sizeof arrays / sizeof *arrays };
+    for (int i = 0; i < ARRAYS; i++) *arrays[i] = json_array();
+    take->total = (long)take->key_count * take->rig_count;
+    bool done = true;
+    add_times(&scene);
+    for (int r = 0; done && r < take->rig_count; r++) done = add_rig(&scene, take->rigs[r], error);
+    done = done && gltf_file_write(&scene.file, make_root(&scene), binary, out, error);
+    summarise(&scene, summary);
+    for (int i = 0; i < ARRAYS; i++) json_decref(*arrays[i]);
+    gltf_file_free(&scene.file);
+    return done;
+}
+
+bool glb_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+{
+    return write_scene(take, true, out, summary, error);
+}
+
+bool gltf_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+{
+    return write_scene(take, false, out, summary, error);
+}

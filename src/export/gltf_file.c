@@ -1,0 +1,151 @@
+/// Puts glTF files together.
+#include "export/gltf_file.h"
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ARRAY_BUFFER = 34962, ELEMENT_ARRAY_BUFFER = 34963, UNSIGNED_SHORT = 5123, UNSIGNED_INT = 5125, FLOAT = 5126 };
+
+static const struct element {
+    const char *shape;
+    int components, type, size; ///< `size`: bytes of a component
+    int target;                 ///< 0: none
+} kinds[] = {
+    [ELEMENTS_INDICES] = {"SCALAR", 1, UNSIGNED_INT, 4, ELEMENT_ARRAY_BUFFER},
+    [ELEMENTS_VECTORS] = {"VEC3", 3, FLOAT, 4, ARRAY_BUFFER},
+    [ELEMENTS_JOINTS] = {"VEC4", 4, UNSIGNED_SHORT, 2, ARRAY_BUFFER},
+    [ELEMENTS_WEIGHTS] = {"VEC4", 4, FLOAT, 4, ARRAY_BUFFER},
+    [ELEMENTS_MATRICES] = {"MAT4", 16, FLOAT, 4, 0},
+    [ELEMENTS_KEYS] = {"SCALAR", 1, FLOAT, 4, 0},
+    [ELEMENTS_KEY_VECTORS] = {"VEC3", 3, FLOAT, 4, 0},
+    [ELEMENTS_TURNS] = {"VEC4", 4, FLOAT, 4, 0},
+};
+
+static bool append(struct gltf_file *file, const void *data, size_t size)
+{
+    if (file->size + size > file->capacity) {
+        const size_t capacity = 2 * (file->size + size);
+        char *larger = realloc(file->data, capacity);
+        if (!larger) return false;
+        file->data = larger;
+        file->capacity = capacity;
+    }
+    memcpy(file->data + file->size, data, size);
+    file->size += size;
+    return true;
+}
+
+static void add_bounds(json_t *accessor, const float *numbers, size_t count, int components)
+{
+    json_t *low = json_array(), *high = json_array();
+    for (int k = 0; k < components; k++) {
+        float least = INFINITY, most = -INFINITY;
+        for (size_t i = 0; i < count; i++) {
+            least = fminf(least, numbers[i * (size_t)components + (size_t)k]);
+            most = fmaxf(most, numbers[i * (size_t)components + (size_t)k]);
+        }
+        json_array_append_new(low, json_real((double)least));
+        json_array_append_new(high, json_real((double)most));
+    }
+    json_object_set_new(accessor, "min", low);
+    json_object_set_new(accessor, "max", high);
+}
+
+json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, const void *data, size_t count,
+                         bool bounds)
+{
+    const struct element *kind = &kinds[elements];
+    const size_t size = count * (size_t)(kind->components * kind->size); // a multiple of 4, so that all are aligned
+    if (!file->views) file->views = json_array();
+    if (!file->accessors) file->accessors = json_array();
+    const json_int_t index = (json_int_t)json_array_size(file->accessors);
+    json_t *view = json_pack("{s:i, s:I, s:I}", "buffer", 0, "byteOffset", (json_int_t)file->size, "byteLength",
+                             (json_int_t)size);
+    json_t *accessor = json_pack("{s:I, s:i, s:I, s:s}", "bufferView", index, "componentType", kind->type, "count",
+                                 (json_int_t)count, "type", kind->shape);
+    if (kind->target) json_object_set_new(view, "target", json_integer(kind->target));
+    if (bounds && accessor) add_bounds(accessor, data, count, kind->components);
+    if (!append(file, data, size) || json_array_append_new(file->views, view) != 0 ||
+        json_array_append_new(file->accessors, accessor) != 0)
+        file->without_memory = true;
+    return index;
+}
+
+static void write_words(FILE *out, uint32_t a, uint32_t b)
+{
+    const uint32_t words[2] = {a, b};
+    fwrite(words, sizeof words, 1, out);
+}
+
+/// Header, JSON padded with spaces, bytes.
+static void write_binary(const struct gltf_file *file, const char *text, FILE *out)
+{
+    const size_t length = strlen(text), padded = (length + 3) / 4 * 4;
+    const uint32_t total = (uint32_t)(12 + 8 + padded + 8 + file->size);
+    write_words(out, 0x46546C67, 2); // "glTF"
+    fwrite(&total, sizeof total, 1, out);
+    write_words(out, (uint32_t)padded, 0x4E4F534A); // "JSON"
+    fprintf(out, "%s%*s", text, (int)(padded - length), "");
+    write_words(out, (uint32_t)file->size, 0x004E4942); // "BIN"
+    fwrite(file->data, 1, file->size, out);
+}
+
+/// "data:…": the bytes in base 64, as the address of the buffer.
+static char *print_address(const struct gltf_file *file)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static const char start[] = "data:application/octet-stream;base64,";
+    const size_t groups = (file->size + 2) / 3;
+    char *text = malloc(sizeof start + 4 * groups), *at = text;
+    if (!text) return NULL;
+    at = stpcpy(at, start);
+    for (size_t i = 0; i < file->size; i += 3) {
+        uint32_t bits = 0;
+        for (size_t k = 0; k < 3; k++) bits = bits << 8 | (i + k < file->size ? (unsigned char)file->data[i + k] : 0);
+        for (size_t k = 0; k < 4; k++) *at++ = i + k > file->size ? '=' : digits[bits >> (18 - 6 * k) & 63];
+    }
+    *at = '\0';
+    return text;
+}
+
+static bool complete(struct gltf_file *file, json_t *root, bool binary)
+{
+    json_t *buffer = json_pack("{s:I}", "byteLength", (json_int_t)file->size);
+    char *address = binary ? NULL : print_address(file);
+    if (address) json_object_set_new(buffer, "uri", json_string(address));
+    const bool whole = buffer && (binary || address);
+    free(address);
+    return json_object_set_new(root, "buffers", json_pack("[o]", buffer)) == 0 &&
+           json_object_set(root, "bufferViews", file->views) == 0 &&
+           json_object_set(root, "accessors", file->accessors) == 0 && whole;
+}
+
+bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *out, struct error *error)
+{
+    char *text = NULL;
+    if (root && !file->without_memory && file->size < UINT32_MAX / 2 && complete(file, root, binary))
+        text = json_dumps(root, (binary ? JSON_COMPACT : JSON_INDENT(1)) | JSON_REAL_PRECISION(17));
+    json_decref(root);
+    if (!text) {
+        return fail(error, ERROR_ENVIRONMENT,
+                    file->size < UINT32_MAX / 2 ? "not enough memory, or a name is not UTF-8"
+                                                : "a glTF file holds 2 GB: ask for fewer keys or frames");
+    }
+    if (binary) {
+        write_binary(file, text, out);
+    } else {
+        fputs(text, out);
+        fputc('\n', out);
+    }
+    free(text);
+    return true;
+}
+
+void gltf_file_free(struct gltf_file *file)
+{
+    json_decref(file->views);
+    json_decref(file->accessors);
+    free(file->data);
+    *file = (struct gltf_file){0};
+}

@@ -1,0 +1,38 @@
+/// A glTF 2.0 file being put together: accessors and the bytes that they find. Private to src/export.
+#ifndef EXPORT_GLTF_FILE_H
+#define EXPORT_GLTF_FILE_H
+
+#include "base/error.h"
+#include <jansson.h>
+#include <stdio.h>
+
+/// All zero at first; without_memory stays set.
+struct gltf_file {
+    json_t *views, *accessors;
+    char *data;
+    size_t size, capacity;
+    bool without_memory;
+};
+
+/// What the elements of an accessor are.
+enum gltf_elements {
+    ELEMENTS_INDICES,
+    ELEMENTS_VECTORS,
+    ELEMENTS_JOINTS,
+    ELEMENTS_WEIGHTS,
+    ELEMENTS_MATRICES,
+    ELEMENTS_KEYS,
+    ELEMENTS_KEY_VECTORS,
+    ELEMENTS_TURNS
+};
+
+/// Adds `count` elements and returns the accessor's number; with bounds, it states their least and largest.
+json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, const void *data, size_t count,
+                         bool bounds);
+
+/// Completes the JSON of the rest (which it takes over; NULL: memory was short) and writes both: as .glb, or as text with the bytes in it.
+/// False with a sentence if it cannot be made; the stream's errors are the caller's.
+bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *out, struct error *error);
+void gltf_file_free(struct gltf_file *file);
+
+#endif

@@ -1,0 +1,57 @@
+/// Where all vertices of a rig are at each key: .pc2, .mdd and .npy.
+#include "export/format.h"
+#include "model/motion.h"
+#include <stdlib.h>
+
+static bool write_keys(struct take *take, const struct form *form, FILE *out, enum motion_form as,
+                       float (*positions)[3], struct error *error)
+{
+    struct rig_pose pose;
+    const bool in_seconds = as == MOTION_MDD;
+    const struct document *document = take->posing->document;
+    const struct motion_span span = {
+        .frames = take->key_count,
+        .vertices = form->vertex_count,
+        .first = in_seconds ? take->first / document->fps : take->first,
+        .spacing = in_seconds ? take_seconds(take, 1) : take->spacing,
+    };
+    motion_print_start(out, as, &span);
+    for (int k = 0; k < take->key_count; k++) {
+        if (!take_pose(take, take->rigs[0], k, &pose, error)) return false;
+        form->kind->vertices(form, &pose, positions);
+        motion_print_frame(out, as, (const float(*)[3])positions, form->vertex_count);
+        if (ferror(out)) return true; // the caller says what is wrong; a full disk need not be filled to the end
+        if (!take_proceed(take, error)) return false;
+    }
+    return true;
+}
+
+static bool write_points(struct take *take, FILE *out, enum motion_form as, char summary[FORMAT_SUMMARY],
+                         struct error *error)
+{
+    struct form form;
+    if (!form_open(take, take->rigs[0], &form, error)) return false;
+    float(*positions)[3] = malloc(((size_t)form.vertex_count + 1) * sizeof *positions);
+    take->total = take->key_count;
+    const bool done =
+        positions ? write_keys(take, &form, out, as, positions, error) : fail_no_memory(error, form.name);
+    snprintf(summary, FORMAT_SUMMARY, "%d vertices, %d frames", form.vertex_count, take->key_count);
+    free(positions);
+    form_close(&form);
+    return done;
+}
+
+bool pc2_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+{
+    return write_points(take, out, MOTION_PC2, summary, error);
+}
+
+bool mdd_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+{
+    return write_points(take, out, MOTION_MDD, summary, error);
+}
+
+bool npy_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+{
+    return write_points(take, out, MOTION_NPY, summary, error);
+}

@@ -1,0 +1,137 @@
+/// A tail as a form: the fox, skinned to the tail's joints.
+#include "export/form.h"
+#include "model/creature.h"
+#include "model/tail_skin.h"
+#include "model/vector.h"
+#include <stdio.h>
+#include <stdlib.h>
+
+_Static_assert((int)TAIL_INFLUENCES == (int)FORM_INFLUENCES, "a vertex of the fox fits");
+
+/// The fox at the size of its tail.
+struct fox {
+    struct mesh mesh;
+    float (*position)[3], (*normal)[3], (*color)[3];
+};
+
+/// Copies what files want apart, scaled to the tail's length.
+static void copy_vertices(struct form *form, struct fox *fox, int joints, float length)
+{
+    const float scale = length / CREATURE_TAIL_LENGTH;
+    for (int i = 0; i < fox->mesh.vertex_count; i++) {
+        const struct vertex *vertex = &fox->mesh.vertices[i];
+        for (int k = 0; k < 3; k++) fox->position[i][k] = scale * vertex->position[k];
+        const vec3s normal = glms_vec3_normalize(vec3_from(vertex->normal));
+        memcpy(fox->normal[i], normal.raw, sizeof fox->normal[i]);
+        memcpy(fox->color[i], vertex->color, sizeof fox->color[i]);
+        tail_influences(vertex, joints, CREATURE_TAIL_LENGTH / (float)joints, form->slots[i], form->weights[i]);
+    }
+}
+
+/// The joint that carries the animal, and those of the tail.
+static void name_joints(struct form *form, int joints, const struct rig_pose *pose)
+{
+    const float segment = pose_length(&pose->tail) / (float)joints;
+    form->joints[0] = (struct form_joint){.parent = -1};
+    snprintf(form->joints[0].name, FORM_NAME, "%.50s_body", form->name);
+    form->tip[2] = segment;
+    memcpy(form->joints[0].offset, pose->tail.matrix[0] + 12, 3 * sizeof(float));
+    for (int n = 0; n < joints; n++) {
+        form->joints[n + 1] = (struct form_joint){
+            .parent = n, .offset = {0, 0, n > 0 ? segment : 0}, .bind = {0, 0, (float)n * segment}};
+        snprintf(form->joints[n + 1].name, FORM_NAME, "%.50s_%d", form->name, n);
+    }
+}
+
+static bool open(const struct document *document, int rig, const struct rig_pose *pose, struct form *form,
+                 struct error *error)
+{
+    const int joints = document->rigs[rig].tail.joints;
+    struct fox *fox = form->owned = calloc(1, sizeof *fox);
+    if (!fox) return fail_no_memory(error, form->name);
+    mesh_creature(creature_level(document_count_rigs(document, RIG_TAIL)), &fox->mesh);
+    const size_t count = (size_t)fox->mesh.vertex_count + 1;
+    fox->position = malloc(count * sizeof *fox->position);
+    fox->normal = malloc(count * sizeof *fox->normal);
+    fox->color = malloc(count * sizeof *fox->color);
+    form->slots = malloc(count * sizeof *form->slots);
+    form->weights = malloc(count * sizeof *form->weights);
+    form->joints = calloc((size_t)joints + 1, sizeof *form->joints);
+    if (fox->mesh.failed || !fox->position || !fox->normal || !fox->color || !form->slots || !form->weights ||
+        !form->joints)
+        return fail_no_memory(error, form->name);
+    form->vertex_count = fox->mesh.vertex_count;
+    form->position = (const float(*)[3])fox->position;
+    form->normal = (const float(*)[3])fox->normal;
+    form->color = (const float(*)[3])fox->color;
+    form->indices = fox->mesh.indices;
+    form->index_count = fox->mesh.index_count;
+    form->joint_count = joints + 1;
+    form->first_bone = 1;
+    copy_vertices(form, fox, joints, pose_length(&pose->tail));
+    name_joints(form, joints, pose);
+    return true;
+}
+
+static void close(struct form *form)
+{
+    struct fox *fox = form->owned;
+    if (fox) {
+        mesh_free(&fox->mesh);
+        free(fox->position);
+        free(fox->normal);
+        free(fox->color);
+    }
+    free(fox);
+    free(form->slots);
+    free(form->weights);
+    free(form->joints);
+}
+
+/// The rotation that takes frame `from` to frame `to`: fromᵀ · to. What is bent by half a turn or more between two joints too.
+static void rotation_between(const float from[16], const float to[16], float rotation[4])
+{
+    mat4s a = mat4_from(from), b = mat4_from(to);
+    glm_vec3_zero(a.raw[3]);
+    glm_vec3_zero(b.raw[3]);
+    const versors q = glms_mat4_quat(glms_mat4_mul(glms_mat4_transpose(a), b));
+    const versors unit = glms_quat_normalize(q);
+    memcpy(rotation, unit.raw, 4 * sizeof *rotation);
+}
+
+static void key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
+{
+    static const float upright[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    memcpy(key->translation, pose->tail.matrix[0] + 12, sizeof key->translation);
+    memcpy(key->rotation[0], (const float[]){0, 0, 0, 1}, sizeof key->rotation[0]);
+    for (int n = 0; n + 1 < form->joint_count; n++)
+        rotation_between(n > 0 ? pose->tail.matrix[n - 1] : upright, pose->tail.matrix[n], key->rotation[n + 1]);
+}
+
+static void vertices(const struct form *form, const struct rig_pose *pose, float (*positions)[3])
+{
+    const struct fox *fox = form->owned;
+    tail_skin(&pose->tail, &fox->mesh, positions, NULL);
+}
+
+/// By how many degrees each channel bends each joint.
+static void columns(const struct take *take, int rig, const struct rig_pose *pose, double key, form_column *column,
+                    void *user)
+{
+    static const char *const axes[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up"};
+    const struct document *document = take->posing->document;
+    const struct tail *tail = &document->rigs[rig].tail;
+    (void)pose;
+    for (int c = 0; c < tail->channel_count; c++) {
+        const struct channel *channel = &tail->channels[c];
+        const wiggly_value value = take_value(take, channel->spline, key);
+        for (int n = 0; n < tail->joints; n++) {
+            column(user,
+                   180 / 3.14159265358979323846 * channel_bend(channel, value, n, tail->joints, take->posing->look),
+                   "%s.%s.%s.%d", form_name(&document->rigs[rig]), axes[channel->axis],
+                   document->splines[channel->spline].name, n);
+        }
+    }
+}
+
+const struct form_kind tail_form = {true, open, close, key, vertices, columns};

@@ -1,0 +1,39 @@
+/// What is exported: rigs of a document, posed at evenly spaced times. Private to src/export.
+#ifndef EXPORT_TAKE_H
+#define EXPORT_TAKE_H
+
+#include "rig/posing.h"
+
+struct take {
+    const struct posing *posing;
+    int rigs[SCENE_MAX_RIGS]; ///< by index in the document
+    int rig_count;
+    double first;   ///< frame of the first key
+    double spacing; ///< frames from one key to the next
+    int key_count;
+    const char *clip;
+    bool is_signed; ///< a morph target's weight may be negative; else there is a second target for that
+    bool is_cubic;  ///< keys have tangents
+    bool (*proceed)(void *user, long done, long total); ///< called as keys are done; false: stop. NULL: nobody asks
+    void *user;
+    long done, total; ///< keys of all rigs
+};
+
+/// The frame of a key, and its time in seconds from the first.
+double take_frame(const struct take *take, double key);
+double take_seconds(const struct take *take, double key);
+
+/// Poses a rig of the document at a key; between two keys for one that is not whole. Outside of the document loops go on, and all
+/// else stands still. False with a sentence if the rig's model is missing.
+bool take_pose(const struct take *take, int rig, double key, struct rig_pose *pose, struct error *error);
+
+/// A spline's value at a key.
+wiggly_value take_value(const struct take *take, int spline, double key);
+
+/// Whether a key's time is within the document.
+bool take_is_inside(const struct take *take, double key);
+
+/// Counts a key of a rig as done. False with a sentence if the export is to stop.
+bool take_proceed(struct take *take, struct error *error);
+
+#endif

@@ -1,0 +1,134 @@
+/// The dog of the stage, from which assets/models/dog.glb is made: an animal that nobody drew, with a skeleton, a skin, a face and
+/// clips of its own.
+///
+/// Metres, y up; it stands on y = 0 and looks towards +z, so that its left is +x.
+#ifndef MODEL_DOG_H
+#define MODEL_DOG_H
+
+#include "base/error.h"
+#include "model/mesh.h"
+#include <stdbool.h>
+
+enum {
+    DOG_MAX_JOINTS = 64,
+    DOG_TAIL_JOINTS = 8,
+    DOG_EAR_JOINTS = 4,
+    DOG_LEG_JOINTS = 4,
+    DOG_INFLUENCES = 4,
+    DOG_FPS = 24,
+};
+
+/// A joint in the model's space at rest. Its own y axis runs along its bone; how it is rolled about that differs from chain to chain,
+/// as in most rigs.
+struct dog_joint {
+    char name[20];
+    int parent; ///< −1: the root node
+    float position[3], tip[3];
+    float rotation[4]; ///< unit quaternion x y z w
+};
+
+/// Parents come before their children.
+struct dog_skeleton {
+    struct dog_joint joints[DOG_MAX_JOINTS];
+    int count;
+};
+
+/// Points of the tail from its root to its tip, and of the left ear.
+extern const float dog_tail[DOG_TAIL_JOINTS + 1][3], dog_ear[DOG_EAR_JOINTS + 1][3];
+
+void dog_skeleton_make(struct dog_skeleton *skeleton);
+
+/// The number of a joint; there must be one with that name.
+int dog_joint(const struct dog_skeleton *skeleton, const char *name);
+
+/// Joints that a vertex follows, the strongest first; the weights' sum is 1.
+struct dog_influences {
+    int joint[DOG_INFLUENCES];
+    float weight[DOG_INFLUENCES];
+};
+
+/// What a point of the coat follows: joints near it along the limbs that it lies on.
+void dog_influences(const struct dog_skeleton *skeleton, const float p[3], struct dog_influences *influences);
+
+/// Its limbs, each a solid that follows a chain of joints.
+enum dog_limb_number {
+    DOG_TRUNK,
+    DOG_HEAD,
+    DOG_JAW,
+    DOG_TAIL,
+    DOG_EAR_LEFT,
+    DOG_EAR_RIGHT,
+    DOG_FIRST_LEG,
+    DOG_LIMBS = DOG_FIRST_LEG + 4
+};
+
+/// Distance to one limb, and to the smooth union of all; `rgb`, if not NULL, gets the ground colour there.
+float dog_limb_distance(int limb, const float p[3], float rgb[3]);
+float dog_distance(const float p[3], float rgb[3]);
+
+/// A limb: the chain of joints that it follows. `blend`: over how many metres it shares vertices with its neighbours; `bend`: over which
+/// share of a bone each of its joints bends.
+struct dog_limb {
+    const char *joints[DOG_TAIL_JOINTS + 1]; ///< up to NULL
+    float blend, bend;
+};
+extern const struct dog_limb dog_limbs[DOG_LIMBS];
+
+/// The ground colours of the coat, sRGB.
+#define DOG_COAT_WHITE 0xF1E7D8u
+#define DOG_COAT_EAR 0x70402Cu
+
+/// The coat: about so many triangles. mesh->failed where memory is short.
+void dog_coat(int triangles, struct mesh *mesh);
+
+enum dog_material {
+    DOG_COAT,
+    DOG_WHITE,
+    DOG_IRIS,
+    DOG_DARK,
+    DOG_GLINT,
+    DOG_TONGUE,
+    DOG_COLLAR,
+    DOG_TAG,
+    DOG_MATERIALS
+};
+
+/// A part of the dog of one material. `joint`: all of it follows that one; −1: each vertex by dog_influences().
+struct dog_piece {
+    enum dog_material material;
+    int joint;
+    struct mesh mesh;
+};
+
+enum { DOG_MAX_PIECES = 20 };
+struct dog_pieces {
+    struct dog_piece pieces[DOG_MAX_PIECES];
+    int count;
+    float tag_middle[3], tag_radius; ///< where its picture is laid on
+};
+
+/// Eyes, lids, nose, collar and tag.
+void dog_face(const struct dog_skeleton *skeleton, struct dog_pieces *pieces);
+
+/// A looping motion of so many frames; the last key equals the first.
+struct dog_clip {
+    const char *name;
+    int frames;
+};
+enum { DOG_CLIPS = 3 };
+extern const struct dog_clip dog_clips[DOG_CLIPS];
+
+/// Where everything is at one time of a clip, joints against their parents.
+struct dog_pose {
+    float rotation[DOG_MAX_JOINTS][4];
+    float hips[3];
+};
+
+/// The pose at 0 … 1 of a clip. False where a leg does not reach its paw, which is an error in the clip.
+bool dog_pose(const struct dog_skeleton *skeleton, int clip, float time, struct dog_pose *pose);
+
+/// Writes all of it as a .glb, whole or not at all.
+bool dog_write(const char *path, const struct dog_skeleton *skeleton, const struct dog_pieces *pieces,
+               struct error *error);
+
+#endif

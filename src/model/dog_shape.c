@@ -1,0 +1,140 @@
+/// The dog's coat: a smooth union of limbs, each of which is made of round cones and follows a chain of joints.
+#include "model/coat.h"
+#include "model/dog.h"
+#include "model/parts.h"
+#include "model/vector.h"
+#include <math.h>
+
+#define WHITE DOG_COAT_WHITE
+
+/// How much flatter than wide the ears are.
+#define EAR_FLATNESS 2.6f
+#define SOLE_FILLET 0.010f
+
+static const struct part trunk[] = {
+    {{0, 0.460f, -0.195f}, {0, 0.462f, -0.04f}, 0.108f, 0.102f, 0.001f, WHITE, false}, // rump and loin
+    {{0, 0.452f, 0.01f}, {0, 0.448f, 0.13f}, 0.122f, 0.132f, 0.08f, WHITE, false},     // ribs
+    {{0, 0.400f, 0.13f}, {0, 0.440f, 0.205f}, 0.104f, 0.098f, 0.08f, WHITE, false},    // chest
+    {{0, 0.520f, 0.19f}, {0, 0.665f, 0.280f}, 0.098f, 0.082f, 0.10f, WHITE, false},    // neck
+};
+
+static const struct part head[] = {
+    {{-0.016f, 0.752f, 0.312f}, {0.016f, 0.752f, 0.312f}, 0.120f, 0.120f, 0.001f, WHITE, false}, // skull
+    {{0.055f, 0.715f, 0.335f}, {0.042f, 0.716f, 0.395f}, 0.074f, 0.052f, 0.06f, WHITE, true},    // cheeks
+    {{0, 0.712f, 0.400f}, {0, 0.712f, 0.515f}, 0.066f, 0.046f, 0.05f, WHITE, false},             // muzzle
+    {{0.040f, 0.716f, 0.410f}, {0.027f, 0.690f, 0.520f}, 0.040f, 0.037f, 0.025f, WHITE, true},   // lips
+};
+
+static const struct part jaw[] = {
+    {{0.018f, 0.682f, 0.365f}, {0.011f, 0.628f, 0.492f}, 0.044f, 0.027f, 0.02f, WHITE, true},
+};
+
+/// Front and hind leg, of the left side.
+static const struct part front_leg[] = {
+    {{0.080f, 0.445f, 0.155f}, {0.093f, 0.300f, 0.078f}, 0.080f, 0.050f, 0.001f, WHITE, false}, // upper arm
+    {{0.093f, 0.295f, 0.075f}, {0.091f, 0.105f, 0.110f}, 0.051f, 0.037f, 0.03f, WHITE, false},  // forearm
+    {{0.091f, 0.105f, 0.110f}, {0.092f, 0.045f, 0.135f}, 0.037f, 0.039f, 0.02f, WHITE, false},  // pastern
+    {{0.092f, 0.036f, 0.130f}, {0.094f, 0.032f, 0.165f}, 0.046f, 0.040f, 0.02f, WHITE, false},  // paw
+    {{0.094f, 0.028f, 0.170f}, {0.095f, 0.026f, 0.196f}, 0.026f, 0.024f, 0.010f, WHITE, false}, // toes
+    {{0.065f, 0.026f, 0.160f}, {0.064f, 0.024f, 0.182f}, 0.025f, 0.022f, 0.010f, WHITE, false},
+    {{0.123f, 0.026f, 0.160f}, {0.125f, 0.024f, 0.182f}, 0.025f, 0.022f, 0.010f, WHITE, false},
+};
+
+static const struct part hind_leg[] = {
+    {{0.070f, 0.435f, -0.205f}, {0.090f, 0.305f, -0.148f}, 0.100f, 0.070f, 0.001f, WHITE, false}, // thigh
+    {{0.092f, 0.290f, -0.145f}, {0.092f, 0.160f, -0.270f}, 0.062f, 0.036f, 0.04f, WHITE, false},  // shin
+    {{0.092f, 0.158f, -0.274f}, {0.094f, 0.045f, -0.235f}, 0.035f, 0.037f, 0.02f, WHITE, false},  // hock
+    {{0.094f, 0.036f, -0.240f}, {0.096f, 0.032f, -0.200f}, 0.045f, 0.039f, 0.02f, WHITE, false},  // paw
+    {{0.096f, 0.028f, -0.195f}, {0.097f, 0.026f, -0.168f}, 0.026f, 0.024f, 0.010f, WHITE, false}, // toes
+    {{0.067f, 0.026f, -0.205f}, {0.066f, 0.024f, -0.183f}, 0.025f, 0.022f, 0.010f, WHITE, false},
+    {{0.125f, 0.026f, -0.205f}, {0.127f, 0.024f, -0.183f}, 0.025f, 0.022f, 0.010f, WHITE, false},
+};
+
+static const float tail_radius[DOG_TAIL_JOINTS + 1] = {0.046f, 0.037f, 0.033f, 0.034f, 0.037f,
+                                                       0.040f, 0.040f, 0.034f, 0.018f};
+static const float ear_radius[DOG_EAR_JOINTS + 1] = {0.034f, 0.046f, 0.056f, 0.062f, 0.040f};
+
+/// How limbs join the ones before them, and their colours.
+static const struct {
+    const struct part *parts;
+    size_t count;
+    float side;   ///< −1: mirrored
+    float fillet; ///< metres
+} solids[DOG_LIMBS] = {
+    {trunk, sizeof trunk / sizeof *trunk, 1, 0.001f},
+    {head, sizeof head / sizeof *head, 1, 0.06f},
+    {jaw, sizeof jaw / sizeof *jaw, 1, 0.008f},
+    {NULL, 0, 1, 0.05f}, // tail
+    {NULL, 0, 1, 0.022f},
+    {NULL, 0, -1, 0.022f}, // ears
+    {front_leg, sizeof front_leg / sizeof *front_leg, 1, 0.07f},
+    {front_leg, sizeof front_leg / sizeof *front_leg, -1, 0.07f},
+    {hind_leg, sizeof hind_leg / sizeof *hind_leg, 1, 0.08f},
+    {hind_leg, sizeof hind_leg / sizeof *hind_leg, -1, 0.08f},
+};
+
+const struct dog_limb dog_limbs[DOG_LIMBS] = {
+    {{"hips", "spine_1", "spine_2", "chest", "neck"}, 0.06f, 0.6f},
+    {{"head"}, 0.05f, 0.5f},
+    {{"jaw"}, 0.016f, 0.5f},
+    {{"tail_1", "tail_2", "tail_3", "tail_4", "tail_5", "tail_6", "tail_7", "tail_8"}, 0.05f, 0.75f},
+    {{"ear_1_L", "ear_2_L", "ear_3_L", "ear_4_L"}, 0.020f, 0.6f},
+    {{"ear_1_R", "ear_2_R", "ear_3_R", "ear_4_R"}, 0.020f, 0.6f},
+    {{"thigh_front_L", "shin_front_L", "foot_front_L", "toe_front_L"}, 0.07f, 0.5f},
+    {{"thigh_front_R", "shin_front_R", "foot_front_R", "toe_front_R"}, 0.07f, 0.5f},
+    {{"thigh_back_L", "shin_back_L", "foot_back_L", "toe_back_L"}, 0.08f, 0.5f},
+    {{"thigh_back_R", "shin_back_R", "foot_back_R", "toe_back_R"}, 0.08f, 0.5f},
+};
+
+/// A point of the Catmull–Rom curve through the points, `t` of the way from number i to the next.
+static vec3s curve_point(const float (*points)[3], int count, int i, float t)
+{
+    vec3s at = glms_vec3_zero();
+    const float *p[4];
+    for (int n = 0; n < 4; n++) p[n] = points[i + n - 1 < 0 ? 0 : i + n - 1 > count ? count : i + n - 1];
+    for (int k = 0; k < 3; k++)
+        at.raw[k] = glm_hermite(t, p[1][k], 0.5f * (p[2][k] - p[0][k]), 0.5f * (p[3][k] - p[1][k]), p[2][k]);
+    return at;
+}
+
+/// Round cones along a curve; x is stretched by `flatness` for that, and distances shrink again.
+static float tube(const float (*points)[3], const float *radii, int count, float flatness, const float p[3])
+{
+    enum { CONES = 3 }; // from point to point
+    const float q[3] = {flatness * p[0], p[1], p[2]};
+    float distance = 1e3f;
+    for (int n = 0; n < CONES * count; n++) {
+        struct part part = {.blend = 0.002f};
+        for (int end = 0; end < 2; end++) {
+            const int i = n / CONES;
+            const float t = (float)(n % CONES + end) / CONES;
+            const vec3s at = curve_point(points, count, i, t);
+            float *to = end ? part.b : part.a;
+            to[0] = flatness * at.x, to[1] = at.y, to[2] = at.z;
+            *(end ? &part.radius_b : &part.radius_a) = glm_lerp(radii[i], radii[i + 1], t);
+        }
+        distance = parts_add(&part, 1, q, distance, NULL);
+    }
+    return distance / flatness;
+}
+
+float dog_limb_distance(int limb, const float p[3], float rgb[3])
+{
+    const float q[3] = {solids[limb].side * p[0], p[1], p[2]};
+    if (solids[limb].parts) return parts_add(solids[limb].parts, solids[limb].count, q, 1e3f, rgb);
+    if (rgb) coat_linear(limb == DOG_TAIL ? DOG_COAT_WHITE : DOG_COAT_EAR, rgb);
+    if (limb == DOG_TAIL) return tube(dog_tail, tail_radius, DOG_TAIL_JOINTS, 1.0f, q);
+    return tube(dog_ear, ear_radius, DOG_EAR_JOINTS, EAR_FLATNESS, q);
+}
+
+/// Everything below the ground is cut off, so that the soles are flat.
+float dog_distance(const float p[3], float rgb[3])
+{
+    float distance = 1e3f;
+    for (int limb = 0; limb < DOG_LIMBS; limb++) {
+        float limb_rgb[3] = {0};
+        const float added = dog_limb_distance(limb, p, rgb ? limb_rgb : NULL);
+        distance = parts_union(distance, added, solids[limb].fillet, rgb, limb_rgb);
+    }
+    return -parts_union(-distance, p[1], SOLE_FILLET, NULL, NULL);
+}

@@ -1,0 +1,86 @@
+/// Builds .gltf files in tests: accessors are added one after another, the rest of the JSON is the test's.
+#ifndef TESTS_GLTF_BUILDER_H
+#define TESTS_GLTF_BUILDER_H
+
+#include "model/gltf.h"
+#include "near.h"
+#include "temporary.h"
+#include <string.h>
+
+enum { BYTE = 5120, UBYTE = 5121, SHORT = 5122, USHORT = 5123, UINT = 5125, FLOAT = 5126 };
+
+struct builder {
+    unsigned char bytes[1 << 14];
+    size_t size;
+    char views[1 << 13], accessors[1 << 13], json[1 << 16];
+    int view_count, accessor_count;
+};
+
+static inline int add_view(struct builder *b, const void *data, size_t size, int stride)
+{
+    char *end = b->views + strlen(b->views);
+    while (b->size % 4) b->size++;
+    end += sprintf(end, "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu", b->view_count ? "," : "", b->size,
+                   size);
+    sprintf(end, stride ? ",\"byteStride\":%d}" : "}", stride);
+    if (b->size + size > sizeof b->bytes) abort();
+    memcpy(b->bytes + b->size, data, size);
+    b->size += size;
+    return b->view_count++;
+}
+
+/// `more` is further members, each with a comma before it.
+static inline int add_accessor(struct builder *b, int component, const char *type, int count, const char *more)
+{
+    char *end = b->accessors + strlen(b->accessors);
+    sprintf(end, "%s{\"componentType\":%d,\"type\":\"%s\",\"count\":%d%s}", b->accessor_count ? "," : "", component,
+            type, count, more);
+    return b->accessor_count++;
+}
+
+/// An accessor with a view of its own.
+static inline int add_data(struct builder *b, int component, const char *type, int count, const void *data,
+                           size_t size)
+{
+    char view[64];
+    snprintf(view, sizeof view, ",\"bufferView\":%d", add_view(b, data, size, 0));
+    return add_accessor(b, component, type, count, view);
+}
+
+static inline char *append_base64(char *out, const unsigned char *bytes, size_t size)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        size_t left = size - i;
+        unsigned word =
+            (unsigned)bytes[i] << 16 | (left > 1 ? bytes[i + 1] : 0u) << 8 | (left > 2 ? bytes[i + 2] : 0u);
+        for (unsigned k = 0; k < 4; k++) *out++ = k > left ? '=' : digits[word >> (18 - 6 * k) & 63];
+    }
+    *out = '\0';
+    return out;
+}
+
+/// The JSON of the file, with these members.
+static inline const char *builder_json(struct builder *b, const char *members)
+{
+    char *end = b->json + sprintf(b->json,
+                                  "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":%zu,\"uri\":"
+                                  "\"data:application/octet-stream;base64,",
+                                  b->size);
+    end = append_base64(end, b->bytes, b->size);
+    sprintf(end, "\"}],\"bufferViews\":[%s],\"accessors\":[%s],%s}", b->views, b->accessors, members);
+    return b->json;
+}
+
+static inline void read_text(const char *text, struct gltf *gltf)
+{
+    struct error error;
+    if (!gltf_read(temporary_file("model.gltf", text, strlen(text)), gltf, &error)) fail_msg("%s", error.text);
+}
+
+static inline void read_built(struct builder *b, const char *members, struct gltf *gltf)
+{
+    read_text(builder_json(b, members), gltf);
+}
+
+#endif

@@ -1,0 +1,73 @@
+"""Evaluates a .glb in Blender (bpy) at ten of its keys against point caches of the same rigs. A .bvh has no vertices: the heads of its
+bones must be where those of the .glb are.
+
+Usage: python blender.py file.glb rig.pc2...    |    python blender.py file.bvh file.glb
+"""
+import os
+import sys
+import bpy
+import numpy as np
+from compare import judge, read_cache, ten_of
+
+
+def load(path):
+    """The objects of a file."""
+    before = set(bpy.data.objects)
+    if path.endswith('.glb'):
+        bpy.ops.import_scene.gltf(filepath=path)
+    else:
+        bpy.ops.import_anim.bvh(filepath=path)
+    return [o for o in bpy.data.objects if o not in before]
+
+
+def vertices(mesh):
+    """Of the mesh as it is deformed now, in glTF's axes (y up)."""
+    shown = mesh.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    flat = np.empty(3 * len(shown.data.vertices), np.float32)
+    shown.data.vertices.foreach_get('co', flat)
+    world = flat.reshape(-1, 3) @ np.array(shown.matrix_world.to_3x3()).T + np.array(shown.matrix_world.translation)
+    return world @ np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
+
+
+def compare_meshes(path, cache_paths):
+    caches = [read_cache(p)[0] for p in cache_paths]
+    meshes = [o for o in load(path) if o.type == 'MESH' and len(o.data.vertices) > 100]
+    meshes = [next(m for m in meshes if len(m.data.vertices) == c.shape[1]) for c in caches]
+    off = 0.0
+    for key in ten_of(len(caches[0])):
+        bpy.context.scene.frame_set(key)
+        for mesh, cache in zip(meshes, caches):
+            off = max(off, float(np.linalg.norm(vertices(mesh) - cache[key], axis=1).max()))
+    return judge(f'Blender {bpy.app.version_string}', off, caches[0])
+
+
+def heads(armature, bones):
+    return np.array([armature.matrix_world @ armature.pose.bones[name].head for name in bones])
+
+
+def compare_bones(path, reference):
+    read, known = (next(o for o in load(p) if o.type == 'ARMATURE') for p in (path, reference))
+    bones, off, all_heads = [b.name for b in read.pose.bones], 0.0, []
+    first, last = (round(frame) for frame in read.animation_data.action.frame_range)
+    for key in ten_of(last - first + 1):
+        bpy.context.scene.frame_set(key)
+        all_heads.append(heads(known, bones))
+        bpy.context.scene.frame_set(first + key)
+        off = max(off, float(np.linalg.norm(heads(read, bones) - all_heads[-1], axis=1).max()))
+    return judge(f'Blender {bpy.app.version_string}, {len(bones)} bones', off, np.array(all_heads))
+
+
+def main():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.context.scene.render.fps = 24  # as the scenes that are compared
+    compare = compare_bones if sys.argv[1].endswith('.bvh') else compare_meshes
+    return compare(sys.argv[1], *([sys.argv[2]] if compare is compare_bones else [sys.argv[2:]]))
+
+
+try:
+    status = main()
+except Exception as problem:  # what is wrong must be seen before the process ends
+    print(f'Blender: {problem}')
+    status = 1
+sys.stdout.flush()
+os._exit(status)  # bpy may hang at the end

@@ -1,0 +1,386 @@
+/// What wiggly export writes, read back: by the reader of imported characters, by that of motions, and number by number.
+#include "export/export.h"
+#include "folder.h"
+#include "model/character.h"
+#include "model/gltf.h"
+#include "model/motion.h"
+#include "near.h"
+#include "rig/models.h"
+#include "scene/load.h"
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// A scene that is open, solved, its models read.
+struct opened {
+    struct document *document;
+    struct evaluation evaluation;
+    struct models *models;
+    struct posing posing;
+};
+
+static struct opened open_scene(const char *path)
+{
+    struct opened scene = {.models = models_create()};
+    struct error error = {0};
+    scene.document = scene_load(path, NULL, &error);
+    if (!scene.document) fail_msg("%s", error.text);
+    assert_true(document_set_path(scene.document, path));
+    assert_true(models_update(scene.models, scene.document, &error));
+    assert_true(evaluation_resize(&scene.evaluation, scene.document, &error));
+    evaluation_update(&scene.evaluation, scene.document, NULL, false);
+    return scene;
+}
+
+static struct posing *posing_of(struct opened *scene)
+{
+    scene->posing =
+        (struct posing){.document = scene->document, .evaluation = &scene->evaluation, .models = scene->models};
+    return &scene->posing;
+}
+
+static void close_scene(struct opened *scene)
+{
+    evaluation_free(&scene->evaluation);
+    models_destroy(scene->models);
+    document_destroy(scene->document);
+}
+
+/// Exports a scene of assets/scenes; returns the file's path, of the same storage at each second call.
+static const char *export_scene(const char *name, const char *file, struct export_options options)
+{
+    char scene_path[128];
+    struct error error = {0};
+    struct export_report report;
+    const char *path = folder_path(file);
+    snprintf(scene_path, sizeof scene_path, "assets/scenes/%s.json", name);
+    struct opened scene = open_scene(scene_path);
+    if (!export_write(posing_of(&scene), path, &options, &report, &error)) fail_msg("%s", error.text);
+    close_scene(&scene);
+    return path;
+}
+
+/// All numbers of a motion, as floats.
+struct points {
+    int frames, vertices;
+    double fps;
+    double *number;
+};
+
+static struct points read_points(const char *path)
+{
+    struct motion motion;
+    struct error error;
+    if (!motion_open(&motion, path, &error)) fail_msg("%s", error.text);
+    struct points points = {motion.frames, motion.vertices, motion.fps, NULL};
+    const int columns = 3 * motion.vertices;
+    points.number = malloc((size_t)columns * (size_t)motion.frames * sizeof *points.number);
+    assert_non_null(points.number);
+    assert_true(motion_columns(&motion, 0, columns, points.number, &error));
+    motion_close(&motion);
+    return points;
+}
+
+static const double *frame_of(const struct points *points, int frame)
+{
+    return points->number + 3 * (ptrdiff_t)points->vertices * frame;
+}
+
+/// The largest distance, over all vertices and coordinates, of a glTF file at each of `frames` evenly spaced times from a motion.
+static double glb_is_off(const char *path, const struct points *points)
+{
+    struct gltf gltf;
+    struct gltf_pose pose;
+    struct error error;
+    double off = 0;
+    int node = 0;
+    float(*place)[3] = malloc((size_t)points->vertices * sizeof *place);
+    if (!gltf_read(path, &gltf, &error)) fail_msg("%s", error.text);
+    assert_true(place && gltf_pose_create(&gltf, &pose));
+    assert_int_equal(gltf.clip_count, 1);
+    while (gltf.nodes[node].mesh < 0) node++;
+    assert_int_equal(gltf_vertex_count(&gltf, node), points->vertices);
+    for (int f = 0; f < points->frames; f++) {
+        const double *expected = frame_of(points, f);
+        gltf_pose_clip(&gltf, 0, gltf.clips[0].duration * f / (points->frames - 1), &pose);
+        gltf_pose_world(&gltf, &pose);
+        gltf_pose_vertices(&gltf, &pose, node, place, NULL);
+        for (int i = 0; i < 3 * points->vertices; i++)
+            off = fmax(off, fabs((double)place[i / 3][i % 3] - expected[i]));
+    }
+    free(place);
+    gltf_pose_free(&pose);
+    gltf_free(&gltf);
+    return off;
+}
+
+static void glb_moves_as_the_stage_does(void **state)
+{
+    static const char *const scenes[] = {"tail", "follow", "character", "figure7"};
+    (void)state;
+    for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++) {
+        struct points points = read_points(export_scene(scenes[s], "points.npy", (struct export_options){0}));
+        const char *glb = export_scene(scenes[s], "rig.glb", (struct export_options){0});
+        assert_near(glb_is_off(glb, &points), 0, 5e-6);
+        const char *text = export_scene(scenes[s], "rig.gltf", (struct export_options){.is_signed = true});
+        assert_near(glb_is_off(text, &points), 0, 5e-6);
+        free(points.number);
+    }
+}
+
+/// Half of the keys miss the swing between them; with tangents they miss much less.
+static void tangents_make_up_for_keys(void **state)
+{
+    (void)state;
+    struct points points = read_points(export_scene("tail", "points.npy", (struct export_options){.substeps = 4}));
+    const double dense = glb_is_off(export_scene("tail", "d.glb", (struct export_options){.substeps = 4}), &points);
+    const double linear = glb_is_off(export_scene("tail", "l.glb", (struct export_options){.rate = 8}), &points);
+    const double cubic =
+        glb_is_off(export_scene("tail", "c.glb", (struct export_options){.rate = 8, .is_cubic = true}), &points);
+    assert_near(dense, 0, 5e-6);
+    assert_true(linear > 0.02);
+    assert_true(cubic < linear / 5);
+    free(points.number);
+}
+
+/// The only clip of a file; its channels are given one by one.
+static void each_channel(const char *path, void (*visit)(const struct gltf_channel *channel))
+{
+    struct gltf gltf;
+    struct error error;
+    if (!gltf_read(path, &gltf, &error)) fail_msg("%s", error.text);
+    for (int c = 0; c < gltf.clips[0].channel_count; c++) visit(&gltf.clips[0].channels[c]);
+    gltf_free(&gltf);
+}
+
+static void assert_loops(const struct gltf_channel *channel)
+{
+    const size_t size = (size_t)channel->components * sizeof *channel->values;
+    const float *last = channel->values + (channel->key_count - 1) * channel->components;
+    assert_memory_equal(channel->values, last, size);
+}
+
+static void assert_short_way(const struct gltf_channel *channel)
+{
+    if (channel->path != GLTF_ROTATION) return;
+    for (int k = 1; k < channel->key_count; k++) {
+        const float *a = channel->values + 4 * (k - 1), *b = channel->values + 4 * k;
+        assert_true(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] > 0);
+    }
+}
+
+static void assert_within_one(const struct gltf_channel *channel)
+{
+    if (channel->path != GLTF_WEIGHTS) return;
+    for (int i = 0; i < channel->key_count * channel->components; i++)
+        assert_true(channel->values[i] >= 0 && channel->values[i] <= 1);
+}
+
+static void keys_loop_and_turn_the_short_way(void **state)
+{
+    (void)state;
+    // 30 keys a second do not fall on the samples, but the last falls on the first.
+    each_channel(export_scene("tail", "loop.glb", (struct export_options){.rate = 30}), assert_loops);
+    each_channel(export_scene("character", "loop.glb", (struct export_options){0}), assert_loops);
+    struct opened scene = open_scene("assets/scenes/tail.json");
+    struct tail *tail = document_tail(scene.document, 0);
+    for (int n = 0; n < tail->joints; n++) tail->rest.value[n] = 176; // past half a turn and back, again and again
+    struct export_report report;
+    struct error error;
+    const struct export_options usual = {0};
+    assert_true(export_write(posing_of(&scene), folder_path("wild.glb"), &usual, &report, &error));
+    close_scene(&scene);
+    each_channel(folder_path("wild.glb"), assert_short_way);
+}
+
+static void weights_stay_within_one_unless_signed(void **state)
+{
+    struct gltf gltf;
+    struct error error;
+    (void)state;
+    const char *path = export_scene("character", "split.glb", (struct export_options){0});
+    each_channel(path, assert_within_one);
+    assert_true(gltf_read(path, &gltf, &error));
+    assert_int_equal(gltf.meshes[0].target_count, 8);
+    gltf_free(&gltf);
+    path = export_scene("character", "signed.glb", (struct export_options){.is_signed = true});
+    assert_true(gltf_read(path, &gltf, &error));
+    assert_int_equal(gltf.meshes[0].target_count, 4);
+    gltf_free(&gltf);
+}
+
+/// What is exported can be exported again: our own reader finds the coordinates, to their last digits.
+static void an_exported_creature_opens_as_one(void **state)
+{
+    struct character original, again;
+    struct error error;
+    (void)state;
+    const char *path = export_scene("character", "again.glb", (struct export_options){0});
+    if (!character_read(path, &again, &error)) fail_msg("%s", error.text);
+    assert_true(character_read("assets/models/creature.glb", &original, &error));
+    assert_int_equal(again.coordinate_count, original.coordinate_count);
+    assert_int_equal(again.vertex_count, original.vertex_count);
+    for (int c = 0; c < original.coordinate_count; c++) {
+        assert_string_equal(again.coordinates[c].name, original.coordinates[c].name);
+        assert_near(again.coordinates[c].frequency, original.coordinates[c].frequency, 0);
+        for (int i = 0; i < 3 * original.vertex_count; i++) {
+            assert_near(again.coordinates[c].re[i / 3][i % 3], original.coordinates[c].re[i / 3][i % 3], 1e-7);
+            assert_near(again.coordinates[c].im[i / 3][i % 3], original.coordinates[c].im[i / 3][i % 3], 1e-7);
+        }
+    }
+    character_free(&original);
+    character_free(&again);
+}
+
+static void point_caches_hold_the_same(void **state)
+{
+    (void)state;
+    const struct export_options some = {.has_frames = true, .first = 12, .last = 24, .substeps = 2};
+    struct points npy = read_points(export_scene("tail", "p.npy", some));
+    struct points pc2 = read_points(export_scene("tail", "p.pc2", some));
+    struct points mdd = read_points(export_scene("tail", "p.mdd", some));
+    const size_t size = 3 * (size_t)npy.vertices * (size_t)npy.frames * sizeof *npy.number;
+    assert_int_equal(npy.frames, 25);
+    assert_memory_equal(npy.number, pc2.number, size);
+    assert_memory_equal(npy.number, mdd.number, size);
+    assert_near(mdd.fps, 48, 1e-3);
+    float time[2]; // in frames: the first, and from one to the next
+    FILE *file = fopen(folder_path("p.pc2"), "rb");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, 20, SEEK_SET), 0);
+    assert_int_equal(fread(time, sizeof *time, 2, file), 2);
+    assert_int_equal(fclose(file), 0);
+    assert_near(time[0], 12, 0);
+    assert_near(time[1], 0.5, 0);
+    free(npy.number);
+    free(pc2.number);
+    free(mdd.number);
+}
+
+/// Each row has every spline's value and, over a channel's joints, the angles of the pose.
+static void a_table_has_splines_and_channels(void **state)
+{
+    (void)state;
+    char line[8192], expected[128];
+    struct opened scene = open_scene("assets/scenes/tail.json");
+    struct export_report report;
+    struct error error;
+    const struct export_options usual = {0};
+    assert_true(export_write(posing_of(&scene), folder_path("t.csv"), &usual, &report, &error));
+    FILE *file = fopen(folder_path("t.csv"), "r");
+    assert_non_null(file);
+    assert_non_null(fgets(line, sizeof line, file));
+    assert_int_equal(strncmp(line, "frame,sway,up,tail.side.sway.0,tail.side.sway.1,", 48), 0);
+    assert_non_null(strstr(line, ",tail.up.up.23\n"));
+    for (int k = 0; k <= 30; k++) assert_non_null(fgets(line, sizeof line, file));
+    const struct tail *tail = document_tail(scene.document, 0);
+    const wiggly_value sway = evaluation_at(&scene.evaluation, 0, 30), up = evaluation_at(&scene.evaluation, 1, 30);
+    const double side = tail->channels[0].gain.value[0] * (sway.y + sway.re);
+    snprintf(expected, sizeof expected, "30,%.9g", sway.y + sway.re);
+    assert_int_equal(strncmp(line, expected, 9), 0);
+    double number[4];
+    assert_int_equal(sscanf(line, "%lf,%lf,%lf,%lf", number, number + 1, number + 2, number + 3), 4);
+    assert_near(number[2], up.y + up.re, 1e-12);
+    assert_near(number[3], side, 1e-9);
+    assert_int_equal(fclose(file), 0);
+    close_scene(&scene);
+}
+
+static bool stop_at_ten(void *user, long done, long total)
+{
+    *(long *)user = total;
+    return done < 10;
+}
+
+static int files_in_folder(void)
+{
+    int count = 0;
+    DIR *open = opendir(folder);
+    assert_non_null(open);
+    for (struct dirent *entry; (entry = readdir(open));)
+        count += strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..");
+    closedir(open);
+    return count;
+}
+
+/// An export that is stopped leaves neither half a file nor a temporary one, and the old file as it was.
+static void stopping_leaves_nothing_behind(void **state)
+{
+    static const char *const names[] = {"a.glb", "a.gltf", "a.usda", "a.bvh", "a.csv", "a.pc2", "a.mdd", "a.npy"};
+    (void)state;
+    struct opened scene = open_scene("assets/scenes/tail.json");
+    long total = 0;
+    const struct export_options options = {.proceed = stop_at_ten, .user = &total};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        struct export_report report;
+        struct error error;
+        assert_false(export_write(posing_of(&scene), folder_path(names[i]), &options, &report, &error));
+        assert_int_equal(total, 121);
+        assert_int_equal(files_in_folder(), 0);
+    }
+    close_scene(&scene);
+}
+
+/// Expects an export to be refused with that sentence.
+static void assert_fails(const char *scene_path, const char *file, struct export_options options,
+                         const char *sentence)
+{
+    struct opened scene = open_scene(scene_path);
+    struct export_report report;
+    struct error error = {0};
+    assert_false(export_write(posing_of(&scene), folder_path(file), &options, &report, &error));
+    if (!strstr(error.text, sentence)) fail_msg("expected \"%s\" in: %s", sentence, error.text);
+    assert_int_equal(files_in_folder(), 0);
+    close_scene(&scene);
+}
+
+static void refusals_say_what_to_do(void **state)
+{
+    (void)state;
+    const char *tail = "assets/scenes/tail.json", *two = "assets/scenes/compositing.json";
+    const struct export_options usual = {0};
+    assert_fails(tail, "a.fbx", usual, ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd and .npy");
+    assert_fails("tests/vectors/complex_default.json", "a.glb", usual,
+                 "no rig to export: its splines go into a .csv");
+    assert_fails("assets/scenes/character.json", "a.bvh", usual, "\"character\" has none: export it as .glb, .gltf");
+    assert_fails(two, "a.pc2", usual, "choose one of \"nodder\", \"swayer\" with --rig");
+    assert_fails(two, "a.glb", (struct export_options){.rig = "noder"}, "\"nodder\", \"swayer\", got \"noder\"");
+    assert_fails(tail, "a.glb", (struct export_options){.has_frames = true, .first = 5, .last = 500},
+                 "from 0 to 120");
+    assert_fails(tail, "a.glb", (struct export_options){.has_frames = true, .first = 9, .last = 5}, "got 9:5");
+}
+
+/// Two rigs of a scene come out as two meshes that do not share a name.
+static void all_rigs_come_out(void **state)
+{
+    struct gltf gltf;
+    struct error error;
+    (void)state;
+    assert_true(gltf_read(export_scene("compositing", "two.glb", (struct export_options){0}), &gltf, &error));
+    assert_int_equal(gltf.mesh_count, 2);
+    assert_true(gltf_find_node(&gltf, "nodder") >= 0 && gltf_find_node(&gltf, "swayer") >= 0);
+    assert_string_equal(gltf.clips[0].name, "compositing");
+    gltf_free(&gltf);
+    const struct export_options one = {.rig = "swayer", .clip = "Sway"};
+    assert_true(gltf_read(export_scene("compositing", "one.glb", one), &gltf, &error));
+    assert_int_equal(gltf.mesh_count, 1);
+    assert_string_equal(gltf.clips[0].name, "Sway");
+    gltf_free(&gltf);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(glb_moves_as_the_stage_does, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(tangents_make_up_for_keys, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(keys_loop_and_turn_the_short_way, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(weights_stay_within_one_unless_signed, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(an_exported_creature_opens_as_one, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(point_caches_hold_the_same, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(a_table_has_splines_and_channels, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(stopping_leaves_nothing_behind, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(refusals_say_what_to_do, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(all_rigs_come_out, folder_make, folder_remove),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

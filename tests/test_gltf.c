@@ -1,0 +1,369 @@
+/// glTF characters as other programs write them: containers, every kind of accessor, primitives, materials, images, scenes.
+#include "base/png.h"
+#include "gltf_builder.h"
+#include <stb/stb_image_write.h>
+
+static const float triangle[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+
+#define ONE_NODE "\"nodes\":[{\"mesh\":0}]"
+#define MESH(attributes) "\"meshes\":[{\"primitives\":[{\"attributes\":{" attributes "}}]}]," ONE_NODE
+
+static void add_triangle(struct builder *b)
+{
+    assert_int_equal(add_data(b, FLOAT, "VEC3", 3, triangle, sizeof triangle), 0);
+}
+
+/// The uv of a triangle whose texture coordinates are accessor 1: they take any component type.
+static void assert_uv(struct builder *b, const double expected[3][2])
+{
+    struct gltf gltf;
+    read_built(b, MESH("\"POSITION\":0,\"TEXCOORD_0\":1"), &gltf);
+    const struct gltf_part *part = &gltf.meshes[0].parts[0];
+    for (int i = 0; i < 6; i++) assert_near(part->uv[i / 2][i % 2], expected[i / 2][i % 2], 1e-7);
+    gltf_free(&gltf);
+}
+
+static void every_component_type(void **state)
+{
+    (void)state;
+    const int8_t bytes[] = {-128, 127, 0, 1, -127, 64};
+    const uint8_t ubytes[] = {255, 0, 51, 1, 2, 3};
+    const int16_t shorts[] = {-32768, 32767, 0, 1, -5, 7};
+    const uint16_t ushorts[] = {65535, 0, 13107, 1, 2, 3};
+    const uint32_t words[] = {4000000000u, 0, 1, 2, 3, 4};
+    const struct {
+        int type;
+        const void *data;
+        size_t size;
+        bool normalised;
+        double expected[3][2];
+    } cases[] = {
+        {BYTE, bytes, sizeof bytes, false, {{-128, 127}, {0, 1}, {-127, 64}}},
+        {BYTE, bytes, sizeof bytes, true, {{-1, 1}, {0, 1 / 127.0}, {-1, 64 / 127.0}}},
+        {UBYTE, ubytes, sizeof ubytes, false, {{255, 0}, {51, 1}, {2, 3}}},
+        {UBYTE, ubytes, sizeof ubytes, true, {{1, 0}, {0.2, 1 / 255.0}, {2 / 255.0, 3 / 255.0}}},
+        {SHORT, shorts, sizeof shorts, false, {{-32768, 32767}, {0, 1}, {-5, 7}}},
+        {SHORT, shorts, sizeof shorts, true, {{-1, 1}, {0, 1 / 32767.0}, {-5 / 32767.0, 7 / 32767.0}}},
+        {USHORT, ushorts, sizeof ushorts, false, {{65535, 0}, {13107, 1}, {2, 3}}},
+        {USHORT, ushorts, sizeof ushorts, true, {{1, 0}, {0.2, 1 / 65535.0}, {2 / 65535.0, 3 / 65535.0}}},
+        {UINT, words, sizeof words, false, {{4e9, 0}, {1, 2}, {3, 4}}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct builder b = {0};
+        char more[64];
+        add_triangle(&b);
+        snprintf(more, sizeof more, ",\"bufferView\":%d,\"normalized\":%s",
+                 add_view(&b, cases[i].data, cases[i].size, 0), cases[i].normalised ? "true" : "false");
+        add_accessor(&b, cases[i].type, "VEC2", 3, more);
+        assert_uv(&b, cases[i].expected);
+    }
+}
+
+/// Positions and texture coordinates in turn in one view, with a gap, from a byte of their own.
+static void strides_and_offsets(void **state)
+{
+    (void)state;
+    const float rows[3][7] = {{9, 1, 2, 3, 0.5f, 0.25f, 9}, {9, 4, 5, 6, 1, 0, 9}, {9, 7, 8, 10, 0, 1, 9}};
+    struct builder b = {0};
+    struct gltf gltf;
+    add_view(&b, rows, sizeof rows, 28);
+    add_accessor(&b, FLOAT, "VEC3", 3, ",\"bufferView\":0,\"byteOffset\":4");
+    add_accessor(&b, FLOAT, "VEC2", 3, ",\"bufferView\":0,\"byteOffset\":16");
+    read_built(&b, MESH("\"POSITION\":0,\"TEXCOORD_0\":1"), &gltf);
+    const struct gltf_part *part = &gltf.meshes[0].parts[0];
+    for (int i = 0; i < 3; i++) {
+        assert_memory_equal(part->position[i], rows[i] + 1, 12);
+        assert_memory_equal(part->uv[i], rows[i] + 4, 8);
+    }
+    assert_near(gltf.lo[0], 1, 0);
+    assert_near(gltf.hi[2], 10, 0);
+    gltf_free(&gltf);
+}
+
+/// Changes to a view, and to zeros where there is no view.
+static void sparse_accessors(void **state)
+{
+    (void)state;
+    const uint8_t places[] = {2};
+    const float by[] = {0.5f, 3, -1};
+    struct builder b = {0};
+    struct gltf gltf;
+    int view = add_view(&b, triangle, sizeof triangle, 0), indices = add_view(&b, places, 1, 0);
+    int values = add_view(&b, by, sizeof by, 0);
+    char sparse[256], more[320];
+    snprintf(sparse, sizeof sparse,
+             ",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":%d,\"componentType\":5121},\"values\":{"
+             "\"bufferView\":%d}}",
+             indices, values);
+    snprintf(more, sizeof more, ",\"bufferView\":%d%s", view, sparse);
+    add_accessor(&b, FLOAT, "VEC3", 3, more);
+    add_accessor(&b, FLOAT, "VEC3", 3, sparse);
+    add_accessor(&b, FLOAT, "VEC3", 3, "");
+    read_built(&b,
+               "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":1},"
+               "{\"POSITION\":2}]}]}]," ONE_NODE,
+               &gltf);
+    const struct gltf_part *part = &gltf.meshes[0].parts[0];
+    const float position[3][3] = {{0, 0, 0}, {1, 0, 0}, {0.5f, 3, -1}}, moved[3][3] = {{0}, {0}, {0.5f, 3, -1}};
+    assert_int_equal(gltf.meshes[0].target_count, 2);
+    assert_memory_equal(part->position, position, sizeof position);
+    assert_memory_equal(part->targets[0].position, moved, sizeof moved);
+    for (int i = 0; i < 9; i++) assert_near(part->targets[1].position[i / 3][i % 3], 0, 0);
+    gltf_free(&gltf);
+}
+
+/// Five corners as triangles (the two left over are dropped), strip and fan; points and lines are named.
+static void strips_and_fans(void **state)
+{
+    (void)state;
+    const float corners[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}};
+    const uint8_t indices[] = {0, 1, 2, 3, 4};
+    struct builder b = {0};
+    struct gltf gltf;
+    add_data(&b, FLOAT, "VEC3", 5, corners, sizeof corners);
+    add_data(&b, FLOAT, "VEC3", 5, corners, sizeof corners); // taken for normals, so that vertices stay shared
+    add_data(&b, UBYTE, "SCALAR", 5, indices, sizeof indices);
+#define PRIMITIVE(mode) "{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":2,\"mode\":" mode "}"
+    read_built(&b,
+               "\"meshes\":[{\"primitives\":[" PRIMITIVE("0") "," PRIMITIVE("1") "," PRIMITIVE("3") "," PRIMITIVE(
+                   "4") "," PRIMITIVE("5") "," PRIMITIVE("6") "]}]," ONE_NODE,
+               &gltf);
+    const uint32_t plain[] = {0, 1, 2}, strip[] = {0, 1, 2, 1, 3, 2, 2, 3, 4}, fan[] = {1, 2, 0, 2, 3, 0, 3, 4, 0};
+    const struct gltf_part *parts = gltf.meshes[0].parts;
+    assert_int_equal(gltf.meshes[0].part_count, 3);
+    assert_int_equal(parts[0].index_count, 3);
+    assert_memory_equal(parts[0].indices, plain, sizeof plain);
+    assert_int_equal(parts[1].index_count, 9);
+    assert_memory_equal(parts[1].indices, strip, sizeof strip);
+    assert_int_equal(parts[2].index_count, 9);
+    assert_memory_equal(parts[2].indices, fan, sizeof fan);
+    assert_string_equal(gltf.not_shown, "points, lines");
+    gltf_free(&gltf);
+}
+
+/// Two triangles that share an edge at a right angle: without normals in the file each gets vertices of its own, and is flat.
+static void missing_normals_are_flat(void **state)
+{
+    (void)state;
+    const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const uint16_t indices[] = {0, 1, 2, 0, 3, 1};
+    const uint8_t colors[4][4] = {{255, 0, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {0, 0, 0, 51}};
+    struct builder b = {0};
+    struct gltf gltf;
+    add_data(&b, FLOAT, "VEC3", 4, corners, sizeof corners);
+    add_data(&b, USHORT, "SCALAR", 6, indices, sizeof indices);
+    char more[64];
+    snprintf(more, sizeof more, ",\"normalized\":true,\"bufferView\":%d", add_view(&b, colors, sizeof colors, 0));
+    add_accessor(&b, UBYTE, "VEC4", 4, more);
+    read_built(
+        &b,
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"COLOR_0\":2},\"indices\":1,\"targets\":["
+        "{\"POSITION\":0}]}],\"weights\":[0.5]}]," ONE_NODE,
+        &gltf);
+    const struct gltf_part *part = &gltf.meshes[0].parts[0];
+    assert_int_equal(part->vertex_count, 6);
+    for (int i = 0; i < 6; i++) {
+        assert_int_equal(part->indices[i], i);
+        assert_memory_equal(part->position[i], corners[indices[i]], 12);
+        assert_memory_equal(part->targets[0].position[i], corners[indices[i]], 12);
+        for (int k = 0; k < 4; k++) assert_near(part->color[i][k], colors[indices[i]][k] / 255.0, 1e-7);
+        assert_near(part->normal[i][i < 3 ? 2 : 1], 1, 1e-6);
+    }
+    assert_near(gltf.hi[0], 1.5, 1e-6); // the weights at rest count
+    gltf_free(&gltf);
+}
+
+static void eight_influences(void **state)
+{
+    (void)state;
+    const uint8_t first[3][4] = {{0, 1, 2, 3}, {3, 0, 0, 0}, {1, 9, 0, 0}}, second[3][4] = {{4, 5, 6, 7}, {0}, {0}};
+    const float weights[3][4] = {{0.2f, 0.2f, 0.2f, 0.2f}, {0, 0, 0, 0}, {0.5f, 0, 0, 0}};
+    const float more[3][4] = {{0.2f, 0.2f, 0.2f, 0.6f}, {0}, {0}};
+    struct builder b = {0};
+    struct gltf gltf;
+    add_triangle(&b);
+    add_data(&b, UBYTE, "VEC4", 3, first, sizeof first);
+    add_data(&b, FLOAT, "VEC4", 3, weights, sizeof weights);
+    add_data(&b, UBYTE, "VEC4", 3, second, sizeof second);
+    add_data(&b, FLOAT, "VEC4", 3, more, sizeof more);
+    read_built(
+        &b,
+        "\"skins\":[{\"joints\":[1,2,3,4,5,6,7,8]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
+        "\"JOINTS_0\":1,\"WEIGHTS_0\":2,\"JOINTS_1\":3,\"WEIGHTS_1\":4}}]}],\"nodes\":[{\"mesh\":0,\"skin\":0},{},{},"
+        "{},{},{},{},{},{}]",
+        &gltf);
+    const struct gltf_part *part = &gltf.meshes[0].parts[0];
+    for (int k = 0; k < 8; k++) {
+        assert_int_equal(part->joints[0][k], k);
+        assert_near(part->weights[0][k], k < 7 ? 0.1 : 0.3, 1e-6); // their sum was 2
+        assert_near(part->weights[1][k], k == 0, 0);               // no weights: the first joint
+        assert_near(part->weights[2][k], k == 0, 0);
+    }
+    assert_int_equal(part->joints[1][0], 3);
+    assert_int_equal(part->joints[2][1], 0); // the number of a joint without weight says nothing
+    assert_string_equal(gltf.nodes[8].name, "node 8");
+    assert_null(gltf.not_shown);
+    gltf_free(&gltf);
+}
+
+/// What an encoder wrote, piece by piece.
+struct encoded {
+    unsigned char bytes[4096];
+    size_t size;
+};
+
+static void keep(void *context, void *data, int size)
+{
+    struct encoded *e = context;
+    if (e->size + (size_t)size > sizeof e->bytes) abort();
+    memcpy(e->bytes + e->size, data, (size_t)size);
+    e->size += (size_t)size;
+}
+
+/// PNG in a view, JPEG in a view, PNG in a file; one picture that is none.
+static void materials_and_images(void **state)
+{
+    (void)state;
+    unsigned char pixels[2 * 3 * 4], grey[16 * 16 * 3];
+    struct builder b = {0};
+    struct gltf gltf;
+    struct error error;
+    for (int i = 0; i < 24; i++) pixels[i] = (unsigned char)(10 * i);
+    memset(grey, 128, sizeof grey);
+    const float uv[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+    add_triangle(&b);
+    add_data(&b, FLOAT, "VEC2", 3, uv, sizeof uv);
+    struct encoded png = {0}, jpeg = {0};
+    stbi_write_png_to_func(keep, &png, 2, 3, 4, pixels, 8);
+    stbi_write_jpg_to_func(keep, &jpeg, 16, 16, 3, grey, 90);
+    assert_int_equal(add_view(&b, png.bytes, png.size, 0), 2);
+    assert_int_equal(add_view(&b, jpeg.bytes, jpeg.size, 0), 3);
+    assert_true(png_write(temporary_path("a b.png"), 2, 3, pixels, &error));
+    read_built(
+        &b,
+        "\"images\":[{\"bufferView\":2,\"mimeType\":\"image/png\"},{\"bufferView\":3},{\"uri\":\"a%20b.png\"},"
+        "{\"name\":\"none\",\"bufferView\":0},{\"name\":\"unused\",\"bufferView\":0},{\"uri\":\"../missing.png\"}],"
+        "\"textures\":[{\"source\":1},{\"source\":0},{\"source\":2},{\"source\":3},{},{\"source\":5}],"
+        "\"extensionsUsed\":[\"KHR_texture_transform\",\"KHR_materials_sheen\"],"
+        "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"baseColorFactor\":[0.5,0.25,"
+        "1,0.75]},"
+        "\"alphaMode\":\"BLEND\",\"doubleSided\":true},"
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":1,\"texCoord\":3,\"extensions\":{"
+        "\"KHR_texture_transform\":{\"offset\":[0.5,0.25],\"rotation\":1.5707963267948966,\"scale\":[2,4],"
+        "\"texCoord\":1}}}},"
+        "\"alphaMode\":\"MASK\"},"
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":2}},\"alphaMode\":\"MASK\",\"alphaCutoff\":0.25},"
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":3}}},{\"pbrMetallicRoughness\":{"
+        "\"baseColorTexture\":{"
+        "\"index\":4}},\"normalTexture\":{\"index\":0}},{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":3}"
+        "}},"
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":5}}}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_1\":1},\"material\":1},"
+        "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_1\":1}}]}]," ONE_NODE,
+        &gltf);
+    assert_int_equal(gltf.image_count, 3);
+    assert_int_equal(gltf.images[0].width, 16);
+    assert_in_range(gltf.images[0].pixels[4], 126, 130);
+    assert_int_equal(gltf.images[0].pixels[3], 255);
+    for (int i = 1; i < 3; i++) {
+        assert_int_equal(gltf.images[i].width, 2);
+        assert_int_equal(gltf.images[i].height, 3);
+        assert_memory_equal(gltf.images[i].pixels, pixels, sizeof pixels);
+    }
+    const int image[] = {0, 1, 2, -1, -1, -1, -1};
+    for (int i = 0; i < 7; i++) assert_int_equal(gltf.materials[i].image, image[i]);
+    assert_near(gltf.materials[0].color[1], 0.25, 0);
+    assert_near(gltf.materials[0].color[3], 0.75, 0);
+    assert_true(gltf.materials[0].blended && gltf.materials[0].double_sided);
+    assert_near(gltf.materials[1].cutoff, 0.5, 0);
+    assert_near(gltf.materials[2].cutoff, 0.25, 0);
+    assert_near(gltf.materials[3].cutoff, 0, 0);
+    // scale, then a quarter turn, then the offset: (1, 0) → (2, 0) → (0, −2) → (0.5, −1.75)
+    const struct gltf_part *part = &gltf.meshes[0].parts[0];
+    assert_near(part->uv[1][0], 0.5, 1e-6);
+    assert_near(part->uv[1][1], -1.75, 1e-6);
+    assert_near(part->uv[2][0], 4.5, 1e-6);
+    assert_near(part->uv[2][1], 0.25, 1e-6);
+    assert_null(gltf.meshes[0].parts[1].uv); // plain white has no second set
+    assert_int_equal(gltf.meshes[0].parts[1].material, -1);
+    assert_non_null(strstr(gltf.not_shown, "KHR_materials_sheen, image none (expected PNG or JPEG"));
+    assert_non_null(strstr(gltf.not_shown, "normal maps"));
+    assert_non_null(strstr(gltf.not_shown, "image ../missing.png ("));
+    assert_null(strstr(gltf.not_shown, "KHR_texture_transform"));
+    assert_null(strstr(gltf.not_shown, "unused"));
+    assert_null(strstr(strstr(gltf.not_shown, "image none") + 1, "image none")); // once
+    gltf_free(&gltf);
+}
+
+/// The same file as .glb, as .gltf with a file beside it, and as one that counts on neither.
+static void containers(void **state)
+{
+    (void)state;
+    const char *json =
+        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":36%s}],\"bufferViews\":[{\"buffer\":0,"
+        "\"byteLength\":36}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
+        "\"VEC3\"}]," MESH("\"POSITION\":0") "}";
+    char text[1024];
+    unsigned char glb[2048];
+    struct gltf gltf[2];
+    struct error error;
+    uint32_t length = (uint32_t)snprintf(text, sizeof text, json, "");
+    const uint32_t header[5] = {0x46546C67, 2, 28 + length + 36, length, 0x4E4F534A}, chunk[2] = {36, 0x004E4942};
+    memcpy(glb, header, 20);
+    memcpy(glb + 20, text, length);
+    memcpy(glb + 20 + length, chunk, 8);
+    memcpy(glb + 28 + length, triangle, 36);
+    if (!gltf_read(temporary_file("model.glb", glb, header[2]), &gltf[0], &error)) fail_msg("%s", error.text);
+    snprintf(text, sizeof text, json, ",\"uri\":\"./some%20bytes.bin\"");
+    temporary_file("some bytes.bin", triangle, sizeof triangle);
+    read_text(text, &gltf[1]);
+    for (int i = 0; i < 2; i++) assert_memory_equal(gltf[i].meshes[0].parts[0].position, triangle, sizeof triangle);
+    assert_true(gltf[0].id != 0 && gltf[1].id != 0 && gltf[0].id != gltf[1].id);
+    assert_non_null(strstr(gltf[0].path, "model.glb"));
+    for (int i = 0; i < 2; i++) gltf_free(&gltf[i]);
+}
+
+/// Children may come before parents; what the scene leaves out has no mesh.
+static void nodes_and_scenes(void **state)
+{
+    (void)state;
+    struct builder b = {0};
+    struct gltf gltf;
+    struct gltf_pose pose;
+    add_triangle(&b);
+    read_built(
+        &b,
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"cameras\":[{}],\"scene\":1,"
+        "\"scenes\":[{\"nodes\":[3]},{\"nodes\":[2]}],\"nodes\":[{\"mesh\":0,\"name\":\"leaf\",\"scale\":[2,2,2]},"
+        "{\"children\":[0],\"matrix\":[0,1,0,0,-1,0,0,0,0,0,1,0,5,0,0,1]},"
+        "{\"children\":[1],\"translation\":[0,0,7]},{\"mesh\":0}]",
+        &gltf);
+    assert_int_equal(gltf_find_node(&gltf, "leaf"), 0);
+    assert_int_equal(gltf_find_node(&gltf, "tree"), -1);
+    assert_int_equal(gltf.nodes[0].parent, 1);
+    assert_true(gltf.nodes[1].has_matrix);
+    assert_int_equal(gltf.nodes[3].mesh, -1);
+    assert_string_equal(gltf.not_shown, "cameras, other scenes");
+    assert_true(gltf_pose_create(&gltf, &pose));
+    float positions[3][3], normals[3][3];
+    gltf_pose_vertices(&gltf, &pose, 0, positions, normals);
+    // (1, 0, 0) → (2, 0, 0) → (0, 2, 0) + (5, 0, 0) → + (0, 0, 7)
+    const double moved[] = {5, 2, 7};
+    for (int k = 0; k < 3; k++) assert_near(positions[1][k], moved[k], 1e-6);
+    assert_near(normals[0][2], 1, 1e-6);
+    assert_near(gltf.lo[0], 3, 1e-6); // (0, 2, 0) turned is (−2, 0, 0)
+    gltf_pose_free(&pose);
+    gltf_free(&gltf);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_component_type),     cmocka_unit_test(strides_and_offsets),
+        cmocka_unit_test(sparse_accessors),         cmocka_unit_test(strips_and_fans),
+        cmocka_unit_test(missing_normals_are_flat), cmocka_unit_test(eight_influences),
+        cmocka_unit_test(materials_and_images),     cmocka_unit_test(containers),
+        cmocka_unit_test(nodes_and_scenes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,313 @@
+/// Poses of glTF characters: every interpolation against numbers made by hand, skins and morph targets against the textbook.
+#include "gltf_builder.h"
+
+/// One node's clip at a time.
+static void place_at(const struct gltf *gltf, int clip, double time, struct gltf_place *place)
+{
+    struct gltf_pose pose;
+    assert_true(gltf_pose_create(gltf, &pose));
+    gltf_pose_clip(gltf, clip, time, &pose);
+    *place = pose.place[0];
+    gltf_pose_free(&pose);
+}
+
+static void assert_numbers(const float *actual, const double *expected, int count)
+{
+    for (int i = 0; i < count; i++) assert_near(actual[i], expected[i], 2e-6);
+}
+
+#define CHANNEL(path, sampler) "{\"sampler\":" sampler ",\"target\":{\"node\":0,\"path\":\"" path "\"}}"
+
+/// Keys at 1, 2 and 4 seconds.
+static void step_and_linear(void **state)
+{
+    (void)state;
+    const float times[] = {1, 2, 4}, values[3][3] = {{0, 10, 4}, {2, 20, 4}, {6, 0, 8}};
+    struct builder b = {0};
+    struct gltf gltf;
+    struct gltf_place place;
+    add_data(&b, FLOAT, "SCALAR", 3, times, sizeof times);
+    add_data(&b, FLOAT, "VEC3", 3, values, sizeof values);
+    read_built(&b,
+               "\"nodes\":[{\"translation\":[7,8,9]}],\"animations\":[{\"name\":\"Walk\",\"channels\":[" CHANNEL(
+                   "translation", "0") "," CHANNEL("scale", "1") "],\"samplers\":[{\"input\":0,\"output\":1},{"
+                                                                 "\"input\":0,\"output\":1,\"interpolation\":"
+                                                                 "\"STEP\"}]},{\"channels\":[],\"samplers\":[]}]",
+               &gltf);
+    assert_int_equal(gltf_find_clip(&gltf, "Walk"), 0);
+    assert_int_equal(gltf_find_clip(&gltf, "clip 1"), 1);
+    assert_near(gltf.clips[0].duration, 4, 0);
+    const struct {
+        double time, linear[3], step[3];
+    } cases[] = {
+        {-5, {0, 10, 4}, {0, 10, 4}}, {1, {0, 10, 4}, {0, 10, 4}}, {1.25, {0.5, 12.5, 4}, {0, 10, 4}},
+        {2, {2, 20, 4}, {2, 20, 4}},  {3, {4, 10, 6}, {2, 20, 4}}, {3.999, {5.998, 0.01, 7.998}, {2, 20, 4}},
+        {4, {6, 0, 8}, {6, 0, 8}},    {1e9, {6, 0, 8}, {6, 0, 8}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        place_at(&gltf, 0, cases[i].time, &place);
+        for (int k = 0; k < 3; k++) assert_near(place.translation[k], cases[i].linear[k], 1e-5);
+        assert_numbers(place.scale, cases[i].step, 3);
+    }
+    place_at(&gltf, -1, 3, &place);
+    assert_numbers(place.translation, (const double[]){7, 8, 9}, 3);
+    gltf_free(&gltf);
+}
+
+/// From no turn to 120° about z, whose key is written as −q; the short way is a third of it at a third of the time. And a pair of keys that
+/// are the same rotation with other signs: nothing moves.
+static void rotations_take_the_short_way(void **state)
+{
+    (void)state;
+    const double turn = acos(-1) / 3; // half of 120°
+    const float times[] = {0, 3, 4};
+    const float q[3][4] = {
+        {0, 0, 0, 1}, {0, 0, (float)-sin(turn), (float)-cos(turn)}, {0, 0, (float)sin(turn), (float)cos(turn)}};
+    struct builder b = {0};
+    struct gltf gltf;
+    struct gltf_place place;
+    add_data(&b, FLOAT, "SCALAR", 3, times, sizeof times);
+    add_data(&b, FLOAT, "VEC4", 3, q, sizeof q);
+    read_built(&b,
+               "\"nodes\":[{}],\"animations\":[{\"channels\":[" CHANNEL(
+                   "rotation", "0") "],\"samplers\":[{\"input\":0,"
+                                    "\"output\":1,\"interpolation\":\"LINEAR\"}]}]",
+               &gltf);
+    place_at(&gltf, 0, 1, &place);
+    assert_numbers(place.rotation, (const double[]){0, 0, sin(turn / 3), cos(turn / 3)}, 4);
+    place_at(&gltf, 0, 3.5, &place);
+    assert_near(fabsf(place.rotation[2]), sin(turn), 1e-6);
+    assert_near(fabsf(place.rotation[3]), cos(turn), 1e-6);
+    gltf_free(&gltf);
+}
+
+/// The spline of glTF's appendix at a quarter of two seconds: s = 1/4 has the weights 27/32, 9/64, 5/32 and −3/64.
+static void cubic_splines(void **state)
+{
+    (void)state;
+    const float times[] = {1, 3};
+    const float moves[6][3] = {{9, 9, 9}, {1, 2, 3}, {4, 0, -8}, {8, 16, 0}, {5, 6, 7}, {9, 9, 9}};
+    const float turns[6][4] = {{0}, {0, 0, 0, 1}, {0, 0, 0.5f, 0}, {0}, {0, 0, 1, 0}, {0}};
+    struct builder b = {0};
+    struct gltf gltf;
+    struct gltf_place place;
+    add_data(&b, FLOAT, "SCALAR", 2, times, sizeof times);
+    add_data(&b, FLOAT, "VEC3", 6, moves, sizeof moves);
+    add_data(&b, FLOAT, "VEC4", 6, turns, sizeof turns);
+    read_built(&b,
+               "\"nodes\":[{}],\"animations\":[{\"channels\":[" CHANNEL("translation", "0") "," CHANNEL(
+                   "rotation", "1") "],\"samplers\":[{\"input\":0,\"output\":1,\"interpolation\":\"CUBICSPLINE\"},{"
+                                    "\"input\":0,\"output\":2,"
+                                    "\"interpolation\":\"CUBICSPLINE\"}]}]",
+               &gltf);
+    place_at(&gltf, 0, 1.5, &place);
+    double expected[4], length;
+    for (int k = 0; k < 3; k++)
+        expected[k] = 27 / 32.0 * moves[1][k] + 2 * 9 / 64.0 * moves[2][k] + 5 / 32.0 * moves[4][k] -
+                      2 * 3 / 64.0 * moves[3][k];
+    assert_numbers(place.translation, expected, 3);
+    for (int k = 0; k < 4; k++)
+        expected[k] = 27 / 32.0 * turns[1][k] + 2 * 9 / 64.0 * turns[2][k] + 5 / 32.0 * turns[4][k] -
+                      2 * 3 / 64.0 * turns[3][k];
+    length = sqrt(expected[2] * expected[2] + expected[3] * expected[3]);
+    for (int k = 0; k < 4; k++) expected[k] /= length;
+    assert_numbers(place.rotation, expected, 4);
+    place_at(&gltf, 0, 9, &place);
+    assert_numbers(place.translation, (const double[]){5, 6, 7}, 3);
+    place_at(&gltf, 0, 0, &place);
+    assert_numbers(place.translation, (const double[]){1, 2, 3}, 3);
+    gltf_free(&gltf);
+}
+
+/// Two nodes show one mesh with two targets; weights at rest are the mesh's and the second node's own, a clip moves the second's. Times
+/// as normalised bytes, weights as normalised shorts.
+static void morph_weights(void **state)
+{
+    (void)state;
+    const float corners[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, up[3][3] = {{0, 0, 1}, {0, 0, 2}, {0, 0, 3}};
+    const float tilt[3][3] = {{1, 0, -1}, {1, 0, -1}, {1, 0, -1}}, normal[3][3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+    const uint8_t times[] = {0, 255};
+    const int16_t weights[] = {0, 32767, 32767, -32767};
+    struct builder b = {0};
+    struct gltf gltf;
+    struct gltf_pose pose;
+    char more[64];
+    add_data(&b, FLOAT, "VEC3", 3, corners, sizeof corners);
+    add_data(&b, FLOAT, "VEC3", 3, up, sizeof up);
+    add_data(&b, FLOAT, "VEC3", 3, tilt, sizeof tilt);
+    add_data(&b, FLOAT, "VEC3", 3, normal, sizeof normal);
+    snprintf(more, sizeof more, ",\"normalized\":true,\"bufferView\":%d", add_view(&b, times, sizeof times, 0));
+    add_accessor(&b, UBYTE, "SCALAR", 2, more);
+    snprintf(more, sizeof more, ",\"normalized\":true,\"bufferView\":%d", add_view(&b, weights, sizeof weights, 0));
+    add_accessor(&b, SHORT, "SCALAR", 4, more);
+    read_built(
+        &b,
+        "\"meshes\":[{\"weights\":[0.5,0],\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":3},\"targets\":["
+        "{"
+        "\"POSITION\":1},{\"POSITION\":1,\"NORMAL\":2}]}]}],\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"weights\":[0,1],"
+        "\"translation\":[10,0,0]}],\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"node\":1,\"path\":"
+        "\"weights\"}}],\"samplers\":[{\"input\":4,\"output\":5}]}]",
+        &gltf);
+    float positions[3][3], normals[3][3];
+    assert_true(gltf_pose_create(&gltf, &pose));
+    assert_int_equal(gltf.weight_count, 4);
+    gltf_pose_vertices(&gltf, &pose, 0, positions, normals);
+    assert_numbers(positions[2], (const double[]){0, 1, 1.5}, 3);
+    gltf_pose_vertices(&gltf, &pose, 1, positions, normals);
+    assert_numbers(positions[2], (const double[]){10, 1, 3}, 3);
+    assert_numbers(normals[0], (const double[]){1, 0, 0}, 3);
+    gltf_pose_clip(&gltf, 0, 0.25, &pose);
+    assert_numbers(pose.weights, (const double[]){0.5, 0, 0.25, 0.5}, 4);
+    gltf_pose_vertices(&gltf, &pose, 1, positions, NULL);
+    assert_numbers(positions[1], (const double[]){11, 0, 1.5}, 3);
+    gltf_pose_free(&pose);
+    gltf_free(&gltf);
+}
+
+// --- a tail of eight bones ----------------------------------------------------------------------------------------------
+
+enum { BONES = 8 };
+
+static void product(const double a[4], const double b[4], double out[4])
+{
+    out[0] = a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1];
+    out[1] = a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0];
+    out[2] = a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3];
+    out[3] = a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2];
+}
+
+/// q v q*
+static void turn(const double q[4], const double v[3], double out[3])
+{
+    const double p[4] = {v[0], v[1], v[2], 0}, back[4] = {-q[0], -q[1], -q[2], q[3]};
+    double qp[4], whole[4];
+    product(q, p, qp);
+    product(qp, back, whole);
+    for (int k = 0; k < 3; k++) out[k] = whole[k];
+}
+
+/// Bone n of a straight tail along z, a unit long each, is rolled by n radians about its own direction.
+static void rolled(int bone, double q[4])
+{
+    q[0] = q[1] = 0;
+    q[2] = sin(bone / 2.0);
+    q[3] = cos(bone / 2.0);
+}
+
+/// Every bone turns by the same angle about the world's y, which each sees another way because of its roll. Bone n carries the vertex at
+/// its own end: all lie on a circle's chords, in the plane y = 0.
+static void a_tail_with_rolls(void **state)
+{
+    (void)state;
+    const double angle = 0.2;
+    float positions[BONES][3], inverse[BONES][16] = {{0}}, keys[BONES][4];
+    float weights[BONES][4] = {{0}};
+    uint8_t joints[BONES][4] = {{0}};
+    const float time = 0;
+    char nodes[2048] = "\"nodes\":[{\"mesh\":0,\"skin\":0,\"translation\":[3,3,3]}", channels[2048] = "",
+         samplers[1024] = "";
+    struct builder b = {0};
+    struct gltf gltf;
+    struct gltf_pose pose;
+    add_data(&b, FLOAT, "SCALAR", 1, &time, sizeof time);
+    for (int n = 0; n < BONES; n++) {
+        double world[4], before[4] = {0, 0, 0, 1}, back[4], local[4],
+                         about[4] = {0, sin(angle / 2), 0, cos(angle / 2)};
+        double x[3];
+        rolled(n, world);
+        if (n > 0) rolled(n - 1, before);
+        for (int k = 0; k < 4; k++) back[k] = k < 3 ? -before[k] : before[k];
+        product(back, world, local); // at rest: parent⁻¹ · own
+        // Turned about the world's y as at rest: parent⁻¹ · y · own.
+        double turned[4], key[4];
+        product(about, world, turned);
+        product(back, turned, key);
+        for (int k = 0; k < 4; k++) keys[n][k] = (float)key[k];
+        // The inverse bind matrix turns back about z and moves by −n.
+        for (int column = 0; column < 3; column++) {
+            const double unit[3] = {column == 0, column == 1, column == 2},
+                         inverse_world[4] = {-world[0], -world[1], -world[2], world[3]};
+            turn(inverse_world, unit, x);
+            for (int k = 0; k < 3; k++) inverse[n][4 * column + k] = (float)x[k];
+        }
+        inverse[n][14] = (float)-n;
+        inverse[n][15] = 1;
+        const float end[3] = {0, 0, (float)(n + 1)};
+        memcpy(positions[n], end, sizeof end);
+        joints[n][2] = (uint8_t)n;
+        weights[n][2] = 0.5f;
+        sprintf(nodes + strlen(nodes),
+                ",{\"name\":\"tail_%d\",\"rotation\":[%.17g,%.17g,%.17g,%.17g],\"translation\":[0,0,%d]%s", n + 1,
+                local[0], local[1], local[2], local[3], n > 0, n < BONES - 1 ? ",\"children\":[" : "}");
+        if (n < BONES - 1) sprintf(nodes + strlen(nodes), "%d]}", n + 2);
+        char view[64];
+        snprintf(view, sizeof view, ",\"bufferView\":%d", add_view(&b, keys[n], sizeof keys[n], 0));
+        add_accessor(&b, FLOAT, "VEC4", 1, view);
+        sprintf(channels + strlen(channels), "%s{\"sampler\":%d,\"target\":{\"node\":%d,\"path\":\"rotation\"}}",
+                n ? "," : "", n, n + 1);
+        sprintf(samplers + strlen(samplers), "%s{\"input\":0,\"output\":%d}", n ? "," : "", n + 1);
+    }
+    add_data(&b, FLOAT, "VEC3", BONES, positions, sizeof positions); // accessor 9
+    add_data(&b, UBYTE, "VEC4", BONES, joints, sizeof joints);
+    add_data(&b, FLOAT, "VEC4", BONES, weights, sizeof weights);
+    add_data(&b, FLOAT, "MAT4", BONES, inverse, sizeof inverse);
+    static char members[8192];
+    snprintf(
+        members, sizeof members,
+        "%s],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":9,\"NORMAL\":9,\"JOINTS_0\":10,\"WEIGHTS_0\":"
+        "11}}]}],"
+        "\"skins\":[{\"joints\":[1,2,3,4,5,6,7,8],\"inverseBindMatrices\":12}],\"animations\":[{\"channels\":[%s],"
+        "\"samplers\":[%s]}]",
+        nodes, channels, samplers);
+    read_built(&b, members, &gltf);
+    assert_true(gltf_pose_create(&gltf, &pose));
+    float moved[BONES][3], normals[BONES][3], matrix[16];
+    gltf_pose_vertices(&gltf, &pose, 0, moved, normals);
+    for (int n = 0; n < BONES; n++) assert_numbers(moved[n], (const double[]){0, 0, n + 1}, 3); // not where node 0 is
+    gltf_pose_clip(&gltf, 0, 0, &pose);
+    gltf_pose_world(&gltf, &pose);
+    gltf_pose_vertices(&gltf, &pose, 0, moved, normals);
+    double end[2] = {0, 0};
+    for (int n = 0; n < BONES; n++) {
+        end[0] += sin((n + 1) * angle);
+        end[1] += cos((n + 1) * angle);
+        assert_numbers(moved[n], (const double[]){end[0], 0, end[1]}, 3);
+        assert_numbers(normals[n], (const double[]){sin((n + 1) * angle), 0, cos((n + 1) * angle)}, 3);
+        gltf_joint_matrix(&gltf, &pose, 0, n, matrix);
+        assert_memory_equal(matrix, pose.joints[n], sizeof matrix);
+    }
+    gltf_pose_free(&pose);
+    gltf_free(&gltf);
+}
+
+/// A mirrored and stretched node: normals stay across the surface.
+static void normals_of_a_stretched_node(void **state)
+{
+    (void)state;
+    const float corners[3][3] = {{0, 0, 0}, {1, 0, 1}, {0, 1, 0}};
+    struct builder b = {0};
+    struct gltf gltf;
+    struct gltf_pose pose;
+    add_data(&b, FLOAT, "VEC3", 3, corners, sizeof corners);
+    read_built(&b,
+               "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"nodes\":[{\"mesh\":0,\"scale\":[-"
+               "3,1,1]}]",
+               &gltf);
+    assert_true(gltf_pose_create(&gltf, &pose));
+    float p[3][3], n[3][3];
+    gltf_pose_vertices(&gltf, &pose, 0, p, n);
+    for (int i = 1; i < 3; i++) assert_near(n[0][0] * p[i][0] + n[0][1] * p[i][1] + n[0][2] * p[i][2], 0, 1e-6);
+    assert_near(n[0][2], 3 / sqrt(10), 1e-6); // at rest it looks to +z, and so it does stretched
+    gltf_pose_free(&pose);
+    gltf_free(&gltf);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(step_and_linear),   cmocka_unit_test(rotations_take_the_short_way),
+        cmocka_unit_test(cubic_splines),     cmocka_unit_test(morph_weights),
+        cmocka_unit_test(a_tail_with_rolls), cmocka_unit_test(normals_of_a_stretched_node),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
