@@ -260,6 +260,7 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
     static const enum mouse_cursor of_hover[] = {
         [HOVER_NONE] = CURSOR_ARROW, [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
         [HOVER_CURVE] = CURSOR_HAND, [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
+        [HOVER_BONE] = CURSOR_HAND,
         [HOVER_UNITS] = CURSOR_HAND, [HOVER_BODY] = CURSOR_MOVE,        [HOVER_PLAY] = CURSOR_HAND,
         [HOVER_LOOP] = CURSOR_HAND,  [HOVER_SPEED] = CURSOR_HAND,       [HOVER_WARNING] = CURSOR_HAND,
     };

@@ -20,4 +20,12 @@ int bones_joints(const struct editor_world *world, int rig);
 /// follow the motion of its base in the clip. Its first spline becomes the active one.
 void bones_make_chain(struct core *core, const struct editor_world *world, int follow);
 
+enum { BONES_NAME = 256 };
+
+/// Whether a chain's bones have twins on the other side (ear_L and ear_R, LeftEar and RightEar) that no chain begins at; `from` is the
+/// first one's name.
+bool bones_twin(const struct editor_world *world, int chain, char from[BONES_NAME]);
+/// Makes the chain of the twins, mirrored, by the same splines.
+void bones_make_twin(struct core *core, const struct editor_world *world, int chain);
+
 #endif

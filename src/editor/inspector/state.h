@@ -19,7 +19,8 @@ struct inspector {
     struct ui ui;
     struct ui_scroll scroll;
     bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections that are not as they are at first, open or closed
-    int tail, channel;                    ///< shown under "Tail"
+    int rig, channel;                     ///< the tail or chain that is shown, and its channel
+    int model;                            ///< the imported character that is shown, of their number
     const char *dragged_name;             ///< number of the scene that is being dragged
     double dragged;                       ///< what it would be; of several knots, what was last possible
     struct poles_view poles;

@@ -49,7 +49,8 @@ static int model_under(const struct stage *stage, const struct core *core, const
     return -1;
 }
 
-static void show_bone(struct drawlist *list, const float a[2], const float b[2], uint32_t color, float opacity)
+static void show_bone(struct drawlist *list, const float a[2], const float b[2], uint32_t color, uint32_t edge,
+                      float opacity)
 {
     const float dx = b[0] - a[0], dy = b[1] - a[1], length = hypotf(dx, dy);
     const float half = fmaxf(THINNEST, fminf(THICKEST, SHARE * length));
@@ -62,20 +63,20 @@ static void show_bone(struct drawlist *list, const float a[2], const float b[2],
                                  {a[0], a[1]}};
     drawlist_line(list, corners[0], 5, 3, theme_fade(theme()->panel, 0.45f));
     drawlist_convex(list, corners[0], 4, theme_fade(color, opacity));
-    drawlist_line(list, corners[0], 5, 1.25f, theme_fade(color, 0.5f + 0.5f * opacity));
+    drawlist_line(list, corners[0], 5, 1.25f, theme_fade(edge, 0.5f + 0.5f * opacity));
 }
 
 /// The name of a bone beside the pointer, inside of the stage.
 static void show_name(struct core *core, const char *name)
 {
     const struct rect stage = core->layout.stage;
-    const float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, name), stage.w / 3) + 2 * LABEL_PAD;
+    const float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, name), stage.w / 3) + 2 * LABEL_PAD + 2;
     struct rect r = {core->pointer_x + LABEL_AWAY, core->pointer_y - LABEL_AWAY - LABEL_HEIGHT, width, LABEL_HEIGHT};
     if (r.x + r.w > stage.x + stage.w) r.x = core->pointer_x - LABEL_AWAY - r.w;
     if (r.y < stage.y) r.y = core->pointer_y + LABEL_AWAY;
     drawlist_rounded(&core->list, r, 4, theme_fade(theme()->raised, 0.92f));
     drawlist_rounded_line(&core->list, r, 4, 1, theme()->border);
-    drawlist_text_fit(&core->list, r.x + LABEL_PAD, r.y + 14, r.w - 2 * LABEL_PAD, FONT_LABEL, THEME_TEXT_NORMAL,
+    drawlist_text_fit(&core->list, r.x + LABEL_PAD, r.y + 14, r.w - LABEL_PAD, FONT_LABEL, THEME_TEXT_NORMAL,
                       theme()->text, name);
 }
 
@@ -113,9 +114,8 @@ static void show_all(const struct stage *stage, struct core *core, const struct 
             !stage_project_point(stage, core->layout.stage, bone->ends[1], ends[1]))
             continue;
         const float opacity = opacity_of(showing, chosen, bone);
-        uint32_t color = bone->chain >= 0 && bone->color ? bone->color : theme()->playhead;
-        if (opacity == CHOSEN) color = theme()->accent;
-        show_bone(&core->list, ends[0], ends[1], color, opacity);
+        const uint32_t color = bone->chain >= 0 && bone->color ? bone->color : theme()->playhead;
+        show_bone(&core->list, ends[0], ends[1], color, opacity == CHOSEN ? theme()->text : color, opacity);
     }
 }
 
