@@ -55,7 +55,11 @@ static inline void assert_knots(const struct document *d)
 static inline void assert_param(const struct document *d, const struct param *param)
 {
     assert_in_range(param->track + 1, 0, d->spline_count);
-    if (param->track < 0) assert_true(isfinite(param->value));
+    if (!param_follows(param)) assert_true(isfinite(param->value));
+    if (!param->motion) return;
+    assert_int_equal(param->track, -1);
+    assert_true(isfinite(param->gain) && param->motion->joint[0]);
+    assert_true(document_find_model(d, param->motion->model, param->motion->by_file) >= 0);
 }
 
 /// Parameters are in their ranges, names and ids unique, and no spline follows itself.

@@ -158,7 +158,7 @@ static void a_dragged_knot_is_seen_at_once(void **state)
 
 static struct edit slider(double frequency)
 {
-    return (struct edit){.kind = EDIT_PARAMETER, .parameter = PARAMETER_FREQUENCY, .param = {frequency, -1}};
+    return (struct edit){.kind = EDIT_PARAMETER, .parameter = PARAMETER_FREQUENCY, .param = param_number(frequency)};
 }
 
 static struct edit moved(const struct session *s, int knot, double frames, double by)
@@ -263,7 +263,7 @@ static void edit_somehow(struct session *s, uint64_t *seed)
     case 0:
         edit.kind = EDIT_PARAMETER;
         edit.parameter = PARAMETER_DAMPING;
-        edit.param = (struct param){0.2 + 0.1 * number(seed), -1};
+        edit.param = param_number(0.2 + 0.1 * number(seed));
         break;
     case 1:
         edit.kind = EDIT_KNOT_INSERT;
@@ -317,7 +317,7 @@ static void a_slow_solve_is_dropped_for_a_newer_edit(void **state)
     }
     settle(&s);
     assert_same_bits(&s);
-    change(&s, (struct edit){.kind = EDIT_PARAMETER, .parameter = PARAMETER_DAMPING, .param = {0.3, -1}});
+    change(&s, (struct edit){.kind = EDIT_PARAMETER, .parameter = PARAMETER_DAMPING, .param = param_number(0.3)});
     for (int frame = 0; frame < 5; frame++) session_frame(&s);
     session_close(&s); // the follower may take as long as it wants
 }

@@ -173,7 +173,7 @@ static void test_a_tracked_body_gets_a_knot(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    document_tail(s.document, 0)->position[0] = (struct param){0, 1};
+    document_tail(s.document, 0)->position[0] = param_track(1);
     session_key(&s, KEY_RIGHT, 0);
     session_key(&s, KEY_RIGHT, 0);
     assert_near(joint(&s, 0)[X], 0.1, 1e-6);

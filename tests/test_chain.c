@@ -86,7 +86,7 @@ static void test_bends_as_the_tail_does(void **state)
     const wiggly_value values[] = {{.y = 0.2, .re = 1, .im = -0.5}, {.re = -0.7, .im = 0.9}};
     const struct chain chain = {.channels = channels, .channel_count = 2};
     struct tail tail = {.joints = BONES, .length = LENGTH, .channels = channels, .channel_count = 2};
-    for (int k = 0; k < 3; k++) tail.position[k] = (struct param){k == 1 ? 1 : 0, -1};
+    for (int k = 0; k < 3; k++) tail.position[k] = param_number(k == 1 ? 1 : 0);
     struct chain_pose points;
     struct pose expected;
     bend(&imported, &chain, values, &points);

@@ -131,7 +131,8 @@ static void test_angles(void **state)
     world_open(&world);
     char *before = world_print(&world);
     const struct tail *tail = document_tail(world.document, 0);
-    struct angles all = {.value = {4}}, each = {.form = ANGLES_EACH, .count = 3, .value = {1, 2, 9}}, wrong = {.value = {NAN}};
+    struct angles all = {.value = {4}}, each = {.form = ANGLES_EACH, .count = 3, .value = {1, 2, 9}},
+                  wrong = {.value = {NAN}};
     struct edit edit = {.kind = EDIT_ANGLES, .channel = 1, .angle = ANGLE_GAIN, .angles = &all};
     world_must(&world, edit);
     assert_int_equal(tail->channels[1].gain.form, ANGLES_ONE);

@@ -434,7 +434,7 @@ static char *scene_with_knots(int knots)
 
 static void set(struct session *s, enum parameter parameter, double value)
 {
-    const struct edit edit = {.kind = EDIT_PARAMETER, .parameter = parameter, .param = {.value = value, .track = -1}};
+    const struct edit edit = {.kind = EDIT_PARAMETER, .parameter = parameter, .param = param_number(value)};
     struct error error = {0};
     if (!history_apply(s->history, s->document, &edit, &error)) fail_msg("%s", error.text);
 }
@@ -442,8 +442,9 @@ static void set(struct session *s, enum parameter parameter, double value)
 /// Sets every slider to one of its ends, as the bits of `ends` say, and looks at the curve.
 static void assert_finite_at(struct session *s, enum wiggly_mode mode, enum wiggly_start start, int ends)
 {
-    const struct edit edits[] = {{.kind = EDIT_PARAMETER, .parameter = PARAMETER_MODE, .param = {mode, -1}},
-                                 {.kind = EDIT_PARAMETER, .parameter = PARAMETER_START, .param = {start, -1}}};
+    const struct edit edits[] = {
+        {.kind = EDIT_PARAMETER, .parameter = PARAMETER_MODE, .param = param_number(mode)},
+        {.kind = EDIT_PARAMETER, .parameter = PARAMETER_START, .param = param_number(start)}};
     history_begin(s->history, "extremes", 1);
     assert_true(history_apply(s->history, s->document, &edits[0], NULL));
     assert_true(history_apply(s->history, s->document, &edits[1], NULL));

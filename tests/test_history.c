@@ -218,10 +218,11 @@ static struct edit random_setting_edit(struct angles *angles)
                                            EDIT_SPRING,    EDIT_RANGE,     EDIT_ANGLES,    EDIT_AXIS};
     edit.kind = kinds[rand() % 8];
     edit.parameter = (enum parameter)(rand() % PARAMETER_COUNT);
-    edit.param = (struct param){rand() % 2 ? fabs(random_number()) : 0.5, rand() % 6 - 3};
+    edit.param.value = rand() % 2 ? fabs(random_number()) : 0.5;
+    edit.param.track = rand() % 6 - 3;
     if (rand() % 2) {
         edit.parameter = rand() % 2 ? PARAMETER_MODE : PARAMETER_START;
-        edit.param = (struct param){rand() % 3, -1};
+        edit.param = param_number(rand() % 3);
     }
     edit.flag = rand() % 2;
     edit.first = -(rand() % 20);

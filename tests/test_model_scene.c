@@ -278,13 +278,13 @@ static void chains_keep_to_their_model(void **state)
     struct world world;
     open_whole(&world);
     assert_refused(&world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = WALK},
-                   "walk: still moved by tail; remove those first");
+                   "walk: still needed by tail; remove those first");
     assert_reversible(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = WALK, .text = "dog"});
     assert_string_equal(world.document->rigs[TAIL].chain.model, "dog");
     assert_reversible(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = CAT, .text = "cat"});
     assert_string_equal(world.document->rigs[EAR].chain.model, "models/cat.glb");
     assert_refused(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = WALK, .text = "models/cat.glb"},
-                   "a chain takes models/cat.glb for the file of its model");
+                   "models/cat.glb is the file by which a model is found");
     assert_refused(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = EAR, .text = "tail"},
                    "there is a rig called tail already");
     assert_refused(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = EAR}, "a chain needs a name");

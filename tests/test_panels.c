@@ -108,7 +108,7 @@ static void check_dialogs(struct session *f)
     const struct request quit = {.kind = REQUEST_QUIT};
     struct edit edit = core_edit_of(EDIT_PARAMETER, 0);
     edit.parameter = PARAMETER_START;
-    edit.param = (struct param){WIGGLY_REST, -1};
+    edit.param = param_number(WIGGLY_REST);
     assert_true(core_step(&f->editor->core, &f->world, "Change start", 0, &edit));
     for (int kind = 0; kind < 4; kind++) {
         if (kind == 0) dialog_ask_open(f->editor->dialogs);

@@ -105,23 +105,26 @@ struct edit edit_move(const struct world *world, int spline, int knot, double fr
 
 struct edit edit_number(int spline, enum parameter parameter, double value)
 {
-    return (struct edit){.kind = EDIT_PARAMETER, .spline = spline, .parameter = parameter, .param = {value, -1}};
+    return (struct edit){
+        .kind = EDIT_PARAMETER, .spline = spline, .parameter = parameter, .param = param_number(value)};
 }
 
 struct edit edit_track(int spline, enum parameter parameter, int track)
 {
-    return (struct edit){.kind = EDIT_PARAMETER, .spline = spline, .parameter = parameter, .param = {0, track}};
+    return (struct edit){
+        .kind = EDIT_PARAMETER, .spline = spline, .parameter = parameter, .param = param_track(track)};
 }
 
 struct edit edit_mode(int spline, enum wiggly_mode mode)
 {
-    return (struct edit){.kind = EDIT_PARAMETER, .spline = spline, .parameter = PARAMETER_MODE, .param = {mode, -1}};
+    return (struct edit){
+        .kind = EDIT_PARAMETER, .spline = spline, .parameter = PARAMETER_MODE, .param = param_number(mode)};
 }
 
 struct edit edit_start(int spline, enum wiggly_start start)
 {
     return (struct edit){
-        .kind = EDIT_PARAMETER, .spline = spline, .parameter = PARAMETER_START, .param = {start, -1}};
+        .kind = EDIT_PARAMETER, .spline = spline, .parameter = PARAMETER_START, .param = param_number(start)};
 }
 
 struct edit edit_range(int first, int last)

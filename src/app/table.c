@@ -53,7 +53,8 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
     bool threaded = table->threaded && background_serves(document, method);
     bool same_way = cubic == table->solved_cubic && method == evaluation->method;
     row->solver = evaluation_solver(method);
-    if (!resized && !row->edited && same_way && !threaded && !evaluation->stale) return true;
+    bool moved = motions_bake(&table->evaluation, document, &table->motions);
+    if (!resized && !row->edited && same_way && !threaded && !evaluation->stale && !moved) return true;
     table->evaluation.method = method;
     evaluate(table, resized, cubic, threaded);
     row->splines_solved = evaluation->solved_splines;
@@ -91,10 +92,10 @@ bool table_frame(struct table *table, double dt, const struct table_hooks *hooks
     double start = clock_now();
     advance(table, dt, hooks);
     row->edit_us = since(start);
+    read_models(table);
     start = clock_now();
     if (!solve(table, row, error)) return false;
     row->solve_us = since(start);
-    read_models(table);
     start = clock_now();
     show(table, hooks);
     row->pose_us = since(start);

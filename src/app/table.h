@@ -3,6 +3,7 @@
 #define APP_TABLE_H
 
 #include "editor/editor.h"
+#include "scene/motion.h"
 #include "timing/framelog.h"
 
 /// All zero but what table_frame() works on.
@@ -10,7 +11,8 @@ struct table {
     struct editor *editor;
     struct document *document;
     struct history *history;
-    struct models *models; ///< NULL: the characters have no models
+    struct models *models;        ///< NULL: the characters have no models
+    struct motion_source motions; ///< where equilibria that follow joints are read from
     struct evaluation evaluation;
     bool threaded;            ///< what takes longer than a frame is solved in the background
     unsigned models_serial;   ///< of the document whose models were read last

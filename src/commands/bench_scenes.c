@@ -46,7 +46,7 @@ static bool time_spline(struct bench *bench, const struct document *document, co
                         int spline, const char *path, struct means *means, struct error *error)
 {
     const struct spline *of = &document->splines[spline];
-    wiggly_desc desc = storage_describe(evaluation->curves, document, spline, false);
+    wiggly_desc desc = storage_describe(evaluation->storage, evaluation->curves, document, spline, false);
     wiggly_knot *knots = calloc((size_t)of->knot_count, sizeof *knots);
     if (!knots) return fail(error, ERROR_ENVIRONMENT, "out of memory");
     storage_add_knots(&desc, document, spline, knots);

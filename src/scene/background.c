@@ -46,7 +46,7 @@ struct background {
 static bool uses_band(const struct spline *spline)
 {
     for (int p = 0; p < PARAMETER_COUNT; p++) {
-        if (spline->parameter[p].track >= 0 && spline_uses(spline, (enum parameter)p, false)) return true;
+        if (param_follows(&spline->parameter[p]) && spline_uses(spline, (enum parameter)p, false)) return true;
     }
     return spline_start(spline) == WIGGLY_LOOP;
 }
@@ -163,7 +163,8 @@ static void show_solved(struct evaluation *evaluation, const struct document *do
 static void follow_edits(const struct evaluation *evaluation, const struct document *document)
 {
     struct preview *preview = &evaluation->storage->background->preview;
-    wiggly_desc desc = storage_describe(evaluation->curves, document, preview->spline, evaluation->cubic);
+    wiggly_desc desc =
+        storage_describe(evaluation->storage, evaluation->curves, document, preview->spline, evaluation->cubic);
     preview->is_current = false;
     if (evaluation->method == WIGGLY_CHAIN) preview_follow(preview, document, &desc);
 }
@@ -195,7 +196,7 @@ static void give(struct evaluation *evaluation, const struct document *document,
 {
     struct storage *storage = evaluation->storage;
     struct background *b = storage->background;
-    wiggly_desc desc = storage_describe(evaluation->curves, document, spline, evaluation->cubic);
+    wiggly_desc desc = storage_describe(evaluation->storage, evaluation->curves, document, spline, evaluation->cubic);
     storage_add_knots(&desc, document, spline, storage->knots);
     struct job job = {.kind = kind, .desc = desc, .solver = storage->solver};
     if (kind == WORK_SOLVE) {
@@ -235,7 +236,8 @@ static bool wants_take(const struct evaluation *evaluation, const struct documen
     const struct background *b = evaluation->storage->background;
     bool has = b->preview.take && b->preview.spline == focus->spline && b->preview.is_current;
     if (focus->spline < 0 || has || focus->spline == b->unfit || evaluation->method == WIGGLY_BAND) return false;
-    wiggly_desc desc = storage_describe(evaluation->curves, document, focus->spline, evaluation->cubic);
+    wiggly_desc desc =
+        storage_describe(evaluation->storage, evaluation->curves, document, focus->spline, evaluation->cubic);
     return preview_serves(&desc);
 }
 
@@ -309,8 +311,9 @@ static bool mark(struct evaluation *evaluation, const struct document *document,
     evaluation->cubic = cubic;
     storage->method = evaluation->method;
     for (int s = 0; s < evaluation->count; s++) {
-        if (!all && !dirty[s]) continue;
+        if (!all && !dirty[s] && !storage->baked[s].is_new) continue;
         b->pending[s] = any = true;
+        storage->baked[s].is_new = false;
         if (s == b->unfit) b->unfit = -1;
         if (s == b->preview.spline && b->preview.take) follow_edits(evaluation, document);
     }

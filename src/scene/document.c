@@ -17,7 +17,7 @@ void spline_reset(struct spline *spline)
     spline->spring_friction = false;
     spline->color = -1;
     for (int i = 0; i < PARAMETER_COUNT; i++) {
-        spline->parameter[i] = (struct param){parameter_rows[i].standard, -1};
+        spline->parameter[i] = param_number(parameter_rows[i].standard);
     }
 }
 
@@ -40,6 +40,7 @@ void document_destroy(struct document *document)
         free(document->splines[i].knots);
     }
     for (int i = 0; i < document->rig_count; i++) rig_release(&document->rigs[i]);
+    motion_list_free(&document->motions);
     free(document->path);
     free(document->about);
     free(document->splines);
@@ -55,6 +56,7 @@ bool document_set_folder(struct document *document, const char *folder)
     if (folder && !copy) return false;
     bool moved = true;
     for (int i = 0; i < document->rig_count; i++) moved &= rig_rebase(&document->rigs[i], document->folder, folder);
+    moved &= motion_list_rebase(&document->motions, document->folder, folder);
     free(document->folder);
     document->folder = copy;
     return moved;
@@ -84,7 +86,7 @@ size_t document_bytes(const struct document *document)
         bytes += sizeof *spline + (size_t)spline->knot_capacity * sizeof *spline->knots + strlen(spline->name) + 1;
     }
     for (int i = 0; i < document->rig_count; i++) bytes += rig_bytes(&document->rigs[i]);
-    return bytes;
+    return bytes + motion_list_bytes(&document->motions);
 }
 
 int document_samples(const struct document *document)
@@ -178,6 +180,15 @@ int document_find_model(const struct document *document, const char *text, bool 
     for (; rig >= 0; rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
         const char *own = by_file ? document->rigs[rig].model.model : document->rigs[rig].name;
         if (own && strcmp(own, text) == 0) break;
+    }
+    return rig;
+}
+
+int document_find_chain(const struct document *document, const char *name)
+{
+    int rig = document_next_rig(document, RIG_CHAIN, 0);
+    for (; rig >= 0; rig = document_next_rig(document, RIG_CHAIN, rig + 1)) {
+        if (document->rigs[rig].name && strcmp(document->rigs[rig].name, name) == 0) break;
     }
     return rig;
 }

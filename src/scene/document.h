@@ -5,6 +5,7 @@
 #define SCENE_DOCUMENT_H
 
 #include "base/error.h"
+#include "scene/joint_motion.h"
 #include "scene/param.h"
 #include "scene/parameter.h"
 #include "scene/rig.h"
@@ -65,9 +66,10 @@ struct document {
     int spline_count, spline_capacity;
     struct rig *rigs; ///< in the order of the file
     int rig_count, rig_capacity;
-    char *folder;            ///< where relative paths start; NULL: the working folder
-    unsigned next_id;        ///< of a knot
-    unsigned next_spline_id; ///< of a spline
+    char *folder;               ///< where relative paths start; NULL: the working folder
+    unsigned next_id;           ///< of a knot
+    unsigned next_spline_id;    ///< of a spline
+    struct motion_list motions; ///< that parameters follow
     struct json_t *extra;
     struct json_t *owned; ///< what `extra` pointers point into; freed with the document
 };
@@ -126,6 +128,9 @@ struct character_rig *document_character(const struct document *document, int n)
 
 /// Index of the first model rig with that name, or with that file; -1 if there is none.
 int document_find_model(const struct document *document, const char *text, bool by_file);
+
+/// Index of the chain with that name, or -1.
+int document_find_chain(const struct document *document, const char *name);
 
 /// Index of the knot on that sample, or -1 (binary search).
 int spline_find_knot(const struct document *document, const struct spline *spline, int sample);

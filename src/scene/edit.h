@@ -12,8 +12,8 @@ enum edit_kind {
     EDIT_KNOT_INSERT, ///< spline, knot (id 0: a new one is given)
     EDIT_KNOT_REMOVE, ///< spline, knot.id
     EDIT_KNOT_SET,    ///< spline, knot (found by id; frame, value, slope, has_slope, stiffness are replaced)
-    EDIT_PARAMETER, ///< spline, parameter, param. A new mode converts ω = √k, ζ = γ/2√k and clamps, so that the saved file loads
-    EDIT_SPRING,      ///< spline, flag: whether spring and friction are in use (real mode only)
+    EDIT_PARAMETER, ///< spline, parameter, param (its motion is copied). A new mode converts ω = √k, ζ = γ/2√k and clamps, so that the saved file loads
+    EDIT_SPRING,    ///< spline, flag: whether spring and friction are in use (real mode only)
     EDIT_SPLINE_ADD,  ///< spline: its place in the list, text (NULL: a free name), and if `flag` its first knot. f 1,
                       ///< ζ 0.1, β 0.1
     EDIT_SPLINE_COPY, ///< spline: a copy goes after it, with a free name and new knot ids
@@ -33,7 +33,7 @@ enum edit_kind {
     EDIT_LENGTH,      ///< rig, number: metres, above 0
     EDIT_JOINTS,      ///< rig, to: how many; the tail keeps its shape
     EDIT_TAIL_ADD,    ///< rig: a copy goes beside it; if it is no tail, a plain one bent by `spline` (-1: by nothing)
-    EDIT_RIG_REMOVE,  ///< rig; refused for a model with chains on it
+    EDIT_RIG_REMOVE,  ///< rig; refused while a chain or a spline needs it
     EDIT_RIG_NAME,    ///< rig, text: not empty, and no other rig's. What goes by the old name goes by the new one
     EDIT_CHANNEL_ADD, ///< rig, spline, axis, of: one more, the last
     EDIT_CHANNEL_REMOVE, ///< rig, channel

@@ -65,42 +65,59 @@ static bool is_on(const struct document *document, int chain, int model)
     return rig->kind == RIG_CHAIN && document_find_model(document, rig->chain.model, rig->chain.by_file) == model;
 }
 
-/// "tail, left ear and right ear": the chains on a model; false if there are none.
-static bool list_chains(const struct document *document, int model, char *text, size_t size)
+static const struct joint_motion *motion_of_spline(const struct document *document, int spline)
 {
-    size_t used = 0;
-    int found = 0, total = 0;
-    for (int r = 0; r < document->rig_count; r++) total += is_on(document, r, model);
-    for (int r = 0; r < document->rig_count && used < size; r++) {
-        if (!is_on(document, r, model)) continue;
-        const char *before = found == 0 ? "" : found == total - 1 ? " and " : ", ";
-        used += (size_t)snprintf(text + used, size - used, "%s%s", before, rig_title(&document->rigs[r]));
-        found++;
-    }
-    return total > 0;
+    return document->splines[spline].parameter[PARAMETER_EQUILIBRIUM].motion;
+}
+
+/// Whether a spline follows a joint of the model or chain at `rig`.
+static bool follows(const struct document *document, int spline, int rig)
+{
+    const struct joint_motion *motion = motion_of_spline(document, spline);
+    if (!motion) return false;
+    if (document->rigs[rig].kind == RIG_MODEL)
+        return document_find_model(document, motion->model, motion->by_file) == rig;
+    return motion->chain && document_find_chain(document, motion->chain) == rig;
+}
+
+static void append_name(char list[NAME_SIZE], const char *name)
+{
+    const size_t used = strlen(list);
+    snprintf(list + used, NAME_SIZE - used, "%s%s", used > 0 ? ", " : "", name);
 }
 
 bool plan_rig_remove(struct document *document, const struct edit *edit, struct change_list *list,
                      struct error *error)
 {
     const struct rig *rig = &document->rigs[edit->rig];
-    char chains[NAME_SIZE];
-    if (rig->kind == RIG_MODEL && list_chains(document, edit->rig, chains, sizeof chains)) {
-        return fail(error, ERROR_INPUT, "%s: still moved by %s; remove those first", rig_title(rig), chains);
+    char users[NAME_SIZE] = "";
+    for (int r = 0; r < document->rig_count; r++) {
+        if (is_on(document, r, edit->rig)) append_name(users, rig_title(&document->rigs[r]));
+    }
+    for (int s = 0; s < document->spline_count; s++) {
+        if (follows(document, s, edit->rig)) append_name(users, document->splines[s].name);
+    }
+    if (users[0]) {
+        return fail(error, ERROR_INPUT, "%s: still needed by %s; remove those first", rig_title(rig), users);
     }
     struct rig *room = malloc(sizeof *room);
     if (!room) return plan_no_memory(error);
     return plan_add(list, &(struct change){.kind = CHANGE_RIG_IN, .spline = -1, .rig = {edit->rig, room}}, error);
 }
 
-/// Whether a chain goes by that file: a model of that name would take it over.
-static bool is_file_of_chain(const struct document *document, const char *name)
+/// Whether a chain or a spline goes by that file: a model of that name would take it over.
+static bool is_file_of_any(const struct document *document, const char *name)
 {
+    bool any = false;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = &document->rigs[r];
-        if (rig->kind == RIG_CHAIN && rig->chain.by_file && strcmp(rig->chain.model, name) == 0) return true;
+        any |= rig->kind == RIG_CHAIN && rig->chain.by_file && strcmp(rig->chain.model, name) == 0;
     }
-    return false;
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct joint_motion *motion = motion_of_spline(document, s);
+        any |= motion && motion->by_file && strcmp(motion->model, name) == 0;
+    }
+    return any;
 }
 
 static bool check_name(const struct document *document, const struct edit *edit, const char *name,
@@ -111,8 +128,8 @@ static bool check_name(const struct document *document, const struct edit *edit,
     if (is_taken(document, name, edit->rig)) {
         return fail(error, ERROR_INPUT, "there is a rig called %s already", name);
     }
-    if (kind == RIG_MODEL && is_file_of_chain(document, name)) {
-        return fail(error, ERROR_INPUT, "a chain takes %s for the file of its model", name);
+    if (kind == RIG_MODEL && is_file_of_any(document, name)) {
+        return fail(error, ERROR_INPUT, "%s is the file by which a model is found", name);
     }
     return true;
 }
@@ -131,14 +148,42 @@ static bool set_text(struct document *document, int index, char **(*text)(struct
 static char **name_of(struct rig *rig) { return &rig->name; }
 static char **model_of(struct rig *rig) { return &rig->chain.model; }
 
+/// Lets a spline follow the same joint under the rig's new name.
+static bool rename_followed(struct document *document, int spline, const char *old, const char *name,
+                            struct change_list *list, struct error *error)
+{
+    struct change change = {
+        .kind = CHANGE_SETTINGS, .spline = spline, .settings = settings_of(&document->splines[spline])};
+    struct param *param = &change.settings.parameter[PARAMETER_EQUILIBRIUM];
+    struct joint_motion motion = *param->motion;
+    char *const copy = strdup(name);
+    if (!motion.by_file && strcmp(motion.model, old) == 0) motion.model = copy;
+    if (motion.chain && strcmp(motion.chain, old) == 0) motion.chain = copy;
+    param->motion = copy ? motion_list_keep(&document->motions, &motion) : NULL;
+    free(copy);
+    return param->motion ? plan_add(list, &change, error) : plan_no_memory(error);
+}
+
+/// All that goes by the rig's name goes by the new one.
+static bool rename_users(struct document *document, int rig, const char *name, struct change_list *list,
+                         struct error *error)
+{
+    const char *old = document->rigs[rig].name;
+    for (int r = 0; r < document->rig_count; r++) {
+        const bool goes_by_name = is_on(document, r, rig) && !document->rigs[r].chain.by_file;
+        if (goes_by_name && !set_text(document, r, model_of, name, list, error)) return false;
+    }
+    for (int s = 0; old && s < document->spline_count; s++) {
+        if (follows(document, s, rig) && !rename_followed(document, s, old, name, list, error)) return false;
+    }
+    return true;
+}
+
 bool plan_rig_name(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
     const char *name = edit->text ? edit->text : "", *old = document->rigs[edit->rig].name;
     if (!check_name(document, edit, name, error)) return false;
     if (old && strcmp(old, name) == 0) return true;
-    for (int r = 0; r < document->rig_count; r++) {
-        const bool goes_by_name = is_on(document, r, edit->rig) && !document->rigs[r].chain.by_file;
-        if (goes_by_name && !set_text(document, r, model_of, name, list, error)) return false;
-    }
-    return set_text(document, edit->rig, name_of, name, list, error);
+    return rename_users(document, edit->rig, name, list, error) &&
+           set_text(document, edit->rig, name_of, name, list, error);
 }

@@ -9,7 +9,9 @@ static bool same_settings(const struct settings *a, const struct settings *b)
 {
     bool same = a->spring_friction == b->spring_friction;
     for (int i = 0; i < PARAMETER_COUNT; i++) {
-        same &= a->parameter[i].value == b->parameter[i].value && a->parameter[i].track == b->parameter[i].track;
+        const struct param *one = &a->parameter[i], *other = &b->parameter[i];
+        same &= one->value == other->value && one->track == other->track && one->motion == other->motion &&
+                one->gain == other->gain;
     }
     return same;
 }
@@ -42,6 +44,29 @@ static bool check_track(struct document *document, const struct edit *edit, stru
     if (cycle.spline < 0) return plan_no_memory(error);
     return fail(error, ERROR_INPUT, "%s cannot follow %s, which already follows it", spline->name,
                 document->splines[track].name);
+}
+
+/// Makes `param` follow the edit's motion, with the document's own copy of it.
+static bool set_motion(struct document *document, const struct edit *edit, struct param *param, struct error *error)
+{
+    const char *name = document->splines[edit->spline].name;
+    struct joint_motion motion = *edit->param.motion;
+    const char *model = motion.model ? motion.model : "";
+    if (edit->parameter != PARAMETER_EQUILIBRIUM) {
+        return fail(error, ERROR_INPUT, "%s: only the equilibrium follows a joint", name);
+    }
+    if (!motion.joint || !motion.joint[0] || (unsigned)motion.of >= MOTION_KINDS || !isfinite(edit->param.gain)) {
+        return fail(error, ERROR_INPUT, "%s: a motion needs a joint and a finite gain", name);
+    }
+    motion.by_file = document_find_model(document, model, false) < 0;
+    if (document_find_model(document, model, motion.by_file) < 0) {
+        return fail(error, ERROR_INPUT, "%s: there is no model \"%s\" to follow", name, model);
+    }
+    if (motion.chain && document_find_chain(document, motion.chain) < 0) {
+        return fail(error, ERROR_INPUT, "%s: there is no chain \"%s\"", name, motion.chain);
+    }
+    *param = (struct param){0, -1, motion_list_keep(&document->motions, &motion), edit->param.gain + 0.0};
+    return param->motion || plan_no_memory(error);
 }
 
 static bool check_constant(const struct spline *spline, enum parameter parameter, double value, struct error *error)
@@ -108,7 +133,7 @@ static bool set_choice(const struct document *document, const struct spline *spl
     const struct parameter_row *row = &parameter_rows[parameter];
     if (!(value >= 0 && value <= row->maximum && value == floor(value)))
         return fail(error, ERROR_INPUT, "there is no such %s", row->name);
-    settings->parameter[parameter] = (struct param){value, -1};
+    settings->parameter[parameter] = param_number(value);
     if (parameter == PARAMETER_MODE) return set_mode(spline, settings, (enum wiggly_mode)value, error);
     return parameter != PARAMETER_START || value != WIGGLY_LOOP || check_loop(document, spline, error);
 }
@@ -124,12 +149,14 @@ bool plan_parameter(struct document *document, const struct edit *edit, struct c
     struct param *param = &settings.parameter[edit->parameter];
     if (parameter_rows[edit->parameter].kind == PARAMETER_CHOICE) {
         if (!set_choice(document, spline, &settings, edit->parameter, edit->param.value, error)) return false;
+    } else if (edit->param.motion) {
+        if (!set_motion(document, edit, param, error)) return false;
     } else if (edit->param.track >= 0) {
         if (!check_track(document, edit, error)) return false;
-        *param = (struct param){0, edit->param.track};
+        *param = param_track(edit->param.track);
     } else {
         if (!check_constant(spline, edit->parameter, edit->param.value, error)) return false;
-        *param = (struct param){edit->param.value + 0.0, -1};
+        *param = param_number(edit->param.value + 0.0);
     }
     return add_settings(document, edit, &settings, list, error);
 }

@@ -14,7 +14,7 @@ static struct rig plain_tail(void)
     struct rig rig = {
         .kind = RIG_TAIL,
         .tail = {.joints = TAIL_DEFAULT_JOINTS, .length = TAIL_DEFAULT_LENGTH, .rest = {.value = {NEW_REST}}}};
-    for (int k = 0; k < 3; k++) rig.tail.position[k] = (struct param){k == 1 ? NEW_HEIGHT : 0, -1};
+    for (int k = 0; k < 3; k++) rig.tail.position[k] = param_number(k == 1 ? NEW_HEIGHT : 0);
     return rig;
 }
 
@@ -110,10 +110,10 @@ bool plan_position(struct document *document, const struct edit *edit, struct ch
     const struct tail *tail = &document->rigs[edit->rig].tail;
     struct change change = place_change(edit, tail);
     if (edit->coordinate < 0 || edit->coordinate > 2) return fail(error, ERROR_INPUT, "there is no such coordinate");
+    if (edit->param.motion) return fail(error, ERROR_INPUT, "only an equilibrium follows a joint");
     const struct param *old = &tail->position[edit->coordinate];
     struct param *param = &change.place.position[edit->coordinate];
-    *param =
-        edit->param.track >= 0 ? (struct param){0, edit->param.track} : (struct param){edit->param.value + 0.0, -1};
+    *param = edit->param.track >= 0 ? param_track(edit->param.track) : param_number(edit->param.value + 0.0);
     if (param->track >= document->spline_count) {
         return fail(error, ERROR_INPUT, "%s: there is no spline to follow", document->rigs[edit->rig].name);
     }

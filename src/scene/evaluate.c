@@ -22,7 +22,10 @@ static void free_splines(struct evaluation *evaluation, struct storage *storage)
     free(storage->space.stack);
     free(storage->space.next);
     free(storage->extremes);
+    for (int s = 0; s < storage->spline_capacity; s++) free(storage->baked[s].raw);
+    free(storage->baked);
     storage->extremes = NULL;
+    storage->baked = NULL;
     evaluation->curves = NULL;
     evaluation->status = NULL;
     storage->order = NULL;
@@ -43,9 +46,10 @@ static bool resize_splines(struct evaluation *evaluation, struct storage *storag
     storage->space.stack = calloc(count, sizeof *storage->space.stack);
     storage->space.next = calloc(count, sizeof *storage->space.next);
     storage->extremes = calloc(count, sizeof *storage->extremes);
+    storage->baked = calloc(count, sizeof *storage->baked);
     storage->is_new = true;
-    if (!storage->extremes || !evaluation->curves || !evaluation->status || !storage->order || !storage->solved ||
-        !storage->space.stack || !storage->space.next) {
+    if (!storage->extremes || !storage->baked || !evaluation->curves || !evaluation->status || !storage->order ||
+        !storage->solved || !storage->space.stack || !storage->space.next) {
         return false;
     }
     storage->spline_capacity = splines;
@@ -73,6 +77,23 @@ static bool resize_marks(struct storage *storage, int splines, int samples)
     storage->mark_capacity = storage->marks ? needed : 0;
     storage->is_new = true;
     return storage->marks != NULL;
+}
+
+/// Room for the motions that splines follow.
+static bool resize_baked(struct evaluation *evaluation, const struct document *document, int samples)
+{
+    struct storage *storage = evaluation->storage;
+    for (int s = 0; s < document->spline_count; s++) {
+        struct baked *baked = &storage->baked[s];
+        if (!document->splines[s].parameter[PARAMETER_EQUILIBRIUM].motion || samples <= baked->capacity) continue;
+        background_halt(evaluation);
+        free(baked->raw);
+        *baked = (struct baked){.raw = malloc(2 * (size_t)samples * sizeof *baked->raw)};
+        if (!baked->raw) return false;
+        baked->samples = baked->raw + samples;
+        baked->capacity = samples;
+    }
+    return true;
 }
 
 static bool resize_solver(struct storage *storage, int samples, int knots)
@@ -127,7 +148,8 @@ bool evaluation_resize(struct evaluation *evaluation, const struct document *doc
     if (!storage) return fail_memory(document, error);
     if (!fits(evaluation, document, knots)) background_halt(evaluation);
     if (!resize_splines(evaluation, storage, splines) || !resize_numbers(storage, splines, samples) ||
-        !resize_marks(storage, splines, samples) || !resize_solver(storage, samples, knots)) {
+        !resize_marks(storage, splines, samples) || !resize_solver(storage, samples, knots) ||
+        !resize_baked(evaluation, document, samples)) {
         evaluation->count = 0;
         return fail_memory(document, error);
     }
@@ -169,7 +191,7 @@ static void solve(struct evaluation *evaluation, const struct document *document
     wiggly_desc desc = {.samples = evaluation->samples, .step = document_step(document)};
     wiggly_status status = WIGGLY_ERROR_CAPACITY;
     if (knots <= storage->solver_knots) {
-        desc = storage_describe(evaluation->curves, document, spline, cubic);
+        desc = storage_describe(evaluation->storage, evaluation->curves, document, spline, cubic);
         storage_add_knots(&desc, document, spline, storage->knots);
         wiggly_set_method(storage->solver, storage->method);
         status = wiggly_solve(storage->solver, &desc, curve);
@@ -199,8 +221,10 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     for (int i = 0; i < evaluation->count; i++) storage->solved[i] = false;
     for (int i = 0; i < evaluation->count; i++) {
         int spline = storage->order[i];
-        if (!all && !dirty[spline] && !follows_solved(storage, &document->splines[spline], cubic)) continue;
+        const bool edited = all || dirty[spline] || storage->baked[spline].is_new;
+        if (!edited && !follows_solved(storage, &document->splines[spline], cubic)) continue;
         storage->solved[spline] = true;
+        storage->baked[spline].is_new = false;
         solve(evaluation, document, spline, cubic);
     }
     storage->is_new = evaluation->stale = false;

@@ -126,6 +126,7 @@ static void load_scene(struct reader *reader, json_t *json)
     load_domain(reader, &scene);
     load_splines(reader, &scene);
     load_rigs(reader, &scene);
+    resolve_motions(reader, &scene);
     reader->document->extra = reader_keep(reader, reader_extra(reader, &scene, scene_keys));
     if (!reader->failed) validate_scene(reader, &scene.at);
 }

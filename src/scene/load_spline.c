@@ -24,7 +24,7 @@ static bool load_parameter(struct reader *reader, const struct value *object, st
         return word >= 0;
     }
     if (row->kind == PARAMETER_TRACK) {
-        reader_param(reader, value, range, row->name, param, extra);
+        reader_param(reader, value, range, row->name, parameter == PARAMETER_EQUILIBRIUM, param, extra);
     } else {
         reader_number(reader, value, true, range, &param->value);
     }

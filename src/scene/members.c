@@ -58,14 +58,18 @@ void text_numbers(struct text *text, const double *values, int count)
 }
 
 void print_param(struct text *text, const struct document *document, const struct param *param, json_t *extras,
-                 const char *key)
+                 const char *key, const char *folder)
 {
-    if (param->track < 0) {
+    if (!param_follows(param)) {
         text_number(text, param->value);
         return;
     }
     struct members track = {text, "{ ", ", ", false};
-    member_string(&track, "spline", document->splines[param->track].name);
+    if (param->motion) {
+        print_motion(&track, document, param, folder);
+    } else {
+        member_string(&track, "spline", document->splines[param->track].name);
+    }
     members_extra(&track, json_object_get(extras, key), NULL);
     text_string(text, " }");
 }

@@ -32,9 +32,13 @@ void members_extra(struct members *members, json_t *extra, holds_tracks *skips);
 /// A knot on one line.
 void print_knot(struct text *text, const struct knot *knot);
 
-/// A number or a track; `extras` holds the unknown keys of tracks, by `key`.
+/// A number, a track or a motion, for a file in `folder`; `extras` holds the unknown keys of the latter two, by `key`.
 void print_param(struct text *text, const struct document *document, const struct param *param, json_t *extras,
-                 const char *key);
+                 const char *key, const char *folder);
+
+/// The members of a motion.
+void print_motion(struct members *members, const struct document *document, const struct param *param,
+                  const char *folder);
 
 /// The rigs as an array, with paths relative to `folder`, that of the file.
 void print_rigs(struct text *text, const struct document *document, const char *folder);

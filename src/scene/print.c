@@ -15,11 +15,12 @@ static bool is_printed(const struct spline *spline, enum parameter parameter)
     const struct param *param = &spline->parameter[parameter];
     const struct parameter_row *row = &parameter_rows[parameter];
     if (!spline_has(spline, parameter)) return false;
-    if (param->track >= 0 || param->value != row->standard) return true;
+    if (param_follows(param) || param->value != row->standard) return true;
     return row->print == PRINT_ALWAYS || (row->print == PRINT_USED && spline_uses(spline, parameter, false));
 }
 
-static void print_spline(struct text *text, const struct document *document, const struct spline *spline)
+static void print_spline(struct text *text, const struct document *document, const struct spline *spline,
+                         const char *folder)
 {
     struct members members = {text, "    {\n      ", ",\n      ", false};
     member_string(&members, "name", spline->name);
@@ -36,7 +37,7 @@ static void print_spline(struct text *text, const struct document *document, con
             continue;
         }
         member(&members, name);
-        print_param(text, document, &spline->parameter[p], spline->extra, name);
+        print_param(text, document, &spline->parameter[p], spline->extra, name, folder);
     }
     member(&members, "knots");
     for (int i = 0; i < spline->knot_count; i++) {
@@ -62,7 +63,7 @@ static void print_document(struct text *text, const struct document *document, c
     member(&members, "splines");
     for (int i = 0; i < document->spline_count; i++) {
         text_string(text, i > 0 ? ",\n" : "[\n");
-        print_spline(text, document, &document->splines[i]);
+        print_spline(text, document, &document->splines[i], folder);
     }
     text_string(text, document->spline_count > 0 ? "\n  ]" : "[]");
     member(&members, "rigs");

@@ -282,24 +282,38 @@ json_t *reader_extra(struct reader *reader, const struct value *object, const ch
     return extra;
 }
 
-/// `{"spline": "other"}`
-static void read_track(struct reader *reader, const struct value *object, const char *key, struct param *param,
-                       json_t **extra)
+/// `{"spline": "other"}`; returns its unknown keys, or NULL.
+static json_t *read_track(struct reader *reader, const struct value *object, struct param *param)
 {
     static const char *const known[] = {"spline", NULL};
     int track = reader_spline_name(reader, reader_member(object, "spline"));
-    if (track >= 0) *param = (struct param){0, track};
-    json_t *unknown = reader_extra(reader, object, known);
-    if (!unknown) return;
-    if (!*extra) *extra = json_object();
-    if (!*extra || json_object_set_new(*extra, key, unknown) != 0) reader_no_memory(reader);
+    if (track >= 0) *param = param_track(track);
+    return reader_extra(reader, object, known);
 }
 
-void reader_param(struct reader *reader, struct value value, struct range range, const char *key, struct param *param,
-                  json_t **extra)
+static json_t *read_followed(struct reader *reader, const struct value *object, bool may_be_motion,
+                             struct param *param)
+{
+    const bool is_motion = json_object_get(object->json, "model") != NULL;
+    if (is_motion && json_object_get(object->json, "spline")) {
+        reader_fail(reader, &object->at, "expected either a spline or a model, got both");
+    } else if (is_motion && !may_be_motion) {
+        reader_fail(reader, &object->at,
+                    "expected a number or {\"spline\": name}: only an equilibrium follows a model");
+    } else {
+        return is_motion ? reader_motion(reader, object, param) : read_track(reader, object, param);
+    }
+    return NULL;
+}
+
+void reader_param(struct reader *reader, struct value value, struct range range, const char *key, bool may_be_motion,
+                  struct param *param, json_t **extra)
 {
     if (json_is_object(value.json)) {
-        read_track(reader, &value, key, param, extra);
+        json_t *unknown = read_followed(reader, &value, may_be_motion, param);
+        if (!unknown) return;
+        if (!*extra) *extra = json_object();
+        if (!*extra || json_object_set_new(*extra, key, unknown) != 0) reader_no_memory(reader);
     } else if (!json_is_number(value.json)) {
         reader_unexpected(reader, value, "a number or {\"spline\": name}");
     } else {

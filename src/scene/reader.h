@@ -102,10 +102,13 @@ int reader_spline_name(struct reader *reader, struct value value);
 /// Warns of an object's members that are not among `known` (which ends with NULL). Returns them as a new object, or NULL.
 json_t *reader_extra(struct reader *reader, const struct value *object, const char *const *known);
 
-/// Reads a number in a range or a track, `{"spline": "other"}`. A track's unknown keys go into the object `*extra`, which is made if
-/// it is NULL, under `key`.
-void reader_param(struct reader *reader, struct value value, struct range range, const char *key, struct param *param,
-                  json_t **extra);
+/// Reads a number in a range, a track, `{"spline": "other"}`, or, if it may be one, the motion of a joint. Unknown keys of the latter two go
+/// into the object `*extra`, which is made if it is NULL, under `key`.
+void reader_param(struct reader *reader, struct value value, struct range range, const char *key, bool may_be_motion,
+                  struct param *param, json_t **extra);
+
+/// Reads the motion of a joint; returns its unknown keys, or NULL.
+json_t *reader_motion(struct reader *reader, const struct value *object, struct param *param);
 
 /// Gives an object of unknown keys (or NULL) to the document.
 json_t *reader_keep(struct reader *reader, json_t *extra);
@@ -113,6 +116,9 @@ json_t *reader_keep(struct reader *reader, json_t *extra);
 /// The parts of a scene, each into reader->document. Splines come first: rigs name them.
 void load_splines(struct reader *reader, const struct value *scene);
 void load_rigs(struct reader *reader, const struct value *scene);
+
+/// Looks up what motions name among the rigs, all of which are read.
+void resolve_motions(struct reader *reader, const struct value *scene);
 
 /// Checks what only the whole scene shows: cycles of tracks, frequencies that alias.
 void validate_scene(struct reader *reader, const struct where *scene_at);

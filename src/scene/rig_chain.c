@@ -1,4 +1,5 @@
 /// Chains as a kind of rig: loading, printing, references and memory.
+#include "base/path.h"
 #include "scene/rig_channels.h"
 #include "scene/rig_kind.h"
 #include <stdlib.h>
@@ -87,7 +88,7 @@ static size_t bytes(const struct rig *rig)
 
 static bool rebase(struct rig *rig, const char *from, const char *to)
 {
-    return !rig->chain.by_file || rig_rebase_path(&rig->chain.model, from, to);
+    return !rig->chain.by_file || path_move(&rig->chain.model, from, to);
 }
 
 static const char *title(const struct rig *rig) { return rig->chain.from; }

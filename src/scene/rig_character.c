@@ -1,4 +1,5 @@
 /// Characters as a kind of rig: loading, printing, references and memory.
+#include "base/path.h"
 #include "scene/rig_kind.h"
 #include <stdlib.h>
 #include <string.h>
@@ -119,8 +120,8 @@ static const char *title(const struct rig *rig) { return rig->character.model; }
 
 static bool rebase(struct rig *rig, const char *from, const char *to)
 {
-    bool model = rig_rebase_path(&rig->character.model, from, to);
-    return rig_rebase_path(&rig->character.paint, from, to) && model;
+    bool model = path_move(&rig->character.model, from, to);
+    return path_move(&rig->character.paint, from, to) && model;
 }
 
 const struct rig_functions character_functions = {.word = "character",

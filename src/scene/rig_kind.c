@@ -1,6 +1,5 @@
 /// The table of rig kinds, and what all kinds share.
 #include "scene/rig_kind.h"
-#include "base/path.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -56,8 +55,6 @@ bool rig_own_texts(char **const *texts, int count)
     return true;
 }
 
-size_t text_size(const char *text) { return text ? strlen(text) + 1 : 0; }
-
 bool rig_copy(const struct rig *rig, struct rig *copy)
 {
     *copy = *rig;
@@ -75,17 +72,6 @@ void rig_release(struct rig *rig)
 }
 
 size_t rig_bytes(const struct rig *rig) { return sizeof *rig + text_size(rig->name) + kinds[rig->kind]->bytes(rig); }
-
-bool rig_rebase_path(char **path, const char *from, const char *to)
-{
-    char moved[PATH_LIMIT];
-    if (!*path || !path_rebase(*path, from, to, moved)) return true;
-    char *copy = strdup(moved);
-    if (!copy) return false;
-    free(*path);
-    *path = copy;
-    return true;
-}
 
 bool rig_rebase(struct rig *rig, const char *from, const char *to)
 {

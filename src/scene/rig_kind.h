@@ -36,10 +36,4 @@ RIG_KIND_LIST(RIG_FUNCTIONS)
 /// Gives a shallow copy texts of its own; NULL stays NULL. On failure none is left.
 bool rig_own_texts(char **const *texts, int count);
 
-/// Bytes of a text with its end; 0 for NULL.
-size_t text_size(const char *text);
-
-/// Rewrites a path, which may be NULL, for another folder.
-bool rig_rebase_path(char **path, const char *from, const char *to);
-
 #endif

@@ -1,4 +1,5 @@
 /// Imported characters as a kind of rig: loading, printing and memory.
+#include "base/path.h"
 #include "scene/rig_kind.h"
 #include <math.h>
 #include <stdlib.h>
@@ -65,7 +66,7 @@ static size_t bytes(const struct rig *rig) { return text_size(rig->model.model) 
 
 static bool rebase(struct rig *rig, const char *from, const char *to)
 {
-    return rig_rebase_path(&rig->model.model, from, to);
+    return path_move(&rig->model.model, from, to);
 }
 
 static const char *title(const struct rig *rig) { return rig->model.model; }

@@ -14,7 +14,7 @@ static void load_position(struct reader *reader, struct value value, struct para
     json_t *tracks = NULL;
     if (!value.json || !reader_array(reader, value, 3, "[x, y, z]")) return;
     for (int i = 0; i < 3; i++) {
-        reader_param(reader, reader_element(&value, i), range_any, coordinate_name(i), &position[i], &tracks);
+        reader_param(reader, reader_element(&value, i), range_any, coordinate_name(i), false, &position[i], &tracks);
     }
     if (!tracks) return;
     if (!*extra) *extra = json_object();
@@ -57,12 +57,13 @@ static void load(struct reader *reader, const struct value *object, struct rig *
     rig->extra = reader_keep(reader, unknown);
 }
 
-static void print_position(struct text *text, const struct document *document, const struct rig *rig)
+static void print_position(struct text *text, const struct document *document, const struct rig *rig,
+                           const char *folder)
 {
     json_t *extras = json_object_get(rig->extra, "position");
     for (int i = 0; i < 3; i++) {
         text_string(text, i > 0 ? ", " : "[");
-        print_param(text, document, &rig->tail.position[i], extras, coordinate_name(i));
+        print_param(text, document, &rig->tail.position[i], extras, coordinate_name(i), folder);
     }
     text_string(text, "]");
 }
@@ -71,11 +72,10 @@ static void print(struct members *members, const struct document *document, cons
 {
     const struct tail *tail = &rig->tail;
     struct text *text = members->text;
-    (void)folder;
     member_number(members, "joints", tail->joints);
     member_number(members, "length", tail->length);
     member(members, "position");
-    print_position(text, document, rig);
+    print_position(text, document, rig, folder);
     print_angles(members, "rest", &tail->rest, rig->extra);
     print_channels(members, document, tail->channels, tail->channel_count);
 }

@@ -24,17 +24,27 @@ struct extremes storage_extremes(double *marks, int samples)
     return marks ? (struct extremes){marks, marks + extremes_blocks(samples)} : (struct extremes){0};
 }
 
-wiggly_desc storage_describe(const wiggly_curve *curves, const struct document *document, int spline_index,
-                             bool cubic)
+/// What the spline follows in a parameter, sample by sample; NULL: a constant, or a motion that is not baked.
+static const double *track_of(const struct storage *storage, const wiggly_curve *curves,
+                              const struct document *document, int spline, enum parameter parameter)
+{
+    const struct param *param = &document->splines[spline].parameter[parameter];
+    if (param->track >= 0) return curves[param->track].total;
+    if (!param->motion) return NULL;
+    const struct baked *baked = &storage->baked[spline];
+    return baked->key != 0 ? baked->samples : NULL;
+}
+
+wiggly_desc storage_describe(const struct storage *storage, const wiggly_curve *curves,
+                             const struct document *document, int spline_index, bool cubic)
 {
     const struct spline *spline = &document->splines[spline_index];
     wiggly_desc desc = wiggly_default_desc();
     desc.samples = document_samples(document);
     desc.step = document_step(document);
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        int track = spline->parameter[p].track;
-        const double *total = track >= 0 ? curves[track].total : NULL;
-        parameter_describe(p, spline->parameter[p].value, total, &desc);
+        parameter_describe(p, spline->parameter[p].value, track_of(storage, curves, document, spline_index, p),
+                           &desc);
     }
     if (cubic && desc.mode != WIGGLY_CUBIC) {
         desc.mode = WIGGLY_CUBIC;

@@ -9,6 +9,15 @@
 
 enum { ROWS = 5 }; ///< of each curve: total, y, re, im, omega
 
+/// The motion of a joint that a spline's equilibrium follows, read for every sample (motion.h).
+struct baked {
+    uint64_t key; ///< of what was read; 0: nothing yet
+    double gain;
+    double *raw, *samples; ///< without gain and with it; one block of memory, from `raw` on
+    int capacity;          ///< samples there is room for
+    bool is_new;           ///< the spline is to be solved again
+};
+
 struct storage {
     double *numbers; ///< ROWS · N for each spline
     size_t number_capacity;
@@ -22,6 +31,7 @@ struct storage {
     bool *solved;
     struct order_space space;
     struct extremes *extremes;
+    struct baked *baked;
     int spline_capacity;
     bool is_new;                   ///< the curves have a new layout, and none is solved
     unsigned layout;               ///< counts the layouts
@@ -38,8 +48,10 @@ struct extremes storage_extremes(double *marks, int samples);
 /// Whether curves of that many samples have extremes.
 bool storage_wants_extremes(int samples);
 
-/// What is to be solved for one spline, its knots left out; tracks point into `curves`, which has one for each spline.
-wiggly_desc storage_describe(const wiggly_curve *curves, const struct document *document, int spline, bool cubic);
+/// What is to be solved for one spline, its knots left out; tracks point into `curves`, which has one for each spline,
+/// and into baked motions.
+wiggly_desc storage_describe(const struct storage *storage, const wiggly_curve *curves,
+                             const struct document *document, int spline, bool cubic);
 
 /// A knot as the solver has it.
 wiggly_knot storage_knot(const struct document *document, const struct knot *knot);

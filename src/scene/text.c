@@ -113,3 +113,5 @@ void text_json(struct text *text, json_t *value)
         break;
     }
 }
+
+size_t text_size(const char *string) { return string ? strlen(string) + 1 : 0; }

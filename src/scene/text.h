@@ -20,6 +20,8 @@ void text_string(struct text *text, const char *string);
 void text_number(struct text *text, double value);
 /// A string in quotes with what must be escaped.
 void text_quoted(struct text *text, const char *string);
+/// Bytes of a string with its end; 0 for NULL.
+size_t text_size(const char *string);
 /// Any value on one line: { "a": [1, 2] }.
 void text_json(struct text *text, struct json_t *value);
 

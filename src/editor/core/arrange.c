@@ -97,8 +97,9 @@ double arrange_present(const struct core *core, const struct editor_world *world
                        enum parameter parameter)
 {
     const struct spline *follower = &world->document->splines[spline];
-    wiggly_value v = evaluation_at(world->evaluation, follower->parameter[parameter].track, core->playback.position);
-    double value = isfinite(v.y + v.re) ? v.y + v.re : parameter_rows[parameter].standard;
+    const struct param *param = &follower->parameter[parameter];
+    wiggly_value v = evaluation_at(world->evaluation, param->motion ? spline : param->track, core->playback.position);
+    double now = param->motion ? v.y : v.y + v.re, value = isfinite(now) ? now : parameter_rows[parameter].standard;
     return parameter_clamped(parameter, spline_mode(follower), value);
 }
 

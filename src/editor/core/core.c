@@ -23,7 +23,7 @@ struct edit core_edit_of(enum edit_kind kind, int spline)
 struct edit core_parameter_edit(int spline, enum parameter parameter, double value)
 {
     return (struct edit){
-        .kind = EDIT_PARAMETER, .spline = spline, .parameter = parameter, .param = {.value = value, .track = -1}};
+        .kind = EDIT_PARAMETER, .spline = spline, .parameter = parameter, .param = param_number(value)};
 }
 
 struct edit core_knot_edit(const struct document *document, int spline, int sample)

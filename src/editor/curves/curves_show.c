@@ -321,7 +321,7 @@ static void show_playhead(const struct curves *curves, struct core *core, const 
 static void show_empty(struct core *core, const struct editor_world *world)
 {
     const struct spline *spline = core_active_spline(core, world);
-    bool flat = spline && spline->knot_count == 0 && spline->parameter[PARAMETER_EQUILIBRIUM].track < 0;
+    bool flat = spline && spline->knot_count == 0 && !param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]);
     bool hidden = spline && !arrange_seen(core, world);
     if (spline && !flat && !hidden) return;
     const char *text = hidden ? "This spline is hidden. Click its eye in the list to show it."

@@ -33,7 +33,7 @@ static void build_number(struct inspection *in, const struct spline *spline, enu
     struct rect r = ui_row(in->ui, UI_ROW);
     bool may_follow = parameter_rows[parameter].kind == PARAMETER_TRACK;
     if (may_follow) r.w -= UI_ROW + 2;
-    if (spline->parameter[parameter].track < 0) {
+    if (!param_follows(&spline->parameter[parameter])) {
         build_slider(in, spline, parameter, r);
     } else {
         inspector_track(in, parameter, parameter_rows[parameter].name, r);

@@ -120,7 +120,7 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
         if (!ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false,
                             "Stop following; stay at the current position"))
             return;
-        edit.param = (struct param){core_round(now.y + now.re, 1e-3), -1};
+        edit.param = param_number(core_round(now.y + now.re, 1e-3));
         core_step(in->core, in->world, "Stop following", 0, &edit);
         return;
     }
@@ -153,7 +153,7 @@ static void place_popup(struct inspection *in)
     if (picked < 0) return;
     struct edit edit = rig_edit(in, EDIT_POSITION);
     edit.coordinate = k;
-    edit.param = (struct param){0, picked};
+    edit.param = param_track(picked);
     core_step(in->core, in->world, "Follow spline", 0, &edit);
 }
 

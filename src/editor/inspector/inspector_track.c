@@ -23,7 +23,7 @@ static void set_track(struct inspection *in, enum parameter parameter, struct pa
     struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
     edit.parameter = parameter;
     edit.param = param;
-    const char *label = param.track >= 0 ? "Follow spline" : "Stop following";
+    const char *label = param_follows(&param) ? "Follow spline" : "Stop following";
     core_step(in->core, in->world, label, 0, &edit);
 }
 
@@ -43,19 +43,26 @@ static void open_list(struct inspection *in, enum parameter parameter, struct re
 void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r)
 {
     const struct spline *spline = &in->document->splines[in->core->active];
-    int track = spline->parameter[parameter].track;
+    const struct param *param = &spline->parameter[parameter];
     char text[160];
     ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
-    snprintf(text, sizeof text, "%s", in->document->splines[track].name);
+    if (param->motion) {
+        snprintf(text, sizeof text, "%s, %s", param->motion->joint, motion_words[param->motion->of]);
+    } else {
+        snprintf(text, sizeof text, "%s", in->document->splines[param->track].name);
+    }
     struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
-    if (ui_hovered(in->ui, field)) in->ui->hint = "The spline it follows, sample by sample";
-    ui_dropdown(in->ui, field, track_list, (int)parameter, text, arrange_color(in->document, track));
+    if (ui_hovered(in->ui, field))
+        in->ui->hint =
+            param->motion ? "The joint it follows, and what of it" : "The spline it follows, sample by sample";
+    const uint32_t color = param->motion ? theme()->text_dim : arrange_color(in->document, param->track);
+    ui_dropdown(in->ui, field, track_list, (int)parameter, text, color);
 }
 
 void inspector_track_button(struct inspection *in, enum parameter parameter, struct rect r)
 {
     int active = in->core->active;
-    bool follows = in->document->splines[active].parameter[parameter].track >= 0;
+    bool follows = param_follows(&in->document->splines[active].parameter[parameter]);
     enum ui_icon icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW;
     const char *hint = follows ? "Stop following; keep the value at the playhead" : "Follow another spline";
     char name[64];
@@ -63,7 +70,7 @@ void inspector_track_button(struct inspection *in, enum parameter parameter, str
     if (!ui_icon_button(in->ui, r, name, icon, false, hint)) return;
     if (follows) {
         double value = arrange_present(in->core, in->world, active, parameter);
-        set_track(in, parameter, (struct param){value, -1});
+        set_track(in, parameter, param_number(value));
     } else {
         struct rect row = {in->ui->area.x + UI_PAD + UI_LABEL + UI_GAP, r.y, 0, r.h};
         row.w = r.x - 2 - row.x;
@@ -80,5 +87,5 @@ void inspector_track_list(struct inspection *in)
     bool left_out[INSPECTOR_MAX_SPLINES];
     find_leaders(in, left_out);
     int picked = inspector_spline_list(in, track_list, left_out, spline->parameter[parameter].track);
-    if (picked >= 0) set_track(in, parameter, (struct param){0, picked});
+    if (picked >= 0) set_track(in, parameter, param_track(picked));
 }

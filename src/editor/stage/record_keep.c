@@ -203,7 +203,7 @@ static void hang_channels(const struct stage *stage, struct core *core, const st
         if (!swung) continue;
         if (channel.of == PART_TOTAL) {
             add_channel(stage, core, world, &channel, scale * direction[coordinate], base);
-        } else if (equilibrium->track < 0) {
+        } else if (!param_follows(equilibrium)) {
             follow_base(core, world, channel.spline, base);
         }
     }

@@ -1,0 +1,162 @@
+/// The committed dog: whole, small, with joints to hang chains on, and clips that loop and leave the chains to wiggly.
+#include "near.h"
+
+#include "model/gltf.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define DOG "assets/models/dog.glb"
+enum { KEYS = 24, LEGS = 4 };
+
+static struct gltf dog;
+
+static int open_dog(void **state)
+{
+    (void)state;
+    struct error error = {0};
+    if (gltf_read(DOG, &dog, &error)) return 0;
+    print_error("%s\n", error.text);
+    return -1;
+}
+
+static int close_dog(void **state)
+{
+    (void)state;
+    gltf_free(&dog);
+    return 0;
+}
+
+static int node(const char *name)
+{
+    const int found = gltf_find_node(&dog, name);
+    if (found < 0) fail_msg("%s has no joint %s", DOG, name);
+    return found;
+}
+
+static void is_small_and_fully_shown(void **state)
+{
+    (void)state;
+    struct stat file;
+    assert_int_equal(stat(DOG, &file), 0);
+    assert_true(file.st_size <= 1000000);
+    int triangles = 0;
+    for (int p = 0; p < dog.meshes[0].part_count; p++) triangles += dog.meshes[0].parts[p].index_count / 3;
+    assert_in_range(triangles, 8000, 20000);
+    assert_null(dog.not_shown);
+    assert_near((double)dog.lo[1], 0.0, 2e-3); // it stands on the ground
+}
+
+/// A chain is a row of joints, each the child of the one before.
+static void has_chains(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *above, *suffix;
+        int joints;
+    } chains[] = {{"tail", "hips", "", 8}, {"ear", "head", "_L", 4}, {"ear", "head", "_R", 4}};
+    for (size_t c = 0; c < sizeof chains / sizeof *chains; c++) {
+        int before = node(chains[c].above);
+        for (int n = 1; n <= chains[c].joints; n++) {
+            char name[32];
+            snprintf(name, sizeof name, "%s_%d%s", chains[c].name, n, chains[c].suffix);
+            assert_int_equal(dog.nodes[node(name)].parent, before);
+            before = node(name);
+        }
+    }
+    static const char *const others[] = {"spine_1",       "chest",        "neck",       "jaw",
+                                         "thigh_front_L", "shin_front_R", "foot_back_L"};
+    for (size_t n = 0; n < sizeof others / sizeof *others; n++) node(others[n]);
+}
+
+static void clips_loop(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"Walk", "Trot", "Idle"};
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+        const int number = gltf_find_clip(&dog, names[n]);
+        assert_true(number >= 0);
+        const struct gltf_clip *clip = &dog.clips[number];
+        assert_true(clip->channel_count > 0);
+        for (int i = 0; i < clip->channel_count; i++) {
+            const struct gltf_channel *c = &clip->channels[i];
+            const float *last = c->values + (size_t)c->components * (size_t)(c->key_count - 1);
+            assert_int_equal(c->interpolation, GLTF_LINEAR);
+            assert_memory_equal(c->values, last, sizeof *last * (size_t)c->components);
+            for (int k = 1; c->path == GLTF_ROTATION && k < c->key_count; k++) {
+                const float *a = c->values + 4 * (k - 1), *b = a + 4;
+                assert_true(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] > 0.0f); // the short way
+            }
+            const char *joint = dog.nodes[c->node].name;
+            if (strncmp(joint, "tail", 4) == 0 || strncmp(joint, "ear", 3) == 0)
+                fail_msg("%s moves %s, which is for splines", names[n], joint);
+        }
+    }
+    assert_near(dog.clips[gltf_find_clip(&dog, "Walk")].duration, 1.0, 1e-6);
+}
+
+/// In the walk each paw stands for well over half of the time, and all the while moves back at one pace: it would not slip on a
+/// moving ground.
+static void paws_stay_planted(void **state)
+{
+    (void)state;
+    static const char *const toes[LEGS] = {"toe_front_L", "toe_front_R", "toe_back_L", "toe_back_R"};
+    struct gltf_pose pose;
+    assert_true(gltf_pose_create(&dog, &pose));
+    for (int leg = 0; leg < LEGS; leg++) {
+        const int toe = node(toes[leg]);
+        float rest, at[KEYS + 1][2];
+        gltf_pose_clip(&dog, -1, 0.0, &pose);
+        gltf_pose_world(&dog, &pose);
+        rest = pose.world[toe][13];
+        for (int k = 0; k <= KEYS; k++) {
+            gltf_pose_clip(&dog, gltf_find_clip(&dog, "Walk"), (double)k / KEYS, &pose);
+            gltf_pose_world(&dog, &pose);
+            memcpy(at[k], pose.world[toe] + 13, sizeof at[k]);
+        }
+        int steps = 0;
+        for (int k = 0; k < KEYS; k++) {
+            if (fabsf(at[k][0] - rest) > 5e-4f || fabsf(at[k + 1][0] - rest) > 5e-4f) continue;
+            assert_near((double)(at[k + 1][1] - at[k][1]), -0.25 / 0.62 / KEYS, 5e-4);
+            steps++;
+        }
+        assert_in_range(steps, KEYS / 2, 17);
+    }
+    gltf_pose_free(&pose);
+}
+
+/// Nothing sinks into the ground, between keys either.
+static void stays_above_the_ground(void **state)
+{
+    (void)state;
+    struct gltf_pose pose;
+    const int body = node("dog"), count = gltf_vertex_count(&dog, body);
+    float(*positions)[3] = malloc((size_t)count * sizeof *positions);
+    assert_true(positions && gltf_pose_create(&dog, &pose));
+    for (int clip = 0; clip < dog.clip_count; clip++) {
+        for (int sample = 0; sample < 16; sample++) {
+            gltf_pose_clip(&dog, clip, dog.clips[clip].duration * sample / 16, &pose);
+            gltf_pose_world(&dog, &pose);
+            gltf_pose_vertices(&dog, &pose, body, positions, NULL);
+            for (int v = 0; v < count; v++) {
+                if (positions[v][1] < -0.003f)
+                    fail_msg("%s, sample %d: %g m", dog.clips[clip].name, sample, (double)positions[v][1]);
+            }
+        }
+    }
+    gltf_pose_free(&pose);
+    free(positions);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(is_small_and_fully_shown),
+        cmocka_unit_test(has_chains),
+        cmocka_unit_test(clips_loop),
+        cmocka_unit_test(paws_stay_planted),
+        cmocka_unit_test(stays_above_the_ground),
+    };
+    return cmocka_run_group_tests(tests, open_dog, close_dog);
+}

@@ -1,0 +1,332 @@
+/// Equilibria that follow a joint: read, printed, edited, baked once and again when something has changed, and solved as tracks are.
+#include "inside.h"
+#include "session.h"
+#include "world.h"
+
+#include "scene/background.h"
+#include "scene/motion.h"
+#include "scene/storage.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MODELS                                                                                                       \
+    "\"rigs\": [{\"type\": \"model\", \"name\": \"dog\", \"model\": \"dog.glb\", \"clip\": \"Walk\"},"               \
+    " {\"type\": \"chain\", \"name\": \"tail\", \"model\": \"dog\", \"from\": \"a\", \"to\": \"b\"}]}"
+
+static const char scene[] =
+    "{\"frames\": [0, 48], \"substeps\": 2, \"splines\": ["
+    "{\"name\": \"wag\", \"frequency\": 1.5, \"damping\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 2}],"
+    " \"equilibrium\": {\"model\": \"dog\", \"joint\": \"hips\", \"of\": \"across\", \"gain\": -2.5,"
+    " \"chain\": \"tail\", \"why\": 1}},"
+    "{\"name\": \"ear\", \"start\": \"loop\", \"frequency\": 2, \"damping\": 0.2,"
+    " \"equilibrium\": {\"model\": \"dog.glb\", \"joint\": \"head\", \"of\": \"turn\"}},"
+    "{\"name\": \"tip\", \"frequency\": 1, \"damping\": 0.3, \"equilibrium\": {\"spline\": \"wag\"}},"
+    "{\"name\": \"alone\", \"knots\": [{\"frame\": 3, \"value\": 1}]}], " MODELS;
+
+enum { WAG, EAR, TIP, ALONE, SPLINES };
+enum { DOG, TAIL };
+
+static struct document *parse(const char *text)
+{
+    struct error error = {0};
+    struct document *document = scene_parse("scene.json", text, strlen(text), NULL, &error);
+    if (!document) fail_msg("%s", error.text);
+    return document;
+}
+
+/// A scene under edit, and its solution.
+struct stand {
+    struct world world;
+    struct evaluation evaluation;
+    struct motion_source source;
+    bool is_missing; ///< nothing can be read
+    int reads;
+};
+
+/// A walk that depends on all that a reader may look at.
+static bool read_walk(void *context, const struct document *document, const struct joint_motion *motion,
+                      double *samples)
+{
+    struct stand *stand = context;
+    const int model = document_find_model(document, motion->model, motion->by_file);
+    stand->reads++;
+    if (stand->is_missing || model < 0) return false;
+    const char *clip = document->rigs[model].model.clip;
+    const double pace = clip ? (double)strlen(clip) : 0;
+    for (int i = 0; i < document_samples(document); i++) {
+        const double seconds = document_frame(document, i) / document->fps;
+        samples[i] = sin(pace * seconds + (double)motion->of) + 0.01 * (double)strlen(motion->joint);
+    }
+    return true;
+}
+
+static void stand_open(struct stand *stand)
+{
+    *stand = (struct stand){.source = {.read = read_walk, .context = stand, .version = 1}};
+    world_open(&stand->world);
+    document_destroy(stand->world.document);
+    stand->world.document = parse(scene);
+}
+
+static void stand_close(struct stand *stand)
+{
+    evaluation_free(&stand->evaluation);
+    world_close(&stand->world);
+}
+
+/// Bakes and solves what the edits since the last call made out of date. Whether a motion was baked.
+static bool stand_update(struct stand *stand)
+{
+    bool dirty[SPLINES];
+    struct document *document = stand->world.document;
+    history_take_dirty(stand->world.history, document, dirty, SPLINES);
+    assert_true(evaluation_resize(&stand->evaluation, document, NULL));
+    const bool moved = motions_bake(&stand->evaluation, document, &stand->source);
+    evaluation_update(&stand->evaluation, document, dirty, false);
+    return moved;
+}
+
+/// Solved by hand, with the same samples as a track.
+static void assert_solved(struct stand *stand, int index, double gain)
+{
+    const struct document *document = stand->world.document;
+    const struct spline *spline = &document->splines[index];
+    const struct joint_motion *motion = spline->parameter[PARAMETER_EQUILIBRIUM].motion;
+    const int count = document_samples(document);
+    double *track = calloc((size_t)count, sizeof *track), *rows = calloc(5 * (size_t)count, sizeof *rows);
+    const int reads = stand->reads;
+    if (!read_walk(stand, document, motion, track)) memset(track, 0, (size_t)count * sizeof *track);
+    stand->reads = reads;
+    for (int i = 0; i < count; i++) track[i] *= gain;
+    wiggly_desc desc = wiggly_default_desc();
+    desc.samples = count;
+    desc.step = document_step(document);
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++)
+        parameter_describe(p, spline->parameter[p].value, p == PARAMETER_EQUILIBRIUM ? track : NULL, &desc);
+    wiggly_knot knot = {.stiffness = KNOT_DEFAULT_STIFFNESS};
+    desc.knot_count = spline->knot_count;
+    desc.knots = &knot;
+    if (spline->knot_count > 0) {
+        knot.sample = document_sample(document, spline->knots[0].frame);
+        knot.value = spline->knots[0].value;
+    }
+    wiggly_curve curve;
+    storage_place(&curve, rows, count);
+    wiggly_solver *solver;
+    assert_int_equal(wiggly_create(count, 1, &solver), WIGGLY_OK);
+    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
+    const wiggly_curve *own = &stand->evaluation.curves[index];
+    assert_memory_equal(own->y, curve.y, (size_t)count * sizeof *curve.y);
+    assert_memory_equal(own->total, curve.total, (size_t)count * sizeof *curve.total);
+    wiggly_destroy(solver);
+    free(track);
+    free(rows);
+}
+
+static void motions_are_printed_as_they_were_read(void **state)
+{
+    (void)state;
+    struct document *document = parse(scene);
+    size_t size;
+    char *first = scene_print(document, &size);
+    assert_non_null(strstr(first, "\"equilibrium\": { \"model\": \"dog\", \"joint\": \"hips\", \"of\": \"across\", "
+                                  "\"gain\": -2.5, \"chain\": \"tail\", \"why\": 1 }"));
+    assert_non_null(strstr(first, "{ \"model\": \"dog.glb\", \"joint\": \"head\", \"of\": \"turn\", \"gain\": 1 }"));
+    struct document *again = parse(first);
+    char *second = scene_print(again, &size);
+    assert_string_equal(second, first);
+    free(first);
+    free(second);
+    document_destroy(document);
+    document_destroy(again);
+}
+
+static void a_motion_is_solved_as_a_track_is(void **state)
+{
+    (void)state;
+    struct stand stand;
+    stand_open(&stand);
+    assert_true(stand_update(&stand));
+    assert_solved(&stand, WAG, -2.5);
+    assert_solved(&stand, EAR, 1);
+    const wiggly_curve *ear = &stand.evaluation.curves[EAR];
+    assert_near(ear->y[0], ear->y[ear->samples - 1], 0);
+    assert_true(fabs(ear->y[0] - ear->y[1]) > 1e-6);
+    stand_close(&stand);
+}
+
+/// Each motion is read again only when something that it depends on has changed; then its splines and their followers are solved.
+static void a_motion_is_read_when_it_has_changed(void **state)
+{
+    (void)state;
+    struct stand stand;
+    stand_open(&stand);
+    struct world *world = &stand.world;
+    stand_update(&stand);
+    assert_int_equal(stand.reads, 2);
+    assert_false(stand_update(&stand));
+    assert_int_equal(stand.evaluation.solved_splines, 0);
+    world_must(world, edit_insert(ALONE, 7, 1));
+    assert_false(stand_update(&stand));
+    assert_int_equal(stand.evaluation.solved_splines, 1);
+    world_must(world, (struct edit){.kind = EDIT_CLIP, .rig = DOG, .text = "Gallop"});
+    assert_true(stand_update(&stand));
+    assert_int_equal(stand.reads, 4);
+    assert_int_equal(stand.evaluation.solved_splines, 3); // wag, its follower, ear
+    assert_solved(&stand, WAG, -2.5);
+    assert_true(history_undo(world->history, world->document));
+    assert_true(stand_update(&stand));
+    assert_solved(&stand, WAG, -2.5);
+    struct rig ends = world->document->rigs[TAIL];
+    ends.chain.turn = 30;
+    world_must(world, (struct edit){.kind = EDIT_CHAIN, .rig = TAIL, .contents = &ends});
+    assert_true(stand_update(&stand));
+    assert_int_equal(stand.reads, 7); // only wag's goes by the chain
+    assert_int_equal(stand.evaluation.solved_splines, 2);
+    world_must(world, edit_range(-10, 60));
+    assert_true(stand_update(&stand));
+    assert_int_equal(stand.reads, 9);
+    assert_solved(&stand, WAG, -2.5);
+    assert_solved(&stand, EAR, 1);
+    stand.is_missing = true;
+    assert_false(stand_update(&stand));
+    stand.source.version++;
+    assert_true(stand_update(&stand));
+    for (int i = 0; i < stand.evaluation.samples; i++) assert_near(stand.evaluation.curves[WAG].y[i], 0, 0);
+    assert_solved(&stand, WAG, -2.5);
+    stand_close(&stand);
+}
+
+static void without_a_source_it_stays_at_0(void **state)
+{
+    (void)state;
+    struct stand stand;
+    stand_open(&stand);
+    stand.source = (struct motion_source){0};
+    stand_update(&stand);
+    for (int i = 0; i < stand.evaluation.samples; i++) assert_near(stand.evaluation.curves[EAR].total[i], 0, 0);
+    stand_close(&stand);
+}
+
+static struct edit edit_follow(int spline, const struct joint_motion *motion, double gain)
+{
+    struct edit edit = edit_number(spline, PARAMETER_EQUILIBRIUM, 0);
+    edit.param.motion = motion;
+    edit.param.gain = gain;
+    return edit;
+}
+
+static void following_is_edited_and_undone(void **state)
+{
+    (void)state;
+    struct stand stand;
+    stand_open(&stand);
+    struct world *world = &stand.world;
+    char model[] = "dog", joint[] = "spine", nobody[] = "cat", nothing[] = "";
+    struct joint_motion motion = {.model = model, .joint = joint, .of = MOTION_UP};
+    const struct param *param = &world->document->splines[ALONE].parameter[PARAMETER_EQUILIBRIUM];
+    stand_update(&stand);
+    assert_reversible(world, edit_follow(ALONE, &motion, 3));
+    memset(joint, 'x', sizeof joint - 1);
+    assert_string_equal(param->motion->joint, "spine");
+    stand_update(&stand);
+    assert_solved(&stand, ALONE, 3);
+    const int reads = stand.reads;
+    assert_reversible(world, edit_follow(ALONE, param->motion, 4));
+    stand_update(&stand);
+    assert_solved(&stand, ALONE, 4);
+    assert_int_equal(stand.reads, reads); // a gain alone reads nothing
+    assert_reversible(world, edit_number(ALONE, PARAMETER_EQUILIBRIUM, 1));
+    stand_update(&stand);
+    assert_near(stand.evaluation.curves[ALONE].y[5], 1, 0);
+    assert_reversible(world, edit_track(WAG, PARAMETER_EQUILIBRIUM, ALONE));
+    struct edit edit = edit_follow(ALONE, &motion, 1);
+    edit.parameter = PARAMETER_DAMPING;
+    assert_refused(world, edit, "alone: only the equilibrium follows a joint");
+    assert_refused(world, edit_follow(ALONE, &motion, NAN), "alone: a motion needs a joint and a finite gain");
+    motion.chain = nobody;
+    assert_refused(world, edit_follow(ALONE, &motion, 1), "alone: there is no chain \"cat\"");
+    motion.model = nobody;
+    assert_refused(world, edit_follow(ALONE, &motion, 1), "alone: there is no model \"cat\" to follow");
+    motion.joint = nothing;
+    assert_refused(world, edit_follow(ALONE, &motion, 1), "alone: a motion needs a joint and a finite gain");
+    stand_close(&stand);
+}
+
+/// Names that motions go by are renamed with what they name, which is not removed before them; files move with the scene.
+static void a_motion_keeps_to_its_joint(void **state)
+{
+    (void)state;
+    struct stand stand;
+    stand_open(&stand);
+    struct world *world = &stand.world;
+    struct document *document = world->document;
+    const struct param *wag = &document->splines[WAG].parameter[PARAMETER_EQUILIBRIUM];
+    const struct param *ear = &document->splines[EAR].parameter[PARAMETER_EQUILIBRIUM];
+    assert_refused(world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = DOG},
+                   "dog: still needed by tail, wag, ear; remove those first");
+    assert_refused(world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = TAIL},
+                   "tail: still needed by wag; remove those first");
+    assert_reversible(world, (struct edit){.kind = EDIT_RIG_NAME, .rig = DOG, .text = "wolf"});
+    assert_reversible(world, (struct edit){.kind = EDIT_RIG_NAME, .rig = TAIL, .text = "brush"});
+    assert_string_equal(wag->motion->model, "wolf");
+    assert_string_equal(wag->motion->chain, "brush");
+    assert_refused(world, (struct edit){.kind = EDIT_RIG_NAME, .rig = DOG, .text = "dog.glb"},
+                   "dog.glb is the file by which a model is found");
+    document->folder = strdup("/films");
+    world_must(world, edit_number(EAR, PARAMETER_EQUILIBRIUM, 0));
+    assert_true(history_set_folder(world->history, document, "/films/deeper"));
+    assert_true(history_undo(world->history, document));
+    assert_string_equal(ear->motion->model, "../dog.glb");
+    assert_int_equal(document_find_model(document, ear->motion->model, true), DOG);
+    size_t size;
+    char *text = NULL;
+    size_t capacity = 0;
+    assert_true(scene_print_into(document, "/films", &text, &capacity, &size));
+    assert_non_null(strstr(text, "{ \"model\": \"dog.glb\", \"joint\": \"head\""));
+    free(text);
+    stand_close(&stand);
+}
+
+/// A long scene: the thread solves with the motion; a new clip while it works is not lost.
+static void the_thread_follows_joints_too(void **state)
+{
+    (void)state;
+    static struct session s;
+    static const char longer[] =
+        "{\"frames\": [0, 60000], \"substeps\": 10, \"splines\": [{\"name\": \"wag\", \"frequency\": 1.5,"
+        " \"damping\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 2}], \"equilibrium\": {\"model\": \"dog\","
+        " \"joint\": \"hips\", \"of\": \"turn\"}}], " MODELS;
+    struct stand stand = {0};
+    session_open(&s, longer);
+    s.table.motions = (struct motion_source){.read = read_walk, .context = &stand};
+    s.table.threaded = true;
+    assert_true(background_serves(s.document, WIGGLY_CHAIN));
+    session_frame(&s);
+    static const char *const clips[] = {"Run", "Gallop", "Walks"};
+    for (int i = 0; i < 3; i++) {
+        const struct edit edit = {.kind = EDIT_CLIP, .rig = DOG, .text = clips[i]};
+        history_begin(s.history, "Set clip", 0);
+        assert_true(history_apply(s.history, s.document, &edit, NULL));
+        history_end(s.history);
+        session_frame(&s);
+    }
+    const struct focus focus = {.spline = 0, .count = 100};
+    background_settle(&s.table.evaluation, s.document, &focus);
+    stand.world.document = s.document;
+    stand.evaluation = s.table.evaluation;
+    assert_solved(&stand, 0, 1);
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(motions_are_printed_as_they_were_read), cmocka_unit_test(a_motion_is_solved_as_a_track_is),
+        cmocka_unit_test(a_motion_is_read_when_it_has_changed),  cmocka_unit_test(without_a_source_it_stays_at_0),
+        cmocka_unit_test(following_is_edited_and_undone),        cmocka_unit_test(a_motion_keeps_to_its_joint),
+        cmocka_unit_test(the_thread_follows_joints_too),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
