@@ -100,7 +100,8 @@ static inline void beast_fill(const struct beast_bone *bones, struct beast_binar
         for (int c = 0; c < 8; c++) b->joints[8 * n + c][0] = (uint8_t)n;
         for (int c = 0; c < 8; c++) b->weights[8 * n + c][0] = 1;
     }
-    for (int k = 0; k < BEAST_KEYS; k++) { // half angles so small that sine and angle are the same but for the unit length
+    for (int k = 0; k < BEAST_KEYS;
+         k++) { // half angles so small that sine and angle are the same but for the unit length
         const float w = 1 - swing[k] * swing[k] / 2;
         b->times[k] = 0.25f * (float)k;
         memcpy(b->hips[k], (float[4]){0, swing[k], 0, w}, sizeof b->hips[k]);
@@ -164,15 +165,16 @@ static inline void beast_json(FILE *out, const struct beast_bone *bones)
     fprintf(out, "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,%d]}],", BEAST_BONES);
     beast_nodes(out, bones);
     beast_accessors(out);
-    fprintf(out, "\"materials\":[{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.55,0.42,0.3,1]}}],"
-                 "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":1,\"JOINTS_0\":2,\"WEIGHTS_0\":3},"
-                 "\"indices\":4,\"material\":0}]}],"
-                 "\"animations\":[{\"name\":\"Walk\",\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":"
-                 "\"rotation\"}},{\"sampler\":1,\"target\":{\"node\":0,\"path\":\"translation\"}}],\"samplers\":["
-                 "{\"input\":5,\"output\":6},{\"input\":5,\"output\":8}]},"
-                 "{\"name\":\"Nod\",\"channels\":[{\"sampler\":0,\"target\":{\"node\":3,\"path\":\"rotation\"}}],"
-                 "\"samplers\":[{\"input\":5,\"output\":7}]}],"
-                 "\"buffers\":[{\"byteLength\":%zu}]}",
+    fprintf(out,
+            "\"materials\":[{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.55,0.42,0.3,1]}}],"
+            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":1,\"JOINTS_0\":2,\"WEIGHTS_0\":3},"
+            "\"indices\":4,\"material\":0}]}],"
+            "\"animations\":[{\"name\":\"Walk\",\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":"
+            "\"rotation\"}},{\"sampler\":1,\"target\":{\"node\":0,\"path\":\"translation\"}}],\"samplers\":["
+            "{\"input\":5,\"output\":6},{\"input\":5,\"output\":8}]},"
+            "{\"name\":\"Nod\",\"channels\":[{\"sampler\":0,\"target\":{\"node\":3,\"path\":\"rotation\"}}],"
+            "\"samplers\":[{\"input\":5,\"output\":7}]}],"
+            "\"buffers\":[{\"byteLength\":%zu}]}",
             sizeof(struct beast_binary));
 }
 

@@ -3,7 +3,8 @@
 #include "model/vector.h"
 #include <stdlib.h>
 
-static const float SHORT_TIP = 0.1f; ///< of the character's height: a lone joint's
+static const float SHORT_TIP = 0.1f;     ///< of the character's height: a lone joint's
+static const float SHORT_SIBLING = 0.4f; ///< of the way from its parent: one of several, as an eye of a head
 
 static void mark_joints(const struct gltf *gltf, bool *is_bone)
 {
@@ -15,12 +16,13 @@ static void mark_joints(const struct gltf *gltf, bool *is_bone)
 
 static vec3s place_of(const struct gltf_pose *pose, int node) { return vec3_from(pose->world[node] + 12); }
 
-/// Where a bone without a child ends: as far on as the one before is long.
-static struct bone tip_bone(const struct gltf *gltf, const struct gltf_pose *rest, int node, bool parent_is_bone)
+/// Where a bone without a child ends: as far on as the one before is long, if that is one of a row.
+static struct bone tip_bone(const struct gltf *gltf, const struct gltf_pose *rest, int node, int parent_children)
 {
     const vec3s at = place_of(rest, node);
     vec3s on = {.raw = {0, SHORT_TIP * (gltf->hi[1] - gltf->lo[1]), 0}};
-    if (parent_is_bone) on = glms_vec3_sub(at, place_of(rest, gltf->nodes[node].parent));
+    if (parent_children > 0) on = glms_vec3_sub(at, place_of(rest, gltf->nodes[node].parent));
+    if (parent_children > 1) on = glms_vec3_scale(on, SHORT_SIBLING);
     const mat4s inward = glms_mat4_inv(mat4_from(rest->world[node]));
     const vec3s tip = glms_mat4_mulv3(inward, glms_vec3_add(at, on), 1.0f);
     struct bone bone = {.node = node, .child = -1};
@@ -29,34 +31,35 @@ static struct bone tip_bone(const struct gltf *gltf, const struct gltf_pose *res
 }
 
 /// In the order of the file, so that a chain's are in a row.
-static void list_bones(const struct gltf *gltf, const struct gltf_pose *rest, const bool *is_bone, bool *has_child,
+static void list_bones(const struct gltf *gltf, const struct gltf_pose *rest, const bool *is_bone, int *children,
                        struct skeleton *skeleton)
 {
     for (int n = 0; n < gltf->node_count; n++) {
         const int parent = gltf->nodes[n].parent;
         if (!is_bone[n] || parent < 0 || !is_bone[parent]) continue;
-        has_child[parent] = true;
+        children[parent]++;
         skeleton->bones[skeleton->count++] = (struct bone){.node = parent, .child = n};
     }
     for (int n = 0; n < gltf->node_count; n++) {
         const int parent = gltf->nodes[n].parent;
-        if (is_bone[n] && !has_child[n])
-            skeleton->bones[skeleton->count++] = tip_bone(gltf, rest, n, parent >= 0 && is_bone[parent]);
+        if (!is_bone[n] || children[n] > 0) continue;
+        skeleton->bones[skeleton->count++] = tip_bone(gltf, rest, n, parent >= 0 ? children[parent] : 0);
     }
 }
 
 bool skeleton_create(const struct gltf *gltf, const struct gltf_pose *rest, struct skeleton *skeleton)
 {
     const size_t count = (size_t)gltf->node_count + 1;
-    bool *is_bone = calloc(count, sizeof *is_bone), *has_child = calloc(count, sizeof *has_child);
+    bool *is_bone = calloc(count, sizeof *is_bone);
+    int *children = calloc(count, sizeof *children); // that are bones
     *skeleton = (struct skeleton){.bones = calloc(2 * count, sizeof *skeleton->bones)};
-    const bool whole = is_bone && has_child && skeleton->bones;
+    const bool whole = is_bone && children && skeleton->bones;
     if (whole) {
         mark_joints(gltf, is_bone);
-        list_bones(gltf, rest, is_bone, has_child, skeleton);
+        list_bones(gltf, rest, is_bone, children, skeleton);
     }
     free(is_bone);
-    free(has_child);
+    free(children);
     return whole;
 }
 

@@ -46,13 +46,13 @@ static bool add_spline(struct core *core, const struct editor_world *world, cons
 }
 
 /// The edits of a chain without a knot yet, in the open step.
-static bool add_chain(struct core *core, const struct editor_world *world, int model, const char *from, const char *to)
+static bool add_chain(struct core *core, const struct editor_world *world, int model, const char *from,
+                      const char *to)
 {
     const struct document *document = world->document;
     const struct rig *shown = &document->rigs[model];
     struct edit edit = core_edit_of(EDIT_CHAIN_ADD, core->active);
-    struct channel channel = {
-        .lag.value = {CHANNEL_DEFAULT_LAG}, .gain.value = {CHANNEL_DEFAULT_GAIN}};
+    struct channel channel = {.lag.value = {CHANNEL_DEFAULT_LAG}, .gain.value = {CHANNEL_DEFAULT_GAIN}};
     if (!add_spline(core, world, from)) return false;
     channel.spline = document->spline_count - 1;
     const struct rig contents = {.kind = RIG_CHAIN,

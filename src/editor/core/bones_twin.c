@@ -6,12 +6,12 @@
 #include <string.h>
 
 /// Words for the sides. One letter counts only where it stands alone: ear_L, L.ear, ear.l.001.
-static const char *const sides[][2] = {{"Left", "Right"}, {"left", "right"}, {"LEFT", "RIGHT"}, {"L", "R"}, {"l", "r"}};
+static const char *const sides[][2] = {
+    {"Left", "Right"}, {"left", "right"}, {"LEFT", "RIGHT"}, {"L", "R"}, {"l", "r"}};
 
 static bool stands_alone(const char *name, const char *at, size_t length)
 {
-    return length > 1 ||
-           ((at == name || !isalnum((unsigned char)at[-1])) && !isalnum((unsigned char)at[length]));
+    return length > 1 || ((at == name || !isalnum((unsigned char)at[-1])) && !isalnum((unsigned char)at[length]));
 }
 
 /// Where the word for a side is in a name, or NULL.
@@ -31,8 +31,8 @@ static bool other_side(const char *name, char twin[BONES_NAME])
         for (int left = 0; left < 2; left++) {
             const char *word = sides[s][left], *at = find_side(name, word);
             if (!at) continue;
-            const int size = snprintf(twin, BONES_NAME, "%.*s%s%s", (int)(at - name), name, sides[s][1 - left],
-                                      at + strlen(word));
+            const int size =
+                snprintf(twin, BONES_NAME, "%.*s%s%s", (int)(at - name), name, sides[s][1 - left], at + strlen(word));
             return size < BONES_NAME;
         }
     }

@@ -84,7 +84,7 @@ struct hover {
     enum hover_kind kind;
     int spline;
     unsigned knot;
-    int handle; ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING: which one
+    int handle;      ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING: which one
     int tail;        ///< HOVER_BODY: its number among tails
     int rig, joint;  ///< HOVER_JOINT: of the tail or chain
     double fraction; ///< of the segment after the joint

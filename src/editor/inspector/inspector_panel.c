@@ -15,7 +15,8 @@ static bool has_tail(const struct inspection *in)
 {
     const struct document *document = in->document;
     bool seen[RIG_KINDS];
-    for (int kind = 0; kind < RIG_KINDS; kind++) seen[kind] = document_find_rig(document, (enum rig_kind)kind, 0) >= 0;
+    for (int kind = 0; kind < RIG_KINDS; kind++)
+        seen[kind] = document_find_rig(document, (enum rig_kind)kind, 0) >= 0;
     return seen[RIG_TAIL] || seen[RIG_CHAIN] || !(seen[RIG_CHARACTER] || seen[RIG_MODEL]);
 }
 
@@ -50,6 +51,17 @@ static const struct section {
 
 _Static_assert(sizeof sections / sizeof sections[0] <= INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
 
+/// Scrolls just so far that what was built from `top` on is in sight, and remembers it as done.
+static void reveal(struct inspection *in, float top)
+{
+    const struct ui *ui = in->ui;
+    struct ui_scroll *scroll = &in->inspector->scroll;
+    const float below = ui->y - (ui->scroll_area.y + ui->scroll_area.h), above = top - ui->scroll_area.y;
+    in->inspector->revealed = NULL;
+    if (below > 0) scroll->offset += fminf(below, above);
+    if (above < 0) scroll->offset += above;
+}
+
 static void build_sections(struct inspection *in)
 {
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
@@ -57,11 +69,13 @@ static void build_sections(struct inspection *in)
         bool *flipped = &in->inspector->flipped[i];
         if (section->shown && !section->shown(in)) continue;
         bool closed = *flipped != section->closed;
+        const float top = in->ui->y;
         bool open = ui_section(in->ui, section->name, section->title ? section->title : tail_title(in), &closed);
         *flipped = closed != section->closed;
         if (!open) continue;
         section->build(in);
         ui_space(in->ui, 4);
+        if (in->inspector->revealed && strcmp(in->inspector->revealed, section->name) == 0) reveal(in, top);
     }
 }
 
@@ -189,11 +203,23 @@ bool inspector_event(struct inspector *inspector, struct core *core, const struc
     return used || (pointer && inside);
 }
 
+/// A bone that was just selected is to be seen, with what can be made of it.
+static void show_bone(struct inspection *in)
+{
+    const struct bone_selection *bone = &in->core->bone, *seen = &in->inspector->seen_bone;
+    const bool same = bone->any == seen->any && bone->node == seen->node && bone->file == seen->file;
+    in->inspector->seen_bone = *bone;
+    if (same || !bone->any) return;
+    inspector_unfold(in->inspector, "section.model");
+    in->inspector->revealed = "section.model"; // the pass that measures scrolls there
+}
+
 void inspector_show(struct inspector *inspector, struct core *core, const struct editor_world *world, bool covered)
 {
     struct inspection in = inspection_of(inspector, core, world);
     struct rect area = core->layout.inspector;
     if (covered) in.ui->pointer_x = area.x - 1; // nothing here is under the pointer
+    show_bone(&in);
     ui_begin_find(in.ui, area, "", NULL); // measures, so that a shorter panel is not drawn scrolled past its end
     build(&in, area);
     ui_end(in.ui);

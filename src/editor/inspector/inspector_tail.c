@@ -33,7 +33,8 @@ const struct rig *inspector_shown(const struct inspection *in)
 static void find_shown(struct inspection *in)
 {
     if (inspector_shown(in)) return;
-    const int tail = document_find_rig(in->document, RIG_TAIL, 0), chain = document_find_rig(in->document, RIG_CHAIN, 0);
+    const int tail = document_find_rig(in->document, RIG_TAIL, 0),
+              chain = document_find_rig(in->document, RIG_CHAIN, 0);
     in->inspector->rig = tail >= 0 ? tail : chain >= 0 ? chain : 0;
     in->inspector->channel = 0;
 }

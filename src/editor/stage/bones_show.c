@@ -10,9 +10,9 @@
 
 enum { LABEL_HEIGHT = 20, LABEL_PAD = 7, LABEL_AWAY = 14 };
 
-static const float NEAR_BOX = 12;                            ///< pixels round a character where its bones show
-static const float THICKEST = 5, THINNEST = 1.5f;            ///< pixels of half a bone's width
-static const float SHARE = 0.09f, WIDEST_AT = 0.14f;         ///< of its length: half its width, and where that is
+static const float NEAR_BOX = 12;                              ///< pixels round a character where its bones show
+static const float THICKEST = 5, THINNEST = 1.5f;              ///< pixels of half a bone's width
+static const float SHARE = 0.09f, WIDEST_AT = 0.14f;           ///< of its length: half its width, and where that is
 static const float PLAIN = 0.3f, MEANT = 0.6f, CHOSEN = 0.85f; ///< opacity of the fill
 
 /// Whether a point is over the box round a character on the screen.
@@ -56,11 +56,8 @@ static void show_bone(struct drawlist *list, const float a[2], const float b[2],
     const float half = fmaxf(THINNEST, fminf(THICKEST, SHARE * length));
     const float ux = length > 0 ? dx / length : 1, uy = length > 0 ? dy / length : 0;
     const float x = a[0] + WIDEST_AT * dx, y = a[1] + WIDEST_AT * dy;
-    const float corners[5][2] = {{a[0], a[1]},
-                                 {x - half * uy, y + half * ux},
-                                 {b[0], b[1]},
-                                 {x + half * uy, y - half * ux},
-                                 {a[0], a[1]}};
+    const float corners[5][2] = {
+        {a[0], a[1]}, {x - half * uy, y + half * ux}, {b[0], b[1]}, {x + half * uy, y - half * ux}, {a[0], a[1]}};
     drawlist_line(list, corners[0], 5, 3, theme_fade(theme()->panel, 0.45f));
     drawlist_convex(list, corners[0], 4, theme_fade(color, opacity));
     drawlist_line(list, corners[0], 5, 1.25f, theme_fade(edge, 0.5f + 0.5f * opacity));

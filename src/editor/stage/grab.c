@@ -33,8 +33,8 @@ static const struct channel *channel_for(const struct core *core, const struct r
     return found;
 }
 
-static struct grab_axis axis_for(const struct core *core, const struct rig *rig, const struct strand *strand, int joint,
-                                 enum axis axis)
+static struct grab_axis axis_for(const struct core *core, const struct rig *rig, const struct strand *strand,
+                                 int joint, enum axis axis)
 {
     const struct channel *channel = channel_for(core, rig, axis);
     const int joints = strand->count - 1;

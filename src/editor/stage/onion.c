@@ -26,7 +26,8 @@ static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first 
 int overlay_rig(const struct stage *stage, const struct core *core, const struct document *document)
 {
     int rig, channel;
-    if (!core_active_channel(core, document, &rig, &channel)) rig = stage->strand_count > 0 ? stage->strands[0].rig : -1;
+    if (!core_active_channel(core, document, &rig, &channel))
+        rig = stage->strand_count > 0 ? stage->strands[0].rig : -1;
     return rig >= 0 && strand_of(stage, rig) ? rig : -1;
 }
 
@@ -101,8 +102,7 @@ static bool outline(const struct stage *stage, const struct core *core, const st
 }
 
 /// The outline of a tail, the line of a chain's bones; how many points, 0 where a part is behind the eye.
-static int lay_out(const struct stage *stage, const struct core *core, const struct rig_pose *pose,
-                   float points[][2])
+static int lay_out(const struct stage *stage, const struct core *core, const struct rig_pose *pose, float points[][2])
 {
     if (pose->kind == RIG_TAIL) return outline(stage, core, &pose->tail, points) ? OUTLINE : 0;
     for (int n = 0; n < pose->chain.count; n++) {

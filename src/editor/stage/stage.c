@@ -1,8 +1,8 @@
 /// The stage panel: its beginning and end, the mouse on it, what its drags do, and what time does.
 #include "editor/stage/stage.h"
 #include "editor/core/drag.h"
-#include "editor/stage/brush.h"
 #include "editor/stage/bones.h"
+#include "editor/stage/brush.h"
 #include "editor/stage/hold.h"
 #include "editor/stage/strand.h"
 #include <math.h>

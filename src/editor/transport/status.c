@@ -58,8 +58,10 @@ static const char *hover_hint(const struct core *core, const struct document *do
     case HOVER_NONE:
         break;
     }
-    if (core->bone.any) return "J makes a chain from this bone to its tip, Shift+J one that follows through; Esc lets go";
-    if (document_next_rig(document, RIG_MODEL, 0) >= 0) return "Point at a bone and click it to make a chain. F1 shows all keys";
+    if (core->bone.any)
+        return "J makes a chain from this bone to its tip, Shift+J one that follows through; Esc lets go";
+    if (document_next_rig(document, RIG_MODEL, 0) >= 0)
+        return "Point at a bone and click it to make a chain. F1 shows all keys";
     if (document->spline_count == 0) return "Ctrl+O opens a scene.  F1 shows all keys";
     if (document_next_rig(document, RIG_TAIL, 0) < 0) return "Drag a knot.  Space plays, F1 shows all keys";
     return "Drag a knot or the tail. Space plays, F1 shows all keys";
