@@ -16,6 +16,7 @@ static const struct command {
 } commands[] = {
     {"live", command_live, "[scene.json]", "the app; without a scene, a swinging tail"},
     {"solve", command_solve, "scene.json [-o out.csv]", "writes every spline at every sample as CSV"},
+    {"rig", command_rig, "in.glb --chain A:B -o scene.json", "gives a character's tail, ears or hair follow-through"},
     {"export", command_export, "scene.json -o FILE", "writes the motion for other programs: .glb, .usda, .csv …"},
     {"check", command_check, "scene.json", "prints every problem in a scene file"},
     {"simulate", command_simulate, "mesh.obj -o sim.npy",

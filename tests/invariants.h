@@ -130,6 +130,29 @@ static inline void assert_characters(const struct document *d)
     }
 }
 
+/// What a chain names is there: its model and the splines that bend it.
+static inline void assert_models(const struct document *d)
+{
+    for (int r = 0; r < d->rig_count; r++) {
+        const struct rig *rig = &d->rigs[r];
+        if (rig->kind == RIG_MODEL) {
+            assert_true(rig->model.model[0] && isfinite(rig->model.scale) && rig->model.scale > 0);
+            assert_true(!rig->model.clip || rig->model.clip[0]);
+        } else if (rig->kind == RIG_CHAIN) {
+            const struct chain *chain = &rig->chain;
+            assert_true(chain->from[0] && chain->to[0] && isfinite(chain->turn));
+            assert_true(document_find_model(d, chain->model, chain->by_file) >= 0);
+            assert_true(!chain->by_file || document_find_model(d, chain->model, false) < 0);
+            assert_in_range(chain->channel_count, 0, SCENE_MAX_CHANNELS);
+            for (int c = 0; c < chain->channel_count; c++) {
+                assert_true(chain->channels[c].spline >= 0 && chain->channels[c].spline < d->spline_count);
+                assert_angles(&chain->channels[c].lag, 0);
+                assert_angles(&chain->channels[c].gain, 0);
+            }
+        }
+    }
+}
+
 static inline void assert_invariants(const struct document *document)
 {
     assert_scene_timing(document);
@@ -137,6 +160,7 @@ static inline void assert_invariants(const struct document *document)
     assert_splines(document);
     assert_tails(document);
     assert_characters(document);
+    assert_models(document);
 }
 
 /// What is saved loads again, and prints the same.

@@ -1,7 +1,7 @@
 /// glTF characters as other programs write them: containers, every kind of accessor, primitives, materials, images, scenes.
+#include "base/file.h"
 #include "base/png.h"
 #include "gltf_builder.h"
-#include <stb/stb_image_write.h>
 
 static const float triangle[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
@@ -206,42 +206,34 @@ static void eight_influences(void **state)
     gltf_free(&gltf);
 }
 
-/// What an encoder wrote, piece by piece.
-struct encoded {
-    unsigned char bytes[4096];
-    size_t size;
-};
+/// 16 by 16 pixels of 128.
+#define GREY_JPEG                                                                                                    \
+    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAMCAgMCAgMDAwMEAwMEBQgFBQQEBQoHBwYIDAoMDAsKCwsNDhIQDQ4RDgsLEBYQERMU"           \
+    "FRUVDA8XGBYUGBIUFRT/wAALCAAQABABAREA/8QAFAABAAAAAAAAAAAAAAAAAAAAAP/EABQQAQAAAAAAAAAAAAAAAAAAAAD/2gAI"           \
+    "AQEAAD8AAP/Z"
 
-static void keep(void *context, void *data, int size)
-{
-    struct encoded *e = context;
-    if (e->size + (size_t)size > sizeof e->bytes) abort();
-    memcpy(e->bytes + e->size, data, (size_t)size);
-    e->size += (size_t)size;
-}
-
-/// PNG in a view, JPEG in a view, PNG in a file; one picture that is none.
+/// PNG in a view, JPEG in a data URI, PNG in a file; one picture that is none.
 static void materials_and_images(void **state)
 {
     (void)state;
-    unsigned char pixels[2 * 3 * 4], grey[16 * 16 * 3];
+    unsigned char pixels[2 * 3 * 4];
     struct builder b = {0};
     struct gltf gltf;
     struct error error;
     for (int i = 0; i < 24; i++) pixels[i] = (unsigned char)(10 * i);
-    memset(grey, 128, sizeof grey);
     const float uv[3][2] = {{0, 0}, {1, 0}, {0, 1}};
     add_triangle(&b);
     add_data(&b, FLOAT, "VEC2", 3, uv, sizeof uv);
-    struct encoded png = {0}, jpeg = {0};
-    stbi_write_png_to_func(keep, &png, 2, 3, 4, pixels, 8);
-    stbi_write_jpg_to_func(keep, &jpeg, 16, 16, 3, grey, 90);
-    assert_int_equal(add_view(&b, png.bytes, png.size, 0), 2);
-    assert_int_equal(add_view(&b, jpeg.bytes, jpeg.size, 0), 3);
     assert_true(png_write(temporary_path("a b.png"), 2, 3, pixels, &error));
+    char *png;
+    size_t png_size;
+    assert_true(file_read(temporary_path("a b.png"), 1000, &png, &png_size, &error));
+    assert_int_equal(add_view(&b, png, png_size, 0), 2);
+    free(png);
     read_built(
         &b,
-        "\"images\":[{\"bufferView\":2,\"mimeType\":\"image/png\"},{\"bufferView\":3},{\"uri\":\"a%20b.png\"},"
+        "\"images\":[{\"bufferView\":2,\"mimeType\":\"image/png\"},{\"uri\":\"data:image/jpeg;base64," GREY_JPEG
+        "\"},{\"uri\":\"a%20b.png\"},"
         "{\"name\":\"none\",\"bufferView\":0},{\"name\":\"unused\",\"bufferView\":0},{\"uri\":\"../missing.png\"}],"
         "\"textures\":[{\"source\":1},{\"source\":0},{\"source\":2},{\"source\":3},{},{\"source\":5}],"
         "\"extensionsUsed\":[\"KHR_texture_transform\",\"KHR_materials_sheen\"],"

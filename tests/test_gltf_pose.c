@@ -194,74 +194,89 @@ static void rolled(int bone, double q[4])
     q[3] = cos(bone / 2.0);
 }
 
+/// The inverse bind matrix of a bone: turns back about z and moves by −n.
+static void bind(int bone, float m[16])
+{
+    double q[4];
+    rolled(-bone, q);
+    memset(m, 0, 16 * sizeof *m);
+    for (int column = 0; column < 3; column++) {
+        const double unit[3] = {column == 0, column == 1, column == 2};
+        double x[3];
+        turn(q, unit, x);
+        for (int k = 0; k < 3; k++) m[4 * column + k] = (float)x[k];
+    }
+    m[14] = (float)-bone;
+    m[15] = 1;
+}
+
+/// The JSON of the tail's nodes and clip, whose key of bone n is accessor n + 1: parent⁻¹ · turn about y · own.
+static const char *tail_json(struct builder *b, const double about[4])
+{
+    static char members[8192];
+    char *nodes = members, channels[2048] = "", samplers[1024] = "", view[64];
+    nodes += sprintf(nodes, "\"nodes\":[{\"mesh\":0,\"skin\":0,\"translation\":[3,3,3]}");
+    for (int n = 0; n < BONES; n++) {
+        double world[4], back[4], local[4], turned[4], both[4];
+        float key[4];
+        rolled(n, world);
+        rolled(n > 0 ? 1 - n : 0, back);
+        product(back, world, local);
+        product(about, world, turned);
+        product(back, turned, both);
+        for (int k = 0; k < 4; k++) key[k] = (float)both[k];
+        nodes += sprintf(nodes, ",{\"rotation\":[%.17g,%.17g,%.17g,%.17g],\"translation\":[0,0,%d]", local[0],
+                         local[1], local[2], local[3], n > 0);
+        nodes += n < BONES - 1 ? sprintf(nodes, ",\"children\":[%d]}", n + 2) : sprintf(nodes, "}],");
+        snprintf(view, sizeof view, ",\"bufferView\":%d", add_view(b, key, sizeof key, 0));
+        add_accessor(b, FLOAT, "VEC4", 1, view);
+        sprintf(channels + strlen(channels), "%s{\"sampler\":%d,\"target\":{\"node\":%d,\"path\":\"rotation\"}}",
+                n ? "," : "", n, n + 1);
+        sprintf(samplers + strlen(samplers), "%s{\"input\":0,\"output\":%d}", n ? "," : "", n + 1);
+    }
+    sprintf(
+        nodes,
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":9,\"NORMAL\":9,\"JOINTS_0\":10,\"WEIGHTS_0\":11}}"
+        "]}],"
+        "\"skins\":[{\"joints\":[1,2,3,4,5,6,7,8],\"inverseBindMatrices\":12}],\"animations\":[{\"channels\":[%s],"
+        "\"samplers\":[%s]}]",
+        channels, samplers);
+    return members;
+}
+
+static void read_tail(double angle, struct gltf *gltf)
+{
+    const double about[4] = {0, sin(angle / 2), 0, cos(angle / 2)};
+    const float time = 0;
+    float ends[BONES][3] = {{0}}, inverse[BONES][16], weights[BONES][4] = {{0}};
+    uint8_t joints[BONES][4] = {{0}};
+    struct builder b = {0};
+    add_data(&b, FLOAT, "SCALAR", 1, &time, sizeof time);
+    const char *members = tail_json(&b, about);
+    for (int n = 0; n < BONES; n++) {
+        ends[n][2] = (float)(n + 1);
+        joints[n][2] = (uint8_t)n;
+        weights[n][2] = 0.5f;
+        bind(n, inverse[n]);
+    }
+    assert_int_equal(add_data(&b, FLOAT, "VEC3", BONES, ends, sizeof ends), 9);
+    add_data(&b, UBYTE, "VEC4", BONES, joints, sizeof joints);
+    add_data(&b, FLOAT, "VEC4", BONES, weights, sizeof weights);
+    add_data(&b, FLOAT, "MAT4", BONES, inverse, sizeof inverse);
+    read_built(&b, members, gltf);
+}
+
 /// Every bone turns by the same angle about the world's y, which each sees another way because of its roll. Bone n carries the vertex at
 /// its own end: all lie on a circle's chords, in the plane y = 0.
 static void a_tail_with_rolls(void **state)
 {
     (void)state;
     const double angle = 0.2;
-    float positions[BONES][3], inverse[BONES][16] = {{0}}, keys[BONES][4];
-    float weights[BONES][4] = {{0}};
-    uint8_t joints[BONES][4] = {{0}};
-    const float time = 0;
-    char nodes[2048] = "\"nodes\":[{\"mesh\":0,\"skin\":0,\"translation\":[3,3,3]}", channels[2048] = "",
-         samplers[1024] = "";
-    struct builder b = {0};
     struct gltf gltf;
     struct gltf_pose pose;
-    add_data(&b, FLOAT, "SCALAR", 1, &time, sizeof time);
-    for (int n = 0; n < BONES; n++) {
-        double world[4], before[4] = {0, 0, 0, 1}, back[4], local[4],
-                         about[4] = {0, sin(angle / 2), 0, cos(angle / 2)};
-        double x[3];
-        rolled(n, world);
-        if (n > 0) rolled(n - 1, before);
-        for (int k = 0; k < 4; k++) back[k] = k < 3 ? -before[k] : before[k];
-        product(back, world, local); // at rest: parent⁻¹ · own
-        // Turned about the world's y as at rest: parent⁻¹ · y · own.
-        double turned[4], key[4];
-        product(about, world, turned);
-        product(back, turned, key);
-        for (int k = 0; k < 4; k++) keys[n][k] = (float)key[k];
-        // The inverse bind matrix turns back about z and moves by −n.
-        for (int column = 0; column < 3; column++) {
-            const double unit[3] = {column == 0, column == 1, column == 2},
-                         inverse_world[4] = {-world[0], -world[1], -world[2], world[3]};
-            turn(inverse_world, unit, x);
-            for (int k = 0; k < 3; k++) inverse[n][4 * column + k] = (float)x[k];
-        }
-        inverse[n][14] = (float)-n;
-        inverse[n][15] = 1;
-        const float end[3] = {0, 0, (float)(n + 1)};
-        memcpy(positions[n], end, sizeof end);
-        joints[n][2] = (uint8_t)n;
-        weights[n][2] = 0.5f;
-        sprintf(nodes + strlen(nodes),
-                ",{\"name\":\"tail_%d\",\"rotation\":[%.17g,%.17g,%.17g,%.17g],\"translation\":[0,0,%d]%s", n + 1,
-                local[0], local[1], local[2], local[3], n > 0, n < BONES - 1 ? ",\"children\":[" : "}");
-        if (n < BONES - 1) sprintf(nodes + strlen(nodes), "%d]}", n + 2);
-        char view[64];
-        snprintf(view, sizeof view, ",\"bufferView\":%d", add_view(&b, keys[n], sizeof keys[n], 0));
-        add_accessor(&b, FLOAT, "VEC4", 1, view);
-        sprintf(channels + strlen(channels), "%s{\"sampler\":%d,\"target\":{\"node\":%d,\"path\":\"rotation\"}}",
-                n ? "," : "", n, n + 1);
-        sprintf(samplers + strlen(samplers), "%s{\"input\":0,\"output\":%d}", n ? "," : "", n + 1);
-    }
-    add_data(&b, FLOAT, "VEC3", BONES, positions, sizeof positions); // accessor 9
-    add_data(&b, UBYTE, "VEC4", BONES, joints, sizeof joints);
-    add_data(&b, FLOAT, "VEC4", BONES, weights, sizeof weights);
-    add_data(&b, FLOAT, "MAT4", BONES, inverse, sizeof inverse);
-    static char members[8192];
-    snprintf(
-        members, sizeof members,
-        "%s],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":9,\"NORMAL\":9,\"JOINTS_0\":10,\"WEIGHTS_0\":"
-        "11}}]}],"
-        "\"skins\":[{\"joints\":[1,2,3,4,5,6,7,8],\"inverseBindMatrices\":12}],\"animations\":[{\"channels\":[%s],"
-        "\"samplers\":[%s]}]",
-        nodes, channels, samplers);
-    read_built(&b, members, &gltf);
-    assert_true(gltf_pose_create(&gltf, &pose));
     float moved[BONES][3], normals[BONES][3], matrix[16];
+    read_tail(angle, &gltf);
+    assert_true(gltf_pose_create(&gltf, &pose));
     gltf_pose_vertices(&gltf, &pose, 0, moved, normals);
     for (int n = 0; n < BONES; n++) assert_numbers(moved[n], (const double[]){0, 0, n + 1}, 3); // not where node 0 is
     gltf_pose_clip(&gltf, 0, 0, &pose);
@@ -269,10 +284,11 @@ static void a_tail_with_rolls(void **state)
     gltf_pose_vertices(&gltf, &pose, 0, moved, normals);
     double end[2] = {0, 0};
     for (int n = 0; n < BONES; n++) {
-        end[0] += sin((n + 1) * angle);
-        end[1] += cos((n + 1) * angle);
+        const double turned = (n + 1) * angle;
+        end[0] += sin(turned);
+        end[1] += cos(turned);
         assert_numbers(moved[n], (const double[]){end[0], 0, end[1]}, 3);
-        assert_numbers(normals[n], (const double[]){sin((n + 1) * angle), 0, cos((n + 1) * angle)}, 3);
+        assert_numbers(normals[n], (const double[]){sin(turned), 0, cos(turned)}, 3);
         gltf_joint_matrix(&gltf, &pose, 0, n, matrix);
         assert_memory_equal(matrix, pose.joints[n], sizeof matrix);
     }

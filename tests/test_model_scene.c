@@ -1,8 +1,10 @@
 /// Imported characters and their chains: read, printed, copied, edited, and carried along when the scene is saved elsewhere.
 #include "near.h"
 
+#include "invariants.h"
 #include "world.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -319,6 +321,75 @@ static void paths_in_the_history_move_along(void **state)
     world_close(&world);
 }
 
+/// One of few names, so that they meet.
+static const char *random_name(void)
+{
+    static const char *const names[] = {"walk", "tail", "dog", "models/cat.glb", "walk.glb", "", "s"};
+    return names[rand() % 7];
+}
+
+/// Any edit of rigs or of what follows them, possible or not.
+static void random_edit(struct world *world)
+{
+    static const enum edit_kind kinds[] = {EDIT_RIG_REMOVE,  EDIT_RIG_NAME,    EDIT_MODEL_ADD,  EDIT_CHAIN_ADD,
+                                           EDIT_CLIP,        EDIT_PLACE,       EDIT_CHAIN,      EDIT_CHANNEL_REMOVE,
+                                           EDIT_CHANNEL_ADD, EDIT_ANGLES,      EDIT_PARAMETER,  EDIT_TAIL_ADD,
+                                           EDIT_AXIS,        EDIT_SPLINE_COPY, EDIT_SPLINE_MOVE};
+    char text[2][32];
+    for (int i = 0; i < 2; i++) snprintf(text[i], sizeof text[i], "%s", random_name());
+    struct channel channel = {.axis = (enum axis)(rand() % 4), .gain = {.value = {rand()}}};
+    const struct angles angles = {
+        .form = (enum angle_form)(rand() % 3), .count = 1 + rand() % 4, .ramp = {{0, 1}, {1, 2}}};
+    struct rig rig = {.name = rand() % 2 ? text[0] : NULL};
+    const struct joint_motion motion = {.model = text[0], .joint = text[1], .chain = rand() % 2 ? text[1] : NULL};
+    struct edit edit = {.kind = kinds[rand() % 15], .rig = rand() % 6, .text = text[0], .contents = &rig};
+    edit.angles = &angles;
+    edit.angle = (enum angle_kind)(1 + rand() % 2);
+    edit.axis = channel.axis;
+    edit.parameter = PARAMETER_EQUILIBRIUM;
+    edit.param = (struct param){.track = -1, .motion = rand() % 3 ? &motion : NULL, .gain = rand() % 5};
+    edit.spline = rand() % world->document->spline_count;
+    if (edit.kind == EDIT_CHAIN_ADD || edit.kind == EDIT_CHAIN) {
+        rig.kind = RIG_CHAIN;
+        rig.chain = (struct chain){.model = text[0], .from = text[1], .to = text[0], .mirror = rand() % 2};
+        if (rand() % 2) rig.chain.channels = &channel, rig.chain.channel_count = 1;
+    } else {
+        rig.kind = RIG_MODEL;
+        rig.model = (struct model_rig){.model = text[1], .scale = rand() % 3, .turn = rand() % 9};
+    }
+    if (edit.kind == EDIT_SPLINE_COPY && world->document->spline_count > 6) return;
+    world_apply(world, edit);
+}
+
+/// Whatever was done: what is there holds together, all of it can be saved, and undo gives back the first document to the byte.
+static void random_walks_lead_back(void **state)
+{
+    (void)state;
+    for (unsigned seed = 1; seed <= 20; seed++) {
+        struct world world;
+        srand(seed);
+        open_whole(&world);
+        for (int i = 0; i < 150; i++) {
+            history_begin(world.history, "Random", 0);
+            for (int k = rand() % 3; k >= 0; k--) random_edit(&world);
+            if (rand() % 9 == 0) history_restart(world.history, world.document);
+            history_end(world.history);
+            for (int k = rand() % 6 - 3; k > 0; k--) history_undo(world.history, world.document);
+            for (int k = rand() % 6 - 3; k > 0; k--) history_redo(world.history, world.document);
+            assert_invariants(world.document);
+            assert_loads_again(world.document);
+        }
+        while (history_redo(world.history, world.document)) continue;
+        char *last = world_print(&world);
+        assert_true(world_undo_all(&world) > 0);
+        assert_document(&world, whole);
+        while (history_redo(world.history, world.document)) continue;
+        assert_document(&world, last);
+        free(last);
+        world_close(&world);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -331,6 +402,7 @@ int main(void)
         cmocka_unit_test(models_and_chains_are_set),
         cmocka_unit_test(chains_keep_to_their_model),
         cmocka_unit_test(paths_in_the_history_move_along),
+        cmocka_unit_test(random_walks_lead_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

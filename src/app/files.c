@@ -1,5 +1,6 @@
 /// Carries out what the editor may only ask for: files, the window, and the end of the run.
 #include "app/assets.h"
+#include "app/exporting.h"
 #include "app/state.h"
 #include "base/embedded.h"
 #include "base/path.h"
@@ -190,6 +191,11 @@ static bool carry_out(struct app *app, const struct request *request, struct err
         return save(app, app_path(app), error);
     case REQUEST_SAVE_AS:
         return may_replace(app, request->path, error) && save(app, request->path, error);
+    case REQUEST_EXPORT:
+        return may_replace(app, request->path, error) && exporting_start(app, request, error);
+    case REQUEST_EXPORT_STOP:
+        exporting_stop(app);
+        return true;
     case REQUEST_QUIT:
         app->quit = true;
         return true;
@@ -219,8 +225,10 @@ void app_requests(struct app *app)
         if (request.kind == REQUEST_NONE) break;
         struct error error = {0};
         bool done = carry_out(app, &request, &error);
-        editor_answer(app->table.editor, &request, done, error.text);
+        const bool goes_on = done && request.kind == REQUEST_EXPORT;
+        if (!goes_on) editor_answer(app->table.editor, &request, done, error.text);
     }
+    exporting_step(app);
     if (history_is_saved(app->table.history) != app->shown_saved) show_title(app);
 }
 
@@ -252,6 +260,9 @@ static int list_folder(void *user, const char *folder, char names[][256], int ma
 
 void app_connect_files(struct app *app)
 {
-    editor_set_files(app->table.editor,
-                     &(struct dialog_files){.list = list_folder, .recent = personal_recent, .user = app});
+    editor_set_files(app->table.editor, &(struct dialog_files){.list = list_folder,
+                                                               .recent = personal_recent,
+                                                               .formats = exporting_formats,
+                                                               .format_count = exporting_format_count,
+                                                               .user = app});
 }

@@ -1,6 +1,7 @@
 /// The user's settings, recent files and recovery, for interactive windows.
 #include "app/personal.h"
 #include "app/autosave.h"
+#include "app/export_memory.h"
 #include "app/folders.h"
 #include "app/recent.h"
 #include "app/settings.h"
@@ -66,6 +67,9 @@ static void start_settings(struct app *app)
         personal->panels_width = settings_number(settings, "inspector_width", personal->panels_width);
         editor_set_panels(app->table.editor, personal->stage_share, personal->panels_width);
         start_theme(app, settings);
+        struct export_memory memory;
+        export_memory_read(settings, &memory);
+        editor_set_export(app->table.editor, &memory);
         personal->is_new = !settings_get(settings, "welcomed", 0);
         if (personal->is_new) editor_welcome(app->table.editor);
     }
@@ -120,6 +124,19 @@ void personal_note_file(struct app *app, const char *path)
     struct settings *settings = load_settings(app->personal, &error);
     if (!settings) return;
     recent_note(settings, path);
+    store_settings(app, settings);
+}
+
+void personal_note_export(struct app *app, const struct request *request)
+{
+    struct error error = {0};
+    if (!app->personal) return;
+    struct settings *settings = load_settings(app->personal, &error);
+    if (!settings) return;
+    struct export_memory memory = {.wish = request->wish};
+    snprintf(memory.path, sizeof memory.path, "%s", request->path);
+    snprintf(memory.scene, sizeof memory.scene, "%.1023s", app_path(app));
+    export_memory_write(settings, &memory);
     store_settings(app, settings);
 }
 

@@ -23,6 +23,9 @@ dialog_list_recent personal_recent;
 /// A document's own file was opened or saved.
 void personal_note_file(struct app *app, const char *path);
 
+/// Something was exported: the Export dialog remembers it from run to run.
+void personal_note_export(struct app *app, const struct request *request);
+
 /// Opens the unsaved work that was offered, or deletes it and offers the next one.
 bool personal_recover(struct app *app, struct error *error);
 bool personal_forget(struct app *app, struct error *error);

@@ -22,6 +22,7 @@ struct app {
     unsigned last_serial;   ///< of the documents that were on the table
     unsigned sized_serial;  ///< of the document whose models were measured
 
+    struct exporting *exporting; ///< NULL where nothing is exported
     struct personal *personal; ///< NULL where nobody sits at a window
 
     struct replay *replay;

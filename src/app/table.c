@@ -1,6 +1,7 @@
 /// A frame of the document on the table: edit, solve, pose, show.
 #include "app/table.h"
 #include "base/clock.h"
+#include "rig/clip_motion.h"
 #include "scene/background.h"
 #include "scene/load.h"
 #include <stdlib.h>
@@ -51,10 +52,11 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
     if ((resized || row->edited) && !fit_evaluation(table, resized, error)) return false;
     wiggly_method method = editor_method(table->editor);
     bool threaded = table->threaded && background_serves(document, method);
+    const struct motion_source motions = table->motions.read ? table->motions : clip_motions(table->models);
+    bool moved = motions_bake(&table->evaluation, document, &motions);
     bool same_way = cubic == table->solved_cubic && method == evaluation->method;
     row->solver = evaluation_solver(method);
-    bool moved = motions_bake(&table->evaluation, document, &table->motions);
-    if (!resized && !row->edited && same_way && !threaded && !evaluation->stale && !moved) return true;
+    if (!resized && !row->edited && same_way && !moved && !threaded && !evaluation->stale) return true;
     table->evaluation.method = method;
     evaluate(table, resized, cubic, threaded);
     row->splines_solved = evaluation->solved_splines;

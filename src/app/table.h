@@ -12,7 +12,7 @@ struct table {
     struct document *document;
     struct history *history;
     struct models *models;        ///< NULL: the characters have no models
-    struct motion_source motions; ///< where equilibria that follow joints are read from
+    struct motion_source motions; ///< where equilibria that follow joints are read from; zero: the models' clips
     struct evaluation evaluation;
     bool threaded;            ///< what takes longer than a frame is solved in the background
     unsigned models_serial;   ///< of the document whose models were read last

@@ -4,9 +4,14 @@
 #include "rig/models.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
+#include "scene/motion.h"
+#include <math.h>
 #include <stdio.h>
 
 enum { MAX_SOLVED_SAMPLES = 1000000 }; ///< larger scenes are checked as they are written only
+
+/// Degrees or metres by which a clip that goes round may miss its start.
+static const double MOTION_SLACK = 1e-3;
 
 static void print_problem(void *user, bool is_error, const char *sentence)
 {
@@ -27,10 +32,13 @@ static void print_warning(struct problems *problems, const char *path, const str
 static bool jumps(const struct document *document, const struct evaluation *evaluation, int index)
 {
     const struct spline *spline = &document->splines[index];
-    int leader = spline->parameter[PARAMETER_EQUILIBRIUM].track;
-    if (spline_start(spline) != WIGGLY_LOOP || leader < 0) return false;
-    const double *y = evaluation->curves[leader].total;
-    return y[0] != y[evaluation->samples - 1];
+    const struct param *equilibrium = &spline->parameter[PARAMETER_EQUILIBRIUM];
+    const double *y = equilibrium->track >= 0 ? evaluation->curves[equilibrium->track].total
+                      : equilibrium->motion   ? motions_samples(evaluation, index)
+                                              : NULL;
+    if (spline_start(spline) != WIGGLY_LOOP || !y) return false;
+    const double slack = equilibrium->motion ? MOTION_SLACK * fabs(equilibrium->gain) : 0;
+    return !(fabs(y[0] - y[evaluation->samples - 1]) <= slack);
 }
 
 /// Checks what only a solve can show.

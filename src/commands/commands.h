@@ -5,6 +5,7 @@
 
 int command_live(int argc, char **argv);
 int command_solve(int argc, char **argv);
+int command_rig(int argc, char **argv);
 int command_export(int argc, char **argv);
 int command_check(int argc, char **argv);
 int command_log(int argc, char **argv);

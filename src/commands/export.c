@@ -1,18 +1,21 @@
 /// wiggly export: writes the motion of a scene into the files of other programs.
 #include "export/export.h"
+#include "app/film.h"
 #include "base/clock.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/progress.h"
-#include "rig/models.h"
-#include "scene/load.h"
+#include "rig/opened.h"
+#include "ui/theme.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct job {
-    const char *scene, *output, *frames, *keys;
+    const char *scene, *output, *frames, *keys, *theme;
     struct export_options options;
+    struct film_options film;
+    int size[2];
     bool quiet;
     struct progress progress;
 };
@@ -24,43 +27,49 @@ static bool proceed(void *user, long done, long total)
     return !progress_interrupted();
 }
 
-static bool write_export(struct job *job, const struct posing *posing, struct error *error)
+static bool write_film(struct job *job, const struct editor_world *world, struct export_report *report,
+                       struct error *error)
+{
+    struct film_options options = job->film;
+    options.width = job->size[0];
+    options.height = job->size[1];
+    options.rate = job->options.rate;
+    options.has_frames = job->options.has_frames;
+    options.first = job->options.first;
+    options.last = job->options.last;
+    options.proceed = proceed;
+    options.user = job;
+    if (job->theme) theme_use((enum theme_kind)theme_find(job->theme));
+    return film_write(world, job->output, &options, report, error);
+}
+
+static bool write_export(struct job *job, const struct editor_world *world, struct error *error)
 {
     struct export_report report;
+    const struct posing posing = {
+        .document = world->document, .evaluation = world->evaluation, .models = world->models};
     job->options.proceed = proceed;
     job->options.user = job;
     job->progress.started = clock_now();
-    const bool done = export_write(posing, job->output, &job->options, &report, error);
+    const bool done = film_knows(job->output) ? write_film(job, world, &report, error)
+                                              : export_write(&posing, job->output, &job->options, &report, error);
     if (!done) progress_clear(&job->progress);
     if (done && *report.note) fprintf(stderr, "%s: warning: %s\n", job->output, report.note);
     if (done && !job->quiet) printf("wrote %s: %s\n", job->output, report.text);
     return done;
 }
 
-/// Solves the splines and reads the models.
-static bool export_document(struct job *job, struct document *document, struct error *error)
-{
-    struct evaluation evaluation = {0};
-    struct models *models = models_create();
-    bool done = models ? scene_read_paint(document, error) : fail_no_memory(error, job->scene);
-    done = done && models_update(models, document, error) && evaluation_resize(&evaluation, document, error);
-    if (done) {
-        const struct posing posing = {.document = document, .evaluation = &evaluation, .models = models};
-        evaluation_update(&evaluation, document, NULL, false);
-        done = write_export(job, &posing, error);
-    }
-    evaluation_free(&evaluation);
-    models_destroy(models);
-    return done;
-}
-
 static bool run(struct job *job, struct error *error)
 {
-    struct document *document = scene_load(job->scene, NULL, error);
-    if (!document) return false;
-    const bool done = document_set_path(document, job->scene) ? export_document(job, document, error)
-                                                              : fail_no_memory(error, job->scene);
-    document_destroy(document);
+    struct opened opened;
+    if (!opened_read(&opened, job->scene, error)) return false;
+    bool done = opened_solve(&opened, WIGGLY_CHAIN, error);
+    if (done) {
+        const struct editor_world world = {
+            .document = opened.document, .evaluation = &opened.evaluation, .models = opened.models};
+        done = write_export(job, &world, error);
+    }
+    opened_free(&opened);
     return done;
 }
 
@@ -75,11 +84,15 @@ static bool read_frames(const char *text, struct export_options *options)
 /// Checks what the table of options cannot.
 static enum options_result check(const struct usage *usage, struct job *job)
 {
-    char endings[EXPORT_ENDINGS];
+    char endings[EXPORT_ENDINGS], films[FILM_ENDINGS];
     if (!job->output) return options_wrong(usage, "-o FILE is missing: name the file to write");
     export_endings(endings);
-    if (!export_knows(job->output))
-        return options_wrong(usage, "--output: expected a name ending in %s, got '%s'", endings, job->output);
+    film_endings(films);
+    if (!export_knows(job->output) && !film_knows(job->output))
+        return options_wrong(usage, "--output: expected a name ending in %s, or %s, got '%s'", endings, films,
+                             job->output);
+    if (job->theme && theme_find(job->theme) < 0)
+        return options_wrong(usage, "--theme: expected dark or light, got '%s'", job->theme);
     if (job->frames && !read_frames(job->frames, &job->options))
         return options_wrong(usage, "--frames: expected FIRST:LAST, such as 0:48, got '%s'", job->frames);
     if (job->options.rate > 0 && job->options.substeps > 0)
@@ -95,10 +108,11 @@ int command_export(int argc, char **argv)
     struct job job = {.keys = "linear"};
     struct export_options *o = &job.options;
     const struct option_spec options[] = {
-        {"--output", "-o", "FILE", "required: .glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd or .npy, by its name's end",
+        {"--output", "-o", "FILE",
+         "required: .glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd, .npy, .mp4, .webm, .gif or .png, by its name's end",
          OPTION_TEXT, &job.output, 0, 0},
         {"--frames", NULL, "A:B", "from frame A to frame B (default: all)", OPTION_TEXT, &job.frames, 0, 0},
-        {"--fps", NULL, "N", "N keys a second (default: one a sample of the scene)", OPTION_REAL, &o->rate, 1e-3,
+        {"--fps", NULL, "N", "N keys or pictures a second (default: one a sample; pictures: the scene's frames)", OPTION_REAL, &o->rate, 1e-3,
          1e5},
         {"--substeps", NULL, "N", "N keys a frame, instead of --fps", OPTION_INT, &o->substeps, 1, 1024},
         {"--clip", NULL, "NAME", "what the animation is called (default: as the scene's file)", OPTION_TEXT, &o->clip,
@@ -108,6 +122,12 @@ int command_export(int argc, char **argv)
          OPTION_FLAG, &o->is_signed, 0, 0},
         {"--keys", NULL, "KIND", "linear (default) or cubic, with tangents (.glb, .gltf)", OPTION_TEXT, &job.keys, 0,
          0},
+        {"--size", NULL, "WxH", "of films and pictures (1280x720; .gif 640x360)", OPTION_SIZE, job.size, 16, 8192},
+        {"--theme", NULL, "NAME", "of films and pictures: dark (default) or light", OPTION_TEXT, &job.theme, 0, 0},
+        {"--loops", NULL, "N", "films of a looping scene: N rounds, each without its last frame", OPTION_INT,
+         &job.film.loops, 1, 10000},
+        {"--transparent", NULL, NULL, "the rigs alone, without ground and shadows (.png, .webm)", OPTION_FLAG,
+         &job.film.transparent, 0, 0},
         {"--quiet", NULL, NULL, "print nothing but errors and warnings", OPTION_FLAG, &job.quiet, 0, 0},
     };
     const struct usage usage = {

@@ -140,6 +140,14 @@ static enum options_result store(const struct usage *usage, const struct option_
         if (!*text) return options_wrong(usage, "%s: expected %s, got nothing", option->name, option->argument);
         *(const char **)option->target = text;
         return OPTIONS_RUN;
+    case OPTION_LIST: {
+        struct option_list *list = option->target;
+        if (!*text) return options_wrong(usage, "%s: expected %s, got nothing", option->name, option->argument);
+        if (list->count == OPTION_LIST_MOST)
+            return options_wrong(usage, "%s: expected it at most %d times", option->name, OPTION_LIST_MOST);
+        list->text[list->count++] = text;
+        return OPTIONS_RUN;
+    }
     case OPTION_INT:
         if (read_int(text, 0, low, high, option->target, &rest)) return OPTIONS_RUN;
         return options_wrong(usage, "%s: expected a whole number from %.10g to %.10g, got '%s'", option->name, low,

@@ -8,10 +8,18 @@
 enum option_kind {
     OPTION_FLAG,   ///< bool: set to true; takes no value
     OPTION_TEXT,   ///< const char *: points into argv
+    OPTION_LIST,   ///< struct option_list: of texts; may be given several times
     OPTION_INT,    ///< int in [minimum, maximum]
     OPTION_REAL,   ///< double in [minimum, maximum]
     OPTION_SIZE,   ///< int[2] from "1280x720", each in [minimum, maximum]
     OPTION_METHOD, ///< wiggly_method, by its name
+};
+
+enum { OPTION_LIST_MOST = 32 };
+
+struct option_list {
+    const char *text[OPTION_LIST_MOST];
+    int count;
 };
 
 /// One option, `--name value` or `--name=value`. Without the option the target keeps its value.

@@ -44,6 +44,20 @@ static void draw_rigs(const struct stage_renderer *renderer, const struct stage_
     for (int p = 0; p < PAINTERS; p++) painters[p]->draw(renderer->states[p], view, scale, seam);
 }
 
+static void begin_rigs(void)
+{
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glEnable(GL_CULL_FACE);
+    glClear(GL_DEPTH_BUFFER_BIT);
+}
+
+static void end_rigs(void)
+{
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_DEPTH_TEST);
+}
+
 void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, int x, int y, int width, int height)
 {
     const float scale = (float)height / view->viewport.h;
@@ -51,10 +65,7 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
     glDisable(GL_DEPTH_TEST);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     stage_flat_draw(renderer->flat);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-    glEnable(GL_CULL_FACE);
-    glClear(GL_DEPTH_BUFFER_BIT);
+    begin_rigs();
     draw_rigs(renderer, view, scale, 0.0f);
     // Edges without multisampling: a second skin, a pixel larger, fades out from the silhouettes over
     // whatever is behind: the background or the animal itself.
@@ -63,6 +74,13 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
     draw_rigs(renderer, view, scale, 2.0f / (view->projection[5] * (float)height));
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_DEPTH_TEST);
+    end_rigs();
+}
+
+void stage_draw_rigs(struct stage_renderer *renderer, const struct stage_view *view, int width, int height)
+{
+    glViewport(0, 0, width, height);
+    begin_rigs();
+    draw_rigs(renderer, view, (float)height / view->viewport.h, 0.0f);
+    end_rigs();
 }

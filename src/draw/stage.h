@@ -18,6 +18,9 @@ void stage_upload(struct stage_renderer *renderer, const struct stage_view *view
 /// GL), scissored by the caller. Clears depth itself. Leaves depth test, culling and blending off.
 void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, int x, int y, int width, int height);
 
+/// The rigs alone, over the whole of a framebuffer, without the soft edges that blend into what is behind.
+void stage_draw_rigs(struct stage_renderer *renderer, const struct stage_view *view, int width, int height);
+
 /// Whether a figure's coordinates fit a texture of at most `largest` texels a side; if not, false with a sentence that
 /// gives the numbers.
 bool stage_morph_fits(const struct figure *figure, int largest, struct error *error);

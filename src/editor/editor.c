@@ -226,6 +226,16 @@ void editor_set_files(struct editor *editor, const struct dialog_files *files)
     dialogs_set_files(editor->dialogs, files);
 }
 
+void editor_set_export(struct editor *editor, const struct export_memory *memory)
+{
+    dialogs_set_export(editor->dialogs, memory);
+}
+
+void editor_tell_export(struct editor *editor, long done, long total)
+{
+    dialogs_tell_export(editor->dialogs, done, total);
+}
+
 void editor_offer_recovery(struct editor *editor, const struct recovery_offer *offer)
 {
     dialogs_offer_recovery(editor->dialogs, offer);

@@ -52,6 +52,9 @@ struct focus editor_focus(const struct editor *editor, const struct document *do
 /// nothing.
 void editor_pose(struct editor *editor, const struct editor_world *world);
 void editor_show(struct editor *editor, const struct editor_world *world);
+/// For films: poses the rigs at a frame, on a stage that is all there is, of width × height logical pixels; without the draw list.
+void editor_pose_alone(struct editor *editor, const struct editor_world *world, double frame, float width,
+                       float height);
 const struct drawlist *editor_drawlist(const struct editor *editor);
 const struct stage_view *editor_stage(const struct editor *editor);
 

@@ -188,6 +188,14 @@ void editor_pose(struct editor *editor, const struct editor_world *world)
     stage_pose(editor->stage, &editor->core, world, dialogs_cover(editor->dialogs));
 }
 
+void editor_pose_alone(struct editor *editor, const struct editor_world *world, double frame, float width,
+                       float height)
+{
+    editor->core.layout.stage = (struct rect){0, 0, width, height};
+    editor->core.playback.position = core_position(world->document, frame);
+    editor_pose(editor, world);
+}
+
 /// Finds what the pointer is over now, because things move under it.
 static void update_hover(struct editor *editor, const struct editor_world *world)
 {

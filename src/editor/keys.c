@@ -31,6 +31,12 @@ static void run_save(struct editor *e, const struct editor_world *w, int argumen
     }
 }
 
+static void run_export(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    dialogs_export(e->dialogs, &e->core, w);
+}
+
 static void run_request(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
@@ -244,6 +250,7 @@ const struct binding key_bindings[] = {
     {.key = 'Q', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_QUIT},
     {.key = 'S', .mods = MOD_CTRL, .run = run_save, .argument = REQUEST_SAVE},
     {.key = 'S', .mods = MOD_CTRL | MOD_SHIFT, .run = run_save, .argument = REQUEST_SAVE_AS},
+    {.key = 'E', .mods = MOD_CTRL, .run = run_export},
     {.key = '1', .mods = MOD_CTRL, .run = run_figure, .argument = 1},
     {.key = '2', .mods = MOD_CTRL, .run = run_figure, .argument = 2},
     {.key = '3', .mods = MOD_CTRL, .run = run_figure, .argument = 3},

@@ -62,9 +62,9 @@ enum dog_limb_number {
     DOG_LIMBS = DOG_FIRST_LEG + 4
 };
 
-/// Distance to one limb, and to the smooth union of all; `rgb`, if not NULL, gets the ground colour there.
-float dog_limb_distance(int limb, const float p[3], float rgb[3]);
-float dog_distance(const float p[3], float rgb[3]);
+/// Distance to one limb, and to the smooth union of all, for isosurface.h.
+float dog_limb_distance(int limb, const float p[3]);
+float dog_distance(const float p[3]);
 
 /// A limb: the chain of joints that it follows. `blend`: over how many metres it shares vertices with its neighbours; `bend`: over which
 /// share of a bone each of its joints bends.
@@ -73,10 +73,6 @@ struct dog_limb {
     float blend, bend;
 };
 extern const struct dog_limb dog_limbs[DOG_LIMBS];
-
-/// The ground colours of the coat, sRGB.
-#define DOG_COAT_WHITE 0xF1E7D8u
-#define DOG_COAT_EAR 0x70402Cu
 
 /// The coat: about so many triangles. mesh->failed where memory is short.
 void dog_coat(int triangles, struct mesh *mesh);

@@ -9,6 +9,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define WHITE 0xF1E7D8u
+#define EAR 0x70402Cu
 #define CHESTNUT 0xA5633Au
 #define MOUTH 0x4A1F22u
 #define SOFT 0.009f /* half the width of a patch's edge */
@@ -18,8 +20,6 @@
 enum { REFINE_ROUNDS = 3 };
 
 static const float lo[3] = {-0.26f, -0.02f, -0.82f}, hi[3] = {0.26f, 0.95f, 0.66f};
-
-static float distance(const float p[3]) { return dog_distance(p, NULL); }
 
 /// 1 where a is beyond b by more than a soft edge.
 static float beyond(float a, float b, float edge) { return glm_smoothstep(-edge, edge, a - b); }
@@ -51,11 +51,11 @@ static float smile(const float p[3])
 static void paint(struct vertex *vertex)
 {
     const float *p = vertex->position;
-    coat_linear(DOG_COAT_WHITE, vertex->color);
-    const float head = dog_limb_distance(DOG_HEAD, p, NULL), jaw = dog_limb_distance(DOG_JAW, p, NULL);
-    const float ear = fminf(dog_limb_distance(DOG_EAR_LEFT, p, NULL), dog_limb_distance(DOG_EAR_RIGHT, p, NULL));
+    coat_linear(WHITE, vertex->color);
+    const float head = dog_limb_distance(DOG_HEAD, p), jaw = dog_limb_distance(DOG_JAW, p);
+    const float ear = fminf(dog_limb_distance(DOG_EAR_LEFT, p), dog_limb_distance(DOG_EAR_RIGHT, p));
     coat_mix(vertex->color, CHESTNUT, patches(p) * beyond(jaw, head - 0.004f, 0.004f));
-    coat_mix(vertex->color, DOG_COAT_EAR, glm_smoothstep(0.010f, -0.002f, ear - 0.3f * glm_clamp(head, 0.0f, 0.03f)));
+    coat_mix(vertex->color, EAR, glm_smoothstep(0.010f, -0.002f, ear - 0.3f * glm_clamp(head, 0.0f, 0.03f)));
     coat_mix(vertex->color, MOUTH, 0.8f * glm_smoothstep(0.006f, 0.0f, smile(p)));
     coat_mix(vertex->color, MOUTH, glm_smoothstep(0.014f, 0.003f, fmaxf(head, jaw)) * beyond(p[2], 0.405f, 0.01f));
 }
@@ -105,7 +105,7 @@ static bool drop_unused(struct mesh *mesh)
 
 void dog_coat(int triangles, struct mesh *mesh)
 {
-    const struct solid solid = {distance, paint};
+    const struct solid solid = {dog_distance, paint};
     isosurface(&solid, lo, hi, CELL, mesh);
     refine(&solid, TOLERANCE, REFINE_ROUNDS, 0, mesh);
     if (mesh->failed || !thin(mesh, triangles) || !drop_unused(mesh)) mesh->failed = true;

@@ -1,60 +1,57 @@
 /// The dog's coat: a smooth union of limbs, each of which is made of round cones and follows a chain of joints.
-#include "model/coat.h"
 #include "model/dog.h"
 #include "model/parts.h"
 #include "model/vector.h"
 #include <math.h>
-
-#define WHITE DOG_COAT_WHITE
 
 /// How much flatter than wide the ears are.
 #define EAR_FLATNESS 2.6f
 #define SOLE_FILLET 0.010f
 
 static const struct part trunk[] = {
-    {{0, 0.460f, -0.195f}, {0, 0.462f, -0.04f}, 0.108f, 0.102f, 0.001f, WHITE, false}, // rump and loin
-    {{0, 0.452f, 0.01f}, {0, 0.448f, 0.13f}, 0.122f, 0.132f, 0.08f, WHITE, false},     // ribs
-    {{0, 0.400f, 0.13f}, {0, 0.440f, 0.205f}, 0.104f, 0.098f, 0.08f, WHITE, false},    // chest
-    {{0, 0.520f, 0.19f}, {0, 0.665f, 0.280f}, 0.098f, 0.082f, 0.10f, WHITE, false},    // neck
+    {{0, 0.460f, -0.195f}, {0, 0.462f, -0.04f}, 0.108f, 0.102f, 0.001f, 0, false}, // rump and loin
+    {{0, 0.452f, 0.01f}, {0, 0.448f, 0.13f}, 0.122f, 0.132f, 0.08f, 0, false},     // ribs
+    {{0, 0.400f, 0.13f}, {0, 0.440f, 0.205f}, 0.104f, 0.098f, 0.08f, 0, false},    // chest
+    {{0, 0.520f, 0.19f}, {0, 0.665f, 0.280f}, 0.098f, 0.082f, 0.10f, 0, false},    // neck
 };
 
 static const struct part head[] = {
-    {{-0.016f, 0.752f, 0.312f}, {0.016f, 0.752f, 0.312f}, 0.120f, 0.120f, 0.001f, WHITE, false}, // skull
-    {{0.055f, 0.715f, 0.335f}, {0.042f, 0.716f, 0.395f}, 0.074f, 0.052f, 0.06f, WHITE, true},    // cheeks
-    {{0, 0.712f, 0.400f}, {0, 0.712f, 0.515f}, 0.066f, 0.046f, 0.05f, WHITE, false},             // muzzle
-    {{0.040f, 0.716f, 0.410f}, {0.027f, 0.690f, 0.520f}, 0.040f, 0.037f, 0.025f, WHITE, true},   // lips
+    {{-0.016f, 0.752f, 0.312f}, {0.016f, 0.752f, 0.312f}, 0.120f, 0.120f, 0.001f, 0, false}, // skull
+    {{0.055f, 0.715f, 0.335f}, {0.042f, 0.716f, 0.395f}, 0.074f, 0.052f, 0.06f, 0, true},    // cheeks
+    {{0, 0.712f, 0.400f}, {0, 0.712f, 0.515f}, 0.066f, 0.046f, 0.05f, 0, false},             // muzzle
+    {{0.040f, 0.716f, 0.410f}, {0.027f, 0.690f, 0.520f}, 0.040f, 0.037f, 0.025f, 0, true},   // lips
 };
 
 static const struct part jaw[] = {
-    {{0.018f, 0.682f, 0.365f}, {0.011f, 0.628f, 0.492f}, 0.044f, 0.027f, 0.02f, WHITE, true},
+    {{0.018f, 0.682f, 0.365f}, {0.011f, 0.628f, 0.492f}, 0.044f, 0.027f, 0.02f, 0, true},
 };
 
 /// Front and hind leg, of the left side.
 static const struct part front_leg[] = {
-    {{0.080f, 0.445f, 0.155f}, {0.093f, 0.300f, 0.078f}, 0.080f, 0.050f, 0.001f, WHITE, false}, // upper arm
-    {{0.093f, 0.295f, 0.075f}, {0.091f, 0.105f, 0.110f}, 0.051f, 0.037f, 0.03f, WHITE, false},  // forearm
-    {{0.091f, 0.105f, 0.110f}, {0.092f, 0.045f, 0.135f}, 0.037f, 0.039f, 0.02f, WHITE, false},  // pastern
-    {{0.092f, 0.036f, 0.130f}, {0.094f, 0.032f, 0.165f}, 0.046f, 0.040f, 0.02f, WHITE, false},  // paw
-    {{0.094f, 0.028f, 0.170f}, {0.095f, 0.026f, 0.196f}, 0.026f, 0.024f, 0.010f, WHITE, false}, // toes
-    {{0.065f, 0.026f, 0.160f}, {0.064f, 0.024f, 0.182f}, 0.025f, 0.022f, 0.010f, WHITE, false},
-    {{0.123f, 0.026f, 0.160f}, {0.125f, 0.024f, 0.182f}, 0.025f, 0.022f, 0.010f, WHITE, false},
+    {{0.080f, 0.445f, 0.155f}, {0.093f, 0.300f, 0.078f}, 0.080f, 0.050f, 0.001f, 0, false}, // upper arm
+    {{0.093f, 0.295f, 0.075f}, {0.091f, 0.105f, 0.110f}, 0.051f, 0.037f, 0.03f, 0, false},  // forearm
+    {{0.091f, 0.105f, 0.110f}, {0.092f, 0.045f, 0.135f}, 0.037f, 0.039f, 0.02f, 0, false},  // pastern
+    {{0.092f, 0.036f, 0.130f}, {0.094f, 0.032f, 0.165f}, 0.046f, 0.040f, 0.02f, 0, false},  // paw
+    {{0.094f, 0.028f, 0.170f}, {0.095f, 0.026f, 0.196f}, 0.026f, 0.024f, 0.010f, 0, false}, // toes
+    {{0.065f, 0.026f, 0.160f}, {0.064f, 0.024f, 0.182f}, 0.025f, 0.022f, 0.010f, 0, false},
+    {{0.123f, 0.026f, 0.160f}, {0.125f, 0.024f, 0.182f}, 0.025f, 0.022f, 0.010f, 0, false},
 };
 
 static const struct part hind_leg[] = {
-    {{0.070f, 0.435f, -0.205f}, {0.090f, 0.305f, -0.148f}, 0.100f, 0.070f, 0.001f, WHITE, false}, // thigh
-    {{0.092f, 0.290f, -0.145f}, {0.092f, 0.160f, -0.270f}, 0.062f, 0.036f, 0.04f, WHITE, false},  // shin
-    {{0.092f, 0.158f, -0.274f}, {0.094f, 0.045f, -0.235f}, 0.035f, 0.037f, 0.02f, WHITE, false},  // hock
-    {{0.094f, 0.036f, -0.240f}, {0.096f, 0.032f, -0.200f}, 0.045f, 0.039f, 0.02f, WHITE, false},  // paw
-    {{0.096f, 0.028f, -0.195f}, {0.097f, 0.026f, -0.168f}, 0.026f, 0.024f, 0.010f, WHITE, false}, // toes
-    {{0.067f, 0.026f, -0.205f}, {0.066f, 0.024f, -0.183f}, 0.025f, 0.022f, 0.010f, WHITE, false},
-    {{0.125f, 0.026f, -0.205f}, {0.127f, 0.024f, -0.183f}, 0.025f, 0.022f, 0.010f, WHITE, false},
+    {{0.070f, 0.435f, -0.205f}, {0.090f, 0.305f, -0.148f}, 0.100f, 0.070f, 0.001f, 0, false}, // thigh
+    {{0.092f, 0.290f, -0.145f}, {0.092f, 0.160f, -0.270f}, 0.062f, 0.036f, 0.04f, 0, false},  // shin
+    {{0.092f, 0.158f, -0.274f}, {0.094f, 0.045f, -0.235f}, 0.035f, 0.037f, 0.02f, 0, false},  // hock
+    {{0.094f, 0.036f, -0.240f}, {0.096f, 0.032f, -0.200f}, 0.045f, 0.039f, 0.02f, 0, false},  // paw
+    {{0.096f, 0.028f, -0.195f}, {0.097f, 0.026f, -0.168f}, 0.026f, 0.024f, 0.010f, 0, false}, // toes
+    {{0.067f, 0.026f, -0.205f}, {0.066f, 0.024f, -0.183f}, 0.025f, 0.022f, 0.010f, 0, false},
+    {{0.125f, 0.026f, -0.205f}, {0.127f, 0.024f, -0.183f}, 0.025f, 0.022f, 0.010f, 0, false},
 };
 
 static const float tail_radius[DOG_TAIL_JOINTS + 1] = {0.046f, 0.037f, 0.033f, 0.034f, 0.037f,
                                                        0.040f, 0.040f, 0.034f, 0.018f};
 static const float ear_radius[DOG_EAR_JOINTS + 1] = {0.034f, 0.046f, 0.056f, 0.062f, 0.040f};
 
-/// How limbs join the ones before them, and their colours.
+/// How limbs join the ones before them.
 static const struct {
     const struct part *parts;
     size_t count;
@@ -118,23 +115,19 @@ static float tube(const float (*points)[3], const float *radii, int count, float
     return distance / flatness;
 }
 
-float dog_limb_distance(int limb, const float p[3], float rgb[3])
+float dog_limb_distance(int limb, const float p[3])
 {
     const float q[3] = {solids[limb].side * p[0], p[1], p[2]};
-    if (solids[limb].parts) return parts_add(solids[limb].parts, solids[limb].count, q, 1e3f, rgb);
-    if (rgb) coat_linear(limb == DOG_TAIL ? DOG_COAT_WHITE : DOG_COAT_EAR, rgb);
+    if (solids[limb].parts) return parts_add(solids[limb].parts, solids[limb].count, q, 1e3f, NULL);
     if (limb == DOG_TAIL) return tube(dog_tail, tail_radius, DOG_TAIL_JOINTS, 1.0f, q);
     return tube(dog_ear, ear_radius, DOG_EAR_JOINTS, EAR_FLATNESS, q);
 }
 
 /// Everything below the ground is cut off, so that the soles are flat.
-float dog_distance(const float p[3], float rgb[3])
+float dog_distance(const float p[3])
 {
     float distance = 1e3f;
-    for (int limb = 0; limb < DOG_LIMBS; limb++) {
-        float limb_rgb[3] = {0};
-        const float added = dog_limb_distance(limb, p, rgb ? limb_rgb : NULL);
-        distance = parts_union(distance, added, solids[limb].fillet, rgb, limb_rgb);
-    }
+    for (int limb = 0; limb < DOG_LIMBS; limb++)
+        distance = parts_union(distance, dog_limb_distance(limb, p), solids[limb].fillet, NULL, NULL);
     return -parts_union(-distance, p[1], SOLE_FILLET, NULL, NULL);
 }

@@ -77,7 +77,7 @@ void dog_influences(const struct dog_skeleton *skeleton, const float p[3], struc
     float distance[DOG_LIMBS], weights[DOG_MAX_JOINTS] = {0};
     int nearest = 0;
     for (int limb = 0; limb < DOG_LIMBS; limb++) {
-        distance[limb] = dog_limb_distance(limb, p, NULL);
+        distance[limb] = dog_limb_distance(limb, p);
         if (distance[limb] < distance[nearest]) nearest = limb;
     }
     for (int limb = 0; limb < DOG_LIMBS; limb++) {

@@ -20,6 +20,36 @@ struct output {
     bool failed; ///< memory ran short
 };
 
+/// A vertex as the file has it.
+struct packed {
+    float position[3], normal[3];
+    uint16_t uv[2];
+    unsigned char color[4], joints[DOG_INFLUENCES];
+    uint16_t weights[DOG_INFLUENCES];
+};
+
+/// What an accessor's elements are.
+struct shape {
+    const char *name; ///< SCALAR, VEC3 …
+    int type;         ///< of its components
+    bool normalized;
+    size_t offset; ///< in a vertex
+};
+
+static const struct {
+    const char *name;
+    struct shape shape;
+} attributes[] = {
+    {"POSITION", {"VEC3", FLOAT, false, offsetof(struct packed, position)}},
+    {"NORMAL", {"VEC3", FLOAT, false, offsetof(struct packed, normal)}},
+    {"TEXCOORD_0", {"VEC2", SHORT, true, offsetof(struct packed, uv)}},
+    {"COLOR_0", {"VEC4", BYTE, true, offsetof(struct packed, color)}},
+    {"JOINTS_0", {"VEC4", BYTE, false, offsetof(struct packed, joints)}},
+    {"WEIGHTS_0", {"VEC4", SHORT, true, offsetof(struct packed, weights)}},
+};
+
+enum { PLACED = 0, PICTURED = 2 };
+
 /// Adds a buffer view; views start at multiples of 4 bytes.
 static json_int_t add_view(struct output *o, const void *bytes, size_t size, int target)
 {
@@ -34,33 +64,33 @@ static json_int_t add_view(struct output *o, const void *bytes, size_t size, int
     return (json_int_t)json_array_size(o->views) - 1;
 }
 
-struct shape {
-    int type;         ///< of its components
-    const char *name; ///< SCALAR, VEC3 …
-    size_t bytes;     ///< an element
-    int target;
-    bool normalized;
-};
-
-static json_int_t add(struct output *o, const void *elements, int count, struct shape shape)
+static json_int_t add_accessor(struct output *o, json_int_t view, int count, const struct shape *shape)
 {
-    const json_int_t view = add_view(o, elements, (size_t)count * shape.bytes, shape.target);
-    json_t *accessor = json_pack("{s:I, s:i, s:i, s:s}", "bufferView", view, "componentType", shape.type, "count",
-                                 count, "type", shape.name);
-    if (shape.normalized) json_object_set_new(accessor, "normalized", json_true());
+    json_t *accessor =
+        json_pack("{s:I, s:I, s:i, s:i, s:s}", "bufferView", view, "byteOffset", (json_int_t)shape->offset,
+                  "componentType", shape->type, "count", count, "type", shape->name);
+    if (shape->normalized) json_object_set_new(accessor, "normalized", json_true());
     json_array_append_new(o->accessors, accessor);
     return (json_int_t)json_array_size(o->accessors) - 1;
 }
 
-/// What positions and key times must state.
-static void add_bounds(struct output *o, json_int_t accessor, const float *numbers, int count, int components)
+/// Floats in a view of their own.
+static json_int_t add_floats(struct output *o, const float *numbers, int count, int components, const char *name)
+{
+    const json_int_t view = add_view(o, numbers, (size_t)(count * components) * sizeof *numbers, 0);
+    return add_accessor(o, view, count, &(struct shape){.name = name, .type = FLOAT});
+}
+
+/// What positions and key times must state; the next element follows after `stride` floats.
+static void add_bounds(struct output *o, json_int_t accessor, const float *numbers, int count, int components,
+                       int stride)
 {
     json_t *low = json_array(), *high = json_array(), *object = json_array_get(o->accessors, (size_t)accessor);
     for (int k = 0; k < components; k++) {
         float least = INFINITY, most = -INFINITY;
         for (int i = 0; i < count; i++) {
-            least = fminf(least, numbers[i * components + k]);
-            most = fmaxf(most, numbers[i * components + k]);
+            least = fminf(least, numbers[i * stride + k]);
+            most = fmaxf(most, numbers[i * stride + k]);
         }
         json_array_append_new(low, json_real((double)least));
         json_array_append_new(high, json_real((double)most));
@@ -69,116 +99,69 @@ static void add_bounds(struct output *o, json_int_t accessor, const float *numbe
     json_object_set_new(object, "max", high);
 }
 
-/// The vertices of one material as the file has them.
-struct columns {
-    int count;
-    float (*position)[3], (*normal)[3], (*uv)[2];
-    unsigned char (*color)[4], (*joints)[4];
-    uint16_t (*weights)[4];
-    uint16_t *indices;
-    int index_count;
-};
-
-static bool reserve(struct columns *c, int vertices, int indices)
-{
-    const size_t n = (size_t)vertices + 1;
-    c->position = malloc(n * sizeof *c->position);
-    c->normal = malloc(n * sizeof *c->normal);
-    c->uv = malloc(n * sizeof *c->uv);
-    c->color = malloc(n * sizeof *c->color);
-    c->joints = malloc(n * sizeof *c->joints);
-    c->weights = malloc(n * sizeof *c->weights);
-    c->indices = malloc(((size_t)indices + 1) * sizeof *c->indices);
-    return c->position && c->normal && c->uv && c->color && c->joints && c->weights && c->indices;
-}
-
-static void release(struct columns *c)
-{
-    free(c->position);
-    free(c->normal);
-    free(c->uv);
-    free(c->color);
-    free(c->joints);
-    free(c->weights);
-    free(c->indices);
-}
-
 /// Weights as shorts whose sum is exactly 65535.
-static void fill_influences(const struct output *o, const struct dog_piece *piece, const float p[3],
-                            struct columns *c)
+static void pack_influences(const struct output *o, const struct dog_piece *piece, struct packed *packed)
 {
     struct dog_influences influences = {.joint = {piece->joint}, .weight = {1}};
-    if (piece->joint < 0) dog_influences(o->skeleton, p, &influences);
+    if (piece->joint < 0) dog_influences(o->skeleton, packed->position, &influences);
     int left = UINT16_MAX;
     for (int n = DOG_INFLUENCES - 1; n >= 0; n--) {
         const int weight = n ? (int)lrintf(influences.weight[n] * (float)UINT16_MAX) : left;
-        c->joints[c->count][n] = (unsigned char)(weight ? influences.joint[n] : 0);
-        c->weights[c->count][n] = (uint16_t)weight;
+        packed->joints[n] = (unsigned char)(weight ? influences.joint[n] : 0);
+        packed->weights[n] = (uint16_t)weight;
         left -= weight;
     }
 }
 
-static void fill(const struct output *o, const struct dog_piece *piece, struct columns *c)
+static void pack(const struct output *o, const struct dog_piece *piece, const struct vertex *vertex,
+                 struct packed *packed)
 {
-    const int first = c->count;
-    const struct dog_pieces *pieces = o->pieces;
-    for (int v = 0; v < piece->mesh.vertex_count; v++, c->count++) {
-        const struct vertex *vertex = &piece->mesh.vertices[v];
-        memcpy(c->position[c->count], vertex->position, sizeof *c->position);
-        memcpy(c->normal[c->count], vertex->normal, sizeof *c->normal);
-        for (int k = 0; k < 3; k++)
-            c->color[c->count][k] = (unsigned char)lrintf(255.0f * glm_clamp(vertex->color[k], 0, 1));
-        c->color[c->count][3] = 255;
-        c->uv[c->count][0] = 0.5f + 0.5f * (vertex->position[0] - pieces->tag_middle[0]) / pieces->tag_radius;
-        c->uv[c->count][1] = 0.5f - 0.5f * (vertex->position[1] - pieces->tag_middle[1]) / pieces->tag_radius;
-        fill_influences(o, piece, vertex->position, c);
+    memcpy(packed->position, vertex->position, sizeof packed->position);
+    memcpy(packed->normal, vertex->normal, sizeof packed->normal);
+    for (int k = 0; k < 2; k++) {
+        const float off = (vertex->position[k] - o->pieces->tag_middle[k]) / o->pieces->tag_radius;
+        packed->uv[k] = (uint16_t)lrintf(UINT16_MAX * glm_clamp(0.5f + (k ? -0.5f : 0.5f) * off, 0, 1));
     }
-    for (int i = 0; i < piece->mesh.index_count; i++)
-        c->indices[c->index_count++] = (uint16_t)(piece->mesh.indices[i] + (uint32_t)first);
+    for (int k = 0; k < 3; k++) packed->color[k] = (unsigned char)lrintf(255.0f * glm_clamp(vertex->color[k], 0, 1));
+    packed->color[3] = 255;
+    pack_influences(o, piece, packed);
 }
 
+/// All pieces of one material.
 static json_t *make_primitive(struct output *o, enum dog_material material)
 {
-    struct columns c = {0};
-    int vertices = 0, indices = 0;
-    for (int p = 0; p < o->pieces->count; p++) {
-        if (o->pieces->pieces[p].material != material) continue;
-        vertices += o->pieces->pieces[p].mesh.vertex_count;
-        indices += o->pieces->pieces[p].mesh.index_count;
+    const struct dog_pieces *pieces = o->pieces;
+    size_t vertices = 0, indices = 0, vertex = 0, index = 0;
+    for (int p = 0; p < pieces->count; p++) {
+        if (pieces->pieces[p].material != material) continue;
+        vertices += (size_t)pieces->pieces[p].mesh.vertex_count;
+        indices += (size_t)pieces->pieces[p].mesh.index_count;
     }
-    json_t *attributes = json_object();
-    json_int_t index_accessor = 0;
-    if (vertices <= UINT16_MAX && reserve(&c, vertices, indices)) {
-        for (int p = 0; p < o->pieces->count; p++) {
-            if (o->pieces->pieces[p].material == material) fill(o, &o->pieces->pieces[p], &c);
-        }
-        const json_int_t position = add(o, c.position, c.count, (struct shape){FLOAT, "VEC3", 12, VERTICES, false});
-        add_bounds(o, position, c.position[0], c.count, 3);
-        json_object_set_new(attributes, "POSITION", json_integer(position));
-        json_object_set_new(
-            attributes, "NORMAL",
-            json_integer(add(o, c.normal, c.count, (struct shape){FLOAT, "VEC3", 12, VERTICES, false})));
-        if (material == DOG_COAT)
-            json_object_set_new(
-                attributes, "COLOR_0",
-                json_integer(add(o, c.color, c.count, (struct shape){BYTE, "VEC4", 4, VERTICES, true})));
-        if (material == DOG_TAG)
-            json_object_set_new(
-                attributes, "TEXCOORD_0",
-                json_integer(add(o, c.uv, c.count, (struct shape){FLOAT, "VEC2", 8, VERTICES, false})));
-        json_object_set_new(
-            attributes, "JOINTS_0",
-            json_integer(add(o, c.joints, c.count, (struct shape){BYTE, "VEC4", 4, VERTICES, false})));
-        json_object_set_new(
-            attributes, "WEIGHTS_0",
-            json_integer(add(o, c.weights, c.count, (struct shape){SHORT, "VEC4", 8, VERTICES, true})));
-        index_accessor = add(o, c.indices, c.index_count, (struct shape){SHORT, "SCALAR", 2, INDICES, false});
-    } else {
-        o->failed = true;
+    struct packed *packed = malloc(vertices * sizeof *packed);
+    uint16_t *corners = malloc(indices * sizeof *corners);
+    o->failed = o->failed || !packed || !corners || vertices > UINT16_MAX;
+    for (int p = 0; p < pieces->count && !o->failed; p++) {
+        const struct mesh *mesh = &pieces->pieces[p].mesh;
+        if (pieces->pieces[p].material != material) continue;
+        for (int i = 0; i < mesh->index_count; i++) corners[index++] = (uint16_t)(vertex + mesh->indices[i]);
+        for (int v = 0; v < mesh->vertex_count; v++)
+            pack(o, &pieces->pieces[p], &mesh->vertices[v], &packed[vertex++]);
     }
-    release(&c);
-    return json_pack("{s:o, s:I, s:i}", "attributes", attributes, "indices", index_accessor, "material",
-                     (int)material);
+    json_t *named = json_object();
+    const json_int_t view = add_view(o, packed, vertex * sizeof *packed, VERTICES);
+    json_object_set_new(json_array_get(o->views, (size_t)view), "byteStride", json_integer(sizeof *packed));
+    for (size_t a = 0; a < sizeof attributes / sizeof *attributes; a++) {
+        if (a == PICTURED && material != DOG_TAG) continue;
+        const json_int_t accessor = add_accessor(o, view, (int)vertex, &attributes[a].shape);
+        if (a == PLACED && packed)
+            add_bounds(o, accessor, packed->position, (int)vertex, 3, sizeof *packed / sizeof(float));
+        json_object_set_new(named, attributes[a].name, json_integer(accessor));
+    }
+    const json_int_t triangles = add_view(o, corners, index * sizeof *corners, INDICES);
+    const json_int_t order = add_accessor(o, triangles, (int)index, &(struct shape){.name = "SCALAR", .type = SHORT});
+    free(packed);
+    free(corners);
+    return json_pack("{s:o, s:I, s:i}", "attributes", named, "indices", order, "material", (int)material);
 }
 
 static json_t *make_materials(void)
@@ -277,7 +260,7 @@ static json_t *make_skin(struct output *o)
         for (int row = 0; row < 4; row++) inverse[j][4 * row + 3] = row == 3 ? 1.0f : 0.0f;
         json_array_append_new(joints, json_integer(j + 1));
     }
-    const json_int_t accessor = add(o, inverse, s->count, (struct shape){FLOAT, "MAT4", 64, 0, false});
+    const json_int_t accessor = add_floats(o, inverse[0], s->count, 16, "MAT4");
     return json_pack("{s:s, s:o, s:I, s:i}", "name", "dog", "joints", joints, "inverseBindMatrices", accessor,
                      "skeleton", 0);
 }
@@ -316,15 +299,14 @@ static json_t *make_clip(struct output *o, int clip, const struct dog_pose *pose
         times[k] = (float)k / DOG_FPS;
         memcpy(hips[k], poses[k].hips, sizeof hips[k]);
     }
-    const json_int_t input = add(o, times, keys, (struct shape){FLOAT, "SCALAR", 4, 0, false});
-    add_bounds(o, input, times, keys, 1);
+    const json_int_t input = add_floats(o, times, keys, 1, "SCALAR");
+    add_bounds(o, input, times, keys, 1, 1);
     json_t *animation = json_pack("{s:s, s:[], s:[]}", "name", dog_clips[clip].name, "channels", "samplers");
-    add_channel(animation, 1, "translation", input, add(o, hips, keys, (struct shape){FLOAT, "VEC3", 12, 0, false}));
+    add_channel(animation, 1, "translation", input, add_floats(o, hips[0], keys, 3, "VEC3"));
     for (int j = 0; j < o->skeleton->count; j++) {
         for (int k = 0; k < keys; k++) memcpy(rotations[k], poses[k].rotation[j], sizeof rotations[k]);
         if (!moves(rotations, keys)) continue;
-        add_channel(animation, j + 1, "rotation", input,
-                    add(o, rotations, keys, (struct shape){FLOAT, "VEC4", 16, 0, false}));
+        add_channel(animation, j + 1, "rotation", input, add_floats(o, rotations[0], keys, 4, "VEC4"));
     }
     return animation;
 }

@@ -5,20 +5,8 @@
 #ifndef RIG_CHAIN_BONES_H
 #define RIG_CHAIN_BONES_H
 
-#include "rig/imported.h"
+#include "rig/bones.h"
 #include "rig/posing.h"
-
-struct chain_bones {
-    int count;
-    int node[ANGLES_MAX_JOINTS]; ///< each the parent of the next
-};
-
-/// The bones from one to another below it, both by name. false with a sentence.
-bool chain_find(const struct gltf *gltf, const char *from, const char *to, struct chain_bones *bones,
-                struct error *error);
-
-/// The bone at the end of the only way down from `from`; −1 with a sentence where the way branches, or is too long.
-int chain_end(const struct gltf *gltf, int from, struct error *error);
 
 /// Unit axes in the character's space. `along`: from the first bone to the tip at rest. `side`: world up made perpendicular to it (for a
 /// chain that stands or hangs, world z); a positive angle takes the tip towards side × along. `up`: along × side; lifts the tip towards `side`.

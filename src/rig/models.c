@@ -1,9 +1,8 @@
 /// Reads the models of a document's characters, and keeps them by path.
 #include "rig/models.h"
 #include "base/path.h"
-#include "rig/chain_bones.h"
+#include "rig/bones.h"
 #include "rig/model_files.h"
-#include "rig/posing_kind.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,6 +27,7 @@ struct models {
     int placed_count;
     struct character_model *characters; ///< in the order of the document
     int character_count;
+    uint64_t version;
 };
 
 struct models *models_create(void) { return calloc(1, sizeof(struct models)); }
@@ -175,7 +175,8 @@ static bool check_chains(const struct models *models, const struct document *doc
          r = document_next_rig(document, RIG_CHAIN, r + 1)) {
         const struct chain *chain = &document->rigs[r].chain;
         const int model = document_find_model(document, chain->model, chain->by_file);
-        const struct imported *imported = model < 0 ? NULL : models_imported(models, posing_number(document, model));
+        const struct imported *imported =
+            model < 0 ? NULL : models_imported(models, document_rig_number(document, model));
         struct chain_bones bones;
         if (imported && !chain_find(&imported->gltf, chain->from, chain->to, &bones, error)) return false;
     }
@@ -185,6 +186,7 @@ static bool check_chains(const struct models *models, const struct document *doc
 bool models_update(struct models *models, const struct document *document, struct error *error)
 {
     struct error first = {0}, trouble = {0};
+    models->version++;
     update_characters(models, document, &first);
     update_placed(models, document, &first);
     check_chains(models, document, &trouble);
@@ -226,6 +228,8 @@ const struct figure *models_figure(const struct models *models, int character)
     const struct character_model *model = &models->characters[character];
     return model->painted ? &model->painted->figure : model->plain;
 }
+
+uint64_t models_version(const struct models *models) { return models ? models->version : 0; }
 
 const struct imported *models_imported(const struct models *models, int model)
 {

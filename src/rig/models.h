@@ -32,6 +32,9 @@ bool models_paint_fits(const struct paint *paint, const struct figure *figure);
 /// The figure of the document's i-th character, painted; NULL if it could not be read. `models` may be NULL.
 const struct figure *models_figure(const struct models *models, int character);
 
+/// Changes whenever models_update() is called; 0 for none. `models` may be NULL.
+uint64_t models_version(const struct models *models);
+
 /// The document's i-th model rig; NULL if it could not be read. `models` may be NULL.
 const struct imported *models_imported(const struct models *models, int model);
 

@@ -28,7 +28,7 @@ static bool pose(const struct posing *posing, int rig, double position, const wi
                  const struct by_hand *by_hand, struct rig_pose *posed)
 {
     const struct character_rig *character = &posing->document->rigs[rig].character;
-    const struct figure *figure = models_figure(posing->models, posing_number(posing->document, rig));
+    const struct figure *figure = models_figure(posing->models, document_rig_number(posing->document, rig));
     (void)position;
     if (!figure) return false;
     posed->character.figure = figure;

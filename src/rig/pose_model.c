@@ -4,8 +4,7 @@
 #include "rig/posing_kind.h"
 #include <math.h>
 
-/// Seconds into a clip, which starts at frame 0 and repeats.
-static double clip_time(const struct document *document, double position, double duration)
+double posing_clip_time(const struct document *document, double position, double duration)
 {
     const double frame = document->first_frame + position / document->substeps;
     const double time = duration > 0 ? fmod(frame / document->fps, duration) : 0;
@@ -47,13 +46,13 @@ bool posing_model(const struct posing *posing, int rig, double position, int han
 {
     const struct document *document = posing->document;
     const struct model_rig *model = &document->rigs[rig].model;
-    const int number = posing_number(document, rig);
+    const int number = document_rig_number(document, rig);
     const struct imported *imported = models_imported(posing->models, number);
     struct gltf_pose *pose = models_pose(posing->models, number, posing->shown);
     if (!imported || !pose) return false;
     const struct gltf *gltf = &imported->gltf;
     const int clip = model->clip ? gltf_find_clip(gltf, model->clip) : -1;
-    gltf_pose_clip(gltf, clip, clip < 0 ? 0 : clip_time(document, position, gltf->clips[clip].duration), pose);
+    gltf_pose_clip(gltf, clip, clip < 0 ? 0 : posing_clip_time(document, position, gltf->clips[clip].duration), pose);
     for (int r = 0; r < document->rig_count; r++) {
         if (is_of(document, &document->rigs[r], rig))
             add_chain(posing, imported, r, position, r == hand ? by_hand : NULL, pose);

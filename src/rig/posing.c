@@ -6,13 +6,6 @@
 static const struct posing_functions *const kinds[RIG_KINDS] = {RIG_KIND_LIST(POSING_ROW)};
 #undef POSING_ROW
 
-int posing_number(const struct document *document, int rig)
-{
-    int number = 0;
-    for (int i = 0; i < rig; i++) number += document->rigs[i].kind == document->rigs[rig].kind;
-    return number;
-}
-
 void posing_values(const struct posing *posing, int index, double position, const struct by_hand *by_hand,
                    wiggly_value values[RIG_MAX_INPUTS])
 {

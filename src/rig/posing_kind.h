@@ -16,6 +16,9 @@ struct posing_functions {
 bool posing_model(const struct posing *posing, int rig, double position, int hand, const struct by_hand *by_hand,
                   struct rig_pose *posed);
 
+/// Seconds into a clip, which starts at frame 0 and repeats, at a position in samples.
+double posing_clip_time(const struct document *document, double position, double duration);
+
 /// The values of a rig's inputs, with what `by_hand` (may be NULL) adds.
 void posing_values(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                    wiggly_value values[RIG_MAX_INPUTS]);

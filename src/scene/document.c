@@ -162,6 +162,13 @@ int document_count_rigs(const struct document *document, enum rig_kind kind)
     return count;
 }
 
+int document_rig_number(const struct document *document, int rig)
+{
+    int number = 0;
+    for (int i = 0; i < rig; i++) number += document->rigs[i].kind == document->rigs[rig].kind;
+    return number;
+}
+
 struct tail *document_tail(const struct document *document, int n)
 {
     int found = document_find_rig(document, RIG_TAIL, n);

@@ -122,6 +122,9 @@ int document_next_rig(const struct document *document, enum rig_kind kind, int f
 int document_find_rig(const struct document *document, enum rig_kind kind, int n);
 int document_count_rigs(const struct document *document, enum rig_kind kind);
 
+/// A rig's number among those of its kind.
+int document_rig_number(const struct document *document, int rig);
+
 /// The n-th tail or character, or NULL.
 struct tail *document_tail(const struct document *document, int n);
 struct character_rig *document_character(const struct document *document, int n);

@@ -73,11 +73,10 @@ static struct change channel_change(const struct edit *edit, const struct channe
                            .channel = {edit->rig, edit->channel, channel->spline, channel->axis, channel->of}};
 }
 
-bool plan_check_axis(const struct rig *rig, enum axis axis, struct error *error)
+bool plan_check_axis(enum rig_kind kind, enum axis axis, struct error *error)
 {
     if ((unsigned)axis > AXIS_TWIST) return fail(error, ERROR_INPUT, "there is no such axis");
-    return axis != AXIS_TWIST || rig->kind != RIG_TAIL ||
-           fail(error, ERROR_INPUT, "%s: a tail does not twist", rig->name);
+    return axis != AXIS_TWIST || kind != RIG_TAIL || fail(error, ERROR_INPUT, "a tail does not twist");
 }
 
 bool plan_check_part(enum channel_part part, struct error *error)
@@ -89,7 +88,7 @@ bool plan_axis(struct document *document, const struct edit *edit, struct change
 {
     const struct channel *channel = find_channel(document, edit);
     if (!channel) return no_channel(error);
-    if (!plan_check_axis(&document->rigs[edit->rig], edit->axis, error)) return false;
+    if (!plan_check_axis(document->rigs[edit->rig].kind, edit->axis, error)) return false;
     struct change change = channel_change(edit, channel);
     change.channel.axis = edit->axis;
     return channel->axis == edit->axis || plan_add(list, &change, error);
@@ -138,7 +137,7 @@ bool plan_channel_add(struct document *document, const struct edit *edit, struct
     const struct rig *old = &document->rigs[edit->rig];
     int count;
     rig_channels(old, &count);
-    if (!plan_has_spline(document, edit->spline, error) || !plan_check_axis(old, edit->axis, error) ||
+    if (!plan_has_spline(document, edit->spline, error) || !plan_check_axis(old->kind, edit->axis, error) ||
         !plan_check_part(edit->of, error))
         return false;
     if (count >= SCENE_MAX_CHANNELS) {

@@ -36,7 +36,7 @@ static bool check_chain(const struct document *document, const struct rig *rig, 
     }
     for (int c = 0; c < chain->channel_count; c++) {
         const struct channel *channel = &chain->channels[c];
-        if (!plan_has_spline(document, channel->spline, error) || !plan_check_axis(rig, channel->axis, error) ||
+        if (!plan_has_spline(document, channel->spline, error) || !plan_check_axis(RIG_CHAIN, channel->axis, error) ||
             !plan_check_part(channel->of, error) || !plan_check_angles(rig, &channel->lag, error) ||
             !plan_check_angles(rig, &channel->gain, error))
             return false;
@@ -54,11 +54,12 @@ static bool check_contents(const struct document *document, const struct rig *ri
 /// Its name, or what it goes by: a file without folders and ending, or a joint.
 static char *new_name(const struct document *document, const struct rig *rig)
 {
-    if (rig->name || rig->kind == RIG_CHAIN) return plan_rig_free_name(document, rig_title(rig));
+    if (rig->name && rig->name[0]) return plan_rig_free_name(document, rig->name);
+    if (rig->kind == RIG_CHAIN) return plan_rig_free_name(document, rig->chain.from);
     const char *slash = strrchr(rig->model.model, '/'), *file = slash ? slash + 1 : rig->model.model;
     const char *dot = strrchr(file, '.');
     char *stem = strndup(file, dot && dot > file ? (size_t)(dot - file) : strlen(file));
-    char *name = stem ? plan_rig_free_name(document, stem) : NULL;
+    char *name = stem ? plan_rig_free_name(document, stem[0] ? stem : "model") : NULL;
     free(stem);
     return name;
 }

@@ -49,15 +49,6 @@ static bool is_taken(const struct document *document, const char *name, int own)
     return false;
 }
 
-char *plan_rig_free_name(const struct document *document, const char *wanted)
-{
-    char name[NAME_SIZE];
-    snprintf(name, sizeof name, "%s", wanted);
-    for (int n = 2; is_taken(document, name, -1); n++)
-        snprintf(name, sizeof name, "%.*s %d", NAME_SIZE - 16, wanted, n);
-    return strdup(name);
-}
-
 /// Whether a chain of the document is on the model rig at `model`.
 static bool is_on(const struct document *document, int chain, int model)
 {
@@ -118,6 +109,15 @@ static bool is_file_of_any(const struct document *document, const char *name)
         any |= motion && motion->by_file && strcmp(motion->model, name) == 0;
     }
     return any;
+}
+
+char *plan_rig_free_name(const struct document *document, const char *wanted)
+{
+    char name[NAME_SIZE];
+    snprintf(name, sizeof name, "%s", wanted);
+    for (int n = 2; is_taken(document, name, -1) || is_file_of_any(document, name); n++)
+        snprintf(name, sizeof name, "%.*s %d", NAME_SIZE - 16, wanted, n);
+    return strdup(name);
 }
 
 static bool check_name(const struct document *document, const struct edit *edit, const char *name,

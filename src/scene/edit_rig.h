@@ -23,7 +23,7 @@ bool plan_append_channel(struct rig *rig, const struct edit *edit);
 
 /// Whether a channel of the rig may be so.
 bool plan_check_angles(const struct rig *rig, const struct angles *angles, struct error *error);
-bool plan_check_axis(const struct rig *rig, enum axis axis, struct error *error);
+bool plan_check_axis(enum rig_kind kind, enum axis axis, struct error *error);
 bool plan_check_part(enum channel_part part, struct error *error);
 
 #endif

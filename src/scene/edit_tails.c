@@ -46,7 +46,9 @@ static bool fill_new(const struct document *document, const struct edit *edit, s
 
 bool plan_tail_add(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
-    if (!plan_rig_fits(document, error)) return false;
+    if (!plan_rig_fits(document, error) || !plan_check_axis(RIG_TAIL, edit->axis, error) ||
+        !plan_check_part(edit->of, error))
+        return false;
     struct rig *rig = malloc(sizeof *rig);
     if (!rig) return plan_no_memory(error);
     if (!fill_new(document, edit, rig)) return plan_rig_abandon(rig, error);

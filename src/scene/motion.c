@@ -4,6 +4,7 @@
 #include "scene/storage.h"
 #include "scene/text.h"
 #include <math.h>
+#include <string.h>
 
 static uint64_t hash_text(uint64_t hash, const char *text)
 {
@@ -69,4 +70,25 @@ bool motions_bake(struct evaluation *evaluation, const struct document *document
         baked->is_new = any = true;
     }
     return any;
+}
+
+void motions_copy(struct evaluation *evaluation, const struct evaluation *from)
+{
+    if (evaluation->count != from->count || evaluation->samples != from->samples) return;
+    const size_t size = (size_t)from->samples * sizeof(double);
+    for (int s = 0; s < from->count; s++) {
+        struct baked *to = &evaluation->storage->baked[s];
+        const struct baked *old = &from->storage->baked[s];
+        if (to->capacity < from->samples || old->capacity < from->samples || old->key == 0) continue;
+        memcpy(to->raw, old->raw, size);
+        memcpy(to->samples, old->samples, size);
+        to->key = old->key;
+        to->gain = old->gain;
+    }
+}
+
+const double *motions_samples(const struct evaluation *evaluation, int spline)
+{
+    const struct baked *baked = &evaluation->storage->baked[spline];
+    return baked->key != 0 ? baked->samples : NULL;
 }

@@ -22,4 +22,10 @@ struct motion_source {
 /// 0 throughout. Allocates nothing.
 bool motions_bake(struct evaluation *evaluation, const struct document *document, const struct motion_source *source);
 
+/// Takes over what is baked in another evaluation, for a trial of the same document.
+void motions_copy(struct evaluation *evaluation, const struct evaluation *from);
+
+/// What is baked for a spline, with gain: one number a sample. NULL if there is nothing.
+const double *motions_samples(const struct evaluation *evaluation, int spline);
+
 #endif

@@ -34,12 +34,26 @@ enum request_kind {
     REQUEST_FULLSCREEN,
     REQUEST_COPY,  ///< editor_clipboard() onto the clipboard
     REQUEST_PASTE, ///< an EVENT_PASTE with what is there
+    REQUEST_EXPORT,      ///< path, wish; answered once it is done
+    REQUEST_EXPORT_STOP, ///< the running one; that answers then
+};
+
+/// How motion is to be exported. What a format has no use for is ignored; all zero is a good start.
+struct export_wish {
+    bool part; ///< these frames alone
+    double first, last;
+    int keys;          ///< a frame; 0: the scene's substeps
+    int width, height; ///< of pictures; 0: as the format likes
+    char rig[64];      ///< by its name; "": all
+    char clip[64];     ///< what the animation is called; "": as the scene
+    bool is_cubic, is_signed, transparent;
 };
 
 struct request {
     enum request_kind kind;
     int number;
     char path[1024];
+    struct export_wish wish;
 };
 
 /// Unsaved work that an earlier run left behind.

@@ -3,6 +3,7 @@
 #include "editor/curves/curves.h"
 #include "editor/curves/view.h"
 #include "editor/curves/warnings.h"
+#include "scene/motion.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -11,12 +12,14 @@ enum { LOWER_STEPS = 8 };
 static const double LOWER = 0.9; ///< factor of the frequency from try to try
 
 /// Swings that the spline has too many of with the document as it is now; -1 where it cannot be solved.
-static int count_swings(const struct core *core, const struct document *document)
+static int count_swings(const struct core *core, const struct editor_world *world)
 {
+    const struct document *document = world->document;
     struct evaluation trial = {.method = core->method};
     struct warnings found = {0};
     bool good = evaluation_resize(&trial, document, NULL);
     if (good) {
+        motions_copy(&trial, world->evaluation);
         evaluation_update(&trial, document, NULL, false);
         warnings_find(document, &trial, core->active, &found);
     }
@@ -31,7 +34,7 @@ static bool helps(const struct core *core, const struct editor_world *world, con
 {
     struct document *document = world->document;
     int count = -1;
-    if (history_apply(world->history, document, edit, NULL)) count = count_swings(core, document);
+    if (history_apply(world->history, document, edit, NULL)) count = count_swings(core, world);
     if (count >= 0 && count < before) return true;
     history_restart(world->history, document);
     return false;
@@ -57,7 +60,7 @@ static bool tame(const struct curves *curves, const struct core *core, const str
                  const struct warning *warning, char text[96])
 {
     const struct spline *spline = core_active_spline(core, world);
-    int before = count_swings(core, world->document);
+    int before = count_swings(core, world);
     struct edit calm = core_parameter_edit(core->active, PARAMETER_CALM, 1);
     struct edit hold = core_edit_of(EDIT_KNOT_INSERT, core->active);
     double resolution = 0.01 / curves_pixels_per_value(curves, core);

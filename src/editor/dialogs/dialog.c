@@ -25,7 +25,7 @@ static void open_dialog(struct dialogs *dialogs, enum dialog_kind kind, const ch
     ui_release(&dialog->ui);
     ui_text_set(&dialog->ui.text, path);
     dialog->ui.text.all = path[0] != '\0';
-    if (is_question(dialog)) return;
+    if (is_question(dialog) || kind == DIALOG_EXPORT) return;
     bool lists = kind == DIALOG_OPEN && dialog->files.recent;
     dialog->recent_count = lists ? dialog->files.recent(dialog->files.user, dialog->recent, DIALOG_MAX_RECENT) : 0;
     dialog_match(dialog);
@@ -251,6 +251,8 @@ static void build(struct dialogs *dialogs, struct core *core, const struct edito
     ui_space(ui, 8);
     if (is_question(dialog)) {
         answer(dialogs, core, world, question_build(dialog));
+    } else if (dialog->kind == DIALOG_EXPORT) {
+        export_build(dialogs, core, world);
     } else {
         ui->focus = ui_id("dialog.path"); // the path is all there is to type in
         build_path(dialogs, core);
@@ -284,10 +286,12 @@ bool dialog_event(struct dialogs *dialogs, struct core *core, const struct edito
     if (key && event->action == ACTION_RELEASE) return false; // of a key that was pressed before the dialog came
     bool typed_by_answer = dialog->skip_text && event->kind == EVENT_TEXT;
     dialog->skip_text = false;
-    if (dialog->awaited != REQUEST_NONE || typed_by_answer) return true;
+    const bool exports = dialog->kind == DIALOG_EXPORT;
+    if ((dialog->awaited != REQUEST_NONE && !exports) || typed_by_answer) return true;
     bool chord = event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER);
     if (key && !chord) {
         bool done = is_question(dialog) ? question_event(dialogs, core, world, event->key)
+                    : exports           ? export_key(dialogs, core, world, event->key)
                                         : path_key(dialogs, core, event->key);
         if (done) return true;
     }

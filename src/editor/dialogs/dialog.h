@@ -31,6 +31,11 @@ bool dialog_exists(const struct dialog *dialog);
 /// Lays out one match of the list; true where it was pressed.
 bool dialog_row(struct dialog *dialog, struct rect r, int match);
 
+/// The Export dialog's keys: true where it has used one. They also come while the app is at work, as all its events do.
+bool export_key(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int key);
+/// Lays it out.
+void export_build(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
+
 enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
 
 /// Lays the dialog's question out; returns the answer that was pressed, or QUESTION_OPEN.

@@ -16,6 +16,11 @@ void dialogs_destroy(struct dialogs *dialogs);
 void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files);
 /// Asks where to save.
 void dialogs_save_as(struct dialogs *dialogs, const struct core *core);
+/// Asks what to export, and where to.
+void dialogs_export(struct dialogs *dialogs, const struct core *core, const struct editor_world *world);
+/// See editor_set_export() and editor_tell_export().
+void dialogs_set_export(struct dialogs *dialogs, const struct export_memory *memory);
+void dialogs_tell_export(struct dialogs *dialogs, long done, long total);
 /// Does `after` (REQUEST_NEW, REQUEST_OPEN with a path, or without: asks for one, REQUEST_QUIT), but asks first where work
 /// would be lost: Save, Discard, Cancel. `after` then follows only when the save has succeeded.
 void dialogs_leave(struct dialogs *dialogs, struct core *core, const struct editor_world *world,

@@ -71,6 +71,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
      {{"Ctrl+Z, Ctrl+Y", "undo, redo (or Shift+Z)"},
       {"Ctrl+O, Ctrl+N", "open, new"},
       {"Ctrl+S, Ctrl+Shift+S", "save, save as"},
+      {"Ctrl+E", "export motion, films"},
       {"Ctrl+1 … 7", "figures of the paper"},
       {"F6, Shift+F6", "resize the panels"},
       {"F10", "light or dark"},

@@ -11,7 +11,7 @@ struct help {
     float offset; ///< pixels that it is scrolled by, where the window is too low for all of it
 };
 
-enum dialog_kind { DIALOG_NONE, DIALOG_OPEN, DIALOG_SAVE_AS, DIALOG_UNSAVED, DIALOG_RECOVER, DIALOG_ASK };
+enum dialog_kind { DIALOG_NONE, DIALOG_OPEN, DIALOG_SAVE_AS, DIALOG_UNSAVED, DIALOG_RECOVER, DIALOG_ASK, DIALOG_EXPORT };
 
 enum { DIALOG_MAX_NAMES = 256, DIALOG_NAME_SIZE = 256, DIALOG_ERROR_SIZE = 400 };
 
@@ -51,8 +51,20 @@ struct dialog {
     int choice; ///< highlighted match (-1: none), or answer of a question
 };
 
+/// The Export dialog: what it asks for, and what it was used for last.
+struct exporting {
+    struct export_memory memory; ///< as it is being edited
+    unsigned serial;             ///< of the document that it is about
+    uint32_t typed;              ///< the field whose text is in `ui.text`; 0: none
+    const char *dragged;         ///< the number that the pointer drags, and what it was before
+    double before;
+    struct ui_scroll scroll; ///< of the list of formats
+    long done, total;
+};
+
 struct dialogs {
     struct dialog dialog;
+    struct exporting exporting;
     struct help help;
     bool welcome; ///< the card for somebody who is new is shown
 };

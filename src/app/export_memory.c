@@ -1,0 +1,58 @@
+/// The last export in the settings: where to, from which scene, and the choices that suit another scene too.
+#include "app/export_memory.h"
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+static const struct {
+    const char *key;
+    size_t offset;
+} flags[] = {
+    {"export_tangents", offsetof(struct export_wish, is_cubic)},
+    {"export_signed", offsetof(struct export_wish, is_signed)},
+    {"export_transparent", offsetof(struct export_wish, transparent)},
+};
+
+static const struct {
+    const char *key;
+    size_t offset;
+    int most;
+} numbers[] = {
+    {"export_keys", offsetof(struct export_wish, keys), 1024},
+    {"export_width", offsetof(struct export_wish, width), 8192},
+    {"export_height", offsetof(struct export_wish, height), 8192},
+};
+
+static void read_text(const struct settings *settings, const char *key, char *text, size_t size)
+{
+    const char *value = settings_get(settings, key, 0);
+    if (value && strlen(value) < size) snprintf(text, size, "%s", value);
+}
+
+void export_memory_read(const struct settings *settings, struct export_memory *memory)
+{
+    char *wish = (char *)&memory->wish;
+    *memory = (struct export_memory){.path = ""};
+    read_text(settings, "export_path", memory->path, sizeof memory->path);
+    read_text(settings, "export_scene", memory->scene, sizeof memory->scene);
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
+        const char *value = settings_get(settings, flags[i].key, 0);
+        *(bool *)(void *)(wish + flags[i].offset) = value && strcmp(value, "yes") == 0;
+    }
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        const double value = settings_number(settings, numbers[i].key, 0);
+        *(int *)(void *)(wish + numbers[i].offset) = value >= 1 && value <= numbers[i].most ? (int)value : 0;
+    }
+}
+
+void export_memory_write(struct settings *settings, const struct export_memory *memory)
+{
+    const char *wish = (const char *)&memory->wish;
+    settings_set(settings, "export_path", memory->path);
+    settings_set(settings, "export_scene", memory->scene);
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
+        settings_set(settings, flags[i].key, *(const bool *)(const void *)(wish + flags[i].offset) ? "yes" : "no");
+    }
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        settings_set_number(settings, numbers[i].key, *(const int *)(const void *)(wish + numbers[i].offset));
+}

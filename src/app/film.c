@@ -1,0 +1,217 @@
+/// Films a scene: which frames, how large, and picture after picture.
+#include "app/film.h"
+#include "app/film_file.h"
+#include "base/path.h"
+#include "draw/picture.h"
+#include "editor/editor.h"
+#include "platform/platform.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_PICTURES = 10000000, MAX_SIDE = 8192 };
+
+static const struct film_format {
+    const char *ending;
+    const struct film_file_kind *file;
+    int width, height; ///< where none is asked for
+    bool is_even;      ///< it holds only even sizes
+    bool has_alpha;
+    bool repeats; ///< whoever shows it begins again at its end
+} formats[] = {
+    {".mp4", &film_mp4, 1280, 720, .is_even = true},
+    {".webm", &film_webm, 1280, 720, .is_even = true, .has_alpha = true},
+    {".gif", &film_gif, 640, 360, .repeats = true},
+    {".png", &film_png, 1280, 720, .has_alpha = true},
+};
+
+enum { FORMATS = sizeof formats / sizeof *formats };
+
+struct film {
+    const struct film_format *format;
+    const char *path;
+    struct film_shape shape;
+    double first, spacing, period; ///< in frames: of the first picture, from one to the next, after which it begins anew (0: never)
+    struct editor_world world;
+    struct editor *editor;
+    struct picture *picture;
+    struct film_file *file;
+    const unsigned char *pixels; ///< drawn, and not yet taken by the file; else NULL
+    long done;
+    off_t bytes;
+};
+
+static const struct film_format *find_format(const char *path)
+{
+    for (int f = 0; f < FORMATS; f++) {
+        if (path_has_end(path, formats[f].ending)) return &formats[f];
+    }
+    return NULL;
+}
+
+bool film_knows(const char *path) { return find_format(path) != NULL; }
+
+void film_endings(char text[FILM_ENDINGS])
+{
+    text[0] = '\0';
+    for (int f = 0; f < FORMATS; f++) {
+        strcat(text, formats[f].ending);
+        strcat(text, f < FORMATS - 2 ? ", " : f == FORMATS - 2 ? " and " : "");
+    }
+}
+
+/// Whether its end meets its start: a spline does, or an imported character's clip may.
+static bool loops(const struct document *document)
+{
+    for (int s = 0; s < document->spline_count; s++) {
+        if (spline_start(&document->splines[s]) == WIGGLY_LOOP) return true;
+    }
+    return document_find_rig(document, RIG_MODEL, 0) >= 0;
+}
+
+static bool choose_frames(struct film *film, const struct film_options *options, struct error *error)
+{
+    const struct document *document = film->world.document;
+    const double first = options->has_frames ? options->first : document->first_frame;
+    const double last = options->has_frames ? options->last : document->last_frame;
+    const bool in_rounds = options->loops > 0 || (film->format->repeats && loops(document));
+    const int rounds = options->loops > 0 ? options->loops : 1;
+    if (!(first <= last) || first < document->first_frame || last > document->last_frame)
+        return fail(error, ERROR_INPUT, "--frames: expected frames from %d to %d in this order, got %g:%g",
+                    document->first_frame, document->last_frame, first, last);
+    if (options->loops > 0 && !loops(document))
+        return fail(error, ERROR_INPUT, "--loops: nothing in this scene loops: its end does not meet its start");
+    film->shape.rate = options->rate > 0 ? options->rate : document->fps;
+    film->first = first;
+    film->spacing = document->fps / film->shape.rate;
+    film->period = in_rounds ? last - first : 0;
+    const double steps = (last - first) / film->spacing;
+    const double count = in_rounds && last > first ? fmax(1, round(rounds * steps)) : floor(steps + 1e-6) + 1;
+    if (count > MAX_PICTURES)
+        return fail(error, ERROR_INPUT, "expected at most %d pictures, got %.0f: ask for fewer frames or loops",
+                    MAX_PICTURES, count);
+    film->shape.count = (long)count;
+    return true;
+}
+
+static bool choose_shape(struct film *film, const struct film_options *options, struct error *error)
+{
+    struct film_shape *shape = &film->shape;
+    shape->width = options->width > 0 ? options->width : film->format->width;
+    shape->height = options->height > 0 ? options->height : film->format->height;
+    if (film->format->is_even) {
+        shape->width = (shape->width + 1) / 2 * 2;
+        shape->height = (shape->height + 1) / 2 * 2;
+    }
+    if (shape->width > MAX_SIDE || shape->height > MAX_SIDE)
+        return fail(error, ERROR_INPUT, "--size: expected at most %d pixels a side, got %d × %d", MAX_SIDE,
+                    shape->width, shape->height);
+    shape->transparent = options->transparent;
+    return !options->transparent || film->format->has_alpha ||
+           fail(error, ERROR_USAGE, "--transparent: a %s file has no transparency: .webm and .png have",
+                film->format->ending);
+}
+
+struct film *film_open(const struct editor_world *world, const char *path, const struct film_options *options,
+                       struct error *error)
+{
+    struct film *film = calloc(1, sizeof *film);
+    if (!film) {
+        fail_no_memory(error, path);
+        return NULL;
+    }
+    film->format = find_format(path);
+    film->path = path;
+    film->world = *world;
+    if (choose_shape(film, options, error) && choose_frames(film, options, error) &&
+        (film->editor = editor_create(error)) &&
+        (film->picture = picture_create(film->shape.width, film->shape.height, error)) &&
+        (film->file = film->format->file->open(path, &film->shape, error))) {
+        editor_open(film->editor, world);
+        return film;
+    }
+    film_close(film);
+    return NULL;
+}
+
+/// The frame of the scene that the next picture shows.
+static double next_frame(const struct film *film)
+{
+    const double since = (double)film->done * film->spacing;
+    return film->first + (film->period > 0 ? fmod(since, film->period) : since);
+}
+
+enum film_state film_step(struct film *film, bool wait, struct error *error)
+{
+    const struct film_file_kind *kind = film->format->file;
+    if (film->done == film->shape.count) return kind->finish(film->file, wait, &film->bytes, error);
+    if (!film->pixels) {
+        editor_pose_alone(film->editor, &film->world, next_frame(film), (float)film->shape.width,
+                          (float)film->shape.height);
+        film->pixels = picture_draw(film->picture, editor_stage(film->editor), film->shape.transparent);
+    }
+    enum film_state state = kind->put(film->file, film->pixels, wait, error);
+    if (state != FILM_DONE) return state;
+    film->pixels = NULL;
+    film->done++;
+    return FILM_RUNS;
+}
+
+void film_progress(const struct film *film, long *done, long *total)
+{
+    *done = film->done;
+    *total = film->shape.count;
+}
+
+/// What to look for if that is not the name that was given.
+static const char *print_names(const struct film *film, char text[64])
+{
+    const char *slash = strrchr(film->path, '/'), *name = slash ? slash + 1 : film->path;
+    const bool numbered = film->format->file == &film_png && film->shape.count > 1 && !strchr(name, '%');
+    text[0] = '\0';
+    if (numbered) snprintf(text, 64, ", as %.*s-0001.png and so on", (int)fmin(30, (double)strlen(name) - 4), name);
+    return text;
+}
+
+void film_report(const struct film *film, struct export_report *report)
+{
+    const double megabytes = (double)film->bytes / 1e6;
+    char names[64];
+    *report = (struct export_report){.note = ""};
+    snprintf(report->text, sizeof report->text, "%ld picture%s of %d × %d, %g a second, %.*f MB%s", film->shape.count,
+             film->shape.count == 1 ? "" : "s", film->shape.width, film->shape.height, film->shape.rate,
+             megabytes < 1 ? 2 : 1, megabytes, print_names(film, names));
+}
+
+void film_close(struct film *film)
+{
+    if (!film) return;
+    if (film->file) film->format->file->close(film->file);
+    picture_destroy(film->picture);
+    editor_destroy(film->editor);
+    free(film);
+}
+
+static bool run(struct film *film, const struct film_options *options, struct error *error)
+{
+    for (;;) {
+        enum film_state state = film_step(film, true, error);
+        if (state != FILM_RUNS) return state == FILM_DONE;
+        if (options->proceed && !options->proceed(options->user, film->done > 0 ? film->done : 1, film->shape.count))
+            return fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
+    }
+}
+
+bool film_write(const struct editor_world *world, const char *path, const struct film_options *options,
+                struct export_report *report, struct error *error)
+{
+    struct platform *platform = platform_offscreen(1, 1, 1, error);
+    if (!platform) return false;
+    struct film *film = film_open(world, path, options, error);
+    bool done = film && run(film, options, error);
+    if (done) film_report(film, report);
+    film_close(film);
+    platform_destroy(platform);
+    return done;
+}

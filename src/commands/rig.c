@@ -1,0 +1,174 @@
+/// wiggly rig: gives the bones of a glTF character follow-through, as a scene or straight as an animated glTF file.
+#include "base/path.h"
+#include "commands/commands.h"
+#include "commands/options.h"
+#include "export/export.h"
+#include "rig/chain_make.h"
+#include "rig/opened.h"
+#include "scene/load.h"
+#include <stdio.h>
+#include <string.h>
+
+struct job {
+    const char *character, *output, *clip;
+    struct option_list chains;
+    struct chain_wish wish; ///< the numbers of every chain
+    bool plain;
+};
+
+static const struct gltf *character_of(const struct opened *opened)
+{
+    return &models_imported(opened->models, 0)->gltf;
+}
+
+enum { DEEPEST_SHOWN = 64 };
+
+/// The nodes below one (−1: all), each under its parent.
+static void print_below(const struct gltf *gltf, int parent, int depth)
+{
+    for (int n = 0; n < gltf->node_count && depth < DEEPEST_SHOWN; n++) {
+        if (gltf->nodes[n].parent != parent) continue;
+        printf("%*s%s\n", 2 + 2 * depth, "", gltf->nodes[n].name);
+        print_below(gltf, n, depth + 1);
+    }
+}
+
+/// What can be made chains of, for a user who does not know the file.
+static void print_contents(const struct gltf *gltf)
+{
+    printf("clips:%s\n", gltf->clip_count > 0 ? "" : " none");
+    for (int c = 0; c < gltf->clip_count; c++)
+        printf("  %s (%.3g s)\n", gltf->clips[c].name, gltf->clips[c].duration);
+    printf("bones and other nodes:\n");
+    print_below(gltf, -1, 0);
+    if (gltf->not_shown) printf("not shown: %s\n", gltf->not_shown);
+}
+
+/// "A" or "A:B". Names may have colons of their own, so the colon is one between two bones that there are.
+static void split(const struct gltf *gltf, const char *text, char from[BONE_NAME_SIZE], const char **to)
+{
+    *to = NULL;
+    snprintf(from, BONE_NAME_SIZE, "%s", text);
+    for (const char *colon = strchr(text, ':'); colon && gltf_find_node(gltf, text) < 0;
+         colon = strchr(colon + 1, ':')) {
+        snprintf(from, BONE_NAME_SIZE, "%.*s", (int)(colon - text), text);
+        *to = colon + 1;
+        if (gltf_find_node(gltf, from) >= 0 && gltf_find_node(gltf, *to) >= 0) return;
+    }
+}
+
+static bool add_chains(const struct job *job, struct history *history, struct opened *opened, struct error *error)
+{
+    const struct gltf *gltf = character_of(opened);
+    struct chain_wish wish = job->wish;
+    wish.follows = !job->plain && opened->document->rigs[0].model.clip;
+    for (int c = 0; c < job->chains.count; c++) {
+        char from[BONE_NAME_SIZE];
+        int rig;
+        split(gltf, job->chains.text[c], from, &wish.to);
+        wish.from = from;
+        if (!chain_make(history, opened->document, opened->models, &wish, &rig, error)) return false;
+    }
+    return true;
+}
+
+static bool edit(const struct job *job, struct opened *opened, struct error *error)
+{
+    const struct edit clip = {.kind = EDIT_CLIP, .rig = 0, .text = job->clip};
+    struct history *history = history_create();
+    if (!history) return fail_no_memory(error, job->character);
+    history_begin(history, "Rig", 0);
+    bool done = !job->clip || history_apply(history, opened->document, &clip, error);
+    done = done && add_chains(job, history, opened, error);
+    history_end(history);
+    history_destroy(history);
+    return done && models_update(opened->models, opened->document, error);
+}
+
+static bool write_motion(const struct job *job, struct opened *opened, struct error *error)
+{
+    struct export_report report;
+    const struct export_options options = {0};
+    if (!opened_solve(opened, WIGGLY_CHAIN, error)) return false;
+    const struct posing posing = opened_posing(opened);
+    if (!export_write(&posing, job->output, &options, &report, error)) return false;
+    if (*report.note) fprintf(stderr, "%s: warning: %s\n", job->output, report.note);
+    printf("wrote %s: %s\n", job->output, report.text);
+    return true;
+}
+
+static bool write_scene(const struct job *job, struct opened *opened, struct error *error)
+{
+    char folder[PATH_LIMIT];
+    if (!path_folder(job->output, folder) || !document_set_folder(opened->document, folder))
+        return fail_no_memory(error, job->output);
+    if (!scene_save(opened->document, job->output, error)) return false;
+    printf("wrote %s: %d chain%s; wiggly %s shows it\n", job->output, job->chains.count,
+           job->chains.count == 1 ? "" : "s", job->output);
+    return true;
+}
+
+static bool run(const struct job *job, struct error *error)
+{
+    struct opened opened;
+    if (!opened_read(&opened, job->character, error)) return false;
+    bool done = true;
+    if (!job->output) {
+        print_contents(character_of(&opened));
+    } else {
+        done = edit(job, &opened, error) && (path_has_end(job->output, ".json") ? write_scene(job, &opened, error)
+                                                                                : write_motion(job, &opened, error));
+    }
+    opened_free(&opened);
+    return done;
+}
+
+/// Checks what the table of options cannot.
+static enum options_result check(const struct usage *usage, const struct job *job)
+{
+    if (!path_has_end(job->character, ".glb") && !path_has_end(job->character, ".gltf"))
+        return options_wrong(usage, "expected a character ending in .glb or .gltf, got '%s'", job->character);
+    if (job->chains.count > 0 && !job->output)
+        return options_wrong(usage, "-o FILE is missing: name the file to write");
+    if (job->output && !path_has_end(job->output, ".json") && !export_knows(job->output))
+        return options_wrong(usage, "--output: expected a scene (.json) or a character (.glb), got '%s'",
+                             job->output);
+    return OPTIONS_RUN;
+}
+
+int command_rig(int argc, char **argv)
+{
+    struct job job = {0};
+    const struct option_spec options[] = {
+        {"--chain", "-c", "A:B",
+         "bones from A to B, or to the tip below A, become a chain; may be given several times", OPTION_LIST,
+         &job.chains, 0, 0},
+        {"--output", "-o", "FILE", "scene to write (.json), or the character with its motion (.glb, …)", OPTION_TEXT,
+         &job.output, 0, 0},
+        {"--clip", NULL, "NAME", "the clip that it plays (default: the first)", OPTION_TEXT, &job.clip, 0, 0},
+        {"--frequency", NULL, "HZ", "swings a second (default: by the chain's length)", OPTION_REAL,
+         &job.wish.frequency, 1e-3, 1e3},
+        {"--damping", NULL, "RATIO", "0 rings on, 1 is critical (default: 0.12)", OPTION_REAL, &job.wish.damping,
+         1e-6, 1},
+        {"--lag", NULL, "DEGREES", "by which each bone is later than the one before", OPTION_REAL, &job.wish.lag,
+         1e-6, 360},
+        {"--plain", NULL, NULL, "do not follow the clip: knots alone will move the chains", OPTION_FLAG, &job.plain,
+         0, 0},
+    };
+    const struct usage usage = {
+        .command = "rig",
+        .operands = "character.glb",
+        .summary = "Gives a character's tail, ears or hair follow-through. Without -o, lists its clips and bones.",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+        .operand_minimum = 1,
+        .operand_maximum = 1,
+    };
+    enum options_result result = options_parse(&usage, argc, argv, &job.character);
+    if (result == OPTIONS_RUN) result = check(&usage, &job);
+    if (result != OPTIONS_RUN) return (int)result;
+    struct error error;
+    if (run(&job, &error)) return 0;
+    fprintf(stderr, "%s\n", error.text);
+    return (int)error.kind;
+}

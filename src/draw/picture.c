@@ -1,0 +1,133 @@
+/// Draws pictures of the stage at twice their size and averages four pixels into one.
+#include "draw/picture.h"
+#include "draw/gl.h"
+#include "draw/stage.h"
+#include <stdlib.h>
+
+enum { FINE = 2 }; ///< pixels drawn a side for one of the picture
+
+struct picture {
+    int width, height;
+    struct stage_renderer *stage;
+    GLuint framebuffer, color, depth;
+    unsigned char *drawn, *pixels; ///< as drawn, bottom row first; and the picture
+};
+
+static GLuint attach(GLenum place, GLenum format, int width, int height)
+{
+    GLuint buffer = 0;
+    glGenRenderbuffers(1, &buffer);
+    glBindRenderbuffer(GL_RENDERBUFFER, buffer);
+    glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer);
+    return buffer;
+}
+
+static bool create_framebuffer(struct picture *picture, struct error *error)
+{
+    GLint largest = 0, before = 0;
+    const int width = FINE * picture->width, height = FINE * picture->height;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    if (picture->width < 1 || picture->height < 1 || width > largest || height > largest)
+        return fail(error, ERROR_ENVIRONMENT, "expected a picture of 1 to %d pixels a side, got %d × %d", largest / FINE,
+                    picture->width, picture->height);
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &before);
+    glGenFramebuffers(1, &picture->framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, picture->framebuffer);
+    picture->color = attach(GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height);
+    picture->depth = attach(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, width, height);
+    const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)before);
+    return complete || fail(error, ERROR_ENVIRONMENT, "the graphics driver makes no framebuffer of %d × %d pixels",
+                            width, height);
+}
+
+struct picture *picture_create(int width, int height, struct error *error)
+{
+    struct picture *picture = calloc(1, sizeof *picture);
+    if (picture) {
+        const size_t bytes = 4 * (size_t)width * (size_t)height;
+        picture->width = width;
+        picture->height = height;
+        picture->drawn = malloc(FINE * FINE * bytes);
+        picture->pixels = malloc(bytes);
+    }
+    if (!picture || !picture->drawn || !picture->pixels) {
+        fail(error, ERROR_ENVIRONMENT, "not enough memory for pictures of %d × %d pixels", width, height);
+    } else if ((picture->stage = stage_renderer_create(error)) && create_framebuffer(picture, error)) {
+        return picture;
+    }
+    picture_destroy(picture);
+    return NULL;
+}
+
+void picture_destroy(struct picture *picture)
+{
+    if (!picture) return;
+    stage_renderer_destroy(picture->stage);
+    glDeleteFramebuffers(1, &picture->framebuffer);
+    glDeleteRenderbuffers(1, &picture->color);
+    glDeleteRenderbuffers(1, &picture->depth);
+    free(picture->drawn);
+    free(picture->pixels);
+    free(picture);
+}
+
+/// Draws and reads everything back.
+static void draw(struct picture *picture, const struct stage_view *view, bool transparent)
+{
+    const int width = FINE * picture->width, height = FINE * picture->height;
+    GLint before = 0;
+    long bytes = 0;
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &before);
+    glBindFramebuffer(GL_FRAMEBUFFER, picture->framebuffer);
+    glDisable(GL_SCISSOR_TEST);
+    stage_upload(picture->stage, view, &bytes);
+    if (transparent) {
+        glClearColor(0, 0, 0, 0);
+        glClear(GL_COLOR_BUFFER_BIT);
+        stage_draw_rigs(picture->stage, view, width, height);
+    } else {
+        stage_draw(picture->stage, view, 0, 0, width, height);
+    }
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, picture->drawn);
+    glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)before);
+}
+
+static void average_row(const unsigned char *below, const unsigned char *above, int width, unsigned char *row)
+{
+    for (int x = 0; x < width; x++, below += 8, above += 8, row += 4) {
+        for (int k = 0; k < 3; k++) row[k] = (unsigned char)((below[k] + below[k + 4] + above[k] + above[k + 4] + 2) / 4);
+        row[3] = 255;
+    }
+}
+
+/// What is there counts by how much it covers, so that edges do not darken towards the nothing beside them.
+static void weigh_row(const unsigned char *below, const unsigned char *above, int width, unsigned char *row)
+{
+    for (int x = 0; x < width; x++, below += 8, above += 8, row += 4) {
+        const int covered = below[3] + below[7] + above[3] + above[7];
+        for (int k = 0; k < 3; k++) {
+            const int sum = below[k] * below[3] + below[k + 4] * below[7] + above[k] * above[3] + above[k + 4] * above[7];
+            row[k] = (unsigned char)(covered > 0 ? (sum + covered / 2) / covered : 0);
+        }
+        row[3] = (unsigned char)((covered + 2) / 4);
+    }
+}
+
+const unsigned char *picture_draw(struct picture *picture, const struct stage_view *view, bool transparent)
+{
+    draw(picture, view, transparent);
+    const size_t stride = 4 * FINE * (size_t)picture->width;
+    for (int y = 0; y < picture->height; y++) {
+        const unsigned char *below = picture->drawn + FINE * (size_t)(picture->height - 1 - y) * stride;
+        unsigned char *row = picture->pixels + 4 * (size_t)y * (size_t)picture->width;
+        if (transparent) {
+            weigh_row(below, below + stride, picture->width, row);
+        } else {
+            average_row(below, below + stride, picture->width, row);
+        }
+    }
+    return picture->pixels;
+}

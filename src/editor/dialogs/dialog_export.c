@@ -1,0 +1,437 @@
+/// The Export dialog: a name whose ending is the format, the frames, and what the format lets choose.
+#include "editor/core/core.h"
+#include "editor/dialogs/dialog.h"
+#include "editor/dialogs/dialogs.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+enum { LEAST_ROWS = 3, CHOICE_ROWS = 3, NUMBER_WIDTH = 72, ENDING_WIDTH = 56, NOTE_HEIGHT = 40, MAX_SIDE = 8192 };
+
+static const char path_field[] = "export.path", clip_field[] = "export.clip";
+
+/// Everything else on this dialog but its lists and buttons, height included.
+static const float FRAME_HEIGHT = 300;
+
+static bool is_running(const struct dialog *dialog) { return dialog->awaited == REQUEST_EXPORT; }
+
+/// The format that the path's ending says, or -1.
+static int chosen_format(const struct dialogs *dialogs)
+{
+    const char *dot = strrchr(dialogs->exporting.memory.path, '.');
+    const struct dialog_files *files = &dialogs->dialog.files;
+    for (int f = 0; dot && f < files->format_count; f++) {
+        if (strcasecmp(dot, files->formats[f].ending) == 0) return f;
+    }
+    return -1;
+}
+
+static const struct dialog_format *format_of(const struct dialogs *dialogs)
+{
+    static const struct dialog_format none = {.ending = ""};
+    const int chosen = chosen_format(dialogs);
+    return chosen >= 0 ? &dialogs->dialog.files.formats[chosen] : &none;
+}
+
+static const char *name_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/// Gives the path another ending in place of the one that it has.
+static void set_ending(char path[DIALOG_PATH_SIZE], const char *ending)
+{
+    char *name = path + (name_of(path) - path), *dot = strrchr(name, '.');
+    const size_t length = dot ? (size_t)(dot - path) : strlen(path);
+    snprintf(path + length, DIALOG_PATH_SIZE - length, "%s", ending);
+}
+
+static void choose_format(struct dialogs *dialogs, int format)
+{
+    set_ending(dialogs->exporting.memory.path, dialogs->dialog.files.formats[format].ending);
+    dialogs->exporting.typed = 0; // the field takes the new text
+    dialogs->dialog.error[0] = '\0';
+}
+
+/// Another scene: beside its file, called like it, in the format of last time.
+static void begin_memory(struct exporting *exporting, const struct core *core, const char *ending)
+{
+    struct export_memory *memory = &exporting->memory;
+    snprintf(memory->scene, sizeof memory->scene, "%s", core->path);
+    snprintf(memory->path, sizeof memory->path, "%s", core->path[0] ? core->path : "untitled");
+    set_ending(memory->path, ending);
+    memory->wish.part = false;
+    memory->wish.rig[0] = memory->wish.clip[0] = '\0';
+}
+
+void dialogs_export(struct dialogs *dialogs, const struct core *core, const struct editor_world *world)
+{
+    struct exporting *exporting = &dialogs->exporting;
+    struct export_memory *memory = &exporting->memory;
+    const struct dialog_files *files = &dialogs->dialog.files;
+    if (files->format_count == 0) return;
+    char ending[16];
+    const char *last = format_of(dialogs)->ending;
+    snprintf(ending, sizeof ending, "%s", *last ? last : files->formats[0].ending);
+    const bool same = core->path[0] ? strcmp(memory->scene, core->path) == 0 : exporting->serial == core->serial;
+    if (!same || !memory->path[0]) begin_memory(exporting, core, ending);
+    exporting->serial = core->serial;
+    exporting->typed = 0;
+    exporting->dragged = NULL;
+    exporting->done = exporting->total = 0;
+    struct export_wish *wish = &memory->wish;
+    const struct document *document = world->document;
+    if (!wish->part || wish->first < document->first_frame || wish->last > document->last_frame) {
+        wish->part = false;
+        wish->first = document->first_frame;
+        wish->last = document->last_frame;
+    }
+    dialog_open(dialogs, DIALOG_EXPORT);
+    dialogs->dialog.ui.focus = ui_id(path_field);
+}
+
+void dialogs_set_export(struct dialogs *dialogs, const struct export_memory *memory)
+{
+    dialogs->exporting.memory = *memory;
+}
+
+void dialogs_tell_export(struct dialogs *dialogs, long done, long total)
+{
+    dialogs->exporting.done = done;
+    dialogs->exporting.total = total;
+}
+
+static void confirm(struct dialogs *dialogs, struct core *core)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    const struct export_memory *memory = &dialogs->exporting.memory;
+    if (is_running(dialog)) return;
+    const char *name = name_of(memory->path);
+    if (!*name || *name == '.') {
+        snprintf(dialog->error, sizeof dialog->error, "Type a file name.");
+        return;
+    }
+    if (chosen_format(dialogs) < 0) {
+        snprintf(dialog->error, sizeof dialog->error, "Choose a format: the name's ending has to be one of these.");
+        return;
+    }
+    dialogs->exporting.done = dialogs->exporting.total = 0;
+    dialog_await(dialogs, core, REQUEST_EXPORT, memory->path);
+    if (core->request_count > 0) core->requests[core->request_count - 1].wish = memory->wish;
+}
+
+static void stop(struct dialogs *dialogs, struct core *core)
+{
+    if (is_running(&dialogs->dialog)) {
+        core_request(core, REQUEST_EXPORT_STOP, NULL);
+    } else {
+        dialog_close(dialogs);
+    }
+}
+
+bool export_key(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int key)
+{
+    const struct ui *ui = &dialogs->dialog.ui;
+    const bool in_text = ui->focus == ui_id(path_field) || ui->focus == ui_id(clip_field);
+    const int format = chosen_format(dialogs), last = dialogs->dialog.files.format_count - 1;
+    (void)world;
+    if (key == KEY_ESCAPE && !ui->typing && !ui->held) {
+        stop(dialogs, core);
+    } else if (is_running(&dialogs->dialog)) {
+        return key != KEY_ENTER && key != KEY_SPACE; // which press the button
+    } else if (key == KEY_ENTER && in_text) {
+        confirm(dialogs, core);
+    } else if (key == KEY_UP && in_text) {
+        choose_format(dialogs, format > 0 ? format - 1 : 0);
+    } else if (key == KEY_DOWN && in_text) {
+        choose_format(dialogs, format < last ? format + 1 : last);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/// A line of text that keeps its own content while others are typed in.
+static void build_text(struct dialogs *dialogs, struct rect r, const char *name, char *text, size_t size)
+{
+    struct exporting *exporting = &dialogs->exporting;
+    struct ui *ui = &dialogs->dialog.ui;
+    const uint32_t id = ui_id(name);
+    const struct ui_text others = ui->text;
+    if (exporting->typed == id && ui->focus != id) exporting->typed = 0;
+    if (exporting->typed != id) ui_text_set(&ui->text, text);
+    if (exporting->typed != id && ui->focus == id) ui->text.all = true; // by Tab, or as the dialog opens
+    const bool changed = ui_text_field(ui, r, name);
+    if (changed) {
+        snprintf(text, size, "%s", ui->text.bytes);
+        dialogs->dialog.error[0] = '\0';
+    }
+    if (ui->focus == id) {
+        exporting->typed = id;
+    } else {
+        ui->text = others;
+    }
+}
+
+/// A whole number; `value` changes at once, and back where a drag is cancelled.
+static bool build_number(struct dialogs *dialogs, struct rect r, struct ui_number number, double *value)
+{
+    struct exporting *exporting = &dialogs->exporting;
+    const double before = *value;
+    number.step = 1;
+    number.fallback = NAN;
+    switch (ui_value(&dialogs->dialog.ui, r, &number, value)) {
+    case UI_NONE:
+        return false;
+    case UI_DRAG:
+        if (exporting->dragged != number.name) exporting->before = before;
+        exporting->dragged = number.name;
+        break;
+    case UI_CANCEL:
+        *value = exporting->before;
+        exporting->dragged = NULL;
+        break;
+    default:
+        exporting->dragged = NULL;
+    }
+    *value = round(*value);
+    return true;
+}
+
+static struct rect labelled(struct ui *ui, struct rect *row, float width, const char *label)
+{
+    const struct rect r = {row->x, row->y, UI_LABEL, row->h}, field = {row->x + UI_LABEL + UI_GAP, row->y, width, row->h};
+    ui_label(ui, r, label, theme()->text_dim);
+    row->x += UI_LABEL + width + 3 * UI_GAP;
+    row->w -= UI_LABEL + width + 3 * UI_GAP;
+    return field;
+}
+
+/// Two numbers with a word in between.
+static struct rect second(struct ui *ui, struct rect first, const char *word)
+{
+    const float x = first.x + first.w + UI_GAP;
+    ui_label(ui, (struct rect){x, first.y, 16, first.h}, word, theme()->text_dim);
+    return (struct rect){x + 16 + UI_GAP, first.y, first.w, first.h};
+}
+
+static const float PAIR_WIDTH = 2 * NUMBER_WIDTH + 16 + 2 * UI_GAP;
+
+static void build_frames(struct dialogs *dialogs, const struct document *document, struct rect *row)
+{
+    struct export_wish *wish = &dialogs->exporting.memory.wish;
+    const double first = document->first_frame, last = document->last_frame;
+    struct rect r = labelled(&dialogs->dialog.ui, row, PAIR_WIDTH, "frames");
+    r.w = NUMBER_WIDTH;
+    bool changed = build_number(
+        dialogs, r, (struct ui_number){.name = "export.first", .lowest = first, .highest = wish->last}, &wish->first);
+    changed |= build_number(dialogs, second(&dialogs->dialog.ui, r, "to"),
+                            (struct ui_number){.name = "export.last", .lowest = wish->first, .highest = last},
+                            &wish->last);
+    if (changed) wish->part = wish->first > first || wish->last < last;
+}
+
+static void build_size(struct dialogs *dialogs, const struct dialog_format *format, struct rect *row)
+{
+    struct export_wish *wish = &dialogs->exporting.memory.wish;
+    struct rect r = labelled(&dialogs->dialog.ui, row, PAIR_WIDTH, "size");
+    double width = wish->width > 0 ? wish->width : format->width;
+    double height = wish->height > 0 ? wish->height : format->height;
+    r.w = NUMBER_WIDTH;
+    bool changed = build_number(
+        dialogs, r, (struct ui_number){.name = "export.width", .lowest = 16, .highest = MAX_SIDE}, &width);
+    changed |= build_number(dialogs, second(&dialogs->dialog.ui, r, "×"),
+                            (struct ui_number){.name = "export.height", .lowest = 16, .highest = MAX_SIDE}, &height);
+    if (!changed) return;
+    wish->width = (int)width;
+    wish->height = (int)height;
+}
+
+static void build_keys(struct dialogs *dialogs, const struct document *document, struct rect *row)
+{
+    struct export_wish *wish = &dialogs->exporting.memory.wish;
+    double keys = wish->keys > 0 ? wish->keys : document->substeps;
+    const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH, "keys a frame");
+    if (build_number(dialogs, r, (struct ui_number){.name = "export.keys", .lowest = 1, .highest = SCENE_MAX_SUBSTEPS},
+                     &keys))
+        wish->keys = (int)keys;
+}
+
+/// The next of the scene's named rigs after that one; "" after the last where all may go in.
+static void next_rig(struct export_wish *wish, const struct document *document, bool one)
+{
+    int current = -1, found = -1;
+    for (int pass = 0; pass < 2 && found < 0; pass++) {
+        for (int i = 0; i < document->rig_count && found < 0; i++) {
+            const struct rig *rig = &document->rigs[i];
+            if (!rig->name || rig->kind == RIG_CHAIN) continue;
+            if (pass == 0 && current < 0) {
+                if (!wish->rig[0]) found = i;
+                if (strcmp(rig->name, wish->rig) == 0) current = i;
+                continue;
+            }
+            if (pass == 1 ? one || current < 0 : i > current) found = i;
+        }
+        if (pass == 0 && found < 0 && !one) break;
+    }
+    snprintf(wish->rig, sizeof wish->rig, "%s", found >= 0 ? document->rigs[found].name : "");
+}
+
+static void build_rig(struct dialogs *dialogs, const struct document *document, bool one, struct rect *row)
+{
+    struct export_wish *wish = &dialogs->exporting.memory.wish;
+    int named = 0;
+    for (int i = 0; i < document->rig_count; i++)
+        named += document->rigs[i].name && document->rigs[i].kind != RIG_CHAIN;
+    if (named < 2) return;
+    if (one && !wish->rig[0]) next_rig(wish, document, one);
+    const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH + 48, "of");
+    if (ui_button(&dialogs->dialog.ui, r, "export.rig", wish->rig[0] ? wish->rig : "all rigs", false))
+        next_rig(wish, document, one);
+}
+
+static void build_toggle(struct ui *ui, struct rect *row, const char *name, const char *label, bool *on)
+{
+    enum { TOGGLE = 28, WORDS = 140 };
+    ui_toggle(ui, *row, name, on);
+    ui_label(ui, (struct rect){row->x + TOGGLE + UI_GAP, row->y, WORDS, row->h}, label, theme()->text_dim);
+    row->x += TOGGLE + WORDS + 2 * UI_GAP;
+}
+
+static void build_flags(struct dialogs *dialogs, const struct document *document, unsigned choices, struct rect row)
+{
+    struct export_wish *wish = &dialogs->exporting.memory.wish;
+    struct ui *ui = &dialogs->dialog.ui;
+    const bool morphs = document_find_rig(document, RIG_CHARACTER, 0) >= 0;
+    if (choices & CHOICE_CUBIC) build_toggle(ui, &row, "export.cubic", "keys with tangents", &wish->is_cubic);
+    if ((choices & CHOICE_SIGNED) && morphs)
+        build_toggle(ui, &row, "export.signed", "signed morph targets", &wish->is_signed);
+    if (choices & CHOICE_ALPHA)
+        build_toggle(ui, &row, "export.transparent", "transparent", &wish->transparent);
+}
+
+/// Always as many rows, so that nothing jumps when another format is chosen.
+static void build_choices(struct dialogs *dialogs, const struct document *document)
+{
+    struct export_memory *memory = &dialogs->exporting.memory;
+    struct ui *ui = &dialogs->dialog.ui;
+    const struct dialog_format *format = format_of(dialogs);
+    struct rect rows[CHOICE_ROWS];
+    for (int i = 0; i < CHOICE_ROWS; i++) rows[i] = ui_row(ui, UI_ROW);
+    build_frames(dialogs, document, &rows[0]);
+    if (format->choices & CHOICE_KEYS) build_keys(dialogs, document, &rows[0]);
+    if (format->choices & CHOICE_SIZE) build_size(dialogs, format, &rows[1]);
+    if (format->choices & CHOICE_CLIP) {
+        const struct rect r = labelled(ui, &rows[1], PAIR_WIDTH, "clip");
+        build_text(dialogs, (struct rect){r.x, r.y + 2, r.w, r.h - 4}, clip_field, memory->wish.clip,
+                   sizeof memory->wish.clip);
+        if (!memory->wish.clip[0] && ui->focus != ui_id(clip_field))
+            ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, "as the scene", theme()->text_dim);
+    }
+    if (format->choices & CHOICE_RIG)
+        build_rig(dialogs, document, (format->choices & CHOICE_ONE) != 0, &rows[1]);
+    build_flags(dialogs, document, format->choices, rows[2]);
+}
+
+static void build_formats(struct dialogs *dialogs, float room)
+{
+    const struct dialog_files *files = &dialogs->dialog.files;
+    struct exporting *exporting = &dialogs->exporting;
+    struct ui *ui = &dialogs->dialog.ui;
+    const int chosen = chosen_format(dialogs), fitting = (int)(room / UI_ROW);
+    const int rows = fitting < LEAST_ROWS ? LEAST_ROWS : fitting > files->format_count ? files->format_count : fitting;
+    const struct rect view = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
+    // Where not all fit, the chosen one is in sight as soon as it is typed.
+    if (ui->focus == ui_id(path_field) && chosen >= 0)
+        exporting->scroll.offset = fmaxf(fminf(exporting->scroll.offset, (float)chosen * UI_ROW),
+                                         (float)(chosen + 1 - rows) * UI_ROW);
+    int taken = -1;
+    ui_scroll_begin(ui, &exporting->scroll, view);
+    for (int f = 0; f < files->format_count; f++) {
+        char name[32];
+        const struct rect r = ui_row(ui, UI_ROW);
+        snprintf(name, sizeof name, "export%s", files->formats[f].ending);
+        if (ui_list_row(ui, r, name, "", 0, f == chosen)) taken = f;
+        ui_label(ui, (struct rect){r.x + 6, r.y, ENDING_WIDTH, r.h}, files->formats[f].ending, theme()->text);
+        ui_label(ui, (struct rect){r.x + 6 + ENDING_WIDTH, r.y, r.w - 12 - ENDING_WIDTH, r.h}, files->formats[f].holds,
+                 theme()->text_dim);
+    }
+    ui_scroll_end(ui);
+    if (taken >= 0) choose_format(dialogs, taken);
+}
+
+/// What will be in the file, or how far it is, or why not.
+static void build_note(struct dialogs *dialogs, const struct document *document)
+{
+    const struct dialog *dialog = &dialogs->dialog;
+    const struct exporting *exporting = &dialogs->exporting;
+    const struct export_wish *wish = &exporting->memory.wish;
+    const struct dialog_format *format = format_of(dialogs);
+    struct ui *ui = &dialogs->dialog.ui;
+    const float top = ui->y;
+    const int keys = format->choices & CHOICE_SIZE ? 1 : wish->keys > 0 ? wish->keys : document->substeps;
+    const double count = (wish->last - wish->first) * keys + 1;
+    char text[160] = "The name's ending says what is written.";
+    if (is_running(dialog) && exporting->total > 0) {
+        snprintf(text, sizeof text, "%ld of %ld. Esc cancels, and leaves nothing behind.", exporting->done,
+                 exporting->total);
+    } else if (is_running(dialog)) {
+        snprintf(text, sizeof text, "Getting ready. Esc cancels, and leaves nothing behind.");
+    } else if (*format->ending) {
+        snprintf(text, sizeof text, "%.0f %s%s, %g a second. ↑ ↓ choose the format, Tab goes to the choices.", count,
+                 format->choices & CHOICE_SIZE ? "picture" : "key", count == 1 ? "" : "s", document->fps * keys);
+    }
+    if (is_running(dialog)) {
+        const struct rect bar = ui_row(ui, 8);
+        const float part = exporting->total > 0 ? (float)exporting->done / (float)exporting->total : 0;
+        if (ui->pass == UI_PASS_DRAW) {
+            drawlist_rounded(ui->list, bar, 4, theme()->fill);
+            drawlist_rounded(ui->list, (struct rect){bar.x, bar.y, fmaxf(8, bar.w * part), bar.h}, 4, theme()->accent);
+        }
+        ui_space(ui, 4);
+    }
+    ui_paragraph(ui, dialog->error[0] ? dialog->error : ui->complaint[0] ? ui->complaint : text,
+                 dialog->error[0] || ui->complaint[0] ? theme()->error : theme()->text_dim);
+    ui_space(ui, fmaxf(8, NOTE_HEIGHT - (ui->y - top)));
+}
+
+static void build_buttons(struct dialogs *dialogs, struct core *core)
+{
+    enum { CANCEL_WIDTH = 104, WRITE_WIDTH = 240 };
+    const struct dialog *dialog = &dialogs->dialog;
+    struct ui *ui = &dialogs->dialog.ui;
+    char label[64];
+    const struct rect row = ui_row(ui, 28);
+    const struct rect right = {row.x + row.w - WRITE_WIDTH, row.y, WRITE_WIDTH, row.h};
+    const struct rect left = {right.x - UI_GAP - CANCEL_WIDTH, row.y, CANCEL_WIDTH, row.h};
+    snprintf(label, sizeof label, "Write %.48s", name_of(dialogs->exporting.memory.path));
+    const bool stopped = ui_button(ui, left, "dialog.cancel", "Cancel", false);
+    if (!is_running(dialog) && ui_button(ui, right, "dialog.confirm", label, true)) confirm(dialogs, core);
+    if (stopped) stop(dialogs, core);
+}
+
+void export_build(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
+{
+    struct export_memory *memory = &dialogs->exporting.memory;
+    struct ui *ui = &dialogs->dialog.ui;
+    if (is_running(&dialogs->dialog)) {
+        char title[96];
+        snprintf(title, sizeof title, "Writing %.80s", name_of(memory->path));
+        ui_label(ui, ui_row(ui, UI_ROW), title, theme()->text);
+        ui_space(ui, 4);
+    } else {
+        ui_label(ui, ui_row(ui, UI_ROW), "Export the motion", theme()->text);
+        ui_space(ui, 4);
+        build_text(dialogs, ui_row(ui, 28), path_field, memory->path, sizeof memory->path);
+        ui_space(ui, 8);
+        build_formats(dialogs, core->layout.window.h - FRAME_HEIGHT);
+        ui_space(ui, 8);
+        build_choices(dialogs, world->document);
+        ui_space(ui, 4);
+    }
+    build_note(dialogs, world->document);
+    build_buttons(dialogs, core);
+}

@@ -1,0 +1,120 @@
+/// Runs another program and feeds it.
+#include "platform/child.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+struct child {
+    pid_t process; ///< 0: it has ended, and was waited for
+    int feed;      ///< our end of its standard input; −1 once all is said
+    FILE *log;     ///< its standard error
+};
+
+static int spawn(struct child *child, const char *const *arguments, int input, int output)
+{
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t attributes;
+    sigset_t none, usual;
+    sigemptyset(&none);
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGINT);
+    sigaddset(&usual, SIGPIPE);
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&files, fileno(child->log), STDERR_FILENO);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &usual);
+    // The declaration lacks const; nothing is written.
+    char *const *argv = (char *const *)(uintptr_t)arguments;
+    int cause = posix_spawnp(&child->process, arguments[0], &files, &attributes, argv, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&files);
+    return cause;
+}
+
+struct child *child_start(const char *const *arguments, FILE *output, bool *missing, struct error *error)
+{
+    int ends[2] = {-1, -1}, cause = ENOMEM;
+    struct child *child = calloc(1, sizeof *child);
+    *missing = false;
+    // A socket, because writing to one whose reader is gone can do without SIGPIPE.
+    if (child && socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0 && (child->log = tmpfile())) {
+        child->feed = ends[0];
+        cause = spawn(child, arguments, ends[1], fileno(output));
+    } else if (child) {
+        cause = errno;
+    }
+    if (ends[1] >= 0) close(ends[1]);
+    if (cause == 0) return child;
+    *missing = cause == ENOENT;
+    fail(error, ERROR_ENVIRONMENT, "%s: cannot be run: %s", arguments[0], strerror(cause));
+    if (ends[0] >= 0) close(ends[0]);
+    if (child && child->log) fclose(child->log);
+    free(child);
+    return NULL;
+}
+
+enum child_state child_feed(struct child *child, const void *data, size_t size, size_t *taken, bool wait)
+{
+    while (*taken < size) {
+        const int flags = MSG_NOSIGNAL | (wait ? 0 : MSG_DONTWAIT);
+        ssize_t sent = send(child->feed, (const char *)data + *taken, size - *taken, flags);
+        if (sent < 0 && errno == EINTR) {
+            if (wait) return CHILD_RUNS; // the caller may have been told to end
+            continue;
+        }
+        if (sent < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return CHILD_RUNS;
+        if (sent < 0) return CHILD_FAILED;
+        *taken += (size_t)sent;
+    }
+    return CHILD_DONE;
+}
+
+static void hang_up(struct child *child)
+{
+    if (child->feed >= 0) close(child->feed);
+    child->feed = -1;
+}
+
+enum child_state child_finish(struct child *child, bool wait)
+{
+    int status;
+    hang_up(child);
+    pid_t ended = waitpid(child->process, &status, wait ? 0 : WNOHANG);
+    if (ended == 0 || (ended < 0 && errno == EINTR)) return CHILD_RUNS;
+    child->process = 0;
+    return ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0 ? CHILD_DONE : CHILD_FAILED;
+}
+
+void child_complaint(struct child *child, char *line, size_t size)
+{
+    char next[512];
+    line[0] = '\0';
+    rewind(child->log);
+    while (fgets(next, sizeof next, child->log)) {
+        next[strcspn(next, "\r\n")] = '\0';
+        if (next[0]) snprintf(line, size, "%s", next);
+    }
+}
+
+void child_end(struct child *child)
+{
+    if (!child) return;
+    hang_up(child);
+    if (child->process > 0) {
+        kill(child->process, SIGKILL);
+        while (waitpid(child->process, NULL, 0) < 0 && errno == EINTR) continue;
+    }
+    fclose(child->log);
+    free(child);
+}

@@ -1,0 +1,224 @@
+/// Chains with splines of their own.
+#include "rig/chain_make.h"
+#include "rig/chain_bones.h"
+#include "rig/posing_kind.h"
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { NAME_SIZE = 512 };
+
+static const double USUAL_LENGTH = 0.5, USUAL_FREQUENCY = 1.5; ///< longer ones swing slower, as a pendulum does
+static const double SLOWEST = 0.8, FASTEST = 3.5, USUAL_DAMPING = 0.12;
+static const double WHOLE_LAG = 110;  ///< degrees from the first bone to the tip
+static const double WHOLE_BEND = 110; ///< degrees for 1 of a spline that knots direct
+static const double DEGREES = 57.29577951308232;
+
+/// Where a mark stands as a word of its own: not within letters of the same case.
+static bool stands_alone(const char *name, size_t at, size_t length)
+{
+    const bool before = at == 0 || !isalpha((unsigned char)name[at - 1]);
+    return before && !isalpha((unsigned char)name[at + length]);
+}
+
+bool chain_other_side(const char *name, char other[BONE_NAME_SIZE])
+{
+    static const char *const words[][2] = {{"Left", "Right"}, {"left", "right"}, {"LEFT", "RIGHT"}};
+    static const char *const letters[][2] = {{"L", "R"}, {"l", "r"}};
+    for (size_t w = 0; w < 3; w++) {
+        for (int side = 0; side < 2; side++) {
+            const char *at = strstr(name, words[w][side]);
+            if (!at) continue;
+            snprintf(other, BONE_NAME_SIZE, "%.*s%s%s", (int)(at - name), name, words[w][!side],
+                     at + strlen(words[w][side]));
+            return true;
+        }
+    }
+    for (size_t i = 0; name[i]; i++) {
+        for (int k = 0; k < 4; k++) {
+            const char *letter = letters[k / 2][k % 2];
+            if (name[i] != letter[0] || !stands_alone(name, i, 1)) continue;
+            snprintf(other, BONE_NAME_SIZE, "%.*s%s%s", (int)i, name, letters[k / 2][!(k % 2)], name + i + 1);
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_taken(const struct document *document, const char *name)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        if (document->rigs[r].name && strcmp(document->rigs[r].name, name) == 0) return true;
+    }
+    return false;
+}
+
+/// What a chain is called: its first bone's name without the number at its end, and a name of its own.
+static void name_chain(const struct document *document, const char *bone, char name[NAME_SIZE])
+{
+    char other[BONE_NAME_SIZE];
+    int length = (int)strnlen(bone, BONE_NAME_SIZE);
+    if (!chain_other_side(bone, other)) { // ear_1_L keeps all of it
+        while (length > 1 && isdigit((unsigned char)bone[length - 1])) length--;
+        while (length > 1 && strchr("_-. ", bone[length - 1])) length--;
+    }
+    snprintf(name, NAME_SIZE, "%.*s", length, bone);
+    for (int n = 2; is_taken(document, name); n++) snprintf(name, NAME_SIZE, "%.*s %d", length, bone, n);
+}
+
+static void name_spline(const struct document *document, const char *chain, const char *axis, char name[NAME_SIZE])
+{
+    snprintf(name, NAME_SIZE, "%s %s", chain, axis);
+    for (int n = 2; document_find_spline(document, name) >= 0; n++)
+        snprintf(name, NAME_SIZE, "%s %s %d", chain, axis, n);
+}
+
+/// Metres along the bones at rest.
+static double length_of(const struct imported *imported, const struct chain_bones *bones, double scale)
+{
+    static const float still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    struct chain_pose points;
+    double sum = 0;
+    chain_points(imported, bones, &imported->rest, still, &points);
+    for (int n = 1; n < points.count; n++) {
+        const float *a = points.point[n - 1], *b = points.point[n];
+        sum += hypot(hypot((double)(b[0] - a[0]), (double)(b[1] - a[1])), (double)(b[2] - a[2]));
+    }
+    return fmax(scale * sum, 1e-3);
+}
+
+/// Whether the scene's range is the model's clip, once or several times.
+static bool is_loop(const struct document *document, const struct model_rig *model, const struct gltf *gltf)
+{
+    const int clip = model->clip ? gltf_find_clip(gltf, model->clip) : -1;
+    const double range = (document->last_frame - document->first_frame) / document->fps;
+    const double times = clip < 0 || !(gltf->clips[clip].duration > 0) ? 0 : range / gltf->clips[clip].duration;
+    return times > 0.5 && fabs(times - round(times)) < 1e-3;
+}
+
+/// What all splines of a new chain have in common.
+struct plan {
+    struct history *history;
+    struct document *document;
+    const struct chain_wish *wish;
+    char *model; ///< its name, or where it has none its file
+    bool by_file;
+    char *chain, *from, *to; ///< the chain's name, its first bone and its last
+    double frequency, damping;
+    bool loops;
+};
+
+static bool set(const struct plan *plan, int spline, enum parameter parameter, struct param param,
+                struct error *error)
+{
+    const struct edit edit = {.kind = EDIT_PARAMETER, .spline = spline, .parameter = parameter, .param = param};
+    return history_apply(plan->history, plan->document, &edit, error);
+}
+
+/// A spline for one axis, the last of the list.
+static bool add_spline(const struct plan *plan, const char *axis, struct error *error)
+{
+    char name[NAME_SIZE];
+    const int spline = plan->document->spline_count;
+    name_spline(plan->document, plan->chain, axis, name);
+    const struct edit add = {.kind = EDIT_SPLINE_ADD, .spline = spline, .text = name};
+    return history_apply(plan->history, plan->document, &add, error) &&
+           set(plan, spline, PARAMETER_FREQUENCY, param_number(plan->frequency), error) &&
+           set(plan, spline, PARAMETER_DAMPING, param_number(plan->damping), error) &&
+           set(plan, spline, PARAMETER_START, param_number(plan->loops ? WIGGLY_LOOP : WIGGLY_REST), error);
+}
+
+/// Makes a spline's equilibrium what the chain's tip does in the clip, carried stiffly.
+static bool follow_tip(const struct plan *plan, int spline, enum motion_of of, struct error *error)
+{
+    const struct joint_motion motion = {
+        .model = plan->model, .by_file = plan->by_file, .joint = plan->to, .of = of, .chain = plan->chain};
+    const struct param equilibrium = {.track = -1, .motion = &motion, .gain = 1};
+    return set(plan, spline, PARAMETER_EQUILIBRIUM, equilibrium, error);
+}
+
+/// The chain on the other side, or NULL.
+static const struct chain *find_twin(const struct document *document, const struct chain_wish *wish)
+{
+    char other[BONE_NAME_SIZE];
+    for (int r = 0; r < document->rig_count && chain_other_side(wish->from, other); r++) {
+        const struct rig *rig = &document->rigs[r];
+        if (rig->kind == RIG_CHAIN && strcmp(rig->chain.from, other) == 0 &&
+            document_find_model(document, rig->chain.model, rig->chain.by_file) == wish->model)
+            return &rig->chain;
+    }
+    return NULL;
+}
+
+static bool add_chain(const struct plan *plan, const struct chain *chain, int *rig, struct error *error)
+{
+    const struct rig contents = {.kind = RIG_CHAIN, .name = plan->chain, .chain = *chain};
+    *rig = plan->document->rig_count;
+    return history_apply(plan->history, plan->document, &(struct edit){.kind = EDIT_CHAIN_ADD, .contents = &contents},
+                         error);
+}
+
+/// Adds two splines, and the chain that they bend.
+static bool add_whole(const struct plan *plan, struct chain *chain, int bones, double length, int *rig,
+                      struct error *error)
+{
+    const struct chain_wish *wish = plan->wish;
+    // A bend of g at each of n bones takes the tip by g · length · (n + 1) / 2: a metre of swing is that much of the tip.
+    const double bend = wish->follows ? DEGREES * 2 / (length * (bones + 1)) : WHOLE_BEND / bones;
+    struct channel channels[2];
+    for (int c = 0; c < 2; c++) {
+        channels[c] = (struct channel){.spline = plan->document->spline_count + c,
+                                       .axis = c == 0 ? AXIS_SIDE : AXIS_UP,
+                                       .of = wish->follows ? PART_DISPLACEMENT : PART_TOTAL,
+                                       .lag.value = {wish->lag > 0 ? wish->lag : round(WHOLE_LAG / bones)},
+                                       .gain.value = {round(10 * bend) / 10}};
+    }
+    chain->channels = channels;
+    chain->channel_count = 2;
+    const int first = channels[0].spline;
+    if (!add_spline(plan, "side", error) || !add_spline(plan, "up", error) || !add_chain(plan, chain, rig, error))
+        return false;
+    return !wish->follows ||
+           (follow_tip(plan, first, MOTION_ACROSS, error) && follow_tip(plan, first + 1, MOTION_UP, error));
+}
+
+bool chain_make(struct history *history, struct document *document, const struct models *models,
+                const struct chain_wish *wish, int *rig, struct error *error)
+{
+    const struct rig *model = &document->rigs[wish->model];
+    const struct imported *imported = models_imported(models, document_rig_number(document, wish->model));
+    char name[NAME_SIZE];
+    struct chain_bones bones;
+    if (!imported)
+        return fail(error, ERROR_INPUT, "%s: it could not be read, so it has no bones", model->model.model);
+    const struct gltf *gltf = &imported->gltf;
+    const int from = gltf_find_node(gltf, wish->from);
+    const int last = wish->to || from < 0 ? -1 : chain_end(gltf, from, error);
+    if (from >= 0 && !wish->to && last < 0) return false;
+    const char *to = wish->to ? wish->to : last < 0 ? wish->from : gltf->nodes[last].name;
+    if (!chain_find(gltf, wish->from, to, &bones, error)) return false;
+    name_chain(document, wish->from, name);
+    const double length = length_of(imported, &bones, model->model.scale);
+    const double frequency = fmin(fmax(USUAL_FREQUENCY * sqrt(USUAL_LENGTH / length), SLOWEST), FASTEST);
+    const struct plan plan = {.history = history,
+                              .document = document,
+                              .wish = wish,
+                              .model = model->name ? model->name : model->model.model,
+                              .by_file = !model->name,
+                              .chain = name,
+                              .from = gltf->nodes[bones.node[0]].name,
+                              .to = gltf->nodes[bones.node[bones.count - 1]].name,
+                              .frequency = wish->frequency > 0 ? wish->frequency : round(10 * frequency) / 10,
+                              .damping = wish->damping > 0 ? wish->damping : USUAL_DAMPING,
+                              .loops = is_loop(document, &model->model, gltf)};
+    struct chain chain = {.model = plan.model, .by_file = plan.by_file, .from = plan.from, .to = plan.to};
+    const struct chain *twin = find_twin(document, wish);
+    if (!twin) return add_whole(&plan, &chain, bones.count, length, rig, error);
+    // What knots direct looks well mirrored; but what moves both sides, as a head does, throws both the same way.
+    chain.turn = wish->follows ? twin->turn : -twin->turn;
+    chain.mirror = wish->follows ? twin->mirror : !twin->mirror;
+    chain.channels = twin->channels;
+    chain.channel_count = twin->channel_count;
+    return add_chain(&plan, &chain, rig, error);
+}

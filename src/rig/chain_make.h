@@ -1,0 +1,31 @@
+/// Makes a chain of an imported character's bones, with splines and channels that suit its size.
+#ifndef RIG_CHAIN_MAKE_H
+#define RIG_CHAIN_MAKE_H
+
+#include "rig/models.h"
+#include "scene/edit.h"
+
+/// What is wanted; numbers that are 0 are chosen by the chain's length.
+struct chain_wish {
+    int model;        ///< index of the model rig
+    const char *from; ///< its first bone
+    const char *to;   ///< its last; NULL: the only way down to a tip
+    bool follows;     ///< its splines' equilibria follow its tip through the clip, so that it swings without a knot
+    double frequency; ///< Hz
+    double damping;   ///< ratio
+    double lag;       ///< degrees a bone
+};
+
+/// Adds the chain and its splines (side and up) in the history's open step. Where its twin on the other side, by the bones' names, is a chain
+/// already, it shares the twin's splines: mirrored, unless
+/// it follows the clip. `rig`: its index. On failure the step may hold some of the edits; take them back.
+bool chain_make(struct history *history, struct document *document, const struct models *models,
+                const struct chain_wish *wish, int *rig, struct error *error);
+
+enum { BONE_NAME_SIZE = 256 };
+
+/// The name of the same bone on the other side: ear_1_L → ear_1_R, LeftHand → RightHand, arm.l.002 → arm.r.002. false where a name has no
+/// side.
+bool chain_other_side(const char *name, char other[BONE_NAME_SIZE]);
+
+#endif

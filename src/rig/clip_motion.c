@@ -1,0 +1,115 @@
+/// Follows joints through clips.
+#include "rig/clip_motion.h"
+#include "model/vector.h"
+#include "rig/chain_bones.h"
+#include "rig/posing_kind.h"
+#include <math.h>
+
+enum { MEAN_STEPS = 120 }; ///< over a clip
+
+static const double DEGREES = 57.29577951308232;
+
+/// A joint that is followed.
+struct followed {
+    const struct imported *imported;
+    struct gltf_pose *pose;
+    int node, clip;
+    double duration;
+    enum motion_of of;
+    struct chain_axes axes;
+    double scale; ///< metres of the world in one of the file's
+    double seen;  ///< degrees at the last look, so that turns go on past half a turn
+};
+
+/// The axes of the chain that is named, else those of a chain that points to the front.
+static struct chain_axes axes_of(const struct document *document, const struct imported *imported, const char *name)
+{
+    for (int r = 0; name && r < document->rig_count; r++) {
+        const struct rig *rig = &document->rigs[r];
+        struct chain_bones bones;
+        if (rig->kind != RIG_CHAIN || !rig->name || strcmp(rig->name, name) != 0) continue;
+        if (!chain_find(&imported->gltf, rig->chain.from, rig->chain.to, &bones, NULL)) continue;
+        return chain_axes_at_rest(imported, &bones, rig->chain.turn);
+    }
+    return (struct chain_axes){.side = {0, 1, 0}, .up = {-1, 0, 0}, .along = {0, 0, 1}};
+}
+
+static bool find(const struct models *models, const struct document *document, const struct joint_motion *motion,
+                 struct followed *followed)
+{
+    const int rig = document_find_model(document, motion->model, motion->by_file);
+    if (rig < 0) return false;
+    const struct model_rig *model = &document->rigs[rig].model;
+    const int number = document_rig_number(document, rig);
+    const struct imported *imported = models_imported(models, number);
+    if (!imported) return false;
+    const int clip = model->clip ? gltf_find_clip(&imported->gltf, model->clip) : -1;
+    *followed = (struct followed){.imported = imported,
+                                  .pose = models_pose(models, number, false),
+                                  .node = gltf_find_node(&imported->gltf, motion->joint),
+                                  .clip = clip,
+                                  .duration = clip < 0 ? 0 : imported->gltf.clips[clip].duration,
+                                  .of = motion->of,
+                                  .axes = axes_of(document, imported, motion->chain),
+                                  .scale = model->scale};
+    return followed->node >= 0;
+}
+
+/// Degrees about the chain's side axis by which the joint has turned from rest.
+static double turn_of(struct followed *followed)
+{
+    const mat3s rest = glms_mat4_pick3(mat4_from(followed->imported->rest.world[followed->node]));
+    const mat3s now = glms_mat4_pick3(mat4_from(followed->pose->world[followed->node]));
+    const vec3s axis = vec3_from(followed->axes.side), before = vec3_from(followed->axes.along);
+    const vec3s after = glms_mat3_mulv(now, glms_mat3_mulv(glms_mat3_inv(rest), before));
+    const vec3s across = glms_vec3_cross(axis, before);
+    double turn = DEGREES * atan2((double)glms_vec3_dot(after, across), (double)glms_vec3_dot(after, before));
+    turn += 360 * round((followed->seen - turn) / 360);
+    return followed->seen = turn;
+}
+
+static double look(struct followed *followed, double time)
+{
+    const struct gltf *gltf = &followed->imported->gltf;
+    gltf_pose_clip(gltf, followed->clip, time, followed->pose);
+    gltf_pose_world(gltf, followed->pose);
+    if (followed->of == MOTION_TURN) return turn_of(followed);
+    const vec3s side = vec3_from(followed->axes.side), along = vec3_from(followed->axes.along);
+    const vec3s direction = followed->of == MOTION_UP ? side : glms_vec3_cross(side, along);
+    return followed->scale * (double)glms_vec3_dot(direction, vec3_from(followed->pose->world[followed->node] + 12));
+}
+
+static double mean_of(struct followed *followed)
+{
+    double sum = 0;
+    for (int n = 0; n < MEAN_STEPS; n++) sum += look(followed, followed->duration * n / MEAN_STEPS);
+    return sum / MEAN_STEPS;
+}
+
+/// After how many samples the clip begins again exactly, or 0.
+static int period_of(const struct document *document, double duration)
+{
+    const double samples = duration / document_step(document);
+    return samples >= 1 && samples < 1e6 && fabs(samples - round(samples)) < 1e-4 ? (int)round(samples) : 0;
+}
+
+static bool read(void *context, const struct document *document, const struct joint_motion *motion, double *samples)
+{
+    struct followed followed;
+    if (!find(context, document, motion, &followed)) return false;
+    const int count = document_samples(document), period = period_of(document, followed.duration);
+    const double mean = mean_of(&followed);
+    for (int s = 0; s < count; s++) {
+        if (period && s >= period) {
+            samples[s] = samples[s - period];
+        } else {
+            samples[s] = look(&followed, posing_clip_time(document, s, followed.duration)) - mean;
+        }
+    }
+    return true;
+}
+
+struct motion_source clip_motions(struct models *models)
+{
+    return (struct motion_source){.read = models ? read : NULL, .context = models, .version = models_version(models)};
+}

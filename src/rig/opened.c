@@ -1,0 +1,45 @@
+/// Opens and solves scenes for commands.
+#include "rig/opened.h"
+#include "rig/clip_motion.h"
+#include "rig/import.h"
+#include "scene/load.h"
+
+static bool read_models(struct opened *opened, const char *path, struct error *error)
+{
+    opened->models = models_create();
+    if (!opened->models) return fail_no_memory(error, path);
+    return scene_read_paint(opened->document, error) && models_update(opened->models, opened->document, error);
+}
+
+bool opened_read(struct opened *opened, const char *path, struct error *error)
+{
+    *opened =
+        (struct opened){.document = import_suits(path) ? import_scene(path, error) : scene_load(path, NULL, error)};
+    if (!opened->document) return false;
+    if (read_models(opened, path, error)) return true;
+    opened_free(opened);
+    return false;
+}
+
+bool opened_solve(struct opened *opened, wiggly_method method, struct error *error)
+{
+    const struct motion_source source = clip_motions(opened->models);
+    opened->evaluation.method = method;
+    if (!evaluation_resize(&opened->evaluation, opened->document, error)) return false;
+    motions_bake(&opened->evaluation, opened->document, &source);
+    evaluation_update(&opened->evaluation, opened->document, NULL, false);
+    return true;
+}
+
+void opened_free(struct opened *opened)
+{
+    evaluation_free(&opened->evaluation);
+    models_destroy(opened->models);
+    document_destroy(opened->document);
+    *opened = (struct opened){0};
+}
+
+struct posing opened_posing(const struct opened *opened)
+{
+    return (struct posing){.document = opened->document, .evaluation = &opened->evaluation, .models = opened->models};
+}

@@ -1,0 +1,66 @@
+#!/bin/bash
+# Exports scenes and has programs of others evaluate every file: three.js under Node, Blender without a window (bpy) and usd-core, each
+# against our own vertices (.pc2), to 1e-5 of the size. They are fetched into the build folder at pinned versions; a step whose program
+# cannot be had is skipped with a word. Usage: tests/others/proof.sh, with B (build folder) and WIGGLY (the program).
+. tests/check.sh
+B=${B:-build}
+WIGGLY=${WIGGLY:-$B/wiggly}
+here=tests/others
+place=$B/proof
+mkdir -p "$place"
+
+have_three() {
+    [ -e "$place/node_modules/three/package.json" ] ||
+        timeout 120 npm install --silent --no-audit --no-fund --no-save --prefix "$place" three@0.187.0
+}
+have_python() { # <module> <package>
+    [ -x "$place/venv/bin/python" ] || python3 -m venv "$place/venv" || return 1
+    "$place/venv/bin/python" -c "import importlib.util as u, sys; sys.exit(u.find_spec('$1') is None)" ||
+        timeout 900 "$place/venv/bin/pip" install --quiet numpy "$2"
+}
+fetched() { # <what> <command>...
+    local what=$1
+    shift
+    "$@" >"$scratch/fetch" 2>&1 && return 0
+    echo "ok - skipped: $what could not be fetched: $(tail -n 1 "$scratch/fetch")"
+    return 1
+}
+export_to() { # <scene> <file> <option>...
+    local scene=$1 file=$2
+    shift 2
+    "$WIGGLY" export "assets/scenes/$scene.json" -o "$scratch/$file" --quiet "$@" || ok "export of $file" 1
+}
+compares() { # <what> <command>...
+    expect 0 "$@"
+    tail -n 1 <<<"$out" | sed 's/^/  /'
+}
+
+# scene, and the rigs that it has
+scenes="tail:tail follow:tail character:character figure7:character compositing:nodder,swayer"
+caches() { # <scene> <rigs>: their files, in the order of the meshes
+    for rig in ${2//,/ }; do echo "$scratch/$1-$rig.pc2"; done
+}
+for entry in $scenes; do
+    scene=${entry%%:*} rigs=${entry#*:}
+    for ending in glb usda; do export_to "$scene" "$scene.$ending"; done
+    for rig in ${rigs//,/ }; do export_to "$scene" "$scene-$rig.pc2" --rig "$rig"; done
+done
+for scene in tail follow; do export_to $scene $scene.bvh; done
+
+# shellcheck disable=SC2046 # the caches are split on purpose
+each_scene() { # <who> <ending> <command>...
+    local who=$1 ending=$2 entry
+    shift 2
+    for entry in $scenes; do
+        compares "$who: ${entry%%:*}.$ending" "$@" "$scratch/${entry%%:*}.$ending" $(caches "${entry%%:*}" "${entry#*:}")
+    done
+}
+if fetched three.js have_three; then each_scene three.js glb node $here/three.mjs "$place"; fi
+if fetched usd-core have_python pxr usd-core==26.11; then each_scene usd-core usda "$place/venv/bin/python" $here/usd.py; fi
+if fetched bpy have_python bpy bpy==4.5.15; then
+    each_scene Blender glb "$place/venv/bin/python" $here/blender.py
+    for scene in tail follow; do
+        compares "Blender: $scene.bvh" "$place/venv/bin/python" $here/blender.py "$scratch/$scene.bvh" "$scratch/$scene.glb"
+    done
+fi
+exit $((cases_failed > 0))

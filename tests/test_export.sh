@@ -1,0 +1,68 @@
+# wiggly export from the outside: what it says, what it refuses, Ctrl+C; and the Khronos validator on every glTF file, where npm can fetch
+# it (at a pinned version, into the build folder).
+. tests/check.sh
+WIGGLY=${WIGGLY:-build/wiggly}
+validator=gltf-validator@2.0.0-dev.3.10
+folder=${B:-build}/gltf-validator
+scenes=assets/scenes
+
+for ending in glb gltf usda bvh csv pc2 mdd npy; do
+    expect 0 "a tail as .$ending" "$WIGGLY" export $scenes/tail.json -o "$scratch/tail.$ending"
+    says ".$ending: says what was written" "wrote $scratch/tail.$ending: " "$out"
+done
+expect 0 "the ending may be in capitals" "$WIGGLY" export $scenes/tail.json -o "$scratch/TAIL.GLB"
+says "joints, keys and size are said" "TAIL.GLB: 24 joints, 121 keys, 7" "$out"
+cmp -s "$scratch/tail.glb" <(sed 's/TAIL/tail/' "$scratch/TAIL.GLB")
+ok "the same scene gives the same bytes" $?
+expect 0 "--quiet" "$WIGGLY" export $scenes/tail.json -o "$scratch/tail.csv" --quiet
+[ "$out$err" = "" ]
+ok "says nothing" $?
+expect 0 "keys that do not end on the last frame" "$WIGGLY" export $scenes/tail.json -o "$scratch/tail.csv" --fps 7.3
+says "are said" "warning: the last key is on frame 118.356" "$err"
+expect 0 "a part of the frames" "$WIGGLY" export $scenes/tail.json -o "$scratch/tail.csv" --frames 24:48 --substeps 2
+says "two keys a frame" "49 rows" "$out"
+
+expect 2 "no file to write" "$WIGGLY" export $scenes/tail.json
+expect 2 "an ending that nobody knows" "$WIGGLY" export $scenes/tail.json -o "$scratch/tail.fbx"
+says "the ones there are" ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd and .npy" "$err"
+expect 2 "frames that are none" "$WIGGLY" export $scenes/tail.json -o "$scratch/t.glb" --frames 24
+expect 2 "--fps and --substeps" "$WIGGLY" export $scenes/tail.json -o "$scratch/t.glb" --fps 24 --substeps 2
+expect 2 "keys that are neither" "$WIGGLY" export $scenes/tail.json -o "$scratch/t.glb" --keys square
+expect 1 "a creature has no joints" "$WIGGLY" export $scenes/character.json -o "$scratch/c.bvh"
+says "says what can hold it" "export it as .glb, .gltf, .usda, .csv, .pc2, .mdd or .npy" "$err"
+expect 3 "a folder that is not there" "$WIGGLY" export $scenes/tail.json -o "$scratch/no/t.glb"
+[ ! -e "$scratch/c.bvh" ] && [ ! -e "$scratch/t.glb" ]
+ok "nothing is written where something is wrong" $?
+
+mkdir "$scratch/stop"
+"$WIGGLY" export $scenes/tail.json --substeps 1024 -o "$scratch/stop/long.pc2" 2>"$scratch/stderr" &
+for _ in $(seq 100); do
+    ls -A "$scratch/stop" | grep -q . && break
+    sleep 0.05
+done
+kill -INT $!
+wait $!
+[ $? -eq 3 ] && [ -z "$(ls -A "$scratch/stop")" ]
+ok "Ctrl+C ends it and leaves nothing" $?
+says "and says so" "interrupted; nothing was written" "$(<"$scratch/stderr")"
+
+# --- the validator
+
+skip() { # <why>
+    echo "ok - skipped: $1"
+    exit $((cases_failed > 0))
+}
+command -v node >/dev/null && command -v npm >/dev/null || skip "there is no npm, so no glTF validator"
+if [ ! -e "$folder/node_modules/gltf-validator/package.json" ]; then
+    mkdir -p "$folder"
+    timeout 60 npm install --silent --no-audit --no-fund --no-save --prefix "$folder" "$validator" >"$scratch/npm" 2>&1 ||
+        skip "npm could not fetch $validator"
+fi
+for scene in tail follow character figure7 compositing; do
+    "$WIGGLY" export $scenes/$scene.json -o "$scratch/$scene.glb" --quiet
+    "$WIGGLY" export $scenes/$scene.json -o "$scratch/$scene-cubic.gltf" --keys cubic --signed --quiet
+    expect 0 "the validator reads $scene" node tests/others/validate.js "$folder" "$scratch/$scene.glb" "$scratch/$scene-cubic.gltf"
+    [ "$(grep -c "0 errors, 0 warnings, 0 infos, 0 hints" <<<"$out")" -eq 2 ]
+    ok "without a complaint" $?
+done
+exit $((cases_failed > 0))

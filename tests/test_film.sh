@@ -1,0 +1,121 @@
+# wiggly export to pictures and films: as many as asked for, of that size, showing the scene; and nothing left behind by a failure.
+. tests/check.sh
+WIGGLY=${WIGGLY:-build/wiggly}
+tail=assets/scenes/tail.json
+small="--size 160x90 --quiet"
+
+count() { # <pattern>
+    find "$scratch/out" -name "$1" | wc -l
+}
+is() { # <what> <expected> <got>
+    [ "$2" = "$3" ] || printf '  expected %s, got %s\n' "$2" "$3"
+    ok "$1" $(([ "$2" = "$3" ]); echo $?)
+}
+nothing_left() { # <what>
+    is "$1" "" "$(ls -A "$scratch/out")"
+}
+fresh() {
+    rm -rf "$scratch/out"
+    mkdir "$scratch/out"
+}
+
+# One picture a second of a loop of five seconds.
+fresh
+expect 0 "a plain .png" "$WIGGLY" export $tail -o "$scratch/out/walk.png" --fps 1 $small
+is "is a sequence, both ends among it" 6 "$(count 'walk-000[1-6].png')"
+cmp -s "$scratch/out/walk-0001.png" "$scratch/out/walk-0006.png"
+ok "a loop ends as it began" $?
+! cmp -s "$scratch/out/walk-0001.png" "$scratch/out/walk-0003.png"
+ok "and moves meanwhile" $?
+expect 0 "two rounds" "$WIGGLY" export $tail -o "$scratch/out/round%03d.png" --fps 1 --loops 2 $small
+is "have each frame once" 10 "$(count 'round0??.png')"
+cmp -s "$scratch/out/round001.png" "$scratch/out/round006.png"
+ok "the second is the first again" $?
+expect 0 "frames 24 to 48" "$WIGGLY" export $tail -o "$scratch/out/part.png" --fps 1 --frames 24:48 $small
+cmp -s "$scratch/out/part-0001.png" "$scratch/out/walk-0002.png"
+ok "begin with what is there at frame 24" $?
+expect 0 "one frame" "$WIGGLY" export $tail -o "$scratch/out/one.png" --frames 24:24 $small
+cmp -s "$scratch/out/one.png" "$scratch/out/walk-0002.png"
+ok "keeps its name" $?
+
+if command -v convert >/dev/null; then
+    brightness() { convert "$1" -crop "$2" -colorspace gray -format '%[fx:int(100*mean)]' info:; }
+    is "of the size asked for" 160x90 "$(identify -format '%wx%h' "$scratch/out/one.png")"
+    expect 0 "a transparent picture" "$WIGGLY" export assets/scenes/figure7.json -o "$scratch/out/bear.png" \
+        --frames 24:24 --transparent $small
+    read -r width height left top <<<"$(convert "$scratch/out/bear.png" -alpha extract -trim -format '%w %h %X %Y' info:)"
+    [ $((2 * left + width)) -gt 140 ] && [ $((2 * left + width)) -lt 180 ] && [ $((2 * top + height)) -gt 70 ] &&
+        [ $((2 * top + height)) -lt 110 ] && [ "$height" -gt 45 ]
+    ok "shows the character in the middle: $width × $height at $left, $top" $?
+    is "and nothing around it" 0 "$(convert "$scratch/out/bear.png" -alpha extract -crop 20x90+0+0 -format '%[fx:mean]' info:)"
+    expect 0 "the light theme" "$WIGGLY" export $tail -o "$scratch/out/light.png" --frames 24:24 --theme light $small
+    [ "$(brightness "$scratch/out/light.png" 20x10+0+0)" -gt 80 ] && [ "$(brightness "$scratch/out/one.png" 20x10+0+0)" -lt 20 ]
+    ok "is light, the other one dark" $?
+else
+    echo "# skipped: pictures are not looked into, as ImageMagick is missing"
+fi
+
+# What cannot be.
+fresh
+expect 2 "a transparent .mp4 is refused" "$WIGGLY" export $tail -o "$scratch/out/walk.mp4" --transparent
+says "saying what can" ".webm and .png have" "$err"
+expect 1 "rounds of what does not loop are refused" "$WIGGLY" export assets/scenes/figure1.json -o "$scratch/out/a.mp4" --loops 2
+says "saying why" "nothing in this scene loops" "$err"
+expect 2 "two numbers in a name are refused" "$WIGGLY" export $tail -o "$scratch/out/%d-%d.png"
+says "with an example" "walk-%04d.png" "$err"
+expect 1 "frames outside of the scene are refused" "$WIGGLY" export $tail -o "$scratch/out/walk.mp4" --frames 0:500
+expect 3 "a folder that is not there" "$WIGGLY" export $tail -o "$scratch/out/none/walk.png" --frames 0:1 $small
+says "is named" "none/walk.png: cannot be written" "$err"
+nothing_left "none of these leaves a file"
+
+# ffmpeg missing, dying, and waited for: stand-ins.
+mkdir "$scratch/empty" "$scratch/dying" "$scratch/slow"
+expect 3 "without ffmpeg there is no film" env PATH="$scratch/empty" "$(realpath "$WIGGLY")" export $tail -o "$scratch/out/walk.mp4" $small
+says "the package is named, and what works without" "install the package ffmpeg, or write pictures (.png)" "$err"
+printf '#!/bin/sh\nhead -c 1000 >/dev/null\necho "no room for this film" >&2\nexit 1\n' >"$scratch/dying/ffmpeg"
+printf '#!/bin/sh\necho begun\nexec sleep 60\n' >"$scratch/slow/ffmpeg"
+chmod +x "$scratch"/*/ffmpeg
+expect 3 "if ffmpeg gives up there is none either" env PATH="$scratch/dying:$PATH" "$WIGGLY" export $tail -o "$scratch/out/walk.mp4" $small
+says "in its own words" "ffmpeg cannot write it: no room for this film" "$err"
+echo old >"$scratch/out/walk.mp4"
+PATH="$scratch/slow:$PATH" "$WIGGLY" export $tail -o "$scratch/out/walk.mp4" 2>"$scratch/stderr" &
+program=$!
+until find "$scratch/out" -name '.wiggly*' -size +0 | grep -q . || ! kill -0 $program 2>/dev/null; do sleep 0.05; done
+kill -TERM $program
+status=0
+wait $program || status=$?
+is "a film that is interrupted ends at once" 3 $status
+is "and leaves what was there before" "walk.mp4 old" "$(ls -A "$scratch/out") $(cat "$scratch/out/walk.mp4")"
+"$WIGGLY" export $tail -o "$scratch/out/walk.png" 2>"$scratch/stderr" &
+program=$!
+until find "$scratch/out" -name 2.png | grep -q . || ! kill -0 $program 2>/dev/null; do sleep 0.05; done
+kill -TERM $program
+status=0
+wait $program || status=$?
+is "so does a sequence" "3 walk.mp4" "$status $(ls -A "$scratch/out")"
+
+if ! command -v ffmpeg >/dev/null || ! command -v ffprobe >/dev/null; then
+    echo "# skipped: no films are made, as ffmpeg is missing"
+    exit $cases_failed
+fi
+fresh
+probe() { # <file>
+    ffprobe -loglevel error -count_frames -show_entries stream=width,height,nb_read_frames,r_frame_rate -of csv=p=0 "$1"
+}
+for ending in mp4 webm gif; do
+    expect 0 ".$ending" "$WIGGLY" export $tail -o "$scratch/out/walk.$ending" --size 161x91 --frames 0:24 --fps 12
+    case $ending in
+        gif) is ".gif: the odd size, a round without its last frame" 161,91,12 "$(probe "$scratch/out/walk.gif" | cut -d, -f1,2,4)" ;;
+        *) is ".$ending: the next even size, all frames, the rate" 162,92,12/1,13 "$(probe "$scratch/out/walk.$ending")" ;;
+    esac
+    says ".$ending: says so" "pictures of 16" "$out"
+done
+is "and nothing besides" 3 "$(ls -A "$scratch/out" | wc -l)"
+if command -v convert >/dev/null; then
+    "$WIGGLY" export $tail -o "$scratch/out/last.png" --frames 24:24 --size 162x92 --quiet
+    ffmpeg -loglevel error -i "$scratch/out/walk.mp4" -vf 'select=eq(n\,12)' -frames:v 1 "$scratch/out/seen.png"
+    off=$(compare -metric RMSE "$scratch/out/last.png" "$scratch/out/seen.png" null: 2>&1 | sed 's/.*(\(.*\))/\1/')
+    awk -v off="$off" 'BEGIN { exit !(off < 0.02) }'
+    ok "its last frame looks as the picture does: off by $off" $?
+fi
+exit $cases_failed
