@@ -55,9 +55,6 @@ struct rig_pose {
 bool rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
               struct rig_pose *pose);
 
-/// A rig's number among those of its kind.
-int posing_number(const struct document *document, int rig);
-
 /// The box around a posed rig, metres.
 void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]);
 

@@ -1,12 +1,13 @@
 /// The selected bone of an imported character, and what can be made of it.
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
-#include "rig/chain_bones.h"
+#include "rig/bones.h"
+#include "rig/chain_make.h"
 #include <stdio.h>
 
 const struct imported *bones_character(const struct editor_world *world, int model)
 {
-    return models_imported(world->models, posing_number(world->document, model));
+    return models_imported(world->models, document_rig_number(world->document, model));
 }
 
 int bones_selected(const struct core *core, const struct editor_world *world, int *model)
@@ -22,7 +23,7 @@ void bones_select(struct core *core, const struct editor_world *world, int model
     const struct imported *shown = bones_character(world, model);
     if (!shown) return;
     core->bone = (struct bone_selection){
-        .any = true, .model = posing_number(world->document, model), .file = shown->gltf.id, .node = node};
+        .any = true, .model = document_rig_number(world->document, model), .file = shown->gltf.id, .node = node};
 }
 
 void bones_clear(struct core *core) { core->bone.any = false; }
@@ -37,60 +38,44 @@ int bones_joints(const struct editor_world *world, int rig)
     return shown && chain_find(&shown->gltf, bent->chain.from, bent->chain.to, &bones, NULL) ? bones.count : 1;
 }
 
-/// A spline for a chain: called after the bone where that is no other's name.
-static bool add_spline(struct core *core, const struct editor_world *world, const char *bone)
+/// Says what was made.
+static void tell(struct core *core, const struct document *document, const struct rig *made, int model, bool follows)
 {
-    struct edit edit = core_edit_of(EDIT_SPLINE_ADD, world->document->spline_count);
-    edit.text = document_find_spline(world->document, bone) < 0 ? bone : NULL;
-    return core_edit(core, world, &edit);
-}
-
-/// The edits of a chain without a knot yet, in the open step.
-static bool add_chain(struct core *core, const struct editor_world *world, int model, const char *from,
-                      const char *to)
-{
-    const struct document *document = world->document;
-    const struct rig *shown = &document->rigs[model];
-    struct edit edit = core_edit_of(EDIT_CHAIN_ADD, core->active);
-    struct channel channel = {.lag.value = {CHANNEL_DEFAULT_LAG}, .gain.value = {CHANNEL_DEFAULT_GAIN}};
-    if (!add_spline(core, world, from)) return false;
-    channel.spline = document->spline_count - 1;
-    const struct rig contents = {.kind = RIG_CHAIN,
-                                 .chain = {.model = shown->name ? shown->name : shown->model.model,
-                                           .by_file = !shown->name,
-                                           .from = (char *)from,
-                                           .to = (char *)to,
-                                           .channels = &channel,
-                                           .channel_count = 1}};
-    edit.contents = &contents;
-    return core_edit(core, world, &edit);
+    const char *clip = document->rigs[model].model.clip;
+    char text[512];
+    const int length = snprintf(text, sizeof text, "Made the chain %.80s, from %.80s to %.80s.", rig_title(made),
+                                made->chain.from, made->chain.to);
+    if (!follows) {
+        snprintf(text + length, sizeof text - (size_t)length, " Drag it on the stage to set knots.");
+    } else if (clip) {
+        snprintf(text + length, sizeof text - (size_t)length, " It swings after the clip %.80s.", clip);
+    } else {
+        snprintf(text + length, sizeof text - (size_t)length, " It swings once the character plays a clip.");
+    }
+    core_message(core, false, text);
 }
 
 void bones_make_chain(struct core *core, const struct editor_world *world, int follow)
 {
-    int model;
+    int model, rig;
     const int node = bones_selected(core, world, &model);
     struct error error = {0};
-    char text[256];
-    (void)follow;
     if (history_is_open(world->history)) return;
     if (node < 0) {
         core_message(core, false, "Click a bone of an imported character first.");
         return;
     }
-    const struct gltf *gltf = &bones_character(world, model)->gltf;
-    const int last = chain_end(gltf, node, &error);
-    if (last < 0) {
+    const struct chain_wish wish = {
+        .model = model, .from = bones_character(world, model)->gltf.nodes[node].name, .follows = follow};
+    history_begin(world->history, follow ? "Make chain that follows" : "Make chain", 0);
+    const bool made = chain_make(world->history, world->document, world->models, &wish, &rig, &error);
+    if (!made) history_restart(world->history, world->document);
+    history_end(world->history);
+    core_refresh(core, world);
+    if (!made) {
         core_message(core, true, error.text);
         return;
     }
-    history_begin(world->history, "Make chain", 0);
-    const bool made = add_chain(core, world, model, gltf->nodes[node].name, gltf->nodes[last].name);
-    if (!made) history_restart(world->history, world->document);
-    history_end(world->history);
-    if (!made) return;
-    core_activate(core, world, world->document->spline_count - 1);
-    snprintf(text, sizeof text, "Made a chain from %.80s to %.80s. Drag it on the stage to set knots.",
-             gltf->nodes[node].name, gltf->nodes[last].name);
-    core_message(core, false, text);
+    core_activate(core, world, rig_input(&world->document->rigs[rig], 0));
+    tell(core, world->document, &world->document->rigs[rig], model, follow);
 }

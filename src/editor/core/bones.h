@@ -16,15 +16,12 @@ void bones_clear(struct core *core);
 /// The joints of a tail or chain; 1 for a chain whose bones are not there.
 int bones_joints(const struct editor_world *world, int rig);
 
-/// Makes the selected bone, and those behind it to the tip, a chain: with a fresh spline, or where `follow` is set with splines that
-/// follow the motion of its base in the clip. Its first spline becomes the active one.
+/// Makes the selected bone, and those behind it to the tip, a chain; where `follow` is set one that swings after its motion in the clip.
+/// Its first spline becomes the active one.
 void bones_make_chain(struct core *core, const struct editor_world *world, int follow);
 
-enum { BONES_NAME = 256 };
-
-/// Whether a chain's bones have twins on the other side (ear_L and ear_R, LeftEar and RightEar) that no chain begins at; `from` is the
-/// first one's name.
-bool bones_twin(const struct editor_world *world, int chain, char from[BONES_NAME]);
+/// Whether a chain's bones have twins on the other side (ear_L and ear_R, LeftEar and RightEar) that no chain begins at.
+bool bones_has_twin(const struct editor_world *world, int chain);
 /// Makes the chain of the twins, mirrored, by the same splines.
 void bones_make_twin(struct core *core, const struct editor_world *world, int chain);
 

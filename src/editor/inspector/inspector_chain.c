@@ -53,7 +53,6 @@ static void build_mirror(struct inspection *in)
 
 static void build_buttons(struct inspection *in)
 {
-    char twin[BONES_NAME];
     struct rect r = inspector_labelled(in, "chain"), icon = {r.x - 2, r.y, ICON, r.h};
     if (ui_icon_button(in->ui, icon, "chain.delete", UI_ICON_DELETE, false, "Delete this chain")) {
         struct edit edit = core_edit_of(EDIT_RIG_REMOVE, in->core->active);
@@ -61,7 +60,7 @@ static void build_buttons(struct inspection *in)
         core_step(in->core, in->world, "Delete chain", 0, &edit);
         return;
     }
-    if (!bones_twin(in->world, in->inspector->rig, twin)) return;
+    if (!bones_has_twin(in->world, in->inspector->rig)) return;
     struct rect button = {icon.x + ICON + 6, r.y + 2, r.x + r.w - icon.x - ICON - 6, r.h - 4};
     if (ui_hovered(in->ui, button)) in->ui->hint = "The same chain on the other side, mirrored, by the same splines";
     if (!ui_button(in->ui, button, "chain.twin", "Mirror to other side", false)) return;

@@ -9,7 +9,7 @@ static void add_strand(struct stage *stage, const struct editor_world *world, in
                        const struct chain_bones *bones)
 {
     const struct stage_view *view = &stage->view;
-    const int number = posing_number(world->document, model);
+    const int number = document_rig_number(world->document, model);
     const struct gltf_pose *pose = models_pose(world->models, number, true);
     for (int m = 0; m < view->model_count; m++) {
         if (view->models[m].pose != pose) continue;

@@ -56,7 +56,7 @@ bool strand_pose(const struct stage *stage, const struct core *core, const struc
     if (document->rigs[rig].kind == RIG_CHAIN) {
         if (!pose_chain(core, world, rig, position, change, &pose)) return false;
     } else {
-        stage_pose_tail(stage, core, world, posing_number(document, rig), position, change, &pose);
+        stage_pose_tail(stage, core, world, document_rig_number(document, rig), position, change, &pose);
     }
     take_points(&pose, rig, strand);
     return true;
