@@ -5,7 +5,7 @@
 const struct help_group help_groups[HELP_GROUPS] = {
     {"Knots",
      {{"Double-click", "insert a knot"},
-      {"I, Shift+I", "at the playhead (sloped)"},
+      {"I, Shift+I", "at playhead (sloped)"},
       {"Del, Backspace", "delete"},
       {"Click, Shift+click", "select, add to it"},
       {"Drag a box", "select its knots"},
