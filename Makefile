@@ -5,7 +5,8 @@
 #   make run      builds and starts the live app (ARGS="scene.json --size 960x600" for more)
 #   make test     builds and runs every test (TESTS="tests/test_timing.c tests/test_cli.sh" for some; JOBS=1 for one at a time)
 #   make bench    the solver against LAPACKE
-#   make models   the generated character, build/models/creature.obj
+#   make models   the generated characters, build/models/creature.obj and dog.glb
+#   make proof    has three.js, Blender and usd-core evaluate what wiggly exports
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
 #   make regress BASE=path/to/other/wiggly    frame times of two builds on the committed session
@@ -55,7 +56,7 @@ MAJOR := $(firstword $(subst ., ,$(VERSION)))
 SOURCES := $(sort $(shell find src -name '*.c'))
 LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/base/status.c
 EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json \
-    assets/scenes/figure*.json)
+    assets/scenes/figure*.json assets/scenes/dog.json)
 TOOLS := $(basename $(notdir $(wildcard tools/*.c)))
 TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))
 TEST_SUPPORT := $(filter-out tests/test_%.c,$(wildcard tests/*.c))
@@ -107,7 +108,7 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all library run test bench models check figures regress install clean help packages compile_commands.json FORCE
+.PHONY: all library run test bench proof models check figures regress install clean help packages compile_commands.json FORCE
 
 all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
 
@@ -129,10 +130,17 @@ test: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%) $(TEST_PROGRAMS)
 bench: $(B)/wiggly
 	$(Q)$(B)/wiggly bench $(ARGS)
 
-models: $(B)/models/creature.obj
+models: $(B)/models/creature.obj $(B)/models/dog.glb
 $(B)/models/%.obj: $(B)/%_obj
 	@mkdir -p $(@D)
 	$(Q)$< $@
+$(B)/models/%.glb: $(B)/%_glb
+	@mkdir -p $(@D)
+	$(Q)$< $@
+
+# Programs of others evaluate every file that wiggly writes; fetched into the build folder.
+proof: $(B)/wiggly
+	$(Q)B=$(B) WIGGLY=$(B)/wiggly tests/others/proof.sh
 
 check: | packages
 	$(Q)tools/check.sh

@@ -1,5 +1,7 @@
 /// What wiggly export writes, read back: by the reader of imported characters, by that of motions, and number by number.
+#include "base/file.h"
 #include "export/export.h"
+#include "export/gltf_splice.h"
 #include "folder.h"
 #include "model/character.h"
 #include "model/gltf.h"
@@ -87,7 +89,7 @@ static const double *frame_of(const struct points *points, int frame)
 }
 
 /// The largest distance, over all vertices and coordinates, of a glTF file at each of `frames` evenly spaced times from a motion.
-static double glb_is_off(const char *path, const struct points *points)
+static double glb_clip_is_off(const char *path, const char *name, const struct points *points)
 {
     struct gltf gltf;
     struct gltf_pose pose;
@@ -97,12 +99,13 @@ static double glb_is_off(const char *path, const struct points *points)
     float(*place)[3] = malloc((size_t)points->vertices * sizeof *place);
     if (!gltf_read(path, &gltf, &error)) fail_msg("%s", error.text);
     assert_true(place && gltf_pose_create(&gltf, &pose));
-    assert_int_equal(gltf.clip_count, 1);
+    const int clip = name ? gltf_find_clip(&gltf, name) : 0;
+    assert_true(name ? clip >= 0 : gltf.clip_count == 1);
     while (gltf.nodes[node].mesh < 0) node++;
     assert_int_equal(gltf_vertex_count(&gltf, node), points->vertices);
     for (int f = 0; f < points->frames; f += 3) { // a third says as much
         const double *expected = frame_of(points, f);
-        gltf_pose_clip(&gltf, 0, gltf.clips[0].duration * f / (points->frames - 1), &pose);
+        gltf_pose_clip(&gltf, clip, gltf.clips[clip].duration * f / (points->frames - 1), &pose);
         gltf_pose_world(&gltf, &pose);
         gltf_pose_vertices(&gltf, &pose, node, place, NULL);
         for (int i = 0; i < 3 * points->vertices; i++)
@@ -112,6 +115,11 @@ static double glb_is_off(const char *path, const struct points *points)
     gltf_pose_free(&pose);
     gltf_free(&gltf);
     return off;
+}
+
+static double glb_is_off(const char *path, const struct points *points)
+{
+    return glb_clip_is_off(path, NULL, points);
 }
 
 static void glb_moves_as_the_stage_does(void **state)
@@ -141,6 +149,130 @@ static void tangents_make_up_for_keys(void **state)
     assert_true(linear > 0.02);
     assert_true(cubic < linear / 5);
     free(points.number);
+}
+
+/// All bytes of a file; the caller frees them.
+static char *bytes_of(const char *path, size_t *size)
+{
+    char *data;
+    struct error error;
+    if (!file_read(path, 1 << 28, &data, size, &error)) fail_msg("%s", error.text);
+    return data;
+}
+
+static uint32_t word_at(const char *bytes)
+{
+    uint32_t word;
+    memcpy(&word, bytes, sizeof word);
+    return word;
+}
+
+/// The dog's scene without its chains; the caller closes it.
+static struct opened open_dog_without_chains(void)
+{
+    struct opened scene = open_scene("assets/scenes/dog.json");
+    struct document *document = scene.document;
+    for (int r = document->rig_count - 1; r >= 0; r--) {
+        if (document->rigs[r].kind != RIG_CHAIN) continue;
+        rig_release(&document->rigs[r]);
+        memmove(&document->rigs[r], &document->rigs[r + 1],
+                (size_t)(document->rig_count - r - 1) * sizeof *document->rigs);
+        document->rig_count--;
+    }
+    return scene;
+}
+
+static void without_a_chain_the_file_stays_the_same(void **state)
+{
+    (void)state;
+    struct opened scene = open_dog_without_chains();
+    struct export_report report;
+    struct error error;
+    const struct export_options usual = {0};
+    size_t size, again;
+    assert_true(export_write(posing_of(&scene), folder_path("same.glb"), &usual, &report, &error));
+    close_scene(&scene);
+    char *original = bytes_of("assets/models/dog.glb", &size), *copy = bytes_of(folder_path("same.glb"), &again);
+    assert_int_equal(size, again);
+    assert_memory_equal(original, copy, size);
+    free(original);
+    free(copy);
+}
+
+/// The clip is replaced or added; the chunk begins with all bytes that it had, and the JSON keeps its words.
+static void an_imported_character_gets_a_clip(void **state)
+{
+    static const char *const names[] = {NULL, "Wag"};
+    (void)state;
+    struct points points = read_points(export_scene("dog", "dog.npy", (struct export_options){.substeps = 2}));
+    size_t size, larger;
+    char *original = bytes_of("assets/models/dog.glb", &size);
+    const size_t json = word_at(original + 12), chunk = word_at(original + 20 + json);
+    for (int n = 0; n < 2; n++) {
+        const struct export_options options = {.clip = names[n], .substeps = 2};
+        struct gltf before, after;
+        struct error error;
+        const char *path = export_scene("dog", "dog.glb", options);
+        assert_near(glb_clip_is_off(path, n ? "Wag" : "Walk", &points), 0, 5e-6);
+        assert_true(gltf_read("assets/models/dog.glb", &before, &error) && gltf_read(path, &after, &error));
+        assert_int_equal(after.clip_count, before.clip_count + n);
+        assert_string_equal(after.clips[1].name, before.clips[1].name);
+        assert_near(after.clips[1].duration, before.clips[1].duration, 0);
+        gltf_free(&before);
+        gltf_free(&after);
+        char *copy = bytes_of(path, &larger);
+        assert_memory_equal(original + 28 + json, copy + 28 + word_at(copy + 12), chunk);
+        free(copy);
+    }
+    free(original);
+    free(points.number);
+}
+
+/// A .gltf of ours goes in as a character, gets a chain, and comes out as a .gltf; as nothing else, for it would not be the same file.
+static void text_files_get_a_clip_too(void **state)
+{
+    static const char scene_text[] =
+        "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": "
+        "[{\"frame\": 0, "
+        "\"value\": 2}]}], \"rigs\": [{\"type\": \"model\", \"name\": \"fox\", \"model\": \"fox.gltf\", \"clip\": "
+        "\"tail\"}, "
+        "{\"type\": \"chain\", \"name\": \"end\", \"model\": \"fox\", \"from\": \"tail_12\", \"to\": \"tail_23\", "
+        "\"channels\": [{\"spline\": \"s\"}]}]}";
+    (void)state;
+    struct export_report report;
+    struct error error = {0};
+    const struct export_options usual = {0}, signed_weights = {.is_signed = true};
+    export_scene("tail", "fox.gltf", usual);
+    assert_true(file_write_atomic(folder_path("scene.json"), scene_text, strlen(scene_text), &error));
+    struct opened scene = open_scene(folder_path("scene.json"));
+    assert_true(export_write(posing_of(&scene), folder_path("fox.npy"), &usual, &report, &error));
+    struct points points = read_points(folder_path("fox.npy"));
+    if (!export_write(posing_of(&scene), folder_path("out.gltf"), &signed_weights, &report, &error))
+        fail_msg("%s", error.text);
+    assert_near(glb_clip_is_off(folder_path("out.gltf"), "tail", &points), 0, 5e-6);
+    assert_false(export_write(posing_of(&scene), folder_path("out.glb"), &usual, &report, &error));
+    assert_non_null(strstr(error.text, "expected a name ending in .gltf, as "));
+    close_scene(&scene);
+    free(points.number);
+}
+
+/// Every change is made, and no other byte: spaces, numbers and unknown members stay as they are.
+static void splices_touch_nothing_else(void **state)
+{
+    (void)state;
+    struct splice splice = {
+        .text =
+            "{ \"a\" : [ 1.0,{\"x\": \"]\\\"}\"} ],\n \"b\":[],\t\"n\":{\"a\":[7]}, \"c\":[{\"k\":1, \"l\":2 }] }"};
+    splice_append(&splice, "a", "3");
+    splice_append(&splice, "b", "4");
+    splice_append(&splice, "d", "5");
+    splice_replace(&splice, "a", 0, NULL, "9");
+    splice_replace(&splice, "c", 0, "l", "8");
+    char *text = splice_apply(&splice);
+    assert_string_equal(text, "{\"d\":[5], \"a\" : [ 9,{\"x\": \"]\\\"}\"},3 ],\n \"b\":[4],\t\"n\":{\"a\":[7]}, "
+                              "\"c\":[{\"k\":1, \"l\":8 }] }");
+    free(text);
+    splice_free(&splice);
 }
 
 /// The only clip of a file; its channels are given one by one.
@@ -340,10 +472,11 @@ static void refusals_say_what_to_do(void **state)
     (void)state;
     const char *tail = "assets/scenes/tail.json", *two = "assets/scenes/compositing.json";
     const struct export_options usual = {0};
-    assert_fails(tail, "a.fbx", usual, ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd and .npy");
+    assert_fails(tail, "a.fbx", usual, ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd or .npy");
     assert_fails("tests/vectors/complex_default.json", "a.glb", usual,
                  "no rig to export: its splines go into a .csv");
-    assert_fails("assets/scenes/character.json", "a.bvh", usual, "\"character\" has none: export it as .glb, .gltf");
+    assert_fails("assets/scenes/character.json", "a.bvh", usual,
+                 "cannot hold the character \"character\": export it as .glb, .gltf");
     assert_fails(two, "a.pc2", usual, "choose one of \"nodder\", \"swayer\" with --rig");
     assert_fails(two, "a.glb", (struct export_options){.rig = "noder"}, "\"nodder\", \"swayer\", got \"noder\"");
     assert_fails(tail, "a.glb", (struct export_options){.has_frames = true, .first = 5, .last = 500},
@@ -373,6 +506,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(glb_moves_as_the_stage_does, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(without_a_chain_the_file_stays_the_same, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(an_imported_character_gets_a_clip, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(text_files_get_a_clip_too, folder_make, folder_remove),
+        cmocka_unit_test(splices_touch_nothing_else),
         cmocka_unit_test_setup_teardown(tangents_make_up_for_keys, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(keys_loop_and_turn_the_short_way, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(weights_stay_within_one_unless_signed, folder_make, folder_remove),

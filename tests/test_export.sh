@@ -24,7 +24,7 @@ says "two keys a frame" "49 rows" "$out"
 
 expect 2 "no file to write" "$WIGGLY" export $scenes/tail.json
 expect 2 "an ending that nobody knows" "$WIGGLY" export $scenes/tail.json -o "$scratch/tail.fbx"
-says "the ones there are" ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd and .npy" "$err"
+says "the ones there are" ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd or .npy" "$err"
 expect 2 "frames that are none" "$WIGGLY" export $scenes/tail.json -o "$scratch/t.glb" --frames 24
 expect 2 "--fps and --substeps" "$WIGGLY" export $scenes/tail.json -o "$scratch/t.glb" --fps 24 --substeps 2
 expect 2 "keys that are neither" "$WIGGLY" export $scenes/tail.json -o "$scratch/t.glb" --keys square
@@ -65,4 +65,7 @@ for scene in tail follow character figure7 compositing; do
     [ "$(grep -c "0 errors, 0 warnings, 0 infos, 0 hints" <<<"$out")" -eq 2 ]
     ok "without a complaint" $?
 done
+"$WIGGLY" export $scenes/dog.json -o "$scratch/dog.glb" --quiet
+expect 0 "the validator reads an imported character with a new clip" node tests/others/validate.js "$folder" "$scratch/dog.glb"
+says "without an error or a warning" "0 errors, 0 warnings" "$out"
 exit $((cases_failed > 0))

@@ -133,7 +133,7 @@ static void check_sizes(struct app *app)
         const struct figure *figure = models_figure(app->table.models, c);
         if (!figure || draw_can_move(figure, &error)) continue;
         const struct rig *rig = &app->table.document->rigs[r];
-        fail(&full, error.kind, "%s: %s", rig->name ? rig->name : rig->character.model, error.text);
+        fail(&full, error.kind, "%s: %s", rig_title(rig), error.text);
         editor_message(app->table.editor, true, full.text);
     }
 }

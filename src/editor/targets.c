@@ -116,8 +116,7 @@ static const struct rig *rig_named(const struct place *place, enum rig_kind kind
     int r = document_next_rig(document, kind, 0);
     for (*n = 0; r >= 0; (*n)++, r = document_next_rig(document, kind, r + 1)) {
         const struct rig *rig = &document->rigs[r];
-        const char *name = rig->name || kind != RIG_CHARACTER ? rig->name : rig->character.model;
-        if (strcmp(name, place->target->name) == 0) return rig;
+        if (strcmp(rig_title(rig), place->target->name) == 0) return rig;
     }
     return NULL;
 }

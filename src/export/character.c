@@ -37,12 +37,12 @@ static bool add_targets(struct form *form, const struct figure *figure, int coor
     return true;
 }
 
-static bool open(const struct document *document, int rig, const struct rig_pose *pose, struct form *form,
+static bool open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                  struct error *error)
 {
     const struct figure *figure = pose->character.figure;
     const struct character *c = &figure->character;
-    (void)document;
+    (void)posing;
     (void)rig;
     form->character = c;
     form->vertex_count = c->vertex_count;
@@ -111,4 +111,4 @@ static void columns(const struct take *take, int rig, const struct rig_pose *pos
     }
 }
 
-const struct form_kind character_form = {false, open, close, key, vertices, columns};
+const struct form_kind character_form = {FORM_MESH | FORM_POINTS, open, close, key, vertices, columns};

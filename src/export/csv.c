@@ -55,7 +55,8 @@ static bool write_row(struct take *take, double key, struct row *row, struct err
     for (int r = 0; r < take->rig_count; r++) {
         const int rig = take->rigs[r];
         if (!take_pose(take, rig, key, &pose, error)) return false;
-        form_kind(document->rigs[rig].kind)->columns(take, rig, &pose, key, write_column, row);
+        const struct form_kind *kind = form_kind(document->rigs[rig].kind);
+        if (kind->columns) kind->columns(take, rig, &pose, key, write_column, row);
     }
     fputc('\n', row->out);
     return true;

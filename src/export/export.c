@@ -9,14 +9,14 @@
 #include <sys/types.h>
 
 static const struct format formats[] = {
-    {.ending = ".glb", .write = glb_write},
-    {.ending = ".gltf", .write = gltf_write},
-    {.ending = ".usda", .write = usda_write},
-    {.ending = ".bvh", .write = bvh_write, .needs_joints = true, .one_rig = true},
+    {.ending = ".glb", .holds = FORM_MESH | FORM_FILE, .write = glb_write},
+    {.ending = ".gltf", .holds = FORM_MESH | FORM_FILE, .write = gltf_write},
+    {.ending = ".usda", .holds = FORM_MESH, .write = usda_write},
+    {.ending = ".bvh", .holds = FORM_JOINTS, .write = bvh_write, .one_rig = true},
     {.ending = ".csv", .write = csv_write, .without_rigs = true},
-    {.ending = ".pc2", .write = pc2_write, .one_rig = true},
-    {.ending = ".mdd", .write = mdd_write, .one_rig = true},
-    {.ending = ".npy", .write = npy_write, .one_rig = true},
+    {.ending = ".pc2", .holds = FORM_POINTS, .write = pc2_write, .one_rig = true},
+    {.ending = ".mdd", .holds = FORM_POINTS, .write = mdd_write, .one_rig = true},
+    {.ending = ".npy", .holds = FORM_POINTS, .write = npy_write, .one_rig = true},
 };
 
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats, MAX_KEYS = 100000000 };
@@ -30,23 +30,25 @@ static const struct format *find_format(const char *path)
     return NULL;
 }
 
-/// The endings of all formats or of those that hold more than joints.
-static void list_endings(bool with_meshes, char text[EXPORT_ENDINGS])
+static bool fits(const struct format *format, unsigned holds) { return !format->holds || (format->holds & holds); }
+
+/// The endings of the formats for something that gives what `holds` says.
+static void list_endings(unsigned holds, char text[EXPORT_ENDINGS])
 {
     int left = 0;
-    for (int i = 0; i < FORMAT_COUNT; i++) left += !with_meshes || !formats[i].needs_joints;
+    for (int i = 0; i < FORMAT_COUNT; i++) left += fits(&formats[i], holds);
     text[0] = '\0';
     for (int i = 0; i < FORMAT_COUNT; i++) {
-        if (with_meshes && formats[i].needs_joints) continue;
+        if (!fits(&formats[i], holds)) continue;
         strcat(text, formats[i].ending);
         left--;
-        strcat(text, left > 1 ? ", " : left == 1 ? (with_meshes ? " or " : " and ") : "");
+        strcat(text, left > 1 ? ", " : left == 1 ? " or " : "");
     }
 }
 
 bool export_knows(const char *path) { return find_format(path) != NULL; }
 
-void export_endings(char text[EXPORT_ENDINGS]) { list_endings(false, text); }
+void export_endings(char text[EXPORT_ENDINGS]) { list_endings(~0u, text); }
 
 /// The names of all rigs, as far as there is room.
 static void list_names(const struct document *document, char *text, size_t size)
@@ -58,40 +60,38 @@ static void list_names(const struct document *document, char *text, size_t size)
             (size_t)snprintf(text + used, size - used, "%s\"%s\"", i > 0 ? ", " : "", form_name(&document->rigs[i]));
 }
 
-static bool fits(const struct format *format, const struct rig *rig)
-{
-    const struct form_kind *kind = form_kind(rig->kind);
-    return kind && (kind->has_joints || !format->needs_joints);
-}
-
-/// Why there is no rig to write.
-static bool fail_rigs(const struct take *take, const struct format *format, const char *wanted, bool found,
+/// Why there is no rig to write; `unfit` is one that the format cannot hold, or −1.
+static bool fail_rigs(const struct take *take, const struct format *format, const char *wanted, int unfit,
                       struct error *error)
 {
     const struct document *document = take->posing->document;
     char names[256], endings[EXPORT_ENDINGS];
     list_names(document, names, sizeof names);
-    list_endings(true, endings);
     if (document->rig_count == 0)
         return fail(error, ERROR_INPUT, "the scene has no rig to export: its splines go into a .csv file");
-    if (wanted && !found)
+    if (unfit < 0)
         return fail(error, ERROR_INPUT, "--rig: expected the name of a rig, %s, got \"%s\"", names, wanted);
-    if (wanted) snprintf(names, sizeof names, "\"%s\"", wanted);
-    return fail(error, ERROR_INPUT, "a %s file holds joints, and %s has none: export it as %s", format->ending, names,
-                endings);
+    const struct rig *rig = &document->rigs[unfit];
+    list_endings(form_kind(rig->kind)->holds, endings);
+    return fail(error, ERROR_INPUT, "a %s file cannot hold the %s \"%s\": export it as %s", format->ending,
+                rig_word(rig->kind), form_name(rig), endings);
 }
 
 static bool choose_rigs(struct take *take, const struct format *format, const char *wanted, struct error *error)
 {
     const struct document *document = take->posing->document;
-    bool found = false;
+    int unfit = -1;
     for (int i = 0; i < document->rig_count && i < SCENE_MAX_RIGS; i++) {
-        if (wanted && strcmp(form_name(&document->rigs[i]), wanted) != 0) continue;
-        found = true;
-        if (fits(format, &document->rigs[i])) take->rigs[take->rig_count++] = i;
+        const struct rig *rig = &document->rigs[i];
+        if (wanted && strcmp(form_name(rig), wanted) != 0) continue;
+        if (fits(format, form_kind(rig->kind)->holds)) {
+            take->rigs[take->rig_count++] = i;
+        } else if (unfit < 0) {
+            unfit = i;
+        }
     }
     if (take->rig_count == 0 && !(format->without_rigs && !wanted))
-        return fail_rigs(take, format, wanted, found, error);
+        return fail_rigs(take, format, wanted, unfit, error);
     if (take->rig_count <= 1 || !format->one_rig) return true;
     char names[256];
     list_names(document, names, sizeof names);
@@ -123,18 +123,13 @@ static bool choose_keys(struct take *take, const struct export_options *options,
 }
 
 /// The scene's own name, or "wiggly".
-static void name_clip(struct take *take, const char *wanted, char name[FORM_NAME])
+static void make_title(const struct document *document, char title[FORM_NAME])
 {
-    const char *path = take->posing->document->path;
+    const char *path = document->path;
     const char *slash = path ? strrchr(path, '/') : NULL;
     const char *file = slash ? slash + 1 : path;
     const char *dot = file ? strrchr(file, '.') : NULL;
-    if (wanted) {
-        take->clip = wanted;
-        return;
-    }
-    snprintf(name, FORM_NAME, "%.*s", dot ? (int)(dot - file) : 60, file ? file : "wiggly");
-    take->clip = name;
+    snprintf(title, FORM_NAME, "%.*s", dot ? (int)(dot - file) : 60, file ? file : "wiggly");
 }
 
 /// "47 KB"
@@ -170,20 +165,23 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
                   struct export_report *report, struct error *error)
 {
     const struct format *format = find_format(path);
-    char name[FORM_NAME], endings[EXPORT_ENDINGS];
+    char title[FORM_NAME], endings[EXPORT_ENDINGS];
     struct take take = {
         .posing = posing,
+        .clip = options->clip,
+        .title = title,
+        .path = path,
         .is_signed = options->is_signed,
         .is_cubic = options->is_cubic,
         .proceed = options->proceed,
         .user = options->user,
     };
     *report = (struct export_report){0};
+    make_title(posing->document, title);
     if (!format) {
         export_endings(endings);
         return fail(error, ERROR_USAGE, "%s: expected a name ending in %s", path, endings);
     }
     if (!choose_rigs(&take, format, options->rig, error) || !choose_keys(&take, options, report, error)) return false;
-    name_clip(&take, options->clip, name);
     return write_file(&take, format, path, report, error);
 }

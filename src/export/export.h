@@ -28,7 +28,7 @@ enum { EXPORT_ENDINGS = 256 };
 /// Whether there is a format for a file of that name.
 bool export_knows(const char *path);
 
-/// The endings there are, as a sentence lists them: ".glb, .gltf … and .npy".
+/// The endings there are, as a sentence lists them: ".glb, .gltf … or .npy".
 void export_endings(char text[EXPORT_ENDINGS]);
 
 /// Writes the file, whole or not at all. The document's splines must be solved and its models read.

@@ -6,6 +6,8 @@
 static const struct form_kind *const kinds[RIG_KINDS] = {
     [RIG_TAIL] = &tail_form,
     [RIG_CHARACTER] = &character_form,
+    [RIG_MODEL] = &model_form,
+    [RIG_CHAIN] = &chain_form,
 };
 
 const struct form_kind *form_kind(enum rig_kind kind) { return kinds[kind]; }
@@ -30,9 +32,26 @@ bool form_open(const struct take *take, int rig, struct form *form, struct error
     *form = (struct form){.kind = kinds[source->kind]};
     if (!take_pose(take, rig, 0, &pose, error)) return false;
     make_name(document, rig, form->name);
-    if (form->kind->open(document, rig, &pose, form, error)) return true;
+    if (form->kind->open(take->posing, rig, &pose, form, error)) return true;
     form_close(form);
     return false;
+}
+
+void form_channels(const struct take *take, int rig, const struct channel *channels, int count, int joints,
+                   double key, form_column *column, void *user)
+{
+    static const char *const axes[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up", [AXIS_TWIST] = "twist"};
+    const struct document *document = take->posing->document;
+    const char *name = form_name(&document->rigs[rig]);
+    for (int c = 0; c < count; c++) {
+        const struct channel *channel = &channels[c];
+        const wiggly_value value = take_value(take, channel->spline, key);
+        for (int n = 0; n < joints; n++) {
+            const double angle = channel_bend(channel, value, n, joints, take->posing->look);
+            column(user, 180 / 3.14159265358979323846 * angle, "%s.%s.%s.%d", name, axes[channel->axis],
+                   document->splines[channel->spline].name, n);
+        }
+    }
 }
 
 void form_close(struct form *form)

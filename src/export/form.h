@@ -7,6 +7,10 @@
 
 enum { FORM_INFLUENCES = 4, FORM_NAME = 64 };
 
+/// What a kind of rig can be exported as, bits: a mesh with joints or targets, joints, the places of its vertices, the file that it came
+/// from with a new clip.
+enum { FORM_MESH = 1, FORM_JOINTS = 2, FORM_POINTS = 4, FORM_FILE = 8 };
+
 struct form_joint {
     char name[FORM_NAME];
     int parent;      ///< −1: the root
@@ -50,23 +54,27 @@ struct form_key {
 typedef void form_column(void *user, double value, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 struct form_kind {
-    bool has_joints;
+    unsigned holds; ///< FORM_MESH …
     /// Fills all but kind and name, from a pose at any time. On failure close() frees what there is.
-    bool (*open)(const struct document *document, int rig, const struct rig_pose *pose, struct form *form,
+    bool (*open)(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                  struct error *error);
     void (*close)(struct form *form);
     void (*key)(const struct form *form, const struct rig_pose *pose, struct form_key *key);
     /// Where the vertices are, as the stage shows them.
     void (*vertices)(const struct form *form, const struct rig_pose *pose, float (*positions)[3]);
-    /// What moves the rig at a key: always the same columns in the same order.
+    /// What moves the rig at a key: always the same columns in the same order. NULL: it has none.
     void (*columns)(const struct take *take, int rig, const struct rig_pose *pose, double key, form_column *column,
                     void *user);
 };
 
-extern const struct form_kind tail_form, character_form;
+extern const struct form_kind tail_form, character_form, model_form, chain_form;
 
 /// How a kind is exported; NULL if it is not.
 const struct form_kind *form_kind(enum rig_kind kind);
+
+/// Columns of the angles in degrees by which channels bend joints.
+void form_channels(const struct take *take, int rig, const struct channel *channels, int count, int joints,
+                   double key, form_column *column, void *user);
 
 /// What a rig is called in files and messages: its name, or its kind's word.
 const char *form_name(const struct rig *rig);

@@ -10,7 +10,7 @@ enum { FORMAT_SUMMARY = 96 };
 struct format {
     const char *ending;
     bool without_rigs; ///< it makes sense without one
-    bool needs_joints; ///< it holds nothing but joints
+    unsigned holds;    ///< of what a kind of rig gives (form.h); 0: any kind
     bool one_rig;      ///< it holds one rig
     /// Writes all of it to a stream, whose errors the caller sees, and says in a few words what it wrote.
     bool (*write)(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);

@@ -1,6 +1,8 @@
 /// Rigs as glTF 2.0: meshes with skins or morph targets, and one clip that moves them all.
 #include "export/format.h"
 #include "export/gltf_file.h"
+#include "export/gltf_model.h"
+#include "export/gltf_motion.h"
 #include "export/keys.h"
 #include "export/targets.h"
 #include <math.h>
@@ -10,8 +12,8 @@
 struct scene {
     struct take *take;
     struct gltf_file file;
-    json_t *roots, *nodes, *meshes, *skins, *samplers, *channels;
-    json_int_t times; ///< the accessor of the keys' times
+    json_t *roots, *nodes, *meshes, *skins;
+    struct gltf_motion motion;
     int joints, targets;
 };
 
@@ -166,53 +168,21 @@ static void add_nodes(struct scene *scene, struct part *part, json_int_t mesh)
 
 // --- the clip
 
-static bool is_cubic(const struct keys *keys) { return keys->slope.translation != NULL; }
-
-static void add_channel(struct scene *scene, const struct keys *keys, json_int_t node, const char *path,
-                        json_int_t output)
-{
-    const json_int_t sampler =
-        append(scene->samplers, json_pack("{s:I, s:I, s:s}", "input", scene->times, "output", output, "interpolation",
-                                          is_cubic(keys) ? "CUBICSPLINE" : "LINEAR"));
-    append(scene->channels,
-           json_pack("{s:I, s:{s:I, s:s}}", "sampler", sampler, "target", "node", node, "path", path));
-}
-
-/// Rows of `width` numbers at each key; with slopes, tangent in, value and tangent out.
-static json_int_t add_keys(struct scene *scene, enum gltf_elements elements, const float *values, const float *slopes,
-                           int width, int count)
-{
-    const size_t row = (size_t)width;
-    const size_t each = (size_t)(elements == ELEMENTS_KEYS ? width : 1) * (slopes ? 3 : 1);
-    if (!slopes) return gltf_file_add(&scene->file, elements, values, (size_t)count * each, false);
-    float *keys = malloc(3 * row * (size_t)count * sizeof *keys);
-    for (size_t k = 0; keys && k < (size_t)count; k++) {
-        memcpy(keys + 3 * k * row, slopes + k * row, row * sizeof *keys);
-        memcpy(keys + (3 * k + 1) * row, values + k * row, row * sizeof *keys);
-        memcpy(keys + (3 * k + 2) * row, slopes + k * row, row * sizeof *keys);
-    }
-    if (!keys) scene->file.without_memory = true;
-    const json_int_t accessor = keys ? gltf_file_add(&scene->file, elements, keys, (size_t)count * each, false) : 0;
-    free(keys);
-    return accessor;
-}
-
 static void add_weights(struct scene *scene, const struct part *part)
 {
     const struct keys *keys = part->keys;
     const int width = part->targets->count, count = keys->count;
     if (width == 0) return;
     float *values = malloc((size_t)(width * count) * sizeof *values);
-    float *slopes = is_cubic(keys) ? malloc((size_t)(width * count) * sizeof *slopes) : NULL;
-    if (!values || (is_cubic(keys) && !slopes)) {
+    float *slopes = keys->slope.translation ? malloc((size_t)(width * count) * sizeof *slopes) : NULL;
+    if (!values || (keys->slope.translation && !slopes)) {
         scene->file.without_memory = true;
     } else {
         for (int i = 0; i < width * count; i++) {
             values[i] = targets_weight(part->targets, i % width, keys, i / width);
             if (slopes) slopes[i] = targets_slope(part->targets, i % width, keys, i / width);
         }
-        add_channel(scene, keys, part->mesh_node, "weights",
-                    add_keys(scene, ELEMENTS_KEYS, values, slopes, width, count));
+        gltf_motion_add(&scene->motion, part->mesh_node, "weights", ELEMENTS_KEYS, values, slopes, width);
     }
     free(values);
     free(slopes);
@@ -223,14 +193,14 @@ static void add_animation(struct scene *scene, const struct part *part)
     const struct form *form = part->form;
     const struct keys *keys = part->keys;
     if (keys->travels) {
-        const float *slopes = is_cubic(keys) ? keys->slope.translation[0] : NULL;
-        add_channel(scene, keys, form->joint_count > 0 ? part->first_joint : part->mesh_node, "translation",
-                    add_keys(scene, ELEMENTS_KEY_VECTORS, keys->at.translation[0], slopes, 3, keys->count));
+        const float *slopes = keys->slope.translation ? keys->slope.translation[0] : NULL;
+        gltf_motion_add(&scene->motion, form->joint_count > 0 ? part->first_joint : part->mesh_node, "translation",
+                        ELEMENTS_KEY_VECTORS, keys->at.translation[0], slopes, 3);
     }
     for (int j = form->first_bone; j < form->joint_count; j++) {
-        const float *slopes = is_cubic(keys) ? keys->slope.rotation[j * keys->count] : NULL;
-        add_channel(scene, keys, part->first_joint + j, "rotation",
-                    add_keys(scene, ELEMENTS_TURNS, keys->at.rotation[j * keys->count], slopes, 4, keys->count));
+        const float *slopes = keys->slope.translation ? keys->slope.rotation[j * keys->count] : NULL;
+        gltf_motion_add(&scene->motion, part->first_joint + j, "rotation", ELEMENTS_TURNS,
+                        keys->at.rotation[j * keys->count], slopes, 4);
     }
     add_weights(scene, part);
 }
@@ -261,16 +231,6 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     return done;
 }
 
-static void add_times(struct scene *scene)
-{
-    const int count = scene->take->key_count;
-    float *times = malloc((size_t)count * sizeof *times);
-    for (int k = 0; times && k < count; k++) times[k] = (float)take_seconds(scene->take, k);
-    if (!times) scene->file.without_memory = true;
-    if (times) scene->times = gltf_file_add(&scene->file, ELEMENTS_KEYS, times, (size_t)count, true);
-    free(times);
-}
-
 static json_t *make_root(const struct scene *scene)
 {
     json_t *material = json_pack("{s:s, s:{s:f, s:f}}", "name", "skin", "pbrMetallicRoughness", "metallicFactor", 0.0,
@@ -279,10 +239,9 @@ static json_t *make_root(const struct scene *scene)
                              "generator", "wiggly", "scene", 0, "scenes", "nodes", scene->roots, "nodes",
                              scene->nodes, "meshes", scene->meshes, "materials", material);
     if (json_array_size(scene->skins) > 0) json_object_set(root, "skins", scene->skins);
-    if (json_array_size(scene->channels) > 0) {
-        json_t *clip = json_pack("{s:s, s:O, s:O}", "name", scene->take->clip, "samplers", scene->samplers,
-                                 "channels", scene->channels);
-        json_object_set_new(root, "animations", json_pack("[o]", clip));
+    if (json_array_size(scene->motion.channels) > 0) {
+        const char *name = scene->take->clip ? scene->take->clip : scene->take->title;
+        json_object_set_new(root, "animations", json_pack("[o]", gltf_motion_json(&scene->motion, name)));
     }
     return root;
 }
@@ -298,27 +257,41 @@ static void summarise(const struct scene *scene, char summary[FORMAT_SUMMARY])
 static bool write_scene(struct take *take, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     struct scene scene = {.take = take};
-    json_t **const arrays[] = {&scene.roots, &scene.nodes,    &scene.meshes,
-                               &scene.skins, &scene.samplers, &scene.channels};
+    json_t **const arrays[] = {&scene.roots, &scene.nodes, &scene.meshes, &scene.skins};
     enum { ARRAYS = sizeof arrays / sizeof *arrays };
     for (int i = 0; i < ARRAYS; i++) *arrays[i] = json_array();
     take->total = (long)take->key_count * take->rig_count;
     bool done = true;
-    add_times(&scene);
+    gltf_motion_begin(&scene.motion, &scene.file, take);
     for (int r = 0; done && r < take->rig_count; r++) done = add_rig(&scene, take->rigs[r], error);
     done = done && gltf_file_write(&scene.file, make_root(&scene), binary, out, error);
     summarise(&scene, summary);
     for (int i = 0; i < ARRAYS; i++) json_decref(*arrays[i]);
+    gltf_motion_free(&scene.motion);
     gltf_file_free(&scene.file);
     return done;
 }
 
+/// An imported character has a file of its own, in which nothing else has a place.
+static bool write_either(struct take *take, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+{
+    const struct document *document = take->posing->document;
+    for (int r = 0; r < take->rig_count; r++) {
+        const struct rig *rig = &document->rigs[take->rigs[r]];
+        if (!(form_kind(rig->kind)->holds & FORM_FILE)) continue;
+        if (take->rig_count == 1) return gltf_model_write(take, binary, out, summary, error);
+        return fail(error, ERROR_INPUT, "\"%s\" is exported into a copy of its own file: choose one rig with --rig",
+                    form_name(rig));
+    }
+    return write_scene(take, binary, out, summary, error);
+}
+
 bool glb_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_scene(take, true, out, summary, error);
+    return write_either(take, true, out, summary, error);
 }
 
 bool gltf_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_scene(take, false, out, summary, error);
+    return write_either(take, false, out, summary, error);
 }

@@ -60,16 +60,16 @@ json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, co
     if (!file->views) file->views = json_array();
     if (!file->accessors) file->accessors = json_array();
     const json_int_t index = (json_int_t)json_array_size(file->accessors);
-    json_t *view = json_pack("{s:i, s:I, s:I}", "buffer", 0, "byteOffset", (json_int_t)file->size, "byteLength",
-                             (json_int_t)size);
-    json_t *accessor = json_pack("{s:I, s:i, s:I, s:s}", "bufferView", index, "componentType", kind->type, "count",
-                                 (json_int_t)count, "type", kind->shape);
+    json_t *view = json_pack("{s:I, s:I, s:I}", "buffer", file->buffer, "byteOffset",
+                             (json_int_t)(file->first_byte + file->size), "byteLength", (json_int_t)size);
+    json_t *accessor = json_pack("{s:I, s:i, s:I, s:s}", "bufferView", file->first_view + index, "componentType",
+                                 kind->type, "count", (json_int_t)count, "type", kind->shape);
     if (kind->target) json_object_set_new(view, "target", json_integer(kind->target));
     if (bounds && accessor) add_bounds(accessor, data, count, kind->components);
     if (!append(file, data, size) || json_array_append_new(file->views, view) != 0 ||
         json_array_append_new(file->accessors, accessor) != 0)
         file->without_memory = true;
-    return index;
+    return file->first_accessor + index;
 }
 
 static void write_words(FILE *out, uint32_t a, uint32_t b)
@@ -78,21 +78,21 @@ static void write_words(FILE *out, uint32_t a, uint32_t b)
     fwrite(words, sizeof words, 1, out);
 }
 
-/// Header, JSON padded with spaces, bytes.
-static void write_binary(const struct gltf_file *file, const char *text, FILE *out)
+void gltf_file_write_binary(const struct gltf_file *file, const char *text, const void *before, size_t before_size,
+                            FILE *out)
 {
-    const size_t length = strlen(text), padded = (length + 3) / 4 * 4;
-    const uint32_t total = (uint32_t)(12 + 8 + padded + 8 + file->size);
+    const size_t length = strlen(text), padded = (length + 3) / 4 * 4, bytes = before_size + file->size;
+    const uint32_t total = (uint32_t)(12 + 8 + padded + 8 + bytes);
     write_words(out, 0x46546C67, 2); // "glTF"
     fwrite(&total, sizeof total, 1, out);
     write_words(out, (uint32_t)padded, 0x4E4F534A); // "JSON"
     fprintf(out, "%s%*s", text, (int)(padded - length), "");
-    write_words(out, (uint32_t)file->size, 0x004E4942); // "BIN"
+    write_words(out, (uint32_t)bytes, 0x004E4942); // "BIN"
+    if (before_size > 0) fwrite(before, 1, before_size, out);
     fwrite(file->data, 1, file->size, out);
 }
 
-/// "data:…": the bytes in base 64, as the address of the buffer.
-static char *print_address(const struct gltf_file *file)
+char *gltf_file_address(const struct gltf_file *file)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     static const char start[] = "data:application/octet-stream;base64,";
@@ -112,7 +112,7 @@ static char *print_address(const struct gltf_file *file)
 static bool complete(struct gltf_file *file, json_t *root, bool binary)
 {
     json_t *buffer = json_pack("{s:I}", "byteLength", (json_int_t)file->size);
-    char *address = binary ? NULL : print_address(file);
+    char *address = binary ? NULL : gltf_file_address(file);
     if (address) json_object_set_new(buffer, "uri", json_string(address));
     const bool whole = buffer && (binary || address);
     free(address);
@@ -133,7 +133,7 @@ bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *ou
                                                 : "a glTF file holds 2 GB: ask for fewer keys or frames");
     }
     if (binary) {
-        write_binary(file, text, out);
+        gltf_file_write_binary(file, text, NULL, 0, out);
     } else {
         fputs(text, out);
         fputc('\n', out);

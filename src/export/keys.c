@@ -1,5 +1,6 @@
 /// Collects the keys of one rig, and the slopes of its curves by differences.
 #include "export/keys.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,15 +23,24 @@ static bool sample(const struct sampler *from, double key, float *row, struct er
     return true;
 }
 
-/// A quaternion and its negative are the same rotation: takes the one nearer to `before`.
+void keys_turn_short_way(const float before[4], float q[4])
+{
+    if (before[0] * q[0] + before[1] * q[1] + before[2] * q[2] + before[3] * q[3] >= 0) return;
+    for (int k = 0; k < 4; k++) q[k] = -q[k];
+}
+
 static void turn_short_way(const struct sampler *from, const float *before, float *row)
 {
-    for (int j = 0; j < from->form->joint_count; j++) {
-        const float *a = before + 3 + 4 * j;
-        float *b = row + 3 + 4 * j;
-        if (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] >= 0) continue;
-        for (int k = 0; k < 4; k++) b[k] = -b[k];
+    for (int j = 0; j < from->form->joint_count; j++) keys_turn_short_way(before + 3 + 4 * j, row + 3 + 4 * j);
+}
+
+void keys_close_loop(float *rows, int width, int count)
+{
+    float *last = rows + (size_t)(count - 1) * (size_t)width;
+    for (int i = 0; i < width && last > rows; i++) {
+        if (!(fabsf(last[i] - rows[i]) <= 1e-5f)) return;
     }
+    memmove(last, rows, (size_t)width * sizeof *rows);
 }
 
 /// slope = Σ factor · row(key + offset) / seconds
@@ -106,8 +116,9 @@ static bool collect(struct take *take, const struct sampler *from, struct keys *
         if (!sample(from, k, row, error) || !take_proceed(take, error)) return false;
         if (k > 0) turn_short_way(from, row - width, row);
         if (k > 0) keys->travels = keys->travels || memcmp(row, rows, 3 * sizeof *row) != 0;
-        scatter(from->form, keys->count, k, row, &keys->at);
     }
+    keys_close_loop(rows, from->width, keys->count);
+    for (int k = 0; k < keys->count; k++) scatter(from->form, keys->count, k, rows + (size_t)k * width, &keys->at);
     return !take->is_cubic || keys->count < 2 || collect_slopes(from, keys, rows, scratch, error);
 }
 

@@ -22,4 +22,10 @@ struct keys {
 bool keys_collect(struct take *take, int rig, const struct form *form, struct keys *keys, struct error *error);
 void keys_free(struct keys *keys);
 
+/// A quaternion and its negative are the same rotation: makes `q` the one nearer to `before`.
+void keys_turn_short_way(const float before[4], float q[4]);
+
+/// Makes the last row the first where they differ by next to nothing, as in a clip whose length is rounded.
+void keys_close_loop(float *rows, int width, int count);
+
 #endif

@@ -43,9 +43,10 @@ static void name_joints(struct form *form, int joints, const struct rig_pose *po
     }
 }
 
-static bool open(const struct document *document, int rig, const struct rig_pose *pose, struct form *form,
+static bool open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                  struct error *error)
 {
+    const struct document *document = posing->document;
     const int joints = document->rigs[rig].tail.joints;
     struct fox *fox = form->owned = calloc(1, sizeof *fox);
     if (!fox) return fail_no_memory(error, form->name);
@@ -114,24 +115,12 @@ static void vertices(const struct form *form, const struct rig_pose *pose, float
     tail_skin(&pose->tail, &fox->mesh, positions, NULL);
 }
 
-/// By how many degrees each channel bends each joint.
 static void columns(const struct take *take, int rig, const struct rig_pose *pose, double key, form_column *column,
                     void *user)
 {
-    static const char *const axes[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up"};
-    const struct document *document = take->posing->document;
-    const struct tail *tail = &document->rigs[rig].tail;
+    const struct tail *tail = &take->posing->document->rigs[rig].tail;
     (void)pose;
-    for (int c = 0; c < tail->channel_count; c++) {
-        const struct channel *channel = &tail->channels[c];
-        const wiggly_value value = take_value(take, channel->spline, key);
-        for (int n = 0; n < tail->joints; n++) {
-            column(user,
-                   180 / 3.14159265358979323846 * channel_bend(channel, value, n, tail->joints, take->posing->look),
-                   "%s.%s.%s.%d", form_name(&document->rigs[rig]), axes[channel->axis],
-                   document->splines[channel->spline].name, n);
-        }
-    }
+    form_channels(take, rig, tail->channels, tail->channel_count, tail->joints, key, column, user);
 }
 
-const struct form_kind tail_form = {true, open, close, key, vertices, columns};
+const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, open, close, key, vertices, columns};

@@ -7,7 +7,7 @@
 #include <stb/stb_image_write.h>
 #include <stdlib.h>
 
-enum { BYTE = 5121, SHORT = 5123, FLOAT = 5126, VERTICES = 34962, INDICES = 34963 };
+enum { BYTE = 5121, SHORT = 5123, VERTICES = 34962, INDICES = 34963 };
 enum { TAG_PIXELS = 64, KEY_LIMIT = 256 };
 
 /// A file being written. The first node is the root of the skeleton, then come its joints, then the mesh.
@@ -40,8 +40,8 @@ static const struct {
     const char *name;
     struct shape shape;
 } attributes[] = {
-    {"POSITION", {"VEC3", FLOAT, false, offsetof(struct packed, position)}},
-    {"NORMAL", {"VEC3", FLOAT, false, offsetof(struct packed, normal)}},
+    {"POSITION", {"VEC3", GLB_FLOAT, false, offsetof(struct packed, position)}},
+    {"NORMAL", {"VEC3", GLB_FLOAT, false, offsetof(struct packed, normal)}},
     {"TEXCOORD_0", {"VEC2", SHORT, true, offsetof(struct packed, uv)}},
     {"COLOR_0", {"VEC4", BYTE, true, offsetof(struct packed, color)}},
     {"JOINTS_0", {"VEC4", BYTE, false, offsetof(struct packed, joints)}},
@@ -78,7 +78,7 @@ static json_int_t add_accessor(struct output *o, json_int_t view, int count, con
 static json_int_t add_floats(struct output *o, const float *numbers, int count, int components, const char *name)
 {
     const json_int_t view = add_view(o, numbers, (size_t)(count * components) * sizeof *numbers, 0);
-    return add_accessor(o, view, count, &(struct shape){.name = name, .type = FLOAT});
+    return add_accessor(o, view, count, &(struct shape){.name = name, .type = GLB_FLOAT});
 }
 
 /// What positions and key times must state; the next element follows after `stride` floats.

@@ -12,15 +12,16 @@
 // (Im x, Re d, Im d) a knot, in cubic and real mode of d alone (there it is the classical spline's tridiagonal system).
 // Inside a stretch
 //
-//     x_{p+i} = [F^i s_p]_x + [W_i F*^{L−i} ν]_x,     ν = W_L⁻¹ (s_q − F^L s_p),
+//     x_{p+i} = [F^i s_p]_x + [W_i F*^{−i} μ]_x,     μ = F*^L ν,     ν = W_L⁻¹ (s_q − F^L s_p),
 //
-// a sum of four tabled columns a sample, the same for all stretches of one length. After the last knot x runs free, or, where it
+// a sum of four tabled columns a sample, the same for all stretches. F*^{−i} grows, and where the poles decay unlike each other it
+// costs digits: state and costate are taken anew every `run` samples, s_{p+k} = F^k s_p + W_k F*^{L−k} ν. After the last knot x runs free, or, where it
 // settles, d_L is a multiple of x_L and the last jet counts twice: as the last input's share of W is then a half, W_L − ½ B B*.
 //
 // A slope at s_q sees h times a speed, φ = Re(on_x x_q + on_d d_q − on_r r_q), where r_q is the last jet of the stretch before. Given
 // both ends that jet is ν_d = B* ν ± √(1 − V₁₁), so that with s = weight / (1 + weight |on_r|² (1 − V₁₁)) what the slope costs is
 // s (Re(on_x x_q + on_d d_q − on_r ν_d) − target)², a row of the two nodes alone. In the stretch it pulls r_q away from B* ν by
-// η = s (φ − target) on_r*, and the samples follow the costate ν − V B η.
+// η = s (φ − target) on_r*, and the samples follow the costate ν − V B η, which is μ − C* B η where the stretch begins.
 #include "spline/chain.h"
 #include <math.h>
 
@@ -31,11 +32,8 @@ enum {
 static const double refined = 1e-13;   ///< of the largest unknown
 static const double acceptable = 1e-6; ///< of the same: still a curve to show, though one that is said to be inexact
 
-/// Whether sums of tabled columns, none of them above 1e25, weighted with z stay finite.
+/// Whether sums of tabled columns, none of them above 1e25, weighted with z stay finite; NaN is not tame.
 static bool is_tame(cplx z) { return fabs(z.re) < 1e250 && fabs(z.im) < 1e250; }
-
-/// The same for a real sum; NaN is not tame.
-static bool is_tame_real(double size) { return size < 1e250; }
 
 double chain_slope_pull(const chain *c, const chain_node *node, cplx jet, double v11)
 {
@@ -53,40 +51,76 @@ static cplx jet_of_slope(const chain *c, const chain_stretch *s, const chain_nod
     return cplx_scale(chain_slope_pull(c, q, nu_d, s->form[FORM_V11]), cplx_conj(c->speed[q->view].on_r));
 }
 
-/// What the columns of a stretch are weighted with; false where sums might overflow.
-static bool weigh_real(const chain *c, const chain_node *p, const chain_node *q, double weight[4])
+/// The costate ν of where a stretch ends.
+static void costate_at_end(const chain *c, const chain_node *p, const chain_node *q, cplx nu[2])
 {
     const chain_stretch *s = &c->stretches[p->stretch];
-    const double *f = s->form;
-    weight[0] = p->value;
-    weight[1] = p->d_re;
-    weight[2] = f[FORM_V00] * q->value + f[FORM_V01] * q->d_re - (f[FORM_C00] * p->value + f[FORM_C01] * p->d_re);
-    weight[3] = f[FORM_V01] * q->value + f[FORM_V11] * q->d_re - (f[FORM_C10] * p->value + f[FORM_C11] * p->d_re);
+    const cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, dq = {q->d_re, q->d_im};
+    const cplx v01 = chain_entry(s, FORM_V01);
+    nu[0] = cplx_sub(cplx_add(cplx_scale(s->form[FORM_V00], xq), cplx_mul(v01, dq)),
+                     cplx_add(cplx_mul(chain_entry(s, FORM_C00), xp), cplx_mul(chain_entry(s, FORM_C01), dp)));
+    nu[1] = cplx_sub(cplx_add(cplx_mul(cplx_conj(v01), xq), cplx_scale(s->form[FORM_V11], dq)),
+                     cplx_add(cplx_mul(chain_entry(s, FORM_C10), xp), cplx_mul(chain_entry(s, FORM_C11), dp)));
     if (q->slope_weight > 0) {
-        double eta = jet_of_slope(c, s, q, (cplx){weight[3], 0}).re;
-        weight[2] -= f[FORM_V01] * eta, weight[3] -= f[FORM_V11] * eta;
+        cplx eta = jet_of_slope(c, s, q, nu[1]);
+        nu[0] = cplx_sub(nu[0], cplx_mul(v01, eta));
+        nu[1] = cplx_sub(nu[1], cplx_scale(s->form[FORM_V11], eta));
     }
-    return is_tame_real(fabs(weight[0]) + fabs(weight[1]) + fabs(weight[2]) + fabs(weight[3]));
 }
 
-static bool weigh_complex(const chain *c, const chain_node *p, const chain_node *q, cplx weight[4])
+/// State and costate that a stretch begins with, where the costate is F*^L ν = C* s_q − P s_p.
+static void begin_real(const chain *c, const chain_node *p, const chain_node *q, cplx weight[4])
 {
     const chain_stretch *s = &c->stretches[p->stretch];
-    cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, dq = {q->d_re, q->d_im};
-    cplx v01 = chain_entry(s, FORM_V01), c00 = chain_entry(s, FORM_C00), c01 = chain_entry(s, FORM_C01),
-         c10 = chain_entry(s, FORM_C10), c11 = chain_entry(s, FORM_C11);
+    const double *f = s->form, xp = p->value, dp = p->d_re, xq = q->value, dq = q->d_re;
+    double on_x = f[FORM_C00] * xq + f[FORM_C10] * dq - (f[FORM_P00] * xp + f[FORM_P01] * dp);
+    double on_d = f[FORM_C01] * xq + f[FORM_C11] * dq - (f[FORM_P01] * xp + f[FORM_P11] * dp);
+    if (q->slope_weight > 0) {
+        double nu_d = f[FORM_V01] * xq + f[FORM_V11] * dq - (f[FORM_C10] * xp + f[FORM_C11] * dp);
+        double eta = jet_of_slope(c, s, q, (cplx){nu_d, 0}).re;
+        on_x -= f[FORM_C10] * eta, on_d -= f[FORM_C11] * eta;
+    }
+    weight[0] = (cplx){xp, 0}, weight[1] = (cplx){dp, 0}, weight[2] = (cplx){on_x, 0}, weight[3] = (cplx){on_d, 0};
+}
+
+static void begin_complex(const chain *c, const chain_node *p, const chain_node *q, cplx weight[4])
+{
+    const chain_stretch *s = &c->stretches[p->stretch];
+    const cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, dq = {q->d_re, q->d_im};
+    const cplx p01 = chain_entry(s, FORM_P01);
+    const cplx c00 = cplx_conj(chain_entry(s, FORM_C00)), c01 = cplx_conj(chain_entry(s, FORM_C01)),
+               c10 = cplx_conj(chain_entry(s, FORM_C10)), c11 = cplx_conj(chain_entry(s, FORM_C11));
     weight[0] = xp;
     weight[1] = dp;
-    weight[2] = cplx_sub(cplx_add(cplx_scale(s->form[FORM_V00], xq), cplx_mul(v01, dq)),
-                         cplx_add(cplx_mul(c00, xp), cplx_mul(c01, dp)));
-    weight[3] = cplx_sub(cplx_add(cplx_mul(cplx_conj(v01), xq), cplx_scale(s->form[FORM_V11], dq)),
-                         cplx_add(cplx_mul(c10, xp), cplx_mul(c11, dp)));
+    weight[2] = cplx_sub(cplx_add(cplx_mul(c00, xq), cplx_mul(c10, dq)),
+                         cplx_add(cplx_scale(s->form[FORM_P00], xp), cplx_mul(p01, dp)));
+    weight[3] = cplx_sub(cplx_add(cplx_mul(c01, xq), cplx_mul(c11, dq)),
+                         cplx_add(cplx_mul(cplx_conj(p01), xp), cplx_scale(s->form[FORM_P11], dp)));
     if (q->slope_weight > 0) {
-        cplx eta = jet_of_slope(c, s, q, weight[3]);
-        weight[2] = cplx_sub(weight[2], cplx_mul(v01, eta));
-        weight[3] = cplx_sub(weight[3], cplx_scale(s->form[FORM_V11], eta));
+        cplx v01 = chain_entry(s, FORM_V01);
+        cplx nu_d = cplx_sub(cplx_add(cplx_mul(cplx_conj(v01), xq), cplx_scale(s->form[FORM_V11], dq)),
+                             cplx_add(cplx_mul(cplx_conj(c10), xp), cplx_mul(cplx_conj(c11), dp)));
+        cplx eta = jet_of_slope(c, s, q, nu_d);
+        weight[2] = cplx_sub(weight[2], cplx_mul(c10, eta));
+        weight[3] = cplx_sub(weight[3], cplx_mul(c11, eta));
     }
-    return is_tame(weight[0]) && is_tame(weight[1]) && is_tame(weight[2]) && is_tame(weight[3]);
+}
+
+/// The same at sample k of a stretch: F*^{L−k} ν, and F^k s_p + W_k of it.
+static void go_on(const chain *c, const chain_node *p, int left, int k, const cplx nu[2], cplx weight[4])
+{
+    const chain_powers *t = &c->powers;
+    const cplx x = {p->value, p->x_im}, d = {p->d_re, p->d_im}, w01 = chain_power(c, &t->w01, k);
+    const cplx f = chain_power(c, &t->p, left), g = chain_power(c, &t->q, left), dg = cplx_mul(c->delta2, g);
+    const cplx a = chain_power(c, &t->p, k), b = chain_power(c, &t->q, k), db = cplx_mul(c->delta2, b);
+    const cplx m = cplx_add(cplx_mul(cplx_conj(f), nu[0]), cplx_mul(cplx_conj(dg), nu[1]));
+    const cplx n = cplx_add(cplx_mul(cplx_conj(g), nu[0]), cplx_mul(cplx_conj(f), nu[1]));
+    weight[0] =
+        cplx_add(cplx_add(cplx_mul(a, x), cplx_mul(b, d)), cplx_add(cplx_scale(t->w00[k], m), cplx_mul(w01, n)));
+    weight[1] = cplx_add(cplx_add(cplx_mul(db, x), cplx_mul(a, d)),
+                         cplx_add(cplx_mul(cplx_conj(w01), m), cplx_scale(t->w11[k], n)));
+    weight[2] = m;
+    weight[3] = n;
 }
 
 int chain_length_after(const chain *c, int j)
@@ -95,31 +129,51 @@ int chain_length_after(const chain *c, int j)
     return ahead - c->nodes[j].sample;
 }
 
-/// Samples of a loop are counted from its first node on: what reaches beyond the end goes on at sample 0.
-static int part_before_seam(const chain *c, const chain_node *p, int length, int *at)
+/// Fills samples of a run, whole blocks where there is room up to `end`: what is behind them is filled later.
+static void fill_samples(const chain *c, const cplx weight[4], int from, int count, int at, int end, double *re,
+                         double *im)
 {
-    *at = p->sample + c->turned;
-    if (c->cyclic && *at >= c->count) *at -= c->count;
-    return c->cyclic && *at + length > c->count ? c->count - *at : length;
+    int whole = (count + CHAIN_BLOCK - 1) & -CHAIN_BLOCK;
+    if (from + whole <= CHAIN_RUN && at + whole <= end) count = whole;
+    if (c->is_complex) {
+        chain_fill_complex(c, weight, from, count, re + at, im + at);
+    } else {
+        chain_fill_real(c, weight, from, count, re + at);
+    }
+}
+
+/// A run that begins at sample `at`. Samples of a loop are counted from its first node on: what reaches beyond the end goes on at
+/// sample 0.
+static void fill_run(const chain *c, const cplx weight[4], int at, int count, double *re, double *im)
+{
+    int end = c->cyclic && at < c->turned ? c->turned : c->count;
+    if (at + count <= c->count) {
+        fill_samples(c, weight, 0, count, at, end, re, im);
+    } else {
+        fill_samples(c, weight, 0, c->count - at, at, end, re, im);
+        fill_samples(c, weight, c->count - at, at + count - c->count, 0, c->turned, re, im);
+    }
 }
 
 bool chain_fill_stretch(const chain *c, const chain_node *p, const chain_node *q, double *re, double *im)
 {
-    const chain_stretch *s = &c->stretches[p->stretch];
-    const int n = s->length;
-    int at;
-    const int part = part_before_seam(c, p, n, &at);
-    if (c->is_complex) {
-        cplx weight[4];
-        bool tame = weigh_complex(c, p, q, weight);
-        chain_fill_complex(c, s, weight, 0, part, re + at, im + at);
-        if (part < n) chain_fill_complex(c, s, weight, part, n - part, re, im);
-        return tame;
+    const int n = c->stretches[p->stretch].length;
+    cplx weight[4], nu[2];
+    bool tame = true;
+    for (int k = 0; k < n; k += c->run) {
+        int at = p->sample + c->turned + k, count = n - k < c->run ? n - k : c->run;
+        if (c->cyclic && at >= c->count) at -= c->count;
+        if (k > 0) {
+            if (k == c->run) costate_at_end(c, p, q, nu);
+            go_on(c, p, n - k, k, nu, weight);
+        } else if (c->is_complex) {
+            begin_complex(c, p, q, weight);
+        } else {
+            begin_real(c, p, q, weight);
+        }
+        for (int i = 0; i < 4; i++) tame = tame && is_tame(weight[i]);
+        fill_run(c, weight, at, count, re, im);
     }
-    double weight[4];
-    bool tame = weigh_real(c, p, q, weight);
-    chain_fill_real(c, s, weight, 0, part, re + at);
-    if (part < n) chain_fill_real(c, s, weight, part, n - part, re);
     return tame;
 }
 

@@ -9,7 +9,10 @@ typedef struct cplx_array {
     double *re, *im;
 } cplx_array;
 
-/// F^k = p + q [0 1; δ² 0] and W_k = [w00 w01; w01* w11] for k = 0 … longest stretch.
+/// Powers are made so many at a time, and samples are filled so many at a time where there is room.
+enum { CHAIN_BLOCK = 8 };
+
+/// F^k = p + q [0 1; δ² 0] and W_k = [w00 w01; w01* w11] for k = 0 … longest stretch, in whole blocks.
 typedef struct chain_powers {
     cplx_array p, q, w01;
     double *w00, *w11;
@@ -34,7 +37,6 @@ enum {
 typedef struct chain_stretch {
     int length;
     bool settles; ///< the jet of its last sample counts twice
-    int first;    ///< where its part of `forced` begins
     double form[FORM_SIZE];
 } chain_stretch;
 
@@ -73,7 +75,7 @@ typedef struct chain_row {
     double right[3];    ///< → solution
 } chain_row;
 
-enum { CHAIN_RUN = 64 }; ///< samples after the last node that are filled from one state
+enum { CHAIN_RUN = 64 }; ///< samples that are filled from one state, at most
 
 typedef enum chain_rank {
     CHAIN_LOST, ///< a pivot is not positive
@@ -92,15 +94,16 @@ typedef struct chain {
     cplx tail;       ///< d / x of a settled node
     bool oscillates; ///< whether the speeds are those that the poles see
     bool settles;    ///< the last node is settled, or the second sample of a last pair is
+    int run;         ///< samples of a stretch that are filled from one state and costate
     chain_powers powers;
-    cplx_array forced[2]; ///< (first row of W_i F*^{L−i}) for each stretch, i = 0 … L − 1
+    cplx_array pulled[2]; ///< first row of W_i F*^{−i}, i = 0 … run − 1
+    cplx_array back;      ///< (det F)*^{−i}, for these
     int *stretch_of
         [2]; ///< 1 + index of the stretch of each length, 0 where there is none yet; the second are those that settle
     chain_stretch *stretches;
     int stretch_count, stretch_capacity;
     unsigned forgotten; ///< how often all stretches were forgotten
     int powers_count;   ///< k for which there are powers
-    int forced_count, forced_capacity;
     chain_node *nodes;
     int node_count;
     chain_row *rows;
@@ -188,12 +191,11 @@ bool chain_fill_stretch(const chain *chain, const chain_node *p, const chain_nod
 /// x of `count` samples from the last node on, where the arrays begin.
 bool chain_run_free(const chain *chain, const chain_node *last, int count, double *re, double *im);
 
-/// x of `count` samples inside a stretch from its sample `from` on: four columns of the tables, weighted with the state (x, d) that it starts from and
-/// the costate ν of where it ends. Chosen for the processor's vector width at run time.
-void chain_fill_complex(const chain *chain, const chain_stretch *stretch, const cplx weight[4], int from, int count,
-                        double *restrict re, double *restrict im);
-void chain_fill_real(const chain *chain, const chain_stretch *stretch, const double weight[4], int from, int count,
-                     double *restrict re);
+/// x of `count` samples inside a run from its sample `from` on: four columns of the tables, weighted with the state (x, d) and the
+/// costate that it starts from. Chosen for the processor's vector width at run time.
+void chain_fill_complex(const chain *chain, const cplx weight[4], int from, int count, double *restrict re,
+                        double *restrict im);
+void chain_fill_real(const chain *chain, const cplx weight[4], int from, int count, double *restrict re);
 
 /// x of `count` samples from the state (x, d) on where nothing pulls.
 void chain_fill_free_complex(const chain *chain, int count, cplx x, cplx d, double *restrict re, double *restrict im);

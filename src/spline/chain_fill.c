@@ -2,14 +2,13 @@
 #include "spline/chain.h"
 #include "spline/wide.h"
 
-WIDEST void chain_fill_complex(const chain *c, const chain_stretch *s, const cplx weight[4], int from, int count,
-                               double *restrict re, double *restrict im)
+WIDEST void chain_fill_complex(const chain *c, const cplx weight[4], int from, int count, double *restrict re,
+                               double *restrict im)
 {
-    const int first = s->first + from;
     const double *restrict f0r = c->powers.p.re + from, *restrict f0i = c->powers.p.im + from;
     const double *restrict f1r = c->powers.q.re + from, *restrict f1i = c->powers.q.im + from;
-    const double *restrict g0r = c->forced[0].re + first, *restrict g0i = c->forced[0].im + first;
-    const double *restrict g1r = c->forced[1].re + first, *restrict g1i = c->forced[1].im + first;
+    const double *restrict g0r = c->pulled[0].re + from, *restrict g0i = c->pulled[0].im + from;
+    const double *restrict g1r = c->pulled[1].re + from, *restrict g1i = c->pulled[1].im + from;
     const cplx a = weight[0], b = weight[1], d = weight[2], e = weight[3];
     for (int i = 0; i < count; i++) {
         re[i] = ((f0r[i] * a.re - f0i[i] * a.im) + (f1r[i] * b.re - f1i[i] * b.im)) +
@@ -19,13 +18,11 @@ WIDEST void chain_fill_complex(const chain *c, const chain_stretch *s, const cpl
     }
 }
 
-WIDEST void chain_fill_real(const chain *c, const chain_stretch *s, const double weight[4], int from, int count,
-                            double *restrict re)
+WIDEST void chain_fill_real(const chain *c, const cplx weight[4], int from, int count, double *restrict re)
 {
-    const int first = s->first + from;
     const double *restrict f0 = c->powers.p.re + from, *restrict f1 = c->powers.q.re + from;
-    const double *restrict g0 = c->forced[0].re + first, *restrict g1 = c->forced[1].re + first;
-    const double a = weight[0], b = weight[1], d = weight[2], e = weight[3];
+    const double *restrict g0 = c->pulled[0].re + from, *restrict g1 = c->pulled[1].re + from;
+    const double a = weight[0].re, b = weight[1].re, d = weight[2].re, e = weight[3].re;
     for (int i = 0; i < count; i++) re[i] = (f0[i] * a + f1[i] * b) + (g0[i] * d + g1[i] * e);
 }
 

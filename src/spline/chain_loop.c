@@ -1,10 +1,11 @@
 /// The nodes' system of a loop: block-tridiagonal, with a corner.
 #include "spline/chain_nodes.h"
+#include "spline/wide.h"
 
 /// Rows 1 … of a loop are factored as a chain's; beside, each couples to row 0 by F, which fills down from the row after it:
 ///     F_1 = A_10,   F_{k+1} = −L_k F_k,   in the last row also A_0k*,     A_00 −= Σ F_k* P_k F_k.
 /// What is kept of it is P_k F_k. One row couples to itself; two rows to each other twice.
-static kernel_rank close_blocks(chain *c)
+WIDEST static kernel_rank close_blocks(chain *c)
 {
     const int last = c->node_count - 1;
     chain_row *first = &c->rows[0];
@@ -78,7 +79,7 @@ static void solve_loop_scalars(chain *c)
     }
 }
 
-static void solve_loop_blocks(chain *c)
+WIDEST static void solve_loop_blocks(chain *c)
 {
     const int last = c->node_count - 1;
     chain_row *first = &c->rows[0];

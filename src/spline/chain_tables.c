@@ -2,32 +2,81 @@
 #include "spline/chain.h"
 #include "spline/wide.h"
 
-/// Tables p, q and W up to `longest`, from where they end now: p' = λ p + δ² q, q' = p + λ q, W' = W + (q p)* (q p).
-static void extend_complex(chain *c, int longest)
+/// The powers of k and what W gains after it: p' = λ p + δ² q, q' = p + λ q, W' = W + (q p)* (q p).
+typedef struct power {
+    cplx p, q, w01;
+    double w00, w11;
+} power;
+
+static power power_at(const chain *c, int k)
 {
     const chain_powers *t = &c->powers;
-    const cplx l = c->lambda, d = c->delta2;
-    int k = c->powers_count - 1;
-    cplx p = {t->p.re[k], t->p.im[k]}, q = {t->q.re[k], t->q.im[k]}, w01 = {t->w01.re[k], t->w01.im[k]};
-    double w00 = t->w00[k], w11 = t->w11[k];
-    while (k++ < longest) {
-        w00 += cplx_norm(q), w11 += cplx_norm(p);
-        w01 = cplx_add(w01, cplx_mul(q, cplx_conj(p)));
-        cplx next = cplx_add(cplx_mul(l, p), cplx_mul(d, q));
-        q = cplx_add(p, cplx_mul(l, q));
-        p = next;
-        t->p.re[k] = p.re, t->p.im[k] = p.im, t->q.re[k] = q.re, t->q.im[k] = q.im;
-        t->w00[k] = w00, t->w01.re[k] = w01.re, t->w01.im[k] = w01.im, t->w11[k] = w11;
+    return (power){chain_power(c, &t->p, k), chain_power(c, &t->q, k), chain_power(c, &t->w01, k), t->w00[k],
+                   t->w11[k]};
+}
+
+static power power_after(const chain *c, power at)
+{
+    return (power){.p = cplx_add(cplx_mul(c->lambda, at.p), cplx_mul(c->delta2, at.q)),
+                   .q = cplx_add(at.p, cplx_mul(c->lambda, at.q)),
+                   .w01 = cplx_add(at.w01, cplx_mul(at.q, cplx_conj(at.p))),
+                   .w00 = at.w00 + cplx_norm(at.q),
+                   .w11 = at.w11 + cplx_norm(at.p)};
+}
+
+/// The first block, one by one.
+static void begin_powers(chain *c)
+{
+    const chain_powers *t = &c->powers;
+    power at = {.p = {1, 0}};
+    for (int k = 0; k < CHAIN_BLOCK; k++, at = power_after(c, at)) {
+        t->p.re[k] = at.p.re, t->p.im[k] = at.p.im, t->q.re[k] = at.q.re, t->q.im[k] = at.q.im;
+        t->w00[k] = at.w00, t->w01.re[k] = at.w01.re, t->w01.im[k] = at.w01.im, t->w11[k] = at.w11;
     }
+    c->powers_count = CHAIN_BLOCK;
+}
+
+/// The blocks up to `longest`, from where they end now: F^{k+i} = F^k F^i with F^i of the first block, and W's sums.
+WIDEST static void extend_complex(chain *c, int longest)
+{
+    const chain_powers *t = &c->powers;
+    double *restrict pr = t->p.re, *restrict pi = t->p.im, *restrict qr = t->q.re, *restrict qi = t->q.im;
+    double ar[CHAIN_BLOCK], ai[CHAIN_BLOCK], br[CHAIN_BLOCK], bi[CHAIN_BLOCK];
+    for (int i = 0; i < CHAIN_BLOCK; i++) ar[i] = pr[i], ai[i] = pi[i], br[i] = qr[i], bi[i] = qi[i];
+    const power block = power_after(c, power_at(c, CHAIN_BLOCK - 1));
+    const cplx block_dq = cplx_mul(c->delta2, block.q);
+    int k = c->powers_count;
+    power sum = power_after(c, power_at(c, k - 1));
+    for (; k <= longest; k += CHAIN_BLOCK) {
+        const cplx p = {pr[k - CHAIN_BLOCK], pi[k - CHAIN_BLOCK]}, q = {qr[k - CHAIN_BLOCK], qi[k - CHAIN_BLOCK]};
+        const cplx f = cplx_add(cplx_mul(block.p, p), cplx_mul(block_dq, q));
+        const cplx g = cplx_add(cplx_mul(block.p, q), cplx_mul(block.q, p)), dg = cplx_mul(c->delta2, g);
+        double n00[CHAIN_BLOCK], n11[CHAIN_BLOCK], n01r[CHAIN_BLOCK], n01i[CHAIN_BLOCK];
+        for (int i = 0; i < CHAIN_BLOCK; i++) {
+            double xr = (f.re * ar[i] - f.im * ai[i]) + (dg.re * br[i] - dg.im * bi[i]);
+            double xi = (f.re * ai[i] + f.im * ar[i]) + (dg.re * bi[i] + dg.im * br[i]);
+            double yr = (f.re * br[i] - f.im * bi[i]) + (g.re * ar[i] - g.im * ai[i]);
+            double yi = (f.re * bi[i] + f.im * br[i]) + (g.re * ai[i] + g.im * ar[i]);
+            pr[k + i] = xr, pi[k + i] = xi, qr[k + i] = yr, qi[k + i] = yi;
+            n00[i] = yr * yr + yi * yi, n11[i] = xr * xr + xi * xi;
+            n01r[i] = yr * xr + yi * xi, n01i[i] = yi * xr - yr * xi;
+        }
+        for (int i = 0; i < CHAIN_BLOCK; i++) {
+            t->w00[k + i] = sum.w00, t->w11[k + i] = sum.w11;
+            t->w01.re[k + i] = sum.w01.re, t->w01.im[k + i] = sum.w01.im;
+            sum.w00 += n00[i], sum.w11 += n11[i], sum.w01.re += n01r[i], sum.w01.im += n01i[i];
+        }
+    }
+    c->powers_count = k;
 }
 
 static void extend_real(chain *c, int longest)
 {
     const chain_powers *t = &c->powers;
     const double l = c->lambda.re, d = c->delta2.re;
-    int k = c->powers_count - 1;
+    int k = c->powers_count - 1, end = longest + CHAIN_BLOCK - longest % CHAIN_BLOCK;
     double p = t->p.re[k], q = t->q.re[k], w00 = t->w00[k], w01 = t->w01.re[k], w11 = t->w11[k];
-    while (k++ < longest) {
+    while (++k < end) {
         w00 += q * q, w01 += q * p, w11 += p * p;
         double next = l * p + d * q;
         q = p + l * q;
@@ -35,23 +84,72 @@ static void extend_real(chain *c, int longest)
         t->p.re[k] = p, t->q.re[k] = q;
         t->w00[k] = w00, t->w01.re[k] = w01, t->w11[k] = w11;
     }
+    c->powers_count = end;
+}
+
+/// The columns of a costate, first row of W_i F*^{−i}: (w00 p* − w01 q*, w01 p* − w00 (δ² q)*) / (det F)*^i.
+/// Where they go are parameters because the compiler believes these alone to be apart.
+WIDEST static void set_pulled_complex(const chain *c, int from, int end, double *restrict g0r, double *restrict g0i,
+                                      double *restrict g1r, double *restrict g1i)
+{
+    const chain_powers *t = &c->powers;
+    const double *restrict pr = t->p.re, *restrict pi = t->p.im, *restrict qr = t->q.re, *restrict qi = t->q.im;
+    const double *restrict w = t->w00, *restrict vr = t->w01.re, *restrict vi = t->w01.im;
+    const double *restrict er = c->back.re, *restrict ei = c->back.im;
+    const cplx d = c->delta2;
+    for (int i = from; i < end; i++) {
+        double rr = d.re * qr[i] - d.im * qi[i], ri = d.re * qi[i] + d.im * qr[i];
+        double ar = w[i] * pr[i] - (vr[i] * qr[i] + vi[i] * qi[i]),
+               ai = (vr[i] * qi[i] - vi[i] * qr[i]) - w[i] * pi[i];
+        double br = (vr[i] * pr[i] + vi[i] * pi[i]) - w[i] * rr, bi = (vi[i] * pr[i] - vr[i] * pi[i]) + w[i] * ri;
+        g0r[i] = ar * er[i] - ai * ei[i], g0i[i] = ar * ei[i] + ai * er[i];
+        g1r[i] = br * er[i] - bi * ei[i], g1i[i] = br * ei[i] + bi * er[i];
+    }
+}
+
+static void set_pulled_real(const chain *c, int from, int end)
+{
+    const chain_powers *t = &c->powers;
+    for (int i = from; i < end; i++) {
+        double p = t->p.re[i], q = t->q.re[i], w = t->w00[i], v = t->w01.re[i], e = c->back.re[i];
+        c->pulled[0].re[i] = (w * p - v * q) * e;
+        c->pulled[1].re[i] = (v * p - w * (c->delta2.re * q)) * e;
+    }
+}
+
+/// Whole blocks, each a multiple of the one before.
+static void set_pulled(const chain *c, int from, int end)
+{
+    const cplx det = cplx_conj(cplx_sub(cplx_mul(c->lambda, c->lambda), c->delta2));
+    const double size = cplx_norm(det);
+    const cplx inverse = {det.re / size, -det.im / size};
+    cplx e = {1, 0};
+    for (int i = 0; i < CHAIN_BLOCK; i++, e = cplx_mul(e, inverse)) c->back.re[i] = e.re, c->back.im[i] = e.im;
+    for (int i = from > 0 ? from : CHAIN_BLOCK; i < end; i++) {
+        cplx next = cplx_mul(e, (cplx){c->back.re[i - CHAIN_BLOCK], c->back.im[i - CHAIN_BLOCK]});
+        c->back.re[i] = next.re, c->back.im[i] = next.im;
+    }
+    if (c->is_complex) {
+        set_pulled_complex(c, from, end, c->pulled[0].re, c->pulled[0].im, c->pulled[1].re, c->pulled[1].im);
+    } else {
+        set_pulled_real(c, from, end);
+    }
 }
 
 static void extend_powers(chain *c, int longest)
 {
-    const chain_powers *t = &c->powers;
-    if (c->powers_count > longest) return;
-    if (c->powers_count == 0) {
-        t->p.re[0] = 1;
-        t->p.im[0] = t->q.re[0] = t->q.im[0] = t->w00[0] = t->w01.re[0] = t->w01.im[0] = t->w11[0] = 0;
-        c->powers_count = 1;
+    int from = c->powers_count;
+    if (from > longest) return;
+    if (from == 0) begin_powers(c);
+    if (c->powers_count <= longest) {
+        if (c->is_complex) {
+            extend_complex(c, longest);
+        } else {
+            extend_real(c, longest);
+        }
     }
-    if (c->is_complex) {
-        extend_complex(c, longest);
-    } else {
-        extend_real(c, longest);
-    }
-    c->powers_count = longest + 1;
+    int end = c->powers_count < CHAIN_RUN ? c->powers_count : CHAIN_RUN;
+    if (from < end) set_pulled(c, from, end);
 }
 
 static void put_entry(chain_stretch *s, int at, cplx value) { s->form[at] = value.re, s->form[at + 1] = value.im; }
@@ -77,43 +175,10 @@ static void set_form(const chain *c, chain_stretch *s)
     put_entry(s, FORM_C10, c10), put_entry(s, FORM_C11, c11);
 }
 
-/// The table of forced columns, the first row of W_i F*^{L−i}: (w00 p* + w01 q*, w00 (δ² q)* + w01 p*).
-WIDEST static void set_forced_complex(const chain *c, const chain_stretch *s)
-{
-    const chain_powers *t = &c->powers;
-    const double *restrict pr = t->p.re, *restrict pi = t->p.im, *restrict qr = t->q.re, *restrict qi = t->q.im;
-    const double *restrict w = t->w00, *restrict vr = t->w01.re, *restrict vi = t->w01.im;
-    double *restrict g0r = c->forced[0].re + s->first, *restrict g0i = c->forced[0].im + s->first;
-    double *restrict g1r = c->forced[1].re + s->first, *restrict g1i = c->forced[1].im + s->first;
-    const cplx d = c->delta2;
-    const int n = s->length;
-    for (int i = 0; i < n; i++) {
-        const int k = n - i;
-        double rr = d.re * qr[k] - d.im * qi[k], ri = d.re * qi[k] + d.im * qr[k];
-        g0r[i] = w[i] * pr[k] + (vr[i] * qr[k] + vi[i] * qi[k]);
-        g0i[i] = (vi[i] * qr[k] - vr[i] * qi[k]) - w[i] * pi[k];
-        g1r[i] = w[i] * rr + (vr[i] * pr[k] + vi[i] * pi[k]);
-        g1i[i] = (vi[i] * pr[k] - vr[i] * pi[k]) - w[i] * ri;
-    }
-}
-
-WIDEST static void set_forced_real(const chain *c, const chain_stretch *s)
-{
-    const double *restrict p = c->powers.p.re, *restrict q = c->powers.q.re;
-    const double *restrict w = c->powers.w00, *restrict v = c->powers.w01.re;
-    double *restrict g0 = c->forced[0].re + s->first, *restrict g1 = c->forced[1].re + s->first;
-    const double d = c->delta2.re;
-    const int n = s->length;
-    for (int i = 0; i < n; i++) {
-        g0[i] = w[i] * p[n - i] + v[i] * q[n - i];
-        g1[i] = w[i] * (d * q[n - i]) + v[i] * p[n - i];
-    }
-}
-
 static void forget_stretches(chain *c)
 {
     for (int s = 0; s < c->stretch_count; s++) c->stretch_of[c->stretches[s].settles][c->stretches[s].length] = 0;
-    c->stretch_count = c->forced_count = 0;
+    c->stretch_count = 0;
     c->forgotten++;
 }
 
@@ -127,22 +192,14 @@ void chain_forget(chain *c)
 /// The stretch of a length, made where it is not there yet; -1 where there is no room for it.
 static int find_stretch(chain *c, int length, bool settles)
 {
-    int *at = &c->stretch_of[settles][length], twin = c->stretch_of[!settles][length];
+    int *at = &c->stretch_of[settles][length];
     if (*at > 0) return *at - 1;
-    int columns = twin > 0 ? 0 : length; // the samples inside are the same
-    if (c->stretch_count == c->stretch_capacity || c->forced_count + columns > c->forced_capacity) return -1;
+    if (c->stretch_count == c->stretch_capacity) return -1;
     extend_powers(c, length);
     chain_stretch *s = &c->stretches[c->stretch_count++];
-    *s = (chain_stretch){.length = length, .settles = settles, .first = c->forced_count};
-    c->forced_count += columns;
+    s->length = length;
+    s->settles = settles;
     set_form(c, s);
-    if (twin > 0) {
-        s->first = c->stretches[twin - 1].first;
-    } else if (c->is_complex) {
-        set_forced_complex(c, s);
-    } else {
-        set_forced_real(c, s);
-    }
     *at = c->stretch_count;
     return c->stretch_count - 1;
 }
@@ -154,8 +211,7 @@ void chain_make_tables(chain *c)
     for (int j = 0; j < chain_stretches(c); j++) {
         bool settles = c->nodes[chain_next(c, j)].fixed & NODE_SETTLED;
         int stretch = find_stretch(c, chain_length_after(c, j), settles);
-        if (stretch <
-            0) { // full of lengths of earlier solves; those of this one fit, their sum is at most the domain
+        if (stretch < 0) { // full of lengths of earlier solves; those of this one fit, they are no more than nodes
             forget_stretches(c);
             j = -1;
         } else {

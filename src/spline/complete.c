@@ -70,6 +70,28 @@ WIDEST static void add_constant(double *restrict total, double y, const double *
     for (int i = 0; i < count; i++) total[i] = y + re[i];
 }
 
+WIDEST static void add_to(double *restrict total, const double *restrict about, const double *restrict re, int count)
+{
+    for (int i = 0; i < count; i++) total[i] = about[i] + re[i];
+}
+
+/// w + u from w, where u is about − y.
+WIDEST static void add_swing(double *restrict re, const double *restrict about, const double *restrict y, int count)
+{
+    for (int i = 0; i < count; i++) re[i] += about[i] - y[i];
+}
+
+/// The same of a constant.
+WIDEST static void take_bend(double *restrict re, double level, const double *restrict y, int count)
+{
+    for (int i = 0; i < count; i++) re[i] += level - y[i];
+}
+
+WIDEST static void add(double *restrict im, const double *restrict u, int count)
+{
+    for (int i = 0; i < count; i++) im[i] += u[i];
+}
+
 /// The total, about + w; x, w + u, where that is something else; y, where it is asked for.
 static void add_equilibrium(const problem *p, wiggly_curve *curve)
 {
@@ -79,12 +101,13 @@ static void add_equilibrium(const problem *p, wiggly_curve *curve)
     if (!p->about) {
         add_constant(curve->total, p->level, curve->re, n);
     } else {
-        for (int i = 0; i < n; i++) curve->total[i] = p->about[i] + curve->re[i];
+        add_to(curve->total, p->about, curve->re, n);
     }
     for (int k = 0; k < p->desc->knot_count; k++) curve->total[p->desc->knots[k].sample] = p->desc->knots[k].value;
     if (p->start == WIGGLY_LOOP) curve->total[n - 1] = curve->total[0];
-    for (int i = 0; p->y && i < n && p->about != p->y; i++) curve->re[i] += problem_about(p, i) - p->y[i];
-    for (int i = 0; p->swing.im && i < n; i++) curve->im[i] += p->swing.im[i];
+    if (p->y && !p->about) take_bend(curve->re, p->level, p->y, n);
+    if (p->y && p->about && p->about != p->y) add_swing(curve->re, p->about, p->y, n);
+    if (p->swing.im) add(curve->im, p->swing.im, n);
 }
 
 static void add_floats(const wiggly_curve *curve, int count)
@@ -99,12 +122,7 @@ static void set_centre(wiggly_solver *solver, const problem *p, double *omega)
     if (poles_are_constant(desc)) {
         fill(omega, problem_filter(solver, p)->at.centre, desc->samples);
     } else {
-        poles_block block;
-        for (int i = 0; i < desc->samples; i += POLES_BLOCK) {
-            int count = desc->samples - i < POLES_BLOCK ? desc->samples - i : POLES_BLOCK;
-            poles_block_fill(desc, i, count, problem_least_damping(p), &block);
-            memcpy(omega + i, block.centre, sizeof *omega * (size_t)count);
-        }
+        poles_block_centres(desc, 0, desc->samples, problem_least_damping(p), omega);
     }
 }
 

@@ -3,9 +3,7 @@
 #include "spline/problem.h"
 #include <stdint.h>
 
-/// Columns of forced responses are kept for so many times the samples of a spline: for all lengths of stretches up to eight times
-/// that number's root.
-enum { TABLES = 32 };
+enum { TRACKS = 4 };
 
 /// A spline in a lane.
 typedef struct member {
@@ -18,6 +16,9 @@ struct group {
     int lanes;
     chain_group chains; ///< its count is that of the members
     member members[MOST_LANES];
+    double *
+        tracks; ///< for each lane, TRACKS arrays: the equilibrium and the answer to it, of as many samples as the solver has
+    unsigned joined; ///< members ever
     int taken;
     const wiggly_desc *desc[GROUP_ROOM];
     wiggly_curve *curve[GROUP_ROOM];
@@ -27,28 +28,27 @@ struct group {
 };
 
 typedef struct layout {
-    size_t rows, nodes, stretches, forced, solver, size; ///< bytes
-    int columns, lengths;
+    size_t rows, nodes, stretches, tracks, solver, size; ///< bytes
+    int lengths;
 } layout;
 
 static bool plan(layout *l, int samples, int knots)
 {
     size_t k = (size_t)knots + 1, n = (size_t)samples;
-    l->columns = samples > INT32_MAX / TABLES ? INT32_MAX : TABLES * samples;
     l->lengths = samples;
     l->solver = wiggly_memsize(samples, knots);
     return l->solver && !__builtin_mul_overflow(k, DOUBLES_PER_LANE_ROW * sizeof(double), &l->rows) &&
            !__builtin_mul_overflow(k, MOST_LANES * sizeof(chain_node), &l->nodes) &&
            !__builtin_mul_overflow(n, sizeof(chain_stretch), &l->stretches) &&
-           !__builtin_mul_overflow((size_t)l->columns, 4 * sizeof(double), &l->forced) &&
+           !__builtin_mul_overflow(n, MOST_LANES * TRACKS * sizeof(double), &l->tracks) &&
            !__builtin_add_overflow(l->rows, l->nodes, &l->size) &&
            !__builtin_add_overflow(l->size, l->stretches, &l->size) &&
-           !__builtin_add_overflow(l->size, l->forced, &l->size) &&
+           !__builtin_add_overflow(l->size, l->tracks, &l->size) &&
            !__builtin_add_overflow(l->size, l->solver, &l->size) &&
            !__builtin_add_overflow(l->size, sizeof(group) + 2 * LANE_ALIGNMENT, &l->size);
 }
 
-/// Memory of the lanes, and larger tables than a single spline needs: many splines have many lengths of stretches.
+/// Memory of the lanes, and room for more stretches than a single spline has: many splines have many lengths.
 static void hand_out(group *g, const layout *l, int samples, int knots)
 {
     unsigned char *at = (unsigned char *)(g + 1);
@@ -57,14 +57,11 @@ static void hand_out(group *g, const layout *l, int samples, int knots)
     at += l->rows;
     for (int k = 0; k < MOST_LANES; k++) g->chains.nodes[k] = (chain_node *)(void *)at + k * (knots + 1);
     at += l->nodes;
-    g->solver = solver_lay_out(at + l->stretches + l->forced, samples, knots);
+    g->solver = solver_lay_out(at + l->stretches + l->tracks, samples, knots);
     chain *c = &g->solver->chain;
     c->stretches = (chain_stretch *)(void *)at;
     c->stretch_capacity = l->lengths;
-    double *columns = (double *)(void *)(at + l->stretches);
-    double **const forced[] = {&c->forced[0].re, &c->forced[0].im, &c->forced[1].re, &c->forced[1].im};
-    for (int i = 0; i < 4; i++) *forced[i] = columns + (size_t)i * (size_t)l->columns;
-    c->forced_capacity = l->columns;
+    g->tracks = (double *)(void *)(at + l->stretches);
     g->chains.common = c;
 }
 
@@ -140,10 +137,21 @@ static bool join(group *g, const problem *p, int index)
         int k = g->chains.count++;
         g->chains.node_count[k] = c->node_count;
         g->members[k] = (member){index, *p};
+        g->joined++;
     }
     c->nodes = own;
     c->node_count = 0;
     return held;
+}
+
+/// Lends the solver arrays for the equilibrium of a spline that might join: the members keep theirs.
+static void lend_tracks(group *g)
+{
+    wiggly_solver *solver = g->solver;
+    const size_t n = (size_t)solver->samples;
+    double *at = g->tracks + g->joined % MOST_LANES * TRACKS * n;
+    solver->y = at;
+    solver->swing = (swing){.total = at + n, .im = at + 2 * n, .speed = at + 3 * n};
 }
 
 void group_add(group *g, const wiggly_desc *desc, wiggly_curve *curve)
@@ -152,6 +160,7 @@ void group_add(group *g, const wiggly_desc *desc, wiggly_curve *curve)
     g->desc[index] = desc;
     g->curve[index] = curve;
     problem p;
+    lend_tracks(g);
     if (g->lanes == 0 || !problem_pose_for_group(g->solver, desc, &p)) {
         leave_alone(g, index);
         return;

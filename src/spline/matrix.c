@@ -7,56 +7,64 @@
 //
 // less what rows outside the domain would have added. A complex number u + jv is the block (u −v; v u).
 #include "spline/system.h"
-#include <string.h>
 
 static void add_complex(double *at, cplx z) { at[0] += z.re, at[1] -= z.im, at[2] += z.im, at[3] += z.re; }
 
-/// Adds w c* c of a complex row's coefficients to the blocks of its neighbours before … at … after.
+static void put_complex(double *at, cplx z) { at[0] = at[3] = z.re, at[1] = -z.im, at[2] = z.im; }
+
+/// A jet row's weight, and its coefficients −a and b on its sample and the one before; the last sample's holds what is behind, too.
+static double jet_row(const system_rows *rows, int i, cplx *a, cplx *b)
+{
+    const coefficients *at = &rows->at[i];
+    *a = (cplx){2 + at->m.re, at->m.im};
+    *b = (cplx){a->re - 1 + at->p.re, a->im + at->p.im};
+    if (!rows->loop && i == rows->count - 1) *a = (cplx){a->re - 1 - rows->tail.re, a->im - rows->tail.im};
+    return i >= rows->jet_from && i <= rows->jet_to ? rows->jet_weight[i] : 0;
+}
+
+/// The jets' blocks, each written once, when the row after it is known; a loop's last row is the first again.
 static void jet_rows_complex(const system_rows *rows, pentadiagonal *m)
 {
-    int n = rows->count;
-    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
-        double w = rows->jet_weight[i];
-        cplx a = {2 + rows->at[i].m.re, rows->at[i].m.im};
-        cplx b = {a.re - 1 + rows->at[i].p.re, a.im + rows->at[i].p.im};
-        bool has_after = rows->loop || i < n - 1, has_before = rows->loop || i > 0;
-        if (!has_after) a = (cplx){a.re - 1 - rows->tail.re, a.im - rows->tail.im};
-        double aa = w * cplx_norm(a), bb = w * cplx_norm(b);
-        cplx ab = cplx_mul(cplx_conj(a), b);
-        m->diagonal[3 * i] += aa, m->diagonal[3 * i + 2] += aa;
-        if (has_before) {
-            int before = i > 0 ? i - 1 : n - 1;
-            m->diagonal[3 * before] += bb, m->diagonal[3 * before + 2] += bb;
-            add_complex(m->below + 4 * before, cplx_scale(-w, ab));
-            if (has_after) add_complex(m->below2 + 4 * before, cplx_scale(w, b));
+    const int n = rows->count, end = rows->loop ? n : n - 1;
+    cplx a, b, left = {0, 0}; // w a of the row before
+    double before = rows->loop ? rows->jet_weight[n - 1] : 0, own = 0;
+    for (int i = 0; i <= end; i++) {
+        const double w = jet_row(rows, i < n ? i : 0, &a, &b);
+        if (i > 0) {
+            double *d = m->diagonal + 3 * (i - 1);
+            d[0] = d[2] = own + w * cplx_norm(b), d[1] = 0;
+            put_complex(m->below + 4 * (i - 1),
+                        cplx_scale(-1, cplx_add(left, cplx_scale(w, cplx_mul(cplx_conj(a), b)))));
+            put_complex(m->below2 + 4 * (i - 1), cplx_scale(rows->loop || i < n - 1 ? w : 0, b));
         }
-        if (has_after) {
-            int after = i < n - 1 ? i + 1 : 0;
-            m->diagonal[3 * after] += w, m->diagonal[3 * after + 2] += w;
-            add_complex(m->below + 4 * i, cplx_scale(-w, a));
-        }
+        own = before + w * cplx_norm(a);
+        left = cplx_scale(w, a);
+        before = w;
     }
+    if (rows->loop) return;
+    double *d = m->diagonal + 3 * (n - 1);
+    d[0] = d[2] = own, d[1] = 0;
+    put_complex(m->below + 4 * (n - 1), (cplx){0, 0});
+    put_complex(m->below2 + 4 * (n - 1), (cplx){0, 0});
 }
 
 static void jet_rows_real(const system_rows *rows, pentadiagonal *m)
 {
-    int n = rows->count;
-    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
-        double w = rows->jet_weight[i], a = 2 + rows->at[i].m.re, b = a - 1 + rows->at[i].p.re;
-        bool has_after = rows->loop || i < n - 1, has_before = rows->loop || i > 0;
-        if (!has_after) a -= 1 + rows->tail.re;
-        m->diagonal[i] += w * (a * a);
-        if (has_before) {
-            int before = i > 0 ? i - 1 : n - 1;
-            m->diagonal[before] += w * (b * b);
-            m->below[before] -= w * (a * b);
-            if (has_after) m->below2[before] += w * b;
+    const int n = rows->count, end = rows->loop ? n : n - 1;
+    double before = rows->loop ? rows->jet_weight[n - 1] : 0, own = 0, left = 0;
+    cplx a, b;
+    for (int i = 0; i <= end; i++) {
+        const double w = jet_row(rows, i < n ? i : 0, &a, &b);
+        if (i > 0) {
+            m->diagonal[i - 1] = own + w * (b.re * b.re);
+            m->below[i - 1] = -(left + w * (a.re * b.re));
+            m->below2[i - 1] = rows->loop || i < n - 1 ? w * b.re : 0;
         }
-        if (has_after) {
-            m->diagonal[i < n - 1 ? i + 1 : 0] += w;
-            m->below[i] -= w * a;
-        }
+        own = before + w * (a.re * a.re);
+        left = w * a.re;
+        before = w;
     }
+    if (!rows->loop) m->diagonal[n - 1] = own, m->below[n - 1] = m->below2[n - 1] = 0;
 }
 
 stencil system_slope_stencil(const system_rows *rows, const slope_row *slope)
@@ -169,13 +177,9 @@ static void fix_real(const system_rows *rows, pentadiagonal *m, int k)
 
 void system_matrix(const system_rows *rows, pentadiagonal *m)
 {
-    size_t n = (size_t)rows->count;
     m->count = rows->count;
     m->width = rows->is_complex ? 2 : 1;
     m->cyclic = rows->loop;
-    memset(m->diagonal, 0, n * sizeof(double) * (rows->is_complex ? 3 : 1));
-    memset(m->below, 0, n * sizeof(double) * (rows->is_complex ? 4 : 1));
-    memset(m->below2, 0, n * sizeof(double) * (rows->is_complex ? 4 : 1));
     if (rows->is_complex) {
         jet_rows_complex(rows, m);
     } else {

@@ -11,8 +11,11 @@
 // once and the change of x is asked for, with the factor that is there: it is part of the error.
 #include "spline/orthogonal.h"
 #include "spline/solver.h"
+#include "spline/wide.h"
 #include <float.h>
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 enum { MAX_SWEEPS = 16 };
 /// Estimated error, relative to the largest |x|, up to which one plain solve needs no refinement, and refinement not the rows
@@ -21,13 +24,34 @@ static const double enough_complex = 8e-9, enough_real = 2e-10;
 static const double rounding = 2 * DBL_EPSILON; ///< of a coefficient
 static const double too_much = 1e-1;            ///< beyond, the squared matrix is no help to refinement
 
+/// Bits of a magnitude: ordered as it is, NaN above all.
+static inline int64_t bits_of(double x)
+{
+    int64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits & INT64_MAX;
+}
+
+/// The largest square, or magnitude; NaN where there is one.
+WIDEST static double largest_size(const double *x, int count, bool is_complex)
+{
+    int64_t most = 0;
+    if (is_complex) {
+        for (int k = 0; k < count; k++) {
+            int64_t bits = bits_of(x[2 * k] * x[2 * k] + x[2 * k + 1] * x[2 * k + 1]);
+            most = bits > most ? bits : most;
+        }
+    } else {
+        for (int k = 0; k < count; k++) most = bits_of(x[k]) > most ? bits_of(x[k]) : most;
+    }
+    double largest;
+    memcpy(&largest, &most, sizeof largest);
+    return largest;
+}
+
 static double largest_modulus(const double *x, int count, bool is_complex)
 {
-    double largest = 0;
-    for (int k = 0; k < count; k++) {
-        double size = is_complex ? x[2 * k] * x[2 * k] + x[2 * k + 1] * x[2 * k + 1] : fabs(x[k]);
-        if (!(size <= largest)) largest = size; // takes NaN too
-    }
+    double largest = largest_size(x, count, is_complex);
     return is_complex ? sqrt(largest) : largest;
 }
 

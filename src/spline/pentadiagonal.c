@@ -13,6 +13,7 @@
 // are taken out as a border B with corner C, the rest is factored as above, and the border is solved through its Schur
 // complement C − Bᵀ A⁻¹ B. (Periodic tridiagonal solvers do the same with Sherman–Morrison.)
 #include "spline/pentadiagonal.h"
+#include "spline/wide.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -42,27 +43,40 @@ static inline block times_symmetric(block x, const double *s)
                    x.c * s[1] + x.d * s[2]};
 }
 
-static pentadiagonal_rank factor_blocks(pentadiagonal *m, int rows)
+/// X S Xᵀ
+static inline block squared(block x, const double *s)
 {
-    double lost = 1;
+    block xs = times_symmetric(x, s);
+    double off = xs.a * x.c + xs.b * x.d;
+    return (block){xs.a * x.a + xs.b * x.b, off, off, xs.c * x.c + xs.d * x.d};
+}
+
+/// Each row waits for the one before: what is left to do once 1 / det of that is known, U S⁻¹ Uᵀ of it, is a product and a difference.
+WIDEST static pentadiagonal_rank factor_blocks(pentadiagonal *m, int rows)
+{
+    double lost = 1, inverse = 0;
     const block zero = {0, 0, 0, 0};
-    block l1 = zero, u = zero, l2 = zero, f = zero; // of row k−1
-    block l2_before = zero, f_before = zero;        // of row k−2
+    block square = zero, u = zero, l2 = zero, f = zero; // of row k−1; square: U S⁻¹ Uᵀ times det
+    block l2_before = zero, f_before = zero;            // of row k−2
     for (int k = 0; k < rows; k++) {
         double *d = m->diagonal + 3 * k, *below = m->below + 4 * k, *below2 = m->below2 + 4 * k;
         block s = {d[0], d[1], d[1], d[2]};
-        s = minus_product(minus_product(s, l1, u), l2_before, f_before); // S_k
+        s = minus_product(s, l2_before, f_before);
+        s.a -= square.a * inverse, s.b -= square.b * inverse, s.d -= square.d * inverse; // S_k
+        const double adjugate[3] = {s.d, -s.b, s.a};
         double det = s.a * s.d - s.b * s.b;
         if (!(s.a > 0 && det > 0 && det < INFINITY)) return RANK_BROKEN;
-        double inverse = 1 / det, of_first = d[0] / s.a, of_second = d[2] * s.a * inverse;
-        lost = of_first > lost ? of_first : lost;
+        inverse = 1 / det;
+        double of_second = d[2] * s.a * inverse;
+        if (d[0] > lost * s.a) lost = d[0] / s.a;
         lost = of_second > lost ? of_second : lost;
-        d[0] = s.d * inverse, d[1] = -s.b * inverse, d[2] = s.a * inverse;
+        for (int i = 0; i < 3; i++) d[i] = adjugate[i] * inverse;
         block next_u = minus_product(load(below), l2, u); // U_k
         l2_before = l2, f_before = f;
         u = next_u, f = load(below2);
-        l1 = times_symmetric(u, d), l2 = times_symmetric(f, d);
-        store(below, l1);
+        square = squared(u, adjugate);
+        l2 = times_symmetric(f, d);
+        store(below, times_symmetric(u, d));
         store(below2, l2);
     }
     m->lost = lost;
@@ -71,16 +85,17 @@ static pentadiagonal_rank factor_blocks(pentadiagonal *m, int rows)
 
 static pentadiagonal_rank factor_scalars(pentadiagonal *m, int rows)
 {
-    double lost = 1, l1 = 0, u = 0, l2 = 0, f = 0, l2_before = 0, f_before = 0;
+    double lost = 1, inverse = 0, u = 0, l2 = 0, f = 0, l2_before = 0, f_before = 0;
     for (int k = 0; k < rows; k++) {
-        double s = m->diagonal[k] - l1 * u - l2_before * f_before;
+        double s = (m->diagonal[k] - l2_before * f_before) - u * u * inverse;
         if (!(s > 0 && s < INFINITY)) return RANK_BROKEN;
-        double inverse = 1 / s, next_u = m->below[k] - l2 * u, of_pivot = m->diagonal[k] * inverse;
+        inverse = 1 / s;
+        double next_u = m->below[k] - l2 * u, of_pivot = m->diagonal[k] * inverse;
         lost = of_pivot > lost ? of_pivot : lost;
         l2_before = l2, f_before = f;
         u = next_u, f = m->below2[k];
-        l1 = u * inverse, l2 = f * inverse;
-        m->diagonal[k] = inverse, m->below[k] = l1, m->below2[k] = l2;
+        l2 = f * inverse;
+        m->diagonal[k] = inverse, m->below[k] = u * inverse, m->below2[k] = l2;
     }
     m->lost = lost;
     return lost * rounding > 1 ? RANK_WEAK : RANK_FULL;
@@ -91,13 +106,13 @@ static void solve_blocks(const pentadiagonal *m, int rows, double *x)
     double p0 = 0, p1 = 0, q0 = 0, q1 = 0; // forward: z_{k−1}, z_{k−2}
     for (int k = 0; k < rows; k++) {
         double z0 = x[2 * k], z1 = x[2 * k + 1];
-        if (k > 0) {
-            const double *l = m->below + 4 * (k - 1);
-            z0 -= l[0] * p0 + l[1] * p1, z1 -= l[2] * p0 + l[3] * p1;
-        }
         if (k > 1) {
             const double *l = m->below2 + 4 * (k - 2);
             z0 -= l[0] * q0 + l[1] * q1, z1 -= l[2] * q0 + l[3] * q1;
+        }
+        if (k > 0) { // last, because it is what waits
+            const double *l = m->below + 4 * (k - 1);
+            z0 -= l[0] * p0 + l[1] * p1, z1 -= l[2] * p0 + l[3] * p1;
         }
         q0 = p0, q1 = p1, p0 = z0, p1 = z1;
         x[2 * k] = z0, x[2 * k + 1] = z1;
@@ -106,8 +121,8 @@ static void solve_blocks(const pentadiagonal *m, int rows, double *x)
     for (int k = rows - 1; k >= 0; k--) {
         const double *s = m->diagonal + 3 * k, *l = m->below + 4 * k, *l2 = m->below2 + 4 * k;
         double z0 = x[2 * k], z1 = x[2 * k + 1];
-        double y0 = s[0] * z0 + s[1] * z1 - (l[0] * p0 + l[2] * p1) - (l2[0] * q0 + l2[2] * q1);
-        double y1 = s[1] * z0 + s[2] * z1 - (l[1] * p0 + l[3] * p1) - (l2[1] * q0 + l2[3] * q1);
+        double y0 = s[0] * z0 + s[1] * z1 - (l2[0] * q0 + l2[2] * q1) - (l[0] * p0 + l[2] * p1);
+        double y1 = s[1] * z0 + s[2] * z1 - (l2[1] * q0 + l2[3] * q1) - (l[1] * p0 + l[3] * p1);
         q0 = p0, q1 = p1, p0 = y0, p1 = y1;
         x[2 * k] = y0, x[2 * k + 1] = y1;
     }
@@ -118,13 +133,13 @@ static void solve_scalars(const pentadiagonal *m, int rows, double *x)
     double p = 0, q = 0;
     for (int k = 0; k < rows; k++) {
         double z = x[k];
-        if (k > 0) z -= m->below[k - 1] * p;
         if (k > 1) z -= m->below2[k - 2] * q;
+        if (k > 0) z -= m->below[k - 1] * p;
         q = p, p = z, x[k] = z;
     }
     p = q = 0;
     for (int k = rows - 1; k >= 0; k--) {
-        double y = m->diagonal[k] * x[k] - m->below[k] * p - m->below2[k] * q;
+        double y = m->diagonal[k] * x[k] - m->below2[k] * q - m->below[k] * p;
         q = p, p = y, x[k] = y;
     }
 }

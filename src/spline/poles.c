@@ -1,6 +1,9 @@
 /// From parameters to poles, coefficients and the cost of the start.
 #include "spline/poles.h"
+#include "spline/wide.h"
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 static const double pi = 3.14159265358979323846;
 
@@ -57,12 +60,28 @@ poles poles_at(const wiggly_desc *desc, int sample, double floor)
     };
 }
 
+static inline int64_t bits_of(double x)
+{
+    int64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/// The largest number's bits: positive ones are ordered as their bits are, above all that are not.
+WIDEST static int64_t largest_bits(const double *x, int count)
+{
+    int64_t most = 0;
+    for (int i = 0; i < count; i++) most = bits_of(x[i]) > most ? bits_of(x[i]) : most;
+    return most;
+}
+
 int poles_fastest(const wiggly_desc *desc, int from, int to, double *natural)
 {
     const double *track = desc->spring_friction ? desc->spring.track : desc->frequency.track;
     int fastest = from;
-    for (int i = from + 1; track && i <= to; i++) {
-        if (track[i] > 0 && track[i] > track[fastest]) fastest = i;
+    if (track && from < to) {
+        const int64_t most = largest_bits(track + from, to - from + 1);
+        while (most > 0 && bits_of(track[fastest]) != most) fastest++;
     }
     if (natural) *natural = poles_at(desc, fastest, 0).natural;
     return fastest;
@@ -87,22 +106,25 @@ static cplx cplx_divide(cplx a, cplx b)
     return (cplx){(a.re * b.re + a.im * b.im) / size, (a.im * b.re - a.re * b.im) / size};
 }
 
-/// exp(z) − 1 without cancellation.
-static cplx cplx_expm1(cplx z)
+/// exp(z) − 1 without cancellation, from exp(Re z) − 1 and Im z.
+static cplx cplx_expm1_of(double grown, double angle)
 {
-    if (z.re == 0 && z.im == 0) return z;
-    double s = sin(z.im), c = cos(z.im);
+    double s = sin(angle), c = cos(angle);
     double versine = c > 0 ? s * s / (1 + c) : 1 - c;
-    return (cplx){expm1(z.re) * c - versine, exp(z.re) * s};
+    return (cplx){grown * c - versine, (1 + grown) * s};
 }
 
-/// μ = exp(s h) − 1 of both poles, which often are conjugates.
+static cplx cplx_expm1(cplx z) { return cplx_expm1_of(expm1(z.re), z.im); }
+
+/// μ = exp(s h) − 1 of both poles, which often decay alike or are conjugates.
 static void distances(const poles *at, double step, cplx mu[2])
 {
     const cplx *s = at->s;
-    mu[0] = cplx_expm1((cplx){s[0].re * step, s[0].im * step});
-    bool conjugate = s[1].re == s[0].re && s[1].im == -s[0].im;
-    mu[1] = conjugate ? cplx_conj(mu[0]) : cplx_expm1((cplx){s[1].re * step, s[1].im * step});
+    double grown = expm1(s[0].re * step);
+    bool alike = s[1].re == s[0].re, conjugate = alike && s[1].im == -s[0].im;
+    mu[0] = cplx_expm1_of(grown, s[0].im * step);
+    if (!alike) grown = expm1(s[1].re * step);
+    mu[1] = conjugate ? cplx_conj(mu[0]) : cplx_expm1_of(grown, s[1].im * step);
 }
 
 coefficients poles_coefficients(const poles *at, double step)

@@ -124,12 +124,14 @@ WIDEST static void set_real(const double *restrict omega, const double *restrict
     }
 }
 
-WIDEST static void set_coefficients(const exponents *restrict e, int count, poles_block *restrict block)
+/// Coefficients of exponents; `alike` where both poles decay alike, which halves what there is to do.
+static inline void to_coefficients(const exponents *restrict e, int count, bool alike, poles_block *restrict block)
 {
     for (int i = 0; i < count; i++) {
-        double mu_re[2], mu_im[2];
+        double mu_re[2], mu_im[2], grown = 0;
         for (int k = 0; k < 2; k++) {
-            double grown = expm1_near(e->real[k][i]), s, c;
+            double s, c;
+            if (k == 0 || !alike) grown = expm1_near(e->real[k][i]);
             sine_cosine(e->half[k][i], &s, &c);
             mu_re[k] = grown - 2 * (1 + grown) * (s * s);
             mu_im[k] = 2 * (1 + grown) * (s * c);
@@ -140,6 +142,16 @@ WIDEST static void set_coefficients(const exponents *restrict e, int count, pole
         block->p_re[i] = mu_re[0] * mu_re[1] - mu_im[0] * mu_im[1];
         block->p_im[i] = mu_re[0] * mu_im[1] + mu_im[0] * mu_re[1];
     }
+}
+
+WIDEST static void set_coefficients(const exponents *restrict e, int count, poles_block *restrict block)
+{
+    to_coefficients(e, count, false, block);
+}
+
+WIDEST static void set_alike_coefficients(const exponents *restrict e, int count, poles_block *restrict block)
+{
+    to_coefficients(e, count, true, block);
 }
 
 /// What is out of the polynomials' reach, one by one.
@@ -156,44 +168,65 @@ static void fill_each(const wiggly_desc *desc, int from, int count, double floor
     }
 }
 
-static bool is_within_reach(const exponents *e, int count)
+WIDEST static bool is_within_reach(const exponents *e, int count)
 {
-    double angle = 0, exponent = 0;
-    for (int i = 0; i < count; i++) {
-        for (int k = 0; k < 2; k++) {
-            double a = fabs(e->half[k][i]), x = -e->real[k][i];
-            angle = a > angle ? a : angle;
-            exponent = x > exponent ? x : exponent;
-        }
+    int64_t beyond = 0; // as wide as what it comes from
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < count; i++) beyond |= fabs(e->half[k][i]) <= largest_angle ? 0 : 1;
+        for (int i = 0; i < count; i++) beyond |= -e->real[k][i] <= largest_exponent ? 0 : 1;
     }
-    return angle <= largest_angle && exponent <= largest_exponent;
+    return beyond == 0;
 }
 
-void poles_block_fill(const wiggly_desc *desc, int from, int count, double floor, poles_block *block)
+/// Frequencies and exponents; the block's coefficients are not touched.
+static void set_exponents(const wiggly_desc *desc, int from, int count, double floor, poles_block *block,
+                          exponents *e)
 {
     double a[POLES_BLOCK], b[POLES_BLOCK], c[POLES_BLOCK];
-    exponents e;
     if (desc->mode == WIGGLY_COMPLEX) {
         load(desc->frequency, from, count, a);
         load(desc->damping, from, count, b);
         load(desc->bandwidth, from, count, c);
-        set_complex(a, b, c, floor, desc->step, count, block, &e);
+        set_complex(a, b, c, floor, desc->step, count, block, e);
     } else if (desc->spring_friction) {
         load(desc->spring, from, count, a);
         load(desc->friction, from, count, b);
         for (int i = 0; i < count; i++) a[i] = sqrt(a[i]), b[i] = fmax(0.5 * b[i], floor * a[i]);
-        set_real(a, b, desc->step, count, block, &e);
+        set_real(a, b, desc->step, count, block, e);
     } else {
         load(desc->frequency, from, count, a);
         load(desc->damping, from, count, b);
         for (int i = 0; i < count; i++) a[i] *= 2 * 3.14159265358979323846, b[i] = fmax(b[i], floor) * a[i];
-        set_real(a, b, desc->step, count, block, &e);
+        set_real(a, b, desc->step, count, block, e);
     }
+}
+
+void poles_block_centres(const wiggly_desc *desc, int from, int count, double floor, double *centre)
+{
+    exponents e;
+    poles_block block;
+    for (int i = 0; i < count; i += POLES_BLOCK) {
+        int part = count - i < POLES_BLOCK ? count - i : POLES_BLOCK;
+        set_exponents(desc, from + i, part, floor, &block, &e);
+        bool near = is_within_reach(&e, part);
+        for (int k = 0; k < part; k++)
+            centre[i + k] = near ? block.centre[k] : poles_at(desc, from + i + k, floor).centre;
+    }
+}
+
+void poles_block_fill(const wiggly_desc *desc, int from, int count, double floor, poles_block *block)
+{
+    exponents e;
+    set_exponents(desc, from, count, floor, block, &e);
     if (!is_within_reach(&e, count)) {
         fill_each(desc, from, count, floor, block);
         return;
     }
-    set_coefficients(&e, count, block);
+    if (desc->mode == WIGGLY_COMPLEX) {
+        set_alike_coefficients(&e, count, block);
+    } else {
+        set_coefficients(&e, count, block);
+    }
     for (int i = 0; i < count; i++) block->exponent[i] = block->exponent[i] < DEEPEST ? block->exponent[i] : DEEPEST;
 }
 

@@ -15,6 +15,9 @@ typedef struct poles_block {
 /// Fills `count` ≤ POLES_BLOCK samples from `from` on, as poles_at() and poles_coefficients() would to the last digits.
 void poles_block_fill(const wiggly_desc *desc, int from, int count, double floor, poles_block *block);
 
+/// The centres of any number of samples.
+void poles_block_centres(const wiggly_desc *desc, int from, int count, double floor, double *centre);
+
 /// out ← eˣ for |x| ≤ 700.
 void poles_block_exp(const double *x, int count, double *out);
 

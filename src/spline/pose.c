@@ -1,19 +1,26 @@
 /// From the description to the problem (docs/mathematics.md, Constraints): where the domain starts and ends, what knots are measured
 /// from, what the start costs.
 #include "spline/problem.h"
+#include "spline/wide.h"
+#include <float.h>
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 /// Below this part of ω_n a last knot's slope is met by the jets, and not by what moves by itself.
 static const double slowest_settling = 0.3;
 
-static bool param_is_finite(wiggly_param param, int samples)
+/// Whether no magnitude is beyond a limit, nor NaN.
+WIDEST static bool are_within(const double *x, int count, double limit)
 {
-    if (!param.track) return isfinite(param.value);
-    for (int i = 0; i < samples; i++) {
-        if (!isfinite(param.track[i])) return false;
-    }
-    return true;
+    int64_t beyond = 0; // as wide as what it comes from
+    for (int i = 0; i < count; i++) beyond |= fabs(x[i]) <= limit ? 0 : 1;
+    return beyond == 0;
+}
+
+static bool param_is_within(wiggly_param param, int samples, double limit)
+{
+    return param.track ? are_within(param.track, samples, limit) : fabs(param.value) <= limit;
 }
 
 static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *desc)
@@ -27,13 +34,11 @@ static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *
     if (!(desc->step > 0 && desc->step < INFINITY) || !(desc->calm >= 0 && desc->calm <= 1))
         return WIGGLY_ERROR_NUMBER;
     for (const desc_member *m = desc_members; m->name; m++) {
-        if (m->kind == DESC_PARAM && !param_is_finite(*desc_param(desc, m), desc->samples))
-            return WIGGLY_ERROR_NUMBER;
+        if (m->kind != DESC_PARAM) continue;
+        const wiggly_param *param = desc_param(desc, m);
+        double most = param == &desc->equilibrium ? LARGEST_VALUE : DBL_MAX;
+        if (!param_is_within(*param, desc->samples, most)) return WIGGLY_ERROR_NUMBER;
     }
-    for (int i = 0; desc->equilibrium.track && i < desc->samples; i++) {
-        if (!(fabs(desc->equilibrium.track[i]) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;
-    }
-    if (!(fabs(desc->equilibrium.value) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;
     for (int k = 0; k < desc->knot_count; k++) {
         const wiggly_knot *knot = &desc->knots[k];
         if (!(fabs(knot->value) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;

@@ -162,7 +162,7 @@ static bool same_filter(const wiggly_solver *solver, const problem *p)
     const chain *c = &solver->chain;
     const constant_filter *f = &solver->filter;
     return (p->desc->mode == WIGGLY_COMPLEX) == c->is_complex && same_cplx(f->lambda, c->lambda) &&
-           same_cplx(f->delta2, c->delta2);
+           same_cplx(f->delta2, c->delta2) && f->run == c->run;
 }
 
 /// From rest the oscillator's jet at sample 0, which is d, counts twice.
@@ -210,6 +210,7 @@ static void set_chain(wiggly_solver *solver, const problem *p)
     c->oscillates = problem_oscillates(p);
     c->lambda = f->lambda;
     c->delta2 = f->delta2;
+    c->run = f->run;
     set_speeds(c, p, f);
 }
 

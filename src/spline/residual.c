@@ -218,9 +218,10 @@ static inline void pull_jet(const system_rows *rows, int k, cplx c, cplx r)
 static void pull_plainly(const system_rows *rows)
 {
     const int last = rows->count - 1;
+    cplx before, here = sample_of(rows, rows->jet_from - 1), after = sample_of(rows, rows->jet_from);
     for (int i = rows->jet_from; i <= rows->jet_to; i++) {
         const coefficients *at = &rows->at[i];
-        cplx before = sample_of(rows, i - 1), here = sample_of(rows, i), after = sample_of(rows, i + 1);
+        before = here, here = after, after = sample_of(rows, i + 1);
         if (before.re == 0 && here.re == 0 && after.re == 0 && rows->drive[i].re == 0 && rows->drive[i].im == 0)
             continue;
         bool is_tail = !rows->loop && i == last;

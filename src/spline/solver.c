@@ -9,11 +9,14 @@
 /// What carve() hands out for each sample and for each knot; keep in step with it.
 enum {
     MATRIX_DOUBLES = 3 + 4 + 4 + 2 * BORDER_MAX,
-    CHAIN_DOUBLES = 12,
+    CHAIN_DOUBLES = 8,
+    RUN_DOUBLES = 6,
+    LINE = 64, ///< of the cache: columns begin with one
     BYTES_PER_SAMPLE = (int)((MATRIX_DOUBLES + 2 + 2 + 2 + 4 + 4) * sizeof(double) + sizeof(coefficients) +
                              sizeof(cplx) + 3 * sizeof(int) + sizeof(unsigned char)),
     BYTES_PER_KNOT = (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) +
                            9 * sizeof(double) + sizeof(int)),
+    FIXED_BYTES = (int)(RUN_DOUBLES * CHAIN_RUN * sizeof(double)) + CHAIN_DOUBLES * LINE + 3 * LINE,
 };
 
 _Static_assert((int)CHAIN_DOUBLES <= (int)MATRIX_DOUBLES, "the chain's tables lie over the matrix");
@@ -25,7 +28,7 @@ size_t wiggly_memsize(int samples, int knots)
     if (__builtin_mul_overflow((size_t)samples, (size_t)BYTES_PER_SAMPLE, &per_sample) ||
         __builtin_mul_overflow((size_t)knots + 1, (size_t)BYTES_PER_KNOT, &per_knot) ||
         __builtin_add_overflow(per_sample, per_knot, &sum) ||
-        __builtin_add_overflow(sum, sizeof(wiggly_solver) + 64, &sum)) {
+        __builtin_add_overflow(sum, sizeof(wiggly_solver) + FIXED_BYTES, &sum)) {
         return 0;
     }
     return sum;
@@ -36,6 +39,25 @@ static void *take(unsigned char **at, size_t bytes)
     void *p = *at;
     *at += bytes;
     return p;
+}
+
+static void *take_lines(unsigned char **at, size_t bytes)
+{
+    *at += (LINE - (uintptr_t)*at % LINE) % LINE;
+    return take(at, bytes);
+}
+
+/// Tables of the chain, the powers' over the matrix.
+static void carve_tables(chain *c, unsigned char *runs, unsigned char *powers, size_t samples)
+{
+    double **const run_columns[] = {&c->pulled[0].re, &c->pulled[0].im, &c->pulled[1].re,
+                                    &c->pulled[1].im, &c->back.re,      &c->back.im};
+    double **const columns[] = {&c->powers.p.re,   &c->powers.p.im,   &c->powers.q.re, &c->powers.q.im,
+                                &c->powers.w01.re, &c->powers.w01.im, &c->powers.w00,  &c->powers.w11};
+    _Static_assert(sizeof run_columns / sizeof *run_columns == RUN_DOUBLES, "RUN_DOUBLES counts the columns");
+    _Static_assert(sizeof columns / sizeof *columns == CHAIN_DOUBLES, "CHAIN_DOUBLES counts the columns");
+    for (int i = 0; i < RUN_DOUBLES; i++) *run_columns[i] = take_lines(&runs, CHAIN_RUN * sizeof(double));
+    for (int i = 0; i < CHAIN_DOUBLES; i++) *columns[i] = take_lines(&powers, samples * sizeof(double));
 }
 
 static void carve(wiggly_solver *solver)
@@ -50,6 +72,7 @@ static void carve(wiggly_solver *solver)
     m->below = take(&at, 4 * n * sizeof(double));
     m->below2 = take(&at, 4 * n * sizeof(double));
     m->border = take(&at, 2 * BORDER_MAX * n * sizeof(double));
+    take(&at, CHAIN_DOUBLES * LINE + LINE); // what the tables' columns are longer than the matrix of few samples
     rows->jet_weight = take(&at, n * sizeof(double));
     rows->im_weight = take(&at, n * sizeof(double));
     rows->x = take(&at, 2 * n * sizeof(double));
@@ -71,12 +94,7 @@ static void carve(wiggly_solver *solver)
     c->stretch_of[0] = take(&at, n * sizeof(int));
     c->stretch_of[1] = take(&at, n * sizeof(int));
     rows->fixed = take(&at, n);
-    unsigned char *tables = (unsigned char *)m->diagonal;
-    double **const columns[] = {&c->powers.p.re,   &c->powers.p.im,   &c->powers.q.re,  &c->powers.q.im,
-                                &c->powers.w01.re, &c->powers.w01.im, &c->powers.w00,   &c->powers.w11,
-                                &c->forced[0].re,  &c->forced[0].im,  &c->forced[1].re, &c->forced[1].im};
-    _Static_assert(sizeof columns / sizeof *columns == CHAIN_DOUBLES, "CHAIN_DOUBLES counts the columns");
-    for (int i = 0; i < CHAIN_DOUBLES; i++) *columns[i] = take(&tables, n * sizeof(double));
+    carve_tables(c, at, (unsigned char *)m->diagonal, n);
 }
 
 wiggly_solver *solver_lay_out(void *memory, int samples, int knots)
@@ -85,7 +103,6 @@ wiggly_solver *solver_lay_out(void *memory, int samples, int knots)
     solver->samples = samples;
     solver->knots = knots;
     solver->longest_squared = INT_MAX;
-    solver->chain.forced_capacity = samples;
     solver->chain.stretch_capacity = knots + 1;
     carve(solver);
     return solver;
@@ -117,6 +134,17 @@ void wiggly_destroy(wiggly_solver *solver)
     if (solver && solver->owned) free(solver);
 }
 
+/// Over a run the poles may decay unlike each other by so much, and both together by so much: exponents of e.
+static const double most_unlike = 5, most_decay = 50;
+
+/// Samples after which the chain takes a state anew.
+static int run_of(const poles *at, double step)
+{
+    double decay = step * fabs(fmin(at->s[0].re, at->s[1].re)), unlike = step * fabs(at->s[0].re - at->s[1].re);
+    double run = fmin(most_unlike / unlike, most_decay / decay); // of nothing: infinite
+    return run < CHAIN_RUN ? (int)fmax(run, 1) : CHAIN_RUN;
+}
+
 const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc, double floor)
 {
     constant_filter *f = &solver->filter;
@@ -124,6 +152,7 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
     *f =
         (constant_filter){.known = true, .desc = desc_settings(desc), .floor = floor, .at = poles_at(desc, 0, floor)};
     poles_mean(&f->at, desc->step, &f->lambda, &f->delta2);
+    f->run = run_of(&f->at, desc->step);
     poles damped = poles_at(desc, 0, fmax(floor, LEAST_DAMPING));
     f->start = poles_start_cost(&damped, desc->step);
     if (desc->passive != WIGGLY_OSCILLATOR) return f;

@@ -19,6 +19,7 @@ typedef struct constant_filter {
     poles at;
     start_cost start; ///< at calm 1; the oscillator's is in units of the jets' weight
     cplx lambda, delta2;
+    int run;          ///< samples of a stretch that the chain fills from one state
     speed_form ahead; ///< the speed that the poles see in a sample and the one ahead
     double unit;      ///< |g|² of the oscillator: what all weights but the jets' are times
     cplx passive;     ///< h p of what moves by itself

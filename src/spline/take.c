@@ -220,7 +220,6 @@ static bool renew_rows(wiggly_take *take, int j)
     chain_make_tables(&part);
     bool forgot = part.stretch_count < c->stretch_count;
     c->stretch_count = part.stretch_count;
-    c->forced_count = part.forced_count;
     c->powers_count = part.powers_count;
     if (forgot) return false;
     chain_assemble(&part);

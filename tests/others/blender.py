@@ -20,6 +20,13 @@ def load(path):
     return [o for o in bpy.data.objects if o not in before]
 
 
+def choose_clip(objects, name):
+    """A file with several clips comes with an action for each, and one of them plays."""
+    for data in (d for o in objects for d in (o, getattr(o.data, 'shape_keys', None)) if d and d.animation_data):
+        data.animation_data.action = bpy.data.actions[name]
+        data.animation_data.action_slot = data.animation_data.action_suitable_slots[0]
+
+
 def vertices(mesh):
     """Of the mesh as it is deformed now, in glTF's axes (y up)."""
     shown = mesh.evaluated_get(bpy.context.evaluated_depsgraph_get())
@@ -32,7 +39,10 @@ def vertices(mesh):
 def compare_meshes(path, cache_paths):
     caches = [read_cache(p)[0] for p in cache_paths]
     counts = [c.shape[1] for c in caches]
-    meshes = [o for o in load(path) if o.type == 'MESH' and len(o.data.vertices) in counts]  # not the importer's shapes for bones
+    objects = load(path)
+    if 'CLIP' in os.environ:
+        choose_clip(objects, os.environ['CLIP'])
+    meshes = [o for o in objects if o.type == 'MESH' and len(o.data.vertices) in counts]  # not the importer's shapes for bones
     off = 0.0
     for key in ten_of(len(caches[0])):
         bpy.context.scene.frame_set(key)

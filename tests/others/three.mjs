@@ -1,5 +1,5 @@
-// Evaluates a .glb in three.js at ten of its keys and compares every vertex with point caches of the same rigs, mesh by mesh.
-// Usage: node three.mjs FOLDER-WITH-node_modules file.glb rig.pc2... Exit status 1 if anything is more than 1e-5 of the size away.
+// Evaluates a clip of a .glb (CLIP in the environment, else the first) in three.js at ten of its keys and compares every vertex with
+// point caches of the same rigs, one after the other. Usage: node three.mjs FOLDER-WITH-node_modules file.glb rig.pc2... Exit status 1 if anything is more than 1e-5 of the size away.
 import { readFileSync } from 'fs';
 import { resolve } from 'path';
 import { readCache } from './pc2.mjs';
@@ -14,7 +14,8 @@ const bytes = readFileSync(file);
 const gltf = await new GLTFLoader().parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), '');
 const meshes = [];
 gltf.scene.traverse((object) => object.isMesh && meshes.push(object));
-const caches = cachePaths.map(readCache), clip = gltf.animations[0], mixer = new THREE.AnimationMixer(gltf.scene);
+const caches = cachePaths.map(readCache), mixer = new THREE.AnimationMixer(gltf.scene);
+const clip = process.env.CLIP ? gltf.animations.find((a) => a.name === process.env.CLIP) : gltf.animations[0];
 const action = mixer.clipAction(clip).setLoop(THREE.LoopOnce);
 action.clampWhenFinished = true;
 action.play();
@@ -27,16 +28,18 @@ for (let n = 0; n < 10; n++) {
   action.time = (clip.duration * key) / (caches[0].frames - 1);
   mixer.update(0);
   gltf.scene.updateMatrixWorld(true);
-  meshes.forEach((mesh, m) => {
+  let next = 0;
+  const all = caches.flatMap((cache) => Array.from({ length: cache.vertices }, (_, v) => cache.at(key, v)));
+  for (const mesh of meshes) { // a mesh of several materials comes as several
     if (mesh.skeleton) mesh.skeleton.update();
-    if (mesh.geometry.attributes.position.count !== caches[m].vertices) throw new Error('another number of vertices');
-    for (let v = 0; v < caches[m].vertices; v++) {
+    for (let v = 0; v < mesh.geometry.attributes.position.count; v++) {
       mesh.getVertexPosition(v, place).applyMatrix4(mesh.matrixWorld);
-      expected.fromArray(caches[m].at(key, v));
+      expected.fromArray(all[next++]);
       box.expandByPoint(expected);
       largest = Math.max(largest, place.distanceTo(expected));
     }
-  });
+  }
+  if (next !== all.length) throw new Error('vertices are missing');
 }
 const size = box.getSize(place).length(), good = largest <= 1e-5 * size;
 console.log(`three.js ${THREE.REVISION}: at most ${largest.toExponential(1)} m off, ${(largest / size).toExponential(1)} of the size`);

@@ -72,7 +72,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
       {"Ctrl+O, Ctrl+N", "open, new"},
       {"Ctrl+S, Ctrl+Shift+S", "save, save as"},
       {"Ctrl+E", "export motion, films"},
-      {"Ctrl+1 … 7", "figures of the paper"},
+      {"Ctrl+1 … 8", "figures, and a dog"},
       {"F6, Shift+F6", "resize the panels"},
       {"F10", "light or dark"},
       {"F11, F12", "full screen, screenshot"},

@@ -30,7 +30,7 @@ static void build_characters(struct inspection *in)
         struct character_view *view = &in->core->characters;
         char name[32];
         snprintf(name, sizeof name, "character.%d", c);
-        const char *text = rig->name ? rig->name : rig->character.model;
+        const char *text = rig_title(rig);
         if (!ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, text, 0, c == view->character)) continue;
         view->character = c;
         view->drive = 0;
