@@ -72,7 +72,9 @@ static void test_all_of_it_is_reached_at_960_by_600(void **state)
         session_wheel(&s, -1);
     }
     for (int g = 0; g < HELP_GROUPS; g++) {
-        for (int i = 0; help_row(&help_groups[g], i).keys; i++) assert_true(seen[g][i]);
+        for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
+            if (!seen[g][i]) fail_msg("“%s” is never to be seen", help_row(&help_groups[g], i).what);
+        }
     }
     session_close(&s);
 }

@@ -124,7 +124,7 @@ static void test_tails(void **state)
     panel_click(&s, "tail.add");
     assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 2);
     assert_int_equal(editor_stage(s.editor)->tail_count, 2);
-    assert_int_equal(s.editor->inspector->tail, 1);
+    assert_int_equal(s.editor->inspector->rig, 1);
     panel_click(&s, "tail.delete");
     panel_click(&s, "tail.delete");
     assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 0);

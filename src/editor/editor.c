@@ -1,5 +1,6 @@
 /// The editor's public functions: who gets an event, and what happens once a frame.
 #include "editor/editor.h"
+#include "editor/core/bones.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
@@ -23,7 +24,7 @@ enum { MAX_COMMANDS = 16384, MAX_POINTS = 1 << 18, MAX_TEXT = 1 << 16 };
 static void hear(void *who, const struct editor_world *world, enum news news, int spline)
 {
     struct editor *editor = who;
-    int tail, channel;
+    int rig, channel;
     const struct channel *moved;
     switch (news) {
     case NEWS_OPENED:
@@ -36,8 +37,8 @@ static void hear(void *who, const struct editor_world *world, enum news news, in
         curves_activate(editor->curves, &editor->core, spline);
         break;
     case NEWS_ACTIVATED:
-        moved = core_active_channel(&editor->core, world->document, &tail, &channel);
-        if (moved && moved->spline == spline) inspector_show_channel(editor->inspector, tail, channel);
+        moved = core_active_channel(&editor->core, world->document, &rig, &channel);
+        if (moved && moved->spline == spline) inspector_show_channel(editor->inspector, rig, channel);
         break;
     case NEWS_DRAG_MOVES:
         curves_capture_ghost(editor->curves, &editor->core, world);
@@ -139,6 +140,7 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     editor->fitted = false;
     editor->core.look = LOOK_WIGGLY;
     characters_open(&editor->core, document);
+    bones_clear(&editor->core);
     editor->core.active = first_spline(document);
     editor->core.active_id = editor->core.active >= 0 ? document->splines[editor->core.active].id : 0;
     selection_clear(&editor->core.hidden);

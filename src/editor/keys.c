@@ -1,5 +1,6 @@
 /// The keyboard: one table of what a key does, one of what a typed character does. docs/keys.md lists them.
 #include "editor/keys.h"
+#include "editor/core/bones.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
@@ -54,12 +55,14 @@ static void run_insert(struct editor *e, const struct editor_world *w, int argum
     core_insert_on_curve(&e->core, w, core_frame(&e->core, w->document), true, argument);
 }
 
-/// Puts the brush away; without one, clears the selection.
+/// Puts the brush away; without one, lets go of the bone, else clears the selection.
 static void run_select_none(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
     if (e->core.brush.on) {
         characters_set_brush(&e->core, w, false);
+    } else if (e->core.bone.any) {
+        bones_clear(&e->core);
     } else {
         selection_clear(&e->core.selection);
     }
@@ -324,6 +327,8 @@ const struct binding key_bindings[] = {
     {.key = 'O', .any_time = true, .run = run_overlay, .argument = 'O'},
     {.key = 'P', .any_time = true, .run = run_overlay, .argument = 'P'},
     {.key = 'K', .run = run_brush},
+    {.key = 'J', .core = bones_make_chain, .argument = false},
+    {.key = 'J', .mods = MOD_SHIFT, .core = bones_make_chain, .argument = true},
     {.key = 0},
 };
 

@@ -1,4 +1,5 @@
 /// Names for places on the screen, for replays; they survive a new layout: "knot(sway,2)", "tail(tail,0.9)".
+#include "editor/core/bones.h"
 #include "editor/curves/curves.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
@@ -120,17 +121,40 @@ static const struct rig *rig_named(const struct place *place, enum rig_kind kind
     return NULL;
 }
 
-static bool find_tail(struct place *place, struct error *error)
+/// A place along a row of joints: 0 is the first, 1 the tip.
+static bool find_along(struct place *place, enum rig_kind kind, const char *word, struct error *error)
 {
     int n;
-    const struct rig *rig = rig_named(place, RIG_TAIL, &n);
+    const struct rig *rig = rig_named(place, kind, &n);
     if (rig) {
-        double along = fmin(fmax(place->target->number[0], 0), 1) * rig->tail.joints;
-        int joint = (int)fmin(floor(along), rig->tail.joints - 1);
-        if (stage_project(place->editor->stage, &place->editor->core, n, joint, along - joint, place->xy))
+        const int index = (int)(rig - place->world->document->rigs), joints = bones_joints(place->world, index);
+        double along = fmin(fmax(place->target->number[0], 0), 1) * joints;
+        int joint = (int)fmin(floor(along), joints - 1);
+        if (stage_project(place->editor->stage, &place->editor->core, index, joint, along - joint, place->xy))
             return true;
     }
-    return fail(error, ERROR_INPUT, "there is no tail \"%s\" to be seen", place->target->name);
+    return fail(error, ERROR_INPUT, "there is no %s \"%s\" to be seen", word, place->target->name);
+}
+
+static bool find_tail(struct place *place, struct error *error) { return find_along(place, RIG_TAIL, "tail", error); }
+
+static bool find_chain(struct place *place, struct error *error)
+{
+    return find_along(place, RIG_CHAIN, "chain", error);
+}
+
+/// A bone of the imported characters: bone(tail_1).
+static bool find_bone(struct place *place, struct error *error)
+{
+    const struct document *document = place->world->document;
+    for (int r = document_next_rig(document, RIG_MODEL, 0); r >= 0;
+         r = document_next_rig(document, RIG_MODEL, r + 1)) {
+        const struct imported *shown = bones_character(place->world, r);
+        const int node = shown ? gltf_find_node(&shown->gltf, place->target->name) : -1;
+        if (node >= 0 && stage_bone_point(place->editor->stage, &place->editor->core, r, node, place->xy))
+            return true;
+    }
+    return fail(error, ERROR_INPUT, "there is no bone \"%s\" to be seen", place->target->name);
 }
 
 static bool find_body(struct place *place, struct error *error)
@@ -185,6 +209,8 @@ static const struct target_kind {
     {.kind = "ruler", .named = false, .numbers = 1, .find = find_ruler},
     {.kind = "stage", .named = false, .numbers = 2, .find = find_stage},
     {.kind = "tail", .named = true, .numbers = 1, .find = find_tail},
+    {.kind = "chain", .named = true, .numbers = 1, .find = find_chain},
+    {.kind = "bone", .named = true, .numbers = 0, .find = find_bone},
     {.kind = "body", .named = true, .numbers = 0, .find = find_body},
     {.kind = "character", .named = true, .numbers = 2, .find = find_character},
     {.kind = "divider", .named = true, .numbers = 0, .find = find_divider},

@@ -12,11 +12,14 @@ bool imported_read(struct imported *imported, const char *path, struct error *er
     }
     gltf_pose_clip(&imported->gltf, -1, 0.0, &imported->rest);
     gltf_pose_world(&imported->gltf, &imported->rest);
-    return true;
+    if (skeleton_create(&imported->gltf, &imported->rest, &imported->skeleton)) return true;
+    imported_free(imported);
+    return fail_no_memory(error, path);
 }
 
 void imported_free(struct imported *imported)
 {
+    skeleton_free(&imported->skeleton);
     gltf_bounds_free(&imported->bounds);
     gltf_pose_free(&imported->rest);
     gltf_free(&imported->gltf);

@@ -35,8 +35,8 @@ void slopes_set(struct core *core, const struct editor_world *world, int how);
 
 /// Moves the selected knots by frames and values; repeated nudges are one undo step.
 void core_nudge_knots(struct core *core, const struct editor_world *world, double frames, double value);
-/// The channel that the active spline moves, the first of all where it moves none; NULL where there is none at all.
-const struct channel *core_active_channel(const struct core *core, const struct document *document, int *tail,
+/// The channel of a tail or chain that the active spline moves, the first of all where it moves none; NULL where there is none at all.
+const struct channel *core_active_channel(const struct core *core, const struct document *document, int *rig,
                                           int *channel);
 /// Where a parameter's slider ends; 0: it has none.
 double core_slider_end(const struct document *document, const struct spline *spline, enum parameter parameter);

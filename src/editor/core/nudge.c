@@ -1,4 +1,5 @@
 /// Changes by key: knots and parameters in small steps. Equal nudges of the same knots are one undo step.
+#include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
@@ -60,19 +61,18 @@ void core_nudge_knots(struct core *core, const struct editor_world *world, doubl
     history_end(world->history);
 }
 
-const struct channel *core_active_channel(const struct core *core, const struct document *document, int *tail,
+const struct channel *core_active_channel(const struct core *core, const struct document *document, int *rig,
                                           int *channel)
 {
     const struct channel *first = NULL;
-    for (int r = document->rig_count - 1, t = document_count_rigs(document, RIG_TAIL); r >= 0; r--) {
-        const struct rig *rig = &document->rigs[r];
-        if (rig->kind != RIG_TAIL) continue;
-        t--;
-        for (int c = rig->tail.channel_count - 1; c >= 0; c--) {
-            const struct channel *candidate = &rig->tail.channels[c];
+    for (int r = document->rig_count - 1; r >= 0; r--) {
+        int count;
+        const struct channel *channels = rig_channels(&document->rigs[r], &count);
+        for (int c = count - 1; c >= 0; c--) {
+            const struct channel *candidate = &channels[c];
             if (first && first->spline == core->active && candidate->spline != core->active) continue;
             first = candidate;
-            *tail = t;
+            *rig = r;
             *channel = c;
         }
     }
@@ -81,24 +81,24 @@ const struct channel *core_active_channel(const struct core *core, const struct 
 
 static void nudge_lag(struct core *core, const struct editor_world *world, double degrees)
 {
-    int tail = -1, channel = -1;
-    const struct channel *active = core_active_channel(core, world->document, &tail, &channel);
+    int rig = -1, channel = -1;
+    const struct channel *active = core_active_channel(core, world->document, &rig, &channel);
     if (!active) {
         core_message(core, false, "This scene has no tail to lag.");
         return;
     }
     struct angles lag = active->lag;
-    const int joints = document_tail(world->document, tail)->joints;
+    const int joints = bones_joints(world, rig);
     for (int i = 0; i < angles_count(&lag); i++) {
         double behind = lag.form == ANGLES_ONE ? 1 : lag.form == ANGLES_EACH ? i : lag.ramp[i].at * (joints - 1);
         angles_set_number(&lag, i, angles_number(&lag, i) + behind * degrees);
     }
     struct edit edit = core_edit_of(EDIT_ANGLES, core->active);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
+    edit.rig = rig;
     edit.channel = channel;
     edit.angle = ANGLE_LAG;
     edit.angles = &lag;
-    uint64_t kind = NUDGE_PARAMETER + PARAMETER_COUNT + (uint64_t)(tail * 4096 + channel);
+    uint64_t kind = NUDGE_PARAMETER + PARAMETER_COUNT + (uint64_t)(rig * 4096 + channel);
     core_step(core, world, "Change lag", core_merge_key(core, world, kind), &edit);
 }
 

@@ -72,7 +72,8 @@ enum hover_kind {
     HOVER_RULER,
     HOVER_UNITS,
     HOVER_WARNING,
-    HOVER_JOINT,
+    HOVER_JOINT, ///< of a tail, or of a chain
+    HOVER_BONE,  ///< of an imported character, without a chain
     HOVER_BODY,
     HOVER_PLAY,
     HOVER_LOOP,
@@ -83,9 +84,11 @@ struct hover {
     enum hover_kind kind;
     int spline;
     unsigned knot;
-    int handle; ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING: which one
-    int tail, joint;
+    int handle;      ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING: which one
+    int tail;        ///< HOVER_BODY: its number among tails
+    int rig, joint;  ///< HOVER_JOINT: of the tail or chain
     double fraction; ///< of the segment after the joint
+    int model, node; ///< of HOVER_BONE and of a chain's HOVER_JOINT: the character's rig and the bone
     float x, y;      ///< of the point on the tail
 };
 
@@ -147,6 +150,14 @@ enum brush_mode {
     BRUSH_ERASE, ///< back to what the model says
 };
 
+/// The bone that is selected. It is found again after undo, as long as its character is there.
+struct bone_selection {
+    bool any;
+    int model;     ///< number of its rig among those of imported characters
+    uint64_t file; ///< gltf.id of what that showed
+    int node;
+};
+
 /// The brush that paints phase and amplitude onto a character's surface.
 struct brush {
     bool on;
@@ -183,6 +194,7 @@ struct core {
     bool space_down, space_used;
 
     struct character_view characters;
+    struct bone_selection bone;
     struct brush brush;
     struct overlays overlays;
     bool record_armed; ///< the next drag of a body is recorded from its start

@@ -1,7 +1,9 @@
 /// Solved splines → polylines: one vertex a pixel column, and one of them on each knot.
 #include "base/hash.h"
 #include "editor/core/arrange.h"
+#include "editor/core/bones.h"
 #include "editor/core/core.h"
+#include "editor/core/knots.h"
 #include "editor/curves/curves.h"
 #include "editor/curves/view.h"
 #include <math.h>
@@ -70,31 +72,25 @@ static double frame_of(const struct document *document, double position)
     return document->first_frame + position / document->substeps;
 }
 
-/// Lags (radians) that the fan shows: evenly along the tail that the active spline moves. How many there are.
-static int fan_lags(const struct core *core, const struct document *document, double lags[CURVES_FAN])
+/// Lags (radians) that the fan shows: evenly along the tail or chain that the active spline moves. How many there are.
+static int fan_lags(const struct core *core, const struct editor_world *world, double lags[CURVES_FAN])
 {
-    int rig = document_next_rig(document, RIG_TAIL, 0);
-    for (; rig >= 0; rig = document_next_rig(document, RIG_TAIL, rig + 1)) {
-        const struct tail *tail = &document->rigs[rig].tail;
-        for (int c = 0; c < tail->channel_count; c++) {
-            const struct channel *channel = &tail->channels[c];
-            if (channel->spline != core->active) continue;
-            for (int i = 0; i < CURVES_FAN; i++) {
-                int joint = (tail->joints - 1) * (i + 1) / CURVES_FAN;
-                double degrees = angles_lag(&channel->lag, joint, tail->joints);
-                lags[i] = degrees * (acos(-1.0) / 180);
-            }
-            return CURVES_FAN;
-        }
+    int rig, number;
+    const struct channel *channel = core_active_channel(core, world->document, &rig, &number);
+    if (!channel || channel->spline != core->active) return 0;
+    const int joints = bones_joints(world, rig);
+    for (int i = 0; i < CURVES_FAN; i++) {
+        int joint = (joints - 1) * (i + 1) / CURVES_FAN;
+        lags[i] = angles_lag(&channel->lag, joint, joints) * (acos(-1.0) / 180);
     }
-    return 0;
+    return CURVES_FAN;
 }
 
 static void draw_active(struct curves *curves, const struct core *core, const struct editor_world *world)
 {
     struct curve_cache *cache = &curves->cache;
     double lags[CURVES_FAN], turn[CURVES_FAN][2];
-    cache->fan_count = core->look == LOOK_WIGGLY ? fan_lags(core, world->document, lags) : 0;
+    cache->fan_count = core->look == LOOK_WIGGLY ? fan_lags(core, world, lags) : 0;
     for (int i = 0; i < cache->fan_count; i++) {
         turn[i][0] = cos(lags[i]);
         turn[i][1] = sin(lags[i]);

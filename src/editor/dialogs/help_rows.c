@@ -5,7 +5,7 @@
 const struct help_group help_groups[HELP_GROUPS] = {
     {"Knots",
      {{"Double-click", "insert a knot"},
-      {"I, Shift+I", "at the playhead (sloped)"},
+      {"I, Shift+I", "at playhead (sloped)"},
       {"Del, Backspace", "delete"},
       {"Click, Shift+click", "select, add to it"},
       {"Drag a box", "select its knots"},
@@ -66,7 +66,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
       {"Ctrl+Shift+=, -", "zoom (or PgUp, PgDn)"},
       {"Shift+Home", "show everything"},
       {"O, P", "onion skin, motion arc"},
-      {"K", "paint a character"}}},
+      {"K; J, Shift+J", "paint; chain of bones"}}},
     {"File and window",
      {{"Ctrl+Z, Ctrl+Y", "undo, redo (or Shift+Z)"},
       {"Ctrl+O, N, E", "open, new, export"},

@@ -27,6 +27,7 @@ void inspector_poles(struct inspection *in);
 void inspector_knot(struct inspection *in);
 void inspector_tail(struct inspection *in);
 void inspector_character(struct inspection *in);
+void inspector_model(struct inspection *in);
 void inspector_history(struct inspection *in);
 
 /// The rows on the brush, below "Character".
@@ -35,13 +36,15 @@ void inspector_brush(struct inspection *in);
 /// The lists that open over the panel, built after all else: the splines' palette, and the splines that a parameter may follow.
 void inspector_palette(struct inspection *in);
 void inspector_track_list(struct inspection *in);
-/// The list of splines that may bend a tail, and the one that its body may follow.
+/// The list of splines that may bend a tail or chain, and the one that its body may follow.
 void inspector_tail_lists(struct inspection *in);
 
 /// A row in which a parameter follows a spline, in place of its slider; and the button at its right that lets it follow one
 /// or lets go.
 void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r);
 void inspector_track_button(struct inspection *in, enum parameter parameter, struct rect r);
+/// The list of an imported character's clips.
+void inspector_model_lists(struct inspection *in);
 /// The lists that open over the section on a character; built after all else in the panel.
 void inspector_character_lists(struct inspection *in);
 
@@ -62,6 +65,11 @@ int inspector_spline_list(struct inspection *in, const char *list, const bool *l
 /// A row with a label; returns what is right of it.
 struct rect inspector_labelled(struct inspection *in, const char *label);
 
+/// The tail or chain that is shown; NULL where there is none.
+const struct rig *inspector_shown(const struct inspection *in);
+/// What a chain is made of, its place in the list of chains aside; and the buttons that make its twin and take it away.
+void inspector_chain(struct inspection *in);
+
 /// One of a tail's three angles, as a slider shows it.
 struct angle_row {
     enum angle_kind kind;
@@ -75,8 +83,8 @@ extern const struct angle_row angle_row_lag, angle_row_gain, angle_row_rest;
 void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles);
 
 /// Its channels: the list, and how much and how late the chosen one bends; and what that is made of.
-void inspector_channels(struct inspection *in, const struct tail *tail);
-void inspector_channel(struct inspection *in, const struct tail *tail);
+void inspector_channels(struct inspection *in);
+void inspector_channel(struct inspection *in);
 
 /// The list of splines that the channel can bend by, where it is open.
 void inspector_feed_list(struct inspection *in);

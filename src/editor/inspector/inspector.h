@@ -15,8 +15,8 @@ void inspector_destroy(struct inspector *inspector);
 void inspector_rename(struct inspector *inspector, const struct core *core, const struct editor_world *world);
 /// Opens the section of that name ("section.poles").
 void inspector_unfold(struct inspector *inspector, const char *name);
-/// Shows a channel of a tail under "Tail".
-void inspector_show_channel(struct inspector *inspector, int tail, int channel);
+/// Shows a channel of a tail or chain.
+void inspector_show_channel(struct inspector *inspector, int rig, int channel);
 /// What the pointer is over.
 enum ui_over inspector_over(const struct inspector *inspector);
 /// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.

@@ -1,5 +1,6 @@
 /// Angles in the inspector: one for all joints as a slider; one for each as a slider that scales them, the first and the last
 /// to fill in between, and a list to type.
+#include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
 #include <math.h>
@@ -43,7 +44,7 @@ static void scale_angles(struct angles *angles, double value)
 static struct edit angles_edit(const struct inspection *in, const struct angle_row *row, const struct angles *angles)
 {
     struct edit edit = core_edit_of(EDIT_ANGLES, 0);
-    edit.rig = document_find_rig(in->document, RIG_TAIL, in->inspector->tail);
+    edit.rig = in->inspector->rig;
     edit.channel = row->kind == ANGLE_REST ? -1 : in->inspector->channel;
     edit.angle = row->kind;
     edit.angles = angles;
@@ -174,7 +175,7 @@ static void build_list(struct inspection *in, const struct angle_row *row, const
 void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
 {
     struct ui *ui = in->ui;
-    int joints = document_tail(in->document, in->inspector->tail)->joints;
+    int joints = bones_joints(in->world, in->inspector->rig);
     struct rect r = ui_row(ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y + 2, SWITCH, r.h - 4};
     const bool several = angles->form != ANGLES_ONE;
     char name[32];

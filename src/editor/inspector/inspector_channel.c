@@ -1,4 +1,4 @@
-/// The channels of a tail: which splines bend it, how, and how much.
+/// The channels of a tail or chain: which splines bend it, how, and how much.
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
@@ -11,22 +11,33 @@ static const char feed_list[] = "feed";
 static struct edit channel_edit(const struct inspection *in, enum edit_kind kind)
 {
     struct edit edit = core_edit_of(kind, in->core->active);
-    edit.rig = document_find_rig(in->document, RIG_TAIL, in->inspector->tail);
+    edit.rig = in->inspector->rig;
     edit.channel = in->inspector->channel;
     return edit;
 }
 
-static void build_list(struct inspection *in, const struct tail *tail)
+/// The channel that is chosen of the tail or chain; NULL where it has none.
+static const struct channel *chosen_channel(const struct inspection *in)
 {
+    int count = 0;
+    const struct rig *rig = inspector_shown(in);
+    const struct channel *channels = rig ? rig_channels(rig, &count) : NULL;
+    return in->inspector->channel < count ? &channels[in->inspector->channel] : NULL;
+}
+
+static void build_list(struct inspection *in)
+{
+    static const char *const axes[] = {[AXIS_SIDE] = "sideways", [AXIS_UP] = "up and down", [AXIS_TWIST] = "twist"};
     struct ui *ui = in->ui;
-    for (int c = 0; c < tail->channel_count; c++) {
-        const struct channel *channel = &tail->channels[c];
+    int count;
+    const struct channel *channels = rig_channels(inspector_shown(in), &count);
+    for (int c = 0; c < count; c++) {
+        const struct channel *channel = &channels[c];
         char name[32], text[192];
         snprintf(name, sizeof name, "channel.%d", c);
-        const char *axis = channel->axis == AXIS_SIDE ? "sideways" : "up and down";
-        snprintf(text, sizeof text, "%s, %s", in->document->splines[channel->spline].name, axis);
+        snprintf(text, sizeof text, "%s, %s", in->document->splines[channel->spline].name, axes[channel->axis]);
         struct rect r = ui_row(ui, UI_ROW);
-        if (ui_hovered(ui, r)) ui->hint = "One of the splines that bend this tail";
+        if (ui_hovered(ui, r)) ui->hint = "One of the splines that bend it";
         uint32_t color = arrange_color(in->document, channel->spline);
         if (ui_list_row(ui, r, name, text, color, c == in->inspector->channel)) {
             in->inspector->channel = c;
@@ -34,18 +45,18 @@ static void build_list(struct inspection *in, const struct tail *tail)
     }
 }
 
-static void build_buttons(struct inspection *in, const struct tail *tail)
+static void build_buttons(struct inspection *in)
 {
     struct rect r = inspector_labelled(in, "channel"), icon = {r.x - 2, r.y, ICON, r.h};
-    if (ui_icon_button(in->ui, icon, "channel.add", UI_ICON_ADD, false, "Bend this tail by the active spline too")) {
+    if (ui_icon_button(in->ui, icon, "channel.add", UI_ICON_ADD, false, "Bend it by the active spline too")) {
         struct edit edit = channel_edit(in, EDIT_CHANNEL_ADD);
         if (core_step(in->core, in->world, "Add channel", 0, &edit)) {
-            in->inspector->channel = in->document->rigs[edit.rig].tail.channel_count - 1;
+            in->inspector->channel = rig_input_count(&in->document->rigs[edit.rig]) - 1;
         }
         return;
     }
     icon.x += ICON + 6;
-    if (tail->channel_count == 0) return;
+    if (!chosen_channel(in)) return;
     if (ui_icon_button(in->ui, icon, "channel.delete", UI_ICON_DELETE, false, "Delete this channel")) {
         struct edit edit = channel_edit(in, EDIT_CHANNEL_REMOVE);
         core_step(in->core, in->world, "Delete channel", 0, &edit);
@@ -54,12 +65,14 @@ static void build_buttons(struct inspection *in, const struct tail *tail)
 
 static void build_choices(struct inspection *in, const struct channel *channel)
 {
-    static const struct ui_choice axes[] = {[AXIS_SIDE] = {"side", "Sideways"}, [AXIS_UP] = {"up", "Up"}};
+    static const struct ui_choice axes[] = {
+        [AXIS_SIDE] = {"side", "Sideways"}, [AXIS_UP] = {"up", "Up"}, [AXIS_TWIST] = {"twist", "Twist"}};
     static const struct ui_choice parts[] = {
         [PART_TOTAL] = {"total", "Total"}, [PART_DISPLACEMENT] = {"displacement", "Displaced"}};
     struct ui *ui = in->ui;
     int axis = (int)channel->axis, part = (int)channel->of;
-    if (ui_segments(ui, inspector_labelled(in, "axis"), "axis", axes, 2, &axis)) {
+    const int count = inspector_shown(in)->kind == RIG_CHAIN ? 3 : 2;
+    if (ui_segments(ui, inspector_labelled(in, "axis"), "axis", axes, count, &axis)) {
         struct edit edit = channel_edit(in, EDIT_AXIS);
         edit.axis = (enum axis)axis;
         core_step(in->core, in->world, "Set axis", 0, &edit);
@@ -75,34 +88,29 @@ static void build_choices(struct inspection *in, const struct channel *channel)
 
 void inspector_feed_list(struct inspection *in)
 {
-    const struct inspector *inspector = in->inspector;
-    const struct tail *tail = document_tail(in->document, inspector->tail);
-    if (!ui_popup_is_open(in->ui, feed_list) || !tail) return;
-    if (inspector->channel >= tail->channel_count) return;
-    int picked = inspector_spline_list(in, feed_list, NULL, tail->channels[inspector->channel].spline);
+    const struct channel *channel = chosen_channel(in);
+    if (!ui_popup_is_open(in->ui, feed_list) || !channel) return;
+    int picked = inspector_spline_list(in, feed_list, NULL, channel->spline);
     if (picked < 0) return;
     struct edit edit = channel_edit(in, EDIT_FEED);
     edit.spline = picked;
     core_step(in->core, in->world, "Set channel's spline", 0, &edit);
 }
 
-void inspector_channels(struct inspection *in, const struct tail *tail)
+void inspector_channels(struct inspection *in)
 {
-    const struct inspector *inspector = in->inspector;
-    build_list(in, tail);
+    build_list(in);
     ui_space(in->ui, 4);
-    if (inspector->channel >= tail->channel_count) return;
-    inspector_angles(in, &angle_row_lag, &tail->channels[inspector->channel].lag);
-    inspector_angles(in, &angle_row_gain, &tail->channels[inspector->channel].gain);
+    if (chosen_channel(in)) inspector_angles(in, &angle_row_lag, &chosen_channel(in)->lag);
+    if (chosen_channel(in)) inspector_angles(in, &angle_row_gain, &chosen_channel(in)->gain);
 }
 
-void inspector_channel(struct inspection *in, const struct tail *tail)
+void inspector_channel(struct inspection *in)
 {
     const struct inspector *inspector = in->inspector;
-    build_buttons(in, tail);
-    tail = document_tail(in->document, inspector->tail); // a button may have made another list of channels
-    if (inspector->channel >= tail->channel_count) return;
-    const struct channel *channel = &tail->channels[inspector->channel];
+    build_buttons(in);
+    const struct channel *channel = chosen_channel(in);
+    if (!channel) return;
     const char *spline = in->document->splines[channel->spline].name;
     ui_dropdown(in->ui, inspector_labelled(in, "spline"), feed_list, inspector->channel, spline,
                 arrange_color(in->document, channel->spline));

@@ -13,12 +13,24 @@ static bool has_spline(const struct inspection *in) { return core_active_spline(
 
 static bool has_tail(const struct inspection *in)
 {
-    return document_tail(in->document, 0) || !document_character(in->document, 0);
+    const struct document *document = in->document;
+    bool seen[RIG_KINDS];
+    for (int kind = 0; kind < RIG_KINDS; kind++)
+        seen[kind] = document_find_rig(document, (enum rig_kind)kind, 0) >= 0;
+    return seen[RIG_TAIL] || seen[RIG_CHAIN] || !(seen[RIG_CHARACTER] || seen[RIG_MODEL]);
+}
+
+static bool has_model(const struct inspection *in) { return document_find_rig(in->document, RIG_MODEL, 0) >= 0; }
+
+static const char *tail_title(const struct inspection *in)
+{
+    if (document_find_rig(in->document, RIG_CHAIN, 0) < 0) return "Tail";
+    return document_find_rig(in->document, RIG_TAIL, 0) < 0 ? "Chain" : "Tail and chain";
 }
 
 static bool has_character(const struct inspection *in) { return document_character(in->document, 0) != NULL; }
 
-/// From the top down; `name` is what replays call the header.
+/// From the top down; `name` is what replays call the header. Without a title it is tail_title().
 static const struct section {
     const char *name, *title;
     void (*build)(struct inspection *in);
@@ -31,12 +43,24 @@ static const struct section {
     {"section.spline", "Spline", inspector_spline, inspector_track_list, has_spline, false},
     {"section.poles", "Poles and response", inspector_poles, NULL, has_spline, true},
     {"section.knot", "Knot", inspector_knot, NULL, has_spline, false},
-    {"section.tail", "Tail", inspector_tail, inspector_tail_lists, has_tail, false},
+    {"section.model", "Imported character", inspector_model, inspector_model_lists, has_model, false},
+    {"section.tail", NULL, inspector_tail, inspector_tail_lists, has_tail, false},
     {"section.character", "Character", inspector_character, inspector_character_lists, has_character, false},
     {"section.history", "History", inspector_history, NULL, NULL, true}, // the last one: see there
 };
 
 _Static_assert(sizeof sections / sizeof sections[0] <= INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
+
+/// Scrolls just so far that what was built from `top` on is in sight, and remembers it as done.
+static void reveal(struct inspection *in, float top)
+{
+    const struct ui *ui = in->ui;
+    struct ui_scroll *scroll = &in->inspector->scroll;
+    const float below = ui->y - (ui->scroll_area.y + ui->scroll_area.h), above = top - ui->scroll_area.y;
+    in->inspector->revealed = NULL;
+    if (below > 0) scroll->offset += fminf(below, above);
+    if (above < 0) scroll->offset += above;
+}
 
 static void build_sections(struct inspection *in)
 {
@@ -45,11 +69,13 @@ static void build_sections(struct inspection *in)
         bool *flipped = &in->inspector->flipped[i];
         if (section->shown && !section->shown(in)) continue;
         bool closed = *flipped != section->closed;
-        bool open = ui_section(in->ui, section->name, section->title, &closed);
+        const float top = in->ui->y;
+        bool open = ui_section(in->ui, section->name, section->title ? section->title : tail_title(in), &closed);
         *flipped = closed != section->closed;
         if (!open) continue;
         section->build(in);
         ui_space(in->ui, 4);
+        if (in->inspector->revealed && strcmp(in->inspector->revealed, section->name) == 0) reveal(in, top);
     }
 }
 
@@ -99,9 +125,9 @@ struct inspector *inspector_create(void) { return calloc(1, sizeof(struct inspec
 
 void inspector_destroy(struct inspector *inspector) { free(inspector); }
 
-void inspector_show_channel(struct inspector *inspector, int tail, int channel)
+void inspector_show_channel(struct inspector *inspector, int rig, int channel)
 {
-    inspector->tail = tail;
+    inspector->rig = rig;
     inspector->channel = channel;
 }
 
@@ -111,7 +137,8 @@ void inspector_reset(struct inspector *inspector)
 {
     ui_release(&inspector->ui);
     inspector->scroll.offset = 0;
-    inspector->tail = 0;
+    inspector->rig = 0;
+    inspector->model = 0;
     inspector->channel = 0;
 }
 
@@ -176,11 +203,23 @@ bool inspector_event(struct inspector *inspector, struct core *core, const struc
     return used || (pointer && inside);
 }
 
+/// A bone that was just selected is to be seen, with what can be made of it.
+static void show_bone(struct inspection *in)
+{
+    const struct bone_selection *bone = &in->core->bone, *seen = &in->inspector->seen_bone;
+    const bool same = bone->any == seen->any && bone->node == seen->node && bone->file == seen->file;
+    in->inspector->seen_bone = *bone;
+    if (same || !bone->any) return;
+    inspector_unfold(in->inspector, "section.model");
+    in->inspector->revealed = "section.model"; // the pass that measures scrolls there
+}
+
 void inspector_show(struct inspector *inspector, struct core *core, const struct editor_world *world, bool covered)
 {
     struct inspection in = inspection_of(inspector, core, world);
     struct rect area = core->layout.inspector;
     if (covered) in.ui->pointer_x = area.x - 1; // nothing here is under the pointer
+    show_bone(&in);
     ui_begin_find(in.ui, area, "", NULL); // measures, so that a shorter panel is not drawn scrolled past its end
     build(&in, area);
     ui_end(in.ui);

@@ -1,4 +1,5 @@
-/// The inspector's section on tails: which there are, where they stand, how they are built, and what is shown of their motion.
+/// The inspector's section on tails and chains: which there are, where tails stand, how they are built, and what is shown of their
+/// motion.
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
@@ -9,41 +10,75 @@ enum { ICON = 24 };
 
 static const char rename_line[] = "tail.rename", place_list[] = "place";
 
-static struct edit tail_edit(const struct inspection *in, enum edit_kind kind)
+static struct edit rig_edit(const struct inspection *in, enum edit_kind kind)
 {
     struct edit edit = core_edit_of(kind, in->core->active);
-    edit.rig = document_find_rig(in->document, RIG_TAIL, in->inspector->tail);
+    edit.rig = in->inspector->rig;
     return edit;
 }
 
-/// The tail that is shown, and below it a row for each where there is a choice.
-static void build_tails(struct inspection *in)
+static bool is_tail_or_chain(const struct document *document, int rig)
+{
+    return rig < document->rig_count &&
+           (document->rigs[rig].kind == RIG_TAIL || document->rigs[rig].kind == RIG_CHAIN);
+}
+
+const struct rig *inspector_shown(const struct inspection *in)
+{
+    const int rig = in->inspector->rig;
+    return is_tail_or_chain(in->document, rig) ? &in->document->rigs[rig] : NULL;
+}
+
+/// Shows the first tail, or else the first chain, where what was shown is gone.
+static void find_shown(struct inspection *in)
+{
+    if (inspector_shown(in)) return;
+    const int tail = document_find_rig(in->document, RIG_TAIL, 0),
+              chain = document_find_rig(in->document, RIG_CHAIN, 0);
+    in->inspector->rig = tail >= 0 ? tail : chain >= 0 ? chain : 0;
+    in->inspector->channel = 0;
+}
+
+static void build_row(struct inspection *in, enum rig_kind kind, int rig, int number)
 {
     struct inspector *inspector = in->inspector;
-    int rig = document_count_rigs(in->document, RIG_TAIL) > 1 ? document_next_rig(in->document, RIG_TAIL, 0) : -1;
-    for (int t = 0; rig >= 0; t++, rig = document_next_rig(in->document, RIG_TAIL, rig + 1)) {
-        char name[32];
-        snprintf(name, sizeof name, "tail.%d", t);
-        if (ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, in->document->rigs[rig].name, 0,
-                        t == inspector->tail)) {
-            inspector->tail = t;
-            inspector->channel = 0;
+    const struct rig *shown = &in->document->rigs[rig];
+    char name[32];
+    snprintf(name, sizeof name, "%s.%d", rig_word(kind), number);
+    const bool colored = kind == RIG_CHAIN && rig_input_count(shown) > 0;
+    const uint32_t color = colored ? arrange_color(in->document, rig_input(shown, 0)) : 0;
+    if (!ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, rig_title(shown), color, rig == inspector->rig)) return;
+    inspector->rig = rig;
+    inspector->channel = 0;
+    if (colored) core_activate(in->core, in->world, rig_input(shown, 0));
+}
+
+/// A row for each tail, and for each chain, where there is a choice.
+static void build_rows(struct inspection *in)
+{
+    static const enum rig_kind kinds[] = {RIG_TAIL, RIG_CHAIN};
+    if (document_count_rigs(in->document, RIG_TAIL) + document_count_rigs(in->document, RIG_CHAIN) < 2) return;
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+        int rig = document_next_rig(in->document, kinds[k], 0);
+        for (int n = 0; rig >= 0; n++, rig = document_next_rig(in->document, kinds[k], rig + 1)) {
+            build_row(in, kinds[k], rig, n);
         }
     }
 }
 
 static void build_name(struct inspection *in)
 {
-    const struct rig *rig = &in->document->rigs[document_find_rig(in->document, RIG_TAIL, in->inspector->tail)];
+    const struct rig *rig = inspector_shown(in);
     struct rect r = inspector_labelled(in, "name");
     if (!ui_line_is_open(in->ui, rename_line)) {
         struct rect field = {r.x, r.y + 2, r.w, r.h - 4};
         if (ui_hovered(in->ui, field)) in->ui->hint = "Click to rename";
-        if (ui_button(in->ui, field, "tail.name", rig->name, false)) ui_line_begin(in->ui, rename_line, rig->name);
+        if (ui_button(in->ui, field, "tail.name", rig_title(rig), false))
+            ui_line_begin(in->ui, rename_line, rig_title(rig));
     } else if (ui_line(in->ui, r, rename_line) == UI_LINE_DONE) {
-        struct edit edit = tail_edit(in, EDIT_RIG_NAME);
+        struct edit edit = rig_edit(in, EDIT_RIG_NAME);
         edit.text = in->ui->text.bytes;
-        core_step(in->core, in->world, "Rename tail", 0, &edit);
+        core_step(in->core, in->world, rig->kind == RIG_TAIL ? "Rename tail" : "Rename chain", 0, &edit);
     }
 }
 
@@ -51,18 +86,18 @@ static void build_buttons(struct inspection *in)
 {
     struct inspector *inspector = in->inspector;
     struct rect r = inspector_labelled(in, "tail"), icon = {r.x - 2, r.y, ICON, r.h};
-    bool any = document_tail(in->document, 0) != NULL;
+    bool any = inspector_shown(in) != NULL;
     const char *hint = any ? "Duplicate this tail" : "Add a tail bent by the active spline";
     if (ui_icon_button(in->ui, icon, "tail.add", UI_ICON_ADD, false, hint)) {
-        struct edit edit = tail_edit(in, EDIT_TAIL_ADD);
+        struct edit edit = rig_edit(in, EDIT_TAIL_ADD);
         if (!core_step(in->core, in->world, "Add tail", 0, &edit)) return;
-        inspector->tail = document_count_rigs(in->document, RIG_TAIL) - 1;
+        inspector->rig = in->document->rig_count - 1;
         inspector->channel = 0;
         return;
     }
     icon.x += ICON + 6;
     if (!any || !ui_icon_button(in->ui, icon, "tail.delete", UI_ICON_DELETE, false, "Delete this tail")) return;
-    struct edit edit = tail_edit(in, EDIT_RIG_REMOVE);
+    struct edit edit = rig_edit(in, EDIT_RIG_REMOVE);
     core_step(in->core, in->world, "Delete tail", 0, &edit);
 }
 
@@ -71,7 +106,7 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
 {
     struct rect r = ui_row(in->ui, UI_ROW), icon = {r.x + r.w - ICON, r.y, ICON, r.h};
     const struct param *param = &tail->position[k];
-    struct edit edit = tail_edit(in, EDIT_POSITION);
+    struct edit edit = rig_edit(in, EDIT_POSITION);
     char button[32];
     edit.coordinate = k;
     edit.param = *param;
@@ -112,13 +147,12 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
 
 static void place_popup(struct inspection *in)
 {
-    const struct inspector *inspector = in->inspector;
-    const struct tail *tail = document_tail(in->document, inspector->tail);
-    if (!ui_popup_is_open(in->ui, place_list) || !tail) return;
+    const struct rig *rig = inspector_shown(in);
+    if (!ui_popup_is_open(in->ui, place_list) || !rig || rig->kind != RIG_TAIL) return;
     int k = in->ui->popup.which;
-    int picked = inspector_spline_list(in, place_list, NULL, tail->position[k].track);
+    int picked = inspector_spline_list(in, place_list, NULL, rig->tail.position[k].track);
     if (picked < 0) return;
-    struct edit edit = tail_edit(in, EDIT_POSITION);
+    struct edit edit = rig_edit(in, EDIT_POSITION);
     edit.coordinate = k;
     edit.param = param_track(picked);
     core_step(in->core, in->world, "Follow spline", 0, &edit);
@@ -156,12 +190,12 @@ static void build_size(struct inspection *in, const struct tail *tail)
     enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &joints, &value);
     if (change != UI_NONE) {
         inspector_take_back(in, change); // resampled from what they were, not from what the drag has made of them
-        struct edit edit = tail_edit(in, EDIT_JOINTS);
+        struct edit edit = rig_edit(in, EDIT_JOINTS);
         edit.to = (int)lround(value);
         inspector_change(in, change, "Set joints", "joints", &edit);
-        tail = document_tail(in->document, in->inspector->tail);
+        tail = &inspector_shown(in)->tail;
     }
-    struct edit edit = tail_edit(in, EDIT_LENGTH);
+    struct edit edit = rig_edit(in, EDIT_LENGTH);
     edit.number = tail->length;
     change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &length, &edit.number);
     if (change != UI_NONE) inspector_change(in, change, "Set length", "length", &edit);
@@ -187,27 +221,30 @@ static void build_view(struct inspection *in)
     }
 }
 
-/// Buttons among these rows may make another list of channels, and more rigs: each looks its tail up anew.
-static void build_tail(struct inspection *in)
+/// Buttons among these rows may make another list of channels, and more rigs: each looks what is shown up anew.
+static void build_shown(struct inspection *in)
 {
     struct inspector *inspector = in->inspector;
-    const struct document *document = in->document;
-    if (inspector->channel >= document_tail(document, inspector->tail)->channel_count) inspector->channel = 0;
-    inspector_channels(in, document_tail(document, inspector->tail));
-    inspector_angles(in, &angle_row_rest, &document_tail(document, inspector->tail)->rest);
-    inspector_channel(in, document_tail(document, inspector->tail));
+    const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
+    if (inspector->channel >= rig_input_count(inspector_shown(in))) inspector->channel = 0;
+    inspector_channels(in);
+    if (is_tail) inspector_angles(in, &angle_row_rest, &inspector_shown(in)->tail.rest);
+    inspector_channel(in);
     ui_space(in->ui, 4);
     build_name(in);
-    build_size(in, document_tail(document, inspector->tail));
-    for (int k = 0; k < 3; k++) build_coordinate(in, document_tail(document, inspector->tail), k);
+    if (!is_tail) {
+        inspector_chain(in);
+        return;
+    }
+    build_size(in, &inspector_shown(in)->tail);
+    for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
 }
 
 void inspector_tail(struct inspection *in)
 {
-    struct inspector *inspector = in->inspector;
-    if (!document_tail(in->document, inspector->tail)) inspector->tail = 0;
-    build_tails(in);
-    if (document_tail(in->document, 0)) build_tail(in);
-    build_buttons(in);
+    find_shown(in);
+    build_rows(in);
+    if (inspector_shown(in)) build_shown(in);
+    if (!inspector_shown(in) || inspector_shown(in)->kind == RIG_TAIL) build_buttons(in);
     build_view(in);
 }

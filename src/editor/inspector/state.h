@@ -19,7 +19,10 @@ struct inspector {
     struct ui ui;
     struct ui_scroll scroll;
     bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections that are not as they are at first, open or closed
-    int tail, channel;                    ///< shown under "Tail"
+    int rig, channel;                     ///< the tail or chain that is shown, and its channel
+    int model;                            ///< the imported character that is shown, of their number
+    struct bone_selection seen_bone;      ///< that was last shown
+    const char *revealed;                 ///< section that is to be in sight, NULL: none
     const char *dragged_name;             ///< number of the scene that is being dragged
     double dragged;                       ///< what it would be; of several knots, what was last possible
     struct poles_view poles;

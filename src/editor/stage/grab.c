@@ -1,7 +1,7 @@
-/// Pulling the tail: one damped Newton step a frame on the values of the knots at the playhead.
+/// Pulling a tail or chain: one damped Newton step a frame on the values of the knots at the playhead.
 ///
 /// The grabbed point p (pixels) depends on the values v of at most two knots, one for each axis. Its derivative J
-/// comes from posing the tail again with x changed by δ(1 + j·turn), which is what a change of the knot does once
+/// comes from posing it again with x changed by δ(1 + j·turn), which is what a change of the knot does once
 /// `turn` is known (Re x follows the knot exactly; how Im x follows is linear, so one observed step tells it for
 /// good). Then
 ///
@@ -10,6 +10,7 @@
 #include "editor/core/selection.h"
 #include "editor/stage/hold.h"
 #include "editor/stage/rigs.h"
+#include "editor/stage/strand.h"
 #include <math.h>
 
 static const double DAMPING = 12; ///< √λ, pixels a radian: below this a channel moves the point too little to be used
@@ -19,23 +20,27 @@ static const double PROBE = 0.01;                          ///< radians of bend 
 static const double RESOLUTION = 1e-4;                     ///< radians of bend
 static const double DEGREE = 0.017453292519943295;
 
-/// The channel of a tail for an axis: the active spline's where there is a choice. NULL where there is none.
-static const struct channel *channel_for(const struct core *core, const struct tail *tail, enum axis axis)
+/// The channel of a rig for an axis: the active spline's where there is a choice. NULL where there is none.
+static const struct channel *channel_for(const struct core *core, const struct rig *rig, enum axis axis)
 {
     const struct channel *found = NULL;
-    for (int c = 0; c < tail->channel_count; c++) {
-        const struct channel *channel = &tail->channels[c];
+    int count;
+    const struct channel *channels = rig_channels(rig, &count);
+    for (int c = 0; c < count; c++) {
+        const struct channel *channel = &channels[c];
         if (channel->axis == axis && (!found || channel->spline == core->active)) found = channel;
     }
     return found;
 }
 
-static struct grab_axis axis_for(const struct core *core, const struct tail *tail, int joint, enum axis axis)
+static struct grab_axis axis_for(const struct core *core, const struct rig *rig, const struct strand *strand,
+                                 int joint, enum axis axis)
 {
-    const struct channel *channel = channel_for(core, tail, axis);
+    const struct channel *channel = channel_for(core, rig, axis);
+    const int joints = strand->count - 1;
     double gain = 0;
-    for (int n = 0; channel && n <= joint && n < tail->joints; n++)
-        gain += fabs(angles_at(&channel->gain, n, tail->joints)) * DEGREE;
+    for (int n = 0; channel && n <= joint && n < joints; n++)
+        gain += fabs(angles_at(&channel->gain, n, joints)) * DEGREE;
     if (!(gain > 1e-9)) return (struct grab_axis){0};
     return (struct grab_axis){.active = true, .spline = channel->spline, .values_per_radian = 1 / gain};
 }
@@ -53,31 +58,33 @@ static int sample_for(const struct stage *stage, const struct core *core, const 
     return sample < 0 ? 0 : sample;
 }
 
-bool grab_holds(const struct document *document, int tail, int joint)
+bool grab_holds(const struct document *document, int rig, int joint)
 {
-    const struct tail *held = document_tail(document, tail);
-    return held && joint <= held->joints;
+    if (rig >= document->rig_count) return false;
+    const struct rig *held = &document->rigs[rig];
+    return held->kind == RIG_CHAIN || (held->kind == RIG_TAIL && joint <= held->tail.joints);
 }
 
 void grab_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover)
 {
-    const struct tail *tail = document_tail(world->document, hover->tail);
+    const struct rig *rig = &world->document->rigs[hover->rig];
     struct grab *grab = &stage->grab;
-    *grab = (struct grab){.tail = hover->tail, .joint = hover->joint, .fraction = hover->fraction};
-    grab->axis[AXIS_SIDE] = axis_for(core, tail, grab->joint, AXIS_SIDE);
-    grab->axis[AXIS_UP] = axis_for(core, tail, grab->joint, AXIS_UP);
+    struct strand strand;
+    *grab = (struct grab){.rig = hover->rig, .joint = hover->joint, .fraction = hover->fraction};
+    if (!strand_pose(stage, core, world, grab->rig, core->playback.position, NULL, &strand)) return;
+    grab->axis[AXIS_SIDE] = axis_for(core, rig, &strand, grab->joint, AXIS_SIDE);
+    grab->axis[AXIS_UP] = axis_for(core, rig, &strand, grab->joint, AXIS_UP);
     if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
         grab->axis[AXIS_UP].active = false;
     }
-    follow_stop(stage, grab->tail);
+    if (rig->kind == RIG_TAIL) follow_stop(stage, document_rig_number(world->document, grab->rig));
     grab->sample = sample_for(stage, core, world->document);
     core->playback.playing = false;
     core->playback.position = grab->sample;
     grab->start[0] = hover->x;
     grab->start[1] = hover->y;
-    struct rig_pose pose;
-    stage_pose_tail(stage, core, world, grab->tail, core->playback.position, NULL, &pose);
-    stage_project_pose(stage, core, &pose.tail, grab->joint, grab->fraction, grab->start);
+    if (!strand_pose(stage, core, world, grab->rig, core->playback.position, NULL, &strand)) return;
+    strand_project(stage, core, &strand, grab->joint, grab->fraction, grab->start);
 }
 
 /// Takes the present value over and learns from the last step how Im x follows it.
@@ -98,12 +105,12 @@ static void derivative(const struct stage *stage, const struct core *core, const
                        const struct grab_axis *axis, const float at[2], double response[2])
 {
     const struct grab *grab = &stage->grab;
-    struct rig_pose pose;
+    struct strand strand;
     float moved[2] = {at[0], at[1]};
     double change = PROBE * axis->values_per_radian;
     const struct what_if what_if = {axis->spline, change, change * axis->turn};
-    stage_pose_tail(stage, core, world, grab->tail, core->playback.position, &what_if, &pose);
-    stage_project_pose(stage, core, &pose.tail, grab->joint, grab->fraction, moved);
+    if (strand_pose(stage, core, world, grab->rig, core->playback.position, &what_if, &strand))
+        strand_project(stage, core, &strand, grab->joint, grab->fraction, moved);
     response[0] = (moved[0] - at[0]) / PROBE;
     response[1] = (moved[1] - at[1]) / PROBE;
 }
@@ -156,11 +163,11 @@ void grab_apply(struct stage *stage, struct core *core, const struct editor_worl
     const struct drag *drag = &core->drag;
     if (drag->kind != DRAG_GRAB || !drag->moved) return;
     if (!grab->axis[AXIS_SIDE].active && !grab->axis[AXIS_UP].active) return;
-    if (!grab_holds(world->document, grab->tail, grab->joint)) return;
-    struct rig_pose pose;
+    if (!grab_holds(world->document, grab->rig, grab->joint)) return;
+    struct strand strand;
     float at[2];
-    stage_pose_tail(stage, core, world, grab->tail, core->playback.position, NULL, &pose);
-    if (!stage_project_pose(stage, core, &pose.tail, grab->joint, grab->fraction, at)) return;
+    if (!strand_pose(stage, core, world, grab->rig, core->playback.position, NULL, &strand)) return;
+    if (!strand_project(stage, core, &strand, grab->joint, grab->fraction, at)) return;
     double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
     if (grab->applied && hypot(miss[0], miss[1]) < CLOSE) return;
     double column[2][2] = {{0}}, step[2];

@@ -43,9 +43,9 @@ int record_simplify(const double *values, int count, double tolerance, wiggly_me
 /// the motion.
 void record_keep(struct stage *stage, struct core *core, const struct editor_world *world);
 
-/// Whether a tail is in the document and has the joint.
-bool grab_holds(const struct document *document, int tail, int joint);
-/// Starts to pull a tail; edits nothing until the pointer moves.
+/// Whether a tail or chain is in the document and has the joint.
+bool grab_holds(const struct document *document, int rig, int joint);
+/// Starts to pull a tail or chain; edits nothing until the pointer moves.
 void grab_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover);
 /// One step towards the pointer; needs the pose of the last solved frame.
 void grab_apply(struct stage *stage, struct core *core, const struct editor_world *world);

@@ -1,5 +1,6 @@
 /// Imported characters on the stage.
 #include "base/hash.h"
+#include "editor/stage/bones.h"
 #include "editor/stage/rigs.h"
 #include "model/vector.h"
 #include <math.h>
@@ -50,6 +51,7 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
     *shown = (struct stage_model){
         .gltf = &posed.model.imported->gltf, .pose = posed.model.pose, .ground = posed.model.ground};
     memcpy(shown->root, posed.model.root, sizeof shown->root);
+    bones_add(stage, rig, &posed);
     rig_bounds(&posed, shown->lo, shown->hi);
     add_shadows(view, shown);
 }

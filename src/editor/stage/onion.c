@@ -1,11 +1,13 @@
-/// Onion skin: light proxies of the tail, an outline each, at the knots around the playhead.
+/// Onion skin: light proxies of the tail (an outline each) or chain (a line each) at the knots around the playhead.
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/stage/overlays.h"
 #include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
+#include "editor/stage/strand.h"
 #include "model/creature.h"
+#include "model/vector.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdlib.h>
@@ -21,11 +23,12 @@ static const double FROM = 0.16,
                     TO = 0.985; ///< shares of the length: outside of the body, and where the rounded tip begins
 static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first and of the last skin
 
-int overlay_tail(const struct stage *stage, const struct core *core, const struct document *document)
+int overlay_rig(const struct stage *stage, const struct core *core, const struct document *document)
 {
-    int tail, channel;
-    if (!core_active_channel(core, document, &tail, &channel)) tail = document_tail(document, 0) ? 0 : -1;
-    return tail < stage->view.tail_count ? tail : -1;
+    int rig, channel;
+    if (!core_active_channel(core, document, &rig, &channel))
+        rig = stage->strand_count > 0 ? stage->strands[0].rig : -1;
+    return rig >= 0 && strand_of(stage, rig) ? rig : -1;
 }
 
 /// The spline whose knots are shown: the active one, or where it has none, the one that it swings about.
@@ -63,7 +66,9 @@ static bool station(const struct stage *stage, const struct core *core, const st
     const struct stage_view *view = &stage->view;
     double at = share * (pose->count - 1);
     int joint = at >= pose->count - 1 ? pose->count - 2 : (int)at;
-    if (!stage_project_pose(stage, core, pose, joint, at - joint, xy)) return false;
+    const vec3s from = vec3_from(pose->matrix[joint] + 12), to = vec3_from(pose->matrix[joint + 1] + 12);
+    const vec3s point = glms_vec3_lerp(from, to, (float)(at - joint));
+    if (!stage_project_point(stage, core->layout.stage, point.raw, xy)) return false;
     const float depth = camera_depth(view->view, view->eye, pose->matrix[joint] + 12);
     float metres =
         creature_tail_radius((float)share * CREATURE_TAIL_LENGTH) * pose_length(pose) / CREATURE_TAIL_LENGTH;
@@ -96,23 +101,33 @@ static bool outline(const struct stage *stage, const struct core *core, const st
     return true;
 }
 
+/// The outline of a tail, the line of a chain's bones; how many points, 0 where a part is behind the eye.
+static int lay_out(const struct stage *stage, const struct core *core, const struct rig_pose *pose, float points[][2])
+{
+    if (pose->kind == RIG_TAIL) return outline(stage, core, &pose->tail, points) ? OUTLINE : 0;
+    for (int n = 0; n < pose->chain.count; n++) {
+        if (!stage_project_point(stage, core->layout.stage, pose->chain.point[n], points[n])) return 0;
+    }
+    return pose->chain.count;
+}
+
 void onion_show(const struct stage *stage, struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
     const struct spline *spline = keyed_spline(core, world);
-    int tail = overlay_tail(stage, core, document), samples[MAX_SKINS];
-    if (!core->overlays.onion || !spline || tail < 0) return;
+    int rig = overlay_rig(stage, core, document), samples[MAX_SKINS];
+    if (!core->overlays.onion || !spline || rig < 0) return;
     int count = nearest_knots(document, spline, core->playback.position, samples);
     uint32_t color = arrange_color(document, core->active);
     const struct posing posing = stage_posing(core, world);
-    const int rig = document_find_rig(document, RIG_TAIL, tail);
     for (int i = count - 1; i >= 0; i--) {
         struct rig_pose pose;
-        float points[OUTLINE][2];
-        rig_pose(&posing, rig, samples[i], NULL, &pose);
-        if (!outline(stage, core, &pose.tail, points)) continue;
+        float points[OUTLINE + ANGLES_MAX_JOINTS][2];
+        if (!rig_pose(&posing, rig, samples[i], NULL, &pose)) continue;
+        const int length = lay_out(stage, core, &pose, points);
+        if (length == 0) continue;
         float share = count > 1 ? (float)i / (float)(count - 1) : 0;
-        drawlist_line(&core->list, points[0], OUTLINE, 1.25f,
+        drawlist_line(&core->list, points[0], length, 1.25f,
                       theme_fade(color, NEAREST + (FARTHEST - NEAREST) * share));
     }
 }

@@ -4,12 +4,12 @@
 
 #include "editor/stage/state.h"
 
-/// The tail that the active spline moves, else the first; -1 where there is none to be seen.
-int overlay_tail(const struct stage *stage, const struct core *core, const struct document *document);
-/// Onion skin (O): the outline of the tail at the active spline's knots, those nearest to the playhead.
+/// The tail or chain that the active spline moves, else the first; -1 where there is none to be seen.
+int overlay_rig(const struct stage *stage, const struct core *core, const struct document *document);
+/// Onion skin (O): the outline of the tail, or the line of the chain, at the active spline's knots, those nearest to the playhead.
 void onion_show(const struct stage *stage, struct core *core, const struct editor_world *world);
 
-/// Motion arc (P): where the tip of the tail goes within two seconds of the playhead, with a mark at each frame.
+/// Motion arc (P): where the tip of the tail or chain goes within two seconds of the playhead, with a mark at each frame.
 void trail_show(struct stage *stage, struct core *core, const struct editor_world *world);
 
 /// Where the legend is, when it is shown.

@@ -22,9 +22,6 @@ extern const struct stage_kind stage_tails, stage_characters, stage_models, stag
 struct posing stage_posing(const struct core *core, const struct editor_world *world);
 /// Where a point of the world is on the screen, the stage being drawn in `r`; false where it is behind the eye.
 bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2]);
-/// The same as stage_project() of any pose.
-bool stage_project_pose(const struct stage *stage, const struct core *core, const struct pose *pose, int joint,
-                        double fraction, float xy[2]);
 
 /// Poses one tail with what is moved by hand; `change` may be NULL.
 void stage_pose_tail(const struct stage *stage, const struct core *core, const struct editor_world *world, int tail,

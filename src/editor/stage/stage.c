@@ -1,8 +1,10 @@
 /// The stage panel: its beginning and end, the mouse on it, what its drags do, and what time does.
 #include "editor/stage/stage.h"
 #include "editor/core/drag.h"
+#include "editor/stage/bones.h"
 #include "editor/stage/brush.h"
 #include "editor/stage/hold.h"
+#include "editor/stage/strand.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,40 +23,26 @@ void stage_destroy(struct stage *stage)
     free(stage);
 }
 
-void stage_open(struct stage *stage) { memset(stage->follow, 0, sizeof stage->follow); }
+void stage_open(struct stage *stage)
+{
+    memset(stage->follow, 0, sizeof stage->follow);
+    stage->strand_count = stage->bone_count = 0;
+}
 
 const struct stage_view *stage_seen(const struct stage *stage) { return &stage->view; }
 
-static const float GRAB_REACH = 16;   ///< pixels from the tail's centre line
 static const double ZOOM_STEP = 0.12; ///< of a wheel's notch, as a power of e
 
-/// How far along the segment a … b the point nearest to p is, 0 … 1.
-static float nearest_on_segment(const float a[2], const float b[2], const float p[2])
+/// The nearer of two on the screen; the first where only that is there.
+static struct hover nearer(struct hover a, struct hover b, float x, float y)
 {
-    float dx = b[0] - a[0], dy = b[1] - a[1];
-    float square = dx * dx + dy * dy;
-    float along = (p[0] - a[0]) * dx + (p[1] - a[1]) * dy;
-    return square > 0 ? fmaxf(0, fminf(1, along / square)) : 0;
+    if (b.kind == HOVER_NONE) return a;
+    return a.kind == HOVER_NONE || hypotf(b.x - x, b.y - y) < hypotf(a.x - x, a.y - y) ? b : a;
 }
 
 struct hover stage_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
-    struct hover hover = {.kind = HOVER_NONE};
-    const float p[2] = {x, y};
-    float best = GRAB_REACH;
-    for (int t = 0; t < stage->view.tail_count; t++) {
-        for (int n = 0; n + 1 < stage->view.tails[t].pose.count; n++) {
-            float a[2], b[2];
-            if (!stage_project(stage, core, t, n, 0, a) || !stage_project(stage, core, t, n, 1, b)) continue;
-            float fraction = nearest_on_segment(a, b, p);
-            float at[2] = {a[0] + (b[0] - a[0]) * fraction, a[1] + (b[1] - a[1]) * fraction};
-            float distance = hypotf(x - at[0], y - at[1]);
-            if (distance >= best) continue;
-            best = distance;
-            hover = (struct hover){
-                .kind = HOVER_JOINT, .tail = t, .joint = n, .fraction = fraction, .x = at[0], .y = at[1]};
-        }
-    }
+    const struct hover hover = nearer(strand_hover(stage, core, x, y), bone_hover(stage, core, x, y), x, y);
     return hover.kind == HOVER_NONE ? body_hover(stage, x, y) : hover;
 }
 
@@ -63,7 +51,8 @@ static struct hover hover_now(const struct stage *stage, const struct core *core
                               float x, float y)
 {
     struct hover hover = stage_hover(stage, core, x, y);
-    if (hover.kind == HOVER_JOINT && !grab_holds(document, hover.tail, hover.joint)) hover.kind = HOVER_NONE;
+    if (hover.kind == HOVER_JOINT && !grab_holds(document, hover.rig, hover.joint)) hover.kind = HOVER_NONE;
+    if (hover.kind == HOVER_BONE && !bone_exists(document, hover.model)) hover.kind = HOVER_NONE;
     if (hover.kind == HOVER_BODY && !document_tail(document, hover.tail)) hover.kind = HOVER_NONE;
     return hover;
 }
@@ -78,11 +67,13 @@ void stage_press(struct stage *stage, struct core *core, const struct editor_wor
     }
     if (brush_press(stage, core, world, event)) return;
     struct hover hover = hover_now(stage, core, world->document, event->x, event->y);
+    stage->pressed = hover;
     if (event->button == BUTTON_LEFT && hover.kind == HOVER_BODY) {
         drag_begin(core, DRAG_BODY, "Move body", event);
         body_begin(stage, core, hover.tail);
     } else if (event->button == BUTTON_LEFT && hover.kind == HOVER_JOINT) {
-        drag_begin(core, DRAG_GRAB, "Pull tail", event);
+        const bool is_chain = world->document->rigs[hover.rig].kind == RIG_CHAIN;
+        drag_begin(core, DRAG_GRAB, is_chain ? "Pull chain" : "Pull tail", event);
         grab_begin(stage, core, world, &hover);
     } else {
         drag_begin(core, DRAG_ORBIT, NULL, event);
@@ -134,6 +125,7 @@ enum drag_answer stage_drag_event(struct stage *stage, struct core *core, const 
 void stage_drag_end(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
 {
     if (core->drag.kind == DRAG_BODY && core->drag.moved) body_release(stage, core, world, keep);
+    if (!core->drag.moved && core->drag.button == BUTTON_LEFT && keep) bone_click(stage, core, world);
     if (core->drag.kind == DRAG_PAINT) brush_end(stage, core, world, keep);
 }
 

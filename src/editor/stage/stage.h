@@ -17,6 +17,8 @@ void stage_show_caption(struct core *core, const struct document *document, floa
 /// Where a point of its surface is on the screen: `uv` across and up its box at rest, seen from the front. false where it is not
 /// shown.
 bool stage_character_point(const struct stage *stage, int character, const double uv[2], float xy[2]);
+/// The middle of a bone of a model rig on the screen; false where it is not shown.
+bool stage_bone_point(const struct stage *stage, const struct core *core, int model, int node, float xy[2]);
 /// Whether anything still swings.
 bool stage_is_moving(const struct stage *stage);
 /// Onion skin on, off.
@@ -44,10 +46,10 @@ void stage_approach(struct stage *stage, float factor);
 void stage_pose(struct stage *stage, struct core *core, const struct editor_world *world, bool covered);
 /// What is drawn over the picture.
 void stage_show(struct stage *stage, struct core *core, const struct editor_world *world);
-/// Where a point of the last pose is on the screen: `fraction` 0 … 1 of the way from joint to joint + 1.
-bool stage_project(const struct stage *stage, const struct core *core, int tail, int joint, double fraction,
+/// Where a point of a tail or chain is on the screen, as of the last pose: `fraction` 0 … 1 of the way from joint to joint + 1.
+bool stage_project(const struct stage *stage, const struct core *core, int rig, int joint, double fraction,
                    float xy[2]);
-/// The nearest point of a tail, where it is near enough to be held.
+/// What can be held or clicked at a point: the nearest of tails and bones, else a body.
 struct hover stage_hover(const struct stage *stage, const struct core *core, float x, float y);
 /// A press on the stage.
 void stage_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event);

@@ -1,15 +1,14 @@
 /// Poses the rigs, drives the camera, and draws over the picture.
 #include "base/hash.h"
 #include "editor/core/drag.h"
+#include "editor/stage/bones.h"
 #include "editor/stage/brush.h"
 #include "editor/stage/hold.h"
 #include "editor/stage/overlays.h"
 #include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
-#include "model/vector.h"
 #include "ui/font.h"
 #include "ui/theme.h"
-#include <assert.h>
 #include <math.h>
 
 struct posing stage_posing(const struct core *core, const struct editor_world *world)
@@ -22,23 +21,6 @@ bool stage_project_point(const struct stage *stage, struct rect r, const float p
 {
     const float viewport[4] = {r.x, r.y, r.w, r.h};
     return camera_project(stage->view.view, stage->view.projection, viewport, point, xy);
-}
-
-bool stage_project_pose(const struct stage *stage, const struct core *core, const struct pose *pose, int joint,
-                        double fraction, float xy[2])
-{
-    assert(joint >= 0 && joint < pose->count);
-    int next = joint + 1 < pose->count ? joint + 1 : joint;
-    const vec3s from = vec3_from(pose->matrix[joint] + 12), to = vec3_from(pose->matrix[next] + 12);
-    const vec3s world = glms_vec3_lerp(from, to, (float)fraction);
-    return stage_project_point(stage, core->layout.stage, world.raw, xy);
-}
-
-bool stage_project(const struct stage *stage, const struct core *core, int tail, int joint, double fraction,
-                   float xy[2])
-{
-    if (tail >= stage->view.tail_count || joint >= stage->view.tails[tail].pose.count) return false;
-    return stage_project_pose(stage, core, &stage->view.tails[tail].pose, joint, fraction, xy);
 }
 
 enum { RING_SIZE = 13 };
@@ -102,6 +84,7 @@ void stage_pose(struct stage *stage, struct core *core, const struct editor_worl
     struct stage_view *view = &stage->view;
     const struct document *document = world->document;
     view->tail_count = view->character_count = view->model_count = view->blob_count = 0;
+    stage->strand_count = stage->bone_count = 0;
     for (int kind = 0; kind < RIG_KINDS; kind++) {
         int rig = document_next_rig(document, (enum rig_kind)kind, 0);
         for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, (enum rig_kind)kind, rig + 1)) {
@@ -115,12 +98,12 @@ void stage_pose(struct stage *stage, struct core *core, const struct editor_worl
     brush_pose(stage, core, world, covered);
 }
 
-/// A ring where the tail can be taken hold of.
+/// A ring where a tail or chain can be taken hold of.
 static void show_hold(struct stage *stage, struct core *core)
 {
     float xy[2] = {core->hover.x, core->hover.y};
     if (core->drag.kind == DRAG_GRAB) {
-        if (!stage_project(stage, core, stage->grab.tail, stage->grab.joint, stage->grab.fraction, xy)) return;
+        if (!stage_project(stage, core, stage->grab.rig, stage->grab.joint, stage->grab.fraction, xy)) return;
     } else if (core->hover.kind != HOVER_JOINT) {
         return;
     }
@@ -154,6 +137,7 @@ void stage_show(struct stage *stage, struct core *core, const struct editor_worl
     characters_show(stage, core, world);
     brush_show(stage, core, world);
     body_show(stage, core);
+    bones_show(stage, core, world);
     show_hold(stage, core);
     drawlist_set_clip(&core->list, clip);
 }

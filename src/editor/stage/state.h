@@ -27,9 +27,27 @@ struct grab_axis {
     double values_per_radian;   ///< of bend at the grabbed joint
 };
 
-/// The tail held by the pointer.
+enum { STAGE_MAX_STRANDS = 32, STAGE_MAX_BONES = 2048 };
+
+/// A tail or chain as a row of points, from its first joint to its tip.
+struct strand {
+    int rig; ///< in the document
+    bool is_chain;
+    int count;
+    float point[ANGLES_MAX_JOINTS + 1][3]; ///< world
+};
+
+/// A bone of an imported character as it was last posed.
+struct shown_bone {
+    int model, node;  ///< the character's rig, and the node that turns it
+    int chain, joint; ///< the chain that it is of and its number there; −1: none
+    uint32_t color;   ///< of the chain's spline
+    float ends[2][3]; ///< world
+};
+
+/// The tail or chain held by the pointer.
 struct grab {
-    int tail, joint;
+    int rig, joint;
     double fraction;          ///< of the segment after `joint`
     int sample;               ///< on which the knots are set
     float start[2];           ///< where the grabbed point was, pixels
@@ -100,6 +118,11 @@ struct painting {
 struct stage {
     struct stage_view view;
     struct camera camera;
+    struct strand strands[STAGE_MAX_STRANDS]; ///< shown
+    int strand_count;
+    struct shown_bone bones[STAGE_MAX_BONES];
+    int bone_count;
+    struct hover pressed; ///< what the running drag began on
     struct grab grab;
     struct body_drag body_drag;
     struct record record;

@@ -2,6 +2,7 @@
 #include "base/hash.h"
 #include "editor/stage/hold.h"
 #include "editor/stage/rigs.h"
+#include "editor/stage/strand.h"
 #include "model/vector.h"
 #include "rig/shadow.h"
 #include <math.h>
@@ -51,6 +52,7 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
     if (view->tail_count == STAGE_MAX_TAILS) return;
     struct stage_tail *shown = &view->tails[view->tail_count++];
     stage_pose_tail(stage, core, world, n, core->playback.position, NULL, &posed);
+    strand_add(stage, rig, &posed);
     *shown = (struct stage_tail){.joints = tail->joints, .length = (float)tail->length, .pose = posed.tail};
     add_blobs(view, &shown->pose);
 }

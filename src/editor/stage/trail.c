@@ -1,11 +1,13 @@
-/// The motion arc: where the tip of the tail goes, a mark a frame, fading with the distance from the playhead.
+/// The motion arc: where the tip of the tail or chain goes, a mark a frame, fading with the distance from the playhead.
 #include "base/hash.h"
 #include "editor/core/core.h"
 #include "editor/stage/overlays.h"
 #include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
+#include "editor/stage/strand.h"
 #include "ui/theme.h"
 #include <math.h>
+#include <string.h>
 
 enum {
     MAX_REACH = TRAIL_FRAMES / 2 - 1, ///< frames to each side
@@ -16,35 +18,36 @@ enum {
 static const double REACH = 2;                            ///< seconds to each side
 static const float OPACITY = 0.85f, MARK = 2.5f, NOW = 5; ///< pixels of a mark, and of the one at the playhead
 
-/// Whether frames beyond the range are those at its other end: where all that moves the tail loops.
-static bool tail_loops(const struct document *document, const struct tail *tail)
+static bool loops(const struct document *document, int spline)
 {
-    bool loops = tail->channel_count > 0;
-    for (int c = 0; c < tail->channel_count; c++) {
-        loops &= spline_start(&document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
-    }
-    for (int k = 0; k < 3; k++) {
-        int track = tail->position[k].track;
-        loops &= track < 0 || spline_start(&document->splines[track]) == WIGGLY_LOOP;
-    }
-    return loops;
+    return spline < 0 || spline_start(&document->splines[spline]) == WIGGLY_LOOP;
+}
+
+/// Whether frames beyond the range are those at its other end: where all that moves the rig loops. A chain's clip repeats by itself.
+static bool rig_loops(const struct document *document, const struct rig *rig)
+{
+    bool all = rig_input_count(rig) > 0;
+    for (int i = 0; i < rig_input_count(rig); i++) all &= loops(document, rig_input(rig, i));
+    for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++) all &= loops(document, rig->tail.position[k].track);
+    return all;
 }
 
 /// The tip at a frame counted from the first, world; from memory while nothing was edited.
-static const float *tip_at(struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
+static const float *tip_at(struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
                            int frame)
 {
     uint64_t solved = world->evaluation ? world->evaluation->revision : 0;
     uint64_t key = hash_word(hash_word(HASH_START, history_revision(world->history)), solved);
-    key = hash_word(key, (uint64_t)tail << 8 | (uint64_t)core->look);
+    key = hash_word(key, (uint64_t)rig << 8 | (uint64_t)core->look);
     struct trail_point *point = &stage->trail[(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
     if (point->known && point->key == key && point->frame == frame) return point->tip;
     struct rig_pose pose;
     const struct posing posing = stage_posing(core, world);
-    rig_pose(&posing, document_find_rig(world->document, RIG_TAIL, tail), (double)frame * world->document->substeps,
-             NULL, &pose);
     *point = (struct trail_point){.known = true, .key = key, .frame = frame};
-    for (int k = 0; k < 3; k++) point->tip[k] = pose.tail.matrix[pose.tail.count - 1][12 + k];
+    if (!rig_pose(&posing, rig, (double)frame * world->document->substeps, NULL, &pose)) return point->tip;
+    const float *tip =
+        pose.kind == RIG_CHAIN ? pose.chain.point[pose.chain.count - 1] : pose.tail.matrix[pose.tail.count - 1] + 12;
+    memcpy(point->tip, tip, sizeof point->tip);
     return point->tip;
 }
 
@@ -95,11 +98,10 @@ static void show_line(struct core *core, float points[][2], int first, int count
 }
 
 /// A ring round the tip as it is now, which a body that is being dragged takes along.
-static void show_now(struct stage *stage, struct core *core, int tail)
+static void show_now(struct stage *stage, struct core *core, int rig)
 {
     float xy[2];
-    const struct pose *pose = &stage->view.tails[tail].pose;
-    if (!stage_project(stage, core, tail, pose->count - 1, 0, xy)) return;
+    if (!stage_project(stage, core, rig, strand_of(stage, rig)->count - 1, 0, xy)) return;
     struct rect ring = {xy[0] - NOW, xy[1] - NOW, 2 * NOW, 2 * NOW};
     drawlist_rounded_line(&core->list, ring, NOW, 1.5f, theme()->playhead);
 }
@@ -107,12 +109,12 @@ static void show_now(struct stage *stage, struct core *core, int tail)
 void trail_show(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
-    int tail = overlay_tail(stage, core, document);
-    if (!core->overlays.trail || tail < 0) return;
+    int rig = overlay_rig(stage, core, document);
+    if (!core->overlays.trail || rig < 0) return;
     double now = core->playback.position / document->substeps;
     double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
     int first = (int)ceil(now - reach), last = (int)floor(now + reach);
-    if (!tail_loops(document, document_tail(document, tail))) {
+    if (!rig_loops(document, &document->rigs[rig])) {
         first = first < 0 ? 0 : first;
         last =
             last < document->last_frame - document->first_frame ? last : document->last_frame - document->first_frame;
@@ -120,13 +122,13 @@ void trail_show(struct stage *stage, struct core *core, const struct editor_worl
     float screen[TRAIL_FRAMES][2], points[PIECES * TRAIL_FRAMES][2];
     int count = 0;
     for (int frame = first; frame <= last; frame++) {
-        if (!stage_project_point(stage, core->layout.stage, tip_at(stage, core, world, tail, frame), screen[count++]))
+        if (!stage_project_point(stage, core->layout.stage, tip_at(stage, core, world, rig, frame), screen[count++]))
             return;
     }
     if (count == 0) return;
     show_line(core, points, first, lay_out(screen, count, points), now, reach);
     show_marks(core, screen, first, count, now, reach);
-    show_now(stage, core, tail);
+    show_now(stage, core, rig);
 }
 
 void stage_toggle_trail(struct core *core)

@@ -42,7 +42,11 @@ static const char *hover_hint(const struct core *core, const struct document *do
     case HOVER_UNITS:
         return "Click to switch between frames and seconds (U)";
     case HOVER_JOINT:
-        return "Drag the tail to set the knot at the playhead";
+        return document->rigs[core->hover.rig].kind == RIG_CHAIN
+                   ? "Drag the chain to set the knot at the playhead; click to select the bone"
+                   : "Drag the tail to set the knot at the playhead";
+    case HOVER_BONE:
+        return "Click to select this bone";
     case HOVER_BODY:
         return "Drag the body and the tail follows through (X or Y locks an axis, R records)";
     case HOVER_PLAY:
@@ -54,6 +58,10 @@ static const char *hover_hint(const struct core *core, const struct document *do
     case HOVER_NONE:
         break;
     }
+    if (core->bone.any)
+        return "J makes a chain from this bone to its tip, Shift+J one that follows through; Esc lets go";
+    if (document_next_rig(document, RIG_MODEL, 0) >= 0)
+        return "Point at a bone and click it to make a chain. F1 shows all keys";
     if (document->spline_count == 0) return "Ctrl+O opens a scene.  F1 shows all keys";
     if (document_next_rig(document, RIG_TAIL, 0) < 0) return "Drag a knot.  Space plays, F1 shows all keys";
     return "Drag a knot or the tail. Space plays, F1 shows all keys";

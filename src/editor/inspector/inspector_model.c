@@ -1,0 +1,172 @@
+/// The inspector's section on imported characters: what they are, which clip they play, where they stand, and the selected bone.
+#include "editor/core/bones.h"
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX_CLIPS = 256 }; ///< in the list to choose from
+
+static const char clip_list[] = "model.clips";
+
+/// The rig that is shown: that of the selected bone, else the one chosen here.
+static int shown_model(const struct inspection *in)
+{
+    int model;
+    struct inspector *inspector = in->inspector;
+    if (bones_selected(in->core, in->world, &model) >= 0) inspector->model = in->core->bone.model;
+    model = document_find_rig(in->document, RIG_MODEL, inspector->model);
+    if (model < 0) inspector->model = 0;
+    return model < 0 ? document_find_rig(in->document, RIG_MODEL, 0) : model;
+}
+
+static struct edit model_edit(const struct inspection *in, enum edit_kind kind)
+{
+    struct edit edit = core_edit_of(kind, in->core->active);
+    edit.rig = shown_model(in);
+    return edit;
+}
+
+/// A row for each where there is a choice.
+static void build_rows(struct inspection *in)
+{
+    const struct document *document = in->document;
+    int rig = document_count_rigs(document, RIG_MODEL) > 1 ? document_next_rig(document, RIG_MODEL, 0) : -1;
+    for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
+        char name[32];
+        snprintf(name, sizeof name, "model.%d", n);
+        const char *text = rig_title(&document->rigs[rig]);
+        if (!ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, text, 0, n == in->inspector->model)) continue;
+        bones_clear(in->core);
+        in->inspector->model = n;
+    }
+}
+
+static void build_file(struct inspection *in, const struct model_rig *rig, const struct imported *shown)
+{
+    const char *slash = strrchr(rig->model, '/');
+    struct rect r = inspector_labelled(in, "file");
+    if (ui_hovered(in->ui, r)) in->ui->hint = "The glTF file that shows this character";
+    ui_label(in->ui, r, slash ? slash + 1 : rig->model, theme()->text);
+    if (!shown) ui_paragraph(in->ui, "wiggly could not read this file.", theme()->warning);
+    if (!shown || !shown->gltf.not_shown) return;
+    char text[512];
+    snprintf(text, sizeof text, "Not shown: %.400s.", shown->gltf.not_shown);
+    ui_paragraph(in->ui, text, theme()->text_dim);
+}
+
+static void build_clip(struct inspection *in, const struct model_rig *rig, const struct imported *shown)
+{
+    if (!shown || shown->gltf.clip_count == 0) return;
+    struct rect r = inspector_labelled(in, "clip");
+    if (ui_hovered(in->ui, r)) in->ui->hint = "The animation of the file that it plays, over and over";
+    ui_dropdown(in->ui, r, clip_list, in->inspector->model, rig->clip ? rig->clip : "None", 0);
+}
+
+void inspector_model_lists(struct inspection *in)
+{
+    const int model = shown_model(in);
+    const struct imported *shown = model >= 0 ? bones_character(in->world, model) : NULL;
+    if (!ui_popup_is_open(in->ui, clip_list) || !shown) return;
+    const struct gltf *gltf = &shown->gltf;
+    const char *clip = in->document->rigs[model].model.clip;
+    struct ui_item items[MAX_CLIPS + 1] = {{"none", "None", 0}};
+    int count = 1;
+    for (int c = 0; c < gltf->clip_count && c < MAX_CLIPS; c++)
+        items[count++] = (struct ui_item){gltf->clips[c].name, gltf->clips[c].name, 0};
+    const int picked = ui_popup_list(in->ui, clip_list, items, count, clip ? gltf_find_clip(gltf, clip) + 1 : 0);
+    if (picked < 0) return;
+    struct edit edit = model_edit(in, EDIT_CLIP);
+    edit.text = picked > 0 ? gltf->clips[picked - 1].name : NULL;
+    core_step(in->core, in->world, "Choose clip", 0, &edit);
+}
+
+/// A number of its place; `value` is in `contents`.
+static void build_number(struct inspection *in, const struct ui_number *number, const struct rig *contents,
+                         double *value)
+{
+    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), number, value);
+    struct edit edit = model_edit(in, EDIT_PLACE);
+    edit.contents = contents;
+    inspector_change(in, change, "Place character", number->name, &edit);
+}
+
+static void build_place(struct inspection *in)
+{
+    static const struct ui_number position = {
+        .unit = "m", .lowest = -1e6, .highest = 1e6, .fallback = 0, .step = 0.01, .decimals = 3};
+    static const struct ui_number scale = {.name = "model.scale",
+                                           .label = "scale",
+                                           .hint = "Times the size that the file gives it",
+                                           .lowest = 1e-9,
+                                           .highest = 1e9,
+                                           .fallback = 1,
+                                           .step = 0.01,
+                                           .decimals = 3};
+    static const struct ui_number turn = {.name = "model.turn",
+                                          .label = "turn",
+                                          .unit = "°",
+                                          .hint = "About the vertical",
+                                          .minimum = -180,
+                                          .maximum = 180,
+                                          .lowest = -36000,
+                                          .highest = 36000,
+                                          .fallback = 0,
+                                          .step = 1};
+    static const char *const names[] = {"model.x", "model.y", "model.z"};
+    static const char *const hints[] = {"Where it stands along x", "Height of what it stands on",
+                                        "Where it stands along z"};
+    for (int k = 0; k < 3; k++) {
+        struct rig contents = in->document->rigs[shown_model(in)];
+        struct ui_number number = position;
+        number.name = names[k];
+        number.label = coordinate_name(k);
+        number.hint = hints[k];
+        build_number(in, &number, &contents, &contents.model.position[k]);
+    }
+    struct rig contents = in->document->rigs[shown_model(in)];
+    build_number(in, &scale, &contents, &contents.model.scale);
+    contents = in->document->rigs[shown_model(in)];
+    build_number(in, &turn, &contents, &contents.model.turn);
+}
+
+/// The selected bone, and what can be made of it.
+static void build_bone(struct inspection *in)
+{
+    static const struct {
+        const char *name, *label, *hint;
+        bool follow;
+    } buttons[] = {
+        {"bone.chain", "Make chain", "From this bone to its tip, bent by a new spline (J)", false},
+        {"bone.follow", "With follow-through", "The same, swinging after the motion of the clip (Shift+J)", true},
+    };
+    int model;
+    const int node = bones_selected(in->core, in->world, &model);
+    struct rect r = inspector_labelled(in, "bone");
+    if (node < 0) {
+        ui_label(in->ui, r, "click one on the stage", theme()->text_dim);
+        return;
+    }
+    ui_label(in->ui, r, bones_character(in->world, model)->gltf.nodes[node].name, theme()->text);
+    struct rect row = ui_row(in->ui, UI_ROW);
+    const float widths[2] = {row.w * 0.38f, row.w * 0.62f - 6};
+    row.w = 0;
+    for (size_t i = 0; i < 2; i++) {
+        struct rect button = {row.x, row.y + 2, widths[i], row.h - 4};
+        row.x += widths[i] + 6;
+        if (ui_hovered(in->ui, button)) in->ui->hint = buttons[i].hint;
+        if (ui_button(in->ui, button, buttons[i].name, buttons[i].label, false))
+            bones_make_chain(in->core, in->world, buttons[i].follow);
+    }
+}
+
+void inspector_model(struct inspection *in)
+{
+    build_rows(in);
+    const int model = shown_model(in);
+    const struct imported *shown = bones_character(in->world, model);
+    build_file(in, &in->document->rigs[model].model, shown);
+    build_clip(in, &in->document->rigs[model].model, shown);
+    build_place(in);
+    if (shown) build_bone(in);
+}

@@ -1,0 +1,23 @@
+/// Tails and chains on the stage, as rows of points.
+#ifndef EDITOR_STAGE_STRAND_H
+#define EDITOR_STAGE_STRAND_H
+
+#include "editor/stage/state.h"
+#include "rig/posing.h"
+
+/// Adds one that is shown.
+void strand_add(struct stage *stage, int rig, const struct rig_pose *pose);
+/// The one of a rig as it was last shown, or NULL.
+const struct strand *strand_of(const struct stage *stage, int rig);
+/// Poses one with what is moved by hand; `change` may be NULL. false if its model is missing.
+bool strand_pose(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
+                 double position, const struct what_if *change, struct strand *strand);
+/// Where a point of it is on the screen: `fraction` 0 … 1 of the way from joint to joint + 1. false where it is behind the eye.
+bool strand_project(const struct stage *stage, const struct core *core, const struct strand *strand, int joint,
+                    double fraction, float xy[2]);
+/// How far along the segment a … b the point nearest to p is, 0 … 1.
+float strand_nearest(const float a[2], const float b[2], const float p[2]);
+/// The nearest point of a tail (HOVER_JOINT), or HOVER_NONE. Chains are pointed at by their bones (bone_hover()).
+struct hover strand_hover(const struct stage *stage, const struct core *core, float x, float y);
+
+#endif

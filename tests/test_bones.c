@@ -1,0 +1,313 @@
+/// Bones of an imported character on the stage: pointed at, selected, made into chains, and dragged.
+#include "panel_session.h"
+
+#include "beast.h"
+#include "editor/core/bones.h"
+#include "folder.h"
+#include <stddef.h>
+
+/// The beast on the stage at rest, with a chain in its left ear. The pointer is where it does nothing.
+static void open_beast(struct session *session, const char *chains)
+{
+    char scene[4096];
+    assert_true(beast_write(folder_path("beast.glb")));
+    snprintf(
+        scene, sizeof scene,
+        "{\"wiggly\": 1, \"fps\": 24, \"frames\": [0, 48], \"splines\": [{\"name\": \"flick\", \"frequency\": 1, "
+        "\"damping\": 0.1, \"knots\": []}], \"rigs\": [{\"type\": \"model\", \"name\": \"beast\", \"model\": "
+        "\"%s\"}%s]}",
+        folder_path("beast.glb"), chains);
+    panel_open_models(session, scene);
+    session_move(session, 2, 2);
+    session_frame(session);
+}
+
+#define TAIL                                                                                                         \
+    ", {\"type\": \"chain\", \"name\": \"tail\", \"model\": \"beast\", \"from\": \"tail_1\", \"to\": \"tail_8\", "   \
+    "\"channels\": [{\"spline\": \"flick\", \"axis\": \"side\", \"lag\": 20, \"gain\": 8}]}"
+#define LEFT_EAR                                                                                                     \
+    ", {\"type\": \"chain\", \"name\": \"ear_L\", \"model\": \"beast\", \"from\": \"ear_L_1\", \"to\": "             \
+    "\"ear_L_2\", "                                                                                                  \
+    "\"channels\": [{\"spline\": \"flick\", \"axis\": \"side\", \"lag\": 20, \"gain\": 8}]}"
+
+/// The name of the selected bone, "" for none.
+static const char *selected(const struct session *session)
+{
+    int model;
+    const int node = bones_selected(&session->editor->core, &session->world, &model);
+    return node < 0 ? "" : bones_character(&session->world, model)->gltf.nodes[node].name;
+}
+
+static bool shows_text(const struct session *session, const char *text)
+{
+    const struct drawlist *list = editor_drawlist(session->editor);
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *c = &list->commands[i];
+        if (c->kind == DRAW_TEXT && c->clip.w > 0 && strcmp(list->text + c->first, text) == 0) return true;
+    }
+    return false;
+}
+
+static void test_the_bone_pointed_at_says_its_name_and_a_click_selects_it(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, "");
+    assert_false(shows_text(&s, "neck"));
+    session_point(&s, "bone(neck)");
+    session_frame(&s);
+    assert_int_equal(s.editor->core.hover.kind, HOVER_BONE);
+    assert_true(shows_text(&s, "neck"));
+    assert_string_equal(selected(&s), "");
+    session_click(&s, "bone(neck)");
+    assert_string_equal(selected(&s), "neck");
+    session_click(&s, "bone(leg_FL_2)");
+    assert_string_equal(selected(&s), "leg_FL_2");
+    session_key(&s, KEY_ESCAPE, 0);
+    assert_string_equal(selected(&s), "");
+    session_click(&s, "bone(neck)");
+    session_click(&s, "stage(0.02,0.95)");
+    assert_string_equal(selected(&s), "");
+    session_close(&s);
+}
+
+/// A drag from a bone turns the camera; it is no click.
+static void test_a_drag_from_a_bone_selects_nothing(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, "");
+    session_pull(&s, "bone(neck)", 40, 0, 4);
+    session_release(&s, BUTTON_LEFT);
+    assert_string_equal(selected(&s), "");
+    session_close(&s);
+}
+
+/// Seen from the side both legs lie over each other: the near one is meant.
+static void test_of_bones_over_each_other_the_near_one_is_picked(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, "");
+    const struct stage_view *view = editor_stage(s.editor);
+    for (int turn = 0; turn < 16; turn++) {
+        float left[2], right[2];
+        struct error error;
+        session_key(&s, KEY_LEFT, MOD_CTRL | MOD_SHIFT);
+        if (!editor_target(s.editor, &s.world, "bone(leg_FL_1)", &left[0], &left[1], &error)) continue;
+        if (!editor_target(s.editor, &s.world, "bone(leg_FR_1)", &right[0], &right[1], &error)) continue;
+        if (fabsf(left[0] - right[0]) > 2) continue;
+        session_move(&s, (left[0] + right[0]) / 2, (left[1] + right[1]) / 2);
+        session_frame(&s);
+        session_press(&s, BUTTON_LEFT, 1);
+        session_release(&s, BUTTON_LEFT);
+        assert_string_equal(selected(&s), view->eye[0] > 0 ? "leg_FL_1" : "leg_FR_1");
+    }
+    session_move(&s, 2, 2);
+    session_close(&s);
+}
+
+static void test_a_key_makes_a_chain_to_the_tip_in_one_step(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, "");
+    char *before = session_saved(&s);
+    session_key(&s, 'J', 0);
+    assert_saved(&s, before);
+    session_click(&s, "bone(tail_3)");
+    session_key(&s, 'J', 0);
+    assert_int_equal(s.document->rig_count, 2);
+    const struct rig *made = &s.document->rigs[1];
+    assert_int_equal(made->kind, RIG_CHAIN);
+    assert_string_equal(made->chain.from, "tail_3");
+    assert_string_equal(made->chain.to, "tail_8");
+    assert_true(made->chain.channel_count >= 1);
+    assert_int_equal(s.editor->core.active, made->chain.channels[0].spline);
+    assert_int_equal(s.editor->inspector->rig, 1);
+    assert_one_step(&s, before);
+    session_key(&s, 'Z', MOD_CTRL);
+    assert_string_equal(selected(&s), "tail_3");
+    panel_click(&s, "bone.chain");
+    assert_int_equal(s.document->rig_count, 2);
+    free(before);
+    session_close(&s);
+}
+
+static void test_a_bone_that_branches_is_refused_with_a_sentence(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, "");
+    char *before = session_saved(&s);
+    session_click(&s, "bone(head)");
+    assert_string_equal(selected(&s), "head");
+    session_key(&s, 'J', 0);
+    assert_saved(&s, before);
+    assert_true(s.editor->core.message.is_error);
+    assert_non_null(strstr(s.editor->core.message.text, "\"head\" branches into \"ear_L_1\" and \"ear_R_1\""));
+    free(before);
+    session_close(&s);
+}
+
+/// The grabbed point follows the pointer, by a knot at the playhead; one step, and Esc takes it back.
+static void test_dragging_a_chain_sets_a_knot(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, TAIL);
+    char *before = session_saved(&s);
+    float tip[2];
+    struct error error;
+    session_pull(&s, "chain(tail,0.95)", 0, -30, 12);
+    for (int frame = 0; frame < 60; frame++) session_frame(&s);
+    const float x = s.x, y = s.y;
+    session_release(&s, BUTTON_LEFT);
+    assert_int_equal(s.document->splines[0].knot_count, 1);
+    assert_true(editor_target(s.editor, &s.world, "chain(tail,0.95)", &tip[0], &tip[1], &error));
+    assert_true(hypotf(tip[0] - x, tip[1] - y) < 30); // one axis only: as near as it gets
+    assert_one_step(&s, before);
+    session_key(&s, 'Z', MOD_CTRL);
+    session_pull(&s, "chain(tail,0.8)", 25, 0, 6);
+    session_key(&s, KEY_ESCAPE, 0);
+    assert_saved(&s, before);
+    session_release(&s, BUTTON_LEFT);
+    free(before);
+    session_close(&s);
+}
+
+/// With an axis each way the point comes to the pointer itself.
+static void test_a_chain_of_two_axes_comes_to_the_pointer(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, TAIL);
+    float tip[2];
+    struct error error;
+    session_click(&s, "chain(tail,0.5)");
+    panel_click(&s, "spline.add");
+    panel_click(&s, "channel.add");
+    panel_click(&s, "axis.up");
+    assert_int_equal(s.document->rigs[1].chain.channels[1].axis, AXIS_UP);
+    session_pull(&s, "chain(tail,0.9)", 12, 18, 12);
+    for (int frame = 0; frame < 60; frame++) session_frame(&s);
+    const float x = s.x, y = s.y;
+    session_release(&s, BUTTON_LEFT);
+    assert_true(editor_target(s.editor, &s.world, "chain(tail,0.9)", &tip[0], &tip[1], &error));
+    assert_true(hypotf(tip[0] - x, tip[1] - y) < 1.5f);
+    session_close(&s);
+}
+
+static void test_a_click_on_a_chain_selects_its_bone(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, TAIL LEFT_EAR);
+    char *before = session_saved(&s);
+    session_click(&s, "bone(tail_4)");
+    assert_string_equal(selected(&s), "tail_4");
+    assert_saved(&s, before);
+    free(before);
+    session_close(&s);
+}
+
+static void test_the_inspector_chooses_the_clip(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, "");
+    char *before = session_saved(&s);
+    panel_click(&s, "model.clips.0");
+    panel_click(&s, "item.Nod");
+    assert_string_equal(s.document->rigs[0].model.clip, "Nod");
+    assert_one_step(&s, before);
+    panel_click(&s, "model.clips.0");
+    panel_click(&s, "item.none");
+    assert_null(s.document->rigs[0].model.clip);
+    assert_saved(&s, before);
+    panel_enter(&s, "model.scale", "2");
+    panel_enter(&s, "model.turn", "90");
+    panel_enter(&s, "model.x", "0.5");
+    assert_near(s.document->rigs[0].model.scale, 2, 0);
+    assert_near(s.document->rigs[0].model.turn, 90, 0);
+    assert_near(s.document->rigs[0].model.position[0], 0.5, 0);
+    free(before);
+    session_close(&s);
+}
+
+static void test_a_chain_is_edited_in_the_inspector(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, TAIL);
+    char *before = session_saved(&s);
+    panel_click(&s, "axis.twist");
+    assert_int_equal(s.document->rigs[1].chain.channels[0].axis, AXIS_TWIST);
+    panel_click(&s, "chain.mirror");
+    panel_enter(&s, "chain.turn", "30");
+    panel_enter(&s, "gain", "11");
+    panel_click(&s, "tail.name");
+    session_key(&s, 'A', MOD_CTRL);
+    panel_type(&s, "brush");
+    session_key(&s, KEY_ENTER, 0);
+    const struct rig *rig = &s.document->rigs[1];
+    assert_true(rig->chain.mirror);
+    assert_near(rig->chain.turn, 30, 0);
+    assert_near(rig->chain.channels[0].gain.value[0], 11, 0);
+    assert_string_equal(rig->name, "brush");
+    panel_click(&s, "chain.delete");
+    assert_int_equal(s.document->rig_count, 1);
+    for (int step = 0; step < 6; step++) session_key(&s, 'Z', MOD_CTRL);
+    assert_saved(&s, before);
+    free(before);
+    session_close(&s);
+}
+
+static void test_a_chain_gets_a_twin_on_the_other_side(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, LEFT_EAR);
+    char *before = session_saved(&s);
+    panel_click(&s, "chain.twin");
+    assert_int_equal(s.document->rig_count, 3);
+    const struct rig *twin = &s.document->rigs[2];
+    assert_string_equal(twin->name, "ear_R");
+    assert_string_equal(twin->chain.from, "ear_R_1");
+    assert_string_equal(twin->chain.to, "ear_R_2");
+    assert_true(twin->chain.mirror);
+    assert_int_equal(twin->chain.channels[0].spline, s.document->rigs[1].chain.channels[0].spline);
+    assert_false(panel_shows(&s, "chain.twin")); // there is one now
+    assert_one_step(&s, before);
+    free(before);
+    session_close(&s);
+}
+
+static void test_a_tail_has_no_twin(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, TAIL);
+    assert_true(panel_shows(&s, "chain.delete"));
+    assert_false(panel_shows(&s, "chain.twin"));
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it),
+        cmocka_unit_test(test_a_drag_from_a_bone_selects_nothing),
+        cmocka_unit_test(test_of_bones_over_each_other_the_near_one_is_picked),
+        cmocka_unit_test(test_a_key_makes_a_chain_to_the_tip_in_one_step),
+        cmocka_unit_test(test_a_bone_that_branches_is_refused_with_a_sentence),
+        cmocka_unit_test(test_dragging_a_chain_sets_a_knot),
+        cmocka_unit_test(test_a_chain_of_two_axes_comes_to_the_pointer),
+        cmocka_unit_test(test_a_click_on_a_chain_selects_its_bone),
+        cmocka_unit_test(test_the_inspector_chooses_the_clip),
+        cmocka_unit_test(test_a_chain_is_edited_in_the_inspector),
+        cmocka_unit_test(test_a_chain_gets_a_twin_on_the_other_side),
+        cmocka_unit_test(test_a_tail_has_no_twin),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
