@@ -1,0 +1,196 @@
+/// Chains made for a character of somebody's: names, splines and channels that suit it, motion that follows its clip, one step to undo.
+#include "near.h"
+#include "rig/chain_make.h"
+#include "rig/import.h"
+#include "rig/opened.h"
+#include <math.h>
+#include <string.h>
+
+static const char dog[] = "assets/models/dog.glb";
+
+/// The dog's own scene, with a history whose step is open.
+struct stand {
+    struct opened opened;
+    struct history *history;
+};
+
+static void open_stand(struct stand *stand)
+{
+    struct error error;
+    if (!opened_read(&stand->opened, dog, &error)) fail_msg("%s", error.text);
+    stand->history = history_create();
+    history_begin(stand->history, "Make chain", 0);
+}
+
+static void close_stand(struct stand *stand)
+{
+    if (history_is_open(stand->history)) history_end(stand->history);
+    history_destroy(stand->history);
+    opened_free(&stand->opened);
+}
+
+static const struct chain *make_with_lag(struct stand *stand, const char *from, bool follows, double lag)
+{
+    struct error error;
+    int rig;
+    const struct chain_wish wish = {.from = from, .follows = follows, .lag = lag};
+    if (!chain_make(stand->history, stand->opened.document, stand->opened.models, &wish, &rig, &error))
+        fail_msg("%s", error.text);
+    return &stand->opened.document->rigs[rig].chain;
+}
+
+static const struct chain *make(struct stand *stand, const char *from, bool follows)
+{
+    return make_with_lag(stand, from, follows, 0);
+}
+
+static void test_a_character_opens_as_a_scene(void **state)
+{
+    (void)state;
+    struct error error;
+    struct document *document = import_scene(dog, &error);
+    assert_non_null(document);
+    assert_null(document->path); // saving must not write over the character
+    assert_int_equal(document->rig_count, 1);
+    assert_string_equal(document->rigs[0].name, "dog");
+    assert_string_equal(document->rigs[0].model.clip, "Walk");
+    assert_near(document->fps, 24, 0);
+    assert_int_equal(document->last_frame, 24);
+    document_destroy(document);
+    assert_null(import_scene("assets/models/no.glb", &error));
+    assert_non_null(strstr(error.text, "assets/models/no.glb"));
+}
+
+static void test_a_tail_swings_with_the_walk_and_loops(void **state)
+{
+    (void)state;
+    struct stand stand;
+    struct error error;
+    open_stand(&stand);
+    const struct chain *tail = make(&stand, "tail_1", true);
+    assert_string_equal(tail->to, "tail_8");
+    assert_int_equal(tail->channel_count, 2);
+    assert_int_equal(tail->channels[0].of, PART_DISPLACEMENT);
+    const struct spline *side = &stand.opened.document->splines[tail->channels[0].spline];
+    assert_string_equal(side->name, "tail side");
+    assert_int_equal(spline_start(side), WIGGLY_LOOP);
+    assert_int_equal(side->knot_count, 0);
+    if (!opened_solve(&stand.opened, WIGGLY_CHAIN, &error)) fail_msg("%s", error.text);
+    const wiggly_curve *curve = &stand.opened.evaluation.curves[tail->channels[0].spline];
+    double swing = 0;
+    for (int s = 0; s < stand.opened.evaluation.samples; s++) swing = fmax(swing, fabs(curve->re[s]));
+    assert_true(swing > 0.02); // metres of the tip behind the hips
+    assert_near(curve->total[stand.opened.evaluation.samples - 1], curve->total[0], 1e-9);
+    close_stand(&stand);
+}
+
+/// Metres that the tip of the last rig is off from where the clip alone has it, to the dog's left.
+static double tip_off(const struct stand *stand, int sample)
+{
+    const struct posing unsolved = {.document = stand->opened.document, .models = stand->opened.models};
+    const struct posing posing = opened_posing(&stand->opened);
+    const int rig = stand->opened.document->rig_count - 1;
+    struct rig_pose still, swung;
+    assert_true(rig_pose(&unsolved, rig, sample, NULL, &still));
+    assert_true(rig_pose(&posing, rig, sample, NULL, &swung));
+    const int tip = swung.chain.count - 1;
+    return (double)(swung.chain.point[tip][0] - still.chain.point[tip][0]);
+}
+
+/// For a tail that points to the back, side × along is -x; its spline is in metres that way.
+static void test_the_tip_moves_as_far_as_its_spline(void **state)
+{
+    (void)state;
+    struct stand stand;
+    struct error error;
+    double most = 0;
+    open_stand(&stand);
+    make_with_lag(&stand, "tail_1", true, 1e-6);
+    if (!opened_solve(&stand.opened, WIGGLY_CHAIN, &error)) fail_msg("%s", error.text);
+    for (int s = 0; s < stand.opened.evaluation.samples; s++) {
+        const double x = evaluation_at(&stand.opened.evaluation, 0, s).re;
+        most = fmax(most, fabs(x));
+        assert_near(tip_off(&stand, s), -x, 0.25 * fabs(x) + 0.01);
+    }
+    assert_true(most > 0.05);
+    close_stand(&stand);
+}
+
+static void test_ears_share_splines(void **state)
+{
+    (void)state;
+    struct stand stand;
+    open_stand(&stand);
+    make(&stand, "ear_1_L", false);
+    const int splines = stand.opened.document->spline_count;
+    const struct chain *right = make(&stand, "ear_1_R", false);
+    assert_int_equal(stand.opened.document->spline_count, splines);
+    assert_true(right->mirror);
+    assert_string_equal(right->to, "ear_4_R");
+    assert_int_equal(right->channels[0].spline, splines - 2);
+    close_stand(&stand);
+}
+
+static void test_undo_takes_all_of_it_back(void **state)
+{
+    (void)state;
+    struct stand stand;
+    open_stand(&stand);
+    make(&stand, "tail_1", true);
+    history_end(stand.history);
+    assert_true(history_undo(stand.history, stand.opened.document));
+    assert_int_equal(stand.opened.document->rig_count, 1);
+    assert_int_equal(stand.opened.document->spline_count, 0);
+    assert_true(history_redo(stand.history, stand.opened.document));
+    assert_int_equal(stand.opened.document->spline_count, 2);
+    close_stand(&stand);
+}
+
+static void test_what_cannot_be_a_chain(void **state)
+{
+    (void)state;
+    struct stand stand;
+    struct error error;
+    int rig;
+    open_stand(&stand);
+    const struct chain_wish wishes[] = {{.from = "chest"}, {.from = "tail_8", .to = "tail_1"}, {.from = "wing"}};
+    const char *const sentences[] = {"branches into", "below \"tail_8\"", "a bone called \"wing\""};
+    for (int i = 0; i < 3; i++) {
+        assert_false(chain_make(stand.history, stand.opened.document, stand.opened.models, &wishes[i], &rig, &error));
+        if (!strstr(error.text, sentences[i])) fail_msg("got: %s", error.text);
+    }
+    assert_int_equal(stand.opened.document->rig_count, 1);
+    close_stand(&stand);
+}
+
+static void test_sides_of_names(void **state)
+{
+    (void)state;
+    static const char *const pairs[][2] = {{"ear_1_L", "ear_1_R"},
+                                           {"mixamorig:LeftHand", "mixamorig:RightHand"},
+                                           {"arm.l.002", "arm.r.002"},
+                                           {"R_wing", "L_wing"}};
+    char other[BONE_NAME_SIZE];
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        assert_true(chain_other_side(pairs[i][0], other));
+        assert_string_equal(other, pairs[i][1]);
+        assert_true(chain_other_side(pairs[i][1], other));
+        assert_string_equal(other, pairs[i][0]);
+    }
+    assert_false(chain_other_side("tail_1", other));
+    assert_false(chain_other_side("Roll", other));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_character_opens_as_a_scene),
+        cmocka_unit_test(test_a_tail_swings_with_the_walk_and_loops),
+        cmocka_unit_test(test_the_tip_moves_as_far_as_its_spline),
+        cmocka_unit_test(test_ears_share_splines),
+        cmocka_unit_test(test_undo_takes_all_of_it_back),
+        cmocka_unit_test(test_what_cannot_be_a_chain),
+        cmocka_unit_test(test_sides_of_names),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

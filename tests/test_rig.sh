@@ -1,0 +1,37 @@
+# wiggly rig from the outside: what it lists, what it makes, what it refuses.
+. tests/check.sh
+WIGGLY=${WIGGLY:-build/wiggly}
+dog=assets/models/dog.glb
+
+expect 0 "without -o it lists" "$WIGGLY" rig $dog
+says "the clips" "Walk (1 s)" "$out"
+says "and the bones, each under its parent" "                tail_3" "$out"
+
+expect 0 "a tail and two ears" "$WIGGLY" rig $dog --chain tail_1:tail_8 --chain ear_1_L -c ear_1_R --frequency 2 -o "$scratch/dog.json"
+says "says what was made" "wrote $scratch/dog.json: 3 chains" "$out"
+expect 0 "the scene is sound, and finds its character from there" "$WIGGLY" check "$scratch/dog.json"
+says "with the frequency" '"frequency": 2,' "$(cat "$scratch/dog.json")"
+expect 0 "its splines follow the clip" "$WIGGLY" solve "$scratch/dog.json" -o "$scratch/dog.csv"
+[ "$(awk -F, 'NR > 1 && $3 * $3 > 1e-4' "$scratch/dog.csv" | wc -l)" -gt 5 ]
+ok "and swing" $?
+expect 0 "straight to an animated character" "$WIGGLY" rig $dog --chain tail_1 --clip Trot -o "$scratch/trot.glb"
+expect 0 "which opens" "$WIGGLY" rig "$scratch/trot.glb"
+says "with the clip" "Trot" "$out"
+expect 0 "a clip of its own for knots alone" "$WIGGLY" rig $dog --chain tail_1 --plain -o "$scratch/plain.json"
+grep -q joint "$scratch/plain.json"
+[ $? -eq 1 ]
+ok "follows nothing" $?
+
+expect 1 "a bone that is not there" "$WIGGLY" rig $dog --chain wing -o "$scratch/no.json"
+says "is named" 'expected a bone called "wing", got none' "$err"
+expect 1 "a way that branches" "$WIGGLY" rig $dog --chain chest -o "$scratch/no.json"
+says "says where" '"chest" branches into' "$err"
+expect 1 "a clip that is not there" "$WIGGLY" rig $dog --clip Fly --chain tail_1 -o "$scratch/no.json"
+says "and those that are" 'expected a clip called "Fly"' "$err"
+expect 2 "a chain without a file to write" "$WIGGLY" rig $dog --chain tail_1
+expect 2 "a file that nobody knows" "$WIGGLY" rig $dog --chain tail_1 -o "$scratch/no.fbx"
+expect 2 "what is no character" "$WIGGLY" rig assets/scenes/tail.json
+expect 1 "a character that is not there" "$WIGGLY" rig "$scratch/none.glb"
+[ ! -e "$scratch/no.json" ]
+ok "nothing is written where something is wrong" $?
+exit $((cases_failed > 0))
