@@ -108,6 +108,13 @@ expect 0 "the app exports a table" "$WIGGLY" live $tail --headless --replay "$sc
 "$WIGGLY" export $tail -o "$scratch/out/from_command.csv" --quiet
 cmp "$scratch/out/from_app.csv" "$scratch/out/from_command.csv"
 ok "which is the one that the command writes" $?
+"$WIGGLY" live assets/scenes/dog.json --headless --frames 1 --record "$scratch/begin.txt" >/dev/null 2>&1
+keys "$scratch/out/dog_from_app.glb" >"$scratch/export.txt"
+expect 0 "the app exports the dog" "$WIGGLY" live assets/scenes/dog.json --headless --replay "$scratch/export.txt"
+"$WIGGLY" export assets/scenes/dog.json -o "$scratch/out/dog_from_command.glb" --quiet
+cmp "$scratch/out/dog_from_app.glb" "$scratch/out/dog_from_command.glb"
+ok "whose tail follows the clip as the command has it" $?
+"$WIGGLY" live $tail --headless --frames 1 --record "$scratch/begin.txt" >/dev/null 2>&1
 keys "$scratch/none/walk.glb" >"$scratch/export.txt"
 expect 0 "a folder that is not there stops nothing" "$WIGGLY" live $tail --headless --replay "$scratch/export.txt"
 

@@ -2,7 +2,7 @@
 #include "app/exporting.h"
 #include "app/film.h"
 #include "app/state.h"
-#include "rig/models.h"
+#include "rig/opened.h"
 #include "scene/load.h"
 #include <stdatomic.h>
 #include <stdio.h>
@@ -34,10 +34,8 @@ const int exporting_format_count = sizeof exporting_formats / sizeof *exporting_
 
 struct export_job {
     struct request request;
-    struct document *document; ///< a copy: the user may go on
-    struct models *models;
-    struct evaluation evaluation;
-    struct film *film; ///< while it is drawn
+    struct opened opened; ///< a copy of what is on the table: the user may go on
+    struct film *film;    ///< while it is drawn
     thrd_t thread;
     bool threaded; ///< it is to be waited for
     atomic_long done, total;
@@ -87,7 +85,7 @@ static bool proceed(void *user, long done, long total)
 static bool write_motion(struct export_job *job)
 {
     const struct export_wish *wish = &job->request.wish;
-    const struct posing posing = {.document = job->document, .evaluation = &job->evaluation, .models = job->models};
+    const struct posing posing = opened_posing(&job->opened);
     const struct export_options options = {.rig = wish->rig[0] ? wish->rig : NULL,
                                            .clip = wish->clip[0] ? wish->clip : NULL,
                                            .has_frames = wish->part,
@@ -104,13 +102,9 @@ static bool write_motion(struct export_job *job)
 /// Solves the splines and reads the models.
 static bool prepare(struct export_job *job)
 {
-    struct document *document = job->document;
-    struct error *error = &job->error;
-    if (!models_update(job->models, document, error) || !evaluation_resize(&job->evaluation, document, error))
-        return false;
-    evaluation_update(&job->evaluation, document, NULL, false);
-    models_paint(job->models, document);
-    return true;
+    struct opened *opened = &job->opened;
+    return models_update(opened->models, opened->document, &job->error) &&
+           opened_solve(opened, WIGGLY_CHAIN, &job->error);
 }
 
 static int work(void *user)
@@ -126,9 +120,7 @@ static void destroy(struct export_job *job)
 {
     if (job->threaded) thrd_join(job->thread, NULL);
     film_close(job->film);
-    evaluation_free(&job->evaluation);
-    models_destroy(job->models);
-    document_destroy(job->document);
+    opened_free(&job->opened);
     free(job);
 }
 
@@ -138,9 +130,10 @@ bool exporting_start(struct app *app, const struct request *request, struct erro
     struct export_job *job = calloc(1, sizeof *job);
     if (!job) return fail_no_memory(error, request->path);
     job->request = *request;
-    job->document = copy_document(app->table.document, error);
-    if (job->document && !(job->models = models_create())) fail_no_memory(error, request->path);
-    if (job->models) {
+    struct opened *opened = &job->opened;
+    opened->document = copy_document(app->table.document, error);
+    if (opened->document && !(opened->models = models_create())) fail_no_memory(error, request->path);
+    if (opened->models) {
         job->threaded = thrd_create(&job->thread, work, job) == thrd_success;
         if (!job->threaded) fail(error, ERROR_ENVIRONMENT, "%s: no thread can be started", request->path);
     }
@@ -160,8 +153,9 @@ void exporting_stop(struct app *app)
 static enum film_state begin_film(struct export_job *job)
 {
     const struct export_wish *wish = &job->request.wish;
+    const struct opened *opened = &job->opened;
     const struct editor_world world = {
-        .document = job->document, .evaluation = &job->evaluation, .models = job->models};
+        .document = opened->document, .evaluation = &opened->evaluation, .models = opened->models};
     const struct film_options options = {.width = wish->width,
                                          .height = wish->height,
                                          .has_frames = wish->part,
