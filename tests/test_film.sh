@@ -94,6 +94,23 @@ status=0
 wait $program || status=$?
 is "so does a sequence" "3 walk.mp4" "$status $(ls -A "$scratch/out")"
 
+# The same from the app: Ctrl+E, a name, Enter. The document is the one on the table, edits and all.
+fresh
+expect 0 "a recording to go on from" "$WIGGLY" live $tail --headless --frames 1 --record "$scratch/begin.txt"
+keys() { # <name>: a replay that exports to it
+    sed 's/^frames .*/frames 12/' "$scratch/begin.txt"
+    printf '1 key E ctrl\n1 keyup E\n'
+    for ((i = 0; i < ${#1}; i++)); do printf '2 text U+%04X\n' "'${1:i:1}"; done
+    printf '3 key Enter\n3 keyup Enter\n'
+}
+keys "$scratch/out/from_app.csv" >"$scratch/export.txt"
+expect 0 "the app exports a table" "$WIGGLY" live $tail --headless --replay "$scratch/export.txt" --screenshot "$scratch/app.png"
+"$WIGGLY" export $tail -o "$scratch/out/from_command.csv" --quiet
+cmp "$scratch/out/from_app.csv" "$scratch/out/from_command.csv"
+ok "which is the one that the command writes" $?
+keys "$scratch/none/walk.glb" >"$scratch/export.txt"
+expect 0 "a folder that is not there stops nothing" "$WIGGLY" live $tail --headless --replay "$scratch/export.txt"
+
 if ! command -v ffmpeg >/dev/null || ! command -v ffprobe >/dev/null; then
     echo "# skipped: no films are made, as ffmpeg is missing"
     exit $cases_failed

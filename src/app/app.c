@@ -1,6 +1,5 @@
 /// Starts the app, runs its frames and ends it.
 #include "app/app.h"
-#include "app/exporting.h"
 #include "app/state.h"
 #include "base/clock.h"
 #include "platform/process.h"
@@ -182,7 +181,7 @@ static bool start(struct app *app, struct error *error)
 
 void app_free(struct app *app)
 {
-    exporting_free(app);
+    app_stop_export(app);
     table_free(&app->table);
     draw_destroy(app->draw);
     platform_destroy(app->platform);

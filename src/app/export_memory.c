@@ -1,5 +1,6 @@
 /// The last export in the settings: where to, from which scene, and the choices that suit another scene too.
 #include "app/export_memory.h"
+#include "base/path.h"
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -29,12 +30,15 @@ static void read_text(const struct settings *settings, const char *key, char *te
     if (value && strlen(value) < size) snprintf(text, size, "%s", value);
 }
 
-void export_memory_read(const struct settings *settings, struct export_memory *memory)
+void export_memory_read(const struct settings *settings, const char *scene, struct export_memory *memory)
 {
-    char *wish = (char *)&memory->wish;
+    char *wish = (char *)&memory->wish, open[PATH_LIMIT];
     *memory = (struct export_memory){.path = ""};
     read_text(settings, "export_path", memory->path, sizeof memory->path);
     read_text(settings, "export_scene", memory->scene, sizeof memory->scene);
+    // The dialog knows the scene by the path that it was opened by.
+    if (path_resolve("", scene, open) && strcmp(open, memory->scene) == 0)
+        snprintf(memory->scene, sizeof memory->scene, "%s", scene);
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
         const char *value = settings_get(settings, flags[i].key, 0);
         *(bool *)(void *)(wish + flags[i].offset) = value && strcmp(value, "yes") == 0;
@@ -45,11 +49,19 @@ void export_memory_read(const struct settings *settings, struct export_memory *m
     }
 }
 
-void export_memory_write(struct settings *settings, const struct export_memory *memory)
+/// Absolute, because the next run may begin in another folder.
+static void write_path(struct settings *settings, const char *key, const char *path)
 {
-    const char *wish = (const char *)&memory->wish;
-    settings_set(settings, "export_path", memory->path);
-    settings_set(settings, "export_scene", memory->scene);
+    char absolute[PATH_LIMIT];
+    const bool resolved = path[0] && path_resolve("", path, absolute);
+    settings_set(settings, key, resolved ? absolute : path);
+}
+
+void export_memory_write(struct settings *settings, const struct request *request, const char *scene)
+{
+    const char *wish = (const char *)&request->wish;
+    write_path(settings, "export_path", request->path);
+    write_path(settings, "export_scene", scene);
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
         settings_set(settings, flags[i].key, *(const bool *)(const void *)(wish + flags[i].offset) ? "yes" : "no");
     }

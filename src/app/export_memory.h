@@ -5,8 +5,8 @@
 #include "app/settings.h"
 #include "editor/dialogs/dialog_files.h"
 
-/// What is not in the settings is as in a new dialog.
-void export_memory_read(const struct settings *settings, struct export_memory *memory);
-void export_memory_write(struct settings *settings, const struct export_memory *memory);
+/// What is not in the settings is as in a new dialog. `scene` is the path of the file that is open, or "".
+void export_memory_read(const struct settings *settings, const char *scene, struct export_memory *memory);
+void export_memory_write(struct settings *settings, const struct request *request, const char *scene);
 
 #endif

@@ -11,12 +11,15 @@
 #include <threads.h>
 
 enum { WIDTH = 1280, HEIGHT = 720, SMALL_WIDTH = 640, SMALL_HEIGHT = 360 };
-enum { MORPHS = CHOICE_KEYS | CHOICE_RIG | CHOICE_CLIP | CHOICE_SIGNED, POINTS = CHOICE_KEYS | CHOICE_RIG | CHOICE_ONE };
+enum {
+    MORPHS = CHOICE_KEYS | CHOICE_RIG | CHOICE_CLIP | CHOICE_SIGNED,
+    POINTS = CHOICE_KEYS | CHOICE_RIG | CHOICE_ONE
+};
 
 const struct dialog_format exporting_formats[] = {
     {".glb", "character and motion: Blender, three.js, game engines", .choices = MORPHS | CHOICE_CUBIC},
     {".gltf", "the same as readable text", .choices = MORPHS | CHOICE_CUBIC},
-    {".usda", "character and motion: USD, Houdini, Omniverse", .choices = MORPHS},
+    {".usda", "character and motion: USD, Houdini, Omniverse", .choices = MORPHS & ~CHOICE_CLIP},
     {".bvh", "joints and their motion: motion-capture tools", .choices = POINTS},
     {".csv", "every spline and angle as a table", .choices = CHOICE_KEYS | CHOICE_RIG},
     {".pc2", "every vertex at every key: Blender's Mesh Cache", .choices = POINTS},
@@ -29,7 +32,7 @@ const struct dialog_format exporting_formats[] = {
 };
 const int exporting_format_count = sizeof exporting_formats / sizeof *exporting_formats;
 
-struct exporting {
+struct export_job {
     struct request request;
     struct document *document; ///< a copy: the user may go on
     struct models *models;
@@ -75,17 +78,16 @@ static struct document *copy_document(const struct document *document, struct er
 
 static bool proceed(void *user, long done, long total)
 {
-    struct exporting *exporting = user;
-    atomic_store(&exporting->total, total);
-    atomic_store(&exporting->done, done);
-    return !atomic_load(&exporting->stop);
+    struct export_job *job = user;
+    atomic_store(&job->total, total);
+    atomic_store(&job->done, done);
+    return !atomic_load(&job->stop);
 }
 
-static bool write_motion(struct exporting *exporting)
+static bool write_motion(struct export_job *job)
 {
-    const struct export_wish *wish = &exporting->request.wish;
-    const struct posing posing = {
-        .document = exporting->document, .evaluation = &exporting->evaluation, .models = exporting->models};
+    const struct export_wish *wish = &job->request.wish;
+    const struct posing posing = {.document = job->document, .evaluation = &job->evaluation, .models = job->models};
     const struct export_options options = {.rig = wish->rig[0] ? wish->rig : NULL,
                                            .clip = wish->clip[0] ? wish->clip : NULL,
                                            .has_frames = wish->part,
@@ -95,114 +97,113 @@ static bool write_motion(struct exporting *exporting)
                                            .is_signed = wish->is_signed,
                                            .is_cubic = wish->is_cubic,
                                            .proceed = proceed,
-                                           .user = exporting};
-    return export_write(&posing, exporting->request.path, &options, &exporting->report, &exporting->error);
+                                           .user = job};
+    return export_write(&posing, job->request.path, &options, &job->report, &job->error);
 }
 
 /// Solves the splines and reads the models.
-static bool prepare(struct exporting *exporting)
+static bool prepare(struct export_job *job)
 {
-    struct document *document = exporting->document;
-    struct error *error = &exporting->error;
-    if (!models_update(exporting->models, document, error) ||
-        !evaluation_resize(&exporting->evaluation, document, error))
+    struct document *document = job->document;
+    struct error *error = &job->error;
+    if (!models_update(job->models, document, error) || !evaluation_resize(&job->evaluation, document, error))
         return false;
-    evaluation_update(&exporting->evaluation, document, NULL, false);
-    models_paint(exporting->models, document);
+    evaluation_update(&job->evaluation, document, NULL, false);
+    models_paint(job->models, document);
     return true;
 }
 
 static int work(void *user)
 {
-    struct exporting *exporting = user;
-    exporting->good = prepare(exporting);
-    if (exporting->good && !film_knows(exporting->request.path)) exporting->good = write_motion(exporting);
-    atomic_store(&exporting->ended, true);
+    struct export_job *job = user;
+    job->good = prepare(job);
+    if (job->good && !film_knows(job->request.path)) job->good = write_motion(job);
+    atomic_store(&job->ended, true);
     return 0;
 }
 
-static void destroy(struct exporting *exporting)
+static void destroy(struct export_job *job)
 {
-    if (exporting->threaded) thrd_join(exporting->thread, NULL);
-    film_close(exporting->film);
-    evaluation_free(&exporting->evaluation);
-    models_destroy(exporting->models);
-    document_destroy(exporting->document);
-    free(exporting);
+    if (job->threaded) thrd_join(job->thread, NULL);
+    film_close(job->film);
+    evaluation_free(&job->evaluation);
+    models_destroy(job->models);
+    document_destroy(job->document);
+    free(job);
 }
 
 bool exporting_start(struct app *app, const struct request *request, struct error *error)
 {
-    if (app->exporting) return fail(error, ERROR_INPUT, "Another export is running.");
-    struct exporting *exporting = calloc(1, sizeof *exporting);
-    if (!exporting) return fail_no_memory(error, request->path);
-    exporting->request = *request;
-    exporting->document = copy_document(app->table.document, error);
-    if (exporting->document && !(exporting->models = models_create())) fail_no_memory(error, request->path);
-    if (exporting->models) {
-        exporting->threaded = thrd_create(&exporting->thread, work, exporting) == thrd_success;
-        if (!exporting->threaded) fail(error, ERROR_ENVIRONMENT, "%s: no thread can be started", request->path);
+    if (app->export_job) return fail(error, ERROR_INPUT, "Another export is running.");
+    struct export_job *job = calloc(1, sizeof *job);
+    if (!job) return fail_no_memory(error, request->path);
+    job->request = *request;
+    job->document = copy_document(app->table.document, error);
+    if (job->document && !(job->models = models_create())) fail_no_memory(error, request->path);
+    if (job->models) {
+        job->threaded = thrd_create(&job->thread, work, job) == thrd_success;
+        if (!job->threaded) fail(error, ERROR_ENVIRONMENT, "%s: no thread can be started", request->path);
     }
-    if (!exporting->threaded) {
-        destroy(exporting);
+    if (!job->threaded) {
+        destroy(job);
         return false;
     }
-    app->exporting = exporting;
+    app->export_job = job;
     return true;
 }
 
 void exporting_stop(struct app *app)
 {
-    if (app->exporting) atomic_store(&app->exporting->stop, true);
+    if (app->export_job) atomic_store(&app->export_job->stop, true);
 }
 
-static enum film_state begin_film(struct exporting *exporting)
+static enum film_state begin_film(struct export_job *job)
 {
-    const struct export_wish *wish = &exporting->request.wish;
+    const struct export_wish *wish = &job->request.wish;
     const struct editor_world world = {
-        .document = exporting->document, .evaluation = &exporting->evaluation, .models = exporting->models};
+        .document = job->document, .evaluation = &job->evaluation, .models = job->models};
     const struct film_options options = {.width = wish->width,
                                          .height = wish->height,
                                          .has_frames = wish->part,
                                          .first = wish->first,
                                          .last = wish->last,
                                          .transparent = wish->transparent};
-    exporting->film = film_open(&world, exporting->request.path, &options, &exporting->error);
-    return exporting->film ? FILM_RUNS : FILM_FAILED;
+    job->film = film_open(&world, job->request.path, &options, &job->error);
+    return job->film ? FILM_RUNS : FILM_FAILED;
 }
 
 /// FILM_RUNS while there is more to do, of whichever format.
-static enum film_state go_on(struct exporting *exporting, bool wait)
+static enum film_state go_on(struct export_job *job, bool wait)
 {
-    if (exporting->threaded) {
-        if (!wait && !atomic_load(&exporting->ended)) return FILM_RUNS;
-        thrd_join(exporting->thread, NULL);
-        exporting->threaded = false;
-        if (!exporting->good) return FILM_FAILED;
-        if (!film_knows(exporting->request.path)) return FILM_DONE;
+    if (job->threaded) {
+        if (!wait && !atomic_load(&job->ended)) return FILM_RUNS;
+        thrd_join(job->thread, NULL);
+        job->threaded = false;
+        if (!job->good) return FILM_FAILED;
+        if (!film_knows(job->request.path)) return FILM_DONE;
     }
-    if (atomic_load(&exporting->stop)) {
-        fail(&exporting->error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
+    if (atomic_load(&job->stop)) {
+        fail(&job->error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
         return FILM_FAILED;
     }
-    if (!exporting->film) return begin_film(exporting);
-    enum film_state state = film_step(exporting->film, wait, &exporting->error);
+    if (!job->film) return begin_film(job);
+    enum film_state state = film_step(job->film, wait, &job->error);
     long done, total;
-    film_progress(exporting->film, &done, &total);
-    atomic_store(&exporting->total, total);
-    atomic_store(&exporting->done, done);
-    if (state == FILM_DONE) film_report(exporting->film, &exporting->report);
+    film_progress(job->film, &done, &total);
+    atomic_store(&job->total, total);
+    atomic_store(&job->done, done);
+    if (state == FILM_DONE) film_report(job->film, &job->report);
     return state;
 }
 
 static void answer(struct app *app, bool done)
 {
-    struct exporting *exporting = app->exporting;
-    const struct request *request = &exporting->request;
-    const struct export_report *report = &exporting->report;
+    struct export_job *job = app->export_job;
+    const struct request *request = &job->request;
+    const struct export_report *report = &job->report;
     char text[sizeof request->path + 300];
-    const bool stopped = !done && atomic_load(&exporting->stop);
-    editor_answer(app->table.editor, request, done, stopped ? "Cancelled. Nothing was written." : exporting->error.text);
+    const bool stopped = !done && atomic_load(&job->stop);
+    editor_answer(app->table.editor, request, done, stopped ? "Cancelled. Nothing was written." : job->error.text);
     if (!done) return;
     snprintf(text, sizeof text, "Wrote %s: %s.%s%s%s", request->path, report->text, *report->note ? " Note: " : "",
              report->note, *report->note ? "." : "");
@@ -212,19 +213,19 @@ static void answer(struct app *app, bool done)
 
 void exporting_step(struct app *app)
 {
-    struct exporting *exporting = app->exporting;
-    if (!exporting) return;
-    enum film_state state = go_on(exporting, app->fixed_clock);
-    while (app->fixed_clock && state == FILM_RUNS) state = go_on(exporting, true);
-    editor_tell_export(app->table.editor, atomic_load(&exporting->done), atomic_load(&exporting->total));
+    struct export_job *job = app->export_job;
+    if (!job) return;
+    enum film_state state = go_on(job, app->fixed_clock);
+    while (app->fixed_clock && state == FILM_RUNS) state = go_on(job, true);
+    editor_tell_export(app->table.editor, atomic_load(&job->done), atomic_load(&job->total));
     if (state == FILM_RUNS) return;
     answer(app, state == FILM_DONE);
-    exporting_free(app);
+    app_stop_export(app);
 }
 
-void exporting_free(struct app *app)
+void app_stop_export(struct app *app)
 {
     exporting_stop(app);
-    if (app->exporting) destroy(app->exporting);
-    app->exporting = NULL;
+    if (app->export_job) destroy(app->export_job);
+    app->export_job = NULL;
 }

@@ -6,7 +6,7 @@
 #include "editor/dialogs/dialog_files.h"
 
 struct app;
-struct exporting;
+struct export_job;
 
 /// The formats, in the order that the dialog lists them.
 extern const struct dialog_format exporting_formats[];
@@ -18,7 +18,4 @@ bool exporting_start(struct app *app, const struct request *request, struct erro
 void exporting_stop(struct app *app);
 /// Call it once a frame: goes on with the running one, and tells the editor. Under a fixed clock it ends in the frame it began in.
 void exporting_step(struct app *app);
-/// Gives up whatever runs.
-void exporting_free(struct app *app);
-
 #endif

@@ -3,7 +3,6 @@
 #include "app/film_file.h"
 #include "base/path.h"
 #include "draw/picture.h"
-#include "editor/editor.h"
 #include "platform/platform.h"
 #include <math.h>
 #include <stdio.h>
@@ -32,7 +31,8 @@ struct film {
     const struct film_format *format;
     const char *path;
     struct film_shape shape;
-    double first, spacing, period; ///< in frames: of the first picture, from one to the next, after which it begins anew (0: never)
+    double first, spacing,
+        period; ///< in frames: of the first picture, from one to the next, after which it begins anew (0: never)
     struct editor_world world;
     struct editor *editor;
     struct picture *picture;

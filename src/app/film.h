@@ -2,7 +2,7 @@
 #ifndef APP_FILM_H
 #define APP_FILM_H
 
-#include "editor/core/world.h"
+#include "editor/editor.h"
 #include "export/export.h"
 
 /// What to film; all zero: every frame, at the scene's own rate and the format's own size.

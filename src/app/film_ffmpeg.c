@@ -24,9 +24,9 @@ static struct film_file *open_encoder(const char *path, const struct film_shape 
     char size[32], rate[32];
     snprintf(size, sizeof size, "%dx%d", shape->width, shape->height);
     snprintf(rate, sizeof rate, "%.10g", shape->rate);
-    const char *const input[] = {"ffmpeg",     "-nostdin", "-hide_banner", "-loglevel",  "error", "-f",
-                                 "rawvideo",   "-pix_fmt", "rgba",         "-video_size", size,    "-framerate",
-                                 rate,         "-i",       "pipe:0",       "-y"};
+    const char *const input[] = {"ffmpeg",   "-nostdin", "-hide_banner", "-loglevel",   "error", "-f",
+                                 "rawvideo", "-pix_fmt", "rgba",         "-video_size", size,    "-framerate",
+                                 rate,       "-i",       "pipe:0",       "-y"};
     const char *arguments[MAX_ARGUMENTS] = {NULL};
     int count = 0;
     for (size_t i = 0; i < sizeof input / sizeof *input; i++) arguments[count++] = input[i];
@@ -59,20 +59,14 @@ static struct film_file *open_encoder(const char *path, const struct film_shape 
 
 static struct film_file *open_mp4(const char *path, const struct film_shape *shape, struct error *error)
 {
-    static const char *const coding[] = {"-vf",
-                                         "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
-                                         SCREEN_COLORS,
-                                         "-c:v",
-                                         "libx264",
-                                         "-crf",
+    static const char *const coding[] = {"-vf",         "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
+                                         SCREEN_COLORS, "-c:v",
+                                         "libx264",     "-crf",
                                          "18",
                                          "-aq-mode", // bits for dark gradients, which else fall into bands
-                                         "3",
-                                         "-movflags",
-                                         "+faststart",
-                                         "-f",
-                                         "mp4",
-                                         NULL};
+                                         "3",           "-movflags",
+                                         "+faststart",  "-f",
+                                         "mp4",         NULL};
     return open_encoder(path, shape, coding, error);
 }
 

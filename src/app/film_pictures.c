@@ -13,9 +13,9 @@
 struct film_file {
     struct film_shape shape;
     const char *path;
-    int before, digits;         ///< bytes of the path before the number, and its least number of digits; −1: it has none
-    const char *after;          ///< the path after the number
-    char folder[PATH_LIMIT];    ///< for the time being
+    int before, digits; ///< bytes of the path before the number, and its least number of digits; −1: it has none
+    const char *after;  ///< the path after the number
+    char folder[PATH_LIMIT]; ///< for the time being
     long written;
 };
 

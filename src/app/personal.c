@@ -68,7 +68,7 @@ static void start_settings(struct app *app)
         editor_set_panels(app->table.editor, personal->stage_share, personal->panels_width);
         start_theme(app, settings);
         struct export_memory memory;
-        export_memory_read(settings, &memory);
+        export_memory_read(settings, app_path(app), &memory);
         editor_set_export(app->table.editor, &memory);
         personal->is_new = !settings_get(settings, "welcomed", 0);
         if (personal->is_new) editor_welcome(app->table.editor);
@@ -133,10 +133,7 @@ void personal_note_export(struct app *app, const struct request *request)
     if (!app->personal) return;
     struct settings *settings = load_settings(app->personal, &error);
     if (!settings) return;
-    struct export_memory memory = {.wish = request->wish};
-    snprintf(memory.path, sizeof memory.path, "%s", request->path);
-    snprintf(memory.scene, sizeof memory.scene, "%.1023s", app_path(app));
-    export_memory_write(settings, &memory);
+    export_memory_write(settings, request, app_path(app));
     store_settings(app, settings);
 }
 

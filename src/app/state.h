@@ -22,8 +22,8 @@ struct app {
     unsigned last_serial;   ///< of the documents that were on the table
     unsigned sized_serial;  ///< of the document whose models were measured
 
-    struct exporting *exporting; ///< NULL where nothing is exported
-    struct personal *personal; ///< NULL where nobody sits at a window
+    struct export_job *export_job; ///< NULL where nothing is exported
+    struct personal *personal;     ///< NULL where nobody sits at a window
 
     struct replay *replay;
     struct recording *recording;
@@ -73,6 +73,9 @@ void app_resize(struct app *app, float width, float height, float scale);
 
 /// The folder in which the editor's dialogs look for files.
 void app_connect_files(struct app *app);
+
+/// Gives up the export that runs, with nothing written.
+void app_stop_export(struct app *app);
 
 /// Copies the editor's text to the clipboard (not in a replay, which must leave the user's clipboard alone).
 void app_copy(struct app *app);

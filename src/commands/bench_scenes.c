@@ -1,8 +1,8 @@
 /// Times the splines of the program's own scenes, tracks and all.
 #include "commands/bench_scenes.h"
 #include "app/assets.h"
+#include "rig/opened.h"
 #include "scene/evaluate.h"
-#include "scene/load.h"
 #include "scene/storage.h"
 #include <glob.h>
 #include <math.h>
@@ -61,17 +61,15 @@ static bool time_spline(struct bench *bench, const struct document *document, co
 
 static bool time_scene(struct bench *bench, const char *path, struct means *means, struct error *error)
 {
-    struct document *document = scene_load(path, NULL, error);
-    if (!document) return false;
-    struct evaluation evaluation = {0};
-    bool good = evaluation_resize(&evaluation, document, error);
-    if (good) evaluation_update(&evaluation, document, NULL, false);
+    struct opened opened;
+    if (!opened_read_splines(&opened, path, error)) return false;
+    const struct document *document = opened.document;
+    bool good = opened_solve(&opened, WIGGLY_CHAIN, error);
     for (int i = 0; good && i < document->spline_count; i++) {
-        if (document->splines[i].knot_count == 0 || evaluation.status[i] != WIGGLY_OK) continue;
-        good = time_spline(bench, document, &evaluation, i, path, means, error);
+        if (document->splines[i].knot_count == 0 || opened.evaluation.status[i] != WIGGLY_OK) continue;
+        good = time_spline(bench, document, &opened.evaluation, i, path, means, error);
     }
-    evaluation_free(&evaluation);
-    document_destroy(document);
+    opened_free(&opened);
     return good;
 }
 

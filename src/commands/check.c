@@ -1,7 +1,7 @@
 /// wiggly check: prints every problem of a scene, its solution and its models.
 #include "commands/commands.h"
 #include "commands/options.h"
-#include "rig/models.h"
+#include "rig/clip_motion.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
 #include "scene/motion.h"
@@ -42,12 +42,14 @@ static bool jumps(const struct document *document, const struct evaluation *eval
 }
 
 /// Checks what only a solve can show.
-static bool check_solution(const char *path, const struct document *document, struct problems *problems,
-                           struct error *error)
+static bool check_solution(const char *path, const struct document *document, struct models *models,
+                           struct problems *problems, struct error *error)
 {
+    const struct motion_source motions = clip_motions(models);
     struct evaluation evaluation = {0};
     if ((long long)document_samples(document) * document->spline_count > MAX_SOLVED_SAMPLES) return true;
     if (!evaluation_resize(&evaluation, document, error)) return false;
+    motions_bake(&evaluation, document, &motions);
     evaluation_update(&evaluation, document, NULL, false);
     for (int i = 0; i < evaluation.count; i++) {
         if (jumps(document, &evaluation, i)) {
@@ -61,20 +63,28 @@ static bool check_solution(const char *path, const struct document *document, st
     return true;
 }
 
-/// Checks the characters: their paint, their models, and the coordinates in them.
-static bool check_models(const char *path, struct document *document, struct problems *problems)
+/// Checks the characters: their paint, their models, and what the scene names in them.
+static bool check_models(const char *path, struct document *document, struct models *models,
+                         struct problems *problems)
 {
-    struct error error = {0};
-    struct models *models = models_create();
-    bool good = scene_read_paint(document, &error);
-    if (good) good = models ? models_update(models, document, &error) : fail_no_memory(&error, "characters");
-    models_destroy(models);
-    if (good) return true;
-    struct error problem;
+    struct error error = {0}, problem;
+    if (scene_read_paint(document, &error) && models_update(models, document, &error)) return true;
     fail(&problem, error.kind, "%s: %s", path, error.text);
     problems->errors++;
     problems->report(problems->user, true, problem.text);
     return false;
+}
+
+static bool check_document(const char *path, struct document *document, struct problems *problems,
+                           struct error *error)
+{
+    struct models *models = models_create();
+    if (!models) return fail_no_memory(error, path);
+    const bool good = check_models(path, document, models, problems);
+    const bool done = check_solution(path, document, models, problems, error);
+    models_destroy(models);
+    if (done && !good) error->kind = ERROR_INPUT;
+    return done;
 }
 
 static int check(const char *path)
@@ -83,9 +93,7 @@ static int check(const char *path)
     struct error error = {0};
     struct document *document = scene_load(path, &problems, &error);
     if (!document) return (int)error.kind;
-    bool done = check_solution(path, document, &problems, &error);
-    if (!done) fprintf(stderr, "%s\n", error.text);
-    if (done && !check_models(path, document, &problems)) error.kind = ERROR_INPUT;
+    if (!check_document(path, document, &problems, &error)) fprintf(stderr, "%s\n", error.text);
     document_destroy(document);
     return (int)error.kind;
 }

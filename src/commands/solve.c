@@ -2,8 +2,8 @@
 #include "base/file.h"
 #include "commands/commands.h"
 #include "commands/options.h"
+#include "rig/opened.h"
 #include "scene/evaluate.h"
-#include "scene/load.h"
 #include "scene/number.h"
 #include <errno.h>
 #include <stdio.h>
@@ -80,17 +80,14 @@ static void warn_statuses(const char *path, const struct document *document, con
 
 static bool solve(const char *scene, wiggly_method method, const char *out, struct error *error)
 {
-    struct evaluation evaluation = {.method = method};
-    struct document *document = scene_load(scene, NULL, error);
-    if (!document) return false;
-    bool done = evaluation_resize(&evaluation, document, error);
+    struct opened opened;
+    if (!opened_read_splines(&opened, scene, error)) return false;
+    bool done = opened_solve(&opened, method, error);
     if (done) {
-        evaluation_update(&evaluation, document, NULL, false);
-        warn_statuses(scene, document, &evaluation);
-        done = write_output(out, document, &evaluation, error);
+        warn_statuses(scene, opened.document, &opened.evaluation);
+        done = write_output(out, opened.document, &opened.evaluation, error);
     }
-    evaluation_free(&evaluation);
-    document_destroy(document);
+    opened_free(&opened);
     return done;
 }
 

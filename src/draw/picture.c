@@ -29,8 +29,8 @@ static bool create_framebuffer(struct picture *picture, struct error *error)
     const int width = FINE * picture->width, height = FINE * picture->height;
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
     if (picture->width < 1 || picture->height < 1 || width > largest || height > largest)
-        return fail(error, ERROR_ENVIRONMENT, "expected a picture of 1 to %d pixels a side, got %d × %d", largest / FINE,
-                    picture->width, picture->height);
+        return fail(error, ERROR_ENVIRONMENT, "expected a picture of 1 to %d pixels a side, got %d × %d",
+                    largest / FINE, picture->width, picture->height);
     glGetIntegerv(GL_FRAMEBUFFER_BINDING, &before);
     glGenFramebuffers(1, &picture->framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, picture->framebuffer);
@@ -98,7 +98,8 @@ static void draw(struct picture *picture, const struct stage_view *view, bool tr
 static void average_row(const unsigned char *below, const unsigned char *above, int width, unsigned char *row)
 {
     for (int x = 0; x < width; x++, below += 8, above += 8, row += 4) {
-        for (int k = 0; k < 3; k++) row[k] = (unsigned char)((below[k] + below[k + 4] + above[k] + above[k + 4] + 2) / 4);
+        for (int k = 0; k < 3; k++)
+            row[k] = (unsigned char)((below[k] + below[k + 4] + above[k] + above[k + 4] + 2) / 4);
         row[3] = 255;
     }
 }
@@ -109,7 +110,8 @@ static void weigh_row(const unsigned char *below, const unsigned char *above, in
     for (int x = 0; x < width; x++, below += 8, above += 8, row += 4) {
         const int covered = below[3] + below[7] + above[3] + above[7];
         for (int k = 0; k < 3; k++) {
-            const int sum = below[k] * below[3] + below[k + 4] * below[7] + above[k] * above[3] + above[k + 4] * above[7];
+            const int sum =
+                below[k] * below[3] + below[k + 4] * below[7] + above[k] * above[3] + above[k + 4] * above[7];
             row[k] = (unsigned char)(covered > 0 ? (sum + covered / 2) / covered : 0);
         }
         row[3] = (unsigned char)((covered + 2) / 4);

@@ -1,5 +1,71 @@
-/// A chain as a form: its channels. The character that it moves is exported as a whole (model.c).
+/// A chain as a form: its bones as joints, turned against their rest in the character's own space. The character that it moves is
+/// exported as a whole (model.c).
 #include "export/form.h"
+#include "model/vector.h"
+#include "rig/chain_bones.h"
+#include <stdio.h>
+#include <stdlib.h>
+
+static const float still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+/// What a chain needs of its model.
+struct limb {
+    const struct imported *imported;
+    struct chain_bones bones;
+};
+
+static bool open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
+                 struct error *error)
+{
+    const struct chain *chain = &posing->document->rigs[rig].chain;
+    const struct imported *imported = pose->chain.imported;
+    struct limb *limb = form->owned = malloc(sizeof *limb);
+    struct chain_pose rest;
+    if (!limb) return fail_no_memory(error, form->name);
+    limb->imported = imported;
+    if (!chain_find(&imported->gltf, chain->from, chain->to, &limb->bones, error)) return false;
+    chain_points(imported, &limb->bones, &imported->rest, still, &rest);
+    form->joint_count = limb->bones.count;
+    form->joints = calloc((size_t)form->joint_count, sizeof *form->joints);
+    if (!form->joints) return fail_no_memory(error, form->name);
+    for (int n = 0; n < form->joint_count; n++) {
+        form->joints[n].parent = n - 1;
+        snprintf(form->joints[n].name, FORM_NAME, "%.60s", imported->gltf.nodes[limb->bones.node[n]].name);
+        for (int k = 0; k < 3; k++) form->joints[n].offset[k] = n > 0 ? rest.point[n][k] - rest.point[n - 1][k] : 0;
+    }
+    for (int k = 0; k < 3; k++)
+        form->tip[k] = rest.point[form->joint_count][k] - rest.point[form->joint_count - 1][k];
+    return true;
+}
+
+static void close(struct form *form)
+{
+    free(form->joints);
+    free(form->owned);
+}
+
+/// How a bone is turned from its rest, in the character's space.
+static versors turn_of(const struct imported *imported, const struct gltf_pose *pose, int node)
+{
+    const mat4s rest = mat4_from(imported->rest.world[node]), now = mat4_from(pose->world[node]);
+    mat4s turned = glms_mat4_mul(now, glms_mat4_inv(rest));
+    for (int k = 0; k < 3; k++) glm_vec3_normalize(turned.raw[k]);
+    return glms_mat4_quat(turned);
+}
+
+static void key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
+{
+    const struct limb *limb = form->owned;
+    const struct gltf_pose *now = pose->chain.pose;
+    versors before = glms_quat_identity();
+    memcpy(key->translation, now->world[limb->bones.node[0]] + 12, sizeof key->translation);
+    for (int n = 0; n < form->joint_count; n++) {
+        const versors turn = turn_of(limb->imported, now, limb->bones.node[n]);
+        const versors own = glms_quat_mul(glms_quat_inv(before), turn);
+        memcpy(key->rotation[n], own.raw, sizeof key->rotation[n]);
+        before = turn;
+    }
+}
 
 static void columns(const struct take *take, int rig, const struct rig_pose *pose, double key, form_column *column,
                     void *user)
@@ -8,4 +74,5 @@ static void columns(const struct take *take, int rig, const struct rig_pose *pos
     form_channels(take, rig, chain->channels, chain->channel_count, pose->chain.count - 1, key, column, user);
 }
 
-const struct form_kind chain_form = {.columns = columns};
+const struct form_kind chain_form = {
+    .holds = FORM_JOINTS, .open = open, .close = close, .key = key, .columns = columns};

@@ -4,6 +4,7 @@
 #include "rig/chain_bones.h"
 #include "rig/posing_kind.h"
 #include <math.h>
+#include <stdlib.h>
 
 enum { MEAN_STEPS = 120 }; ///< over a clip
 
@@ -93,18 +94,48 @@ static int period_of(const struct document *document, double duration)
     return samples >= 1 && samples < 1e6 && fabs(samples - round(samples)) < 1e-4 ? (int)round(samples) : 0;
 }
 
+/// Looks at a joint sample by sample, averaged over a frame to either side: clips are keyed on frames and straight between them, and
+/// each of their corners would kick the spline. What is left is the cubic B-spline of the keys.
+struct smoothing {
+    int substeps;
+    double ring[2 * SCENE_MAX_SUBSTEPS]; ///< the samples around the one that is next
+};
+
+static double *raw(struct smoothing *smoothing, int sample)
+{
+    const int size = 2 * smoothing->substeps;
+    return &smoothing->ring[((sample % size) + size) % size];
+}
+
+static void look_at(struct smoothing *smoothing, const struct document *document, struct followed *followed,
+                    int sample)
+{
+    *raw(smoothing, sample) = look(followed, posing_clip_time(document, sample, followed->duration));
+}
+
+static double smoothed(struct smoothing *smoothing, int sample)
+{
+    const int s = smoothing->substeps;
+    double sum = 0;
+    for (int k = 1 - s; k < s; k++) sum += (s - abs(k)) * *raw(smoothing, sample + k);
+    return sum / s / s;
+}
+
 static bool read(void *context, const struct document *document, const struct joint_motion *motion, double *samples)
 {
     struct followed followed;
+    struct smoothing smoothing = {.substeps = document->substeps};
     if (!find(context, document, motion, &followed)) return false;
     const int count = document_samples(document), period = period_of(document, followed.duration);
     const double mean = mean_of(&followed);
+    for (int s = 1 - document->substeps; s < document->substeps - 1; s++) look_at(&smoothing, document, &followed, s);
     for (int s = 0; s < count; s++) {
         if (period && s >= period) {
             samples[s] = samples[s - period];
-        } else {
-            samples[s] = look(&followed, posing_clip_time(document, s, followed.duration)) - mean;
+            continue;
         }
+        look_at(&smoothing, document, &followed, s + document->substeps - 1);
+        samples[s] = smoothed(&smoothing, s) - mean;
     }
     return true;
 }

@@ -11,14 +11,25 @@ static bool read_models(struct opened *opened, const char *path, struct error *e
     return scene_read_paint(opened->document, error) && models_update(opened->models, opened->document, error);
 }
 
-bool opened_read(struct opened *opened, const char *path, struct error *error)
+static bool read_any(struct opened *opened, const char *path, bool with_models, struct error *error)
 {
     *opened =
         (struct opened){.document = import_suits(path) ? import_scene(path, error) : scene_load(path, NULL, error)};
     if (!opened->document) return false;
+    if (!with_models && opened->document->motions.count == 0) return true;
     if (read_models(opened, path, error)) return true;
     opened_free(opened);
     return false;
+}
+
+bool opened_read(struct opened *opened, const char *path, struct error *error)
+{
+    return read_any(opened, path, true, error);
+}
+
+bool opened_read_splines(struct opened *opened, const char *path, struct error *error)
+{
+    return read_any(opened, path, false, error);
 }
 
 bool opened_solve(struct opened *opened, wiggly_method method, struct error *error)

@@ -13,6 +13,8 @@ static bool pose(const struct posing *posing, int rig, double position, const wi
     (void)values;
     if (model < 0 || !posing_model(posing, model, position, rig, by_hand, &whole)) return false;
     if (!chain_find(&whole.model.imported->gltf, chain->from, chain->to, &bones, NULL)) return false;
+    posed->chain.imported = whole.model.imported;
+    posed->chain.pose = whole.model.pose;
     chain_points(whole.model.imported, &bones, whole.model.pose, whole.model.root, &posed->chain);
     return true;
 }

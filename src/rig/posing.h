@@ -29,6 +29,8 @@ struct by_hand {
 struct chain_pose {
     int count; ///< bones + 1
     float point[ANGLES_MAX_JOINTS + 1][3];
+    const struct imported *imported; ///< whose bones they are; set by rig_pose(), as the pose
+    const struct gltf_pose *pose;    ///< the models' own: see struct posing
 };
 
 struct rig_pose {

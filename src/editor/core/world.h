@@ -32,8 +32,8 @@ enum request_kind {
     REQUEST_FORGET,  ///< the same, for good
     REQUEST_SCREENSHOT,
     REQUEST_FULLSCREEN,
-    REQUEST_COPY,  ///< editor_clipboard() onto the clipboard
-    REQUEST_PASTE, ///< an EVENT_PASTE with what is there
+    REQUEST_COPY,        ///< editor_clipboard() onto the clipboard
+    REQUEST_PASTE,       ///< an EVENT_PASTE with what is there
     REQUEST_EXPORT,      ///< path, wish; answered once it is done
     REQUEST_EXPORT_STOP, ///< the running one; that answers then
 };

@@ -17,11 +17,10 @@ static const float FRAME_HEIGHT = 300;
 
 static bool is_running(const struct dialog *dialog) { return dialog->awaited == REQUEST_EXPORT; }
 
-/// The format that the path's ending says, or -1.
-static int chosen_format(const struct dialogs *dialogs)
+/// The format that a path's ending says, or -1.
+static int format_by_ending(const struct dialog_files *files, const char *path)
 {
-    const char *dot = strrchr(dialogs->exporting.memory.path, '.');
-    const struct dialog_files *files = &dialogs->dialog.files;
+    const char *dot = strrchr(path, '.');
     for (int f = 0; dot && f < files->format_count; f++) {
         if (strcasecmp(dot, files->formats[f].ending) == 0) return f;
     }
@@ -30,9 +29,7 @@ static int chosen_format(const struct dialogs *dialogs)
 
 static const struct dialog_format *format_of(const struct dialogs *dialogs)
 {
-    static const struct dialog_format none = {.ending = ""};
-    const int chosen = chosen_format(dialogs);
-    return chosen >= 0 ? &dialogs->dialog.files.formats[chosen] : &none;
+    return &dialogs->dialog.files.formats[dialogs->exporting.format];
 }
 
 static const char *name_of(const char *path)
@@ -41,28 +38,36 @@ static const char *name_of(const char *path)
     return slash ? slash + 1 : path;
 }
 
-/// Gives the path another ending in place of the one that it has.
-static void set_ending(char path[DIALOG_PATH_SIZE], const char *ending)
+/// A path with the ending of a format in place of that of another; false where it is too long.
+static bool with_ending(const struct dialog_files *files, const char *path, int format, char full[DIALOG_PATH_SIZE])
 {
-    char *name = path + (name_of(path) - path), *dot = strrchr(name, '.');
-    const size_t length = dot ? (size_t)(dot - path) : strlen(path);
-    snprintf(path + length, DIALOG_PATH_SIZE - length, "%s", ending);
+    const size_t length = strlen(path);
+    const int old = format_by_ending(files, path);
+    const size_t stem = old >= 0 ? length - strlen(files->formats[old].ending) : length;
+    return snprintf(full, DIALOG_PATH_SIZE, "%.*s%s", (int)stem, path, files->formats[format].ending) <
+           DIALOG_PATH_SIZE;
 }
 
 static void choose_format(struct dialogs *dialogs, int format)
 {
-    set_ending(dialogs->exporting.memory.path, dialogs->dialog.files.formats[format].ending);
-    dialogs->exporting.typed = 0; // the field takes the new text
+    struct exporting *exporting = &dialogs->exporting;
+    char full[DIALOG_PATH_SIZE];
+    if (with_ending(&dialogs->dialog.files, exporting->memory.path, format, full))
+        memcpy(exporting->memory.path, full, sizeof full);
+    exporting->format = format;
+    exporting->typed = 0; // the field takes the new text
     dialogs->dialog.error[0] = '\0';
 }
 
 /// Another scene: beside its file, called like it, in the format of last time.
-static void begin_memory(struct exporting *exporting, const struct core *core, const char *ending)
+static void begin_memory(struct dialogs *dialogs, const struct core *core)
 {
-    struct export_memory *memory = &exporting->memory;
+    struct export_memory *memory = &dialogs->exporting.memory;
     snprintf(memory->scene, sizeof memory->scene, "%s", core->path);
     snprintf(memory->path, sizeof memory->path, "%s", core->path[0] ? core->path : "untitled");
-    set_ending(memory->path, ending);
+    char *dot = strrchr(memory->path, '.');
+    if (dot && strcmp(dot, ".json") == 0) *dot = '\0';
+    choose_format(dialogs, dialogs->exporting.format);
     memory->wish.part = false;
     memory->wish.rig[0] = memory->wish.clip[0] = '\0';
 }
@@ -73,11 +78,10 @@ void dialogs_export(struct dialogs *dialogs, const struct core *core, const stru
     struct export_memory *memory = &exporting->memory;
     const struct dialog_files *files = &dialogs->dialog.files;
     if (files->format_count == 0) return;
-    char ending[16];
-    const char *last = format_of(dialogs)->ending;
-    snprintf(ending, sizeof ending, "%s", *last ? last : files->formats[0].ending);
+    const int last = format_by_ending(files, memory->path);
+    if (last >= 0) exporting->format = last;
     const bool same = core->path[0] ? strcmp(memory->scene, core->path) == 0 : exporting->serial == core->serial;
-    if (!same || !memory->path[0]) begin_memory(exporting, core, ending);
+    if (!same || !memory->path[0]) begin_memory(dialogs, core);
     exporting->serial = core->serial;
     exporting->typed = 0;
     exporting->dragged = NULL;
@@ -109,17 +113,18 @@ static void confirm(struct dialogs *dialogs, struct core *core)
     struct dialog *dialog = &dialogs->dialog;
     const struct export_memory *memory = &dialogs->exporting.memory;
     if (is_running(dialog)) return;
+    char full[DIALOG_PATH_SIZE];
     const char *name = name_of(memory->path);
     if (!*name || *name == '.') {
         snprintf(dialog->error, sizeof dialog->error, "Type a file name.");
         return;
     }
-    if (chosen_format(dialogs) < 0) {
-        snprintf(dialog->error, sizeof dialog->error, "Choose a format: the name's ending has to be one of these.");
+    if (!with_ending(&dialog->files, memory->path, dialogs->exporting.format, full)) {
+        snprintf(dialog->error, sizeof dialog->error, "The path is too long.");
         return;
     }
     dialogs->exporting.done = dialogs->exporting.total = 0;
-    dialog_await(dialogs, core, REQUEST_EXPORT, memory->path);
+    dialog_await(dialogs, core, REQUEST_EXPORT, full);
     if (core->request_count > 0) core->requests[core->request_count - 1].wish = memory->wish;
 }
 
@@ -136,7 +141,7 @@ bool export_key(struct dialogs *dialogs, struct core *core, const struct editor_
 {
     const struct ui *ui = &dialogs->dialog.ui;
     const bool in_text = ui->focus == ui_id(path_field) || ui->focus == ui_id(clip_field);
-    const int format = chosen_format(dialogs), last = dialogs->dialog.files.format_count - 1;
+    const int format = dialogs->exporting.format, last = dialogs->dialog.files.format_count - 1;
     (void)world;
     if (key == KEY_ESCAPE && !ui->typing && !ui->held) {
         stop(dialogs, core);
@@ -155,7 +160,7 @@ bool export_key(struct dialogs *dialogs, struct core *core, const struct editor_
 }
 
 /// A line of text that keeps its own content while others are typed in.
-static void build_text(struct dialogs *dialogs, struct rect r, const char *name, char *text, size_t size)
+static bool build_text(struct dialogs *dialogs, struct rect r, const char *name, char *text, size_t size)
 {
     struct exporting *exporting = &dialogs->exporting;
     struct ui *ui = &dialogs->dialog.ui;
@@ -174,6 +179,16 @@ static void build_text(struct dialogs *dialogs, struct rect r, const char *name,
     } else {
         ui->text = others;
     }
+    return changed;
+}
+
+static void build_path(struct dialogs *dialogs)
+{
+    struct exporting *exporting = &dialogs->exporting;
+    char *path = exporting->memory.path;
+    if (!build_text(dialogs, ui_row(&dialogs->dialog.ui, 28), path_field, path, DIALOG_PATH_SIZE)) return;
+    const int format = format_by_ending(&dialogs->dialog.files, path);
+    if (format >= 0) exporting->format = format;
 }
 
 /// A whole number; `value` changes at once, and back where a drag is cancelled.
@@ -203,7 +218,8 @@ static bool build_number(struct dialogs *dialogs, struct rect r, struct ui_numbe
 
 static struct rect labelled(struct ui *ui, struct rect *row, float width, const char *label)
 {
-    const struct rect r = {row->x, row->y, UI_LABEL, row->h}, field = {row->x + UI_LABEL + UI_GAP, row->y, width, row->h};
+    const struct rect r = {row->x, row->y, UI_LABEL, row->h},
+                      field = {row->x + UI_LABEL + UI_GAP, row->y, width, row->h};
     ui_label(ui, r, label, theme()->text_dim);
     row->x += UI_LABEL + width + 3 * UI_GAP;
     row->w -= UI_LABEL + width + 3 * UI_GAP;
@@ -228,9 +244,9 @@ static void build_frames(struct dialogs *dialogs, const struct document *documen
     r.w = NUMBER_WIDTH;
     bool changed = build_number(
         dialogs, r, (struct ui_number){.name = "export.first", .lowest = first, .highest = wish->last}, &wish->first);
-    changed |= build_number(dialogs, second(&dialogs->dialog.ui, r, "to"),
-                            (struct ui_number){.name = "export.last", .lowest = wish->first, .highest = last},
-                            &wish->last);
+    changed |=
+        build_number(dialogs, second(&dialogs->dialog.ui, r, "to"),
+                     (struct ui_number){.name = "export.last", .lowest = wish->first, .highest = last}, &wish->last);
     if (changed) wish->part = wish->first > first || wish->last < last;
 }
 
@@ -255,8 +271,8 @@ static void build_keys(struct dialogs *dialogs, const struct document *document,
     struct export_wish *wish = &dialogs->exporting.memory.wish;
     double keys = wish->keys > 0 ? wish->keys : document->substeps;
     const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH, "keys a frame");
-    if (build_number(dialogs, r, (struct ui_number){.name = "export.keys", .lowest = 1, .highest = SCENE_MAX_SUBSTEPS},
-                     &keys))
+    if (build_number(dialogs, r,
+                     (struct ui_number){.name = "export.keys", .lowest = 1, .highest = SCENE_MAX_SUBSTEPS}, &keys))
         wish->keys = (int)keys;
 }
 
@@ -309,8 +325,7 @@ static void build_flags(struct dialogs *dialogs, const struct document *document
     if (choices & CHOICE_CUBIC) build_toggle(ui, &row, "export.cubic", "keys with tangents", &wish->is_cubic);
     if ((choices & CHOICE_SIGNED) && morphs)
         build_toggle(ui, &row, "export.signed", "signed morph targets", &wish->is_signed);
-    if (choices & CHOICE_ALPHA)
-        build_toggle(ui, &row, "export.transparent", "transparent", &wish->transparent);
+    if (choices & CHOICE_ALPHA) build_toggle(ui, &row, "export.transparent", "transparent", &wish->transparent);
 }
 
 /// Always as many rows, so that nothing jumps when another format is chosen.
@@ -331,8 +346,7 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
         if (!memory->wish.clip[0] && ui->focus != ui_id(clip_field))
             ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, "as the scene", theme()->text_dim);
     }
-    if (format->choices & CHOICE_RIG)
-        build_rig(dialogs, document, (format->choices & CHOICE_ONE) != 0, &rows[1]);
+    if (format->choices & CHOICE_RIG) build_rig(dialogs, document, (format->choices & CHOICE_ONE) != 0, &rows[1]);
     build_flags(dialogs, document, format->choices, rows[2]);
 }
 
@@ -341,13 +355,15 @@ static void build_formats(struct dialogs *dialogs, float room)
     const struct dialog_files *files = &dialogs->dialog.files;
     struct exporting *exporting = &dialogs->exporting;
     struct ui *ui = &dialogs->dialog.ui;
-    const int chosen = chosen_format(dialogs), fitting = (int)(room / UI_ROW);
-    const int rows = fitting < LEAST_ROWS ? LEAST_ROWS : fitting > files->format_count ? files->format_count : fitting;
+    const int chosen = exporting->format, fitting = (int)(room / UI_ROW);
+    const int rows = fitting < LEAST_ROWS            ? LEAST_ROWS
+                     : fitting > files->format_count ? files->format_count
+                                                     : fitting;
     const struct rect view = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
     // Where not all fit, the chosen one is in sight as soon as it is typed.
-    if (ui->focus == ui_id(path_field) && chosen >= 0)
-        exporting->scroll.offset = fmaxf(fminf(exporting->scroll.offset, (float)chosen * UI_ROW),
-                                         (float)(chosen + 1 - rows) * UI_ROW);
+    if (ui->focus == ui_id(path_field))
+        exporting->scroll.offset =
+            fmaxf(fminf(exporting->scroll.offset, (float)chosen * UI_ROW), (float)(chosen + 1 - rows) * UI_ROW);
     int taken = -1;
     ui_scroll_begin(ui, &exporting->scroll, view);
     for (int f = 0; f < files->format_count; f++) {
@@ -356,8 +372,8 @@ static void build_formats(struct dialogs *dialogs, float room)
         snprintf(name, sizeof name, "export%s", files->formats[f].ending);
         if (ui_list_row(ui, r, name, "", 0, f == chosen)) taken = f;
         ui_label(ui, (struct rect){r.x + 6, r.y, ENDING_WIDTH, r.h}, files->formats[f].ending, theme()->text);
-        ui_label(ui, (struct rect){r.x + 6 + ENDING_WIDTH, r.y, r.w - 12 - ENDING_WIDTH, r.h}, files->formats[f].holds,
-                 theme()->text_dim);
+        ui_label(ui, (struct rect){r.x + 6 + ENDING_WIDTH, r.y, r.w - 12 - ENDING_WIDTH, r.h},
+                 files->formats[f].holds, theme()->text_dim);
     }
     ui_scroll_end(ui);
     if (taken >= 0) choose_format(dialogs, taken);
@@ -374,13 +390,13 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
     const float top = ui->y;
     const int keys = format->choices & CHOICE_SIZE ? 1 : wish->keys > 0 ? wish->keys : document->substeps;
     const double count = (wish->last - wish->first) * keys + 1;
-    char text[160] = "The name's ending says what is written.";
+    char text[160];
     if (is_running(dialog) && exporting->total > 0) {
         snprintf(text, sizeof text, "%ld of %ld. Esc cancels, and leaves nothing behind.", exporting->done,
                  exporting->total);
     } else if (is_running(dialog)) {
         snprintf(text, sizeof text, "Getting ready. Esc cancels, and leaves nothing behind.");
-    } else if (*format->ending) {
+    } else {
         snprintf(text, sizeof text, "%.0f %s%s, %g a second. ↑ ↓ choose the format, Tab goes to the choices.", count,
                  format->choices & CHOICE_SIZE ? "picture" : "key", count == 1 ? "" : "s", document->fps * keys);
     }
@@ -389,11 +405,15 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
         const float part = exporting->total > 0 ? (float)exporting->done / (float)exporting->total : 0;
         if (ui->pass == UI_PASS_DRAW) {
             drawlist_rounded(ui->list, bar, 4, theme()->fill);
-            drawlist_rounded(ui->list, (struct rect){bar.x, bar.y, fmaxf(8, bar.w * part), bar.h}, 4, theme()->accent);
+            drawlist_rounded(ui->list, (struct rect){bar.x, bar.y, fmaxf(8, bar.w * part), bar.h}, 4,
+                             theme()->accent);
         }
         ui_space(ui, 4);
     }
-    ui_paragraph(ui, dialog->error[0] ? dialog->error : ui->complaint[0] ? ui->complaint : text,
+    ui_paragraph(ui,
+                 dialog->error[0]   ? dialog->error
+                 : ui->complaint[0] ? ui->complaint
+                                    : text,
                  dialog->error[0] || ui->complaint[0] ? theme()->error : theme()->text_dim);
     ui_space(ui, fmaxf(8, NOTE_HEIGHT - (ui->y - top)));
 }
@@ -403,11 +423,13 @@ static void build_buttons(struct dialogs *dialogs, struct core *core)
     enum { CANCEL_WIDTH = 104, WRITE_WIDTH = 240 };
     const struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialogs->dialog.ui;
-    char label[64];
+    char label[64], full[DIALOG_PATH_SIZE] = "";
     const struct rect row = ui_row(ui, 28);
     const struct rect right = {row.x + row.w - WRITE_WIDTH, row.y, WRITE_WIDTH, row.h};
-    const struct rect left = {right.x - UI_GAP - CANCEL_WIDTH, row.y, CANCEL_WIDTH, row.h};
-    snprintf(label, sizeof label, "Write %.48s", name_of(dialogs->exporting.memory.path));
+    const float end = is_running(dialog) ? row.x + row.w : right.x - UI_GAP;
+    const struct rect left = {end - CANCEL_WIDTH, row.y, CANCEL_WIDTH, row.h};
+    with_ending(&dialog->files, dialogs->exporting.memory.path, dialogs->exporting.format, full);
+    snprintf(label, sizeof label, "Write %.48s", name_of(full));
     const bool stopped = ui_button(ui, left, "dialog.cancel", "Cancel", false);
     if (!is_running(dialog) && ui_button(ui, right, "dialog.confirm", label, true)) confirm(dialogs, core);
     if (stopped) stop(dialogs, core);
@@ -425,7 +447,7 @@ void export_build(struct dialogs *dialogs, struct core *core, const struct edito
     } else {
         ui_label(ui, ui_row(ui, UI_ROW), "Export the motion", theme()->text);
         ui_space(ui, 4);
-        build_text(dialogs, ui_row(ui, 28), path_field, memory->path, sizeof memory->path);
+        build_path(dialogs);
         ui_space(ui, 8);
         build_formats(dialogs, core->layout.window.h - FRAME_HEIGHT);
         ui_space(ui, 8);

@@ -11,7 +11,15 @@ struct help {
     float offset; ///< pixels that it is scrolled by, where the window is too low for all of it
 };
 
-enum dialog_kind { DIALOG_NONE, DIALOG_OPEN, DIALOG_SAVE_AS, DIALOG_UNSAVED, DIALOG_RECOVER, DIALOG_ASK, DIALOG_EXPORT };
+enum dialog_kind {
+    DIALOG_NONE,
+    DIALOG_OPEN,
+    DIALOG_SAVE_AS,
+    DIALOG_UNSAVED,
+    DIALOG_RECOVER,
+    DIALOG_ASK,
+    DIALOG_EXPORT
+};
 
 enum { DIALOG_MAX_NAMES = 256, DIALOG_NAME_SIZE = 256, DIALOG_ERROR_SIZE = 400 };
 
@@ -55,6 +63,7 @@ struct dialog {
 struct exporting {
     struct export_memory memory; ///< as it is being edited
     unsigned serial;             ///< of the document that it is about
+    int format;                  ///< among the dialog's: what the path's ending says, or said last
     uint32_t typed;              ///< the field whose text is in `ui.text`; 0: none
     const char *dragged;         ///< the number that the pointer drags, and what it was before
     double before;

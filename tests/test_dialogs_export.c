@@ -1,0 +1,252 @@
+/// The Export dialog: the name's ending is the format, what the format lets choose, and what is remembered.
+#include "inside.h"
+#include "panel_session.h"
+
+#include "app/exporting.h"
+#include "ui/font.h"
+#include <string.h>
+
+static const char scene[] = "{\"frames\": [0, 48], \"substeps\": 2, \"splines\": [{\"name\": \"sway\", \"knots\": "
+                            "[{\"frame\": 0, \"value\": 0}, {\"frame\": 12, \"value\": 1}]}],"
+                            "\"rigs\": [{\"type\": \"tail\", \"name\": \"fox\", \"spline\": \"sway\"},"
+                            " {\"type\": \"tail\", \"name\": \"cat\", \"spline\": \"sway\"}]}";
+
+static struct dialog *dialog_of(struct session *s) { return &s->editor->dialogs->dialog; }
+static struct exporting *of(struct session *s) { return &s->editor->dialogs->exporting; }
+
+static void open_session(struct session *s, const char *path, float width, float height)
+{
+    panel_open(s, scene, width, height);
+    editor_set_files(s->editor,
+                     &(struct dialog_files){.formats = exporting_formats, .format_count = exporting_format_count});
+    editor_set_path(s->editor, path);
+    session_key(s, 'E', MOD_CTRL);
+    assert_int_equal(dialog_of(s)->kind, DIALOG_EXPORT);
+}
+
+static const struct draw_command *shown(const struct session *session, const char *text)
+{
+    const struct drawlist *list = editor_drawlist(session->editor);
+    for (int i = list->count - 1; i >= 0; i--) {
+        const struct draw_command *command = &list->commands[i];
+        if (command->kind == DRAW_TEXT && strcmp(list->text + command->first, text) == 0) return command;
+    }
+    return NULL;
+}
+
+static void click_at(struct session *s, float x, float y, int clicks)
+{
+    session_move(s, x, y);
+    session_press(s, BUTTON_LEFT, clicks);
+    session_release(s, BUTTON_LEFT);
+}
+
+static void click(struct session *s, const char *text)
+{
+    const struct draw_command *command = shown(s, text);
+    if (!command) fail_msg("“%s” is not on the screen", text);
+    click_at(s, command->x + 4, command->y - 4, 1);
+}
+
+/// Types over the number that is so far right of a word.
+static void enter(struct session *s, const char *word, float right, const char *number)
+{
+    const struct draw_command *command = shown(s, word);
+    if (!command) fail_msg("“%s” is not on the screen", word);
+    click_at(s, command->x + right, command->y - 4, 2);
+    panel_type(s, number);
+    session_key(s, KEY_ENTER, 0);
+}
+
+static struct request asked(struct session *s)
+{
+    struct request request = editor_take_request(s->editor);
+    assert_int_equal(request.kind, REQUEST_EXPORT);
+    return request;
+}
+
+static void test_enter_exports_the_scene(void **state)
+{
+    (void)state;
+    struct session s;
+    open_session(&s, "work/walk.json", 1280, 720);
+    assert_non_null(shown(&s, "Write walk.glb"));
+    session_key(&s, KEY_ENTER, 0);
+    struct request request = asked(&s);
+    assert_string_equal(request.path, "work/walk.glb");
+    assert_false(request.wish.part);
+    assert_int_equal(request.wish.keys, 0);
+    session_close(&s);
+}
+
+static void test_the_ending_is_the_format(void **state)
+{
+    (void)state;
+    struct session s;
+    open_session(&s, "walk.json", 1280, 720);
+    panel_type(&s, "take.csv"); // over the selected name
+    assert_string_equal(exporting_formats[of(&s)->format].ending, ".csv");
+    assert_null(shown(&s, "clip"));
+    session_key(&s, KEY_DOWN, 0);
+    assert_string_equal(of(&s)->memory.path, "take.pc2");
+    click(&s, ".mp4");
+    assert_non_null(shown(&s, "Write take.mp4"));
+    assert_non_null(shown(&s, "49 pictures, 24 a second. ↑ ↓ choose the format, Tab goes to the choices."));
+    click(&s, "take.mp4"); // back in the name, where typing goes on
+    panel_type(&s, "2");
+    assert_non_null(shown(&s, "Write take.mp42.mp4"));
+    session_close(&s);
+}
+
+static void test_a_name_without_an_ending_gets_one(void **state)
+{
+    (void)state;
+    struct session s;
+    open_session(&s, "", 1280, 720);
+    panel_type(&s, "v1.2");
+    session_key(&s, KEY_ENTER, 0);
+    assert_string_equal(asked(&s).path, "v1.2.glb");
+    session_close(&s);
+}
+
+static void test_choices_are_asked_for(void **state)
+{
+    (void)state;
+    struct session s;
+    open_session(&s, "walk.json", 1280, 720);
+    enter(&s, "frames", 120, "12");
+    enter(&s, "keys a frame", 130, "4");
+    click(&s, "as the scene");
+    panel_type(&s, "Swing");
+    assert_string_equal(of(&s)->memory.path, "walk.glb"); // the name is another line of text
+    click(&s, "all rigs");
+    assert_non_null(shown(&s, "145 keys, 96 a second. ↑ ↓ choose the format, Tab goes to the choices."));
+    click(&s, "Write walk.glb");
+    struct request request = asked(&s);
+    assert_true(request.wish.part && request.wish.first == 12 && request.wish.last == 48);
+    assert_int_equal(request.wish.keys, 4);
+    assert_string_equal(request.wish.clip, "Swing");
+    assert_string_equal(request.wish.rig, "fox");
+    assert_null(shown(&s, "signed morph targets")); // tails have none
+    session_close(&s);
+}
+
+/// A file that holds one rig is offered no other choice than one.
+static void test_one_rig_only(void **state)
+{
+    (void)state;
+    struct session s;
+    open_session(&s, "walk.json", 1280, 720);
+    click(&s, ".pc2");
+    assert_null(shown(&s, "all rigs"));
+    click(&s, "fox");
+    click(&s, "cat");
+    assert_non_null(shown(&s, "fox"));
+    session_close(&s);
+}
+
+static void test_size_of_pictures(void **state)
+{
+    (void)state;
+    struct session s;
+    open_session(&s, "walk.json", 1280, 720);
+    click(&s, ".gif");
+    assert_non_null(shown(&s, "640"));
+    enter(&s, "size", 120, "320");
+    click(&s, "Write walk.gif");
+    struct request request = asked(&s);
+    assert_int_equal(request.wish.width, 320);
+    assert_int_equal(request.wish.height, 360);
+    session_close(&s);
+}
+
+static void test_cancelling(void **state)
+{
+    (void)state;
+    struct session s;
+    open_session(&s, "walk.json", 1280, 720);
+    session_key(&s, KEY_ENTER, 0);
+    asked(&s);
+    editor_tell_export(s.editor, 30, 97);
+    session_frame(&s);
+    assert_non_null(shown(&s, "30 of 97. Esc cancels, and leaves nothing behind."));
+    session_key(&s, KEY_DELETE, 0); // nothing else is done meanwhile
+    panel_type(&s, "x");
+    assert_string_equal(of(&s)->memory.path, "walk.glb");
+    session_key(&s, KEY_ESCAPE, 0);
+    assert_int_equal(editor_take_request(s.editor).kind, REQUEST_EXPORT_STOP);
+    click(&s, "Cancel");
+    assert_int_equal(editor_take_request(s.editor).kind, REQUEST_EXPORT_STOP);
+    panel_answer(&s, REQUEST_EXPORT, false, "Cancelled. Nothing was written.");
+    session_frame(&s);
+    assert_non_null(shown(&s, "Cancelled. Nothing was written."));
+    session_key(&s, KEY_ESCAPE, 0);
+    assert_int_equal(dialog_of(&s)->kind, DIALOG_NONE);
+    assert_int_equal(editor_take_request(s.editor).kind, REQUEST_NONE);
+    session_close(&s);
+}
+
+/// Esc belongs to a number while it is typed.
+static void test_escape_in_a_number(void **state)
+{
+    (void)state;
+    struct session s;
+    open_session(&s, "walk.json", 1280, 720);
+    const struct draw_command *word = shown(&s, "frames");
+    click_at(&s, word->x + 120, word->y - 4, 2);
+    panel_type(&s, "5");
+    session_key(&s, KEY_ESCAPE, 0);
+    assert_int_equal(dialog_of(&s)->kind, DIALOG_EXPORT);
+    assert_true(of(&s)->memory.wish.first == 0);
+    session_close(&s);
+}
+
+static void test_remembered(void **state)
+{
+    (void)state;
+    struct session s;
+    open_session(&s, "walk.json", 1280, 720);
+    panel_type(&s, "films/first.webm");
+    click(&s, "transparent");
+    session_key(&s, KEY_ESCAPE, 0);
+    session_key(&s, 'E', MOD_CTRL);
+    assert_non_null(shown(&s, "films/first.webm"));
+    session_key(&s, KEY_ESCAPE, 0);
+    editor_open(s.editor, &s.world);
+    editor_set_path(s.editor, "work/run.json");
+    session_key(&s, 'E', MOD_CTRL);
+    assert_non_null(shown(&s, "work/run.webm")); // its own name, in the format of last time
+    session_close(&s);
+}
+
+static void test_small_windows(void **state)
+{
+    (void)state;
+    struct session s;
+    open_session(&s, "walk.json", 640, 400);
+    const struct draw_command *button = shown(&s, "Write walk.glb");
+    assert_non_null(button);
+    assert_true(button->y < 400);
+    panel_type(&s, "walk.png"); // the last of the list comes into sight
+    const struct draw_command *row = shown(&s, ".png");
+    assert_non_null(row);
+    assert_true(row->y > row->clip.y && row->y < row->clip.y + row->clip.h);
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_enter_exports_the_scene),
+        cmocka_unit_test(test_the_ending_is_the_format),
+        cmocka_unit_test(test_a_name_without_an_ending_gets_one),
+        cmocka_unit_test(test_choices_are_asked_for),
+        cmocka_unit_test(test_one_rig_only),
+        cmocka_unit_test(test_size_of_pictures),
+        cmocka_unit_test(test_cancelling),
+        cmocka_unit_test(test_escape_in_a_number),
+        cmocka_unit_test(test_remembered),
+        cmocka_unit_test(test_small_windows),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
