@@ -3,6 +3,8 @@
 #ifndef TESTS_BEAST_H
 #define TESTS_BEAST_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>

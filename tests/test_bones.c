@@ -263,6 +263,50 @@ static void test_a_chain_is_edited_in_the_inspector(void **state)
     session_close(&s);
 }
 
+static const struct angles *gain_of_tail(const struct session *s)
+{
+    return &s->document->rigs[1].chain.channels[0].gain;
+}
+
+static void test_a_gain_becomes_a_ramp_whose_points_move(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, TAIL);
+    char *before = session_saved(&s);
+    panel_click(&s, "gain.ramp");
+    assert_int_equal(gain_of_tail(&s)->form, ANGLES_RAMP);
+    assert_int_equal(gain_of_tail(&s)->count, 2);
+    assert_near(gain_of_tail(&s)->ramp[1].angle, 8, 0);
+    char *flat = session_saved(&s);
+    panel_press(&s, "gain.point.1", 1);
+    session_drag(&s, -40, -12, 4);
+    panel_release(&s);
+    assert_true(gain_of_tail(&s)->ramp[1].angle > 8);
+    assert_true(gain_of_tail(&s)->ramp[1].at < 1);
+    assert_one_step(&s, flat);
+    panel_press(&s, "gain.point.0", 1);
+    session_move(&s, s.x + 60, s.y - 8);
+    session_release(&s, BUTTON_LEFT);
+    session_move(&s, s.x + 8, s.y + 16); // beside the line
+    session_press(&s, BUTTON_LEFT, 2);
+    session_release(&s, BUTTON_LEFT);
+    assert_int_equal(gain_of_tail(&s)->count, 3);
+    panel_press(&s, "gain.point.1", 1);
+    session_release(&s, BUTTON_LEFT);
+    session_key(&s, KEY_DELETE, 0);
+    assert_int_equal(gain_of_tail(&s)->count, 2);
+    session_key(&s, KEY_DELETE, 0);
+    assert_int_equal(gain_of_tail(&s)->count, 2); // a ramp needs them
+    panel_click(&s, "gain.each");
+    assert_int_equal(gain_of_tail(&s)->form, ANGLES_ONE);
+    for (int step = 0; step < 6; step++) session_key(&s, 'Z', MOD_CTRL);
+    assert_saved(&s, before);
+    free(flat);
+    free(before);
+    session_close(&s);
+}
+
 static void test_a_chain_gets_a_twin_on_the_other_side(void **state)
 {
     (void)state;
@@ -306,6 +350,7 @@ int main(void)
         cmocka_unit_test(test_a_click_on_a_chain_selects_its_bone),
         cmocka_unit_test(test_the_inspector_chooses_the_clip),
         cmocka_unit_test(test_a_chain_is_edited_in_the_inspector),
+        cmocka_unit_test(test_a_gain_becomes_a_ramp_whose_points_move),
         cmocka_unit_test(test_a_chain_gets_a_twin_on_the_other_side),
         cmocka_unit_test(test_a_tail_has_no_twin),
     };

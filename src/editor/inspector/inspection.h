@@ -82,6 +82,14 @@ extern const struct angle_row angle_row_lag, angle_row_gain, angle_row_rest;
 /// Rows for the angles of the tail or channel that the inspector shows.
 void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles);
 
+/// The edit that replaces them.
+struct edit inspector_angles_edit(const struct inspection *in, const struct angle_row *row,
+                                  const struct angles *angles);
+/// Below the row of a ramp: its curve.
+void inspector_ramp(struct inspection *in, const struct angle_row *row, const struct angles *angles);
+/// A ramp of two points from the first joint's angle to the last one's.
+struct angles inspector_as_ramp(const struct angles *angles, enum angle_kind kind, int joints);
+
 /// Its channels: the list, and how much and how late the chosen one bends; and what that is made of.
 void inspector_channels(struct inspection *in);
 void inspector_channel(struct inspection *in);

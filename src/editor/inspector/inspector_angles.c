@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SWITCH = 26 }; ///< width of the button between one and each
+enum { SWITCH = 26 }; ///< width of a button between one, each and a ramp
 
 const struct angle_row angle_row_lag = {
     ANGLE_LAG, "lag", "How far each joint lags behind the last, in degrees of swing (hold L and press ↑ ↓)",
@@ -40,8 +40,8 @@ static void scale_angles(struct angles *angles, double value)
     }
 }
 
-/// The edit that replaces the angles of a row.
-static struct edit angles_edit(const struct inspection *in, const struct angle_row *row, const struct angles *angles)
+struct edit inspector_angles_edit(const struct inspection *in, const struct angle_row *row,
+                                  const struct angles *angles)
 {
     struct edit edit = core_edit_of(EDIT_ANGLES, 0);
     edit.rig = in->inspector->rig;
@@ -79,7 +79,7 @@ static void build_slider(struct inspection *in, const struct angle_row *row, con
     inspector_take_back(in, change); // scaled from where the drag began, so that a drag through 0 loses no proportion
     struct angles next = *angles;
     scale_angles(&next, value);
-    struct edit edit = angles_edit(in, row, &next);
+    struct edit edit = inspector_angles_edit(in, row, &next);
     inspector_change(in, change, row->undo, row->name, &edit);
 }
 
@@ -123,7 +123,7 @@ static void build_end(struct inspection *in, const struct angle_row *row, const 
         double share = joints > 1 ? (double)n / (joints - 1) : last;
         next.value[n] = round((ends[0] + (ends[1] - ends[0]) * share) * 1e4) / 1e4;
     }
-    struct edit edit = angles_edit(in, row, &next);
+    struct edit edit = inspector_angles_edit(in, row, &next);
     inspector_change(in, change, row->undo, name, &edit);
 }
 
@@ -164,7 +164,7 @@ static void build_list(struct inspection *in, const struct angle_row *row, const
     if (ui_line(in->ui, r, name) != UI_LINE_DONE) return;
     struct angles next = {.form = ANGLES_EACH, .count = joints};
     if (parse_list(in->ui->text.bytes, next.value, joints)) {
-        struct edit edit = angles_edit(in, row, &next);
+        struct edit edit = inspector_angles_edit(in, row, &next);
         core_step(in->core, in->world, row->undo, 0, &edit);
         return;
     }
@@ -172,31 +172,49 @@ static void build_list(struct inspection *in, const struct angle_row *row, const
     core_message(in->core, true, text);
 }
 
-void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
+/// The button at the right end of a row that makes its angles another kind; true if it changed them.
+static bool build_switch(struct inspection *in, const struct angle_row *row, const struct angles *next, struct rect r,
+                         const char *kind, const char *label, const char *hint)
 {
-    struct ui *ui = in->ui;
-    int joints = bones_joints(in->world, in->inspector->rig);
-    struct rect r = ui_row(ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y + 2, SWITCH, r.h - 4};
-    const bool several = angles->form != ANGLES_ONE;
     char name[32];
-    build_slider(in, row, angles, (struct rect){r.x, r.y, r.w - SWITCH - 4, r.h});
-    snprintf(name, sizeof name, "%s.each", row->name);
-    if (ui_hovered(ui, right)) ui->hint = several ? "Use one angle for all joints" : "Use one angle per joint";
-    if (ui_button(ui, right, name, several ? "n" : "1", false)) {
-        struct angles next = converted(angles, row->kind, joints);
-        struct edit edit = angles_edit(in, row, &next);
-        core_step(in->core, in->world, row->undo, 0, &edit);
-        return;
-    }
-    if (angles->form != ANGLES_EACH) return;
-    struct rect line = ui_row(ui, UI_ROW);
+    snprintf(name, sizeof name, "%s.%s", row->name, kind);
+    if (ui_hovered(in->ui, r)) in->ui->hint = hint;
+    if (!ui_button(in->ui, r, name, label, false)) return false;
+    const struct edit edit = inspector_angles_edit(in, row, next);
+    core_step(in->core, in->world, row->undo, 0, &edit);
+    return true;
+}
+
+/// One of each joint: the first, the last, and all as a list.
+static void build_each(struct inspection *in, const struct angle_row *row, const struct angles *angles, int joints)
+{
+    char name[32];
+    struct rect line = ui_row(in->ui, UI_ROW);
     snprintf(name, sizeof name, "%s.list", row->name);
     float x = line.x + UI_LABEL + UI_GAP, w = (line.x + line.w - x - 2 * 4) / 3;
-    if (ui_line_is_open(ui, name)) {
+    if (ui_line_is_open(in->ui, name)) {
         build_list(in, row, angles, joints, line);
         return;
     }
     build_end(in, row, angles, joints, false, (struct rect){x, line.y, w, line.h});
     build_end(in, row, angles, joints, true, (struct rect){x + w + 4, line.y, w, line.h});
     build_list(in, row, angles, joints, (struct rect){x + 2 * (w + 4), line.y + 2, w, line.h - 4});
+}
+
+void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
+{
+    const int joints = bones_joints(in->world, in->inspector->rig);
+    const bool several = angles->form != ANGLES_ONE, is_ramp = angles->form == ANGLES_RAMP;
+    struct rect r = ui_row(in->ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y + 2, SWITCH, r.h - 4}, left = right;
+    left.x -= SWITCH + 4;
+    build_slider(in, row, angles, (struct rect){r.x, r.y, (is_ramp ? right.x : left.x) - r.x - 4, r.h});
+    const struct angles other = converted(angles, row->kind, joints),
+                        ramp = inspector_as_ramp(angles, row->kind, joints);
+    if (build_switch(in, row, &other, right, "each", several ? (is_ramp ? "~" : "n") : "1",
+                     several ? "Use one angle for all joints" : "Use one angle per joint"))
+        return;
+    if (!is_ramp && build_switch(in, row, &ramp, left, "ramp", "~", "Draw the angles along the joints as a curve"))
+        return;
+    if (is_ramp) inspector_ramp(in, row, angles);
+    if (angles->form == ANGLES_EACH) build_each(in, row, angles, joints);
 }

@@ -65,14 +65,16 @@ static void build_buttons(struct inspection *in)
 
 static void build_choices(struct inspection *in, const struct channel *channel)
 {
-    static const struct ui_choice axes[] = {
-        [AXIS_SIDE] = {"side", "Sideways"}, [AXIS_UP] = {"up", "Up"}, [AXIS_TWIST] = {"twist", "Twist"}};
+    static const struct ui_choice tail[] = {[AXIS_SIDE] = {"side", "Sideways"}, [AXIS_UP] = {"up", "Up"}};
+    static const struct ui_choice chain[] = {
+        [AXIS_SIDE] = {"side", "Side"}, [AXIS_UP] = {"up", "Up"}, [AXIS_TWIST] = {"twist", "Twist"}};
     static const struct ui_choice parts[] = {
         [PART_TOTAL] = {"total", "Total"}, [PART_DISPLACEMENT] = {"displacement", "Displaced"}};
     struct ui *ui = in->ui;
     int axis = (int)channel->axis, part = (int)channel->of;
-    const int count = inspector_shown(in)->kind == RIG_CHAIN ? 3 : 2;
-    if (ui_segments(ui, inspector_labelled(in, "axis"), "axis", axes, count, &axis)) {
+    const bool is_chain = inspector_shown(in)->kind == RIG_CHAIN;
+    struct rect row = inspector_labelled(in, "axis");
+    if (ui_segments(ui, row, "axis", is_chain ? chain : tail, is_chain ? 3 : 2, &axis)) {
         struct edit edit = channel_edit(in, EDIT_AXIS);
         edit.axis = (enum axis)axis;
         core_step(in->core, in->world, "Set axis", 0, &edit);

@@ -64,6 +64,7 @@ static void build_rows(struct inspection *in)
             build_row(in, kinds[k], rig, n);
         }
     }
+    ui_space(in->ui, 6);
 }
 
 static void build_name(struct inspection *in)
