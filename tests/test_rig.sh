@@ -5,7 +5,7 @@ dog=assets/models/dog.glb
 
 expect 0 "without -o it lists" "$WIGGLY" rig $dog
 says "the clips" "Walk (1 s)" "$out"
-says "and the bones, each under its parent" "                tail_3" "$out"
+says "and the bones, each under its parent" "          tail_3" "$out"
 
 expect 0 "a tail and two ears" "$WIGGLY" rig $dog --chain tail_1:tail_8 --chain ear_1_L -c ear_1_R --frequency 2 -o "$scratch/dog.json"
 says "says what was made" "wrote $scratch/dog.json: 3 chains" "$out"
