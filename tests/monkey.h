@@ -83,6 +83,11 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
     const char *tail = tails > 0 ? d->rigs[document_find_rig(d, RIG_TAIL, below(m, tails))].name : NULL;
     char target[512] = "";
     int which = below(m, 9);
+    if (document_find_rig(d, RIG_MODEL, 0) >= 0 && one_in(m, 2)) {
+        static const char *const bones[] = {"tail_1", "tail_5", "ear_L_1", "ear_R_1", "head", "leg_FL_1"};
+        snprintf(target, sizeof target, "bone(%s)", bones[below(m, 6)]);
+        return editor_target(app->table.editor, &world, target, x, y, NULL);
+    }
     if (which < 3 && spline && spline->knot_count > 0) {
         const int knot = below(m, spline->knot_count);
         snprintf(target, sizeof target, "knot(%.200s,%d)", spline->name, knot);
@@ -156,7 +161,7 @@ static inline void any_key(struct monkey *m)
 static inline void edit_key(struct monkey *m)
 {
     static const int keys[] = {'I', 'I', 'I', 'T', 'M',        'V', 'S', 'X', 'Y',
-                               'R', 'P', 'D', 'E', KEY_DELETE, 'N', 'U', 'K'};
+                               'R', 'P', 'D', 'E', KEY_DELETE, 'N', 'U', 'K', 'J'};
     static const int held[] = {'F', 'Z', 'B', 'C', 'L'};
     if (one_in(m, 4)) {
         const int letter = held[below(m, 5)];

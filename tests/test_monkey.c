@@ -3,6 +3,7 @@
 ///
 ///     MONKEY_SEED=7 MONKEY_EVENTS=1000000 build/tests/test_monkey    runs one seed, as long as wanted
 ///     MONKEY_RECORD=/tmp/m.replay …                                  writes down what it does
+#include "beast.h"
 #include "inside.h"
 #include "invariants.h"
 #include "monkey.h"
@@ -63,6 +64,24 @@ static void make_puppet(void)
     files.good[files.good_count++] = "puppet.json";
 }
 
+/// An imported character with a chain in its tail.
+static void make_beast(void)
+{
+    static const char scene[] =
+        "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"wag\", \"frequency\": 1, \"knots\": "
+        "[{\"frame\": 0, \"value\": 1}]}], \"rigs\": [{\"type\": \"model\", \"name\": \"beast\", \"model\": "
+        "\"beast.glb\", \"clip\": \"Walk\"}, {\"type\": \"chain\", \"name\": \"tail\", \"model\": \"beast\", "
+        "\"from\": \"tail_1\", \"to\": \"tail_8\", \"channels\": [{\"spline\": \"wag\", \"axis\": \"side\", "
+        "\"gain\": {\"ramp\": [[0, 4], [0.5, 9], [1, 12]]}}]}]}";
+    assert_true(beast_write("beast.glb"));
+    FILE *file = fopen("beast.json", "w");
+    assert_non_null(file);
+    fputs(scene, file);
+    assert_int_equal(fclose(file), 0);
+    files.good[files.good_count++] = "beast.json";
+    files.good[files.good_count++] = "beast.glb";
+}
+
 static int make_files(void **state)
 {
     (void)state;
@@ -71,6 +90,7 @@ static int make_files(void **state)
     copy_scene("follow.json");
     copy_scene("figure3.json");
     make_puppet();
+    make_beast();
     DIR *bad = opendir(keep("%s/tests/bad%s", ""));
     if (!bad) return -1;
     for (struct dirent *entry; (entry = readdir(bad)) != NULL && files.bad_count < 100;) {

@@ -127,6 +127,8 @@ static void destroy(struct export_job *job)
 bool exporting_start(struct app *app, const struct request *request, struct error *error)
 {
     if (app->export_job) return fail(error, ERROR_INPUT, "Another export is running.");
+    if (!app->draw && film_knows(request->path))
+        return fail(error, ERROR_ENVIRONMENT, "%s: pictures need OpenGL, which is not there", request->path);
     struct export_job *job = calloc(1, sizeof *job);
     if (!job) return fail_no_memory(error, request->path);
     job->request = *request;
