@@ -185,6 +185,8 @@ void editor_pose(struct editor *editor, const struct editor_world *world)
         curves_frame_all(editor->curves, &editor->core, world);
         stage_fit(editor->stage, &editor->core, world);
     }
+    if (editor->core.refit_curves) curves_frame_all(editor->curves, &editor->core, world);
+    editor->core.refit_curves = false;
     stage_pose(editor->stage, &editor->core, world, dialogs_cover(editor->dialogs));
 }
 

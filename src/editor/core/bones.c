@@ -60,6 +60,7 @@ void bones_make_chain(struct core *core, const struct editor_world *world, int f
     int model, rig;
     const int node = bones_selected(core, world, &model);
     struct error error = {0};
+    const bool has_splines = world->document->spline_count > 0;
     if (history_is_open(world->history)) return;
     if (node < 0) {
         core_message(core, false, "Click a bone of an imported character first.");
@@ -77,5 +78,6 @@ void bones_make_chain(struct core *core, const struct editor_world *world, int f
         return;
     }
     core_activate(core, world, rig_input(&world->document->rigs[rig], 0));
+    core->refit_curves = !has_splines;
     tell(core, world->document, &world->document->rigs[rig], model, follow);
 }

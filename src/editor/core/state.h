@@ -199,6 +199,7 @@ struct core {
     struct overlays overlays;
     bool record_armed; ///< the next drag of a body is recorded from its start
     bool refit_stage;  ///< all of the stage is to be in sight
+    bool refit_curves; ///< all curves are to be, once they are solved
 
     unsigned serial; ///< of the document on the table
     char title[256]; ///< the file's name, or "untitled"
