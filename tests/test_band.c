@@ -1,4 +1,4 @@
-/// The band of long domains: what one plain solve leaves, or the refinement of the squared matrix, against the factored rows
+/// The band of long domains, and of short ones beside the chain: what one plain solve leaves, or the refinement of the squared matrix, against the factored rows
 /// themselves; and an estimate of the error that is no smaller than it.
 #include "near.h"
 
@@ -97,11 +97,56 @@ static void gaps_of_every_length(void **state)
     }
 }
 
+/// One to two periods in all, where the imaginary rows pull on the chain's nodes, against the factored rows: with slopes, knots side by
+/// side, pairs at the end, samples that run free.
+static void the_chain_of_one_or_two_periods(void **state)
+{
+    pair *p = *state;
+    for (int kind = 0; kind < 240; kind++) {
+        wiggly_knot knots[60];
+        wiggly_desc desc = wiggly_default_desc();
+        desc.samples = 100 + 3 * kind;
+        desc.start = (wiggly_start)(kind % 3);
+        desc.passive = (wiggly_passive)(kind / 3 % 2);
+        desc.damping.value = kind % 11 < 5 ? 0 : 0.02 * (kind % 11);
+        desc.bandwidth.value = kind % 7 < 3 ? 0 : 0.05 * (kind % 7);
+        desc.calm = 0.05 + 0.1 * (kind % 9);
+        desc.knots = knots;
+        const int gap = desc.samples / (2 + kind % 20);
+        for (int i = 0; i < desc.samples - 3; i += gap) {
+            const bool slope = kind % 5 == 0 && desc.knot_count % 3 == 1;
+            knots[desc.knot_count++] = (wiggly_knot){
+                .sample = i, .value = sin(0.7 * i), .has_slope = slope, .slope = 3, .stiffness = 1 + kind};
+            if (kind % 4 == 0)
+                knots[desc.knot_count++] = (wiggly_knot){.sample = i + 1, .value = sin(0.7 * i) + 0.01 * (kind % 3)};
+        }
+        knots[desc.knot_count++] =
+            (wiggly_knot){.sample = desc.samples - 1 - (desc.start == WIGGLY_LOOP), .value = 1};
+        desc.frequency.value = (1.0 + (kind % 10) / 11.0) / ((desc.samples - 1) * desc.step);
+        p->solver->chain.im_weight = 0;
+        wiggly_set_method(p->solver, WIGGLY_CHAIN);
+        assert_int_equal(wiggly_solve(p->solver, &desc, &p->usual), WIGGLY_OK);
+        assert_true(p->solver->chain.im_weight > 0);
+        const int usual = p->solver->longest_squared;
+        wiggly_set_method(p->solver, WIGGLY_BAND);
+        p->solver->longest_squared = 2;
+        assert_int_equal(wiggly_solve(p->solver, &desc, &p->rows), WIGGLY_OK);
+        p->solver->longest_squared = usual;
+        double size = 0;
+        for (int i = 0; i < desc.samples; i++) size = fmax(size, fabs(p->rows.total[i]));
+        for (int i = 0; i < desc.samples; i++) {
+            assert_near(p->usual.total[i], p->rows.total[i], 1e-9 * size);
+            assert_near(p->usual.im[i], p->rows.im[i], 1e-9 * size);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_track_from_0_over_long_gaps),
         cmocka_unit_test(gaps_of_every_length),
+        cmocka_unit_test(the_chain_of_one_or_two_periods),
     };
     return cmocka_run_group_tests(tests, create, destroy);
 }

@@ -155,6 +155,18 @@ static void fill_run(const chain *c, const cplx weight[4], int at, int count, do
     }
 }
 
+void chain_begin_run(const chain *c, const chain_node *p, const chain_node *q, int k, cplx nu[2], cplx weight[4])
+{
+    if (k > 0) {
+        if (k == c->run) costate_at_end(c, p, q, nu);
+        go_on(c, p, c->stretches[p->stretch].length - k, k, nu, weight);
+    } else if (c->is_complex) {
+        begin_complex(c, p, q, weight);
+    } else {
+        begin_real(c, p, q, weight);
+    }
+}
+
 bool chain_fill_stretch(const chain *c, const chain_node *p, const chain_node *q, double *re, double *im)
 {
     const int n = c->stretches[p->stretch].length;
@@ -163,14 +175,7 @@ bool chain_fill_stretch(const chain *c, const chain_node *p, const chain_node *q
     for (int k = 0; k < n; k += c->run) {
         int at = p->sample + c->turned + k, count = n - k < c->run ? n - k : c->run;
         if (c->cyclic && at >= c->count) at -= c->count;
-        if (k > 0) {
-            if (k == c->run) costate_at_end(c, p, q, nu);
-            go_on(c, p, n - k, k, nu, weight);
-        } else if (c->is_complex) {
-            begin_complex(c, p, q, weight);
-        } else {
-            begin_real(c, p, q, weight);
-        }
+        chain_begin_run(c, p, q, k, nu, weight);
         for (int i = 0; i < 4; i++) tame = tame && is_tame(weight[i]);
         fill_run(c, weight, at, count, re, im);
     }
@@ -304,6 +309,11 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
     chain_solve_nodes(c);
     double size = fmax(take_solution(c), largest_value(c));
     if (c->rank == CHAIN_WEAK && (c->count <= LONGEST_FOR_BAND || !refine(c, size))) return false;
+    if (c->im_weight > 0) {
+        chain_pull_imaginary(c);
+        chain_solve_nodes(c);
+        take_solution(c);
+    }
     c->size = size;
     c->error = fmax(c->error, chain_error(c, size));
     return chain_fill(c, x_re, x_im);

@@ -20,8 +20,7 @@ static cplx mismatch(cplx end, cplx f, cplx x, cplx g, cplx d)
     return (cplx){re.hi + re.lo, im.hi + im.lo};
 }
 
-/// A pull on a node's x and d; Re x is known and takes none.
-static void pull(const chain *c, int j, cplx on_x, cplx on_d)
+void chain_pull(const chain *c, int j, cplx on_x, cplx on_d)
 {
     double *right = c->rows[j].right;
     if (!c->is_complex) {
@@ -35,7 +34,7 @@ static void pull(const chain *c, int j, cplx on_x, cplx on_d)
 static void pull_speed(const chain *c, int j, double pulled)
 {
     const chain_speed *speed = &c->speed[c->nodes[j].view];
-    pull(c, j, cplx_scale(-pulled, cplx_conj(speed->on_x)), cplx_scale(-pulled, cplx_conj(speed->on_d)));
+    chain_pull(c, j, cplx_scale(-pulled, cplx_conj(speed->on_x)), cplx_scale(-pulled, cplx_conj(speed->on_d)));
 }
 
 /// What the stretch from node j pulls, and the slope at its end, whose jet is the costate's second part.
@@ -61,9 +60,9 @@ static void pull_stretch(const chain *c, int j)
         n0 = cplx_sub(n0, cplx_mul(v01, eta));
         n1 = cplx_sub(n1, cplx_scale(v11, eta));
     }
-    pull(c, next, cplx_scale(-1, n0), cplx_scale(-1, n1));
-    pull(c, j, cplx_add(cplx_mul(cplx_conj(f00), n0), cplx_mul(cplx_conj(f10), n1)),
-         cplx_add(cplx_mul(cplx_conj(f01), n0), cplx_mul(cplx_conj(f11), n1)));
+    chain_pull(c, next, cplx_scale(-1, n0), cplx_scale(-1, n1));
+    chain_pull(c, j, cplx_add(cplx_mul(cplx_conj(f00), n0), cplx_mul(cplx_conj(f10), n1)),
+               cplx_add(cplx_mul(cplx_conj(f01), n0), cplx_mul(cplx_conj(f11), n1)));
 }
 
 static void pull_start(const chain *c)
@@ -74,7 +73,7 @@ static void pull_start(const chain *c)
         const struct start_row *row = &c->start.row[i];
         cplx on_x = cplx_add(row->on_x, cplx_mul(row->on_e, growth)), on_d = row->on_e;
         cplx miss = cplx_scale(-row->weight, cplx_add(cplx_mul(on_x, x), cplx_mul(on_d, d)));
-        pull(c, 0, cplx_mul(cplx_conj(on_x), miss), cplx_mul(cplx_conj(on_d), miss));
+        chain_pull(c, 0, cplx_mul(cplx_conj(on_x), miss), cplx_mul(cplx_conj(on_d), miss));
     }
 }
 
@@ -84,11 +83,10 @@ static void pull_form(const chain *c, int j, const state_form *h)
     cplx x = {node->value, node->x_im}, d = {node->d_re, node->d_im};
     cplx on_x = cplx_add(cplx_scale(h->h00, x), cplx_mul(h->h01, d));
     cplx on_d = cplx_add(cplx_mul(cplx_conj(h->h01), x), cplx_scale(h->h11, d));
-    pull(c, j, cplx_scale(-1, on_x), cplx_scale(-1, on_d));
+    chain_pull(c, j, cplx_scale(-1, on_x), cplx_scale(-1, on_d));
 }
 
-/// Known unknowns take no correction; a tied d follows Im x.
-static void hold_known(const chain *c, int j)
+void chain_hold_known(const chain *c, int j)
 {
     double *right = c->rows[j].right;
     const unsigned fixed = c->nodes[j].fixed;
@@ -115,6 +113,6 @@ void chain_gradient(chain *c)
         pull_form(c, c->node_count - 1, &end);
     }
     for (int j = 0; j < c->node_count; j++) {
-        if (c->nodes[j].fixed) hold_known(c, j);
+        if (c->nodes[j].fixed) chain_hold_known(c, j);
     }
 }

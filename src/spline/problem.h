@@ -71,6 +71,9 @@ static inline const constant_filter *problem_filter(wiggly_solver *solver, const
 /// Whether the oscillator's rules hold: jets weighed by |g|⁻², speeds that the poles see, the tail.
 static inline bool problem_oscillates(const problem *p) { return p->desc->passive == WIGGLY_OSCILLATOR; }
 
+/// What Im x costs at a sample of that natural frequency, times h³: T⁻⁴ (1 + (ω_n T)⁸)⁻¹, without `unit`.
+double problem_im_weight(const problem *p, double natural);
+
 /// Puts everything of the system into the solver's rows; x holds the fixed values and 0 elsewhere.
 void problem_set_rows(wiggly_solver *solver, const problem *p);
 
@@ -87,6 +90,9 @@ void problem_fill_tail(wiggly_solver *solver, const problem *p, cplx w, int from
 /// The same for all samples behind the latest knot; arrays of the whole spline.
 void problem_settle(wiggly_solver *solver, const problem *p, double *re, double *im);
 
+/// Whether a chain takes the imaginary rows as a pull on its nodes: they are felt.
+bool problem_pulls_imaginary(wiggly_solver *solver, const problem *p);
+
 /// Whether the document is one for the chain: constant parameters, a constant equilibrium, no seam.
 bool problem_fits_chain(wiggly_solver *solver, const problem *p);
 
@@ -94,7 +100,7 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p);
 /// or WIGGLY_OK.
 wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p);
 
-/// What a chain without the imaginary rows may be off by, as a part of x; 0 where that is next to nothing.
+/// What a chain without the imaginary rows, or with no more than their pull on the nodes, may be off by, as a part of x; 0 where that is next to nothing.
 double problem_omission(wiggly_solver *solver, const problem *p);
 
 /// Writes what a knot says into a node, with the knot on the next sample where there is one; true where only values changed.

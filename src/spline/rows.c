@@ -35,9 +35,9 @@ static double slowness(double natural, double highest, double step)
     return whole * whole * lack * lack;
 }
 
-/// What Im x costs at a sample, times h³: T⁻⁴ (1 + (ω_n T)⁸)⁻¹.
-static double im_weight_of(double natural, double t, double intervals)
+double problem_im_weight(const problem *p, double natural)
 {
+    double intervals = p->start == WIGGLY_LOOP ? p->count : p->count - 1, t = intervals * p->desc->step;
     double phase2 = natural * t * (natural * t), phase4 = phase2 * phase2, i2 = intervals * intervals;
     return 1 / (i2 * i2 * (1 + phase4 * phase4));
 }
@@ -59,7 +59,7 @@ static cplx drive_phase(const poles_block *block, int i, const wiggly_desc *desc
 }
 
 /// Every row of parameters that vary, a block at a time; returns the lowest natural frequency. Weights are relative to the first sample's |g|⁻².
-static double set_varying(system_rows *rows, const problem *p, double t, double intervals, bool weighted)
+static double set_varying(system_rows *rows, const problem *p, bool weighted)
 {
     const wiggly_desc *desc = p->desc;
     const bool oscillates = problem_oscillates(p), driven = !oscillates && p->about;
@@ -77,7 +77,7 @@ static double set_varying(system_rows *rows, const problem *p, double t, double 
         for (int i = 0; i < count; i++) {
             coefficients at = {.m = {block.m_re[i], block.m_im[i]}, .p = {block.p_re[i], block.p_im[i]}};
             if (driven) at.g = drive_phase(&block, i, desc);
-            double im = weighted ? im_weight_of(block.natural[i], t, intervals) : 0;
+            double im = weighted ? problem_im_weight(p, block.natural[i]) : 0;
             if (oscillates) im = (im + slowness(block.natural[i], highest, desc->step)) * p->unit;
             set_row(rows, p, k + i, at, weight[i], im);
             slowest = block.natural[i] < slowest ? block.natural[i] : slowest;
@@ -108,15 +108,14 @@ static void set_filter(wiggly_solver *solver, const problem *p)
     chain_forget(&solver->chain); // its tables lie where the matrix will be
     system_rows *rows = &solver->rows;
     const wiggly_desc *desc = p->desc;
-    double intervals = p->start == WIGGLY_LOOP ? p->count : p->count - 1, t = intervals * desc->step;
     bool weighted = desc->mode == WIGGLY_COMPLEX && (p->start != WIGGLY_REST || desc->knot_count > 0);
     if (!poles_are_constant(desc)) {
-        set_stretch(rows, solver, p, set_varying(rows, p, t, intervals, weighted));
+        set_stretch(rows, solver, p, set_varying(rows, p, weighted));
         return;
     }
     const poles *at = &problem_filter(solver, p)->at;
     coefficients row = poles_coefficients(at, desc->step);
-    double im = weighted ? im_weight_of(at->natural, t, intervals) : 0;
+    double im = weighted ? problem_im_weight(p, at->natural) : 0;
     im *= p->unit;
     for (int k = 0; k < rows->count; k++) set_row(rows, p, k, row, 1, im);
     set_stretch(rows, solver, p, at->natural);

@@ -36,7 +36,8 @@ static bool is_for_tree(const wiggly_take *take, const problem *p)
         if (!knot->has_slope || knot->stiffness * take->desc.step <= heaviest) continue;
         if (problem_slope(p, knot->sample, knot->slope, knot->stiffness).weight > heaviest) return false;
     }
-    return p->start != WIGGLY_LOOP && !problem_is_loose(p) && problem_fits_chain(take->solver, p);
+    return p->start != WIGGLY_LOOP && !problem_is_loose(p) && problem_fits_chain(take->solver, p) &&
+           !problem_pulls_imaginary(take->solver, p);
 }
 
 static wiggly_status build(wiggly_take *take)
