@@ -44,7 +44,7 @@ static inline void beast_bones(struct beast_bone bones[BEAST_BONES])
     for (int n = 0; n < BEAST_TAIL; n++) {
         struct beast_bone *bone = &bones[17 + n];
         *bone = (struct beast_bone){.parent = n == 0 ? 0 : 16 + n, .half = 0.035f - 0.003f * (float)n};
-        snprintf(bone->name, sizeof bone->name, "tail_%d", n + 1);
+        snprintf(bone->name, sizeof bone->name, "tail_%u", (unsigned)(n + 1) % 100);
         memcpy(bone->at, (float[3]){0, n == 0 ? 0.08f : 0.03f, n == 0 ? -0.04f : -0.08f}, sizeof bone->at);
         memcpy(bone->end, (float[3]){0, 0.03f, -0.08f}, sizeof bone->end);
     }
