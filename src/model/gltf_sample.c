@@ -76,7 +76,7 @@ static void sample(const struct gltf_channel *channel, double time, float *out)
 void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_pose *pose)
 {
     for (int n = 0; n < gltf->node_count; n++) pose->place[n] = gltf->nodes[n].place;
-    memcpy(pose->weights, gltf->weights, (size_t)gltf->weight_count * sizeof *pose->weights);
+    for (int w = 0; w < gltf->weight_count; w++) pose->weights[w] = gltf->weights[w];
     for (int i = 0; clip >= 0 && i < gltf->clips[clip].channel_count; i++) {
         const struct gltf_channel *channel = &gltf->clips[clip].channels[i];
         struct gltf_place *place = &pose->place[channel->node];
