@@ -28,7 +28,7 @@ cat >"$scratch/bin/wiggly" <<END
 # The live app lasts until somebody quits it: ten frames do. A simulation takes 10 s: a coarse, short one does.
 case \${1-live} in
 simulate) set -- "\$@" --tets 300 --seconds 2 ;;
-solve | export | check | analyze | bench | -*) ;;
+solve | rig | export | check | analyze | bench | -*) ;;
 *) [[ " \$* " == *" --frames "* || " \$* " == *" --replay "* ]] || set -- "\$@" --frames 10 ;;
 esac
 exec "$build/wiggly" "\$@"

@@ -22,9 +22,9 @@ picture() { # <name> <frames> [option]...
     echo "$out/$name, $(($(wc -c <"$out/$name") / 1000)) kB"
 }
 
-# A replay on the built-in scene; its header (with the scene's hash) is one that the app itself records.
-replay() { # <name>, events on standard input
-    "$wiggly" live --headless --frames 1 --record "$scratch/$1" >/dev/null 2>&1
+# A replay on the built-in scene or another; its header (with the scene's hash) is one that the app itself records.
+replay() { # <name> [scene], events on standard input
+    "$wiggly" live --headless --frames 1 --record "$scratch/$1" ${2:+"$2"} >/dev/null 2>&1
     sed -i 's/^frames .*/frames 1200/' "$scratch/$1"
     cat >>"$scratch/$1"
 }
@@ -69,6 +69,15 @@ replay help.replay <<'END'
 END
 
 animation drag.gif
+replay bones.replay assets/models/dog.glb <<'END'
+10 pointer @bone(tail_1)
+12 press left @bone(tail_1)
+13 release left @bone(tail_1)
+20 key J shift
+END
+
+picture bones.png 60 --replay "$scratch/bones.replay" assets/models/dog.glb
+picture dog.png 130 assets/scenes/dog.json
 picture live.png 66 --replay "$scratch/select.replay"
 picture light.png 66 --theme light --replay "$scratch/select.replay"
 picture welcome.png 40 --size 960x600 --welcome --theme light

@@ -197,7 +197,7 @@ static void answer(struct app *app, bool done)
     struct export_job *job = app->export_job;
     const struct request *request = &job->request;
     const struct export_report *report = &job->report;
-    char text[sizeof request->path + 300];
+    char text[sizeof request->path + sizeof report->text + sizeof report->note + 32];
     const bool stopped = !done && atomic_load(&job->stop);
     editor_answer(app->table.editor, request, done, stopped ? "Cancelled. Nothing was written." : job->error.text);
     if (!done) return;
