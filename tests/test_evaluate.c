@@ -47,7 +47,8 @@ static void compare(const wiggly_curve *curve, double from, double by, int count
 
 static void sweep(const wiggly_curve *curve)
 {
-    static const double steps[] = {1e-4, 1.0 / 77, 0.1, 0.4, 0.5, 1, 1.3, 2, 2.5, 40, 0, -0.013, -0.4, -1, -3.7};
+    static const double steps[] = {1e-4, 1.0 / 77, 0.07, 0.1, 0.3, 0.4,    0.5,  0.7,  1,  1.3,
+                                   2,    2.5,      7,    40,  0,   -0.013, -0.2, -0.4, -1, -3.7};
     for (size_t s = 0; s < sizeof steps / sizeof *steps; s++) {
         compare(curve, 0, steps[s], COUNT);
         compare(curve, 17.3, steps[s], COUNT);
@@ -84,6 +85,34 @@ static void frequencies_that_change_are_followed(void **state)
     curve_destroy(&curve);
 }
 
+static void a_frequency_that_changes_everywhere_is_followed(void **state)
+{
+    (void)state;
+    double frequencies[SAMPLES];
+    for (int i = 0; i < SAMPLES; i++) frequencies[i] = 2 + sin(0.05 * i);
+    for (int start = 0; start < 3; start++) {
+        wiggly_curve curve = solved(WIGGLY_COMPLEX, (wiggly_start)start, frequencies, SAMPLES);
+        sweep(&curve);
+        curve_destroy(&curve);
+    }
+}
+
+static void far_apart_a_value_is_the_same_in_every_row(void **state)
+{
+    (void)state;
+    wiggly_curve curve = solved(WIGGLY_COMPLEX, WIGGLY_FREE, NULL, SAMPLES);
+    float near[2 * SAMPLES], far[SAMPLES];
+    wiggly_evaluate_float(&curve, 0.125, 0.5, 2 * SAMPLES, near, 1);
+    for (int steps = 1; steps < 20; steps++) {
+        for (int from = 0; from < 40; from++) {
+            int count = (2 * SAMPLES - from) / steps < SAMPLES ? (2 * SAMPLES - from) / steps : SAMPLES;
+            wiggly_evaluate_float(&curve, 0.125 + 0.5 * from, 0.5 * steps, count, far, 1);
+            for (int i = 0; i < count; i++) assert_true(far[i] == near[from + steps * i]);
+        }
+    }
+    curve_destroy(&curve);
+}
+
 static void shortest_curves(void **state)
 {
     (void)state;
@@ -103,6 +132,8 @@ static void a_band_far_above_the_sample_rate(void **state)
     wiggly_curve curve = solved(WIGGLY_COMPLEX, WIGGLY_FREE, NULL, SAMPLES);
     for (int i = 0; i < SAMPLES; i++) curve.omega[i] = i < 100 ? 24 * 5000.0 : 24e9;
     compare(&curve, 0, 0.25, 800);
+    for (int i = 100; i < SAMPLES; i++) curve.omega[i] = 24e12;
+    compare(&curve, 0, 0.7, 300);
     curve_destroy(&curve);
 }
 
@@ -122,6 +153,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_row_is_what_its_values_are),
         cmocka_unit_test(frequencies_that_change_are_followed),
+        cmocka_unit_test(a_frequency_that_changes_everywhere_is_followed),
+        cmocka_unit_test(far_apart_a_value_is_the_same_in_every_row),
         cmocka_unit_test(shortest_curves),
         cmocka_unit_test(a_band_far_above_the_sample_rate),
         cmocka_unit_test(a_curve_that_was_never_solved_is_0),

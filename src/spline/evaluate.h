@@ -47,4 +47,8 @@ static inline cubic cubic_through(double before, double from, double to, double 
 
 static inline double cubic_at(cubic p, double u) { return p.c0 + u * (p.c1 + u * (p.c2 + u * p.c3)); }
 
+/// A block of a row's values from number k on, each from its own interval; complex mode, at least four samples. Returns the number
+/// of the value after it.
+int evaluate_apart(const wiggly_curve *curve, double from, double by, int k, int count, float *out, size_t stride);
+
 #endif

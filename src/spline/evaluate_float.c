@@ -22,7 +22,7 @@ static inline pair conjugate(pair a) { return (pair){a[0], -a[1]}; }
 /// e^{j·angle} to 1e-12: quick, and enough for floats.
 static pair unit(double angle)
 {
-    static const double two_over_pi = 0x1.45f306dc9c883p-1, half_pi = 0x1.921fb544p+0, rest = 0x1.10b4611a62633p-34;
+    static const double two_over_pi = 0x1.45f306dc9c883p-1, half_pi = 0x1.921fb544p+0, rest = 0x1.0b4611a626331p-34;
     static const double rounder = 0x1.8p+52; // what it is added to has no fraction
     if (!(fabs(angle) < 1e5)) return (pair){cos(angle), sin(angle)};
     double quarters = angle * two_over_pi + rounder - rounder;
@@ -140,6 +140,14 @@ static inline bool goes_on(const wiggly_curve *curve, double position)
     return position >= 0 && position >= curve->first && position < curve->samples - 1;
 }
 
+/// Whether a block of values that are computed apart is quicker than going on: for long steps, and sooner where the turn changes.
+static inline bool is_quicker_apart(const wiggly_curve *curve, int i, double by)
+{
+    if (curve->mode != WIGGLY_COMPLEX || curve->samples < 4) return false;
+    bool changes = i + 2 < curve->samples && curve->omega[i + 2] != curve->omega[i];
+    return fabs(by) >= (changes ? 0.1 : 0.4);
+}
+
 void wiggly_evaluate_float(const wiggly_curve *curve, double from, double by, int count, float *out, size_t stride)
 {
     row r = {.curve = curve, .from = from, .by = by, .turn = NAN};
@@ -152,6 +160,11 @@ void wiggly_evaluate_float(const wiggly_curve *curve, double from, double by, in
             continue;
         }
         int i = evaluate_locate(curve, position, &u);
+        if (is_quicker_apart(curve, i, by)) {
+            k = evaluate_apart(curve, from, by, k, count, out, stride);
+            r.left = 0;
+            continue;
+        }
         enter(&r, i, position - u, u);
         if (curve->mode == WIGGLY_COMPLEX) {
             k = write_turning(&r, k, count, u, out, stride);
