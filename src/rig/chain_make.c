@@ -15,11 +15,10 @@ static const double WHOLE_LAG = 110;  ///< degrees from the first bone to the ti
 static const double WHOLE_BEND = 110; ///< degrees for 1 of a spline that knots direct
 static const double DEGREES = 57.29577951308232;
 
-/// Where a mark stands as a word of its own: not within letters of the same case.
-static bool stands_alone(const char *name, size_t at, size_t length)
+/// Whether a letter is a word of its own.
+static bool stands_alone(const char *name, size_t at)
 {
-    const bool before = at == 0 || !isalpha((unsigned char)name[at - 1]);
-    return before && !isalpha((unsigned char)name[at + length]);
+    return (at == 0 || !isalpha((unsigned char)name[at - 1])) && !isalpha((unsigned char)name[at + 1]);
 }
 
 bool chain_other_side(const char *name, char other[BONE_NAME_SIZE])
@@ -38,7 +37,7 @@ bool chain_other_side(const char *name, char other[BONE_NAME_SIZE])
     for (size_t i = 0; name[i]; i++) {
         for (int k = 0; k < 4; k++) {
             const char *letter = letters[k / 2][k % 2];
-            if (name[i] != letter[0] || !stands_alone(name, i, 1)) continue;
+            if (name[i] != letter[0] || !stands_alone(name, i)) continue;
             snprintf(other, BONE_NAME_SIZE, "%.*s%s%s", (int)i, name, letters[k / 2][!(k % 2)], name + i + 1);
             return true;
         }

@@ -108,12 +108,15 @@ static void keep_first(struct error *first, const struct error *trouble)
     if (first->kind == ERROR_NONE) *first = *trouble;
 }
 
-static bool update_characters(struct models *models, const struct document *document, struct error *first)
+static void update_characters(struct models *models, const struct document *document, struct error *first)
 {
     drop_characters(models);
     const int count = document_count_rigs(document, RIG_CHARACTER);
     struct character_model *characters = realloc(models->characters, ((size_t)count + 1) * sizeof *characters);
-    if (!characters) return fail(first, ERROR_ENVIRONMENT, "not enough memory for the characters");
+    if (!characters) {
+        fail(first, ERROR_ENVIRONMENT, "not enough memory for the characters");
+        return;
+    }
     models->characters = characters;
     int rig = document_next_rig(document, RIG_CHARACTER, 0);
     for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_CHARACTER, rig + 1)) {
@@ -124,7 +127,6 @@ static bool update_characters(struct models *models, const struct document *docu
     }
     models->character_count = count;
     models_paint(models, document);
-    return true;
 }
 
 static bool check_clip(const struct model_rig *rig, const struct gltf *gltf, struct error *error)
@@ -151,12 +153,15 @@ static bool place_model(struct models *models, const struct document *document, 
     return check_clip(rig, &imported->gltf, error);
 }
 
-static bool update_placed(struct models *models, const struct document *document, struct error *first)
+static void update_placed(struct models *models, const struct document *document, struct error *first)
 {
     drop_placed(models);
     const int count = document_count_rigs(document, RIG_MODEL);
     struct placed_model *placed = realloc(models->placed, ((size_t)count + 1) * sizeof *placed);
-    if (!placed) return fail(first, ERROR_ENVIRONMENT, "not enough memory for the characters");
+    if (!placed) {
+        fail(first, ERROR_ENVIRONMENT, "not enough memory for the characters");
+        return;
+    }
     models->placed = placed;
     int rig = document_next_rig(document, RIG_MODEL, 0);
     for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
@@ -165,7 +170,6 @@ static bool update_placed(struct models *models, const struct document *document
         models->placed_count++;
         keep_first(first, &trouble);
     }
-    return true;
 }
 
 /// Whether all chains find their bones.
