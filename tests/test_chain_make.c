@@ -61,6 +61,23 @@ static void test_a_character_opens_as_a_scene(void **state)
     assert_non_null(strstr(error.text, "assets/models/no.glb"));
 }
 
+static void test_a_chosen_clip_gives_the_scene_its_length(void **state)
+{
+    (void)state;
+    struct stand stand;
+    struct error error;
+    open_stand(&stand);
+    const struct gltf *gltf = &models_imported(stand.opened.models, 0)->gltf;
+    assert_true(import_choose_clip(stand.history, stand.opened.document, 0, gltf, "Trot", &error));
+    assert_string_equal(stand.opened.document->rigs[0].model.clip, "Trot");
+    assert_int_equal(stand.opened.document->last_frame, 14);
+    make(&stand, "tail_1", true);
+    assert_int_equal(spline_start(&stand.opened.document->splines[0]), WIGGLY_LOOP);
+    assert_true(import_choose_clip(stand.history, stand.opened.document, 0, gltf, "Idle", &error));
+    assert_int_equal(stand.opened.document->last_frame, 14); // what splines there are keep their frames
+    close_stand(&stand);
+}
+
 static void test_a_tail_swings_with_the_walk_and_loops(void **state)
 {
     (void)state;
@@ -185,6 +202,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_character_opens_as_a_scene),
+        cmocka_unit_test(test_a_chosen_clip_gives_the_scene_its_length),
         cmocka_unit_test(test_a_tail_swings_with_the_walk_and_loops),
         cmocka_unit_test(test_the_tip_moves_as_far_as_its_spline),
         cmocka_unit_test(test_ears_share_splines),

@@ -4,6 +4,7 @@
 #include "commands/options.h"
 #include "export/export.h"
 #include "rig/chain_make.h"
+#include "rig/import.h"
 #include "rig/opened.h"
 #include "scene/load.h"
 #include <stdio.h>
@@ -74,11 +75,11 @@ static bool add_chains(const struct job *job, struct history *history, struct op
 
 static bool edit(const struct job *job, struct opened *opened, struct error *error)
 {
-    const struct edit clip = {.kind = EDIT_CLIP, .rig = 0, .text = job->clip};
     struct history *history = history_create();
     if (!history) return fail_no_memory(error, job->character);
     history_begin(history, "Rig", 0);
-    bool done = !job->clip || history_apply(history, opened->document, &clip, error);
+    bool done =
+        !job->clip || import_choose_clip(history, opened->document, 0, character_of(opened), job->clip, error);
     done = done && add_chains(job, history, opened, error);
     history_end(history);
     history_destroy(history);

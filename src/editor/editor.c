@@ -154,6 +154,10 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     for (int s = 0; s < document->spline_count; s++) {
         editor->core.playback.playing |= spline_start(&document->splines[s]) == WIGGLY_LOOP;
     }
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = &document->rigs[r];
+        editor->core.playback.playing |= rig->kind == RIG_MODEL && rig->model.clip;
+    }
     editor->core.serial = document->serial;
     editor_reserve(editor, document);
     inspector_reset(editor->inspector);

@@ -1,8 +1,6 @@
 /// Makes scenes for glTF characters.
 #include "rig/import.h"
 #include "base/path.h"
-#include "model/gltf.h"
-#include "scene/edit.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -89,4 +87,17 @@ struct document *import_scene(const char *path, struct error *error)
     }
     gltf_free(&gltf);
     return document;
+}
+
+bool import_choose_clip(struct history *history, struct document *document, int rig, const struct gltf *gltf,
+                        const char *clip, struct error *error)
+{
+    const int found = clip ? gltf_find_clip(gltf, clip) : -1;
+    const struct edit choice = {.kind = EDIT_CLIP, .rig = rig, .text = clip};
+    if (!history_apply(history, document, &choice, error)) return false;
+    if (found < 0 || document->spline_count > 0) return true;
+    const double fps = frame_rate(&gltf->clips[found]);
+    const struct edit rate = {.kind = EDIT_FPS, .number = fps};
+    const struct edit range = {.kind = EDIT_RANGE, .first = 0, .last = last_frame(&gltf->clips[found], fps)};
+    return history_apply(history, document, &rate, error) && history_apply(history, document, &range, error);
 }

@@ -2,7 +2,8 @@
 #ifndef RIG_IMPORT_H
 #define RIG_IMPORT_H
 
-#include "scene/document.h"
+#include "model/gltf.h"
+#include "scene/edit.h"
 
 /// Whether a file is a character by its name: .glb or .gltf.
 bool import_suits(const char *path);
@@ -10,5 +11,10 @@ bool import_suits(const char *path);
 /// A new document, without a path of its own, whose one model rig shows the file. Its range is the first clip's, its frame rate the
 /// one that the clip's keys lie on. NULL with a sentence.
 struct document *import_scene(const char *path, struct error *error);
+
+/// Has a model rig play a clip of its file, NULL: none, in the history's open step. In a scene that has no splines yet, frame rate and
+/// range become the clip's.
+bool import_choose_clip(struct history *history, struct document *document, int rig, const struct gltf *gltf,
+                        const char *clip, struct error *error);
 
 #endif

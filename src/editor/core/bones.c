@@ -3,6 +3,7 @@
 #include "editor/core/core.h"
 #include "rig/bones.h"
 #include "rig/chain_make.h"
+#include "rig/import.h"
 #include <stdio.h>
 
 const struct imported *bones_character(const struct editor_world *world, int model)
@@ -53,6 +54,20 @@ static void tell(struct core *core, const struct document *document, const struc
         snprintf(text + length, sizeof text - (size_t)length, " It swings once the character plays a clip.");
     }
     core_message(core, false, text);
+}
+
+void bones_choose_clip(struct core *core, const struct editor_world *world, int model, const char *clip)
+{
+    const struct imported *character = bones_character(world, model);
+    struct error error = {0};
+    if (history_is_open(world->history) || !character) return;
+    history_begin(world->history, "Choose clip", 0);
+    const bool chosen = import_choose_clip(world->history, world->document, model, &character->gltf, clip, &error);
+    if (!chosen) history_restart(world->history, world->document);
+    history_end(world->history);
+    core_refresh(core, world);
+    core->refit_curves = world->document->spline_count == 0;
+    if (!chosen) core_message(core, true, error.text);
 }
 
 void bones_make_chain(struct core *core, const struct editor_world *world, int follow)

@@ -16,6 +16,9 @@ void bones_clear(struct core *core);
 /// The joints of a tail or chain; 1 for a chain whose bones are not there.
 int bones_joints(const struct editor_world *world, int rig);
 
+/// Has a model rig (by its index) play a clip, NULL: none, as one step; import_choose_clip() says what it does to the scene's length.
+void bones_choose_clip(struct core *core, const struct editor_world *world, int model, const char *clip);
+
 /// Makes the selected bone, and those behind it to the tip, a chain; where `follow` is set one that swings after its motion in the clip.
 /// Its first spline becomes the active one.
 void bones_make_chain(struct core *core, const struct editor_world *world, int follow);

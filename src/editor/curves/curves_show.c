@@ -327,7 +327,7 @@ static void show_empty(struct core *core, const struct editor_world *world)
     const bool has_bones = document_find_rig(world->document, RIG_MODEL, 0) >= 0;
     const char *text = hidden      ? "This spline is hidden. Click its eye in the list to show it."
                        : flat      ? "Double-click to set the first knot."
-                       : has_bones ? "This scene has no splines. Click a bone and press J to let it swing."
+                       : has_bones ? "This scene has no splines. Click a bone and press Shift+J to let it swing."
                                    : "This scene has no splines. Click + in the list on the right to add one.";
     const struct rect *plot = &core->layout.plot;
     float x = plot->x + (plot->w - font_width(FONT_LABEL, THEME_TEXT_NORMAL, text)) / 2;

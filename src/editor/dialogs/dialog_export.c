@@ -328,6 +328,13 @@ static void build_flags(struct dialogs *dialogs, const struct document *document
     if (choices & CHOICE_ALPHA) build_toggle(ui, &row, "export.transparent", "transparent", &wish->transparent);
 }
 
+/// What the clip is called where nothing is typed: an imported character's keeps the name of the one that it plays.
+static const char *usual_clip(const struct document *document)
+{
+    const int rig = document_next_rig(document, RIG_MODEL, 0);
+    return rig >= 0 && document->rigs[rig].model.clip ? document->rigs[rig].model.clip : "as the scene";
+}
+
 /// Always as many rows, so that nothing jumps when another format is chosen.
 static void build_choices(struct dialogs *dialogs, const struct document *document)
 {
@@ -344,7 +351,7 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
         build_text(dialogs, (struct rect){r.x, r.y + 2, r.w, r.h - 4}, clip_field, memory->wish.clip,
                    sizeof memory->wish.clip);
         if (!memory->wish.clip[0] && ui->focus != ui_id(clip_field))
-            ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, "as the scene", theme()->text_dim);
+            ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, usual_clip(document), theme()->text_dim);
     }
     if (format->choices & CHOICE_RIG) build_rig(dialogs, document, (format->choices & CHOICE_ONE) != 0, &rows[1]);
     build_flags(dialogs, document, format->choices, rows[2]);

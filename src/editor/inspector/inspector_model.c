@@ -76,9 +76,7 @@ void inspector_model_lists(struct inspection *in)
         items[count++] = (struct ui_item){gltf->clips[c].name, gltf->clips[c].name, 0};
     const int picked = ui_popup_list(in->ui, clip_list, items, count, clip ? gltf_find_clip(gltf, clip) + 1 : 0);
     if (picked < 0) return;
-    struct edit edit = model_edit(in, EDIT_CLIP);
-    edit.text = picked > 0 ? gltf->clips[picked - 1].name : NULL;
-    core_step(in->core, in->world, "Choose clip", 0, &edit);
+    bones_choose_clip(in->core, in->world, model, picked > 0 ? gltf->clips[picked - 1].name : NULL);
 }
 
 /// A number of its place; `value` is in `contents`.
