@@ -25,6 +25,8 @@ export PKG_CONFIG_PATH=$scratch/stage/opt/wiggly/lib/pkgconfig LD_LIBRARY_PATH=$
 
 cat >"$scratch/bin/wiggly" <<END
 #!/bin/bash
+# Films need ffmpeg, which not every machine has.
+if [[ " \$* " =~ \.(mp4|webm|gif)\  ]] && ! command -v ffmpeg >/dev/null; then exit 0; fi
 # The live app lasts until somebody quits it: ten frames do. A simulation takes 10 s: a coarse, short one does.
 case \${1-live} in
 simulate) set -- "\$@" --tets 300 --seconds 2 ;;
