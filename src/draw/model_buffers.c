@@ -229,9 +229,7 @@ static long upload_matrices(struct model_buffers *buffers, const struct gltf *gl
         if (node->mesh < 0) continue;
         if (node->skin < 0) write_rows(root, pose->world[n], rows);
         for (int j = 0; node->skin >= 0 && j < gltf->skins[node->skin].joint_count; j++) {
-            float matrix[16];
-            gltf_joint_matrix(gltf, pose, node->skin, j, matrix);
-            write_rows(root, matrix, rows + 12 * j);
+            write_rows(root, pose->joints[gltf->skins[node->skin].first_joint + j], rows + 12 * j);
         }
     }
     glBindTexture(GL_TEXTURE_2D, buffers->matrices);

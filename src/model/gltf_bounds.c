@@ -74,12 +74,8 @@ void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, c
     for (int f = 0; f < bounds->count; f++) {
         const struct gltf_follower *follower = &bounds->followers[f];
         const struct gltf_node *node = &gltf->nodes[follower->node];
-        float m[16];
-        if (follower->joint < 0) {
-            memcpy(m, pose->world[follower->node], sizeof m);
-        } else {
-            gltf_joint_matrix(gltf, pose, node->skin, follower->joint, m);
-        }
+        const float *m = follower->joint < 0 ? pose->world[follower->node]
+                                             : pose->joints[gltf->skins[node->skin].first_joint + follower->joint];
         for (int k = 0; k < 3; k++) {
             float middle = m[12 + k], reach = 0.0f;
             for (int a = 0; a < 3; a++) {
