@@ -30,11 +30,16 @@ struct lattice {
     double (*weight)[4]; ///< and its barycentric coordinates there, a little outside 0 … 1 for some
 };
 
-/// The lattice with about `target` tetrahedra. Errors say: not closed and how many edges are open, no volume, no memory.
+/// The lattice with about `target` tetrahedra, a layer of nodes at the height `layer` unless that is NAN: what is held up to
+/// there is held exactly so far in every resolution. Errors say: not closed and how many edges are open, no volume, no memory.
 /// `name` is the surface's, for messages.
-bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, const char *name,
-                    struct error *error);
+bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, double layer,
+                    const char *name, struct error *error);
 void lattice_free(struct lattice *lattice);
+
+/// Numbers of nodes from those of vertices: the mean of the vertices around each node, and elsewhere of the nodes nearby.
+/// False where memory is short.
+bool lattice_spread(const struct lattice *lattice, const double *vertex, double *node);
 
 /// Vertex positions, float, from node positions: Σ_a w_a x_a.
 void lattice_embed(const struct lattice *lattice, const double (*x)[3], float (*position)[3]);
