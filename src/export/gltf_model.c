@@ -43,15 +43,15 @@ static const float *values_of(const struct gltf *gltf, const struct gltf_pose *p
     return pose->weights + gltf->nodes[channel->node].first_weight;
 }
 
-static bool collect_body(struct take *take, struct body *body, struct error *error)
+static bool collect_body(struct shot *shot, struct body *body, struct error *error)
 {
     for (int c = 0; c < body->clip->channel_count; c++) body->width += body->clip->channels[c].components;
-    body->rows = malloc(((size_t)take->key_count * (size_t)body->width + 1) * sizeof *body->rows);
+    body->rows = malloc(((size_t)shot->key_count * (size_t)body->width + 1) * sizeof *body->rows);
     if (!body->rows) return fail_no_memory(error, body->gltf->path);
-    for (int k = 0; k < take->key_count; k++) {
+    for (int k = 0; k < shot->key_count; k++) {
         struct rig_pose pose;
         float *at = body->rows + (size_t)k * (size_t)body->width;
-        if (!take_pose(take, take->rigs[0], k, &pose, error) || !take_proceed(take, error)) return false;
+        if (!shot_pose(shot, shot->rigs[0], k, &pose, error) || !shot_proceed(shot, error)) return false;
         for (int c = 0; c < body->clip->channel_count; c++) {
             const struct gltf_channel *channel = &body->clip->channels[c];
             memcpy(at, values_of(body->gltf, pose.model.pose, channel), (size_t)channel->components * sizeof *at);
@@ -59,7 +59,7 @@ static bool collect_body(struct take *take, struct body *body, struct error *err
             at += channel->components;
         }
     }
-    keys_close_loop(body->rows, body->width, take->key_count);
+    keys_close_loop(body->rows, body->width, shot->key_count);
     return true;
 }
 
@@ -174,7 +174,7 @@ static bool write_glb(const struct glb *source, const struct gltf_file *file, co
     return true;
 }
 
-static bool write_patched(struct take *take, const struct form *form, const struct keys *keys, struct body *body,
+static bool write_patched(struct shot *shot, const struct form *form, const struct keys *keys, struct body *body,
                           const struct glb *source, bool binary, FILE *out, struct error *error)
 {
     const json_int_t chunk = binary ? chunk_length(source) : -1;
@@ -185,10 +185,10 @@ static bool write_patched(struct take *take, const struct form *form, const stru
     struct gltf_motion motion;
     char *text = text_of(source, binary);
     struct splice splice = {.text = text ? text : "{}"};
-    gltf_motion_begin(&motion, &file, take);
+    gltf_motion_begin(&motion, &file, shot);
     if (body->clip) add_body(body, &motion);
     add_bones(form, keys, &motion);
-    put_clip(&splice, body->gltf, &motion, take->clip);
+    put_clip(&splice, body->gltf, &motion, shot->clip);
     append_all(&splice, "accessors", file.accessors);
     append_all(&splice, "bufferViews", file.views);
     put_bytes(&splice, &file, chunk >= 0);
@@ -231,38 +231,38 @@ static bool is_alone(const struct glb *source)
 }
 
 /// The file must stay what it is: a .glb or text, and beside the files that it names.
-static bool check_place(const struct take *take, const struct glb *source, bool binary, struct error *error)
+static bool check_place(const struct shot *shot, const struct glb *source, bool binary, struct error *error)
 {
     char from[PATH_LIMIT], to[PATH_LIMIT], folder[PATH_LIMIT];
     const bool is_glb = memcmp(source->data, "glTF", 4) == 0;
     if (is_glb != binary)
-        return fail(error, ERROR_INPUT, "%s: expected a name ending in %s, as %s has", take->path,
+        return fail(error, ERROR_INPUT, "%s: expected a name ending in %s, as %s has", shot->path,
                     is_glb ? ".glb" : ".gltf", source->path);
     if (is_alone(source)) return true;
     const bool same = path_folder(source->path, folder) && path_resolve(folder, ".", from) &&
-                      path_folder(take->path, folder) && path_resolve(folder, ".", to) && strcmp(from, to) == 0;
+                      path_folder(shot->path, folder) && path_resolve(folder, ".", to) && strcmp(from, to) == 0;
     if (same) return true;
     return fail(error, ERROR_INPUT, "%s: names files beside it: export it to the same folder", source->path);
 }
 
-static bool write_model(struct take *take, const struct form *form, bool binary, FILE *out, struct error *error)
+static bool write_model(struct shot *shot, const struct form *form, bool binary, FILE *out, struct error *error)
 {
     const struct model_bones *own = form->owned;
-    const struct model_rig *model = &take->posing->document->rigs[take->rigs[0]].model;
+    const struct model_rig *model = &shot->posing->document->rigs[shot->rigs[0]].model;
     const int clip = model->clip ? gltf_find_clip(own->gltf, model->clip) : -1;
     struct body body = {
         .gltf = own->gltf, .clip = clip >= 0 ? &own->gltf->clips[clip] : NULL, .is_bone = own->is_bone};
     struct glb source;
     struct keys keys;
-    if (body.clip) take->total += take->key_count;
-    if (!take->clip) take->clip = model->clip ? model->clip : take->title;
+    if (body.clip) shot->total += shot->key_count;
+    if (!shot->clip) shot->clip = model->clip ? model->clip : shot->title;
     if (!glb_open_any(&source, own->gltf->path, error)) return false;
-    bool done = check_place(take, &source, binary, error);
+    bool done = check_place(shot, &source, binary, error);
     if (done && form->joint_count == 0) {
         done = write_same(own->gltf->path, out, error);
-    } else if (done && keys_collect(take, take->rigs[0], form, &keys, error)) {
-        done = (!body.clip || collect_body(take, &body, error)) &&
-               write_patched(take, form, &keys, &body, &source, binary, out, error);
+    } else if (done && keys_collect(shot, shot->rigs[0], form, &keys, error)) {
+        done = (!body.clip || collect_body(shot, &body, error)) &&
+               write_patched(shot, form, &keys, &body, &source, binary, out, error);
         keys_free(&keys);
     } else {
         done = false;
@@ -272,14 +272,14 @@ static bool write_model(struct take *take, const struct form *form, bool binary,
     return done;
 }
 
-bool gltf_model_write(struct take *take, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool gltf_model_write(struct shot *shot, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     struct form form;
-    take->total = take->key_count;
-    if (!form_open(take, take->rigs[0], &form, error)) return false;
-    const bool done = write_model(take, &form, binary, out, error);
+    shot->total = shot->key_count;
+    if (!form_open(shot, shot->rigs[0], &form, error)) return false;
+    const bool done = write_model(shot, &form, binary, out, error);
     if (form.joint_count > 0) {
-        snprintf(summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", form.joint_count, take->key_count);
+        snprintf(summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", form.joint_count, shot->key_count);
     } else {
         snprintf(summary, FORMAT_SUMMARY, "the file as it was, because no chain moves it");
     }

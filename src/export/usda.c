@@ -8,7 +8,7 @@
 
 /// One rig being written.
 struct prim {
-    const struct take *take;
+    const struct shot *shot;
     const struct form *form;
     const struct keys *keys;
     const struct file_targets *targets;
@@ -61,7 +61,7 @@ static void write_triangles(FILE *out, const struct form *form)
 
 static void begin_sample(const struct prim *prim, int key)
 {
-    fprintf(prim->out, "                %.9g: ", take_frame(prim->take, key));
+    fprintf(prim->out, "                %.9g: ", shot_frame(prim->shot, key));
 }
 
 // --- the skeleton. A rig without joints has one that carries it.
@@ -264,7 +264,7 @@ static void name_prim(struct prim *prim, int rig)
     char wanted[FORM_NAME + 16];
     snprintf(wanted, sizeof wanted, "%.40s", prim->form->name);
     for (int r = 0; r < rig; r++) {
-        const struct document *document = prim->take->posing->document;
+        const struct document *document = prim->shot->posing->document;
         if (strncmp(form_name(&document->rigs[r]), prim->form->name, 40) != 0) continue;
         snprintf(wanted, sizeof wanted, "%.40s_%d", prim->form->name, rig);
         break;
@@ -272,24 +272,24 @@ static void name_prim(struct prim *prim, int rig)
     make_identifier(wanted, prim->name);
 }
 
-static bool write_rig(struct take *take, int rig, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+static bool write_rig(struct shot *shot, int rig, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     struct form form;
     struct keys keys;
     struct file_targets targets = {0};
-    if (!form_open(take, rig, &form, error)) return false;
-    bool done = keys_collect(take, rig, &form, &keys, error);
+    if (!form_open(shot, rig, &form, error)) return false;
+    bool done = keys_collect(shot, rig, &form, &keys, error);
     float(*scratch)[3] = done ? malloc(((size_t)form.vertex_count + 1) * sizeof *scratch) : NULL;
-    if (done && (!scratch || !targets_create(take, &form, &keys, &targets))) done = fail_no_memory(error, form.name);
+    if (done && (!scratch || !targets_create(shot, &form, &keys, &targets))) done = fail_no_memory(error, form.name);
     if (done) {
-        struct prim prim = {.take = take, .form = &form, .keys = &keys, .targets = &targets, .out = out};
+        struct prim prim = {.shot = shot, .form = &form, .keys = &keys, .targets = &targets, .out = out};
         name_prim(&prim, rig);
         fprintf(out, "\n    def SkelRoot \"%s\"\n    {\n", prim.name);
         write_skeleton(&prim);
         write_animation(&prim);
         write_mesh(&prim, scratch);
         fputs("    }\n", out);
-        snprintf(summary, FORMAT_SUMMARY, "%d rig%s, %d keys", take->rig_count, take->rig_count == 1 ? "" : "s",
+        snprintf(summary, FORMAT_SUMMARY, "%d rig%s, %d keys", shot->rig_count, shot->rig_count == 1 ? "" : "s",
                  keys.count);
     }
     free(scratch);
@@ -299,16 +299,16 @@ static bool write_rig(struct take *take, int rig, FILE *out, char summary[FORMAT
     return done;
 }
 
-bool usda_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool usda_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     bool done = true;
-    take->total = (long)take->key_count * take->rig_count;
-    take->is_cubic = false;
+    shot->total = (long)shot->key_count * shot->rig_count;
+    shot->is_cubic = false;
     fprintf(out, "#usda 1.0\n(\n    defaultPrim = \"scene\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n");
     fprintf(out, "    startTimeCode = %.9g\n    endTimeCode = %.9g\n    timeCodesPerSecond = %.9g\n)\n",
-            take_frame(take, 0), take_frame(take, take->key_count - 1), take->posing->document->fps);
+            shot_frame(shot, 0), shot_frame(shot, shot->key_count - 1), shot->posing->document->fps);
     fputs("\ndef Xform \"scene\"\n{", out);
-    for (int r = 0; done && r < take->rig_count; r++) done = write_rig(take, take->rigs[r], out, summary, error);
+    for (int r = 0; done && r < shot->rig_count; r++) done = write_rig(shot, shot->rigs[r], out, summary, error);
     fputs("}\n", out);
     return done;
 }
