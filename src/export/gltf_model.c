@@ -12,7 +12,7 @@
 #include <string.h>
 
 /// The character's own clip at all keys: what moves a node, one track after the other in each row.
-struct body {
+struct kept_motion {
     const struct gltf *gltf;
     const struct gltf_clip *clip; ///< NULL: it stands at rest
     const bool *is_bone;
@@ -21,9 +21,9 @@ struct body {
 };
 
 /// Chains have the rotation of their bones.
-static bool is_ours(const struct body *body, const struct gltf_channel *channel)
+static bool is_ours(const struct kept_motion *kept, const struct gltf_channel *channel)
 {
-    return channel->path == GLTF_ROTATION && body->is_bone[channel->node];
+    return channel->path == GLTF_ROTATION && kept->is_bone[channel->node];
 }
 
 static const float *values_of(const struct gltf *gltf, const struct gltf_pose *pose,
@@ -43,45 +43,45 @@ static const float *values_of(const struct gltf *gltf, const struct gltf_pose *p
     return pose->weights + gltf->nodes[channel->node].first_weight;
 }
 
-static bool collect_body(struct shot *shot, struct body *body, struct error *error)
+static bool collect_kept(struct shot *shot, struct kept_motion *kept, struct error *error)
 {
-    for (int c = 0; c < body->clip->channel_count; c++) body->width += body->clip->channels[c].components;
-    body->rows = malloc(((size_t)shot->key_count * (size_t)body->width + 1) * sizeof *body->rows);
-    if (!body->rows) return fail_no_memory(error, body->gltf->path);
+    for (int c = 0; c < kept->clip->channel_count; c++) kept->width += kept->clip->channels[c].components;
+    kept->rows = malloc(((size_t)shot->key_count * (size_t)kept->width + 1) * sizeof *kept->rows);
+    if (!kept->rows) return fail_no_memory(error, kept->gltf->path);
     for (int k = 0; k < shot->key_count; k++) {
         struct rig_pose pose;
-        float *at = body->rows + (size_t)k * (size_t)body->width;
+        float *at = kept->rows + (size_t)k * (size_t)kept->width;
         if (!shot_pose(shot, shot->rigs[0], k, &pose, error) || !shot_proceed(shot, error)) return false;
-        for (int c = 0; c < body->clip->channel_count; c++) {
-            const struct gltf_channel *channel = &body->clip->channels[c];
-            memcpy(at, values_of(body->gltf, pose.model.pose, channel), (size_t)channel->components * sizeof *at);
-            if (channel->path == GLTF_ROTATION && k > 0) keys_turn_short_way(at - body->width, at);
+        for (int c = 0; c < kept->clip->channel_count; c++) {
+            const struct gltf_channel *channel = &kept->clip->channels[c];
+            memcpy(at, values_of(kept->gltf, pose.model.pose, channel), (size_t)channel->components * sizeof *at);
+            if (channel->path == GLTF_ROTATION && k > 0) keys_turn_short_way(at - kept->width, at);
             at += channel->components;
         }
     }
-    keys_close_loop(body->rows, body->width, shot->key_count);
+    keys_close_loop(kept->rows, kept->width, shot->key_count);
     return true;
 }
 
-/// The tracks of the body, each in an array of its own.
-static void add_body(const struct body *body, struct gltf_motion *motion)
+/// The tracks of what is kept, each in an array of its own.
+static void add_kept(const struct kept_motion *kept, struct gltf_motion *motion)
 {
     static const char *const paths[] = {"translation", "rotation", "scale", "weights"};
     static const enum gltf_elements elements[] = {ELEMENTS_KEY_VECTORS, ELEMENTS_TURNS, ELEMENTS_KEY_VECTORS,
                                                   ELEMENTS_KEYS};
     int first = 0;
-    for (int c = 0; c < body->clip->channel_count; c++) {
-        const struct gltf_channel *channel = &body->clip->channels[c];
-        const size_t width = (size_t)channel->components, from = (size_t)first, row = (size_t)body->width;
+    for (int c = 0; c < kept->clip->channel_count; c++) {
+        const struct gltf_channel *channel = &kept->clip->channels[c];
+        const size_t width = (size_t)channel->components, from = (size_t)first, row = (size_t)kept->width;
         first += channel->components;
-        if (is_ours(body, channel)) continue;
+        if (is_ours(kept, channel)) continue;
         float *track = malloc((size_t)motion->key_count * width * sizeof *track);
         if (!track) {
             motion->file->without_memory = true;
             return;
         }
         for (size_t k = 0; k < (size_t)motion->key_count; k++)
-            memcpy(track + k * width, body->rows + k * row + from, width * sizeof *track);
+            memcpy(track + k * width, kept->rows + k * row + from, width * sizeof *track);
         gltf_motion_add(motion, channel->node, paths[channel->path], elements[channel->path], track, NULL,
                         channel->components);
         free(track);
@@ -174,8 +174,9 @@ static bool write_glb(const struct glb *source, const struct gltf_file *file, co
     return true;
 }
 
-static bool write_patched(struct shot *shot, const struct form *form, const struct keys *keys, struct body *body,
-                          const struct glb *source, bool binary, FILE *out, struct error *error)
+static bool write_patched(struct shot *shot, const struct form *form, const struct keys *keys,
+                          struct kept_motion *kept, const struct glb *source, bool binary, FILE *out,
+                          struct error *error)
 {
     const json_int_t chunk = binary ? chunk_length(source) : -1;
     struct gltf_file file = {.first_view = count_of(source, "bufferViews"),
@@ -186,14 +187,14 @@ static bool write_patched(struct shot *shot, const struct form *form, const stru
     char *text = text_of(source, binary);
     struct splice splice = {.text = text ? text : "{}"};
     gltf_motion_begin(&motion, &file, shot);
-    if (body->clip) add_body(body, &motion);
+    if (kept->clip) add_kept(kept, &motion);
     add_bones(form, keys, &motion);
-    put_clip(&splice, body->gltf, &motion, shot->clip);
+    put_clip(&splice, kept->gltf, &motion, shot->clip);
     append_all(&splice, "accessors", file.accessors);
     append_all(&splice, "bufferViews", file.views);
     put_bytes(&splice, &file, chunk >= 0);
     char *patched = text && !file.without_memory ? splice_apply(&splice) : NULL;
-    bool done = patched || fail_no_memory(error, body->gltf->path);
+    bool done = patched || fail_no_memory(error, kept->gltf->path);
     if (done && !binary) fputs(patched, out);
     if (done && binary) done = write_glb(source, chunk >= 0 ? &file : &(struct gltf_file){0}, patched, out, error);
     free(patched);
@@ -250,24 +251,24 @@ static bool write_model(struct shot *shot, const struct form *form, bool binary,
     const struct model_bones *own = form->owned;
     const struct model_rig *model = &shot->posing->document->rigs[shot->rigs[0]].model;
     const int clip = model->clip ? gltf_find_clip(own->gltf, model->clip) : -1;
-    struct body body = {
+    struct kept_motion kept = {
         .gltf = own->gltf, .clip = clip >= 0 ? &own->gltf->clips[clip] : NULL, .is_bone = own->is_bone};
     struct glb source;
     struct keys keys;
-    if (body.clip) shot->total += shot->key_count;
+    if (kept.clip) shot->total += shot->key_count;
     if (!shot->clip) shot->clip = model->clip ? model->clip : shot->title;
     if (!glb_open_any(&source, own->gltf->path, error)) return false;
     bool done = check_place(shot, &source, binary, error);
     if (done && form->joint_count == 0) {
         done = write_same(own->gltf->path, out, error);
     } else if (done && keys_collect(shot, shot->rigs[0], form, &keys, error)) {
-        done = (!body.clip || collect_body(shot, &body, error)) &&
-               write_patched(shot, form, &keys, &body, &source, binary, out, error);
+        done = (!kept.clip || collect_kept(shot, &kept, error)) &&
+               write_patched(shot, form, &keys, &kept, &source, binary, out, error);
         keys_free(&keys);
     } else {
         done = false;
     }
-    free(body.rows);
+    free(kept.rows);
     glb_close(&source);
     return done;
 }
