@@ -20,8 +20,8 @@ struct form_joint {
 
 struct form_target {
     char *name;
-    const float (*position)[3], (*normal)[3]; ///< how far it moves vertices and turns normals at weight 1
-    int group;                                ///< targets of one group keep their proportion
+    float (*position)[3], (*normal)[3]; ///< how far it moves vertices and turns normals at weight 1
+    int group;                          ///< targets of one group keep their proportion
 };
 
 struct form {

@@ -75,9 +75,9 @@ static json_t *make_targets(struct scene *scene, const struct part *part, float 
     json_t *targets = json_array();
     for (int t = 0; t < part->targets->count; t++) {
         const struct file_target *target = &part->targets->list[t];
-        targets_scale(target, form->targets[target->source].position, form->vertex_count, scratch);
+        targets_scale(target, (const float(*)[3])form->targets[target->source].position, form->vertex_count, scratch);
         const json_int_t position = add_vectors(scene, form, (const float(*)[3])scratch, true);
-        targets_scale(target, form->targets[target->source].normal, form->vertex_count, scratch);
+        targets_scale(target, (const float(*)[3])form->targets[target->source].normal, form->vertex_count, scratch);
         const json_int_t normal = add_vectors(scene, form, (const float(*)[3])scratch, false);
         append(targets, json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal));
     }

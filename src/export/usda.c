@@ -223,10 +223,10 @@ static void write_shapes(const struct prim *prim, float (*scratch)[3])
         const struct file_target *target = &prim->targets->list[t];
         make_identifier(target->name, name);
         fprintf(prim->out, "\n            def BlendShape \"%s\"\n            {\n    ", name);
-        targets_scale(target, form->targets[target->source].position, form->vertex_count, scratch);
+        targets_scale(target, (const float(*)[3])form->targets[target->source].position, form->vertex_count, scratch);
         write_vectors(prim->out, "uniform vector3f[] offsets", (const float(*)[3])scratch, form->vertex_count);
         fputs("\n    ", prim->out);
-        targets_scale(target, form->targets[target->source].normal, form->vertex_count, scratch);
+        targets_scale(target, (const float(*)[3])form->targets[target->source].normal, form->vertex_count, scratch);
         write_vectors(prim->out, "uniform vector3f[] normalOffsets", (const float(*)[3])scratch, form->vertex_count);
         fputs("\n            }\n", prim->out);
     }
