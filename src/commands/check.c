@@ -1,4 +1,4 @@
-/// wiggly check: prints every problem of a scene, its solution and its models.
+/// `wiggly check`: prints every problem of a scene, its solution and its models.
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "rig/clip_motion.h"

@@ -1,4 +1,4 @@
-/// A table: a row a key, a column for every spline and every channel of the rigs.
+/// A table: one row per key, a column for every spline and every channel of the rigs.
 #include "export/format.h"
 #include "scene/number.h"
 #include <stdarg.h>

@@ -112,8 +112,9 @@ static bool choose_keys(struct shot *shot, const struct export_options *options,
     shot->spacing = options->rate > 0 ? document->fps / options->rate : 1.0 / substeps;
     const double keys = floor((last - first) / shot->spacing + 1e-6) + 1;
     if (keys > MAX_KEYS)
-        return fail(error, ERROR_INPUT, "expected at most %d keys, got %.0f: ask for fewer frames or keys a second",
-                    MAX_KEYS, keys);
+        return fail(error, ERROR_INPUT,
+                    "expected at most %d keys, got %.0f: ask for fewer frames or fewer keys per second", MAX_KEYS,
+                    keys);
     shot->key_count = (int)keys;
     const double end = shot_frame(shot, shot->key_count - 1);
     if (fabs(end - last) > 1e-6)

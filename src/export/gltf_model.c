@@ -1,4 +1,4 @@
-/// Writes an imported character's own file with a clip more.
+/// Writes an imported character's own file with one more clip.
 #include "export/gltf_model.h"
 #include "base/file.h"
 #include "base/path.h"

@@ -1,4 +1,4 @@
-/// Rigs as a USD scene in text: UsdSkel skeletons, blend shapes, a time sample a key. Metres, y up; time codes are the document's frames.
+/// Rigs as a USD scene in text: UsdSkel skeletons, blend shapes, one time sample per key. Metres, y up; time codes are the document's frames.
 #include "export/format.h"
 #include "export/keys.h"
 #include "export/targets.h"

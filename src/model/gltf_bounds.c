@@ -1,4 +1,4 @@
-/// Boxes of what follows each joint.
+/// Boxes around what each joint carries.
 #include "model/gltf_bounds.h"
 #include "model/vector.h"
 #include <math.h>

@@ -1,4 +1,4 @@
-/// Pulling a tail or chain: one damped Newton step a frame on the values of the knots at the playhead.
+/// Pulling a tail or chain: one damped Newton step per frame on the values of the knots at the playhead.
 ///
 /// The grabbed point p (pixels) depends on the values v of at most two knots, one for each axis. Its derivative J
 /// comes from posing it again with x changed by δ(1 + j·turn), which is what a change of the knot does once
