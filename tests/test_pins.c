@@ -315,14 +315,115 @@ static void chain_and_band_agree_on_random_groups(void **state)
             for (int i = 0; i < 3; i++) assert_near(left[p][i], g->pin[p].left[i], 1e-7 * size);
         }
         worst = fmax(worst, apart / size);
-        if (getenv("PINS_TALK")) print_message("group %u: %g of %g\n", n, apart, size);
     }
     if (!(worst <= 1e-8)) fail_msg("chain and band are %g of the largest x apart", worst);
+}
+
+// --- what a user would miss ------------------------------------------------------------------------------------------
+
+/// A group without pins is its splines, and one that has solved others before gives the same bits as a new one.
+static void nothing_that_is_kept_changes_a_bit(void **state)
+{
+    (void)state;
+    static double memory[3][5 * SAMPLES * MOST_SPLINES];
+    wiggly_curve curves[3][MOST_SPLINES];
+    wiggly_group *group;
+    wiggly_solver *solver;
+    assert_int_equal(wiggly_group_create(SAMPLES, KNOTS, 4, 6, &group), WIGGLY_OK);
+    assert_int_equal(wiggly_create(SAMPLES, KNOTS, &solver), WIGGLY_OK);
+    for (unsigned n = 0; n < 20; n++) {
+        struct random_group *g = make_group(n, 4, 6);
+        for (int s = 0; s < 4; s++) {
+            for (int k = 1; k < 3; k++) curves[k][s] = curve_of(memory[k] + 5 * SAMPLES * s, SAMPLES);
+        }
+        assert_int_equal(solve_group(g, WIGGLY_CHAIN, memory[0], curves[0]), WIGGLY_OK);
+        assert_int_equal(wiggly_group_solve(group, g->descs, g->weights, curves[1], 4, g->pin, 6), WIGGLY_OK);
+        assert_memory_equal(memory[0], memory[1], sizeof(double) * 5 * SAMPLES * 4);
+        assert_int_equal(wiggly_group_solve(group, g->descs, g->weights, curves[1], 4, NULL, 0), WIGGLY_OK);
+        for (int s = 0; s < 4; s++) assert_int_equal(wiggly_solve(solver, &g->descs[s], &curves[2][s]), WIGGLY_OK);
+        assert_memory_equal(memory[1], memory[2], sizeof(double) * 5 * SAMPLES * 4);
+    }
+    wiggly_destroy(solver);
+    wiggly_group_destroy(group);
+}
+
+/// One spline that moves a point along a line: what is across it cannot be had, and is said.
+static void what_is_out_of_reach_is_left(void **state)
+{
+    (void)state;
+    static double memory[5 * SAMPLES * MOST_SPLINES];
+    wiggly_curve curve;
+    struct random_group *g = make_group(1, 1, 1);
+    g->descs[0].mode = WIGGLY_REAL;
+    g->pin[0] = (wiggly_pin){.sample = 100, .pulls = g->pulls[0], .pull_count = 1, .to = {0.5, 0.25, 0}};
+    g->pulls[0][0] = (wiggly_pull){.c = {{2, 0}, {0, 0}, {0, 0}}};
+    assert_int_equal(solve_group(g, WIGGLY_CHAIN, memory, &curve), WIGGLY_OK);
+    assert_near(curve.re[100], 0.25, 1e-12);
+    assert_near(g->pin[0].left[0], 0, 1e-12);
+    assert_near(g->pin[0].left[1], 0.25, 0);
+}
+
+static wiggly_status status_of(struct random_group *g)
+{
+    static double memory[5 * SAMPLES * MOST_SPLINES];
+    wiggly_curve curves[MOST_SPLINES];
+    memory[0] = 17;
+    wiggly_status status = solve_group(g, WIGGLY_CHAIN, memory, curves);
+    if (status >= WIGGLY_ERROR_ARGUMENT) assert_near(memory[0], 17, 0); // nothing is touched
+    return status;
+}
+
+static void what_cannot_be_held_is_refused(void **state)
+{
+    (void)state;
+    struct random_group *g = make_group(2, 2, 1);
+    g->pin[0].sample = SAMPLES;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
+    g = make_group(2, 2, 1);
+    g->descs[1].start = WIGGLY_LOOP;
+    g->descs[1].knot_count = 0;
+    g->pin[0].sample = SAMPLES - 1;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
+    g = make_group(2, 2, 1);
+    g->descs[0].mode = WIGGLY_CUBIC;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
+    g = make_group(2, 2, 1);
+    g->descs[0].calm = 0;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
+    g = make_group(2, 2, 1);
+    g->descs[0].frequency.value = 0;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
+    g = make_group(2, 2, 1);
+    g->pin[0].to[1] = NAN;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_NUMBER);
+    g = make_group(2, 2, 1);
+    g->weights[0] = 0;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_NUMBER);
+    g = make_group(2, 2, 1);
+    g->pulls[0][1].spline = 2;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_ARGUMENT);
+}
+
+/// In a scene of two samples there is nothing to pull.
+static void pins_of_a_scene_too_short_are_passed_over(void **state)
+{
+    (void)state;
+    struct random_group *g = make_group(3, 2, 1);
+    g->samples = 2;
+    g->pin[0].sample = 1;
+    for (int s = 0; s < 2; s++)
+        g->descs[s].samples = 2, g->descs[s].knot_count = 0, g->descs[s].equilibrium.track = NULL;
+    assert_int_equal(status_of(g), WIGGLY_OK);
+    for (int i = 0; i < 3; i++) assert_near(g->pin[0].left[i], g->pin[0].to[i], 0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(chain_and_band_meet_every_vector),
-                                       cmocka_unit_test(chain_and_band_agree_on_random_groups)};
+                                       cmocka_unit_test(chain_and_band_agree_on_random_groups),
+                                       cmocka_unit_test(nothing_that_is_kept_changes_a_bit),
+                                       cmocka_unit_test(what_is_out_of_reach_is_left),
+                                       cmocka_unit_test(what_cannot_be_held_is_refused),
+                                       cmocka_unit_test(pins_of_a_scene_too_short_are_passed_over)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

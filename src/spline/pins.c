@@ -28,7 +28,7 @@ struct wiggly_group {
     double *alone;
     double *columns; ///< scratch of its nodes
     double *answer;  ///< Z R of the spline in hand, 2P × rows
-    double *system;  ///< S, then its factor
+    double *system;  ///< S, the lower triangle, then its factor
     double *soft;    ///< φ S_max of each row
     double *lambda, *miss;
 };
@@ -67,8 +67,9 @@ static void lay_out_spline(pulled *of, arena *a, int knots, int pins)
 static struct wiggly_group *lay_out(arena *a, int knots, int splines, int pins)
 {
     const size_t s = (size_t)splines, p = (size_t)pins, rows = 3 * p;
-    struct wiggly_group *g = take(a, 1, sizeof *g), none, *at = g ? g : &none;
-    *at = (struct wiggly_group){.splines = splines, .pins = pins, .knots = knots};
+    struct wiggly_group measured = {.splines = splines, .pins = pins, .knots = knots};
+    struct wiggly_group *g = take(a, 1, sizeof *g), *at = g ? g : &measured;
+    *at = measured;
     at->pulled = take(a, s, sizeof(pulled));
     for (int i = 0; i < splines; i++) lay_out_spline(at->pulled ? &at->pulled[i] : NULL, a, knots, pins);
     at->rows.row = take(a, rows, sizeof(pin_row));
@@ -251,7 +252,7 @@ WIDEST static void add_two(double *restrict sum, double u, const double *restric
     for (int i = 0; i < count; i++) sum[i] += u * a[i] + v * b[i];
 }
 
-/// Adds a spline to S and takes what it does without pulls off what is wanted.
+/// Adds a spline to the lower triangle of S and takes what it does without pulls off what is wanted.
 static void add_spline(wiggly_group *g, int spline)
 {
     const pulled *of = &g->pulled[spline];
@@ -271,7 +272,7 @@ static void add_spline(wiggly_group *g, int spline)
         int i = 2 * g->pull_of[r];
         if (i < 0) continue;
         add_two(g->system + n * r, of->scale * on[0], g->answer + n * i, of->scale * on[1], g->answer + n * (i + 1),
-                n);
+                r + 1);
         g->miss[r] -= on[0] * g->alone[i] + on[1] * g->alone[i + 1];
     }
 }
@@ -306,8 +307,10 @@ static void soften(wiggly_group *g)
         double *block = g->rows.scratch, *vectors = block + count * count, *values = vectors + count * count,
                most = 0, softest = 0;
         for (int i = 0; i < count; i++) softest = fmax(softest, g->rows.row[from + i].soft);
-        for (int i = 0; i < count && softest > 0; i++)
-            memcpy(block + count * i, g->system + n * (from + i) + from, sizeof *block * (size_t)count);
+        for (int i = 0; i < count && softest > 0; i++) {
+            for (int j = 0; j <= i; j++)
+                block[count * i + j] = block[count * j + i] = g->system[n * (from + i) + from + j];
+        }
         if (softest > 0) symmetric_eigen(count, block, values, vectors);
         for (int i = 0; i < count && softest > 0; i++) most = fmax(most, values[i]);
         for (int i = from; i < from + count; i++) {

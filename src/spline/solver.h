@@ -29,7 +29,7 @@ typedef struct constant_filter {
 struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
-    solver_stop *stop; ///< or NULL
+    solver_stop *stop;         ///< or NULL
     const system_pulls *pulls; ///< on the splines to be solved, or NULL
     wiggly_method method;
     int longest_squared; ///< longer domains are factored without squaring: none, but tests set it

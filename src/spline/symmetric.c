@@ -23,7 +23,7 @@ static void rotate(int n, double *a, double *vectors, int p, int q)
 {
     if (a[n * p + q] == 0) return;
     double theta = 0.5 * (a[n * q + q] - a[n * p + p]) / a[n * p + q];
-    double t = copysign(1 / (fabs(theta) + hypot(theta, 1)), theta), c = 1 / hypot(t, 1), s = t * c;
+    double t = copysign(1 / (fabs(theta) + sqrt(theta * theta + 1)), theta), c = 1 / sqrt(t * t + 1), s = t * c;
     for (int k = 0; k < n; k++) {
         double kp = a[n * k + p], kq = a[n * k + q];
         a[n * k + p] = c * kp - s * kq, a[n * k + q] = s * kp + c * kq;
