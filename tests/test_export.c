@@ -452,6 +452,44 @@ static void stopping_leaves_nothing_behind(void **state)
         assert_int_equal(files_in_folder(), 0);
     }
     close_scene(&scene);
+    scene = open_scene("assets/scenes/dog.json"); // its .usda has a folder of textures
+    struct export_report report;
+    struct error error;
+    assert_false(export_write(posing_of(&scene), folder_path("a.usda"), &options, &report, &error));
+    assert_int_equal(files_in_folder(), 0);
+    close_scene(&scene);
+}
+
+/// A .usda of an imported character names its textures, which are in a folder beside it, as the file had them.
+static void textures_are_written_beside(void **state)
+{
+    (void)state;
+    const char *path = export_scene("dog", "dog.usda", (struct export_options){.substeps = 1});
+    size_t size, chunk;
+    char *text = bytes_of(path, &size), *picture = bytes_of(folder_path("dog_textures/tag_0.png"), &size),
+         *dog = bytes_of("assets/models/dog.glb", &chunk);
+    assert_non_null(strstr(text, "asset inputs:file = @./dog_textures/tag_0.png@"));
+    assert_non_null(strstr(text, "rel material:binding = </scene/dog/materials/tag>"));
+    assert_non_null(memmem(dog, chunk, picture, size));
+    free(text);
+    free(picture);
+    free(dog);
+    assert_int_equal(files_in_folder(), 2);
+}
+
+/// Where the textures cannot be written, nothing is: neither the file nor a part of them.
+static void without_its_textures_nothing_is_written(void **state)
+{
+    (void)state;
+    struct opened scene = open_scene("assets/scenes/dog.json");
+    struct export_report report;
+    struct error error = {0};
+    const struct export_options usual = {.substeps = 1};
+    assert_true(file_write_atomic(folder_path("dog_textures"), "a file", 6, &error));
+    assert_false(export_write(posing_of(&scene), folder_path("dog.usda"), &usual, &report, &error));
+    assert_non_null(strstr(error.text, "dog_textures"));
+    assert_int_equal(files_in_folder(), 1);
+    close_scene(&scene);
 }
 
 /// Expects an export to be refused with that sentence.
@@ -517,6 +555,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(point_caches_hold_the_same, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(a_table_has_splines_and_channels, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(stopping_leaves_nothing_behind, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(textures_are_written_beside, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(without_its_textures_nothing_is_written, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(refusals_say_what_to_do, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(all_rigs_come_out, folder_make, folder_remove),
     };

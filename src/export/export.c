@@ -11,7 +11,7 @@
 static const struct format formats[] = {
     {.ending = ".glb", .holds = FORM_MESH | FORM_FILE, .write = glb_write},
     {.ending = ".gltf", .holds = FORM_MESH | FORM_FILE, .write = gltf_write},
-    {.ending = ".usda", .holds = FORM_MESH, .write = usda_write},
+    {.ending = ".usda", .holds = FORM_MESH | FORM_FILE, .write = usda_write},
     {.ending = ".bvh", .holds = FORM_JOINTS, .write = bvh_write, .one_rig = true},
     {.ending = ".csv", .write = csv_write, .without_rigs = true},
     {.ending = ".pc2", .holds = FORM_POINTS, .write = pc2_write, .one_rig = true},
@@ -144,6 +144,23 @@ static void print_size(off_t bytes, char *text, size_t size)
     }
 }
 
+/// The files that this one names come first; a full disk is seen before that.
+static bool commit(struct take *take, struct file_output *output, struct error *error)
+{
+    const bool broken = fflush(output->stream) != 0 || ferror(output->stream);
+    if (!broken && !beside_commit(&take->beside, error)) {
+        file_output_discard(output);
+        beside_discard(&take->beside);
+        return false;
+    }
+    if (!file_output_commit(output, error)) {
+        beside_discard(&take->beside);
+        return false;
+    }
+    beside_free(&take->beside);
+    return true;
+}
+
 static bool write_file(struct take *take, const struct format *format, const char *path, struct export_report *report,
                        struct error *error)
 {
@@ -152,10 +169,11 @@ static bool write_file(struct take *take, const struct format *format, const cha
     if (!file_output_open(&output, path, error)) return false;
     if (!format->write(take, output.stream, summary, error)) {
         file_output_discard(&output);
+        beside_discard(&take->beside);
         return false;
     }
     const off_t bytes = ftello(output.stream); // −1 for a pipe
-    if (!file_output_commit(&output, error)) return false;
+    if (!commit(take, &output, error)) return false;
     print_size(bytes, size, sizeof size);
     snprintf(report->text, sizeof report->text, "%s%s%s", summary, bytes >= 0 ? ", " : "", bytes >= 0 ? size : "");
     return true;
