@@ -3,42 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// What stands in the source file about the texture of a material's base colour, which the older of two ways calls diffuse.
-static const json_t *texture_of(const struct glb *source, int material)
-{
-    const json_t *json = json_array_get(json_object_get(source->json, "materials"), (size_t)material);
-    const json_t *metal = json_object_get(json, "pbrMetallicRoughness");
-    const json_t *gloss = json_object_get(json_object_get(json, "extensions"), "KHR_materials_pbrSpecularGlossiness");
-    const json_t *info =
-        metal || !gloss ? json_object_get(metal, "baseColorTexture") : json_object_get(gloss, "diffuseTexture");
-    const int64_t index = glb_integer(info, "index", -1);
-    return index < 0 ? NULL : json_array_get(json_object_get(source->json, "textures"), (size_t)index);
-}
-
-/// The bytes of a picture; `owned` is the caller's.
-static bool read_picture(struct glb *source, int64_t index, struct glb_buffer *bytes, struct error *error)
-{
-    const json_t *image = json_array_get(json_object_get(source->json, "images"), (size_t)index);
-    const char *uri = json_string_value(json_object_get(image, "uri"));
-    struct error why = {0};
-    *bytes = (struct glb_buffer){0};
-    if (uri ? glb_read_uri(source, uri, bytes, &why)
-            : glb_view(source, glb_integer(image, "bufferView", -1), &bytes->bytes))
-        return true;
-    return fail(error, ERROR_INPUT, "%s: images[%d]: %s", source->path, (int)index,
-                uri ? why.text : "expected its bytes in the file, got none");
-}
-
-/// "coat.png": as the picture is called, or its texture's material.
-static void name_file(const struct usda_model *model, const struct glb *source, int material, int64_t index,
-                      struct glb_bytes bytes, char name[FORM_NAME])
-{
-    const json_t *image = json_array_get(json_object_get(source->json, "images"), (size_t)index);
-    const char *known = json_string_value(json_object_get(image, "name"));
-    char stem[FORM_NAME];
-    usda_identifier(known && known[0] ? known : model->materials[material], stem);
-    snprintf(name, FORM_NAME, "%.40s_%d.%s", stem, (int)index, bytes.size > 0 && bytes.at[0] == 0xFF ? "jpg" : "png");
-}
+/// A texture of the .usda: which file, and what happens past its edges.
+struct texture {
+    char file[PATH_LIMIT]; ///< "./walk_textures/coat_0.png", or empty: none
+    const char *wrap[2];
+};
 
 /// The folder beside the file that is written: "walk.usda" → "walk_textures".
 static void name_folder(const char *path, char folder[PATH_LIMIT])
@@ -47,31 +16,29 @@ static void name_folder(const char *path, char folder[PATH_LIMIT])
     snprintf(folder, PATH_LIMIT, "%.*s_textures", dot ? (int)(dot - path) : (int)strlen(path), path);
 }
 
-/// Writes a picture into the folder, once. `reference`: how the .usda names it.
-static bool write_picture(const struct usda_model *model, struct glb *source, int material, int64_t index,
-                          char reference[PATH_LIMIT], struct error *error)
+/// Writes a picture into the folder: as it is called, or its material.
+static bool write_picture(const struct usda_model *model, int material, const struct gltf_texture *picture,
+                          struct texture *texture, struct error *error)
 {
-    struct beside *beside = &model->take->beside;
-    struct glb_buffer bytes;
-    char name[FORM_NAME], folder[PATH_LIMIT];
-    if (!read_picture(source, index, &bytes, error)) return false;
-    name_file(model, source, material, index, bytes.bytes, name);
+    char stem[FORM_NAME], name[FORM_NAME], folder[PATH_LIMIT];
+    usda_identifier(picture->name ? picture->name : model->materials[material], stem);
+    snprintf(name, sizeof name, "%.40s_%d.%s", stem, picture->image,
+             picture->size > 0 && picture->at[0] == 0xFF ? "jpg" : "png");
     name_folder(model->take->path, folder);
     const char *slash = strrchr(folder, '/');
-    const bool fits = snprintf(reference, PATH_LIMIT, "./%s/%s", slash ? slash + 1 : folder, name) < PATH_LIMIT;
-    const bool done = fits ? beside_add(beside, folder, name, bytes.bytes.at, bytes.bytes.size, error)
-                           : fail(error, ERROR_INPUT, "%s: the path is too long", folder);
-    free(bytes.owned);
-    return done;
+    if (snprintf(texture->file, PATH_LIMIT, "./%s/%s", slash ? slash + 1 : folder, name) >= PATH_LIMIT)
+        return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
+    return beside_add(&model->take->beside, folder, name, picture->at, picture->size, error);
 }
 
-static const char *wrap_of(const struct glb *source, const json_t *texture, const char *key)
+static bool add_texture(struct usda_model *model, int material, struct texture *texture, struct error *error)
 {
-    const int64_t sampler = glb_integer(texture, "sampler", -1);
-    const json_t *json =
-        sampler < 0 ? NULL : json_array_get(json_object_get(source->json, "samplers"), (size_t)sampler);
-    const int64_t wrap = glb_integer(json, key, 10497);
-    return wrap == 33071 ? "clamp" : wrap == 33648 ? "mirror" : "repeat";
+    struct gltf_texture picture;
+    if (!gltf_source_texture(model->source, material, &picture, error)) return false;
+    const bool done = texture->file[0] || write_picture(model, material, &picture, texture, error);
+    memcpy(texture->wrap, picture.wrap, sizeof picture.wrap);
+    free(picture.owned);
+    return done;
 }
 
 static void begin_shader(FILE *out, const char *name, const char *id)
@@ -80,22 +47,20 @@ static void begin_shader(FILE *out, const char *name, const char *id)
     fprintf(out, "                    uniform token info:id = \"%s\"\n", id);
 }
 
-static void write_texture(const struct usda_model *model, const struct glb *source, int material,
-                          const char *reference)
+static void write_texture(const struct usda_model *model, int material, const struct texture *texture)
 {
     const float *c = model->gltf->materials[material].color;
-    const json_t *texture = texture_of(source, material);
-    const char *quote = strchr(reference, '@') ? "@@@" : "@", *name = model->materials[material];
+    const char *quote = strchr(texture->file, '@') ? "@@@" : "@", *name = model->materials[material];
     FILE *out = model->out;
     begin_shader(out, "texture", "UsdUVTexture");
-    fprintf(out, "                    asset inputs:file = %s%s%s\n", quote, reference, quote);
+    fprintf(out, "                    asset inputs:file = %s%s%s\n", quote, texture->file, quote);
     fprintf(out, "                    float4 inputs:scale = (%.9g, %.9g, %.9g, %.9g)\n", (double)c[0], (double)c[1],
             (double)c[2], (double)c[3]);
     fputs("                    token inputs:sourceColorSpace = \"sRGB\"\n", out);
     fprintf(out, "                    float2 inputs:st.connect = </scene/%s/materials/%s/st.outputs:result>\n",
             model->name, name);
-    fprintf(out, "                    token inputs:wrapS = \"%s\"\n", wrap_of(source, texture, "wrapS"));
-    fprintf(out, "                    token inputs:wrapT = \"%s\"\n", wrap_of(source, texture, "wrapT"));
+    fprintf(out, "                    token inputs:wrapS = \"%s\"\n", texture->wrap[0]);
+    fprintf(out, "                    token inputs:wrapT = \"%s\"\n", texture->wrap[1]);
     fputs("                    float outputs:a\n                    float3 outputs:rgb\n                }\n", out);
     begin_shader(out, "st", "UsdPrimvarReader_float2");
     fputs("                    string inputs:varname = \"st\"\n", out);
@@ -110,23 +75,11 @@ static void write_color_reader(const struct usda_model *model)
     fputs("                    float3 outputs:result\n                }\n", model->out);
 }
 
-/// What the source file says of shine, unless a picture says it.
-static void write_shine(const struct usda_model *model, const struct glb *source, int material)
-{
-    const json_t *json = json_array_get(json_object_get(source->json, "materials"), (size_t)material);
-    const json_t *metal = json_object_get(json, "pbrMetallicRoughness");
-    const json_t *metallic = json_object_get(metal, "metallicFactor"),
-                 *rough = json_object_get(metal, "roughnessFactor");
-    if (!metal || json_object_get(metal, "metallicRoughnessTexture")) return;
-    fprintf(model->out, "                    float inputs:metallic = %.9g\n",
-            metallic ? json_number_value(metallic) : 1);
-    fprintf(model->out, "                    float inputs:roughness = %.9g\n", rough ? json_number_value(rough) : 1);
-}
-
-static void write_surface(const struct usda_model *model, const struct glb *source, int material, bool textured)
+static void write_surface(const struct usda_model *model, int material, bool textured)
 {
     const struct gltf_material *m = &model->gltf->materials[material];
     const char *name = model->materials[material], *input = textured ? "texture.outputs:rgb" : "color.outputs:result";
+    double metallic, roughness;
     FILE *out = model->out;
     begin_shader(out, "surface", "UsdPreviewSurface");
     fprintf(out, "                    color3f inputs:diffuseColor.connect = </scene/%s/materials/%s/%s>\n",
@@ -139,45 +92,43 @@ static void write_surface(const struct usda_model *model, const struct glb *sour
         fprintf(out, "                    float inputs:opacity = %.9g\n", (double)m->color[3]);
     }
     if (m->cutoff > 0) fprintf(out, "                    float inputs:opacityThreshold = %.9g\n", (double)m->cutoff);
-    write_shine(model, source, material);
+    if (gltf_source_shine(model->source, material, &metallic, &roughness)) {
+        fprintf(out, "                    float inputs:metallic = %.9g\n", metallic);
+        fprintf(out, "                    float inputs:roughness = %.9g\n", roughness);
+    }
     fputs("                    token outputs:surface\n                }\n", out);
 }
 
-static void write_material(const struct usda_model *model, const struct glb *source, int material,
-                           const char *reference)
+static void write_material(const struct usda_model *model, int material, const struct texture *texture)
 {
     const char *name = model->materials[material];
     fprintf(model->out, "            def Material \"%s\"\n            {\n", name);
     fprintf(model->out,
             "                token outputs:surface.connect = </scene/%s/materials/%s/surface.outputs:surface>\n",
             model->name, name);
-    write_surface(model, source, material, *reference);
-    if (*reference) {
-        write_texture(model, source, material, reference);
+    write_surface(model, material, texture);
+    if (texture) {
+        write_texture(model, material, texture);
     } else {
         write_color_reader(model);
     }
     fputs("            }\n\n", model->out);
 }
 
-bool usda_write_materials(struct usda_model *model, struct glb *source, struct error *error)
+bool usda_write_materials(struct usda_model *model, struct error *error)
 {
-    const json_t *materials = json_object_get(source->json, "materials");
-    const int count = model->gltf->material_count;
-    char(*references)[PATH_LIMIT] = calloc((size_t)model->gltf->image_count + 1, sizeof *references);
-    bool done = references || fail_no_memory(error, source->path);
+    const struct gltf *gltf = model->gltf;
+    struct texture *textures = calloc((size_t)gltf->image_count + 1, sizeof *textures); // a picture is written once
+    bool done = textures || fail_no_memory(error, gltf->path);
     fputs("        def Scope \"materials\"\n        {\n", model->out);
-    for (int m = 0; done && m < count; m++) {
-        const char *name = json_string_value(json_object_get(json_array_get(materials, (size_t)m), "name"));
-        const int image = model->gltf->materials[m].image; // −1: none, or it could not be shown
-        char *reference = references[image >= 0 ? image + 1 : 0];
+    for (int m = 0; done && m < gltf->material_count; m++) {
+        const char *name = gltf_source_material(model->source, m);
+        const int image = gltf->materials[m].image; // −1: none, or it could not be shown
         usda_unique(model->materials, m, name ? name : "material", model->materials[m]);
-        if (image >= 0 && !*reference)
-            done =
-                write_picture(model, source, m, glb_integer(texture_of(source, m), "source", -1), reference, error);
-        if (done) write_material(model, source, m, reference);
+        done = image < 0 || add_texture(model, m, &textures[image], error);
+        if (done) write_material(model, m, image >= 0 ? &textures[image] : NULL);
     }
     fputs("        }\n", model->out);
-    free(references);
+    free(textures);
     return done;
 }

@@ -1,7 +1,6 @@
 /// The skeletons of an imported character in a .usda file, and what moves them.
 #include "export/usda_model.h"
 #include "export/keys.h"
-#include "model/glb.h"
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -183,17 +182,14 @@ static void write_animation(const struct usda_model *model)
 // --- all of it
 
 /// As the file calls them (a custom of many exporters), else by number; those of all nodes together differ.
-static void name_shapes(struct usda_model *model, const struct glb *source)
+static void name_shapes(struct usda_model *model)
 {
     const struct gltf *gltf = model->gltf;
     for (int n = 0; n < gltf->node_count; n++) {
         const int mesh = gltf->nodes[n].mesh, first = gltf->nodes[n].first_weight;
-        if (mesh < 0) continue;
-        const json_t *json = json_array_get(json_object_get(source->json, "meshes"), (size_t)mesh);
-        const json_t *names = json_object_get(json_object_get(json, "extras"), "targetNames");
-        for (int t = 0; t < gltf->meshes[mesh].target_count; t++) {
+        for (int t = 0; mesh >= 0 && t < gltf->meshes[mesh].target_count; t++) {
             char numbered[32];
-            const char *name = json_string_value(json_array_get(names, (size_t)t));
+            const char *name = gltf_source_target(model->source, mesh, t);
             snprintf(numbered, sizeof numbered, "target_%d", t);
             usda_unique(model->shapes, first + t, name ? name : numbered, model->shapes[first + t]);
         }
@@ -229,6 +225,7 @@ static bool reserve(struct usda_model *model)
 
 static void release(struct usda_model *model)
 {
+    gltf_source_close(model->source);
     free(model->places);
     free(model->weights);
     free(model->shapes);
@@ -256,9 +253,9 @@ const char *usda_prim(struct usda_model *model, const char *wanted)
     return name;
 }
 
-static bool write_all(struct usda_model *model, struct glb *source, const struct rig_pose *pose, struct error *error)
+static bool write_all(struct usda_model *model, const struct rig_pose *pose, struct error *error)
 {
-    name_shapes(model, source);
+    name_shapes(model);
     write_root(model, pose);
     const int skeletons = model->gltf->skin_count > 1 ? model->gltf->skin_count : 1;
     for (int s = 0; s < skeletons; s++) usda_prim(model, "skeleton");
@@ -266,7 +263,7 @@ static bool write_all(struct usda_model *model, struct glb *source, const struct
     usda_prim(model, "materials");
     for (int s = 0; s < skeletons; s++) write_skeleton(model, s);
     if (is_animated(model)) write_animation(model);
-    if (!usda_write_materials(model, source, error)) return false;
+    if (!usda_write_materials(model, error)) return false;
     usda_write_meshes(model);
     fputs("    }\n", model->out);
     return true;
@@ -276,17 +273,12 @@ bool usda_model_write(struct take *take, int rig, const char *name, FILE *out, s
 {
     struct usda_model model = {.take = take, .rig = rig, .name = name, .out = out};
     struct rig_pose pose;
-    struct glb source;
     if (!take_pose(take, rig, 0, &pose, error)) return false;
     model.gltf = &pose.model.imported->gltf;
-    bool done = reserve(&model) || fail_no_memory(error, model.gltf->path);
-    done = done && collect_keys(&model, error) && usda_make_joints(&model, error);
-    if (done && glb_open_any(&source, model.gltf->path, error)) {
-        done = glb_read_buffers(&source, error) && write_all(&model, &source, &pose, error);
-        glb_close(&source);
-    } else {
-        done = false;
-    }
+    model.source = gltf_source_open(model.gltf->path, error);
+    if (!model.source) return false;
+    const bool done = (reserve(&model) || fail_no_memory(error, model.gltf->path)) && collect_keys(&model, error) &&
+                      usda_make_joints(&model, error) && write_all(&model, &pose, error);
     release(&model);
     return done;
 }

@@ -3,9 +3,9 @@
 #ifndef EXPORT_USDA_MODEL_H
 #define EXPORT_USDA_MODEL_H
 
+#include "export/gltf_source.h"
 #include "export/take.h"
 #include "export/usda_text.h"
-#include "model/glb.h"
 
 /// A joint is a node; or, where its scale stands still and is no half, which is what UsdSkel's keys of scales are, two of them: one
 /// that moves, and below it one that scales.
@@ -23,6 +23,7 @@ struct usda_model {
     const char *name; ///< of its prim
     FILE *out;
     const struct gltf *gltf;
+    struct gltf_source *source;
     struct gltf_place *places; ///< [key · nodes + node], rotations the short way
     float *weights;            ///< [key · weights + weight]
     char (*shapes)[FORM_NAME]; ///< of each weight: what its blend shape is called
@@ -56,7 +57,7 @@ void usda_bind(const struct usda_model *model, int skeleton, int joint, double m
 void usda_matrix(FILE *out, const double matrix[16]);
 
 /// Names all materials and writes them, and their textures' files.
-bool usda_write_materials(struct usda_model *model, struct glb *source, struct error *error);
+bool usda_write_materials(struct usda_model *model, struct error *error);
 
 /// Writes the meshes of all nodes.
 void usda_write_meshes(struct usda_model *model);
