@@ -149,6 +149,22 @@ void curves_reveal(struct curves *curves, struct core *core, double frame, doubl
     keep_sane(curves, core);
 }
 
+void curves_include(struct curves *curves, struct core *core, const struct document *document, int spline)
+{
+    const struct spline *shown = &document->splines[spline];
+    const int at = spline_find_knot(document, shown, (int)round(core->playback.position));
+    if (at < 0) return;
+    const struct value_map map = normal_map(curves, core, spline);
+    const double value = map.scale * shown->knots[at].value + map.offset;
+    struct view *view = &curves->view;
+    const double margin = 0.1 * (view->value1 - view->value0);
+    if (value < view->value0 || value > view->value1) {
+        view->value0 = fmin(view->value0, value - margin);
+        view->value1 = fmax(view->value1, value + margin);
+    }
+    curves_reveal(curves, core, shown->knots[at].frame, value);
+}
+
 void view_rescale(struct curves *curves, struct core *core, double scale, double offset)
 {
     curves->view.value0 = (curves->view.value0 - offset) / scale;
