@@ -184,6 +184,51 @@ static void test_ends_that_are_no_chain_are_refused(void **state)
     session_close(&s);
 }
 
+static bool shows_text(const struct session *session, const char *text)
+{
+    const struct drawlist *list = editor_drawlist(session->editor);
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *c = &list->commands[i];
+        if (c->kind == DRAW_TEXT && strcmp(list->text + c->first, text) == 0) return true;
+    }
+    return false;
+}
+
+/// Two beasts side by side: a bone goes by its character's name, and can be asked for by it.
+static void test_a_second_character_is_named(void **state)
+{
+    (void)state;
+    struct session s;
+    char scene[2048];
+    int model;
+    assert_true(beast_write(folder_path("beast.glb")));
+    snprintf(scene, sizeof scene,
+             "{\"wiggly\": 1, \"fps\": 24, \"frames\": [0, 48], \"splines\": [], \"rigs\": [{\"type\": \"model\", "
+             "\"name\": \"left\", \"model\": \"%s\", \"position\": [-1, 0, 0]}, {\"type\": \"model\", \"name\": "
+             "\"right\", \"model\": \"%s\", \"position\": [1, 0, 0]}]}",
+             folder_path("beast.glb"), folder_path("beast.glb"));
+    panel_open_models(&s, scene);
+    session_frame(&s);
+    for (int rig = 0; rig < 2; rig++) {
+        const char *bone = rig ? "right/neck" : "left/neck";
+        char target[64];
+        snprintf(target, sizeof target, "bone(%s)", bone);
+        session_point(&s, target);
+        session_frame(&s);
+        assert_true(shows_text(&s, bone));
+        session_click(&s, target);
+        assert_true(bones_selected(&s.editor->core, &s.world, &model) >= 0);
+        assert_int_equal(model, rig);
+    }
+    session_click(&s, "bone(right/tail_3)");
+    session_key(&s, 'J', 0);
+    assert_non_null(strstr(s.editor->core.message.text, "from right/tail_3 to tail_8"));
+    session_click(&s, "bone(neck)"); // the first that there is
+    assert_true(bones_selected(&s.editor->core, &s.world, &model) >= 0);
+    assert_int_equal(model, 0);
+    session_close(&s);
+}
+
 static void test_undoing_a_chain_activates_what_was_active(void **state)
 {
     (void)state;
@@ -241,6 +286,7 @@ int main(void)
         cmocka_unit_test(test_the_ends_of_a_chain_are_chosen_from_lists),
         cmocka_unit_test(test_a_chain_goes_to_another_limb),
         cmocka_unit_test(test_ends_that_are_no_chain_are_refused),
+        cmocka_unit_test(test_a_second_character_is_named),
         cmocka_unit_test(test_undoing_a_chain_activates_what_was_active),
         cmocka_unit_test(test_the_curves_show_a_knot_that_was_pulled),
     };

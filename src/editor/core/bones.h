@@ -8,6 +8,9 @@
 const struct imported *bones_character(const struct editor_world *world, int model);
 /// The selected bone's node, and the rig of its character; −1 where none is selected or its character is gone.
 int bones_selected(const struct core *core, const struct editor_world *world, int *model);
+enum { BONES_TITLE = 512 };
+/// What a bone is called: its name, and where there are several characters the rig's before it, as in "dog 2/tail_1".
+const char *bones_title(const struct document *document, int model, const char *name, char title[BONES_TITLE]);
 /// Selects a bone of a model rig.
 void bones_select(struct core *core, const struct editor_world *world, int model, int node);
 /// A click on a bone: it is what was asked for, or else becomes the selected one.

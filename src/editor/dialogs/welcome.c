@@ -13,6 +13,7 @@ static const struct hint {
     {"Drag a knot", "the curve hits it, and swings"},
     {"Pull the tail", "this sets a knot at the playhead"},
     {"Hold F, press ↑", "it swings faster"},
+    {"Drop a .glb", "your own: click a bone, press J"},
 };
 
 enum { HINTS = sizeof hints / sizeof hints[0] };

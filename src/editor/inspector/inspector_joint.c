@@ -26,9 +26,12 @@ void inspector_joint_field(struct inspection *in, const struct joint_motion *mot
 {
     struct rect icon = {field.x + field.w - ICON, field.y, ICON, field.h};
     const int active = in->core->active;
+    const int model = document_find_model(in->document, motion->model, motion->by_file);
+    char title[BONES_TITLE];
+    const char *text = model < 0 ? motion->joint : bones_title(in->document, model, motion->joint, title);
     field.w -= ICON + 4;
     if (ui_hovered(in->ui, field)) in->ui->hint = "The joint it follows through the clip";
-    ui_dropdown(in->ui, field, joint_list, 0, motion->joint, 0);
+    ui_dropdown(in->ui, field, joint_list, 0, text, 0);
     const bool picking = in->core->pick.use == BONE_FOLLOWED && in->core->pick.which == active;
     if (ui_icon_button(in->ui, icon, "joint.pick", UI_ICON_PICK, picking, "Pick it on the stage"))
         bones_pick(in->core, picking ? BONE_SELECTED : BONE_FOLLOWED, active);

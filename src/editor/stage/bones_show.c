@@ -132,5 +132,7 @@ void bones_show(const struct stage *stage, struct core *core, const struct edito
     }
     show_all(stage, core, &showing, chosen ? &chosen->gltf : NULL);
     if (showing.meant < 0) return;
-    show_name(core, bones_character(world, hover->model)->gltf.nodes[hover->node].name);
+    char title[BONES_TITLE];
+    const char *name = bones_character(world, hover->model)->gltf.nodes[hover->node].name;
+    show_name(core, bones_title(world->document, hover->model, name, title));
 }
