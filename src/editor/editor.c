@@ -44,7 +44,7 @@ static void hear(void *who, const struct editor_world *world, enum news news, in
         curves_capture_ghost(editor->curves, &editor->core, world);
         break;
     case NEWS_PULLED:
-        curves_include(editor->curves, &editor->core, world->document, spline);
+        curves_include(editor->curves, &editor->core, world, spline);
         break;
     }
 }
