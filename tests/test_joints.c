@@ -229,6 +229,22 @@ static void test_a_second_character_is_named(void **state)
     session_close(&s);
 }
 
+/// A chain that follows bends by many degrees a metre: its slider goes that far, and stays as it is while it is dragged.
+static void test_a_large_gain_is_on_its_slider(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, "0");
+    panel_enter(&s, "gain", "86");
+    panel_drag(&s, "gain", 120);
+    assert_near(tail(&s)->channels[0].gain.value[0], 120, 2);
+    panel_release(&s);
+    panel_drag(&s, "gain", 30);
+    assert_near(tail(&s)->channels[0].gain.value[0], 30, 2);
+    panel_release(&s);
+    session_close(&s);
+}
+
 static void test_undoing_a_chain_activates_what_was_active(void **state)
 {
     (void)state;
@@ -287,6 +303,7 @@ int main(void)
         cmocka_unit_test(test_a_chain_goes_to_another_limb),
         cmocka_unit_test(test_ends_that_are_no_chain_are_refused),
         cmocka_unit_test(test_a_second_character_is_named),
+        cmocka_unit_test(test_a_large_gain_is_on_its_slider),
         cmocka_unit_test(test_undoing_a_chain_activates_what_was_active),
         cmocka_unit_test(test_the_curves_show_a_knot_that_was_pulled),
     };
