@@ -5,6 +5,7 @@
 #include "commands/options.h"
 #include "commands/progress.h"
 #include "model/motion.h"
+#include "model/obj.h"
 #include "simulation/soft.h"
 #include <math.h>
 #include <stdio.h>
@@ -113,7 +114,7 @@ static bool run(const struct job *job, struct error *error)
 {
     struct surface surface = {0};
     struct soft soft;
-    if (!obj_read(job->mesh, &surface, error)) return false;
+    if (!surface_read(job->mesh, &surface, error)) return false;
     bool good = soft_create(&soft, &surface, job->mesh, &job->soft, error);
     if (good) {
         printf("%s: %d tetrahedra, %d nodes, %d of them pinned; Young's modulus %.4g Pa, lowest mode %.4g Hz\n",

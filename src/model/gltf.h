@@ -33,6 +33,7 @@ struct gltf_skin {
 };
 
 struct gltf_material {
+    char *name;     ///< "material 2" where the file has none
     float color[4]; ///< base colour, linear, with opacity
     int image;      ///< its texture, −1: none
     float cutoff;   ///< alpha below it is not drawn; 0: all is
@@ -62,6 +63,7 @@ struct gltf_part {
     int index_count;
     struct gltf_target *targets; ///< as many as the mesh has
     int material;                ///< −1: plain white
+    bool flat; ///< the file has no normals, so each triangle has vertices of its own
 };
 
 struct gltf_mesh {

@@ -2,7 +2,7 @@
 #ifndef SIMULATION_CLOSED_H
 #define SIMULATION_CLOSED_H
 
-#include "model/obj.h"
+#include "model/surface.h"
 
 /// Number of edges that are not used as often in one direction as in the other; 0 for a closed surface. Vertices at the same
 /// place count as one. −1 where memory is short.

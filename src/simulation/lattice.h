@@ -14,7 +14,7 @@
 #define SIMULATION_LATTICE_H
 
 #include "base/error.h"
-#include "model/obj.h"
+#include "model/surface.h"
 #include <stdbool.h>
 
 struct lattice {

@@ -2,7 +2,7 @@
 #ifndef SIMULATION_VOXELS_H
 #define SIMULATION_VOXELS_H
 
-#include "model/obj.h"
+#include "model/surface.h"
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
