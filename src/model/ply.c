@@ -84,6 +84,17 @@ static bool read_type(struct words *w, enum type *type)
     return words_expected(w, "a type of numbers");
 }
 
+/// What a property is for, by its name.
+static enum role read_role(struct words *w, bool of_vertices, bool list)
+{
+    if (!of_vertices)
+        return list && (words_take(w, "vertex_indices") || words_take(w, "vertex_index")) ? CORNERS : OTHER;
+    for (size_t i = 0; !list && i < sizeof roles / sizeof *roles; i++) {
+        if (words_take(w, roles[i].name)) return roles[i].role;
+    }
+    return OTHER;
+}
+
 static bool read_property(struct words *w, struct element *e)
 {
     struct property *p = &e->properties[e->property_count];
@@ -91,12 +102,9 @@ static bool read_property(struct words *w, struct element *e)
     *p = (struct property){0};
     const bool list = words_take(w, "list");
     if ((list && !read_type(w, &p->count_type)) || !read_type(w, &p->type)) return false;
-    for (size_t i = 0; e->vertices && !list && i < sizeof roles / sizeof *roles; i++) {
-        if (words_take(w, roles[i].name)) p->role = roles[i].role;
-    }
-    if (!e->vertices && list && (words_take(w, "vertex_indices") || words_take(w, "vertex_index"))) p->role = CORNERS;
+    p->role = read_role(w, e->vertices, list);
     if (p->role < ROLES) e->has[p->role] = true;
-    words_skip_line(w);
+    if (p->role == OTHER) words_skip_line(w); // its name
     e->property_count++;
     return true;
 }
@@ -154,8 +162,8 @@ static bool read_header(struct ply *ply)
             good = read_format(ply);
         } else if (words_take(w, "element")) {
             good = read_element(ply);
-        } else if (words_take(w, "comment") || words_take(w, "obj_info")) {
-            words_skip_line(w);
+        } else if (words_more(w)) {
+            words_skip_line(w); // a comment, or what some program writes without that word
         } else {
             good = words_expected(w, "a header that ends in end_header");
         }
@@ -192,7 +200,8 @@ static double binary_number(enum type type, uint64_t bits)
     }
 }
 
-static bool next_number(struct ply *ply, enum type type, double *number)
+/// Infinity and NaN are refused where they are `used`; properties that are left out may have them.
+static bool next_number(struct ply *ply, enum type type, bool used, double *number)
 {
     struct words *w = &ply->words;
     if (ply->format == TEXT) return words_number(w, "a number", number);
@@ -207,7 +216,7 @@ static bool next_number(struct ply *ply, enum type type, double *number)
     }
     w->at += size;
     *number = binary_number(type, bits);
-    return isfinite(*number) ||
+    return !used || isfinite(*number) ||
            fail(w->error, ERROR_INPUT, "%s: expected finite numbers, got NaN or infinity", w->path);
 }
 
@@ -243,10 +252,10 @@ static bool read_list(struct ply *ply, const struct property *p, bool textured)
     struct words *w = &ply->words;
     struct strip strip = {0};
     double length, number;
-    if (!next_number(ply, p->count_type, &length)) return false;
+    if (!next_number(ply, p->count_type, true, &length)) return false;
     if (length < 0) return fail(w->error, ERROR_INPUT, "%s: expected the length of a list, got %g", w->path, length);
     for (double i = 0; i < length && !ply->builder.failed; i++) {
-        if (!next_number(ply, p->type, &number)) return false;
+        if (!next_number(ply, p->type, p->role != OTHER, &number)) return false;
         if (p->role != CORNERS && p->role != STRIPS) continue;
         const int vertices = ply->builder.surface->vertex_count;
         const bool ends = p->role == STRIPS && number < 0;
@@ -273,7 +282,7 @@ static bool read_one(struct ply *ply, const struct element *e, bool textured)
         if (p->count_type != NO_TYPE) {
             if (!read_list(ply, p, textured)) return false;
         } else {
-            if (!next_number(ply, p->type, &number)) return false;
+            if (!next_number(ply, p->type, p->role != OTHER, &number)) return false;
             const bool color = p->role >= RED && p->role <= BLUE;
             if (p->role < ROLES) values[p->role] = color ? number / largest_of(p->type) : number;
         }

@@ -23,15 +23,11 @@ bool surface_read(const char *path, struct surface *surface, struct error *error
     return obj_read(path, surface, error);
 }
 
-int surface_stray_vertices(const struct surface *surface)
+uint8_t *surface_used_vertices(const struct surface *surface)
 {
     uint8_t *used = calloc((size_t)surface->vertex_count + 1, 1);
-    int stray = 0;
-    if (!used) return -1;
-    for (int i = 0; i < surface->index_count; i++) used[surface->indices[i]] = 1;
-    for (int i = 0; i < surface->vertex_count; i++) stray += !used[i];
-    free(used);
-    return stray;
+    for (int i = 0; used && i < surface->index_count; i++) used[surface->indices[i]] = 1;
+    return used;
 }
 
 void surface_bounds(const struct surface *surface, double lo[3], double hi[3])

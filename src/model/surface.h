@@ -47,8 +47,8 @@ struct surface {
 /// appearance. Errors name the file, the place in it, what was expected and what was found. Memory is bounded by the file's size.
 bool surface_read(const char *path, struct surface *surface, struct error *error);
 
-/// Number of vertices that no triangle has; −1 where memory is short.
-int surface_stray_vertices(const struct surface *surface);
+/// Per vertex, 1 where some triangle has it; the caller frees it. NULL where memory is short.
+uint8_t *surface_used_vertices(const struct surface *surface);
 
 /// The box around the vertices that triangles have, m; lo > hi if there are none.
 void surface_bounds(const struct surface *surface, double lo[3], double hi[3]);
