@@ -7,7 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { RAYS = 64, RAYS_MIN = 8, RAYS_TOGETHER = 2048 };
+enum { RAYS = 64, RAYS_MIN = 8 };
+
+// Lines through patches, times triangles to test each with: about two seconds. A patch of less area than that share is left as it is.
+static const double TESTS_TOGETHER = 8e7, LEAST_AREA = 1e-3;
 
 /// An edge of a triangle: its ends, the smaller name first, and whether the triangle runs that way.
 struct edge {
@@ -194,25 +197,40 @@ static void turn_patch(struct repair *r, int first, int count)
     for (int i = first; i < first + count; i++) r->turned[r->patch[i]] ^= 1;
 }
 
-/// Six times the volume between a patch and its own middle: positive where it bulges the way its triangles face. Before, the patch is
-/// turned as most of its area was in the file.
-static double settle_patch(struct repair *r, int first, int count)
+/// A patch turned as most of its area was in the file.
+struct settled {
+    double area;   ///< twice it
+    double volume; ///< between the patch and its own middle: positive where it bulges the way its triangles face
+};
+
+static struct settled settle_patch(struct repair *r, int first, int count)
 {
-    double middle[3] = {0}, total = 0, turned = 0, volume = 0, normal[3], at[3];
+    struct settled patch = {0};
+    double middle[3] = {0}, turned = 0, normal[3], at[3];
     for (int i = first; i < first + count; i++) {
         measure(r->shape, r->patch[i], normal, at);
         const double area = vec3_length(normal);
-        total += area;
+        patch.area += area;
         turned += r->turned[r->patch[i]] ? area : 0;
         for (int c = 0; c < 3; c++) middle[c] += area * at[c] / 3;
     }
-    if (turned > total / 2) turn_patch(r, first, count);
-    for (int i = first; total > 0 && i < first + count; i++) {
+    if (turned > patch.area / 2) turn_patch(r, first, count);
+    for (int i = first; patch.area > 0 && i < first + count; i++) {
         measure(r->shape, r->patch[i], normal, at);
-        for (int c = 0; c < 3; c++) at[c] = at[c] / 3 - middle[c] / total;
-        volume += vec3_dot(normal, at) * (r->turned[r->patch[i]] ? -1 : 1);
+        for (int c = 0; c < 3; c++) at[c] = at[c] / 3 - middle[c] / patch.area;
+        patch.volume += vec3_dot(normal, at) / 6 * (r->turned[r->patch[i]] ? -1 : 1);
     }
-    return volume;
+    return patch;
+}
+
+static double whole_area(const struct surface *s)
+{
+    double sum = 0, normal[3], middle[3];
+    for (int t = 0; t < s->index_count / 3; t++) {
+        measure(s, t, normal, middle);
+        sum += vec3_length(normal);
+    }
+    return sum;
 }
 
 /// How a line through `from` crosses a triangle: 1 ahead, −1 behind, 0 not (Möller and Trumbore).
@@ -273,14 +291,16 @@ static bool turn_patches(struct repair *r)
 {
     const int triangles = r->shape->index_count / 3;
     uint8_t *reached = calloc((size_t)triangles + 1, 1);
-    int left = RAYS_TOGETHER;
+    const double whole = whole_area(r->shape);
+    int left = (int)(TESTS_TOGETHER / (triangles + 40000));
     if (!reached) return false;
     for (int start = 0, first = 0; start < triangles; start++) {
         if (reached[start]) continue;
         r->patch[first] = start;
         const int count = spread(r, reached, first);
-        const int rays = left / 16 < RAYS ? left / 16 : RAYS;
-        if (settle_patch(r, first, count) < 0 && rays >= RAYS_MIN) {
+        const struct settled patch = settle_patch(r, first, count);
+        const int rays = left / 8 < RAYS ? left / 8 : RAYS;
+        if (patch.volume < 0 && patch.area > LEAST_AREA * whole && rays >= RAYS_MIN) {
             left -= rays;
             if (faces_inwards(r, first, count, rays)) turn_patch(r, first, count);
         }
