@@ -5,6 +5,7 @@
 #include "commands/progress.h"
 #include "commands/simulate_shake.h"
 #include "model/motion.h"
+#include "model/obj.h"
 #include "simulation/soft.h"
 #include <math.h>
 #include <stdio.h>
@@ -39,7 +40,7 @@ static bool start_drive(struct job *job, const struct soft *soft, struct error *
     return true;
 }
 
-static bool shake(struct job *job, const struct surface *surface, struct soft *soft, struct error *error)
+static bool shake(struct job *job, struct soft *soft, const struct surface *surface, struct error *error)
 {
     struct floor floor = {0};
     bool good = start_drive(job, soft, error);
@@ -48,7 +49,7 @@ static bool shake(struct job *job, const struct surface *surface, struct soft *s
                fail_no_memory(error, job->mesh);
         job->shake.loads.floor = &floor;
     }
-    good = good && simulate_shake(&job->shake, soft, &soft->body, error);
+    good = good && simulate_shake(&job->shake, soft, surface, error);
     floor_free(&floor);
     drive_free(&job->drive);
     return good;
@@ -95,6 +96,7 @@ static void report_body(const struct job *job, const struct soft *soft)
         printf("  shaken most: mode %d, %.4g Hz, with %.0f %% of the shake\n", soft->shaken + 1, soft_frequency(soft),
                100 * soft->share);
     }
+    if (soft->lattice.repair[0]) printf("%s: %s\n", job->mesh, soft->lattice.repair);
     fflush(stdout);
     if (soft->loose_parts > 0 && soft->pinned > 0) {
         fprintf(stderr, "%s: warning: %d of %d separate parts are not pinned and will drift\n", job->mesh,
@@ -106,11 +108,11 @@ static bool run(struct job *job, struct error *error)
 {
     struct surface surface = {0};
     struct soft soft;
-    if (!obj_read(job->mesh, &surface, error)) return false;
+    if (!surface_read(job->mesh, &surface, error)) return false;
     bool good = soft_create(&soft, &surface, job->mesh, &job->soft, error);
     if (good) {
         report_body(job, &soft);
-        good = job->modal ? write_modes(job, &soft, error) : shake(job, &surface, &soft, error);
+        good = job->modal ? write_modes(job, &soft, error) : shake(job, &soft, &surface, error);
         good = good && obj_write(job->rest, &surface, error);
         if (good) printf("%s: the mesh at rest\n", job->rest);
         soft_free(&soft);

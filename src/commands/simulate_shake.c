@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /// The motion of the nodes, and how it was found.
 struct record {
@@ -41,11 +42,10 @@ static bool step_frames(const struct shake_job *job, struct integrator *integrat
 }
 
 /// One simulation of the whole motion.
-static bool simulate(const struct shake_job *job, const struct soft *soft, struct body *body, struct record *record,
-                     struct error *error)
+static bool simulate(const struct shake_job *job, struct soft *soft, struct record *record, struct error *error)
 {
     struct integrator integrator;
-    if (!integrator_create(&integrator, body, 1 / (job->fps * record->substeps)))
+    if (!integrator_create(&integrator, &soft->body, 1 / (job->fps * record->substeps)))
         return fail_no_memory(error, job->mesh);
     integrator.mass_damping = soft->alpha;
     integrator.stiffness_damping = soft->beta;
@@ -96,13 +96,13 @@ static int first_substeps(const struct shake_job *job, const struct soft *soft)
 }
 
 /// Simulates until the error is small enough. On return `fine` is the motion; `error_left` is −1 where it was not measured.
-static bool refine(const struct shake_job *job, const struct soft *soft, struct body *body, struct record *fine,
-                   struct record *coarse, double *error_left, struct error *error)
+static bool refine(const struct shake_job *job, struct soft *soft, struct record *fine, struct record *coarse,
+                   double *error_left, struct error *error)
 {
     enum { FINEST = 512 };
     *error_left = -1;
     fine->substeps = job->substeps ? job->substeps : first_substeps(job, soft);
-    if (!simulate(job, soft, body, fine, error)) return false;
+    if (!simulate(job, soft, fine, error)) return false;
     for (double next = 2; !job->substeps && (*error_left < 0 || *error_left > job->accuracy);) {
         int finer = (int)ceil(fine->substeps * next);
         if (*error_left >= 0 && finer > FINEST) return true;
@@ -110,8 +110,8 @@ static bool refine(const struct shake_job *job, const struct soft *soft, struct 
         *coarse = *fine;
         *fine = swap;
         fine->substeps = finer;
-        if (!simulate(job, soft, body, fine, error)) return false;
-        *error_left = estimate_error(fine, coarse, body->mass);
+        if (!simulate(job, soft, fine, error)) return false;
+        *error_left = estimate_error(fine, coarse, soft->body.mass);
         next = fmax(1.5, fmin(4, 1.1 * sqrt(*error_left / job->accuracy)));
         if (job->verbose) fprintf(stderr, "%d steps a frame: error %.2g %%\n", fine->substeps, 100 * *error_left);
     }
@@ -131,12 +131,14 @@ static void embed_frame(const struct shake_job *job, const struct soft *soft, co
     lattice_embed(&soft->lattice, (const double(*)[3])x, position);
 }
 
-static bool write_frames(const struct shake_job *job, const struct soft *soft, const struct record *record,
-                         struct motion_writer *writer, struct error *error)
+static bool write_frames(const struct shake_job *job, const struct soft *soft, const struct surface *surface,
+                         const struct record *record, struct motion_writer *writer, struct error *error)
 {
     float(*position)[3] = calloc((size_t)soft->lattice.vertex_count + 1, sizeof *position);
     double(*x)[3] = calloc((size_t)record->nodes + 1, sizeof *x);
     bool good = (position && x) || fail_no_memory(error, job->mesh);
+    if (good)
+        memcpy(position, surface->position, (size_t)surface->vertex_count * sizeof *position); // strays stay there
     for (int frame = 0; good && frame < record->frames; frame++) {
         embed_frame(job, soft, record, frame, x, position);
         good = motion_write_frame(writer, (const float(*)[3])position, error);
@@ -165,9 +167,10 @@ static void report(const struct shake_job *job, const struct soft *soft, const s
     }
 }
 
-bool simulate_shake(const struct shake_job *job, const struct soft *soft, struct body *body, struct error *error)
+bool simulate_shake(const struct shake_job *job, struct soft *soft, const struct surface *surface,
+                    struct error *error)
 {
-    const int frames = (int)fmax(1, round(job->seconds * job->fps)), nodes = body->node_count;
+    const int frames = (int)fmax(1, round(job->seconds * job->fps)), nodes = soft->body.node_count;
     struct record fine = {.frames = frames, .nodes = nodes}, coarse = fine;
     struct motion_writer writer;
     const double started = clock_now();
@@ -176,9 +179,9 @@ bool simulate_shake(const struct shake_job *job, const struct soft *soft, struct
     fine.place = calloc((size_t)frames * (size_t)nodes, sizeof *fine.place);
     coarse.place = calloc((size_t)frames * (size_t)nodes, sizeof *coarse.place);
     bool good = (fine.place && coarse.place) || fail_no_memory(error, job->mesh);
-    good = good && refine(job, soft, body, &fine, &coarse, &left, error);
+    good = good && refine(job, soft, &fine, &coarse, &left, error);
     if (good) {
-        good = write_frames(job, soft, &fine, &writer, error);
+        good = write_frames(job, soft, surface, &fine, &writer, error);
         if (good) report(job, soft, &fine, left, started);
     } else {
         motion_write_discard(&writer);

@@ -19,7 +19,8 @@ struct shake_job {
     bool verbose;
 };
 
-/// Simulates and writes the motion, and prints what it took.
-bool simulate_shake(const struct shake_job *job, const struct soft *soft, struct body *body, struct error *error);
+/// Simulates and writes the motion, and prints what it took. Changes no more of `soft` than its body's scratch.
+bool simulate_shake(const struct shake_job *job, struct soft *soft, const struct surface *surface,
+                    struct error *error);
 
 #endif

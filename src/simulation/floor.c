@@ -48,6 +48,8 @@ double floor_push(struct floor *f, double risen, const double (*x)[3], double (*
     const struct lattice *l = f->lattice;
     double energy = 0;
     for (int i = 0; i < l->vertex_count; i++) {
+        f->touched[i] = false;
+        if (l->host[i] < 0) continue;
         const int *node = l->tet[l->host[i]];
         double depth = f->height + risen;
         for (int a = 0; a < 4; a++) depth -= l->weight[i][a] * x[node[a]][1];
