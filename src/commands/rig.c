@@ -1,6 +1,7 @@
 /// wiggly rig: gives the bones of a glTF character follow-through, as a scene or straight as an animated glTF file.
 #include "base/path.h"
 #include "commands/commands.h"
+#include "commands/contents.h"
 #include "commands/options.h"
 #include "export/export.h"
 #include "rig/chain_make.h"
@@ -20,29 +21,6 @@ struct job {
 static const struct gltf *character_of(const struct opened *opened)
 {
     return &models_imported(opened->models, 0)->gltf;
-}
-
-enum { DEEPEST_SHOWN = 64 };
-
-/// The nodes below one (−1: all), each under its parent.
-static void print_below(const struct gltf *gltf, int parent, int depth)
-{
-    for (int n = 0; n < gltf->node_count && depth < DEEPEST_SHOWN; n++) {
-        if (gltf->nodes[n].parent != parent) continue;
-        printf("%*s%s\n", 2 + 2 * depth, "", gltf->nodes[n].name);
-        print_below(gltf, n, depth + 1);
-    }
-}
-
-/// What can be made chains of, for a user who does not know the file.
-static void print_contents(const struct gltf *gltf)
-{
-    printf("clips:%s\n", gltf->clip_count > 0 ? "" : " none");
-    for (int c = 0; c < gltf->clip_count; c++)
-        printf("  %s (%.3g s)\n", gltf->clips[c].name, gltf->clips[c].duration);
-    printf("bones and other nodes:\n");
-    print_below(gltf, -1, 0);
-    if (gltf->not_shown) printf("not shown: %s\n", gltf->not_shown);
 }
 
 /// "A" or "A:B". Names may have colons of their own, so the colon is one between two bones that there are.
@@ -115,7 +93,7 @@ static bool run(const struct job *job, struct error *error)
     if (!opened_read(&opened, job->character, error)) return false;
     bool done = true;
     if (!job->output) {
-        print_contents(character_of(&opened));
+        contents_print(character_of(&opened));
     } else {
         done = edit(job, &opened, error) && (path_has_end(job->output, ".json") ? write_scene(job, &opened, error)
                                                                                 : write_motion(job, &opened, error));

@@ -11,7 +11,7 @@
 static const struct format formats[] = {
     {.ending = ".glb", .holds = FORM_MESH | FORM_FILE, .write = glb_write},
     {.ending = ".gltf", .holds = FORM_MESH | FORM_FILE, .write = gltf_write},
-    {.ending = ".usda", .holds = FORM_MESH, .write = usda_write},
+    {.ending = ".usda", .holds = FORM_MESH | FORM_FILE, .write = usda_write},
     {.ending = ".bvh", .holds = FORM_JOINTS, .write = bvh_write, .one_rig = true},
     {.ending = ".csv", .write = csv_write, .without_rigs = true},
     {.ending = ".pc2", .holds = FORM_POINTS, .write = pc2_write, .one_rig = true},
@@ -112,9 +112,8 @@ static bool choose_keys(struct shot *shot, const struct export_options *options,
     shot->spacing = options->rate > 0 ? document->fps / options->rate : 1.0 / substeps;
     const double keys = floor((last - first) / shot->spacing + 1e-6) + 1;
     if (keys > MAX_KEYS)
-        return fail(error, ERROR_INPUT,
-                    "expected at most %d keys, got %.0f: ask for fewer frames or fewer keys per second", MAX_KEYS,
-                    keys);
+        return fail(error, ERROR_INPUT, "expected at most %d keys, got %.0f: ask for fewer frames or keys a second",
+                    MAX_KEYS, keys);
     shot->key_count = (int)keys;
     const double end = shot_frame(shot, shot->key_count - 1);
     if (fabs(end - last) > 1e-6)
@@ -145,6 +144,23 @@ static void print_size(off_t bytes, char *text, size_t size)
     }
 }
 
+/// The files that this one names come first; a full disk is seen before that.
+static bool commit(struct shot *shot, struct file_output *output, struct error *error)
+{
+    const bool broken = fflush(output->stream) != 0 || ferror(output->stream);
+    if (!broken && !beside_commit(&shot->beside, error)) {
+        file_output_discard(output);
+        beside_discard(&shot->beside);
+        return false;
+    }
+    if (!file_output_commit(output, error)) {
+        beside_discard(&shot->beside);
+        return false;
+    }
+    beside_free(&shot->beside);
+    return true;
+}
+
 static bool write_file(struct shot *shot, const struct format *format, const char *path, struct export_report *report,
                        struct error *error)
 {
@@ -153,10 +169,11 @@ static bool write_file(struct shot *shot, const struct format *format, const cha
     if (!file_output_open(&output, path, error)) return false;
     if (!format->write(shot, output.stream, summary, error)) {
         file_output_discard(&output);
+        beside_discard(&shot->beside);
         return false;
     }
     const off_t bytes = ftello(output.stream); // −1 for a pipe
-    if (!file_output_commit(&output, error)) return false;
+    if (!commit(shot, &output, error)) return false;
     print_size(bytes, size, sizeof size);
     snprintf(report->text, sizeof report->text, "%s%s%s", summary, bytes >= 0 ? ", " : "", bytes >= 0 ? size : "");
     return true;

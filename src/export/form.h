@@ -7,8 +7,8 @@
 
 enum { FORM_INFLUENCES = 4, FORM_NAME = 64 };
 
-/// What a kind of rig can be exported as, bits: a mesh with joints or targets, joints, the places of its vertices, the file that it came
-/// from with a new clip.
+/// What a kind of rig can be exported as, bits: a mesh with joints or targets, joints, the places of its vertices, all that is in the
+/// file that it came from.
 enum { FORM_MESH = 1, FORM_JOINTS = 2, FORM_POINTS = 4, FORM_FILE = 8 };
 
 struct form_joint {

@@ -2,6 +2,7 @@
 #ifndef EXPORT_SHOT_H
 #define EXPORT_SHOT_H
 
+#include "export/beside.h"
 #include "rig/posing.h"
 
 struct shot {
@@ -18,7 +19,8 @@ struct shot {
     bool is_cubic;     ///< keys have tangents
     bool (*proceed)(void *user, long done, long total); ///< called as keys are done; false: stop. NULL: nobody asks
     void *user;
-    long done, total; ///< keys of all rigs
+    long done, total;     ///< keys of all rigs
+    struct beside beside; ///< files that the one that is written names
 };
 
 /// The frame of a key, and its time in seconds from the first.

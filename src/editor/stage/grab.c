@@ -189,3 +189,11 @@ void grab_apply(struct stage *stage, struct core *core, const struct editor_worl
     grab->applied = true;
     select_knot(stage, core, world);
 }
+
+void grab_end(const struct stage *stage, const struct core *core, const struct editor_world *world)
+{
+    const struct grab *grab = &stage->grab;
+    for (int a = 0; a < 2 && grab->applied; a++) {
+        if (grab->axis[a].active) core_tell(core, world, NEWS_PULLED, grab->axis[a].spline);
+    }
+}

@@ -68,10 +68,11 @@ void stage_press(struct stage *stage, struct core *core, const struct editor_wor
     if (brush_press(stage, core, world, event)) return;
     struct hover hover = hover_now(stage, core, world->document, event->x, event->y);
     stage->pressed = hover;
-    if (event->button == BUTTON_LEFT && hover.kind == HOVER_BODY) {
+    const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
+    if (holds && hover.kind == HOVER_BODY) {
         drag_begin(core, DRAG_BODY, "Move body", event);
         hold_begin(stage, core, hover.tail);
-    } else if (event->button == BUTTON_LEFT && hover.kind == HOVER_JOINT) {
+    } else if (holds && hover.kind == HOVER_JOINT) {
         const bool is_chain = world->document->rigs[hover.rig].kind == RIG_CHAIN;
         drag_begin(core, DRAG_GRAB, is_chain ? "Pull chain" : "Pull tail", event);
         grab_begin(stage, core, world, &hover);
@@ -125,6 +126,7 @@ enum drag_answer stage_drag_event(struct stage *stage, struct core *core, const 
 void stage_drag_end(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
 {
     if (core->drag.kind == DRAG_BODY && core->drag.moved) hold_release(stage, core, world, keep);
+    if (core->drag.kind == DRAG_GRAB && keep) grab_end(stage, core, world);
     if (!core->drag.moved && core->drag.button == BUTTON_LEFT && keep) bone_click(stage, core, world);
     if (core->drag.kind == DRAG_PAINT) brush_end(stage, core, world, keep);
 }
