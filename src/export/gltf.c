@@ -182,7 +182,7 @@ static void add_weights(struct scene *scene, const struct part *part)
             values[i] = targets_weight(part->targets, i % width, keys, i / width);
             if (slopes) slopes[i] = targets_slope(part->targets, i % width, keys, i / width);
         }
-        gltf_motion_add(&scene->motion, part->mesh_node, "weights", ELEMENTS_KEYS, values, slopes, width);
+        gltf_motion_add(&scene->motion, part->mesh_node, GLTF_WEIGHTS, values, slopes, width);
     }
     free(values);
     free(slopes);
@@ -194,13 +194,13 @@ static void add_animation(struct scene *scene, const struct part *part)
     const struct keys *keys = part->keys;
     if (keys->travels) {
         const float *slopes = keys->slope.translation ? keys->slope.translation[0] : NULL;
-        gltf_motion_add(&scene->motion, form->joint_count > 0 ? part->first_joint : part->mesh_node, "translation",
-                        ELEMENTS_KEY_VECTORS, keys->at.translation[0], slopes, 3);
+        gltf_motion_add(&scene->motion, form->joint_count > 0 ? part->first_joint : part->mesh_node, GLTF_TRANSLATION,
+                        keys->at.translation[0], slopes, 3);
     }
     for (int j = form->first_bone; j < form->joint_count; j++) {
         const float *slopes = keys->slope.translation ? keys->slope.rotation[j * keys->count] : NULL;
-        gltf_motion_add(&scene->motion, part->first_joint + j, "rotation", ELEMENTS_TURNS,
-                        keys->at.rotation[j * keys->count], slopes, 4);
+        gltf_motion_add(&scene->motion, part->first_joint + j, GLTF_ROTATION, keys->at.rotation[j * keys->count],
+                        slopes, 4);
     }
     add_weights(scene, part);
 }
