@@ -280,8 +280,8 @@ static bool write_either(struct take *take, bool binary, FILE *out, char summary
         const struct rig *rig = &document->rigs[take->rigs[r]];
         if (!(form_kind(rig->kind)->holds & FORM_FILE)) continue;
         if (take->rig_count == 1) return gltf_model_write(take, binary, out, summary, error);
-        return fail(error, ERROR_INPUT, "\"%s\" is exported into a copy of its own file: choose one rig with --rig",
-                    form_name(rig));
+        return fail(error, ERROR_INPUT, "\"%s\" is exported into a copy of its own file: choose one rig with %s",
+                    form_name(rig), take->rig_choice);
     }
     return write_scene(take, binary, out, summary, error);
 }
