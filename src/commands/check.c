@@ -1,4 +1,4 @@
-/// wiggly check: prints every problem of a scene, its solution and its models; of a character, what it holds.
+/// `wiggly check`: prints every problem of a scene, its solution and its models; of a character, what it holds.
 #include "base/path.h"
 #include "commands/commands.h"
 #include "commands/contents.h"

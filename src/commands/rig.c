@@ -120,17 +120,17 @@ int command_rig(int argc, char **argv)
     struct job job = {0};
     const struct option_spec options[] = {
         {"--chain", "-c", "A:B",
-         "bones from A to B, or to the tip below A, become a chain; may be given several times", OPTION_LIST,
+         "makes a chain of the bones from A to B, or to the tip below A; can be given more than once", OPTION_LIST,
          &job.chains, 0, 0},
         {"--output", "-o", "FILE", "scene to write (.json), or the character with its motion (.glb, …)", OPTION_TEXT,
          &job.output, 0, 0},
         {"--clip", NULL, "NAME", "the clip that it plays (default: the first)", OPTION_TEXT, &job.clip, 0, 0},
-        {"--frequency", NULL, "HZ", "swings a second (default: by the chain's length)", OPTION_REAL,
+        {"--frequency", NULL, "HZ", "swings per second (default: by the chain's length)", OPTION_REAL,
          &job.wish.frequency, 1e-3, 1e3},
         {"--damping", NULL, "RATIO", "0 rings on, 1 is critical (default: 0.12)", OPTION_REAL, &job.wish.damping,
          1e-6, 1},
-        {"--lag", NULL, "DEGREES", "by which each bone is later than the one before", OPTION_REAL, &job.wish.lag,
-         1e-6, 360},
+        {"--lag", NULL, "DEGREES", "how far each bone lags behind the one before", OPTION_REAL, &job.wish.lag, 1e-6,
+         360},
         {"--plain", NULL, NULL, "do not follow the clip: knots alone will move the chains", OPTION_FLAG, &job.plain,
          0, 0},
     };

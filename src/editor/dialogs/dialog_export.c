@@ -1,4 +1,4 @@
-/// The Export dialog: a name whose ending is the format, the frames, and what the format lets choose.
+/// The Export dialog: a file name whose extension is the format, the frames, and the format's options.
 #include "base/path.h"
 #include "editor/core/core.h"
 #include "editor/dialogs/dialog.h"
