@@ -38,6 +38,7 @@ typedef enum wiggly_status {
     WIGGLY_ERROR_LOOP,   ///< a loop of one sample
     WIGGLY_ERROR_SPRING, ///< spring and friction in complex mode
     WIGGLY_ERROR_MEMORY, ///< out of memory
+    WIGGLY_ERROR_LIMIT,  ///< a knot beyond a limit, or a low limit that is not below the high one
     WIGGLY_STATUS_COUNT
 } wiggly_status;
 
@@ -94,11 +95,12 @@ typedef struct wiggly_desc {
     wiggly_param equilibrium; ///< y (eq. 25)
     double calm;              ///< 0 … 1; 0 is the paper's formula to the letter
     wiggly_passive passive;   ///< the oscillator, unless it says the filter
+    double low, high;         ///< what the total stays within wherever it is solved for; -INFINITY and INFINITY: no limit
     const wiggly_knot *knots; ///< any order
     int knot_count;
 } wiggly_desc;
 
-/// Bandwidth 0.1, calm 1, complex, free, step 1/24; everything else 0.
+/// Bandwidth 0.1, calm 1, complex, free, step 1/24, no limits; everything else 0.
 wiggly_desc wiggly_default_desc(void);
 
 /// A solved spline: the caller's arrays of N numbers each, filled by wiggly_solve(). Arrays that are NULL are not filled;
@@ -124,7 +126,8 @@ typedef struct wiggly_curve {
 /// A solver's memory: factors and right-hand sides. Reusable for any number of splines.
 typedef struct wiggly_solver wiggly_solver;
 
-/// A solver for up to `samples` samples and `knots` knots. WIGGLY_ERROR_ARGUMENT, WIGGLY_ERROR_MEMORY.
+/// A solver for up to `samples` samples and `knots` knots. A sample that is held at a limit takes the room of a knot: as many more as
+/// there are samples are always enough. WIGGLY_ERROR_ARGUMENT, WIGGLY_ERROR_MEMORY.
 wiggly_status wiggly_create(int samples, int knots, wiggly_solver **solver);
 
 /// Bytes that wiggly_create_at() needs, or 0 where samples < 1 or knots < 0 or the size does not fit.
@@ -176,7 +179,7 @@ void wiggly_batch_destroy(wiggly_batch *batch);
 typedef struct wiggly_take wiggly_take;
 
 /// Condenses a spline; the description's knots are copied and must be in order. WIGGLY_ERROR_ARGUMENT where it is not of that
-/// kind (tracks, a loop, so slow a complex spline that Im x is not held by its oscillation, fewer than two knots), else what
+/// kind (tracks, a loop, limits, so slow a complex spline that Im x is not held by its oscillation, fewer than two knots), else what
 /// wiggly_solve() says of a wrong description.
 wiggly_status wiggly_take_create(const wiggly_desc *desc, wiggly_take **take);
 
