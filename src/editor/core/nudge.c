@@ -137,7 +137,7 @@ double core_fresh_limit(const struct spline *spline, enum parameter parameter)
         largest = fmax(largest, fabs(value));
     }
     const double room = largest > 0 ? FRESH_ROOM * largest : 1;
-    return is_high ? ceil(100 * (edge + room)) / 100 : floor(100 * (edge - room)) / 100;
+    return is_high ? ceil(100 * (edge + room) - 1e-6) / 100 : floor(100 * (edge - room) + 1e-6) / 100;
 }
 
 /// Says why a parameter does nothing now; false where it does something.

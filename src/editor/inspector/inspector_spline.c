@@ -167,7 +167,7 @@ static void build_limit(struct inspection *in, const struct spline *spline, enum
         ui_label(in->ui, name, row->name, theme()->text_dim);
     }
     if (ui_hovered(in->ui, r)) in->ui->hint = row->hint;
-    if (!ui_toggle(in->ui, at, row->name, &on)) return;
+    if (!ui_toggle(in->ui, at, parameter == PARAMETER_HIGH ? "limit.high" : "limit.low", &on)) return;
     struct edit edit =
         core_parameter_edit(in->core->active, parameter, on ? core_fresh_limit(spline, parameter) : row->standard);
     core_step(in->core, in->world, row->undo, 0, &edit);
