@@ -103,13 +103,16 @@ static bool find_principal(struct analysis *a, struct work *w)
     int frames = w->motion->frames, count = w->plan->modes < frames ? w->plan->modes : frames;
     struct spectrum spectrum;
     if (!create_components(a, w, count) || !spectrum_create(&spectrum, w->lapack, w->gram, frames)) return false;
+    a->left = 1;
     for (int k = 0; k < count; k++) {
         struct component *c = &a->components[k];
         for (int t = 0; t < frames; t++) c->course[t] = spectrum.vectors[(size_t)k * (size_t)frames + (size_t)t];
         c->explained = spectrum.values[k] / spectrum.total;
+        a->left -= c->explained;
         spectrum_weights(&spectrum, k, w->weights + 2 * (size_t)k * (size_t)frames);
     }
     spectrum_free(&spectrum);
+    a->left = sqrt(fmax(a->left, 0));
     return true;
 }
 
@@ -131,6 +134,7 @@ static bool find_swinging(struct analysis *a, struct work *w)
         c->damping = fmax(-creal(s) / cabs(s), 0);
     }
     for (size_t i = 0; i < 2 * (size_t)count * (size_t)frames; i++) w->weights[i] = courses.weights[i];
+    a->left = sqrt(fmax(1 - courses.explained / w->power, 0));
     courses_free(&courses);
     return true;
 }

@@ -148,11 +148,10 @@ static void scale_courses(struct courses *c)
     }
 }
 
-/// Ñ given R; what is left of the motion's power besides what its own is.
-static double solve_shapes(struct fit *f)
+/// Ñ given R.
+static void solve_shapes(struct fit *f)
 {
     int n = f->courses->frames, d = 2 * f->courses->count;
-    double explained = 0;
     scale_courses(f->courses);
     f->basis.count = 0;
     for (int i = 0; i < d; i++) basis_append(&f->basis, f->courses->rows + i * n);
@@ -161,20 +160,21 @@ static double solve_shapes(struct fit *f)
                      f->pull, n);
     f->lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_TRANSPOSED, d, d, n, 1, f->pull, n, f->courses->weights, n,
                      0, f->metric, d);
-    for (int i = 0; i < d * n; i++) explained += f->courses->rows[i] * f->pull[i];
-    return explained;
+    f->courses->explained = 0;
+    for (int i = 0; i < d * n; i++) f->courses->explained += f->courses->rows[i] * f->pull[i];
 }
 
 static void take_turns(struct fit *f)
 {
     int n = f->courses->frames;
-    double power = 0, before = solve_shapes(f);
+    double power = 0;
     for (int t = 0; t < n; t++) power += f->gram[(size_t)t * (size_t)(n + 1)];
+    solve_shapes(f);
     for (int turn = 0; turn < TURNS_MAX; turn++) {
+        double before = f->courses->explained;
         solve_courses(f);
-        double explained = solve_shapes(f);
-        if (fabs(explained - before) < settled * power) break;
-        before = explained;
+        solve_shapes(f);
+        if (fabs(f->courses->explained - before) < settled * power) break;
     }
 }
 

@@ -193,6 +193,8 @@ static bool keep_all(const struct job *job, const struct analysis *analysis, con
         if (!keep_course(job, analyzed, c, k, fps)) return fail_no_memory(error, motion->path);
         report(to, analyzed, c);
     }
+    if (analysis->count > 1)
+        printf("  relative error of the motion with all %d coordinates: %.3g\n", analysis->count, analysis->left);
     return true;
 }
 
