@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double freedom = 0.3;      ///< β
+static const double freedom = 0.4;      ///< β
 static const double settled = 1e-4;     ///< change of what is left, as a share of the power, that ends the turns
 static const double least_push = 1e-12; ///< so that a shape of zero keeps the equations definite
 

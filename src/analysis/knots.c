@@ -10,27 +10,35 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double near_enough = 1.02; ///< times the component's own error: no further knot
-static const double worth = 1e-4;       ///< relative change of the error that counts
-static const double simpler = 0.97;     ///< real mode must be that much better than complex, which knows the lags
+static const double near_enough = 1.02;     ///< times the component's own error: no further knot
+static const double close_enough = 1.05;    ///< the same, for no other kind of spline
+static const double worth = 1e-4;           ///< relative change of the error that counts
+static const double simpler = 0.97;         ///< slopes, or real mode, which knows no lags, must be that much better
+static const double slope_stiffness = 1000; ///< the format's default
 
-enum { CANDIDATES = 48, HALVINGS = 5, SWEEPS = 4 };
+enum { CANDIDATES = 48, HALVINGS = 5, SWEEPS = 4, EXCHANGES = 3, UNKNOWNS = 2 * KNOTS_MOST };
 
 struct search {
     const struct component *component;
     double fps;
     wiggly_solver *solver;
-    double complex *response; ///< φ, KNOTS_MOST × frames
+    double complex *response; ///< φ, UNKNOWNS × frames
     double *re, *im;
 };
 
-/// x with the given values; false where the solver gives up.
-static bool solve(const struct search *s, const struct knots *k, const double *values, double complex *course)
+/// x as the knots say; false where the solver gives up.
+static bool solve(const struct search *s, const struct knots *k, double complex *course)
 {
     wiggly_knot knots[KNOTS_MOST];
     wiggly_desc desc = wiggly_default_desc();
     wiggly_curve curve = {.re = s->re, .im = s->im};
-    for (int i = 0; i < k->count; i++) knots[i] = (wiggly_knot){.sample = k->frame[i], .value = values[i]};
+    for (int i = 0; i < k->count; i++) {
+        knots[i] = (wiggly_knot){.sample = k->frame[i],
+                                 .value = k->value[i],
+                                 .has_slope = k->sloped,
+                                 .slope = k->slope[i],
+                                 .stiffness = slope_stiffness};
+    }
     desc.samples = s->component->frames;
     desc.step = 1 / s->fps;
     desc.mode = k->mode;
@@ -44,14 +52,27 @@ static bool solve(const struct search *s, const struct knots *k, const double *v
     return true;
 }
 
-/// Solves A v = b by Cholesky; a knot that does nothing gets 0. Returns bᵀv.
-static double solve_values(double a[KNOTS_MOST][KNOTS_MOST], const double *b, int count, double *v)
+/// φ of value i or, from `count` on, of slope i − count: in units in which both are about as large.
+static bool respond(const struct search *s, const struct knots *k, int unknown, double complex *course)
+{
+    struct knots unit = *k;
+    memset(unit.value, 0, sizeof unit.value);
+    memset(unit.slope, 0, sizeof unit.slope);
+    if (unknown < k->count)
+        unit.value[unknown] = 1;
+    else
+        unit.slope[unknown - k->count] = 2 * M_PI * k->frequency;
+    return solve(s, &unit, course);
+}
+
+/// Solves A v = b by Cholesky; an unknown that does nothing gets 0. Returns bᵀv.
+static double solve_unknowns(double a[UNKNOWNS][UNKNOWNS], const double *b, int count, double *v)
 {
     double gain = 0;
     for (int j = 0; j < count; j++) {
         double whole = a[j][j];
         for (int k = 0; k < j; k++) a[j][j] -= a[j][k] * a[j][k];
-        a[j][j] = a[j][j] > 1e-12 * whole ? sqrt(a[j][j]) : HUGE_VAL;
+        a[j][j] = a[j][j] > 1e-10 * whole ? sqrt(a[j][j]) : HUGE_VAL;
         for (int i = j + 1; i < count; i++) {
             for (int k = 0; k < j; k++) a[i][j] -= a[i][k] * a[j][k];
             a[i][j] /= a[j][j];
@@ -70,17 +91,16 @@ static double solve_values(double a[KNOTS_MOST][KNOTS_MOST], const double *b, in
     return gain;
 }
 
-/// Finds the best values and the error with them; infinite where the solver gives up.
+/// Finds the best values and slopes, and the error with them; infinite where the solver gives up.
 static double evaluate(const struct search *s, struct knots *k)
 {
     const struct course_metric *m = &s->component->metric;
-    double a[KNOTS_MOST][KNOTS_MOST] = {{0}}, b[KNOTS_MOST] = {0};
-    int n = s->component->frames;
-    for (int i = 0; i < k->count; i++) {
-        double unit[KNOTS_MOST] = {0};
+    double a[UNKNOWNS][UNKNOWNS] = {{0}}, b[UNKNOWNS] = {0}, v[UNKNOWNS];
+    int n = s->component->frames, unknowns = k->sloped ? 2 * k->count : k->count;
+    k->error = HUGE_VAL;
+    for (int i = 0; i < unknowns; i++) {
         double complex *x = s->response + (size_t)i * (size_t)n;
-        unit[i] = 1;
-        if (!solve(s, k, unit, x)) return HUGE_VAL;
+        if (!respond(s, k, i, x)) return k->error;
         for (int t = 0; t < n; t++) b[i] += creal(x[t] * m->pull[t]);
         for (int j = 0; j <= i; j++) {
             const double complex *y = s->response + (size_t)j * (size_t)n;
@@ -88,7 +108,11 @@ static double evaluate(const struct search *s, struct knots *k)
                 a[i][j] += (creal(x[t] * conj(y[t])) * m->norm + creal(x[t] * y[t] * m->square)) / 2;
         }
     }
-    double left = m->power - solve_values(a, b, k->count, k->value);
+    double left = m->power - solve_unknowns(a, b, unknowns, v);
+    for (int i = 0; i < k->count; i++) {
+        k->value[i] = v[i];
+        k->slope[i] = k->sloped ? v[k->count + i] * 2 * M_PI * k->frequency : 0;
+    }
     return k->error = sqrt(fmax(left, 0) / m->power);
 }
 
@@ -158,27 +182,70 @@ static bool add_knot(const struct search *s, struct knots *k, int stride)
     return added;
 }
 
-/// The numbers as a person writes them: enough digits for a thousandth of the largest.
-static void shorten(struct knots *k)
+/// Takes the other one where it is worth it.
+static void prefer(struct knots *k, const struct knots *other)
 {
-    double largest = 0;
-    for (int i = 0; i < k->count; i++) largest = fmax(largest, fabs(k->value[i]));
-    double unit = largest > 0 ? pow(10, floor(log10(largest)) - 3) : 1;
-    for (int i = 0; i < k->count; i++) k->value[i] = round(k->value[i] / unit) * unit;
-    k->frequency = round(k->frequency * 1e4) / 1e4;
-    k->damping = round(k->damping * 1e4) / 1e4;
-    k->bandwidth = round(k->bandwidth * 1e4) / 1e4;
+    if (other->error < simpler * k->error) *k = *other;
 }
 
-static struct knots find(const struct search *s, wiggly_mode mode)
+static double rounded(double value, double parts) { return round(value * parts) / parts; }
+
+static void shorten_all(double *values, int count)
+{
+    double largest = 0;
+    for (int i = 0; i < count; i++) largest = fmax(largest, fabs(values[i]));
+    for (int i = 0; i < count && largest > 0; i++) values[i] = rounded(values[i], pow(10, 3 - floor(log10(largest))));
+}
+
+/// The numbers as a person writes them, to a thousandth of the largest or finer.
+static void shorten(struct knots *k)
+{
+    shorten_all(k->value, k->count);
+    shorten_all(k->slope, k->count);
+    k->frequency = rounded(k->frequency, 1e4);
+    k->damping = rounded(k->damping, 1e4);
+    k->bandwidth = rounded(k->bandwidth, 1e4);
+}
+
+static void remove_knot(struct knots *k, int knot)
+{
+    k->count--;
+    memmove(k->frame + knot, k->frame + knot + 1, (size_t)(k->count - knot) * sizeof *k->frame);
+}
+
+/// Puts each knot in turn where it helps most, from anywhere: refine() finds only what lies near. False where nothing is better.
+static bool exchange(const struct search *s, struct knots *k, int stride)
+{
+    bool better = false;
+    for (int knot = 1; knot < k->count; knot++) {
+        struct knots changed = *k;
+        remove_knot(&changed, knot);
+        evaluate(s, &changed);
+        if (!add_knot(s, &changed, stride)) continue;
+        refine(s, &changed, stride);
+        if (!(changed.error < k->error * (1 - worth))) continue;
+        *k = changed;
+        better = true;
+    }
+    return better;
+}
+
+static struct knots find(const struct search *s, wiggly_mode mode, bool sloped)
 {
     const struct component *c = s->component;
-    struct knots k = {.mode = mode, .frequency = c->frequency, .damping = c->damping, .bandwidth = 0.1, .count = 1};
+    struct knots k = {.mode = mode,
+                      .frequency = c->frequency,
+                      .damping = c->damping,
+                      .bandwidth = 0.1,
+                      .count = 1,
+                      .sloped = sloped};
     int stride = (c->frames + CANDIDATES - 1) / CANDIDATES;
     double floor_error = component_error(c, c->course);
     evaluate(s, &k);
     while (k.error > near_enough * floor_error && k.count < KNOTS_MOST && add_knot(s, &k, stride))
         refine(s, &k, stride);
+    for (int round = 0; round < EXCHANGES && k.error > near_enough * floor_error && exchange(s, &k, stride); round++)
+        continue;
     return k;
 }
 
@@ -187,16 +254,19 @@ bool knots_create(struct knots *k, const struct component *component, double fps
     struct search s = {.component = component, .fps = fps};
     size_t n = (size_t)component->frames;
     double complex *course = malloc(n * sizeof *course);
-    s.response = malloc(KNOTS_MOST * n * sizeof *s.response);
+    s.response = malloc(UNKNOWNS * n * sizeof *s.response);
     s.re = malloc(2 * n * sizeof *s.re);
     s.im = s.re ? s.re + n : NULL;
     bool done = course && s.response && s.re && wiggly_create((int)n, KNOTS_MOST, &s.solver) == WIGGLY_OK;
     if (done) {
-        *k = find(&s, WIGGLY_COMPLEX);
-        struct knots stiff = find(&s, WIGGLY_REAL);
-        if (stiff.error < simpler * k->error) *k = stiff;
+        *k = find(&s, WIGGLY_COMPLEX, false);
+        if (k->error > close_enough * component_error(component, component->course)) {
+            const struct knots sloped = find(&s, WIGGLY_COMPLEX, true), stiff = find(&s, WIGGLY_REAL, false);
+            prefer(k, &sloped);
+            prefer(k, &stiff);
+        }
         shorten(k);
-        done = solve(&s, k, k->value, course);
+        done = solve(&s, k, course);
         k->course = course;
         k->error = component_error(component, course);
     }

@@ -12,10 +12,11 @@ struct knots {
     wiggly_mode mode;                     ///< complex or real
     double frequency, damping, bandwidth; ///< Hz; ratio; fraction of the frequency
     int count;
-    int frame[KNOTS_MOST]; ///< ascending; the first is 0
-    double value[KNOTS_MOST];
-    double complex *course; ///< x per frame
-    double error;           ///< component_error() of x
+    bool sloped;                                 ///< every knot has a slope
+    int frame[KNOTS_MOST];                       ///< ascending; the first is 0
+    double value[KNOTS_MOST], slope[KNOTS_MOST]; ///< value per second
+    double complex *course;                      ///< x per frame
+    double error;                                ///< component_error() of x
 };
 
 /// Finds as few knots as bring the error of the motion near the component's own, at most KNOTS_MOST. The same component gives the same

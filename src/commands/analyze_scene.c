@@ -59,6 +59,7 @@ static void add_spline(struct text *text, const struct coordinate *coordinate, c
         double frame = knots->frame[i] * fps / analyzed->fps;
         add_member(text, i > 0 ? ",\n                { \"frame\": " : "{ \"frame\": ", round(frame * 1000) / 1000);
         add_member(text, ", \"value\": ", knots->value[i]);
+        if (knots->sloped) add_member(text, ", \"slope\": ", knots->slope[i]);
         text_string(text, " }");
     }
     text_string(text, "] }");
