@@ -1,5 +1,6 @@
 /// The analysis by poles on planted oscillations: frequency, damping and shape, whatever the frame rate, noise and drift.
 #include "analysis/analysis.h"
+#include "analysis/knots.h"
 #include "planted.h"
 #include <string.h>
 
@@ -189,6 +190,66 @@ static void a_walk_is_taken_out_and_said(void **state)
     analysis_free(&a);
 }
 
+/// What a harmonic force at 2.7 Hz does to two bodies, the second softer and so behind: the force's own swing, which comes in over half a second, and
+/// the bodies' at 2 Hz, which that sets off.
+static double driven(int i, int j, void *user)
+{
+    const struct plant *p = user;
+    double t = i / p->fps, ramp = t < 0.5 ? t * t * (3 - 4 * t) * 4 : 1, late = j / 3 % 2 ? 1.2 : 0;
+    double force = ramp * sin(2 * M_PI * 2.7 * t - late);
+    double own = exp(-0.05 * 2 * M_PI * 2 * t) * sin(2 * M_PI * 2 * t - late / 2);
+    return (1 + 0.3 * sin(j)) * (force - 0.3 * own);
+}
+
+static void few_knots_move_it_so(void **state)
+{
+    (void)state;
+    struct plant p = {1, 192, 48, {2}, {0.05}, {0.1}, .noise = 0.2};
+    grow(&p, 1);
+    for (int forced = 0; forced < 2; forced++) {
+        const struct analysis_plan plan = {ANALYSIS_POLES, p.fps, 1, NULL};
+        struct motion motion;
+        struct analysis a;
+        struct knots knots;
+        struct error error;
+        make_motion(&motion, p.frames, VERTICES, forced ? driven : planted, &p);
+        if (!analysis_create(&a, &lapack, &motion, &plan, &error)) fail_msg("%s", error.text);
+        const struct component *c = a.components;
+        assert_near(c->frequency, forced ? 2.7 : 2, 0.02);
+        assert_near(c->damping, forced ? 0 : 0.05, 0.002);
+        assert_true(knots_create(&knots, c, p.fps));
+        assert_near(component_error(c, knots.course), knots.error, 0);
+        if (!(knots.error <= 1.1 * component_error(c, c->course)))
+            fail_msg("%d knots leave %g, the coordinate %g", knots.count, knots.error, component_error(c, c->course));
+        assert_true(forced ? knots.count <= KNOTS_MOST : knots.count <= 2);
+        knots_free(&knots);
+        analysis_free(&a);
+        motion_close(&motion);
+    }
+}
+
+/// 22 Hz at 48 frames a second, and 3.
+static double quick(int i, int j, void *user)
+{
+    (void)user;
+    return cos(2 * M_PI * 22 * i / 48.0 + j) * exp(-0.02 * i) + cos(2 * M_PI * 3 * i / 48.0 - j) * exp(-0.01 * i);
+}
+
+static void motion_near_half_the_rate_is_told(void **state)
+{
+    (void)state;
+    const struct analysis_plan plan = {ANALYSIS_POLES, 48, 2, NULL};
+    struct motion motion;
+    struct analysis a;
+    struct error error;
+    make_motion(&motion, 192, VERTICES, quick, NULL);
+    if (!analysis_create(&a, &lapack, &motion, &plan, &error)) fail_msg("%s", error.text);
+    assert_near(a.fast_share, 1 / 3.0, 0.02); // powers go as 1 / damping
+    assert_near(component_near(&a, 22)->frequency, 22, 0.01);
+    analysis_free(&a);
+    motion_close(&motion);
+}
+
 static int load(void **state)
 {
     char description[128];
@@ -212,6 +273,8 @@ int main(void)
         cmocka_unit_test(two_poles_are_told_apart),
         cmocka_unit_test(through_noise),
         cmocka_unit_test(a_walk_is_taken_out_and_said),
+        cmocka_unit_test(few_knots_move_it_so),
+        cmocka_unit_test(motion_near_half_the_rate_is_told),
     };
     return cmocka_run_group_tests(tests, load, unload);
 }
