@@ -56,7 +56,7 @@ says "says that there is one pole" "  1 of 3 coordinates: the motion has no more
 says "finds the frequency that was asked for" "    frequency 1.99" "$out"
 # No knot more than needed, and the error of the motion no more than a tenth above that of the coordinate itself.
 printf '%s\n' "$out" | awk '/bandwidth/ && $(NF - 1) <= 5 { few = 1 }
-    /relative error of the motion/ { near = $6 + 0 <= 1.1 * $10 } END { exit !(few && near) }'
+    /relative error of its motion/ { near = $6 + 0 <= 1.1 * $10 } END { exit !(few && near) }'
 ok "at most five knots move the character as the simulation did" $?
 [ "$(head -n 1 "$scratch/side.csv")" = "frame,side.re,side.im,side.fit.re,side.fit.im" ] && [ "$(wc -l <"$scratch/side.csv")" -eq 61 ]
 ok "the table has a row a frame" $?

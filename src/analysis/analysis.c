@@ -91,7 +91,6 @@ static bool create_components(struct analysis *a, const struct work *w, int coun
         c->course = malloc((size_t)frames * sizeof *c->course);
         c->shape = malloc((size_t)vertices * sizeof *c->shape);
         c->metric.pull = malloc((size_t)frames * sizeof *c->metric.pull);
-        c->metric.power = w->power;
         if (!c->course || !c->shape || !c->metric.pull) return false;
     }
     return true;
@@ -103,16 +102,13 @@ static bool find_principal(struct analysis *a, struct work *w)
     int frames = w->motion->frames, count = w->plan->modes < frames ? w->plan->modes : frames;
     struct spectrum spectrum;
     if (!create_components(a, w, count) || !spectrum_create(&spectrum, w->lapack, w->gram, frames)) return false;
-    a->left = 1;
     for (int k = 0; k < count; k++) {
         struct component *c = &a->components[k];
         for (int t = 0; t < frames; t++) c->course[t] = spectrum.vectors[(size_t)k * (size_t)frames + (size_t)t];
         c->explained = spectrum.values[k] / spectrum.total;
-        a->left -= c->explained;
         spectrum_weights(&spectrum, k, w->weights + 2 * (size_t)k * (size_t)frames);
     }
     spectrum_free(&spectrum);
-    a->left = sqrt(fmax(a->left, 0));
     return true;
 }
 
@@ -134,12 +130,11 @@ static bool find_swinging(struct analysis *a, struct work *w)
         c->damping = fmax(-creal(s) / cabs(s), 0);
     }
     for (size_t i = 0; i < 2 * (size_t)count * (size_t)frames; i++) w->weights[i] = courses.weights[i];
-    a->left = sqrt(fmax(1 - courses.explained / w->power, 0));
     courses_free(&courses);
     return true;
 }
 
-/// What any course would leave of the motion, from the weights of Ñ.
+/// What any course would leave of all the motion, from the weights of Ñ.
 static void fill_metric(struct component *c, const struct work *w, const double *weights)
 {
     size_t n = (size_t)c->frames;
@@ -150,6 +145,57 @@ static void fill_metric(struct component *c, const struct work *w, const double 
         m->norm += creal(m->pull[t] * (weights[t] - I * weights[n + t]));
         m->square += m->pull[t] * (weights[t] + I * weights[n + t]);
     }
+    m->power = w->power;
+}
+
+/// What component l does along Ñ_k in every frame, Re(R_l Ñ_l)·Ñ_k = (R_l Ñ_l·Ñ_k + R̄_l conj(Ñ_l)·Ñ_k) / 2. Returns Σ_t of its product with
+/// what component k does.
+static double find_overlap(const struct component *k, const struct component *l, const double *weights,
+                           double complex *along)
+{
+    double complex plain = 0, conjugate = 0;
+    double product = 0;
+    for (int t = 0; t < k->frames; t++) {
+        double complex w = weights[t] + I * weights[k->frames + t];
+        plain += w * k->metric.pull[t];
+        conjugate += conj(w) * k->metric.pull[t];
+    }
+    for (int t = 0; t < k->frames; t++) {
+        along[t] = (l->course[t] * plain + conj(l->course[t]) * conjugate) / 2;
+        product += creal(k->course[t] * along[t]);
+    }
+    return product;
+}
+
+/// Gives each component its own motion, from what there is of all: Σ |s − Σ_l Re(R_l Ñ_l)|² over the l that are not k.
+static bool share_motion(struct analysis *a, const struct work *w)
+{
+    size_t n = (size_t)w->motion->frames;
+    double products[COURSES_MAX][COURSES_MAX], pulls[COURSES_MAX] = {0}, left = w->power;
+    double complex *along = malloc((1 + (size_t)a->count) * n * sizeof *along);
+    if (!along) return false;
+    double complex *others = along + n;
+    for (size_t i = 0; i < (size_t)a->count * n; i++) others[i] = 0;
+    for (int k = 0; k < a->count; k++) {
+        struct component *c = &a->components[k];
+        for (size_t t = 0; t < n; t++) pulls[k] += creal(c->course[t] * c->metric.pull[t]);
+        left -= 2 * pulls[k];
+        for (int l = 0; l < a->count; l++) {
+            products[k][l] = find_overlap(c, &a->components[l], w->weights + 2 * (size_t)l * n, along);
+            for (size_t t = 0; t < n && l != k; t++) others[(size_t)k * n + t] += along[t];
+            left += products[k][l];
+        }
+    }
+    a->left = sqrt(fmax(left, 0) / w->power);
+    for (int k = 0; k < a->count; k++) {
+        struct component *c = &a->components[k];
+        if (w->plan->method == ANALYSIS_POLES) c->explained = fmax(2 * pulls[k] - products[k][k], 0) / w->power;
+        c->metric.power = left + 2 * pulls[k] + products[k][k];
+        for (int l = 0; l < a->count; l++) c->metric.power -= 2 * products[k][l];
+        for (size_t t = 0; t < n; t++) c->metric.pull[t] -= others[(size_t)k * n + t];
+    }
+    free(along);
+    return true;
 }
 
 /// Ñ of every component and the drift, by one more pass over the motion.
@@ -160,6 +206,10 @@ static bool form_shapes(struct analysis *a, struct work *w, struct error *error)
            *combined = malloc((2 * count + 1) * columns * sizeof *combined);
     if (!combined) return fail_no_memory(error, w->motion->path);
     for (size_t k = 0; k < count; k++) fill_metric(&a->components[k], w, w->weights + 2 * k * frames);
+    if (!share_motion(a, w)) {
+        free(combined);
+        return fail_no_memory(error, w->motion->path);
+    }
     drift_adapt(&w->drift, w->weights, 2 * a->count);
     for (size_t t = 0; t < frames; t++) slopes[t] = w->drift.weights[frames + t];
     bool done = slabs_combine(w->lapack, w->motion, w->weights, 2 * a->count + 1, combined, error);
@@ -182,8 +232,6 @@ static bool finish(struct analysis *a, const struct work *w, struct error *error
         component_turn(c, w->plan->direction);
         if (w->plan->method == ANALYSIS_CPCA)
             component_fit(c, w->plan->fps);
-        else
-            c->explained = fmax(1 - pow(component_error(c, c->course), 2), 0);
         if (!component_lags(c)) return fail_no_memory(error, w->motion->path);
     }
     return true;

@@ -32,7 +32,7 @@ struct analysis {
     double (*mean)[3]; ///< each vertex's mean position, metres
     struct component *components;
     int count;
-    double left; ///< relative error of the motion with all components, 0 … 1; by CPCA that of the analytic signal
+    double left; ///< relative error of the motion with all components, 0 … 1
     double drift
         [3]; ///< m/s: the mean velocity of the vertices, where the motion has a steady drift that was taken out, else 0
     double drift_share; ///< of the motion's variance, 0 … 1; 0 where none is worth a word

@@ -5,7 +5,8 @@
 #include <complex.h>
 #include <stdbool.h>
 
-/// Σ_t |s_t − Re(x_t Ñ)|² for any course x, from a few numbers: s_t is the motion of all vertices in a frame.
+/// Σ_t |s_t − Re(x_t Ñ)|² for any course x, from a few numbers. s_t is a frame of the component's own motion: that of all vertices less
+/// what the other components do.
 struct course_metric {
     double complex *pull;  ///< s_t·Ñ per frame
     double norm;           ///< |Ñ|²
@@ -26,7 +27,7 @@ struct component {
     double reach; ///< metres: the farthest any vertex moves from its mean while |R| = 1
 };
 
-/// The relative error of the motion with `course` in R's place: √(Σ |s_t − Re(x_t Ñ)|² / Σ |s_t|²). R's own is the coordinate's floor.
+/// The relative error of the component's own motion with `course` in R's place: √(Σ |s_t − Re(x_t Ñ)|² / Σ |s_t|²).
 double component_error(const struct component *component, const double complex *course);
 
 /// Scales R to max |R| = 1 and Ñ inversely, so that R Ñ stays.

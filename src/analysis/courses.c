@@ -148,10 +148,11 @@ static void scale_courses(struct courses *c)
     }
 }
 
-/// Ñ given R.
-static void solve_shapes(struct fit *f)
+/// Ñ given R; returns what both explain of Σ |s_t|².
+static double solve_shapes(struct fit *f)
 {
     int n = f->courses->frames, d = 2 * f->courses->count;
+    double explained = 0;
     scale_courses(f->courses);
     f->basis.count = 0;
     for (int i = 0; i < d; i++) basis_append(&f->basis, f->courses->rows + i * n);
@@ -160,21 +161,20 @@ static void solve_shapes(struct fit *f)
                      f->pull, n);
     f->lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_TRANSPOSED, d, d, n, 1, f->pull, n, f->courses->weights, n,
                      0, f->metric, d);
-    f->courses->explained = 0;
-    for (int i = 0; i < d * n; i++) f->courses->explained += f->courses->rows[i] * f->pull[i];
+    for (int i = 0; i < d * n; i++) explained += f->courses->rows[i] * f->pull[i];
+    return explained;
 }
 
 static void take_turns(struct fit *f)
 {
     int n = f->courses->frames;
-    double power = 0;
+    double power = 0, before, explained = solve_shapes(f);
     for (int t = 0; t < n; t++) power += f->gram[(size_t)t * (size_t)(n + 1)];
-    solve_shapes(f);
     for (int turn = 0; turn < TURNS_MAX; turn++) {
-        double before = f->courses->explained;
+        before = explained;
         solve_courses(f);
-        solve_shapes(f);
-        if (fabs(f->courses->explained - before) < settled * power) break;
+        explained = solve_shapes(f);
+        if (fabs(explained - before) < settled * power) break;
     }
 }
 

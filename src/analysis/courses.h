@@ -13,7 +13,6 @@ struct courses {
     int frames, count;
     double complex pole[COURSES_MAX]; ///< z_k, R_k ~ z_k^t
     double *rows, *weights;           ///< 2 count × frames
-    double explained;                 ///< of the motion's power Σ S², by all of them
 };
 
 /// Fits the courses of `count` poles. `gram` is G = S Sᵀ of a motion without drift. A course swings at its pole, and leaves that

@@ -124,11 +124,14 @@ static bool keep_better(const struct search *s, struct knots *k, struct knots *c
     return true;
 }
 
+/// Frames from one knot to the next: beside a neighbour a slope would do nothing.
+static int least_gap(const struct knots *k) { return k->sloped ? 3 : 1; }
+
 static bool try_frame(const struct search *s, struct knots *k, int knot, int frame)
 {
     struct knots changed = *k;
-    int last = knot + 1 < k->count ? k->frame[knot + 1] : s->component->frames;
-    if (frame <= k->frame[knot - 1] || frame >= last) return false;
+    int gap = least_gap(k), last = knot + 1 < k->count ? k->frame[knot + 1] - gap : s->component->frames - 1;
+    if (frame < k->frame[knot - 1] + gap || frame > last) return false;
     changed.frame[knot] = frame;
     return keep_better(s, k, &changed);
 }
@@ -167,11 +170,12 @@ static void refine(const struct search *s, struct knots *k, int stride)
 static bool add_knot(const struct search *s, struct knots *k, int stride)
 {
     struct knots best = *k;
+    int gap = least_gap(k);
     for (int frame = 1; frame < s->component->frames; frame += stride) {
         struct knots changed = *k;
         int at = k->count;
         while (at > 0 && k->frame[at - 1] > frame) at--;
-        if (k->frame[at - 1] == frame) continue;
+        if (frame < k->frame[at - 1] + gap || (at < k->count && frame > k->frame[at] - gap)) continue;
         memmove(changed.frame + at + 1, changed.frame + at, (size_t)(k->count - at) * sizeof *changed.frame);
         changed.frame[at] = frame;
         changed.count++;

@@ -96,7 +96,7 @@ static void report_spline(const struct analyzed *analyzed, const struct componen
     printf("    spline: \"mode\": \"%s\", \"frequency\": %.4g, \"damping\": %.3g, \"bandwidth\": %.3g, %d knot%s\n",
            k->mode == WIGGLY_REAL ? "real" : "complex", k->frequency, k->damping, k->bandwidth, k->count,
            k->count > 1 ? "s" : "");
-    printf("    relative error of the motion: %.3g by this spline, %.3g by the coordinate's own course\n", k->error,
+    printf("    relative error of its motion: %.3g by this spline, %.3g by the coordinate's own course\n", k->error,
            component_error(c, c->course));
 }
 
