@@ -1,10 +1,10 @@
 /// Rigs as glTF 2.0: meshes with skins or morph targets, and one clip that moves them all.
 #include "export/format.h"
-#include "export/gltf_file.h"
 #include "export/gltf_model.h"
 #include "export/gltf_motion.h"
 #include "export/keys.h"
 #include "export/targets.h"
+#include "model/gltf_file.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

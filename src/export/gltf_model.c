@@ -64,7 +64,7 @@ static bool collect_kept(struct shot *shot, struct kept_motion *kept, struct err
     return true;
 }
 
-/// The tracks of the kept, each in an array of its own.
+/// The tracks that are kept, each in an array of its own.
 static void add_kept(const struct kept_motion *kept, struct gltf_motion *motion)
 {
     static const char *const paths[] = {"translation", "rotation", "scale", "weights"};

@@ -2,8 +2,8 @@
 #ifndef EXPORT_GLTF_MOTION_H
 #define EXPORT_GLTF_MOTION_H
 
-#include "export/gltf_file.h"
 #include "export/shot.h"
+#include "model/gltf_file.h"
 
 struct gltf_motion {
     struct gltf_file *file;

@@ -49,6 +49,7 @@ struct gltf_sampler {
 };
 
 struct gltf_material {
+    char *name;                  ///< "material 2" where the file has none
     float color[4];              ///< base colour, linear, with opacity
     int image;                   ///< its texture, −1: none
     struct gltf_sampler sampler; ///< of that
@@ -79,6 +80,7 @@ struct gltf_part {
     int index_count;
     struct gltf_target *targets; ///< as many as the mesh has
     int material;                ///< −1: plain white
+    bool flat;                   ///< the file has no normals, so each triangle has vertices of its own
 };
 
 struct gltf_mesh {

@@ -77,13 +77,15 @@ static bool read_color(struct gltf_reader *r, const json_t *json, struct gltf_ma
            read_texture(r, json_object_get(gloss, "diffuseTexture"), uv, material);
 }
 
-static bool read_material(struct gltf_reader *r, const json_t *json, struct gltf_material *material,
+static bool read_material(struct gltf_reader *r, const json_t *json, size_t number, struct gltf_material *material,
                           struct gltf_uv *uv)
 {
     const char *mode = json_string_value(json_object_get(json, "alphaMode"));
     const json_t *cutoff = json_object_get(json, "alphaCutoff");
     *material = (struct gltf_material){.color = {1, 1, 1, 1}, .image = -1, .sampler = usual};
     *uv = (struct gltf_uv){.scale = {1, 1}};
+    material->name = gltf_name(r, json, "material", number);
+    if (!material->name) return false;
     material->double_sided = json_is_true(json_object_get(json, "doubleSided"));
     material->blended = mode && strcmp(mode, "BLEND") == 0;
     if (mode && strcmp(mode, "MASK") == 0) material->cutoff = cutoff ? (float)json_number_value(cutoff) : 0.5f;
@@ -107,8 +109,8 @@ bool gltf_read_materials(struct gltf_reader *r)
     json_array_foreach(materials, i, material)
     {
         gltf_at(r, "materials[%zu]", i);
-        if (!read_material(r, material, &r->gltf->materials[i], &r->uvs[i])) return false;
-        r->gltf->material_count++;
+        struct gltf_material *to = &r->gltf->materials[r->gltf->material_count++];
+        if (!read_material(r, material, i, to, &r->uvs[i])) return false;
     }
     return true;
 }
