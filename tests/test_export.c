@@ -318,7 +318,12 @@ static void assert_same_dog(const char *path, const char *other_path)
     for (int c = 0; c < a.clip_count; c++) {
         if (strcmp(a.clips[c].name, "Walk") != 0) assert_same_clip(&a.clips[c], &b.clips[c]);
     }
-    assert_memory_equal(a.materials, b.materials, (size_t)a.material_count * sizeof *a.materials);
+    assert_int_equal(a.material_count, b.material_count);
+    for (int m = 0; m < a.material_count; m++) {
+        assert_string_equal(a.materials[m].name, b.materials[m].name);
+        assert_memory_equal(a.materials[m].color, b.materials[m].color, sizeof a.materials[m].color);
+        assert_memory_equal(&a.materials[m].sampler, &b.materials[m].sampler, sizeof a.materials[m].sampler);
+    }
     assert_int_equal(a.image_count, 1);
     assert_int_equal(b.image_count, 1);
     assert_memory_equal(a.images[0].pixels, b.images[0].pixels, 4 * (size_t)(a.images[0].width * a.images[0].height));

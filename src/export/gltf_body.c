@@ -22,12 +22,12 @@ static const float *values_of(const struct gltf *gltf, const struct gltf_pose *p
 }
 
 /// One track after the other in each row.
-static bool collect(const struct gltf_body *body, struct take *take, float *rows, int width, struct error *error)
+static bool collect(const struct gltf_body *body, struct shot *shot, float *rows, int width, struct error *error)
 {
-    for (int k = 0; k < take->key_count; k++) {
+    for (int k = 0; k < shot->key_count; k++) {
         struct rig_pose pose;
         float *at = rows + (size_t)k * (size_t)width;
-        if (!take_pose(take, take->rigs[0], k, &pose, error) || !take_proceed(take, error)) return false;
+        if (!shot_pose(shot, shot->rigs[0], k, &pose, error) || !shot_proceed(shot, error)) return false;
         for (int c = 0; c < body->clip->channel_count; c++) {
             const struct gltf_channel *channel = &body->clip->channels[c];
             memcpy(at, values_of(body->gltf, pose.model.pose, channel), (size_t)channel->components * sizeof *at);
@@ -35,7 +35,7 @@ static bool collect(const struct gltf_body *body, struct take *take, float *rows
             at += channel->components;
         }
     }
-    keys_close_loop(rows, width, take->key_count);
+    keys_close_loop(rows, width, shot->key_count);
     return true;
 }
 
@@ -63,14 +63,14 @@ bool gltf_body_leaves_out(const struct gltf_body *body, const struct gltf_channe
     return channel->path == GLTF_ROTATION && body->is_bone[channel->node];
 }
 
-bool gltf_body_sample(const struct gltf_body *body, struct take *take, struct gltf_motion *motion,
+bool gltf_body_sample(const struct gltf_body *body, struct shot *shot, struct gltf_motion *motion,
                       struct error *error)
 {
     int width = 0;
     for (int c = 0; c < body->clip->channel_count; c++) width += body->clip->channels[c].components;
-    float *rows = malloc(((size_t)take->key_count * (size_t)width + 1) * sizeof *rows);
+    float *rows = malloc(((size_t)shot->key_count * (size_t)width + 1) * sizeof *rows);
     if (!rows) return fail_no_memory(error, body->gltf->path);
-    const bool done = collect(body, take, rows, width, error) &&
+    const bool done = collect(body, shot, rows, width, error) &&
                       (add_tracks(body, rows, width, motion) || fail_no_memory(error, body->gltf->path));
     free(rows);
     return done;

@@ -15,11 +15,11 @@ struct gltf_body {
 bool gltf_body_leaves_out(const struct gltf_body *body, const struct gltf_channel *channel);
 
 /// Adds a key a sample for all that the clip moves. False with a sentence.
-bool gltf_body_sample(const struct gltf_body *body, struct take *take, struct gltf_motion *motion,
+bool gltf_body_sample(const struct gltf_body *body, struct shot *shot, struct gltf_motion *motion,
                       struct error *error);
 
-/// Adds the clip's own keys, as often as the take repeats them, which move the body the same at any time.
-bool gltf_body_keep(const struct gltf_body *body, const struct take *take, struct gltf_motion *motion,
+/// Adds the clip's own keys, as often as the shot repeats them, which move the body the same at any time.
+bool gltf_body_keep(const struct gltf_body *body, const struct shot *shot, struct gltf_motion *motion,
                     struct error *error);
 
 #endif

@@ -1,6 +1,6 @@
 /// Keeps the keys of an imported character's own clip, repeated as the scene repeats it.
 ///
-/// Each round begins and ends with a key, cut out of the curve where the take begins or ends between two. Where one ends as the next
+/// Each round begins and ends with a key, cut out of the curve where the shot begins or ends between two. Where one ends as the next
 /// begins, these are one key.
 #include "export/gltf_body.h"
 #include <math.h>
@@ -112,7 +112,7 @@ static void begin_round(struct track *track, double time)
     add_key(track, time, track->slope, track->value, track->slope);
 }
 
-/// The keys from one time of the clip to another; `start`: seconds from the take's first key.
+/// The keys from one time of the clip to another; `start`: seconds from the shot's first key.
 static void add_round(struct track *track, double from, double to, double start)
 {
     const struct gltf_channel *channel = track->channel;
@@ -134,10 +134,10 @@ static void add_round(struct track *track, double from, double to, double start)
     add_key(track, start + to - from, track->slope, track->value, track->slope);
 }
 
-static void add_rounds(struct track *track, const struct take *take, double duration)
+static void add_rounds(struct track *track, const struct shot *shot, double duration)
 {
-    const double first = take_frame(take, 0) / take->posing->document->fps,
-                 last = first + take_seconds(take, take->key_count - 1);
+    const double first = shot_frame(shot, 0) / shot->posing->document->fps,
+                 last = first + shot_seconds(shot, shot->key_count - 1);
     const double length = duration > 0 ? duration : fmax(last - first, 1);
     for (double n = floor(first / length + 1e-9); n * length < last - NEAR_TIME && !track->failed; n++) {
         const double from = fmax(first - n * length, 0), to = fmin(last - n * length, length);
@@ -149,7 +149,7 @@ static void add_rounds(struct track *track, const struct take *take, double dura
     begin_round(track, last - first); // the last key of a loop is its first
 }
 
-static bool add_track(const struct gltf_channel *channel, const struct take *take, double duration,
+static bool add_track(const struct gltf_channel *channel, const struct shot *shot, double duration,
                       struct gltf_motion *motion)
 {
     const size_t width = (size_t)channel->components;
@@ -157,8 +157,8 @@ static bool add_track(const struct gltf_channel *channel, const struct take *tak
     if (!scratch) return false;
     struct track track = {
         .channel = channel, .sign = 1, .value = scratch, .slope = scratch + width, .still = scratch + 2 * width};
-    track.is_cubic = channel->interpolation == GLTF_CUBIC && take->key_count > 1;
-    add_rounds(&track, take, duration);
+    track.is_cubic = channel->interpolation == GLTF_CUBIC && shot->key_count > 1;
+    add_rounds(&track, shot, duration);
     if (!track.failed)
         gltf_motion_add_own(motion, channel,
                             track.is_cubic || channel->interpolation != GLTF_CUBIC ? channel->interpolation
@@ -170,13 +170,13 @@ static bool add_track(const struct gltf_channel *channel, const struct take *tak
     return !track.failed;
 }
 
-bool gltf_body_keep(const struct gltf_body *body, const struct take *take, struct gltf_motion *motion,
+bool gltf_body_keep(const struct gltf_body *body, const struct shot *shot, struct gltf_motion *motion,
                     struct error *error)
 {
     for (int c = 0; c < body->clip->channel_count; c++) {
         const struct gltf_channel *channel = &body->clip->channels[c];
         if (gltf_body_leaves_out(body, channel)) continue;
-        if (!add_track(channel, take, body->clip->duration, motion)) return fail_no_memory(error, body->gltf->path);
+        if (!add_track(channel, shot, body->clip->duration, motion)) return fail_no_memory(error, body->gltf->path);
     }
     return true;
 }

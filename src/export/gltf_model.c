@@ -94,26 +94,26 @@ static void put_bytes(struct splice *splice, const struct gltf_file *file, bool 
     free(address);
 }
 
-static bool add_motion(struct take *take, const struct form *form, const struct gltf_body *body,
+static bool add_motion(struct shot *shot, const struct form *form, const struct gltf_body *body,
                        struct gltf_motion *motion, struct error *error)
 {
     struct keys keys;
-    if (!keys_collect(take, take->rigs[0], form, &keys, error)) return false;
-    const bool done = !body->clip || (take->is_cubic ? gltf_body_keep(body, take, motion, error)
-                                                     : gltf_body_sample(body, take, motion, error));
+    if (!keys_collect(shot, shot->rigs[0], form, &keys, error)) return false;
+    const bool done = !body->clip || (shot->is_cubic ? gltf_body_keep(body, shot, motion, error)
+                                                     : gltf_body_sample(body, shot, motion, error));
     if (done) add_bones(form, &keys, motion);
     keys_free(&keys);
     return done;
 }
 
 /// Puts the new clip into the text.
-static bool put_motion(struct take *take, const struct form *form, const struct gltf_body *body,
+static bool put_motion(struct shot *shot, const struct form *form, const struct gltf_body *body,
                        struct gltf_file *file, struct splice *splice, struct error *error)
 {
     struct gltf_motion motion;
-    gltf_motion_begin(&motion, file, take);
-    const bool done = add_motion(take, form, body, &motion, error);
-    put_clip(splice, body->gltf, &motion, take->clip);
+    gltf_motion_begin(&motion, file, shot);
+    const bool done = add_motion(shot, form, body, &motion, error);
+    put_clip(splice, body->gltf, &motion, shot->clip);
     append_all(splice, "accessors", file->accessors);
     append_all(splice, "bufferViews", file->views);
     gltf_motion_free(&motion);
@@ -121,7 +121,7 @@ static bool put_motion(struct take *take, const struct form *form, const struct 
 }
 
 /// Writes the file with a clip more, if a chain moves it.
-static bool write_patched(struct take *take, const struct form *form, const struct gltf_body *body,
+static bool write_patched(struct shot *shot, const struct form *form, const struct gltf_body *body,
                           const struct original *original, bool binary, FILE *out, struct error *error)
 {
     const struct glb_bytes first = original->first.bytes, chunk = original->source.chunk;
@@ -133,7 +133,7 @@ static bool write_patched(struct take *take, const struct form *form, const stru
     char *text = NULL;
     bool whole = gltf_file_begin(&file, first.at, first.size);
     if (whole && binary && first.size == 0) whole = gltf_file_begin(&as_it_was, chunk.at, chunk.size);
-    bool done = !whole || form->joint_count == 0 || put_motion(take, form, body, &file, &splice, error);
+    bool done = !whole || form->joint_count == 0 || put_motion(shot, form, body, &file, &splice, error);
     if (done) {
         if (file.size > 0) put_bytes(&splice, &file, first.size > 0, binary);
         if (whole && !file.without_memory) text = splice_apply(&splice);
@@ -175,12 +175,12 @@ static bool is_alone(const struct glb *source)
 }
 
 /// A file that stays what it is must be beside the files that it names.
-static bool check_place(const struct take *take, const struct glb *source, struct error *error)
+static bool check_place(const struct shot *shot, const struct glb *source, struct error *error)
 {
     char from[PATH_LIMIT], to[PATH_LIMIT], folder[PATH_LIMIT];
     if (is_alone(source)) return true;
     const bool same = path_folder(source->path, folder) && path_resolve(folder, ".", from) &&
-                      path_folder(take->path, folder) && path_resolve(folder, ".", to) && strcmp(from, to) == 0;
+                      path_folder(shot->path, folder) && path_resolve(folder, ".", to) && strcmp(from, to) == 0;
     if (same) return true;
     return fail(error, ERROR_INPUT, "%s: names files beside it: export it to the same folder, or as .glb",
                 source->path);
@@ -194,7 +194,7 @@ static void close_original(struct original *original)
 }
 
 /// False leaves nothing to close.
-static bool open_original(const struct take *take, const char *path, bool binary, struct original *original,
+static bool open_original(const struct shot *shot, const char *path, bool binary, struct original *original,
                           struct error *error)
 {
     *original = (struct original){0};
@@ -206,7 +206,7 @@ static bool open_original(const struct take *take, const char *path, bool binary
         done = gltf_gather(source, &original->first, error);
         if (done) original->text = json_dumps(source->json, binary ? JSON_COMPACT : JSON_INDENT(1));
     } else {
-        done = check_place(take, source, error);
+        done = check_place(shot, source, error);
         if (done) original->text = text_of(source, binary);
         original->first.bytes = binary ? find_chunk(source) : (struct glb_bytes){0};
     }
@@ -216,32 +216,32 @@ static bool open_original(const struct take *take, const char *path, bool binary
     return false;
 }
 
-static bool write_model(struct take *take, const struct form *form, bool binary, FILE *out, struct error *error)
+static bool write_model(struct shot *shot, const struct form *form, bool binary, FILE *out, struct error *error)
 {
     const struct model_bones *own = form->owned;
-    const struct model_rig *model = &take->posing->document->rigs[take->rigs[0]].model;
+    const struct model_rig *model = &shot->posing->document->rigs[shot->rigs[0]].model;
     const int clip = model->clip ? gltf_find_clip(own->gltf, model->clip) : -1;
     const struct gltf_body body = {
         .gltf = own->gltf, .clip = clip >= 0 ? &own->gltf->clips[clip] : NULL, .is_bone = own->is_bone};
     struct original original;
-    if (body.clip && !take->is_cubic) take->total += take->key_count;
-    if (!take->clip) take->clip = model->clip ? model->clip : take->title;
-    if (!open_original(take, own->gltf->path, binary, &original, error)) return false;
+    if (body.clip && !shot->is_cubic) shot->total += shot->key_count;
+    if (!shot->clip) shot->clip = model->clip ? model->clip : shot->title;
+    if (!open_original(shot, own->gltf->path, binary, &original, error)) return false;
     const bool is_same = form->joint_count == 0 && !original.is_other;
     const bool done = is_same ? write_same(own->gltf->path, out, error)
-                              : write_patched(take, form, &body, &original, binary, out, error);
+                              : write_patched(shot, form, &body, &original, binary, out, error);
     close_original(&original);
     return done;
 }
 
-bool gltf_model_write(struct take *take, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool gltf_model_write(struct shot *shot, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     struct form form;
-    take->total = take->key_count;
-    if (!form_open(take, take->rigs[0], &form, error)) return false;
-    const bool done = write_model(take, &form, binary, out, error);
+    shot->total = shot->key_count;
+    if (!form_open(shot, shot->rigs[0], &form, error)) return false;
+    const bool done = write_model(shot, &form, binary, out, error);
     if (form.joint_count > 0) {
-        snprintf(summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", form.joint_count, take->key_count);
+        snprintf(summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", form.joint_count, shot->key_count);
     } else {
         snprintf(summary, FORMAT_SUMMARY, "what is in the file as it was, because no chain moves it");
     }

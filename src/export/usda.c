@@ -9,7 +9,7 @@
 
 /// One rig being written.
 struct prim {
-    const struct take *take;
+    const struct shot *shot;
     const struct form *form;
     const struct keys *keys;
     const struct file_targets *targets;
@@ -34,7 +34,7 @@ static void write_triangles(FILE *out, const struct form *form)
 
 static void begin_sample(const struct prim *prim, int key)
 {
-    fprintf(prim->out, "                %.9g: ", take_frame(prim->take, key));
+    fprintf(prim->out, "                %.9g: ", shot_frame(prim->shot, key));
 }
 
 // --- the skeleton. A rig without joints has one that carries it.
@@ -230,29 +230,29 @@ static void write_mesh(const struct prim *prim, float (*scratch)[3])
 // --- all of it
 
 /// Rigs may have the same name, prims may not.
-static void name_prim(const struct take *take, const struct form *form, int rig, char name[FORM_NAME])
+static void name_prim(const struct shot *shot, const struct form *form, int rig, char name[FORM_NAME])
 {
     char wanted[FORM_NAME + 16];
     snprintf(wanted, sizeof wanted, "%.40s", form->name);
     for (int r = 0; r < rig; r++) {
-        if (strncmp(form_name(&take->posing->document->rigs[r]), form->name, 40) != 0) continue;
+        if (strncmp(form_name(&shot->posing->document->rigs[r]), form->name, 40) != 0) continue;
         snprintf(wanted, sizeof wanted, "%.40s_%d", form->name, rig);
         break;
     }
     usda_identifier(wanted, name);
 }
 
-static bool write_form(struct take *take, const struct form *form, int rig, const char *name, FILE *out,
+static bool write_form(struct shot *shot, const struct form *form, int rig, const char *name, FILE *out,
                        struct error *error)
 {
     struct keys keys;
     struct file_targets targets = {0};
-    if (!keys_collect(take, rig, form, &keys, error)) return false;
+    if (!keys_collect(shot, rig, form, &keys, error)) return false;
     float(*scratch)[3] = malloc(((size_t)form->vertex_count + 1) * sizeof *scratch);
-    const bool done = scratch && targets_create(take, form, &keys, &targets);
+    const bool done = scratch && targets_create(shot, form, &keys, &targets);
     if (done) {
         const struct prim prim = {
-            .take = take, .form = form, .keys = &keys, .targets = &targets, .out = out, .name = name};
+            .shot = shot, .form = form, .keys = &keys, .targets = &targets, .out = out, .name = name};
         fprintf(out, "\n    def SkelRoot \"%s\"\n    {\n", name);
         write_skeleton(&prim);
         write_animation(&prim);
@@ -265,39 +265,39 @@ static bool write_form(struct take *take, const struct form *form, int rig, cons
     return done || fail_no_memory(error, form->name);
 }
 
-static bool write_rig(struct take *take, int rig, FILE *out, struct error *error)
+static bool write_rig(struct shot *shot, int rig, FILE *out, struct error *error)
 {
     struct form form;
     char name[FORM_NAME];
-    if (!form_open(take, rig, &form, error)) return false;
-    name_prim(take, &form, rig, name);
-    const bool done = form.kind->holds & FORM_FILE ? usda_model_write(take, rig, name, out, error)
-                                                   : write_form(take, &form, rig, name, out, error);
+    if (!form_open(shot, rig, &form, error)) return false;
+    name_prim(shot, &form, rig, name);
+    const bool done = form.kind->holds & FORM_FILE ? usda_model_write(shot, rig, name, out, error)
+                                                   : write_form(shot, &form, rig, name, out, error);
     form_close(&form);
     return done;
 }
 
-static void summarise(const struct take *take, char summary[FORMAT_SUMMARY])
+static void summarise(const struct shot *shot, char summary[FORMAT_SUMMARY])
 {
-    const int used = snprintf(summary, FORMAT_SUMMARY, "%d rig%s, %d keys", take->rig_count,
-                              take->rig_count == 1 ? "" : "s", take->key_count);
-    if (take->beside.count == 0) return;
-    const char *slash = strrchr(take->beside.folder, '/');
-    snprintf(summary + used, FORMAT_SUMMARY - (size_t)used, ", %d texture%s in %.40s", take->beside.count,
-             take->beside.count == 1 ? "" : "s", slash ? slash + 1 : take->beside.folder);
+    const int used = snprintf(summary, FORMAT_SUMMARY, "%d rig%s, %d keys", shot->rig_count,
+                              shot->rig_count == 1 ? "" : "s", shot->key_count);
+    if (shot->beside.count == 0) return;
+    const char *slash = strrchr(shot->beside.folder, '/');
+    snprintf(summary + used, FORMAT_SUMMARY - (size_t)used, ", %d texture%s in %.40s", shot->beside.count,
+             shot->beside.count == 1 ? "" : "s", slash ? slash + 1 : shot->beside.folder);
 }
 
-bool usda_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool usda_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     bool done = true;
-    take->total = (long)take->key_count * take->rig_count;
-    take->is_cubic = false;
+    shot->total = (long)shot->key_count * shot->rig_count;
+    shot->is_cubic = false;
     fprintf(out, "#usda 1.0\n(\n    defaultPrim = \"scene\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n");
     fprintf(out, "    startTimeCode = %.9g\n    endTimeCode = %.9g\n    timeCodesPerSecond = %.9g\n)\n",
-            take_frame(take, 0), take_frame(take, take->key_count - 1), take->posing->document->fps);
+            shot_frame(shot, 0), shot_frame(shot, shot->key_count - 1), shot->posing->document->fps);
     fputs("\ndef Xform \"scene\"\n{", out);
-    for (int r = 0; done && r < take->rig_count; r++) done = write_rig(take, take->rigs[r], out, error);
+    for (int r = 0; done && r < shot->rig_count; r++) done = write_rig(shot, shot->rigs[r], out, error);
     fputs("}\n", out);
-    summarise(take, summary);
+    summarise(shot, summary);
     return done;
 }

@@ -24,11 +24,11 @@ static bool write_picture(const struct usda_model *model, int material, const st
     usda_identifier(picture->name ? picture->name : model->materials[material], stem);
     snprintf(name, sizeof name, "%.40s_%d.%s", stem, picture->image,
              picture->size > 0 && picture->at[0] == 0xFF ? "jpg" : "png");
-    name_folder(model->take->path, folder);
+    name_folder(model->shot->path, folder);
     const char *slash = strrchr(folder, '/');
     if (snprintf(texture->file, PATH_LIMIT, "./%s/%s", slash ? slash + 1 : folder, name) >= PATH_LIMIT)
         return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
-    return beside_add(&model->take->beside, folder, name, picture->at, picture->size, error);
+    return beside_add(&model->shot->beside, folder, name, picture->at, picture->size, error);
 }
 
 static bool add_texture(struct usda_model *model, int material, struct texture *texture, struct error *error)

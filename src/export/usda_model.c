@@ -11,18 +11,18 @@ static bool collect_keys(struct usda_model *model, struct error *error)
 {
     const struct gltf *gltf = model->gltf;
     const size_t nodes = (size_t)gltf->node_count, weights = (size_t)gltf->weight_count;
-    for (int k = 0; k < model->take->key_count; k++) {
+    for (int k = 0; k < model->shot->key_count; k++) {
         struct rig_pose pose;
         struct gltf_place *at = model->places + (size_t)k * nodes;
-        if (!take_pose(model->take, model->rig, k, &pose, error) || !take_proceed(model->take, error)) return false;
+        if (!shot_pose(model->shot, model->rig, k, &pose, error) || !shot_proceed(model->shot, error)) return false;
         memcpy(at, pose.model.pose->place, nodes * sizeof *at);
         memcpy(model->weights + (size_t)k * weights, pose.model.pose->weights, weights * sizeof *model->weights);
         for (size_t n = 0; n < nodes; n++)
             keys_turn_short_way(k > 0 ? (at + n - nodes)->rotation : gltf->nodes[n].place.rotation, at[n].rotation);
     }
     keys_close_loop((float *)model->places, gltf->node_count * (int)(sizeof *model->places / sizeof(float)),
-                    model->take->key_count);
-    keys_close_loop(model->weights, gltf->weight_count, model->take->key_count);
+                    model->shot->key_count);
+    keys_close_loop(model->weights, gltf->weight_count, model->shot->key_count);
     return true;
 }
 
@@ -136,7 +136,7 @@ static void write_samples(const struct usda_model *model, const char *declaratio
 {
     fprintf(model->out, "            %s.timeSamples = {\n", declaration);
     for (int k = 0; k < count; k++) {
-        fprintf(model->out, "                %.9g: ", take_frame(model->take, k));
+        fprintf(model->out, "                %.9g: ", shot_frame(model->shot, k));
         write(model, k);
         fputs("],\n", model->out);
     }
@@ -146,10 +146,10 @@ static void write_samples(const struct usda_model *model, const char *declaratio
 /// The keys of a member of all places: one, if it never changes.
 static int count_keys(const struct usda_model *model, size_t member, size_t size)
 {
-    for (int k = 1; k < model->take->key_count; k++) {
+    for (int k = 1; k < model->shot->key_count; k++) {
         for (int n = 0; n < model->gltf->node_count; n++) {
             const char *first = (const char *)usda_place(model, 0, n), *now = (const char *)usda_place(model, k, n);
-            if (memcmp(first + member, now + member, size) != 0) return model->take->key_count;
+            if (memcmp(first + member, now + member, size) != 0) return model->shot->key_count;
         }
     }
     return 1;
@@ -174,7 +174,7 @@ static void write_animation(const struct usda_model *model)
         for (int i = 0; i < model->gltf->weight_count; i++)
             fprintf(model->out, "%s\"%s\"", i > 0 ? ", " : "", model->shapes[i]);
         fputs("]\n", model->out);
-        write_samples(model, "float[] blendShapeWeights", write_weights, model->take->key_count);
+        write_samples(model, "float[] blendShapeWeights", write_weights, model->shot->key_count);
     }
     fputs("        }\n\n", model->out);
 }
@@ -209,7 +209,7 @@ static size_t count_prims(const struct gltf *gltf)
 static bool reserve(struct usda_model *model)
 {
     const struct gltf *gltf = model->gltf;
-    const size_t keys = (size_t)model->take->key_count, nodes = (size_t)gltf->node_count + 1,
+    const size_t keys = (size_t)model->shot->key_count, nodes = (size_t)gltf->node_count + 1,
                  weights = (size_t)gltf->weight_count + 1;
     model->places = calloc(keys * nodes, sizeof *model->places);
     model->weights = calloc(keys * weights, sizeof *model->weights);
@@ -269,11 +269,11 @@ static bool write_all(struct usda_model *model, const struct rig_pose *pose, str
     return true;
 }
 
-bool usda_model_write(struct take *take, int rig, const char *name, FILE *out, struct error *error)
+bool usda_model_write(struct shot *shot, int rig, const char *name, FILE *out, struct error *error)
 {
-    struct usda_model model = {.take = take, .rig = rig, .name = name, .out = out};
+    struct usda_model model = {.shot = shot, .rig = rig, .name = name, .out = out};
     struct rig_pose pose;
-    if (!take_pose(take, rig, 0, &pose, error)) return false;
+    if (!shot_pose(shot, rig, 0, &pose, error)) return false;
     model.gltf = &pose.model.imported->gltf;
     model.source = gltf_source_open(model.gltf->path, error);
     if (!model.source) return false;

@@ -4,7 +4,7 @@
 #define EXPORT_USDA_MODEL_H
 
 #include "export/gltf_source.h"
-#include "export/take.h"
+#include "export/shot.h"
 #include "export/usda_text.h"
 
 /// A joint is a node; or, where its scale stands still and is no half, which is what UsdSkel's keys of scales are, two of them: one
@@ -18,7 +18,7 @@ struct usda_joint {
 };
 
 struct usda_model {
-    struct take *take;
+    struct shot *shot;
     int rig;
     const char *name; ///< of its prim
     FILE *out;
@@ -37,7 +37,7 @@ struct usda_model {
 };
 
 /// Writes the prim of a rig. False with a sentence.
-bool usda_model_write(struct take *take, int rig, const char *name, FILE *out, struct error *error);
+bool usda_model_write(struct shot *shot, int rig, const char *name, FILE *out, struct error *error);
 
 /// Where a node is at a key, against its parent.
 const struct gltf_place *usda_place(const struct usda_model *model, int key, int node);

@@ -1,5 +1,5 @@
 /// Puts glTF files together.
-#include "export/gltf_file.h"
+#include "model/gltf_file.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
-/// A glTF 2.0 file being put together: accessors and the bytes that they find. Private to src/export.
-#ifndef EXPORT_GLTF_FILE_H
-#define EXPORT_GLTF_FILE_H
+/// A glTF 2.0 file being put together: accessors and the bytes that they find.
+#ifndef MODEL_GLTF_FILE_H
+#define MODEL_GLTF_FILE_H
 
 #include "base/error.h"
 #include <jansson.h>
