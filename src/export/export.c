@@ -70,7 +70,8 @@ static bool fail_rigs(const struct shot *shot, const struct format *format, cons
     if (document->rig_count == 0)
         return fail(error, ERROR_INPUT, "the scene has no rig to export: its splines go into a .csv file");
     if (unfit < 0)
-        return fail(error, ERROR_INPUT, "--rig: expected the name of a rig, %s, got \"%s\"", names, wanted);
+        return fail(error, ERROR_INPUT, "%s: expected the name of a rig, %s, got \"%s\"", shot->rig_choice, names,
+                    wanted);
     const struct rig *rig = &document->rigs[unfit];
     list_endings(form_kind(rig->kind)->holds, endings);
     return fail(error, ERROR_INPUT, "a %s file cannot hold the %s \"%s\": export it as %s", format->ending,
@@ -95,7 +96,8 @@ static bool choose_rigs(struct shot *shot, const struct format *format, const ch
     if (shot->rig_count <= 1 || !format->one_rig) return true;
     char names[256];
     list_names(document, names, sizeof names);
-    return fail(error, ERROR_INPUT, "a %s file holds one rig: choose one of %s with --rig", format->ending, names);
+    return fail(error, ERROR_INPUT, "a %s file holds one rig: choose one of %s with %s", format->ending, names,
+                shot->rig_choice);
 }
 
 static bool choose_keys(struct shot *shot, const struct export_options *options, struct export_report *report,
@@ -189,6 +191,7 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
         .clip = options->clip,
         .title = title,
         .path = path,
+        .rig_choice = options->rig_choice ? options->rig_choice : "--rig",
         .is_signed = options->is_signed,
         .is_cubic = options->is_cubic,
         .proceed = options->proceed,

@@ -75,9 +75,9 @@ static json_t *make_targets(struct scene *scene, const struct part *part, float 
     json_t *targets = json_array();
     for (int t = 0; t < part->targets->count; t++) {
         const struct file_target *target = &part->targets->list[t];
-        targets_scale(target, (const float(*)[3])form->targets[target->source].position, form->vertex_count, scratch);
+        targets_scale(target, form->targets[target->source].position, form->vertex_count, scratch);
         const json_int_t position = add_vectors(scene, form, (const float(*)[3])scratch, true);
-        targets_scale(target, (const float(*)[3])form->targets[target->source].normal, form->vertex_count, scratch);
+        targets_scale(target, form->targets[target->source].normal, form->vertex_count, scratch);
         const json_int_t normal = add_vectors(scene, form, (const float(*)[3])scratch, false);
         append(targets, json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal));
     }
@@ -182,7 +182,7 @@ static void add_weights(struct scene *scene, const struct part *part)
             values[i] = targets_weight(part->targets, i % width, keys, i / width);
             if (slopes) slopes[i] = targets_slope(part->targets, i % width, keys, i / width);
         }
-        gltf_motion_add(&scene->motion, part->mesh_node, "weights", ELEMENTS_KEYS, values, slopes, width);
+        gltf_motion_add(&scene->motion, part->mesh_node, GLTF_WEIGHTS, values, slopes, width);
     }
     free(values);
     free(slopes);
@@ -194,13 +194,13 @@ static void add_animation(struct scene *scene, const struct part *part)
     const struct keys *keys = part->keys;
     if (keys->travels) {
         const float *slopes = keys->slope.translation ? keys->slope.translation[0] : NULL;
-        gltf_motion_add(&scene->motion, form->joint_count > 0 ? part->first_joint : part->mesh_node, "translation",
-                        ELEMENTS_KEY_VECTORS, keys->at.translation[0], slopes, 3);
+        gltf_motion_add(&scene->motion, form->joint_count > 0 ? part->first_joint : part->mesh_node, GLTF_TRANSLATION,
+                        keys->at.translation[0], slopes, 3);
     }
     for (int j = form->first_bone; j < form->joint_count; j++) {
         const float *slopes = keys->slope.translation ? keys->slope.rotation[j * keys->count] : NULL;
-        gltf_motion_add(&scene->motion, part->first_joint + j, "rotation", ELEMENTS_TURNS,
-                        keys->at.rotation[j * keys->count], slopes, 4);
+        gltf_motion_add(&scene->motion, part->first_joint + j, GLTF_ROTATION, keys->at.rotation[j * keys->count],
+                        slopes, 4);
     }
     add_weights(scene, part);
 }
@@ -280,8 +280,8 @@ static bool write_either(struct shot *shot, bool binary, FILE *out, char summary
         const struct rig *rig = &document->rigs[shot->rigs[r]];
         if (!(form_kind(rig->kind)->holds & FORM_FILE)) continue;
         if (shot->rig_count == 1) return gltf_model_write(shot, binary, out, summary, error);
-        return fail(error, ERROR_INPUT, "\"%s\" is exported into a copy of its own file: choose one rig with --rig",
-                    form_name(rig));
+        return fail(error, ERROR_INPUT, "\"%s\" is exported into a copy of its own file: choose one rig with %s",
+                    form_name(rig), shot->rig_choice);
     }
     return write_scene(shot, binary, out, summary, error);
 }

@@ -2,8 +2,8 @@
 #include "export/gltf_model.h"
 #include "base/file.h"
 #include "base/path.h"
+#include "export/gltf_body.h"
 #include "export/gltf_gather.h"
-#include "export/gltf_motion.h"
 #include "export/gltf_splice.h"
 #include "export/keys.h"
 #include "export/model.h"
@@ -12,89 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// The character's own clip at all keys: what moves a node, one track after the other in each row.
-struct kept_motion {
-    const struct gltf *gltf;
-    const struct gltf_clip *clip; ///< NULL: it stands at rest
-    const bool *is_bone;
-    float *rows;
-    int width;
-};
-
-/// Chains have the rotation of their bones.
-static bool is_ours(const struct kept_motion *kept, const struct gltf_channel *channel)
-{
-    return channel->path == GLTF_ROTATION && kept->is_bone[channel->node];
-}
-
-static const float *values_of(const struct gltf *gltf, const struct gltf_pose *pose,
-                              const struct gltf_channel *channel)
-{
-    const struct gltf_place *place = &pose->place[channel->node];
-    switch (channel->path) {
-    case GLTF_TRANSLATION:
-        return place->translation;
-    case GLTF_ROTATION:
-        return place->rotation;
-    case GLTF_SCALE:
-        return place->scale;
-    case GLTF_WEIGHTS:
-        break;
-    }
-    return pose->weights + gltf->nodes[channel->node].first_weight;
-}
-
-static bool collect_kept(struct shot *shot, struct kept_motion *kept, struct error *error)
-{
-    for (int c = 0; c < kept->clip->channel_count; c++) kept->width += kept->clip->channels[c].components;
-    kept->rows = malloc(((size_t)shot->key_count * (size_t)kept->width + 1) * sizeof *kept->rows);
-    if (!kept->rows) return fail_no_memory(error, kept->gltf->path);
-    for (int k = 0; k < shot->key_count; k++) {
-        struct rig_pose pose;
-        float *at = kept->rows + (size_t)k * (size_t)kept->width;
-        if (!shot_pose(shot, shot->rigs[0], k, &pose, error) || !shot_proceed(shot, error)) return false;
-        for (int c = 0; c < kept->clip->channel_count; c++) {
-            const struct gltf_channel *channel = &kept->clip->channels[c];
-            memcpy(at, values_of(kept->gltf, pose.model.pose, channel), (size_t)channel->components * sizeof *at);
-            if (channel->path == GLTF_ROTATION && k > 0) keys_turn_short_way(at - kept->width, at);
-            at += channel->components;
-        }
-    }
-    keys_close_loop(kept->rows, kept->width, shot->key_count);
-    return true;
-}
-
-/// The tracks that are kept, each in an array of its own.
-static void add_kept(const struct kept_motion *kept, struct gltf_motion *motion)
-{
-    static const char *const paths[] = {"translation", "rotation", "scale", "weights"};
-    static const enum gltf_elements elements[] = {ELEMENTS_KEY_VECTORS, ELEMENTS_TURNS, ELEMENTS_KEY_VECTORS,
-                                                  ELEMENTS_KEYS};
-    int first = 0;
-    for (int c = 0; c < kept->clip->channel_count; c++) {
-        const struct gltf_channel *channel = &kept->clip->channels[c];
-        const size_t width = (size_t)channel->components, from = (size_t)first, row = (size_t)kept->width;
-        first += channel->components;
-        if (is_ours(kept, channel)) continue;
-        float *track = malloc((size_t)motion->key_count * width * sizeof *track);
-        if (!track) {
-            motion->file->without_memory = true;
-            return;
-        }
-        for (size_t k = 0; k < (size_t)motion->key_count; k++)
-            memcpy(track + k * width, kept->rows + k * row + from, width * sizeof *track);
-        gltf_motion_add(motion, channel->node, paths[channel->path], elements[channel->path], track, NULL,
-                        channel->components);
-        free(track);
-    }
-}
-
 static void add_bones(const struct form *form, const struct keys *keys, struct gltf_motion *motion)
 {
     const struct model_bones *own = form->owned;
     for (int j = 0; j < form->joint_count; j++) {
         const size_t at = (size_t)j * (size_t)keys->count;
-        gltf_motion_add(motion, own->node[j], "rotation", ELEMENTS_TURNS, keys->at.rotation[at],
+        gltf_motion_add(motion, own->node[j], GLTF_ROTATION, keys->at.rotation[at],
                         keys->slope.rotation ? keys->slope.rotation[at] : NULL, 4);
     }
 }
@@ -171,44 +94,55 @@ static void put_bytes(struct splice *splice, const struct gltf_file *file, bool 
     free(address);
 }
 
-/// The text with what is new in it; NULL if memory is short. A file that no chain moves gets no clip.
-static char *patch(struct shot *shot, const struct form *form, const struct keys *keys,
-                   const struct kept_motion *kept, const struct original *original, struct gltf_file *file,
-                   bool binary)
+static bool add_motion(struct shot *shot, const struct form *form, const struct gltf_body *body,
+                       struct gltf_motion *motion, struct error *error)
 {
-    struct gltf_motion motion;
-    struct splice splice = {.text = original->text};
-    if (form->joint_count > 0) {
-        gltf_motion_begin(&motion, file, shot);
-        if (kept->clip) add_kept(kept, &motion);
-        add_bones(form, keys, &motion);
-        put_clip(&splice, kept->gltf, &motion, shot->clip);
-        append_all(&splice, "accessors", file->accessors);
-        append_all(&splice, "bufferViews", file->views);
-        gltf_motion_free(&motion);
-    }
-    if (file->size > 0) put_bytes(&splice, file, original->first.bytes.size > 0, binary);
-    char *text = file->without_memory ? NULL : splice_apply(&splice);
-    splice_free(&splice);
-    return text;
+    struct keys keys;
+    if (!keys_collect(shot, shot->rigs[0], form, &keys, error)) return false;
+    const bool done = !body->clip || (shot->is_cubic ? gltf_body_keep(body, shot, motion, error)
+                                                     : gltf_body_sample(body, shot, motion, error));
+    if (done) add_bones(form, &keys, motion);
+    keys_free(&keys);
+    return done;
 }
 
-static bool write_patched(struct shot *shot, const struct form *form, const struct keys *keys,
-                          const struct kept_motion *kept, const struct original *original, bool binary, FILE *out,
-                          struct error *error)
+/// Puts the new clip into the text.
+static bool put_motion(struct shot *shot, const struct form *form, const struct gltf_body *body,
+                       struct gltf_file *file, struct splice *splice, struct error *error)
+{
+    struct gltf_motion motion;
+    gltf_motion_begin(&motion, file, shot);
+    const bool done = add_motion(shot, form, body, &motion, error);
+    put_clip(splice, body->gltf, &motion, shot->clip);
+    append_all(splice, "accessors", file->accessors);
+    append_all(splice, "bufferViews", file->views);
+    gltf_motion_free(&motion);
+    return done;
+}
+
+/// Writes the file with a clip more, if a chain moves it.
+static bool write_patched(struct shot *shot, const struct form *form, const struct gltf_body *body,
+                          const struct original *original, bool binary, FILE *out, struct error *error)
 {
     const struct glb_bytes first = original->first.bytes, chunk = original->source.chunk;
     struct gltf_file file = {.first_view = count_of(original, "bufferViews"),
                              .first_accessor = count_of(original, "accessors"),
                              .buffer = first.size > 0 ? 0 : count_of(original, "buffers")};
     struct gltf_file as_it_was = {0}; // a chunk that is not the first buffer
-    bool done = gltf_file_begin(&file, first.at, first.size);
-    if (done && binary && first.size == 0) done = gltf_file_begin(&as_it_was, chunk.at, chunk.size);
-    char *text = done ? patch(shot, form, keys, kept, original, &file, binary) : NULL;
-    if (text && binary) gltf_file_write_binary(first.size > 0 ? &file : &as_it_was, text, out);
-    if (text && !binary) fputs(text, out);
-    done = text || fail_no_memory(error, kept->gltf->path);
+    struct splice splice = {.text = original->text};
+    char *text = NULL;
+    bool whole = gltf_file_begin(&file, first.at, first.size);
+    if (whole && binary && first.size == 0) whole = gltf_file_begin(&as_it_was, chunk.at, chunk.size);
+    bool done = !whole || form->joint_count == 0 || put_motion(shot, form, body, &file, &splice, error);
+    if (done) {
+        if (file.size > 0) put_bytes(&splice, &file, first.size > 0, binary);
+        if (whole && !file.without_memory) text = splice_apply(&splice);
+        done = text || fail_no_memory(error, body->gltf->path);
+    }
+    if (done && binary) gltf_file_write_binary(first.size > 0 ? &file : &as_it_was, text, out);
+    if (done && !binary) fputs(text, out);
     free(text);
+    splice_free(&splice);
     gltf_file_free(&file);
     gltf_file_free(&as_it_was);
     return done;
@@ -282,37 +216,20 @@ static bool open_original(const struct shot *shot, const char *path, bool binary
     return false;
 }
 
-static bool write_moved(struct shot *shot, const struct form *form, struct kept_motion *kept,
-                        const struct original *original, bool binary, FILE *out, struct error *error)
-{
-    struct keys keys;
-    if (!keys_collect(shot, shot->rigs[0], form, &keys, error)) return false;
-    const bool done = (!kept->clip || collect_kept(shot, kept, error)) &&
-                      write_patched(shot, form, &keys, kept, original, binary, out, error);
-    keys_free(&keys);
-    return done;
-}
-
 static bool write_model(struct shot *shot, const struct form *form, bool binary, FILE *out, struct error *error)
 {
     const struct model_bones *own = form->owned;
     const struct model_rig *model = &shot->posing->document->rigs[shot->rigs[0]].model;
     const int clip = model->clip ? gltf_find_clip(own->gltf, model->clip) : -1;
-    struct kept_motion kept = {
+    const struct gltf_body body = {
         .gltf = own->gltf, .clip = clip >= 0 ? &own->gltf->clips[clip] : NULL, .is_bone = own->is_bone};
     struct original original;
-    bool done;
-    if (kept.clip) shot->total += shot->key_count;
+    if (body.clip && !shot->is_cubic) shot->total += shot->key_count;
     if (!shot->clip) shot->clip = model->clip ? model->clip : shot->title;
     if (!open_original(shot, own->gltf->path, binary, &original, error)) return false;
-    if (form->joint_count > 0) {
-        done = write_moved(shot, form, &kept, &original, binary, out, error);
-    } else if (original.is_other) {
-        done = write_patched(shot, form, NULL, &kept, &original, binary, out, error);
-    } else {
-        done = write_same(own->gltf->path, out, error);
-    }
-    free(kept.rows);
+    const bool is_same = form->joint_count == 0 && !original.is_other;
+    const bool done = is_same ? write_same(own->gltf->path, out, error)
+                              : write_patched(shot, form, &body, &original, binary, out, error);
     close_original(&original);
     return done;
 }

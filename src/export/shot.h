@@ -12,11 +12,12 @@ struct shot {
     double first;   ///< frame of the first key
     double spacing; ///< frames from one key to the next
     int key_count;
-    const char *clip;  ///< what the animation is to be called, or NULL
-    const char *title; ///< what else it may be called: as the scene
-    const char *path;  ///< of the file that is written
-    bool is_signed;    ///< a morph target's weight may be negative; else there is a second target for that
-    bool is_cubic;     ///< keys have tangents
+    const char *clip;       ///< what the animation is to be called, or NULL
+    const char *title;      ///< what else it may be called: as the scene
+    const char *path;       ///< of the file that is written
+    const char *rig_choice; ///< how a rig is chosen, for sentences
+    bool is_signed;         ///< a morph target's weight may be negative; else there is a second target for that
+    bool is_cubic;          ///< keys have tangents
     bool (*proceed)(void *user, long done, long total); ///< called as keys are done; false: stop. NULL: nobody asks
     void *user;
     long done, total;     ///< keys of all rigs

@@ -158,6 +158,9 @@ void gltf_pose_free(struct gltf_pose *pose);
 /// alone. Allocates nothing.
 void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_pose *pose);
 
+/// What a channel says at a time, as long as `components`.
+void gltf_channel_at(const struct gltf_channel *channel, double time, float *out);
+
 /// World and joint matrices from places. Allocates nothing.
 void gltf_pose_world(const struct gltf *gltf, struct gltf_pose *pose);
 

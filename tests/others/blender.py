@@ -13,7 +13,7 @@ from compare import judge, read_cache, ten_of
 def load(path):
     """The objects of a file."""
     before = set(bpy.data.objects)
-    if path.endswith('.glb'):
+    if path.endswith(('.glb', '.gltf')):
         bpy.ops.import_scene.gltf(filepath=path)
     else:
         bpy.ops.import_anim.bvh(filepath=path)
@@ -43,6 +43,7 @@ def compare_meshes(path, cache_paths):
     if 'CLIP' in os.environ:
         choose_clip(objects, os.environ['CLIP'])
     meshes = [o for o in objects if o.type == 'MESH' and len(o.data.vertices) in counts]  # not the importer's shapes for bones
+    assert len(meshes) == len(caches), f'expected {len(caches)} meshes, got {len(meshes)}'
     off = 0.0
     for key in ten_of(len(caches[0])):
         bpy.context.scene.frame_set(key)

@@ -14,7 +14,7 @@ const char *bones_title(const struct document *document, int model, const char *
 /// Selects a bone of a model rig.
 void bones_select(struct core *core, const struct editor_world *world, int model, int node);
 /// A click on a bone: it is what was asked for, or else becomes the selected one.
-void bones_click(struct core *core, const struct editor_world *world, int model, int node);
+void bones_clicked(struct core *core, const struct editor_world *world, int model, int node);
 /// Selects none.
 void bones_clear(struct core *core);
 

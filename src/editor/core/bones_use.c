@@ -37,7 +37,7 @@ int bones_below(const struct imported *character, int top, int *nodes, int most)
 
 void bones_pick(struct core *core, enum bone_use use, int which) { core->pick = (struct bone_pick){use, which}; }
 
-void bones_click(struct core *core, const struct editor_world *world, int model, int node)
+void bones_clicked(struct core *core, const struct editor_world *world, int model, int node)
 {
     const struct bone_pick pick = core->pick;
     const struct document *document = world->document;

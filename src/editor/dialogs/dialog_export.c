@@ -298,37 +298,46 @@ static void build_keys(struct dialogs *dialogs, const struct document *document,
         wish->keys = (int)keys;
 }
 
-/// The next of the scene's named rigs after that one; "" after the last where all may go in.
-static void next_rig(struct export_wish *wish, const struct document *document, bool one)
+static bool is_offered(const struct rig *rig, unsigned choices)
 {
-    int current = -1, found = -1;
-    for (int pass = 0; pass < 2 && found < 0; pass++) {
-        for (int i = 0; i < document->rig_count && found < 0; i++) {
-            const struct rig *rig = &document->rigs[i];
-            if (!rig->name || rig->kind == RIG_CHAIN) continue;
-            if (pass == 0 && current < 0) {
-                if (!wish->rig[0]) found = i;
-                if (strcmp(rig->name, wish->rig) == 0) current = i;
-                continue;
-            }
-            if (pass == 1 ? one || current < 0 : i > current) found = i;
-        }
-        if (pass == 0 && found < 0 && !one) break;
-    }
-    snprintf(wish->rig, sizeof wish->rig, "%s", found >= 0 ? document->rigs[found].name : "");
+    if (choices & CHOICE_JOINTS) return rig->kind == RIG_TAIL || rig->kind == RIG_CHAIN;
+    return rig->kind != RIG_CHAIN; // it goes with its character
 }
 
-static void build_rig(struct dialogs *dialogs, const struct document *document, bool one, struct rect *row)
+/// What an export calls it.
+static const char *label_of(const struct rig *rig) { return rig->name ? rig->name : rig_word(rig->kind); }
+
+/// The next of the scene's rigs after that one; "" after the last where all may go in.
+static void next_rig(struct export_wish *wish, const struct document *document, unsigned choices)
+{
+    int current = -1, first = -1, next = -1;
+    for (int i = 0; i < document->rig_count; i++) {
+        const struct rig *rig = &document->rigs[i];
+        if (!is_offered(rig, choices)) continue;
+        if (first < 0) first = i;
+        if (current >= 0 && next < 0) next = i;
+        if (current < 0 && strcmp(label_of(rig), wish->rig) == 0) current = i;
+    }
+    if (next < 0 && (current < 0 || (choices & CHOICE_ONE))) next = first;
+    snprintf(wish->rig, sizeof wish->rig, "%s", next >= 0 ? label_of(&document->rigs[next]) : "");
+}
+
+static void build_rig(struct dialogs *dialogs, const struct document *document, unsigned choices, struct rect *row)
 {
     struct export_wish *wish = &dialogs->exporting.memory.wish;
-    int named = 0;
-    for (int i = 0; i < document->rig_count; i++)
-        named += document->rigs[i].name && document->rigs[i].kind != RIG_CHAIN;
-    if (named < 2) return;
-    if (one && !wish->rig[0]) next_rig(wish, document, one);
-    const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH + 48, "of");
+    int offered = 0;
+    bool has_chosen = false;
+    for (int i = 0; i < document->rig_count; i++) {
+        if (!is_offered(&document->rigs[i], choices)) continue;
+        offered++;
+        has_chosen = has_chosen || strcmp(label_of(&document->rigs[i]), wish->rig) == 0;
+    }
+    if (!has_chosen) wish->rig[0] = '\0'; // the last was of another format, or has another name now
+    if (offered < 2) return;
+    if ((choices & CHOICE_ONE) && !wish->rig[0]) next_rig(wish, document, choices);
+    const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH + 48, "rig");
     if (ui_button(&dialogs->dialog.ui, r, "export.rig", wish->rig[0] ? wish->rig : "all rigs", false))
-        next_rig(wish, document, one);
+        next_rig(wish, document, choices);
 }
 
 static void build_toggle(struct ui *ui, struct rect *row, const char *name, const char *label, bool *on)
@@ -375,7 +384,7 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
         if (!memory->wish.clip[0] && ui->focus != ui_id(clip_field))
             ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, usual_clip(document), theme()->text_dim);
     }
-    if (format->choices & CHOICE_RIG) build_rig(dialogs, document, (format->choices & CHOICE_ONE) != 0, &rows[1]);
+    if (format->choices & CHOICE_RIG) build_rig(dialogs, document, format->choices, &rows[1]);
     build_flags(dialogs, document, format->choices, rows[2]);
 }
 

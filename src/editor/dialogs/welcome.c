@@ -20,7 +20,7 @@ static const struct hint {
     {{"Click a bone", "the first of its tail, say"},
      {"Press Shift+J", "it swings after the clip"},
      {"Pull the tail", "this sets a knot at the playhead"},
-     {"Press Ctrl+E", "it goes back into its file"}},
+     {"Press Ctrl+E", "a .glb with the new motion"}},
 };
 
 static const char closing[] = "Got it", more[] = "F1 shows all keys";

@@ -49,7 +49,7 @@ static void build_of(struct inspection *in)
     struct edit edit = joint_edit(in, followed(in));
     motion.of = (enum motion_of)of;
     edit.param.motion = &motion;
-    core_step(in->core, in->world, "Set what of joint", 0, &edit);
+    core_step(in->core, in->world, "Set joint's motion", 0, &edit);
 }
 
 static void build_gain(struct inspection *in)
@@ -64,7 +64,7 @@ static void build_gain(struct inspection *in)
                                           .decimals = 2};
     struct edit edit = joint_edit(in, followed(in));
     const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &gain, &edit.param.gain);
-    inspector_change(in, change, "Set how much of joint", gain.name, &edit);
+    inspector_change(in, change, "Set joint's gain", gain.name, &edit);
 }
 
 void inspector_joint(struct inspection *in)

@@ -2,7 +2,6 @@
 #include "editor/stage/hold.h"
 #include "editor/core/core.h"
 #include "editor/stage/rigs.h"
-#include "editor/stage/stage.h"
 #include "model/creature.h"
 #include "model/vector.h"
 #include "ui/theme.h"
@@ -94,18 +93,13 @@ struct hover hold_hover(const struct stage *stage, float x, float y)
     return hover;
 }
 
-bool stage_body_point(const struct stage *stage, const struct core *core, int tail, float xy[2])
+bool hold_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2])
 {
-    static const float candidates[][3] = {
+    static const float places[HOLD_POINTS][3] = {
         {0, 0.18f, -0.45f}, {0, 0.54f, -0.385f}, {0, 0.05f, -0.25f}, {0, 0, -0.5f}}; // chest, head, rump, paws
-    for (size_t i = 0; i < sizeof candidates / sizeof candidates[0]; i++) {
-        const vec3s base = vec3_from(base_of(stage, tail));
-        const vec3s point = glms_vec3_muladds(vec3_from(candidates[i]), scale_of(stage, tail), base);
-        if (!stage_project_point(stage, core->layout.stage, point.raw, xy)) continue;
-        struct hover hover = stage_hover(stage, core, xy[0], xy[1]);
-        if (hover.kind == HOVER_BODY && hover.tail == tail) return true;
-    }
-    return false;
+    const vec3s base = vec3_from(base_of(stage, tail));
+    const vec3s place = glms_vec3_muladds(vec3_from(places[point]), scale_of(stage, tail), base);
+    return stage_project_point(stage, core->layout.stage, place.raw, xy);
 }
 
 void hold_begin(struct stage *stage, const struct core *core, int tail)

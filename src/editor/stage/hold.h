@@ -6,6 +6,9 @@
 
 /// The body under a point of the stage (HOVER_BODY), the nearest to the eye, or HOVER_NONE.
 struct hover hold_hover(const struct stage *stage, float x, float y);
+/// Points of a body that are likely to be in sight, the likeliest first, on the screen; false where one is behind the eye.
+enum { HOLD_POINTS = 4 };
+bool hold_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2]);
 /// Starts to drag a body.
 void hold_begin(struct stage *stage, const struct core *core, int tail);
 /// The end of a drag, inside its step of the history: where `keep`, the document gets the new place (a number, or a knot at

@@ -57,6 +57,16 @@ static struct hover hover_now(const struct stage *stage, const struct core *core
     return hover;
 }
 
+bool stage_body_point(const struct stage *stage, const struct core *core, int tail, float xy[2])
+{
+    for (int i = 0; i < HOLD_POINTS; i++) {
+        if (!hold_point(stage, core, tail, i, xy)) continue;
+        struct hover hover = stage_hover(stage, core, xy[0], xy[1]);
+        if (hover.kind == HOVER_BODY && hover.tail == tail) return true;
+    }
+    return false;
+}
+
 void stage_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event)
 {
     bool pan = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
