@@ -9,7 +9,7 @@ enum { NEWTON_MAX = 60, GRADIENTS_MAX = 2000 };
 // Looser costs more Newton iterations, each with an assembly; tighter saves none.
 static const double linear_tolerance = 1e-3;
 
-// Without a drive the energy cannot rise; this much of the largest so far is allowed for rounding and the scheme's ripple.
+// Without a drive the energy cannot rise; this part of it is allowed for rounding and the scheme's ripple.
 static const double growth_allowed = 0.01;
 
 struct integrator_work {
@@ -26,7 +26,7 @@ struct integrator_work {
     struct blocks lagged;   ///< K at the step's start: the pattern is the body's, the blocks are its own
     bool started;           ///< there are accelerations
     double least;           ///< energy so far, the loads' potential included; with a drive: at the step's start; J
-    double largest;         ///< strain and kinetic energy so far, J
+    double scale;           ///< strain and kinetic energy at the step's start; with a drive: the largest so far; J
     double potential;       ///< of the loads at the step's start, J
 };
 
@@ -212,7 +212,7 @@ static void begin(struct integrator *m)
     struct integrator_work *w = m->work;
     double energy = add_up(m, m->time, (const double(*)[3])m->x, w->start, &w->potential) +
                     body_kinetic(m->body, (const double(*)[3])m->v);
-    w->largest = fmax(w->largest, energy);
+    w->scale = m->loads.drive ? fmax(w->scale, energy) : energy;
     energy += w->potential;
     w->least = w->started && !m->loads.drive ? fmin(w->least, energy) : energy;
     if (m->stiffness_damping > 0) {
@@ -276,7 +276,7 @@ static double surplus(struct integrator *m, const struct scheme *s)
         work += end - loads_forces(&m->loads, m->body, m->time, (const double(*)[3])w->y, w->force);
         work /= 2;
     }
-    return energy + end - work - w->least - growth_allowed * w->largest;
+    return energy + end - work - w->least - growth_allowed * w->scale;
 }
 
 /// Makes the step's end the new state. False where it is not finite.
