@@ -39,6 +39,7 @@ typedef enum wiggly_status {
     WIGGLY_ERROR_SPRING, ///< spring and friction in complex mode
     WIGGLY_ERROR_MEMORY, ///< out of memory
     WIGGLY_ERROR_PIN,    ///< a pin outside the domain, or on a spline that has no motion of its own
+    WIGGLY_ERROR_LIMIT,  ///< a knot beyond a limit, or a low limit that is not below the high one
     WIGGLY_STATUS_COUNT
 } wiggly_status;
 
@@ -95,11 +96,12 @@ typedef struct wiggly_desc {
     wiggly_param equilibrium; ///< y (eq. 25)
     double calm;              ///< 0 … 1; 0 is the paper's formula to the letter
     wiggly_passive passive;   ///< the oscillator, unless it says the filter
+    double low, high; ///< what the total stays within wherever it is solved for; -INFINITY and INFINITY: no limit
     const wiggly_knot *knots; ///< any order
     int knot_count;
 } wiggly_desc;
 
-/// Bandwidth 0.1, calm 1, complex, free, step 1/24; everything else 0.
+/// Bandwidth 0.1, calm 1, complex, free, step 1/24, no limits; everything else 0.
 wiggly_desc wiggly_default_desc(void);
 
 /// A solved spline: the caller's arrays of N numbers each, filled by wiggly_solve(). Arrays that are NULL are not filled;
@@ -125,7 +127,8 @@ typedef struct wiggly_curve {
 /// A solver's memory: factors and right-hand sides. Reusable for any number of splines.
 typedef struct wiggly_solver wiggly_solver;
 
-/// A solver for up to `samples` samples and `knots` knots. WIGGLY_ERROR_ARGUMENT, WIGGLY_ERROR_MEMORY.
+/// A solver for up to `samples` samples and `knots` knots. A sample that is held at a limit takes the room of a knot: as many more as
+/// there are samples are always enough. WIGGLY_ERROR_ARGUMENT, WIGGLY_ERROR_MEMORY.
 wiggly_status wiggly_create(int samples, int knots, wiggly_solver **solver);
 
 /// Bytes that wiggly_create_at() needs, or 0 where samples < 1 or knots < 0 or the size does not fit.
@@ -177,7 +180,7 @@ void wiggly_batch_destroy(wiggly_batch *batch);
 typedef struct wiggly_take wiggly_take;
 
 /// Condenses a spline; the description's knots are copied and must be in order. WIGGLY_ERROR_ARGUMENT where it is not of that
-/// kind (tracks, a loop, so slow a complex spline that Im x is not held by its oscillation, fewer than two knots), else what
+/// kind (tracks, a loop, limits, so slow a complex spline that Im x is not held by its oscillation, fewer than two knots), else what
 /// wiggly_solve() says of a wrong description.
 wiggly_status wiggly_take_create(const wiggly_desc *desc, wiggly_take **take);
 
@@ -235,7 +238,7 @@ wiggly_status wiggly_group_create(int samples, int knots, int splines, int pins,
 /// Solves all splines so that Σ weights[s] times the energy of spline s is least, through their knots and the pins; allocates nothing.
 /// A pin counts as a knot for where each spline that moves it starts and ends. Places that the splines can hardly move to are met in
 /// part, and `left` says what is missing. Weights are positive: they make the energies comparable (the mean of |c|² over what a spline
-/// moves serves). Returns the largest status; WIGGLY_ERROR_PIN for a pin outside a spline's samples (a loop's last one is outside), or on
+/// moves serves). The limits of a spline that a pin moves are passed over. Returns the largest status; WIGGLY_ERROR_PIN for a pin outside a spline's samples (a loop's last one is outside), or on
 /// a spline that is cubic, of calm 0 or of frequency 0 from its first knot or pin to the last.
 wiggly_status wiggly_group_solve(wiggly_group *group, const wiggly_desc *descs, const double *weights,
                                  wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count);

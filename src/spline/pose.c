@@ -45,8 +45,9 @@ static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *
         if (knot->has_slope && !(isfinite(knot->slope) && knot->stiffness > 0 && knot->stiffness < INFINITY)) {
             return WIGGLY_ERROR_NUMBER;
         }
+        if (knot->value < desc->low || knot->value > desc->high) return WIGGLY_ERROR_LIMIT;
     }
-    return WIGGLY_OK;
+    return desc->low < desc->high ? WIGGLY_OK : WIGGLY_ERROR_LIMIT;
 }
 
 /// Fills `order`; knots that are in order already, as a document's are, cost one look each.

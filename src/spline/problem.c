@@ -103,6 +103,8 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p)
     if (solver->method == WIGGLY_BAND || p->pulls || p->level_slope || !poles_are_constant(desc)) return false;
     if (p->about && !problem_oscillates(p)) return false; // the paper's filter is driven by a moving equilibrium
     if (desc->mode == WIGGLY_COMPLEX && !imaginary_fit(solver, p)) return false;
+    if (p->start == WIGGLY_REST && desc->knot_count > 0 && knot_at(solver, p, 0)->sample < 2)
+        return false; // held at a limit: too near to the node at rest
     int begin = first_of_chain(solver, p);
     return begin >= 0 && slopes_fit(solver, p, begin);
 }

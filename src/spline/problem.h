@@ -123,6 +123,13 @@ bool problem_make_chain(wiggly_solver *solver, const problem *p);
 /// hold, digits lost, or numbers so large that something might overflow.
 bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, double *x_im);
 
+/// w of a posed spline into re and im of the curve, and how that went; where a problem is singular as asked, of the nearest one that is
+/// not, which `p` becomes.
+wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result);
+
+/// Whether a slope is implied at the earliest knot, because nothing else holds the spline.
+bool problem_implies_slope(const problem *p);
+
 /// Poses a spline that might be solved in a group. false where it is one for wiggly_solve().
 bool problem_pose_for_group(wiggly_solver *solver, const wiggly_desc *desc, problem *p);
 

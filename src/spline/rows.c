@@ -205,8 +205,7 @@ static void add_slope(system_rows *rows, const problem *p, int sample, double sl
     rows->slopes[rows->slope_count++] = row;
 }
 
-/// One knot without any hold: a level slope is implied.
-static bool implies_slope(const problem *p)
+bool problem_implies_slope(const problem *p)
 {
     if (p->level_slope) return true;
     bool alone = p->desc->knot_count == 1 && !p->pulls && !p->desc->knots[0].has_slope;
@@ -236,7 +235,7 @@ static void set_constraints(wiggly_solver *solver, const problem *p)
     memset(rows->x, 0, sizeof(double) * (size_t)(width * rows->count));
     memset(rows->fixed, 0, (size_t)rows->count);
     if (p->start == WIGGLY_REST) set_rest(solver, p);
-    if (implies_slope(p)) add_slope(rows, p, p->earliest, 0, implied_stiffness);
+    if (problem_implies_slope(p)) add_slope(rows, p, p->earliest, 0, implied_stiffness);
     for (int n = 0; n < p->desc->knot_count; n++) {
         const wiggly_knot *knot = &p->desc->knots[solver->order[n]];
         int k = knot->sample - p->first;

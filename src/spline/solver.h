@@ -26,6 +26,18 @@ typedef struct constant_filter {
     cplx tail;        ///< what one sample of that adds, as the poles see it
 } constant_filter;
 
+/// What limits need (limits.h).
+typedef struct limit_memory {
+    wiggly_knot *own, *all; ///< the knots by sample; with held samples
+    signed char *held;      ///< of each sample
+    double *pull;           ///< of each held one: how hard the limit holds it
+    double *now;            ///< the same on the way to holding one more
+    double *re, *im;        ///< where the curve has no arrays
+    double *free[2];        ///< behind the last knot: Re w by itself, and what 1 of Im w there adds to it
+    double *pushed[2];      ///< what the limits add to each of them
+    int solves;             ///< after the first one, of the last limited spline
+} limit_memory;
+
 struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
@@ -36,7 +48,8 @@ struct wiggly_solver {
     system_rows rows;
     pentadiagonal matrix;
     constant_filter filter;
-    chain chain;  ///< its large arrays lie over the matrix's: a solve uses one of the two
+    chain chain; ///< its large arrays lie over the matrix's: a solve uses one of the two
+    limit_memory limits;
     swing swing;  ///< what moves by itself as the equilibrium does
     double *y;    ///< equilibrium, where the curve has no array for it
     int *order;   ///< indices of the description's knots by sample

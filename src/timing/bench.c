@@ -38,6 +38,8 @@ static const struct {
     {"short-2", BENCH_SHORT_2, COMPLEX | REAL, {240}, false},
     {"short-4", BENCH_SHORT_4, COMPLEX | REAL, {240}, false},
     {"short-8", BENCH_SHORT_8, COMPLEX | REAL, {240}, false},
+    {"limits", BENCH_LIMITS, COMPLEX, {240, 1000}, false},
+    {"limits", BENCH_LIMITS, REAL | CUBIC, {240}, false},
 };
 enum { PLANS = sizeof plan / sizeof *plan };
 

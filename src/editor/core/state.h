@@ -41,6 +41,7 @@ enum drag_kind {
     DRAG_PAINT, ///< a stroke of the brush
     DRAG_STAGE_DIVIDER,
     DRAG_INSPECTOR_DIVIDER,
+    DRAG_LIMIT,
 };
 
 /// What all kinds of mouse drags in progress have in common.
@@ -78,13 +79,14 @@ enum hover_kind {
     HOVER_PLAY,
     HOVER_LOOP,
     HOVER_SPEED,
+    HOVER_LIMIT,
 };
 
 struct hover {
     enum hover_kind kind;
     int spline;
     unsigned knot;
-    int handle;      ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING: which one
+    int handle; ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING: which one; HOVER_LIMIT: 1: the high one
     int tail;        ///< HOVER_BODY: its number among tails
     int rig, joint;  ///< HOVER_JOINT: of the tail or chain
     double fraction; ///< of the segment after the joint

@@ -23,6 +23,7 @@ enum { INSPECTOR_MAX_SPLINES = 256 }; ///< in a list to choose from, from the to
 void inspector_scene(struct inspection *in);
 void inspector_splines(struct inspection *in);
 void inspector_spline(struct inspection *in);
+void inspector_limits(struct inspection *in);
 void inspector_poles(struct inspection *in);
 void inspector_knot(struct inspection *in);
 void inspector_tail(struct inspection *in);

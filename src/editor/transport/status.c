@@ -61,6 +61,8 @@ static const char *hover_hint(const struct core *core, const struct document *do
         return "Loop or stop at the end (Ctrl+L)";
     case HOVER_SPEED:
         return "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)";
+    case HOVER_LIMIT:
+        return "Drag the limit; the curve stays on this side of it";
     case HOVER_NONE:
         break;
     }
