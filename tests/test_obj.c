@@ -52,7 +52,8 @@ static void what_is_written_reads_back_equal(void **state)
     float position[3][3] = {{0.1f, -1e-20f, 3.4e38f}, {1.0f / 3, 16777214, 0}, {-0.25f, 7, 1e10f}};
     float color[3][3] = {{0, 1, 0.5f}, {0.001f, 0.2f, 0.9f}, {1, 1, 1}};
     uint32_t indices[] = {2, 0, 1};
-    const struct surface out = {position, color, 3, indices, 3};
+    const struct surface out = {
+        .position = position, .color = color, .vertex_count = 3, .indices = indices, .index_count = 3};
     struct surface in;
     struct error error;
     const char *path = temporary_path("round.obj");
