@@ -22,14 +22,16 @@ analyze() { # <exit status> <what> <arguments>...
     shift 2
     expect "$status" "$what" "$WIGGLY" analyze "$@"
 }
-analyze 0 "two motions, two modes each" "$scratch/up.npy" "$scratch/side.pc2" --rest "$scratch/up.rest.obj" --fps 30 --modes 2 \
-    --shake up:side -o "$scratch/out/box.glb" --scene "$scratch/box.json"
-[ -z "$err" ]
-ok "without a warning" $?
+analyze 0 "two motions, two principal components each" "$scratch/up.npy" "$scratch/side.pc2" --rest "$scratch/up.rest.obj" --fps 30 \
+    --method cpca --modes 2 --shake up:side -o "$scratch/out/box.glb" --scene "$scratch/box.json"
+says "warns of what is too fast" "up.npy: warning: some of it moves faster than 30 fps can show" "$err"
+case $err in *side.pc2*) false ;; esac
+ok "and of nothing else" $?
 says "says what was read" "up.npy: 60 frames of 8 vertices at 30 fps" "$out"
 says "names coordinates after files" "  side: explains " "$out"
 says "and further modes" "  up-2: explains " "$out"
 says "compares with real principal components" "real PCA's first " "$out"
+says "says what all of them leave" "  relative error of the motion with all 2 coordinates: " "$out"
 says "recommends a spline" '    spline: "mode": "complex", "frequency": ' "$out"
 says "and a range of lags" "lag over the surface: from " "$out"
 says "the file has the targets" '"targetNames":["up.re","up.im","up-2.re","up-2.im","side.re","side.im","side-2.re","side-2.im"]' \
@@ -42,9 +44,27 @@ first=$(cksum <"$scratch/out/box.glb")
 analyze 0 "one motion twice" "$scratch/up.npy" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 30 -o "$scratch/out/box.glb"
 says "gives names of their own" "  up-2: explains " "$out"
 analyze 0 "the first again" "$scratch/up.npy" "$scratch/side.pc2" --rest "$scratch/up.rest.obj" --fps 30 --modes 2 \
-    --shake up:side -o "$scratch/out/box.glb" --scene "$scratch/box.json"
+    --method cpca --shake up:side -o "$scratch/out/box.glb" --scene "$scratch/box.json"
 [ "$first" = "$(cksum <"$scratch/out/box.glb")" ]
 ok "gives the same bytes" $?
+
+analyze 0 "by poles, with scene and table" "$scratch/side.pc2" --rest "$scratch/box.obj" --fps 30 --modes 3 -o "$scratch/side.glb" \
+    --scene "$scratch/side.json" --coordinates "$scratch/side.csv"
+[ -z "$err" ]
+ok "without a warning" $?
+says "says that there is one pole" "  1 of 3 coordinates: the motion has no more poles that matter" "$out"
+says "finds the frequency that was asked for" "    frequency 1.99" "$out"
+# No knot more than needed, and the error of the motion no more than a tenth above that of the coordinate itself.
+printf '%s\n' "$out" | awk '/bandwidth/ && $(NF - 1) <= 5 { few = 1 }
+    /relative error of its motion/ { near = $6 + 0 <= 1.1 * $10 } END { exit !(few && near) }'
+ok "at most five knots move the character as the simulation did" $?
+[ "$(head -n 1 "$scratch/side.csv")" = "frame,side.re,side.im,side.fit.re,side.fit.im" ] && [ "$(wc -l <"$scratch/side.csv")" -eq 61 ]
+ok "the table has a row a frame" $?
+"$WIGGLY" solve "$scratch/side.json" | tr , ' ' >"$scratch/solved"
+tr , ' ' <"$scratch/side.csv" | paste -d ' ' - "$scratch/solved" |
+    awk 'NR > 1 { d = $4 - $7; e = $5 - $9; if (d * d + e * e > 1e-12 || NF != 9) bad = 1 } END { exit bad || NR != 61 }'
+ok "and its fit is what the scene solves to" $?
+
 awk '/^v/ { print $1, $2, -$4, $3; next } { print }' "$scratch/box.obj" >"$scratch/z-up.obj"
 analyze 0 "a mesh with z up" "$scratch/up.npy" --rest "$scratch/z-up.obj" --fps 30 -o "$scratch/out/z-up.glb"
 says "is warned of" "up.npy: warning: the motion is not centred on the rest mesh" "$err"
@@ -69,6 +89,7 @@ rest="--rest $scratch/box.obj"
     refused 2 "--rest mesh.obj is missing" "$scratch/up.npy"
     refused 2 "--shake: expected up, side, front" "$scratch/up.npy" $rest --shake sideways
     refused 2 "--shake: expected up, side, front" "$scratch/up.npy" $rest --shake up:side
+    refused 2 "--method: expected poles or cpca" "$scratch/up.npy" $rest --fps 30 --method pca
     refused 2 "an argument is missing" $rest
     refused 2 "--modes: expected a whole number from 1 to 8" "$scratch/up.npy" $rest --modes 9
     refused 1 "expected 4 vertices as $scratch/small.obj has, got 8" "$scratch/up.npy" --rest "$scratch/small.obj" --fps 30
@@ -81,4 +102,6 @@ analyze 2 "refuses to write nowhere" "$scratch/up.npy" --rest "$scratch/box.obj"
 says "and says so" "-o creature.glb is missing" "$err"
 analyze 3 "a folder that is not there" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 30 -o "$scratch/nowhere/a.glb"
 says "is named" "nowhere/a.glb: cannot be written" "$err"
+analyze 3 "a table in such a folder" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 30 -o "$scratch/a.glb" --coordinates "$scratch/nowhere/a.csv"
+says "too" "nowhere/a.csv: cannot be written" "$err"
 exit $((cases_failed > 0))

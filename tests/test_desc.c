@@ -34,6 +34,8 @@ static wiggly_desc describe(wiggly_mode mode, wiggly_start start, bool pair)
                          .friction.value = 0.9,
                          .equilibrium.value = 0.25,
                          .calm = 0.5,
+                         .low = -20,
+                         .high = 20,
                          .knots = knots,
                          .knot_count = KNOTS};
 }

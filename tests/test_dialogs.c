@@ -215,12 +215,36 @@ static void test_welcome(void **state)
     session_close(&s);
 }
 
+/// What the card says suits the scene: before and after a character of one's own is dropped on the window.
+static void test_welcome_with_a_character(void **state)
+{
+    (void)state;
+    struct session s;
+    open_session(&s);
+    editor_welcome(s.editor);
+    session_frame(&s);
+    assert_non_null(shown(&s, "Drop a .glb"));
+    session_send(&s, (struct event){.kind = EVENT_DROP, .path = "/home/ada/rex.glb"});
+    expect_request(&s, REQUEST_OPEN, "/home/ada/rex.glb");
+    session_close(&s);
+    panel_open(
+        &s,
+        "{\"frames\": [0, 24], \"splines\": [], \"rigs\": [{\"type\": \"model\", \"model\": \"/home/ada/rex.glb\"}]}",
+        1280, 720);
+    editor_welcome(s.editor);
+    session_frame(&s);
+    assert_non_null(shown(&s, "Press Shift+J"));
+    assert_null(shown(&s, "Drop a .glb"));
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_recent_files),      cmocka_unit_test(test_recent_files_give_way),
         cmocka_unit_test(test_mouse_in_the_list), cmocka_unit_test(test_recover),
-        cmocka_unit_test(test_welcome),           cmocka_unit_test(test_discard_and_later),
+        cmocka_unit_test(test_welcome),           cmocka_unit_test(test_welcome_with_a_character),
+        cmocka_unit_test(test_discard_and_later),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,14 +14,19 @@ static const char scene[] = "{\"frames\": [0, 48], \"substeps\": 2, \"splines\":
 static struct dialog *dialog_of(struct session *s) { return &s->editor->dialogs->dialog; }
 static struct exporting *of(struct session *s) { return &s->editor->dialogs->exporting; }
 
-static void open_session(struct session *s, const char *path, float width, float height)
+static void open_other(struct session *s, const char *text, const char *path, float width, float height)
 {
-    panel_open(s, scene, width, height);
+    panel_open(s, text, width, height);
     editor_set_files(s->editor,
                      &(struct dialog_files){.formats = exporting_formats, .format_count = exporting_format_count});
     editor_set_path(s->editor, path);
     session_key(s, 'E', MOD_CTRL);
     assert_int_equal(dialog_of(s)->kind, DIALOG_EXPORT);
+}
+
+static void open_session(struct session *s, const char *path, float width, float height)
+{
+    open_other(s, scene, path, width, height);
 }
 
 static const struct draw_command *shown(const struct session *session, const char *text)
@@ -77,6 +82,34 @@ static void test_enter_exports_the_scene(void **state)
     assert_false(request.wish.part);
     assert_int_equal(request.wish.keys, 0);
     session_close(&s);
+}
+
+/// A character's own file is not what Enter writes over, whether its scene has a file beside it or none.
+static void test_a_character_keeps_its_file(void **state)
+{
+    (void)state;
+    static const char with_dog[] =
+        "{\"frames\": [0, 24], \"splines\": [], \"rigs\": [{\"type\": \"model\", \"model\": "
+        "\"/somewhere/rex.glb\"}]}";
+    static const struct {
+        const char *path, *expected;
+    } cases[] = {
+        {"", "/somewhere/rex-animated.glb"},
+        {"/somewhere/rex.json", "/somewhere/rex-animated.glb"},
+        {"/somewhere/walk.json", "/somewhere/walk.glb"},
+        {"/elsewhere/rex.json", "/elsewhere/rex.glb"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct session s;
+        panel_open(&s, with_dog, 1280, 720);
+        editor_set_files(
+            s.editor, &(struct dialog_files){.formats = exporting_formats, .format_count = exporting_format_count});
+        editor_set_path(s.editor, cases[i].path);
+        session_key(&s, 'E', MOD_CTRL);
+        session_key(&s, KEY_ENTER, 0);
+        assert_string_equal(asked(&s).path, cases[i].expected);
+        session_close(&s);
+    }
 }
 
 static void test_the_ending_is_the_format(void **state)
@@ -142,6 +175,27 @@ static void test_one_rig_only(void **state)
     click(&s, "fox");
     click(&s, "cat");
     assert_non_null(shown(&s, "fox"));
+    session_close(&s);
+}
+
+/// Chains are rigs of their own only where joints alone are written; their character is none there.
+static void test_joints_are_tails_and_chains(void **state)
+{
+    static const char dog[] = "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\"}], \"rigs\": [{\"type\": "
+                              "\"model\", \"name\": \"dog\", "
+                              "\"model\": \"dog.glb\"}, {\"type\": \"chain\", \"name\": \"brush\", \"model\": "
+                              "\"dog\", \"from\": \"a\", \"to\": "
+                              "\"b\", \"channels\": [{\"spline\": \"sway\"}]}, {\"type\": \"chain\", \"name\": "
+                              "\"ear\", \"model\": \"dog\", "
+                              "\"from\": \"c\", \"to\": \"d\", \"channels\": [{\"spline\": \"sway\"}]}]}";
+    (void)state;
+    struct session s;
+    open_other(&s, dog, "dog.json", 1280, 720);
+    click(&s, ".pc2");
+    assert_null(shown(&s, "brush"));
+    click(&s, ".bvh");
+    click(&s, "brush");
+    assert_non_null(shown(&s, "ear"));
     session_close(&s);
 }
 
@@ -238,10 +292,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_enter_exports_the_scene),
+        cmocka_unit_test(test_a_character_keeps_its_file),
         cmocka_unit_test(test_the_ending_is_the_format),
         cmocka_unit_test(test_a_name_without_an_ending_gets_one),
         cmocka_unit_test(test_choices_are_asked_for),
         cmocka_unit_test(test_one_rig_only),
+        cmocka_unit_test(test_joints_are_tails_and_chains),
         cmocka_unit_test(test_size_of_pictures),
         cmocka_unit_test(test_cancelling),
         cmocka_unit_test(test_escape_in_a_number),

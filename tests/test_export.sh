@@ -22,6 +22,9 @@ says "are said" "warning: the last key is on frame 118.356" "$err"
 expect 0 "a part of the frames" "$WIGGLY" export $scenes/tail.json -o "$scratch/tail.csv" --frames 24:48 --substeps 2
 says "two keys a frame" "49 rows" "$out"
 
+expect 0 "an imported character as .usda" "$WIGGLY" export $scenes/dog.json -o "$scratch/dog.usda" --substeps 1
+says "says where its textures are" "97 keys, 1 texture in dog_textures, " "$out"
+
 expect 2 "no file to write" "$WIGGLY" export $scenes/tail.json
 expect 2 "an ending that nobody knows" "$WIGGLY" export $scenes/tail.json -o "$scratch/tail.fbx"
 says "the ones there are" ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd or .npy" "$err"
@@ -66,6 +69,10 @@ for scene in tail follow character figure7 compositing; do
     ok "without a complaint" $?
 done
 "$WIGGLY" export $scenes/dog.json -o "$scratch/dog.glb" --quiet
-expect 0 "the validator reads an imported character with a new clip" node tests/others/validate.js "$folder" "$scratch/dog.glb"
-says "without an error or a warning" "0 errors, 0 warnings" "$out"
+"$WIGGLY" export $scenes/dog.json -o "$scratch/dog.gltf" --quiet
+"$WIGGLY" export $scenes/dog.json -o "$scratch/dog-cubic.glb" --keys cubic --quiet
+expect 0 "the validator reads an imported character with a new clip" node tests/others/validate.js "$folder" \
+    "$scratch/dog.glb" "$scratch/dog.gltf" "$scratch/dog-cubic.glb"
+[ "$(grep -c "0 errors, 0 warnings" <<<"$out")" -eq 3 ]
+ok "without an error or a warning" $?
 exit $((cases_failed > 0))

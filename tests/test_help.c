@@ -232,7 +232,7 @@ static void add_words(struct chords *chords)
 }
 
 /// Whether the editor does something for a chord, or for the character that a key without modifiers is named after.
-static bool is_bound(int key, unsigned mods)
+static bool try_chord(int key, unsigned mods)
 {
     struct session s;
     session_open(&s, scene);
@@ -241,6 +241,13 @@ static bool is_bound(int key, unsigned mods)
     bool bound = keys_event(s.editor, &s.world, &press) || (mods == 0 && keys_event(s.editor, &s.world, &text));
     session_close(&s);
     return bound;
+}
+
+static bool is_bound(int key, unsigned mods)
+{
+    static enum { UNKNOWN, BOUND, FREE } known[KEY_COUNT][8];
+    if (known[key][mods] == UNKNOWN) known[key][mods] = try_chord(key, mods) ? BOUND : FREE;
+    return known[key][mods] == BOUND;
 }
 
 static void assert_has_every_key(const struct chords *chords, const char *where)

@@ -20,7 +20,7 @@ BEGIN {
     sees["draw"]     = "draw ui model base"
     sees["platform"] = "platform ui model base"
     sees["timing"]   = "timing spline base include"
-    sees["analysis"] = "analysis model base"
+    sees["analysis"] = "analysis model spline base include"
     sees["app"]      = "app draw platform timing export " sees["editor"]
     sees["commands"] = "commands simulation analysis " sees["app"]
     sees["main"]     = "commands base include"

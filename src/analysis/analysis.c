@@ -1,93 +1,279 @@
-/// The whole analysis of one motion: covariance, eigenproblem, coordinates.
+/// The whole analysis of one motion: G, its drift, its poles or principal components, their shapes.
 #include "analysis/analysis.h"
+#include "analysis/drift.h"
+#include "analysis/exponentials.h"
 #include "analysis/slabs.h"
 #include "analysis/spectrum.h"
+#include <math.h>
 #include <stdlib.h>
 
-static bool create_components(struct analysis *a, const struct motion *motion, int count)
+static const double least_drift = 0.02; ///< share of the motion's variance from which on a drift is one
+static const double least_swing = 1e-9; ///< what is left without a drift: less is the rounding of float data
+static const double fast_from = 0.8;    ///< of half the frame rate
+
+/// What is worked with, all on frames alone.
+struct work {
+    const struct lapack *lapack;
+    const struct motion *motion;
+    const struct analysis_plan *plan;
+    double *gram; ///< of the motion without its drift, from find_drift() on
+    double power; ///< its trace
+    struct pole poles[SUBSPACE_POLES_MAX];
+    int pole_count;
+    struct drift drift;
+    double *
+        weights; ///< of the frames, 2 a component: Re Ñ and Im Ñ of the motion without its drift; then one for the drift
+};
+
+static double trace(const double *gram, int frames)
 {
+    double sum = 0;
+    for (size_t t = 0; t < (size_t)frames; t++) sum += gram[t * (size_t)(frames + 1)];
+    return sum;
+}
+
+/// Share of the power at frequencies above `fast_from` of half the frame rate: those of the discrete Fourier transform, on the sums g_d of
+/// G's diagonals.
+static double fast_share(const double *gram, int frames)
+{
+    size_t n = (size_t)frames;
+    double share = 0, power = trace(gram, frames);
+    for (size_t d = 0; d < n; d++) {
+        double along = 0, kernel = 0;
+        for (size_t t = 0; t + d < n; t++) along += gram[(t + d) * n + t];
+        for (size_t k = (size_t)ceil(fast_from * frames / 2); k <= n / 2; k++)
+            kernel += (2 * k == n ? 1 : 2) * cos(2 * M_PI * (double)(k * d % n) / frames);
+        share += (d == 0 ? 1 : 2) * along * kernel / frames;
+    }
+    return fmax(share / power, 0);
+}
+
+static bool swings(const struct work *w, const struct basis *line, struct error *error)
+{
+    double power = trace(w->gram, w->motion->frames);
+    if (!(power > 0)) return fail(error, ERROR_INPUT, "%s: expected a motion, but nothing moves", w->motion->path);
+    if (power - basis_gain(line, 2, w->gram) > least_swing * power) return true;
+    return fail(error, ERROR_INPUT, "%s: expected an oscillation, got a steady drift alone", w->motion->path);
+}
+
+/// Finds poles and drift, and takes the drift out of G.
+static bool find_drift(struct work *w, struct basis *basis, struct error *error)
+{
+    int frames = w->motion->frames;
+    if (!basis_create(basis, frames, 2 + 2 * COURSES_MAX) || !drift_append(basis))
+        return fail_no_memory(error, w->motion->path);
+    if (!swings(w, basis, error)) return false;
+    int found = subspace_poles(w->lapack, w->gram, frames, w->poles);
+    if (found >= 0) w->pole_count = exponentials_choose(w->poles, found, COURSES_MAX, w->gram, basis);
+    if (found < 0 || w->pole_count < 0 || !drift_create(&w->drift, basis, w->gram))
+        return fail_no_memory(error, w->motion->path);
+    if (w->plan->method == ANALYSIS_CPCA) {
+        if (w->drift.share < least_drift)
+            drift_keep_all(&w->drift);
+        else
+            drift_keep_means(&w->drift);
+    }
+    if (!drift_remove(&w->drift, w->gram)) return fail_no_memory(error, w->motion->path);
+    w->power = trace(w->gram, frames);
+    return true;
+}
+
+static bool create_components(struct analysis *a, const struct work *w, int count)
+{
+    int frames = w->motion->frames, vertices = w->motion->vertices;
     a->components = calloc((size_t)count, sizeof *a->components);
     if (!a->components) return false;
     a->count = count;
     for (int k = 0; k < count; k++) {
         struct component *c = &a->components[k];
-        c->frames = motion->frames;
-        c->vertices = motion->vertices;
-        c->course = malloc((size_t)motion->frames * sizeof *c->course);
-        c->shape = malloc((size_t)motion->vertices * sizeof *c->shape);
-        if (!c->course || !c->shape) return false;
+        c->frames = frames;
+        c->vertices = vertices;
+        c->course = malloc((size_t)frames * sizeof *c->course);
+        c->shape = malloc((size_t)vertices * sizeof *c->shape);
+        c->metric.pull = malloc((size_t)frames * sizeof *c->metric.pull);
+        if (!c->course || !c->shape || !c->metric.pull) return false;
     }
     return true;
 }
 
-/// Ñ_k = u_kᴴ S̃ for every component, by one more pass over the motion.
-static bool form_shapes(struct analysis *a, const struct lapack *lapack, const struct motion *motion,
-                        const struct spectrum *spectrum, struct error *error)
+/// A component a principal component of the analytic signal.
+static bool find_principal(struct analysis *a, struct work *w)
 {
-    size_t frames = (size_t)motion->frames, columns = 3 * (size_t)motion->vertices, count = (size_t)a->count;
-    double *weights = malloc(2 * count * frames * sizeof *weights);
-    double *combined = malloc(2 * count * columns * sizeof *combined);
-    bool done = weights && combined ? true : fail_no_memory(error, motion->path);
-    for (size_t k = 0; done && k < count; k++) spectrum_weights(spectrum, (int)k, weights + 2 * k * frames);
-    done = done && slabs_combine(lapack, motion, weights, 2 * a->count, combined, error);
+    int frames = w->motion->frames, count = w->plan->modes < frames ? w->plan->modes : frames;
+    struct spectrum spectrum;
+    if (!create_components(a, w, count) || !spectrum_create(&spectrum, w->lapack, w->gram, frames)) return false;
+    for (int k = 0; k < count; k++) {
+        struct component *c = &a->components[k];
+        for (int t = 0; t < frames; t++) c->course[t] = spectrum.vectors[(size_t)k * (size_t)frames + (size_t)t];
+        c->explained = spectrum.values[k] / spectrum.total;
+        spectrum_weights(&spectrum, k, w->weights + 2 * (size_t)k * (size_t)frames);
+    }
+    spectrum_free(&spectrum);
+    return true;
+}
+
+/// A component a pole.
+static bool find_swinging(struct analysis *a, struct work *w)
+{
+    int frames = w->motion->frames, count = w->pole_count < w->plan->modes ? w->pole_count : w->plan->modes;
+    double complex z[COURSES_MAX];
+    struct courses courses;
+    for (int k = 0; k < count; k++) z[k] = w->poles[k].z;
+    if (!create_components(a, w, count) || !courses_create(&courses, w->lapack, w->gram, frames, z, count))
+        return false;
+    for (int k = 0; k < count; k++) {
+        struct component *c = &a->components[k];
+        const double *row = courses.rows + 2 * (size_t)k * (size_t)frames;
+        double complex s = clog(z[k]) * w->plan->fps;
+        for (int t = 0; t < frames; t++) c->course[t] = row[t] - I * row[frames + t];
+        c->frequency = cabs(s) / (2 * M_PI);
+        c->damping = fmax(-creal(s) / cabs(s), 0);
+    }
+    for (size_t i = 0; i < 2 * (size_t)count * (size_t)frames; i++) w->weights[i] = courses.weights[i];
+    courses_free(&courses);
+    return true;
+}
+
+/// What any course would leave of all the motion, from the weights of Ñ.
+static void fill_metric(struct component *c, const struct work *w, const double *weights)
+{
+    size_t n = (size_t)c->frames;
+    struct course_metric *m = &c->metric;
+    for (size_t t = 0; t < n; t++) {
+        m->pull[t] = 0;
+        for (size_t s = 0; s < n; s++) m->pull[t] += w->gram[t * n + s] * (weights[s] + I * weights[n + s]);
+        m->norm += creal(m->pull[t] * (weights[t] - I * weights[n + t]));
+        m->square += m->pull[t] * (weights[t] + I * weights[n + t]);
+    }
+    m->power = w->power;
+}
+
+/// What component l does along Ñ_k in every frame, Re(R_l Ñ_l)·Ñ_k = (R_l Ñ_l·Ñ_k + R̄_l conj(Ñ_l)·Ñ_k) / 2. Returns Σ_t of its product with
+/// what component k does.
+static double find_overlap(const struct component *k, const struct component *l, const double *weights,
+                           double complex *along)
+{
+    double complex plain = 0, conjugate = 0;
+    double product = 0;
+    for (int t = 0; t < k->frames; t++) {
+        double complex w = weights[t] + I * weights[k->frames + t];
+        plain += w * k->metric.pull[t];
+        conjugate += conj(w) * k->metric.pull[t];
+    }
+    for (int t = 0; t < k->frames; t++) {
+        along[t] = (l->course[t] * plain + conj(l->course[t]) * conjugate) / 2;
+        product += creal(k->course[t] * along[t]);
+    }
+    return product;
+}
+
+/// Gives each component its own motion, from what there is of all: Σ |s − Σ_l Re(R_l Ñ_l)|² over the l that are not k.
+static bool share_motion(struct analysis *a, const struct work *w)
+{
+    size_t n = (size_t)w->motion->frames;
+    double products[COURSES_MAX][COURSES_MAX], pulls[COURSES_MAX] = {0}, left = w->power;
+    double complex *along = malloc((1 + (size_t)a->count) * n * sizeof *along);
+    if (!along) return false;
+    double complex *others = along + n;
+    for (size_t i = 0; i < (size_t)a->count * n; i++) others[i] = 0;
+    for (int k = 0; k < a->count; k++) {
+        struct component *c = &a->components[k];
+        for (size_t t = 0; t < n; t++) pulls[k] += creal(c->course[t] * c->metric.pull[t]);
+        left -= 2 * pulls[k];
+        for (int l = 0; l < a->count; l++) {
+            products[k][l] = find_overlap(c, &a->components[l], w->weights + 2 * (size_t)l * n, along);
+            for (size_t t = 0; t < n && l != k; t++) others[(size_t)k * n + t] += along[t];
+            left += products[k][l];
+        }
+    }
+    a->left = sqrt(fmax(left, 0) / w->power);
+    for (int k = 0; k < a->count; k++) {
+        struct component *c = &a->components[k];
+        if (w->plan->method == ANALYSIS_POLES) c->explained = fmax(2 * pulls[k] - products[k][k], 0) / w->power;
+        c->metric.power = left + 2 * pulls[k] + products[k][k];
+        for (int l = 0; l < a->count; l++) c->metric.power -= 2 * products[k][l];
+        for (size_t t = 0; t < n; t++) c->metric.pull[t] -= others[(size_t)k * n + t];
+    }
+    free(along);
+    return true;
+}
+
+/// Ñ of every component and the drift, by one more pass over the motion.
+static bool form_shapes(struct analysis *a, struct work *w, struct error *error)
+{
+    size_t frames = (size_t)w->motion->frames, columns = 3 * (size_t)w->motion->vertices, count = (size_t)a->count;
+    double *slopes = w->weights + 2 * count * frames,
+           *combined = malloc((2 * count + 1) * columns * sizeof *combined);
+    if (!combined) return fail_no_memory(error, w->motion->path);
+    for (size_t k = 0; k < count; k++) fill_metric(&a->components[k], w, w->weights + 2 * k * frames);
+    if (!share_motion(a, w)) {
+        free(combined);
+        return fail_no_memory(error, w->motion->path);
+    }
+    drift_adapt(&w->drift, w->weights, 2 * a->count);
+    for (size_t t = 0; t < frames; t++) slopes[t] = w->drift.weights[frames + t];
+    bool done = slabs_combine(w->lapack, w->motion, w->weights, 2 * a->count + 1, combined, error);
     for (size_t k = 0; done && k < count; k++) {
         const double *re = combined + 2 * k * columns, *im = re + columns;
         for (size_t n = 0; n < columns; n++) a->components[k].shape[n / 3][n % 3] = re[n] + I * im[n];
     }
-    free(weights);
+    a->drift_share = w->drift.share < least_drift ? 0 : w->drift.share;
+    for (size_t n = 0; done && a->drift_share > 0 && n < columns; n++)
+        a->drift[n % 3] += combined[2 * count * columns + n] * w->plan->fps / w->motion->vertices;
     free(combined);
     return done;
 }
 
-static bool finish(struct analysis *a, const struct motion *motion, const struct spectrum *spectrum, double fps,
-                   const double direction[3], struct error *error)
+static bool finish(struct analysis *a, const struct work *w, struct error *error)
 {
     for (int k = 0; k < a->count; k++) {
         struct component *c = &a->components[k];
-        for (int t = 0; t < c->frames; t++)
-            c->course[t] = spectrum->vectors[(size_t)k * (size_t)c->frames + (size_t)t];
-        c->explained = spectrum->values[k] / spectrum->total;
         component_scale(c);
-        component_turn(c, direction);
-        component_fit(c, fps);
-        if (!component_lags(c)) return fail_no_memory(error, motion->path);
+        component_turn(c, w->plan->direction);
+        if (w->plan->method == ANALYSIS_CPCA)
+            component_fit(c, w->plan->fps);
+        if (!component_lags(c)) return fail_no_memory(error, w->motion->path);
     }
     return true;
 }
 
-static bool make_spectrum(const struct lapack *lapack, const struct motion *motion, double *means,
-                          struct spectrum *spectrum, struct error *error)
+static bool find_components(struct analysis *a, struct work *w, struct error *error)
 {
-    size_t n = (size_t)motion->frames;
-    double *gram = malloc(n * n * sizeof *gram);
-    if (!gram) return fail_no_memory(error, motion->path);
-    bool done = slabs_gram(lapack, motion, gram, means, error) &&
-                spectrum_create(spectrum, lapack, gram, motion->frames, motion->path, error);
-    free(gram);
-    return done;
+    int frames = w->motion->frames;
+    double shares[2];
+    struct basis basis;
+    bool done = find_drift(w, &basis, error);
+    basis_free(&basis);
+    if (!done) return false;
+    if (w->plan->method == ANALYSIS_POLES && w->pole_count == 0)
+        return fail(error, ERROR_INPUT, "%s: expected an oscillation, found none; the method cpca takes any motion",
+                    w->motion->path);
+    a->fast_share = fast_share(w->gram, frames);
+    if (!spectrum_real_shares(w->lapack, w->gram, frames, shares) ||
+        !(w->plan->method == ANALYSIS_CPCA ? find_principal(a, w) : find_swinging(a, w)))
+        return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory for %d frames", w->motion->path, frames);
+    a->pca1 = shares[0];
+    a->pca2 = shares[1];
+    return form_shapes(a, w, error) && finish(a, w, error);
 }
 
-bool analysis_create(struct analysis *a, const struct lapack *lapack, const struct motion *motion, double fps,
-                     int modes, const double direction[3], struct error *error)
+bool analysis_create(struct analysis *a, const struct lapack *lapack, const struct motion *motion,
+                     const struct analysis_plan *plan, struct error *error)
 {
-    struct spectrum spectrum;
+    struct work work = {.lapack = lapack, .motion = motion, .plan = plan};
+    size_t n = (size_t)motion->frames;
     *a = (struct analysis){0};
     if (motion->frames < ANALYSIS_FRAMES_MIN || motion->frames > ANALYSIS_FRAMES_MAX)
         return fail(error, ERROR_INPUT, "%s: expected %d to %d frames, got %d", motion->path, ANALYSIS_FRAMES_MIN,
                     ANALYSIS_FRAMES_MAX, motion->frames);
     a->mean = malloc((size_t)motion->vertices * sizeof *a->mean);
-    if (!a->mean) return fail_no_memory(error, motion->path);
-    if (!make_spectrum(lapack, motion, a->mean[0], &spectrum, error)) {
-        analysis_free(a);
-        return false;
-    }
-    a->pca1 = spectrum.pca1;
-    a->pca2 = spectrum.pca2;
-    bool done =
-        create_components(a, motion, modes < motion->frames ? modes : motion->frames)
-            ? form_shapes(a, lapack, motion, &spectrum, error) && finish(a, motion, &spectrum, fps, direction, error)
-            : fail_no_memory(error, motion->path);
-    spectrum_free(&spectrum);
+    work.gram = malloc(n * n * sizeof *work.gram);
+    work.weights = malloc((2 * (size_t)plan->modes + 1) * n * sizeof *work.weights);
+    bool done = a->mean && work.gram && work.weights ? true : fail_no_memory(error, motion->path);
+    done = done && slabs_gram(lapack, motion, work.gram, a->mean[0], error) && find_components(a, &work, error);
+    free(work.gram);
+    free(work.weights);
+    drift_free(&work.drift);
     if (!done) analysis_free(a);
     return done;
 }
@@ -97,6 +283,7 @@ void analysis_free(struct analysis *a)
     for (int k = 0; k < a->count; k++) {
         free(a->components[k].course);
         free(a->components[k].shape);
+        free(a->components[k].metric.pull);
     }
     free(a->components);
     free(a->mean);

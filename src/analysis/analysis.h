@@ -1,14 +1,30 @@
-/// Complex principal component analysis of a motion (the paper's section 7.2; src/analysis/README.md has the mathematics).
+/// The complex normal coordinates of a motion (the paper's section 7.2; src/analysis/README.md has the mathematics).
 #ifndef ANALYSIS_ANALYSIS_H
 #define ANALYSIS_ANALYSIS_H
 
 #include "analysis/component.h"
+#include "analysis/courses.h"
 #include "base/lapack.h"
 #include "model/motion.h"
 
 enum {
     ANALYSIS_FRAMES_MIN = 8,
-    ANALYSIS_FRAMES_MAX = 4096, ///< the memory grows with the square of the frames: 100 n² bytes
+    ANALYSIS_FRAMES_MAX =
+        4096, ///< the memory grows with the square of the frames: 100 n² bytes by CPCA, 40 n² by poles
+    ANALYSIS_MODES_MAX = COURSES_MAX,
+};
+
+enum analysis_method {
+    ANALYSIS_POLES, ///< one coordinate a pole: frequency and damping of its own, whatever the frame rate
+    ANALYSIS_CPCA,  ///< the paper's: complex principal components of the analytic signal
+};
+
+/// What to find.
+struct analysis_plan {
+    enum analysis_method method;
+    double fps;              ///< frames per second
+    int modes;               ///< at most so many components, 1 … ANALYSIS_MODES_MAX
+    const double *direction; ///< three numbers that fix the gauge (see component_turn()), or NULL
 };
 
 struct analysis {
@@ -16,13 +32,18 @@ struct analysis {
     double (*mean)[3]; ///< each vertex's mean position, metres
     struct component *components;
     int count;
+    double left; ///< relative error of the motion with all components, 0 … 1
+    double drift
+        [3]; ///< m/s: the mean velocity of the vertices, where the motion has a steady drift that was taken out, else 0
+    double drift_share; ///< of the motion's variance, 0 … 1; 0 where none is worth a word
+    double fast_share;  ///< of the motion's power above four fifths of half the frame rate, 0 … 1
 };
 
-/// Finds the `modes` largest components, at most as many as there are frames. `fps` is in frames per second; `direction` fixes
-/// the gauge (see component_turn()), or is NULL. Reads the motion twice; needs memory for frames² numbers, a slab of 8 MiB and
-/// the result. Errors: too few or too many frames, nothing moves, a number that is not finite, out of memory.
-bool analysis_create(struct analysis *analysis, const struct lapack *lapack, const struct motion *motion, double fps,
-                     int modes, const double direction[3], struct error *error);
+/// Finds the components, most important first; fewer than asked for where the motion has fewer poles. Reads the motion twice; needs memory for
+/// frames² numbers, a slab of 8 MiB and the result. Errors: too few or too many frames, nothing moves or swings, a number that is
+/// not finite, out of memory.
+bool analysis_create(struct analysis *analysis, const struct lapack *lapack, const struct motion *motion,
+                     const struct analysis_plan *plan, struct error *error);
 void analysis_free(struct analysis *analysis);
 
 #endif

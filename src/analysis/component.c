@@ -5,13 +5,34 @@
 
 static const double tail_share = 0.05; ///< of the motion beyond each end of the range of lags
 
+double component_error(const struct component *c, const double complex *course)
+{
+    const struct course_metric *m = &c->metric;
+    double left = m->power;
+    for (int t = 0; t < c->frames; t++) {
+        double complex x = course[t];
+        left += (creal(x * conj(x)) * m->norm + creal(x * x * m->square)) / 2 - 2 * creal(x * m->pull[t]);
+    }
+    return sqrt(fmax(left, 0) / m->power);
+}
+
+/// Ñ ← g Ñ and R ← R / g.
+static void change_gauge(struct component *c, double complex g)
+{
+    for (int n = 0; n < 3 * c->vertices; n++) c->shape[n / 3][n % 3] *= g;
+    for (int t = 0; t < c->frames; t++) {
+        c->course[t] /= g;
+        c->metric.pull[t] *= g;
+    }
+    c->metric.norm *= creal(g * conj(g));
+    c->metric.square *= g * g;
+}
+
 void component_scale(struct component *c)
 {
     double largest = 0;
     for (int t = 0; t < c->frames; t++) largest = fmax(largest, cabs(c->course[t]));
-    if (!(largest > 0)) return;
-    for (int t = 0; t < c->frames; t++) c->course[t] /= largest;
-    for (int n = 0; n < 3 * c->vertices; n++) c->shape[n / 3][n % 3] *= largest;
+    if (largest > 0) change_gauge(c, largest);
 }
 
 static double complex along(const struct component *c, int vertex)
@@ -71,8 +92,7 @@ void component_turn(struct component *c, const double direction[3])
     }
     double complex turn = cexp(-I * carg(squares) / 2);
     if (creal(sum * turn) < 0) turn = -turn;
-    for (int n = 0; n < 3 * c->vertices; n++) c->shape[n / 3][n % 3] *= turn;
-    for (int t = 0; t < c->frames; t++) c->course[t] *= conj(turn);
+    change_gauge(c, turn);
 }
 
 /// Weighted sums for the slopes of straight lines through two sequences over the same frames.

@@ -25,15 +25,21 @@ static bool covariance(const struct lapack *lapack, const double *h, const doubl
     return true;
 }
 
-/// Eigenvalues of G: what real PCA explains. Overwrites `gram`.
-static bool real_shares(const struct lapack *lapack, double *gram, int n, double *values, struct spectrum *s)
+bool spectrum_real_shares(const struct lapack *lapack, const double *gram, int frames, double shares[2])
 {
-    double total = 0;
-    if (lapack->dsyevd(LAPACK_COLUMNS_FIRST, 'N', 'L', n, gram, n, values) != 0) return false;
-    for (int i = 0; i < n; i++) total += values[i] > 0 ? values[i] : 0;
-    s->pca1 = values[n - 1] / total;
-    s->pca2 = s->pca1 + (n > 1 ? values[n - 2] / total : 0);
-    return true;
+    size_t n = (size_t)frames;
+    double total = 0, *copy = malloc((n * n + n) * sizeof *copy);
+    if (!copy) return false;
+    double *values = copy + n * n;
+    memcpy(copy, gram, n * n * sizeof *copy);
+    bool done = lapack->dsyevd(LAPACK_COLUMNS_FIRST, 'N', 'L', frames, copy, frames, values) == 0;
+    for (size_t i = 0; done && i < n; i++) total += values[i] > 0 ? values[i] : 0;
+    if (done) {
+        shares[0] = values[n - 1] / total;
+        shares[1] = shares[0] + values[n - 2] / total;
+    }
+    free(copy);
+    return done;
 }
 
 /// LAPACK sorts upwards.
@@ -57,37 +63,22 @@ static void turn_round(struct spectrum *s)
     }
 }
 
-/// `copy` is n² numbers of room.
-static bool decompose(struct spectrum *s, const struct lapack *lapack, const double *gram, double *copy)
-{
-    int n = s->frames;
-    memcpy(copy, gram, (size_t)n * (size_t)n * sizeof *copy);
-    if (!real_shares(lapack, copy, n, s->values, s)) return false;
-    struct predictor predictor = hilbert_predictor(gram, n);
-    if (!hilbert_transform(lapack, &predictor, n, s->transform)) return false;
-    if (!covariance(lapack, s->transform, gram, n, s->vectors)) return false;
-    if (lapack->zheevd(LAPACK_COLUMNS_FIRST, 'V', 'L', n, s->vectors, n, s->values) != 0) return false;
-    turn_round(s);
-    return true;
-}
-
-bool spectrum_create(struct spectrum *s, const struct lapack *lapack, const double *gram, int frames,
-                     const char *name, struct error *error)
+bool spectrum_create(struct spectrum *s, const struct lapack *lapack, const double *gram, int frames)
 {
     size_t n = (size_t)frames;
-    double trace = 0;
+    struct predictor predictor = hilbert_predictor(gram, frames);
     *s = (struct spectrum){.frames = frames};
-    for (size_t i = 0; i < n; i++) trace += gram[i * n + i];
-    if (!(trace > 0)) return fail(error, ERROR_INPUT, "%s: expected a motion, but nothing moves", name);
     s->transform = malloc(n * n * sizeof *s->transform);
     s->vectors = malloc(n * n * sizeof *s->vectors);
     s->values = malloc(n * sizeof *s->values);
-    double *copy = malloc(n * n * sizeof *copy);
-    bool done = s->transform && s->vectors && s->values && copy && decompose(s, lapack, gram, copy);
-    free(copy);
-    if (done) return true;
+    if (s->transform && s->vectors && s->values && hilbert_transform(lapack, &predictor, frames, s->transform) &&
+        covariance(lapack, s->transform, gram, frames, s->vectors) &&
+        lapack->zheevd(LAPACK_COLUMNS_FIRST, 'V', 'L', frames, s->vectors, frames, s->values) == 0) {
+        turn_round(s);
+        return true;
+    }
     spectrum_free(s);
-    return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory for %d frames", name, frames);
+    return false;
 }
 
 void spectrum_free(struct spectrum *s)

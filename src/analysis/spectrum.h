@@ -2,7 +2,6 @@
 #ifndef ANALYSIS_SPECTRUM_H
 #define ANALYSIS_SPECTRUM_H
 
-#include "base/error.h"
 #include "base/lapack.h"
 #include <complex.h>
 
@@ -13,12 +12,14 @@ struct spectrum {
     double complex *vectors; ///< eigenvectors u_k, one after the other, of `values`
     double *values;          ///< descending
     double total;            ///< their sum
-    double pca1, pca2;       ///< shares of the real variance that real PCA's first and first two explain
 };
 
-/// Decomposes; `name` begins error messages: nothing moves, memory is short. False leaves nothing to free.
-bool spectrum_create(struct spectrum *spectrum, const struct lapack *lapack, const double *gram, int frames,
-                     const char *name, struct error *error);
+/// The shares of the real variance that real PCA's first component and its first two explain, 0 … 1. `gram` is above 0. False
+/// where memory is short.
+bool spectrum_real_shares(const struct lapack *lapack, const double *gram, int frames, double shares[2]);
+
+/// Decomposes; the trace of `gram` is above 0. False, with nothing to free, where memory is short.
+bool spectrum_create(struct spectrum *spectrum, const struct lapack *lapack, const double *gram, int frames);
 void spectrum_free(struct spectrum *spectrum);
 
 /// The weights w of the frames, Re w then Im w, with w S = u_kᴴ S̃, the k-th row of Vᴴ times its singular value.

@@ -20,7 +20,7 @@ const struct dialog_format exporting_formats[] = {
     {".glb", "character and motion: Blender, three.js, game engines", .choices = MORPHS | CHOICE_CUBIC},
     {".gltf", "the same as readable text", .choices = MORPHS | CHOICE_CUBIC},
     {".usda", "character and motion: USD, Houdini, Omniverse", .choices = MORPHS & ~CHOICE_CLIP},
-    {".bvh", "joints and their motion: motion-capture tools", .choices = POINTS},
+    {".bvh", "joints and their motion: motion-capture tools", .choices = POINTS | CHOICE_JOINTS},
     {".csv", "every spline and angle as a table", .choices = CHOICE_KEYS | CHOICE_RIG},
     {".pc2", "every vertex at every key: Blender's Mesh Cache", .choices = POINTS},
     {".mdd", "the same for Maya, LightWave and others", .choices = POINTS},
@@ -87,6 +87,7 @@ static bool write_motion(struct export_job *job)
     const struct export_wish *wish = &job->request.wish;
     const struct posing posing = opened_posing(&job->opened);
     const struct export_options options = {.rig = wish->rig[0] ? wish->rig : NULL,
+                                           .rig_choice = "\"rig\"",
                                            .clip = wish->clip[0] ? wish->clip : NULL,
                                            .has_frames = wish->part,
                                            .first = wish->first,

@@ -14,6 +14,8 @@ struct lapack {
                  int ldb);
     int (*dsyevd)(int layout, char vectors, char uplo, int n, double *a, int lda, double *values);
     int (*zheevd)(int layout, char vectors, char uplo, int n, double complex *a, int lda, double *values);
+    int (*dgeev)(int layout, char left, char right, int n, double *a, int lda, double *re, double *im, double *vl,
+                 int ldvl, double *vr, int ldvr);
     void (*dsyrk)(int order, int uplo, int transpose, int n, int k, double alpha, const double *a, int lda,
                   double beta, double *c, int ldc);
     void (*dgemm)(int order, int transpose_a, int transpose_b, int m, int n, int k, double alpha, const double *a,

@@ -5,23 +5,34 @@
 #include "commands/open_mesh.h"
 #include "commands/options.h"
 #include "model/character.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILES_MAX = 16, MODES_MAX = ANALYSIS_FRAMES_MIN };
+enum { FILES_MAX = 16, MODES_MAX = ANALYSIS_MODES_MAX };
 
 static const double recommended_bandwidth = 0.1; ///< the spline's default; a single oscillation says nothing of it
+static const double fast_warning = 0.01;         ///< share of the power near half the frame rate that is worth a word
+static const double fast_pole = 0.8;             ///< of half the frame rate: a frequency above it
 
 /// What the command line asks for.
 struct job {
     const char *files[FILES_MAX + 1]; ///< NULL behind the last
-    const char *rest, *output, *scene, *shake;
+    const char *rest, *output, *scene, *coordinates, *shake, *method_name;
     struct mesh_options opening; ///< of `rest`
     double fps;                  ///< 0: what the files say
+    enum analysis_method method;
     int modes;
     double directions[FILES_MAX][3];
     int direction_count; ///< 0, 1 for all, or one a file
+};
+
+/// The character as it grows, and what else is known of its coordinates.
+struct result {
+    struct character character;
+    struct analyzed *analyzed; ///< one a coordinate
+    int filled;                ///< how many coordinates are there so far
 };
 
 /// Splits --shake at its colons. False if a part is no direction or their number is wrong.
@@ -76,17 +87,57 @@ static bool keep(struct coordinate *to, const struct component *c, const struct 
     return true;
 }
 
-static void report(const struct coordinate *to, const struct component *c)
+static void report_spline(const struct analyzed *analyzed, const struct component *c)
+{
+    const struct knots *k = &analyzed->knots;
+    if (!k->course) {
+        printf("    spline: \"mode\": \"complex\", \"frequency\": %.4g, \"damping\": %.3g, \"bandwidth\": %g\n",
+               c->frequency, c->damping, recommended_bandwidth);
+        return;
+    }
+    printf("    spline: \"mode\": \"%s\", \"frequency\": %.4g, \"damping\": %.3g, \"bandwidth\": %.3g, %d knot%s\n",
+           k->mode == WIGGLY_REAL ? "real" : "complex", k->frequency, k->damping, k->bandwidth, k->count,
+           k->count > 1 ? "s" : "");
+    printf("    relative error of its motion: %.3g by this spline, %.3g by the coordinate's own course\n", k->error,
+           component_error(c, c->course));
+}
+
+static void report(const struct coordinate *to, const struct analyzed *analyzed, const struct component *c)
 {
     printf("  %s: explains %.2f %%; real PCA's first %.2f %%, its first two %.2f %%\n", to->name, 100 * to->explained,
            100 * to->pca1, 100 * to->pca2);
     printf("    frequency %.4g Hz, damping ratio %.3g; mostly along (%.2f, %.2f, %.2f), %.3g m at most\n",
            c->frequency, c->damping, c->direction[0], c->direction[1], c->direction[2], c->reach);
-    printf("    spline: \"mode\": \"complex\", \"frequency\": %.4g, \"damping\": %.3g, \"bandwidth\": %g\n",
-           c->frequency, c->damping, recommended_bandwidth);
+    report_spline(analyzed, c);
     printf(
         "    lag over the surface: from %.0f to %.0f degrees, beyond which 5 %% of the motion lie on either side\n",
         c->first_lag, c->last_lag);
+}
+
+static void report_motion(const struct job *job, const struct motion *motion, const struct analysis *a, double fps)
+{
+    printf("%s: %d frames of %d vertices at %g fps\n", motion->path, motion->frames, motion->vertices, fps);
+    double speed = sqrt(a->drift[0] * a->drift[0] + a->drift[1] * a->drift[1] + a->drift[2] * a->drift[2]);
+    if (a->drift_share > 0) {
+        printf("  taken out: a steady drift, %.1f %% of the motion; on average %.3g m/s along (%.2f, %.2f, %.2f)\n",
+               100 * fmin(a->drift_share, 1), speed, a->drift[0] / speed, a->drift[1] / speed, a->drift[2] / speed);
+    }
+    if (a->count < job->modes)
+        printf("  %d of %d coordinates: the motion has no more poles that matter\n", a->count, job->modes);
+}
+
+/// A frame rate shows nothing faster than half of it, and what comes near badly.
+static void warn_of_speed(const struct motion *motion, const struct analysis *a, double fps)
+{
+    bool fast = a->fast_share > fast_warning;
+    for (int k = 0; k < a->count; k++) fast |= a->components[k].frequency > fast_pole * fps / 2;
+    if (fast) {
+        fprintf(stderr,
+                "%s: warning: some of it moves faster than %g fps can show (%.1f %% of the motion above %.4g Hz); "
+                "simulate "
+                "with more frames per second\n",
+                motion->path, fps, 100 * a->fast_share, fast_pole * fps / 2);
+    }
 }
 
 static bool check_motion(const struct job *job, const struct motion *motion, const struct surface *rest, double *fps,
@@ -100,15 +151,20 @@ static bool check_motion(const struct job *job, const struct motion *motion, con
     return fail(error, ERROR_USAGE, "%s: the file has no frame rate: give --fps N", motion->path);
 }
 
-/// A coordinate is added to the mesh at rest; a motion centred elsewhere has other axes, units or an offset.
+/// A coordinate is added to the mesh at rest; a motion centred elsewhere has other axes, units or an offset. One that walks may be
+/// anywhere.
 static void warn_of_distance(const struct motion *motion, const struct analysis *analysis, const struct surface *rest)
 {
-    double centre[3] = {0}, distance = 0, size = 0;
-    for (int n = 0; n < 3 * rest->vertex_count; n++)
-        centre[n % 3] += (double)rest->position[n / 3][n % 3] / rest->vertex_count;
+    double centre[3] = {0}, walked[3] = {0}, distance = 0, size = 0;
     for (int n = 0; n < 3 * rest->vertex_count; n++) {
         double at = (double)rest->position[n / 3][n % 3];
-        distance += (analysis->mean[n / 3][n % 3] - at) * (analysis->mean[n / 3][n % 3] - at);
+        centre[n % 3] += at / rest->vertex_count;
+        if (analysis->drift_share > 0) walked[n % 3] += (analysis->mean[n / 3][n % 3] - at) / rest->vertex_count;
+    }
+    for (int n = 0; n < 3 * rest->vertex_count; n++) {
+        double at = (double)rest->position[n / 3][n % 3];
+        double away = analysis->mean[n / 3][n % 3] - at - walked[n % 3];
+        distance += away * away;
         size += (at - centre[n % 3]) * (at - centre[n % 3]);
     }
     if (distance > 0.25 * size) {
@@ -117,55 +173,120 @@ static void warn_of_distance(const struct motion *motion, const struct analysis 
     }
 }
 
+/// Keeps course and knots, which only a scene and the table of coordinates need.
+static bool keep_course(const struct job *job, struct analyzed *to, struct component *c, int rank, double fps)
+{
+    *to = (struct analyzed){.rank = rank, .fps = fps, .frames = c->frames};
+    if (!job->scene && !job->coordinates) return true;
+    if (!knots_create(&to->knots, c, fps)) return false;
+    to->course = malloc((size_t)c->frames * sizeof *to->course);
+    if (to->course) memcpy(to->course, c->course, (size_t)c->frames * sizeof *to->course);
+    return to->course;
+}
+
+static bool keep_all(const struct job *job, const struct analysis *analysis, const struct motion *motion, double fps,
+                     struct result *result, struct error *error)
+{
+    for (int k = 0; k < analysis->count; k++) {
+        struct coordinate *to = &result->character.coordinates[result->filled];
+        struct analyzed *analyzed = &result->analyzed[result->filled++];
+        struct component *c = &analysis->components[k];
+        if (!keep(to, c, analysis, motion->path, &result->character, error)) return false;
+        if (!keep_course(job, analyzed, c, k, fps)) return fail_no_memory(error, motion->path);
+        report(to, analyzed, c);
+    }
+    if (analysis->count > 1)
+        printf("  relative error of the motion with all %d coordinates: %.3g\n", analysis->count, analysis->left);
+    return true;
+}
+
 /// Analyses one file and appends its coordinates to the character.
 static bool analyse(const struct job *job, int file, const struct lapack *lapack, const struct surface *rest,
-                    struct character *character, int *filled, struct error *error)
+                    struct result *result, struct error *error)
 {
     struct motion motion;
     struct analysis analysis = {0};
     double fps = 0;
     if (!motion_open(&motion, job->files[file], error)) return false;
-    const double *direction = job->direction_count ? job->directions[job->direction_count > 1 ? file : 0] : NULL;
-    bool done = check_motion(job, &motion, rest, &fps, error) &&
-                analysis_create(&analysis, lapack, &motion, fps, job->modes, direction, error);
-    if (done) warn_of_distance(&motion, &analysis, rest);
-    if (done) printf("%s: %d frames of %d vertices at %g fps\n", motion.path, motion.frames, motion.vertices, fps);
-    for (int k = 0; done && k < analysis.count; k++) {
-        struct coordinate *to = &character->coordinates[(*filled)++];
-        done = keep(to, &analysis.components[k], &analysis, motion.path, character, error);
-        if (done) report(to, &analysis.components[k]);
+    bool done = check_motion(job, &motion, rest, &fps, error);
+    const struct analysis_plan plan = {
+        .method = job->method,
+        .fps = fps,
+        .modes = job->modes,
+        .direction = job->direction_count ? job->directions[job->direction_count > 1 ? file : 0] : NULL,
+    };
+    done = done && analysis_create(&analysis, lapack, &motion, &plan, error);
+    if (done) {
+        warn_of_distance(&motion, &analysis, rest);
+        warn_of_speed(&motion, &analysis, fps);
+        report_motion(job, &motion, &analysis, fps);
+        done = keep_all(job, &analysis, &motion, fps, result, error);
     }
     analysis_free(&analysis);
     motion_close(&motion);
     return done;
 }
 
-static bool analyse_files(const struct job *job, const struct lapack *lapack, const struct surface *rest,
-                          struct character *character, struct error *error)
+/// Frees the coordinates for which there were no poles.
+static void drop_unused(struct result *result)
 {
-    int files = 0, filled = 0;
+    struct character *c = &result->character;
+    while (c->coordinate_count > result->filled) {
+        struct coordinate *last = &c->coordinates[--c->coordinate_count];
+        free(last->re);
+        free(last->im);
+    }
+}
+
+static bool analyse_files(const struct job *job, const struct lapack *lapack, const struct surface *rest,
+                          struct result *result, struct error *error)
+{
+    int files = 0;
     while (job->files[files]) files++;
-    if (!character_create(character, rest, files * job->modes)) return fail_no_memory(error, job->rest);
-    bool done = true;
-    for (int i = 0; done && i < files; i++) done = analyse(job, i, lapack, rest, character, &filled, error);
-    return done && character_write(job->output, character, error) &&
-           (!job->scene || analyze_scene_write(job->scene, job->output, character, job->modes, error));
+    result->analyzed = calloc((size_t)(files * job->modes), sizeof *result->analyzed);
+    if (!result->analyzed || !character_create(&result->character, rest, files * job->modes))
+        return fail_no_memory(error, job->rest);
+    for (int i = 0; i < files; i++) {
+        if (!analyse(job, i, lapack, rest, result, error)) return false;
+    }
+    drop_unused(result);
+    const struct character *character = &result->character;
+    return character_write(job->output, character, error) &&
+           (!job->scene || analyze_scene_write(job->scene, job->output, character, result->analyzed, error)) &&
+           (!job->coordinates || analyze_coordinates_write(job->coordinates, character, result->analyzed, error));
+}
+
+static void free_result(struct result *result)
+{
+    for (int i = 0; i < result->filled; i++) {
+        free(result->analyzed[i].course);
+        knots_free(&result->analyzed[i].knots);
+    }
+    free(result->analyzed);
+    character_free(&result->character);
 }
 
 static bool run(const struct job *job, struct error *error)
 {
     struct surface rest;
-    struct character character = {0};
+    struct result result = {0};
     struct lapack lapack;
     char description[128];
     if (!lapack_load(&lapack, description, sizeof description))
         return fail(error, ERROR_ENVIRONMENT, "LAPACKE and OpenBLAS: %s", description);
     bool done = open_mesh(job->rest, &job->opening, &rest, error);
-    if (done) done = analyse_files(job, &lapack, &rest, &character, error);
-    character_free(&character);
+    if (done) done = analyse_files(job, &lapack, &rest, &result, error);
+    free_result(&result);
     surface_free(&rest);
     lapack_unload(&lapack);
     return done;
+}
+
+/// False if --method is neither of the two.
+static bool read_method(struct job *job)
+{
+    job->method = strcmp(job->method_name, "cpca") == 0 ? ANALYSIS_CPCA : ANALYSIS_POLES;
+    return job->method == ANALYSIS_CPCA || strcmp(job->method_name, "poles") == 0;
 }
 
 /// Checks what the table of options cannot; NULL or what is wrong.
@@ -176,6 +297,7 @@ static const char *check(struct job *job)
     if (!job->rest) return "--rest mesh.obj is missing: name the mesh at rest";
     if (!job->output) return "-o creature.glb is missing: name the file to write";
     if (mesh_options_check(&job->opening)) return mesh_options_check(&job->opening);
+    if (!read_method(job)) return "--method: expected poles or cpca";
     if (!read_directions(job, files))
         return "--shake: expected up, side, front or a vector x,y,z, one for all files or one each with : between";
     return NULL;
@@ -183,7 +305,7 @@ static const char *check(struct job *job)
 
 int command_analyze(int argc, char **argv)
 {
-    struct job job = {.modes = 1, .opening = {.up = "y", .scale = 1}};
+    struct job job = {.modes = 1, .method_name = "poles", .opening = {.up = "y", .scale = 1}};
     const struct option_spec options[] = {
         {"--rest", NULL, "FILE",
          "required: the mesh at rest (OBJ, STL, PLY, OFF, glTF), with the same vertices in the same order",
@@ -191,11 +313,17 @@ int command_analyze(int argc, char **argv)
         MESH_OPTIONS(&job.opening),
         {"--output", "-o", "FILE", "required: the character to write (.glb)", OPTION_TEXT, &job.output, 0, 0},
         {"--fps", NULL, "N", "frames per second; required for .npy and .pc2", OPTION_REAL, &job.fps, 1e-3, 100000},
-        {"--modes", NULL, "K", "coordinates per motion, largest first (1)", OPTION_INT, &job.modes, 1, MODES_MAX},
+        {"--modes", NULL, "K", "coordinates per motion, most important first (1)", OPTION_INT, &job.modes, 1,
+         MODES_MAX},
         {"--shake", NULL, "DIR",
          "direction of the shake: up, side, front or x,y,z; one for all or one per file (up:side)", OPTION_TEXT,
          &job.shake, 0, 0},
-        {"--scene", NULL, "FILE", "write a scene that drives the character too", OPTION_TEXT, &job.scene, 0, 0},
+        {"--method", NULL, "NAME", "poles: a coordinate a pole (default); cpca: complex principal components",
+         OPTION_TEXT, &job.method_name, 0, 0},
+        {"--scene", NULL, "FILE", "write a scene too, with knots that move the character as the motions did",
+         OPTION_TEXT, &job.scene, 0, 0},
+        {"--coordinates", NULL, "FILE", "write each coordinate's course over time and its spline's, as CSV",
+         OPTION_TEXT, &job.coordinates, 0, 0},
     };
     const struct usage usage = {
         .command = "analyze",

@@ -44,49 +44,71 @@ static void add_member(struct text *text, const char *before, double value)
     text_number(text, value);
 }
 
-static double rounded(double value) { return round(value * 1000) / 1000; }
-
-/// A loop of ten periods with a knot every two and a half: over longer gaps the swing would beat at this bandwidth.
-static void add_spline(struct text *text, const struct coordinate *first, int frames)
+static void add_spline(struct text *text, const struct coordinate *coordinate, const struct analyzed *analyzed,
+                       double fps)
 {
-    static const double values[] = {1, -0.6, 0.8, -0.4};
-    enum { KNOTS = sizeof values / sizeof values[0] };
-    text_string(text, "    { \"name\": \"swing\", \"mode\": \"complex\"");
-    add_member(text, ", \"frequency\": ", rounded(first->frequency));
-    add_member(text, ", \"damping\": ", rounded(first->damping));
-    text_string(text, ", \"bandwidth\": 0.1, \"start\": \"loop\",\n      \"knots\": [");
-    for (int i = 0; i < KNOTS; i++) {
-        add_member(text, i > 0 ? ",\n                { \"frame\": " : "{ \"frame\": ", frames * i / KNOTS);
-        add_member(text, ", \"value\": ", values[i]);
+    const struct knots *knots = &analyzed->knots;
+    text_string(text, "{ \"name\": ");
+    text_quoted(text, coordinate->name);
+    text_string(text, knots->mode == WIGGLY_REAL ? ", \"mode\": \"real\"" : ", \"mode\": \"complex\"");
+    add_member(text, ", \"frequency\": ", knots->frequency);
+    add_member(text, ", \"damping\": ", knots->damping);
+    if (knots->mode == WIGGLY_COMPLEX) add_member(text, ", \"bandwidth\": ", knots->bandwidth);
+    text_string(text, ",\n      \"knots\": [");
+    for (int i = 0; i < knots->count; i++) {
+        double frame = knots->frame[i] * fps / analyzed->fps;
+        add_member(text, i > 0 ? ",\n                { \"frame\": " : "{ \"frame\": ", round(frame * 1000) / 1000);
+        add_member(text, ", \"value\": ", knots->value[i]);
+        if (knots->sloped) add_member(text, ", \"slope\": ", knots->slope[i]);
         text_string(text, " }");
     }
-    text_string(text, "] }\n");
+    text_string(text, "] }");
 }
 
-static void add_scene(struct text *text, const struct character *character, int modes, const char *from,
-                      const char *model)
+/// The coordinates that the scene drives; returns their number.
+static int choose(const struct character *character, const struct analyzed *analyzed, int *chosen)
 {
-    const struct coordinate *first = &character->coordinates[0];
-    double fps = 24, seconds = first->frequency > 0 ? fmin(10 / first->frequency, 60) : 4;
-    while (fps < 8 * first->frequency && fps < 50000) fps *= 2;
-    int frames = (int)(fps * seconds);
+    int count = 0;
+    for (int rank = 0; rank < character->coordinate_count; rank++) {
+        for (int i = 0; i < character->coordinate_count && count < CHARACTER_MAX_DRIVES; i++) {
+            if (analyzed[i].rank == rank) chosen[count++] = i;
+        }
+    }
+    return count;
+}
+
+static void add_scene(struct text *text, const struct character *character, const struct analyzed *analyzed,
+                      const char *from, const char *model)
+{
+    int chosen[CHARACTER_MAX_DRIVES], count = choose(character, analyzed, chosen);
+    double fps = 0, seconds = 0;
+    for (int i = 0; i < count; i++) {
+        fps = fmax(fps, analyzed[chosen[i]].fps);
+        seconds = fmax(seconds, (analyzed[chosen[i]].frames - 1) / analyzed[chosen[i]].fps);
+    }
     add_member(text, "{\n  \"wiggly\": 1, \"fps\": ", fps);
-    add_member(text, ", \"frames\": [0, ", frames);
-    text_string(text, "],\n  \"splines\": [\n");
-    add_spline(text, first, frames);
-    text_string(text, "  ],\n  \"rigs\": [\n    { \"type\": \"character\", \"name\": \"character\", \"model\": ");
+    add_member(text, ", \"frames\": [0, ", round(fps * seconds));
+    text_string(text, "],\n  \"splines\": [");
+    for (int i = 0; i < count; i++) {
+        text_string(text, i > 0 ? ",\n    " : "\n    ");
+        add_spline(text, &character->coordinates[chosen[i]], &analyzed[chosen[i]], fps);
+    }
+    text_string(text, "\n  ],\n  \"rigs\": [\n    { \"type\": \"character\", \"name\": \"character\", \"model\": ");
     add_relative(text, from, model);
     text_string(text, ",\n      \"coordinates\": [");
-    for (int i = 0, drives = 0; i < character->coordinate_count && drives < CHARACTER_MAX_DRIVES; i += modes) {
-        text_string(text, drives++ > 0 ? ",\n        { \"name\": " : "\n        { \"name\": ");
-        text_quoted(text, character->coordinates[i].name);
-        text_string(text, ", \"spline\": \"swing\", \"amplitude\": 1, \"lag\": 0 }");
+    for (int i = 0; i < count; i++) {
+        const char *name = character->coordinates[chosen[i]].name;
+        text_string(text, i > 0 ? ",\n        { \"name\": " : "\n        { \"name\": ");
+        text_quoted(text, name);
+        text_string(text, ", \"spline\": ");
+        text_quoted(text, name);
+        text_string(text, ", \"amplitude\": 1, \"lag\": 0 }");
     }
     text_string(text, "] }\n  ]\n}\n");
 }
 
-bool analyze_scene_write(const char *path, const char *model, const struct character *character, int modes,
-                         struct error *error)
+bool analyze_scene_write(const char *path, const char *model, const struct character *character,
+                         const struct analyzed *analyzed, struct error *error)
 {
     struct text text = {0};
     char *from = real_place(path), *to = from ? real_place(model) : NULL;
@@ -94,7 +116,7 @@ bool analyze_scene_write(const char *path, const char *model, const struct chara
     if (!to) {
         done = fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", path, strerror(errno));
     } else {
-        add_scene(&text, character, modes, from, to);
+        add_scene(&text, character, analyzed, from, to);
         done = text.no_memory ? fail_no_memory(error, path) : file_write_atomic(path, text.data, text.size, error);
     }
     free(text.data);

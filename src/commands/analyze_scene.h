@@ -1,13 +1,26 @@
-/// The scene that `wiggly analyze --scene` writes: a spline, and the character that it drives.
+/// What `wiggly analyze` writes beside the character: a scene whose splines move it as the simulations did, and a table of the coordinates.
 #ifndef COMMANDS_ANALYZE_SCENE_H
 #define COMMANDS_ANALYZE_SCENE_H
 
+#include "analysis/knots.h"
 #include "model/character.h"
 
-/// Writes a scene for the character's file `model`, which must exist. The spline has the first coordinate's frequency and
-/// damping. It drives the first of every `modes` coordinates (those of one motion), up to as many as a character in a
-/// scene can have.
-bool analyze_scene_write(const char *path, const char *model, const struct character *character, int modes,
-                         struct error *error);
+/// What is known of a character's coordinate besides what its file holds.
+struct analyzed {
+    int rank; ///< among those of its motion, from 0
+    double fps;
+    int frames;
+    double complex *course; ///< R, one number a frame
+    struct knots knots;
+};
+
+/// Writes a scene for the character's file `model`: a spline with the knots of each coordinate, and the character that these drive. As many
+/// coordinates as a character in a scene can have, the first of every motion before the second of any.
+bool analyze_scene_write(const char *path, const char *model, const struct character *character,
+                         const struct analyzed *analyzed, struct error *error);
+
+/// Writes R and the spline's x of every coordinate, a row a frame: CSV with the columns frame, NAME.re, NAME.im, NAME.fit.re, NAME.fit.im.
+bool analyze_coordinates_write(const char *path, const struct character *character, const struct analyzed *analyzed,
+                               struct error *error);
 
 #endif

@@ -266,13 +266,14 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
         [DRAG_PAINT] = CURSOR_ARROW,
         [DRAG_STAGE_DIVIDER] = CURSOR_VERTICAL,
         [DRAG_INSPECTOR_DIVIDER] = CURSOR_HORIZONTAL,
+        [DRAG_LIMIT] = CURSOR_VERTICAL,
     };
     static const enum mouse_cursor of_hover[] = {
         [HOVER_NONE] = CURSOR_ARROW,   [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
         [HOVER_CURVE] = CURSOR_HAND,   [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
         [HOVER_BONE] = CURSOR_HAND,    [HOVER_UNITS] = CURSOR_HAND,       [HOVER_BODY] = CURSOR_MOVE,
         [HOVER_PLAY] = CURSOR_HAND,    [HOVER_LOOP] = CURSOR_HAND,        [HOVER_SPEED] = CURSOR_HAND,
-        [HOVER_WARNING] = CURSOR_HAND,
+        [HOVER_WARNING] = CURSOR_HAND, [HOVER_LIMIT] = CURSOR_VERTICAL,
     };
     static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};

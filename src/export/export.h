@@ -6,14 +6,15 @@
 
 /// What to export; all zero: every rig that the file can hold, over all frames, a key a sample.
 struct export_options {
-    const char *rig;    ///< its name, or NULL
-    const char *clip;   ///< what the animation is called; NULL: as the scene
-    bool has_frames;    ///< else all
-    double first, last; ///< frames
-    double rate;        ///< keys a second, or 0
-    int substeps;       ///< keys a frame, or 0
-    bool is_signed;     ///< morph weights may be negative, which takes half as many targets
-    bool is_cubic;      ///< keys have tangents (glTF)
+    const char *rig;        ///< its name, or NULL
+    const char *rig_choice; ///< what sentences call the way to choose a rig; NULL: "--rig"
+    const char *clip;       ///< what the animation is called; NULL: as the scene
+    bool has_frames;        ///< else all
+    double first, last;     ///< frames
+    double rate;            ///< keys a second, or 0
+    int substeps;           ///< keys a frame, or 0
+    bool is_signed;         ///< morph weights may be negative, which takes half as many targets
+    bool is_cubic;          ///< keys have tangents (glTF)
     bool (*proceed)(void *user, long done, long total); ///< called as it goes on; false: stop. May be NULL
     void *user;
 };

@@ -2,7 +2,8 @@
 #ifndef EXPORT_GLTF_MOTION_H
 #define EXPORT_GLTF_MOTION_H
 
-#include "export/take.h"
+#include "export/shot.h"
+#include "model/gltf.h"
 #include "model/gltf_file.h"
 
 struct gltf_motion {
@@ -10,15 +11,22 @@ struct gltf_motion {
     json_t *samplers, *channels;
     json_int_t times; ///< the accessor of the keys' times
     int key_count;
+    json_int_t own_times; ///< the accessor of the last times that gltf_motion_add_own() was given
+    float *own;           ///< these
+    int own_count;
 };
 
-/// Starts an animation with a take's keys. `file` must outlive it.
-void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct take *take);
+/// Starts an animation with a shot's keys. `file` must outlive it.
+void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct shot *shot);
 void gltf_motion_free(struct gltf_motion *motion);
 
 /// Adds what moves a node: `width` numbers a key, and how fast they change by second (NULL: straight lines between keys).
-void gltf_motion_add(struct gltf_motion *motion, json_int_t node, const char *path, enum gltf_elements elements,
-                     const float *values, const float *slopes, int width);
+void gltf_motion_add(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const float *values,
+                     const float *slopes, int width);
+
+/// Adds what moves a channel's node with keys of its own, which are as the channel's (gltf.h).
+void gltf_motion_add_own(struct gltf_motion *motion, const struct gltf_channel *like,
+                         enum gltf_interpolation interpolation, const float *times, const float *keys, int count);
 
 /// The animation; the caller's.
 json_t *gltf_motion_json(const struct gltf_motion *motion, const char *name);

@@ -51,7 +51,7 @@ static void cubic(const float *key, int components, float s, float T, float *out
                  T * (s3 - s2) * arriving[k];
 }
 
-static void sample(const struct gltf_channel *channel, double time, float *out)
+void gltf_channel_at(const struct gltf_channel *channel, double time, float *out)
 {
     int key = key_at(channel, time), n = channel->components;
     bool is_cubic = channel->interpolation == GLTF_CUBIC;
@@ -82,6 +82,6 @@ void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_
         struct gltf_place *place = &pose->place[channel->node];
         float *const out[] = {place->translation, place->rotation, place->scale,
                               pose->weights + gltf->nodes[channel->node].first_weight};
-        sample(channel, time, out[channel->path]);
+        gltf_channel_at(channel, time, out[channel->path]);
     }
 }

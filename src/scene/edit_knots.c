@@ -30,6 +30,11 @@ static bool check_knot(const struct document *document, const struct spline *spl
         return fail(error, ERROR_INPUT, "%s: a knot's numbers must be finite", spline->name);
     }
     number_print(knot->frame, frame);
+    const double low = spline->parameter[PARAMETER_LOW].value, high = spline->parameter[PARAMETER_HIGH].value;
+    if (knot->value < low || knot->value > high) {
+        return fail(error, ERROR_INPUT, "%s: a knot at %.6g would be %s limit, %.6g", spline->name, knot->value,
+                    knot->value < low ? "below the low" : "above the high", knot->value < low ? low : high);
+    }
     if (knot->stiffness <= 0) return fail(error, ERROR_INPUT, "%s: stiffness must be above 0", spline->name);
     int sample = document_sample(document, knot->frame), last = document_last_knot_sample(document, spline);
     if (sample < 0 || sample > last) {

@@ -1,5 +1,6 @@
 /// Edits of a spline's mode, start and parameters.
 #include "scene/edit_plan.h"
+#include "scene/number.h"
 #include "scene/order.h"
 #include <math.h>
 
@@ -79,6 +80,26 @@ static bool check_constant(const struct spline *spline, enum parameter parameter
     return fail(error, ERROR_INPUT, "%s: %s must be at most %g", spline->name, name, high);
 }
 
+/// A limit may be infinite, which is none; knots stay within.
+static bool check_limit(const struct spline *spline, enum parameter parameter, double value, struct error *error)
+{
+    const struct parameter_row *row = &parameter_rows[parameter];
+    const bool is_high = parameter == PARAMETER_HIGH;
+    const double other = spline->parameter[is_high ? PARAMETER_LOW : PARAMETER_HIGH].value;
+    if (value == row->standard) return true;
+    if (!isfinite(value)) return fail(error, ERROR_INPUT, "%s: a limit must be finite", spline->name);
+    if (is_high ? value <= other : value >= other)
+        return fail(error, ERROR_INPUT, "%s: the low limit must be below the high one", spline->name);
+    for (int k = 0; k < spline->knot_count; k++) {
+        char frame[NUMBER_TEXT_SIZE];
+        if (is_high ? spline->knots[k].value <= value : spline->knots[k].value >= value) continue;
+        number_print(spline->knots[k].frame, frame);
+        return fail(error, ERROR_INPUT, "%s: the knot at frame %s is %s that", spline->name, frame,
+                    is_high ? "above" : "below");
+    }
+    return true;
+}
+
 /// ω = √k, ζ = γ/2√k, or back: k = ω², γ = 2ζω. The pair that is dropped returns to its default.
 static bool convert_spring(const struct spline *spline, struct settings *settings, bool to_spring,
                            struct error *error)
@@ -155,7 +176,8 @@ bool plan_parameter(struct document *document, const struct edit *edit, struct c
         if (!check_track(document, edit, error)) return false;
         *param = param_track(edit->param.track);
     } else {
-        if (!check_constant(spline, edit->parameter, edit->param.value, error)) return false;
+        const bool limits = parameter_rows[edit->parameter].kind == PARAMETER_LIMIT;
+        if (!(limits ? check_limit : check_constant)(spline, edit->parameter, edit->param.value, error)) return false;
         *param = param_number(edit->param.value + 0.0);
     }
     return add_settings(document, edit, &settings, list, error);

@@ -2,10 +2,11 @@
 #include "scene/evaluate.h"
 #include "base/checked.h"
 #include "scene/storage.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIRST_KNOTS = 256 };
+enum { FIRST_KNOTS = 256, MOST_HELD = 1 << 20 };
 
 static bool fail_memory(const struct document *document, struct error *error)
 {
@@ -137,11 +138,21 @@ static bool fits(const struct evaluation *evaluation, const struct document *doc
            !storage->is_new && knots <= storage->solver_knots;
 }
 
+/// Knots of the solver: a limited spline needs as many more as samples may be held.
+static int room_for(const struct spline *spline, int samples)
+{
+    bool limited =
+        isfinite(spline->parameter[PARAMETER_LOW].value) || isfinite(spline->parameter[PARAMETER_HIGH].value);
+    int held = samples < MOST_HELD ? samples : MOST_HELD;
+    return spline->knot_count + (limited ? held : 0);
+}
+
 bool evaluation_resize(struct evaluation *evaluation, const struct document *document, struct error *error)
 {
     int splines = document->spline_count, samples = document_samples(document), knots = 0;
     for (int i = 0; i < splines; i++) {
-        if (document->splines[i].knot_count > knots) knots = document->splines[i].knot_count;
+        int room = room_for(&document->splines[i], samples);
+        if (room > knots) knots = room;
     }
     if (!evaluation->storage) evaluation->storage = calloc(1, sizeof *evaluation->storage);
     struct storage *storage = evaluation->storage;

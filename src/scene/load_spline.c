@@ -9,13 +9,26 @@
 static const char *const spline_keys[] = {"name", "knots", "color", NULL};
 static const char *const knot_keys[] = {"frame", "value", "slope", "stiffness", NULL};
 
+/// One of the two numbers; null: none.
+static void load_limit(struct reader *reader, const struct value limits, int index, double *limit)
+{
+    const char expected[] = "two numbers, or null for none";
+    const size_t count = json_array_size(limits.json);
+    if (!json_is_array(limits.json) || count != 2) {
+        if (index == 0) reader_array(reader, limits, 2, expected);
+        return;
+    }
+    const struct value value = reader_element(&limits, index);
+    if (!json_is_null(value.json)) reader_number(reader, value, true, range_any, limit);
+}
+
 /// false if a word is not one of the choices.
 static bool load_parameter(struct reader *reader, const struct value *object, struct spline *spline,
                            enum parameter parameter, json_t **extra)
 {
     struct param *param = &spline->parameter[parameter];
     const struct parameter_row *row = &parameter_rows[parameter];
-    const struct value value = reader_member(object, row->name);
+    const struct value value = reader_member(object, parameter_key(parameter));
     struct range range = {row->minimum, parameter_maximum(parameter, spline_mode(spline)), false};
     if (!value.json) return true;
     if (row->kind == PARAMETER_CHOICE) {
@@ -23,7 +36,9 @@ static bool load_parameter(struct reader *reader, const struct value *object, st
         if (word >= 0) param->value = word;
         return word >= 0;
     }
-    if (row->kind == PARAMETER_TRACK) {
+    if (row->kind == PARAMETER_LIMIT) {
+        load_limit(reader, value, parameter == PARAMETER_HIGH, &param->value);
+    } else if (row->kind == PARAMETER_TRACK) {
         reader_param(reader, value, range, row->name, parameter == PARAMETER_EQUILIBRIUM, param, extra);
     } else {
         reader_number(reader, value, true, range, &param->value);
@@ -121,10 +136,32 @@ static void check_knots(struct reader *reader, const struct where *knots_at, str
     }
 }
 
+/// The low limit below the high one, and every knot within.
+static void check_limits(struct reader *reader, const struct where *spline_at, const struct where *knots_at,
+                         const struct spline *spline, unsigned first_id)
+{
+    const double low = spline->parameter[PARAMETER_LOW].value, high = spline->parameter[PARAMETER_HIGH].value;
+    struct where limits_at = {.parent = spline_at, .key = parameter_key(PARAMETER_LOW)};
+    if (!(low < high)) {
+        reader_fail(reader, &limits_at, "expected the low limit below the high one, got %.10g and %.10g", low, high);
+        return;
+    }
+    for (int i = 0; i < spline->knot_count; i++) {
+        const struct knot *knot = &spline->knots[i];
+        struct where at = {.parent = knots_at, .index = knot->id - first_id};
+        struct where value_at = {.parent = &at, .key = "value"};
+        if (knot->value < low)
+            reader_fail(reader, &value_at, "expected at least the low limit, %.10g, got %.10g", low, knot->value);
+        if (knot->value > high)
+            reader_fail(reader, &value_at, "expected at most the high limit, %.10g, got %.10g", high, knot->value);
+    }
+}
+
 static void load_knots(struct reader *reader, const struct value *object, struct spline *spline)
 {
     const struct value knots = reader_member(object, "knots");
     int count = reader_objects(reader, knots, SCENE_MAX_KNOTS);
+    if (count == 0) check_limits(reader, &object->at, &knots.at, spline, 0);
     if (count <= 0) return;
     reader->knot_count += count;
     if (reader->knot_count > SCENE_MAX_KNOTS) {
@@ -141,6 +178,7 @@ static void load_knots(struct reader *reader, const struct value *object, struct
     bool good = true;
     for (int i = 0; i < count; i++) good &= reader_knot(reader, reader_element(&knots, i), &spline->knots[i]);
     if (good && reader->has_domain) check_knots(reader, &knots.at, spline, first_id);
+    if (good) check_limits(reader, &object->at, &knots.at, spline, first_id);
 }
 
 static void check_loop(struct reader *reader, const struct where *spline_at, const struct spline *spline)
@@ -165,7 +203,7 @@ static void load_color(struct reader *reader, struct value value, int *color)
 static json_t *load_extra(struct reader *reader, const struct value *object)
 {
     const char *known[PARAMETER_COUNT + sizeof spline_keys / sizeof *spline_keys];
-    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) known[p] = parameter_rows[p].name;
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) known[p] = parameter_key(p);
     memcpy(known + PARAMETER_COUNT, spline_keys, sizeof spline_keys);
     return reader_extra(reader, object, known);
 }

@@ -121,6 +121,34 @@ const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
                            .print = PRINT_CHANGED,
                            .words = {"oscillator", "filter"},
                            .labels = {"Oscillator", "Filter"}},
+    [PARAMETER_LOW] = {.name = "low limit",
+                       .key = "limits",
+                       .hint = "The curve never goes below this",
+                       .undo = "Set low limit",
+                       .kind = PARAMETER_LIMIT,
+                       .modes = IN_ALL,
+                       .place = PLACE(low),
+                       .minimum = -INFINITY,
+                       .maximum = INFINITY,
+                       .standard = -INFINITY,
+                       .print = PRINT_CHANGED,
+                       .fresh = -INFINITY,
+                       .step = 0.01,
+                       .decimals = 2},
+    [PARAMETER_HIGH] = {.name = "high limit",
+                        .key = "limits",
+                        .hint = "The curve never goes above this",
+                        .undo = "Set high limit",
+                        .kind = PARAMETER_LIMIT,
+                        .modes = IN_ALL,
+                        .place = PLACE(high),
+                        .minimum = -INFINITY,
+                        .maximum = INFINITY,
+                        .standard = INFINITY,
+                        .print = PRINT_CHANGED,
+                        .fresh = INFINITY,
+                        .step = 0.01,
+                        .decimals = 2},
 };
 
 double parameter_maximum(enum parameter parameter, enum wiggly_mode mode)
@@ -137,7 +165,7 @@ double parameter_clamped(enum parameter parameter, enum wiggly_mode mode, double
 enum parameter parameter_find(const char *name)
 {
     enum parameter p = 0;
-    while (p < PARAMETER_COUNT && strcmp(parameter_rows[p].name, name) != 0) p++;
+    while (p < PARAMETER_COUNT && strcmp(parameter_key(p), name) != 0) p++;
     return p;
 }
 
@@ -153,9 +181,9 @@ void parameter_describe(enum parameter parameter, double value, const double *tr
     void *at = (char *)desc + parameter_rows[parameter].place;
     if (parameter_rows[parameter].kind == PARAMETER_TRACK) {
         *(wiggly_param *)at = (wiggly_param){value, track};
-    } else if (parameter_rows[parameter].kind == PARAMETER_NUMBER) {
-        *(double *)at = value;
-    } else {
+    } else if (parameter_rows[parameter].kind == PARAMETER_CHOICE) {
         *(unsigned *)at = (unsigned)value;
+    } else {
+        *(double *)at = value;
     }
 }

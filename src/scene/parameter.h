@@ -20,6 +20,8 @@ enum parameter {
     PARAMETER_EQUILIBRIUM,
     PARAMETER_START,
     PARAMETER_PASSIVE,
+    PARAMETER_LOW, ///< these two are one member of the file, "limits": [low, high]
+    PARAMETER_HIGH,
     PARAMETER_COUNT
 };
 
@@ -27,6 +29,7 @@ enum parameter_kind {
     PARAMETER_TRACK,  ///< a number or a track: a wiggly_param of the description
     PARAMETER_NUMBER, ///< a number only: a double
     PARAMETER_CHOICE, ///< one of several words: an enum
+    PARAMETER_LIMIT,  ///< a number, or none: infinite
 };
 
 /// Two pairs say the same; a spline has one of them.
@@ -49,7 +52,8 @@ enum {
 enum { PARAMETER_MAX_WORDS = 3 };
 
 struct parameter_row {
-    const char *name; ///< in the file and on screen
+    const char *name; ///< on screen, and in the file
+    const char *key;  ///< in the file, where that is another
     const char *unit; ///< or NULL
     const char *hint, *undo;
     const char *letter; ///< held while arrows change it, or NULL
@@ -77,7 +81,14 @@ double parameter_maximum(enum parameter parameter, enum wiggly_mode mode);
 /// A value clamped to the range of constants in that mode.
 double parameter_clamped(enum parameter parameter, enum wiggly_mode mode, double value);
 
-/// The parameter with that key in a file, or that holding that letter changes; PARAMETER_COUNT if there is none.
+/// Its key in a file.
+static inline const char *parameter_key(enum parameter parameter)
+{
+    const struct parameter_row *row = &parameter_rows[parameter];
+    return row->key ? row->key : row->name;
+}
+
+/// The first parameter with that key in a file, or that holding that letter changes; PARAMETER_COUNT if there is none.
 enum parameter parameter_find(const char *name);
 enum parameter parameter_of_letter(int letter);
 

@@ -3,6 +3,7 @@
 #include "scene/load.h"
 #include "scene/members.h"
 #include "scene/order.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,9 +15,25 @@ static bool is_printed(const struct spline *spline, enum parameter parameter)
 {
     const struct param *param = &spline->parameter[parameter];
     const struct parameter_row *row = &parameter_rows[parameter];
-    if (!spline_has(spline, parameter)) return false;
+    if (!spline_has(spline, parameter) || row->kind == PARAMETER_LIMIT) return false;
     if (param_follows(param) || param->value != row->standard) return true;
     return row->print == PRINT_ALWAYS || (row->print == PRINT_USED && spline_uses(spline, parameter, false));
+}
+
+/// "limits": [low, high], where there is one; null: none.
+static void print_limits(struct members *members, const struct spline *spline)
+{
+    const double limits[] = {spline->parameter[PARAMETER_LOW].value, spline->parameter[PARAMETER_HIGH].value};
+    if (!isfinite(limits[0]) && !isfinite(limits[1])) return;
+    member(members, parameter_key(PARAMETER_LOW));
+    for (int i = 0; i < 2; i++) {
+        text_string(members->text, i == 0 ? "[" : ", ");
+        if (isfinite(limits[i]))
+            text_number(members->text, limits[i]);
+        else
+            text_string(members->text, "null");
+    }
+    text_string(members->text, "]");
 }
 
 static void print_spline(struct text *text, const struct document *document, const struct spline *spline,
@@ -31,6 +48,7 @@ static void print_spline(struct text *text, const struct document *document, con
     }
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         const char *name = parameter_rows[p].name;
+        if (p == PARAMETER_LOW) print_limits(&members, spline);
         if (!is_printed(spline, p)) continue;
         if (parameter_rows[p].kind == PARAMETER_CHOICE) {
             member_string(&members, name, parameter_rows[p].words[(int)spline->parameter[p].value]);

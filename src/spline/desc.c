@@ -15,7 +15,9 @@
     X(friction, PARAM, true)                                                                                         \
     X(equilibrium, PARAM, false)                                                                                     \
     X(calm, NUMBER, false)                                                                                           \
-    X(passive, CHOICE, true)
+    X(passive, CHOICE, true)                                                                                         \
+    X(low, NUMBER, false)                                                                                            \
+    X(high, NUMBER, false)
 
 #define ROW(member, kind, filters)                                                                                   \
     {#member, DESC_##kind, filters, offsetof(wiggly_desc, member), sizeof(((wiggly_desc *)0)->member)},

@@ -11,11 +11,13 @@ enum {
     MATRIX_DOUBLES = 3 + 4 + 4 + 2 * BORDER_MAX,
     CHAIN_DOUBLES = 8,
     RUN_DOUBLES = 6,
+    LIMIT_DOUBLES = 8,
     LINE = 64, ///< of the cache: columns begin with one
-    BYTES_PER_SAMPLE = (int)((MATRIX_DOUBLES + 2 + 2 + 2 + 4 + 4) * sizeof(double) + sizeof(coefficients) +
-                             sizeof(cplx) + 3 * sizeof(int) + sizeof(unsigned char)),
+    BYTES_PER_SAMPLE =
+        (int)((MATRIX_DOUBLES + 2 + 2 + 2 + 4 + 4) * sizeof(double) + sizeof(coefficients) +
+              LIMIT_DOUBLES * sizeof(double) + sizeof(cplx) + 3 * sizeof(int) + 2 * sizeof(unsigned char)),
     BYTES_PER_KNOT = (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) +
-                           9 * sizeof(double) + sizeof(int)),
+                           2 * sizeof(wiggly_knot) + 9 * sizeof(double) + sizeof(int)),
     FIXED_BYTES = (int)(RUN_DOUBLES * CHAIN_RUN * sizeof(double)) + CHAIN_DOUBLES * LINE + 3 * LINE,
 };
 
@@ -82,8 +84,15 @@ static void carve(wiggly_solver *solver)
     solver->swing.total = take(&at, n * sizeof(double));
     solver->swing.im = take(&at, n * sizeof(double));
     solver->swing.speed = take(&at, n * sizeof(double));
+    limit_memory *limits = &solver->limits;
+    double **const of_limits[] = {&limits->pull,    &limits->now,     &limits->re,        &limits->im,
+                                  &limits->free[0], &limits->free[1], &limits->pushed[0], &limits->pushed[1]};
+    _Static_assert(sizeof of_limits / sizeof *of_limits == LIMIT_DOUBLES, "LIMIT_DOUBLES counts the arrays");
+    for (int i = 0; i < LIMIT_DOUBLES; i++) *of_limits[i] = take(&at, n * sizeof(double));
     size_t k = (size_t)solver->knots + 1;
     chain *c = &solver->chain;
+    limits->own = take(&at, k * sizeof(wiggly_knot));
+    limits->all = take(&at, k * sizeof(wiggly_knot));
     rows->slopes = take(&at, k * sizeof(slope_row));
     c->stretches = take(&at, k * sizeof(chain_stretch));
     c->nodes = take(&at, k * sizeof(chain_node));
@@ -94,6 +103,7 @@ static void carve(wiggly_solver *solver)
     c->stretch_of[0] = take(&at, n * sizeof(int));
     c->stretch_of[1] = take(&at, n * sizeof(int));
     rows->fixed = take(&at, n);
+    limits->held = take(&at, n);
     carve_tables(c, at, (unsigned char *)m->diagonal, n);
 }
 

@@ -26,21 +26,42 @@ typedef struct constant_filter {
     cplx tail;        ///< what one sample of that adds, as the poles see it
 } constant_filter;
 
+/// What limits need (limits.h).
+typedef struct limit_memory {
+    wiggly_knot *own, *all; ///< the knots by sample; with held samples
+    signed char *held;      ///< of each sample
+    double *pull;           ///< of each held one: how hard the limit holds it
+    double *now;            ///< the same on the way to holding one more
+    double *re, *im;        ///< where the curve has no arrays
+    double *free[2];        ///< behind the last knot: Re w by itself, and what 1 of Im w there adds to it
+    double *pushed[2];      ///< what the limits add to each of them
+    int solves;             ///< after the first one, of the last limited spline
+} limit_memory;
+
 struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
-    solver_stop *stop; ///< or NULL
+    solver_stop *stop;         ///< or NULL
+    const system_pulls *pulls; ///< on the splines to be solved, or NULL
     wiggly_method method;
     int longest_squared; ///< longer domains are factored without squaring: none, but tests set it
     system_rows rows;
     pentadiagonal matrix;
     constant_filter filter;
-    chain chain;  ///< its large arrays lie over the matrix's: a solve uses one of the two
+    chain chain; ///< its large arrays lie over the matrix's: a solve uses one of the two
+    limit_memory limits;
     swing swing;  ///< what moves by itself as the equilibrium does
     double *y;    ///< equilibrium, where the curve has no array for it
     int *order;   ///< indices of the description's knots by sample
     int *knot_at; ///< scratch: index of the knot on each sample, or -1
 };
+
+/// A factorisation: of the squared matrix, else of the rows.
+typedef struct factorisation {
+    pentadiagonal_rank rank;
+    bool squared;
+    double error; ///< of one solve, estimated, relative to x
+} factorisation;
 
 /// How a minimisation went.
 typedef struct minimum {
@@ -58,6 +79,11 @@ wiggly_solver *solver_lay_out(void *memory, int samples, int knots);
 
 /// Minimises the rows' energy over the unknowns that are not fixed; rows->x holds the fixed ones and 0 elsewhere.
 minimum solver_minimise(wiggly_solver *solver);
+
+/// Its two parts, for rows whose known values, targets, drives and pulls change while their factor stays. The second leaves out of the
+/// error how far x would be elsewhere if the coefficients were rounded otherwise.
+factorisation solver_factor(wiggly_solver *solver);
+minimum solver_refine(wiggly_solver *solver, factorisation *factor);
 
 /// The rows of a description, with knots fixed in x, as solver_minimise() would find them, and its matrix: for comparisons with
 /// other solvers. `y` receives the equilibrium, N numbers. WIGGLY_OK, or what is wrong with the description.

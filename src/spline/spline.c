@@ -1,12 +1,14 @@
 /// Solves one spline: by the chain or by the band, and where a problem is singular as asked, the nearest one that is not
 /// (docs/mathematics.md, last rule of Constraints).
+#include "spline/limits.h"
 #include "spline/problem.h"
 #include <math.h>
 #include <string.h>
 
 wiggly_desc wiggly_default_desc(void)
 {
-    return (wiggly_desc){.samples = 1, .step = 1.0 / 24, .bandwidth.value = 0.1, .calm = 1};
+    return (wiggly_desc){
+        .samples = 1, .step = 1.0 / 24, .bandwidth.value = 0.1, .calm = 1, .low = -INFINITY, .high = INFINITY};
 }
 
 /// w of the system into the curve's arrays, and of what is behind it.
@@ -104,7 +106,7 @@ static void solve_short(wiggly_solver *solver, const problem *p, wiggly_curve *c
 /// True where nothing moves w: no knots, and no drive that could.
 static bool is_still(const problem *p)
 {
-    if (p->desc->knot_count > 0) return false;
+    if (problem_is_asked(p)) return false;
     if (p->start == WIGGLY_FREE || !p->y) return true;
     if (p->desc->mode == WIGGLY_CUBIC) return p->start == WIGGLY_LOOP || problem_oscillates(p);
     if (problem_oscillates(p)) return true;
@@ -180,7 +182,7 @@ static void keep_asked(wiggly_curve *curve, wiggly_curve all)
 /// Whether nothing is to be minimised: too short, nothing moves, or nothing constrains.
 static bool is_plain(const problem *p)
 {
-    return p->count < 3 || is_still(p) || (p->start == WIGGLY_REST && p->desc->knot_count == 0);
+    return p->count < 3 || is_still(p) || (p->start == WIGGLY_REST && !problem_is_asked(p));
 }
 
 static void solve_plain(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
@@ -194,6 +196,14 @@ static void solve_plain(wiggly_solver *solver, const problem *p, wiggly_curve *c
     unpack(solver, p, curve);
 }
 
+wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
+{
+    *result = (minimum){.solved = true};
+    if (!is_plain(p)) return minimise_safely(solver, p, curve, result);
+    solve_plain(solver, p, curve);
+    return p->status;
+}
+
 wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
 {
     if (!solver || !curve) return WIGGLY_ERROR_ARGUMENT;
@@ -201,15 +211,14 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     wiggly_curve all = with_arrays(solver, curve);
     wiggly_status status = problem_pose(solver, desc, all.y ? all.y : solver->y, &p);
     if (status != WIGGLY_OK) return status;
+    const bool limited = limits_are_set(desc) && !solver->pulls; // pins come first
+    if (limited) limits_begin(solver, desc, curve, &all);
     for (;;) {
-        minimum result = {.solved = true};
-        status = p.status;
-        if (is_plain(&p)) {
-            solve_plain(solver, &p, &all);
-        } else {
-            status = minimise_safely(solver, &p, &all, &result);
-        }
+        minimum result;
+        status = (limited ? limits_find : problem_find)(solver, &p, &all, &result);
+        if (status >= WIGGLY_ERROR_ARGUMENT) return status;
         problem_complete(solver, &p, &all);
+        if (limited) limits_clamp(solver, &p, &all);
         result.error += p.swing.error;
         status = judge(&all, &result, status);
         if (status != WIGGLY_INEXACT || !result.unrefined) break;
@@ -222,8 +231,8 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
 bool problem_pose_for_group(wiggly_solver *solver, const wiggly_desc *desc, problem *p)
 {
     return problem_pose(solver, desc, solver->y, p) == WIGGLY_OK && p->start != WIGGLY_LOOP && !problem_is_loose(p) &&
-           !is_plain(p) && problem_fits_chain(solver, p) && problem_omission(solver, p) == 0 &&
-           !problem_ends_in_pair(solver, p);
+           !limits_are_set(desc) && !is_plain(p) && problem_fits_chain(solver, p) &&
+           problem_omission(solver, p) == 0 && !problem_ends_in_pair(solver, p);
 }
 
 bool problem_finish(wiggly_solver *solver, const problem *p, wiggly_curve *curve)

@@ -38,6 +38,8 @@ static const struct {
     {"short-2", BENCH_SHORT_2, COMPLEX | REAL, {240}, false},
     {"short-4", BENCH_SHORT_4, COMPLEX | REAL, {240}, false},
     {"short-8", BENCH_SHORT_8, COMPLEX | REAL, {240}, false},
+    {"limits", BENCH_LIMITS, COMPLEX, {240, 1000}, false},
+    {"limits", BENCH_LIMITS, REAL | CUBIC, {240}, false},
 };
 enum { PLANS = sizeof plan / sizeof *plan };
 
@@ -153,7 +155,8 @@ bool bench_run(struct bench *bench, void (*done)(void *user, const struct bench_
             }
         }
     }
-    return bench_batches(bench, shortest, done, user, error) && run_edit(bench, done, user, error);
+    return bench_batches(bench, shortest, done, user, error) && bench_pins(bench, done, user, error) &&
+           run_edit(bench, done, user, error);
 }
 
 bool bench_large(struct bench *bench, struct bench_result *result, struct error *error)

@@ -28,6 +28,9 @@ static void work_destroy(struct work *w)
     free(w->curve.total);
 }
 
+/// LAPACK knows no limits: such a case is timed alone.
+static bool is_limited(const wiggly_desc *desc) { return desc->high < INFINITY; }
+
 static bool work_create(struct work *w, const wiggly_desc *desc)
 {
     size_t n = (size_t)desc->samples;
@@ -40,7 +43,8 @@ static bool work_create(struct work *w, const wiggly_desc *desc)
     w->curve.im = total + 3 * n;
     w->curve.omega = total + 4 * n;
     w->about = total + 5 * n;
-    return wiggly_create(desc->samples, desc->knot_count, &w->solver) == WIGGLY_OK;
+    int held = is_limited(desc) ? desc->samples : 0;
+    return wiggly_create(desc->samples, desc->knot_count + held, &w->solver) == WIGGLY_OK;
 }
 
 bool bench_goes_on(int runs, double end) { return runs < MAX_RUNS && (runs < MIN_RUNS || clock_now() < end); }
@@ -123,7 +127,7 @@ static void time_solver(struct bench *bench, struct work *w, bool values_only, s
     int runs = 0;
     double end = clock_now() + seconds_a_case;
     for (; bench_goes_on(runs, end); runs++) {
-        w->input.knots[w->input.desc.knot_count / 2].value += 1e-3;
+        w->input.knots[w->input.desc.knot_count / 2].value += runs % 2 ? -1e-3 : 1e-3;
         if (!values_only) solver_forget(w->solver);
         double start = clock_now();
         wiggly_solve(w->solver, &w->input.desc, &w->curve);
@@ -142,7 +146,7 @@ static bool run(struct bench *bench, struct work *w, bool values_only, struct be
     if (status != WIGGLY_OK)
         return fail(error, ERROR_ENVIRONMENT, "%s: %s", result->name, wiggly_status_text(status));
     result->error = w->curve.error;
-    if (lapack->dpbsv) {
+    if (lapack->dpbsv && !is_limited(desc)) {
         result->error = compare(w, lapack);
         if (!(result->error <= agreement)) {
             return fail(error, ERROR_ENVIRONMENT, "%s: differs from LAPACKE_dpbsv by %g of the largest value",
@@ -152,7 +156,7 @@ static bool run(struct bench *bench, struct work *w, bool values_only, struct be
         if (desc->mode == WIGGLY_COMPLEX && desc->start != WIGGLY_LOOP)
             result->zpbsv_ns_per_sample = time_way(w, lapack, BY_ZPBSV);
     }
-    result->band_ns_per_sample = time_way(w, lapack, BY_BAND);
+    if (!is_limited(desc)) result->band_ns_per_sample = time_way(w, lapack, BY_BAND);
     time_solver(bench, w, values_only, result);
     return true;
 }

@@ -39,6 +39,14 @@ static void add_knots(struct bench_input *input, enum bench_kind kind)
     if (ends) add_knot(input, last, has_slope(kind, input->desc.knot_count, true));
 }
 
+static void set_limits(struct bench_input *input, double by)
+{
+    double largest = 0;
+    for (int k = 0; k < input->desc.knot_count; k++) largest = fmax(largest, fabs(input->knots[k].value));
+    input->desc.high = by * largest;
+    input->desc.low = -input->desc.high;
+}
+
 static double periods_of(enum bench_kind kind)
 {
     return kind >= BENCH_SHORT_1 && kind <= BENCH_SHORT_8 ? 1 << (kind - BENCH_SHORT_1) : 0;
@@ -75,6 +83,7 @@ bool bench_input_create(struct bench_input *input, enum bench_kind kind, wiggly_
     if (kind == BENCH_TRACK) add_track(input, &desc->frequency, 1, 0.4);
     if (periods_of(kind) > 0) desc->frequency.value = periods_of(kind) / ((samples - 1) * desc->step);
     add_knots(input, kind);
+    if (kind == BENCH_LIMITS) set_limits(input, 1.02);
     return true;
 }
 

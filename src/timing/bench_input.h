@@ -18,7 +18,8 @@ enum bench_kind {
     BENCH_SHORT_2,
     BENCH_SHORT_4,
     BENCH_SHORT_8,
-    BENCH_EDIT, ///< like single, of fewer knots
+    BENCH_LIMITS, ///< the curve stays within 1.02 of the largest knot
+    BENCH_EDIT,   ///< like single, of fewer knots
 };
 
 /// A description with memory of its own; knots[middle] may be changed.

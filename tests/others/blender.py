@@ -13,7 +13,7 @@ from compare import judge, read_cache, ten_of
 def load(path):
     """The objects of a file."""
     before = set(bpy.data.objects)
-    if path.endswith('.glb'):
+    if path.endswith(('.glb', '.gltf')):
         bpy.ops.import_scene.gltf(filepath=path)
     else:
         bpy.ops.import_anim.bvh(filepath=path)

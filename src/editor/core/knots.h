@@ -40,6 +40,8 @@ const struct channel *core_active_channel(const struct core *core, const struct 
                                           int *channel);
 /// Where a parameter's slider ends; 0: it has none.
 double core_slider_end(const struct document *document, const struct spline *spline, enum parameter parameter);
+/// Where a limit begins that is switched on: a little beyond the knots.
+double core_fresh_limit(const struct spline *spline, enum parameter parameter);
 /// Changes the parameter whose letter is held, or with L the lag, by its step.
 void core_nudge_parameter(struct core *core, const struct editor_world *world, int direction);
 /// The next word of a parameter that is a choice, after the last the first again.

@@ -117,11 +117,27 @@ static void step_spring(const struct spline *spline, struct edit *edit, double s
     edit->param.track = spline->parameter[edit->parameter].track;
 }
 
+/// Of the largest knot.
+static const double FRESH_ROOM = 0.15;
+
 double core_slider_end(const struct document *document, const struct spline *spline, enum parameter parameter)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
     double most = fmin(row->usual, parameter_maximum(parameter, spline_mode(spline)));
     return row->is_frequency ? fmin(most, document->fps * document->substeps / 2) : most;
+}
+
+double core_fresh_limit(const struct spline *spline, enum parameter parameter)
+{
+    const bool is_high = parameter == PARAMETER_HIGH;
+    double edge = 0, largest = 0;
+    for (int k = 0; k < spline->knot_count; k++) {
+        const double value = spline->knots[k].value;
+        if (k == 0 || (is_high ? value > edge : value < edge)) edge = value;
+        largest = fmax(largest, fabs(value));
+    }
+    const double room = largest > 0 ? FRESH_ROOM * largest : 1;
+    return is_high ? ceil(100 * (edge + room) - 1e-6) / 100 : floor(100 * (edge - room) + 1e-6) / 100;
 }
 
 /// Says why a parameter does nothing now; false where it does something.

@@ -357,6 +357,7 @@ void curves_show(struct curves *curves, struct core *core, const struct editor_w
     warnings_update(curves, core, world);
     grid_show(curves, core, world);
     struct rect panel = drawlist_push_clip(&core->list, core->layout.plot);
+    limits_show(curves, core, world);
     show_lines(curves, core, world);
     for (int i = 0; i < curves->cache.other_count; i++) {
         show_other_knots(curves, core, world->document, curves->cache.other_spline[i]);

@@ -12,6 +12,17 @@ void drag_begin_knots(struct curves *curves, struct core *core, const struct edi
 void drag_begin_slope(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
                       int handle, const struct event *event);
 
+/// A line of a limit of the spline near that height.
+void limits_hover(const struct curves *curves, const struct core *core, const struct spline *spline, float y,
+                  struct hover *hover);
+/// Starts to drag the low limit (0) or the high one (1).
+void limits_begin_drag(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
+                       const struct event *event);
+/// Makes the edit for the pointer's present place; knots stay within.
+void limits_apply(const struct curves *curves, struct core *core, const struct editor_world *world);
+/// The active spline's limits, dashed.
+void limits_show(const struct curves *curves, struct core *core, const struct editor_world *world);
+
 /// Makes the edits for the pointer's present place.
 void scale_apply(struct curves *curves, struct core *core, const struct editor_world *world);
 /// The pivot, and the line from it to the pointer.

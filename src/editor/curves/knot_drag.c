@@ -118,6 +118,7 @@ static bool is_free(const struct curves *curves, const struct core *core, const 
 static bool move_knots(const struct curves *curves, const struct core *core, const struct editor_world *world,
                        double frames, double value)
 {
+    const struct spline *spline = core_active_spline(core, world);
     double resolution = 0.01 / curves_pixels_per_value(curves, core);
     for (int i = 0; i < core->originals.count; i++) {
         const struct knot *original = &core->originals.knot[frames > 0 ? core->originals.count - 1 - i : i];
@@ -125,7 +126,9 @@ static bool move_knots(const struct curves *curves, const struct core *core, con
         edit.knot = *original;
         edit.knot.frame += frames;
         if (value != 0 && selection_has(&core->selection, original->id)) {
-            edit.knot.value = core_round(original->value + value, resolution);
+            const double moved = core_round(original->value + value, resolution);
+            edit.knot.value =
+                fmin(fmax(moved, spline->parameter[PARAMETER_LOW].value), spline->parameter[PARAMETER_HIGH].value);
         }
         if (!history_apply(world->history, world->document, &edit, NULL)) return false;
     }
@@ -189,6 +192,7 @@ void curves_drag_apply(struct curves *curves, struct core *core, const struct ed
     if (drag->kind == DRAG_KNOTS) apply_knots(curves, core, world);
     if (drag->kind == DRAG_SLOPE) apply_slope(curves, core, world);
     if (drag->kind == DRAG_SCALE) scale_apply(curves, core, world);
+    if (drag->kind == DRAG_LIMIT) limits_apply(curves, core, world);
 }
 
 void curves_drag_move(struct curves *curves, struct core *core, const struct editor_world *world,

@@ -1,5 +1,6 @@
 /// Fixes warnings. Against a swing, each remedy is tried on the solved document, and the first that helps is kept.
 #include "editor/core/core.h"
+#include "editor/core/knots.h"
 #include "editor/curves/curves.h"
 #include "editor/curves/view.h"
 #include "editor/curves/warnings.h"
@@ -56,6 +57,18 @@ static bool lower_frequency(const struct core *core, const struct editor_world *
     return false;
 }
 
+/// A limit on the side of the swing, a little beyond the knots.
+static bool limit_curve(const struct core *core, const struct editor_world *world, const struct spline *spline,
+                        const struct warning *warning, int before, char text[96])
+{
+    const enum parameter side = warning->value > warning->remedy ? PARAMETER_HIGH : PARAMETER_LOW;
+    const double value = core_fresh_limit(spline, side);
+    struct edit edit = core_parameter_edit(core->active, side, value);
+    if (isfinite(spline->parameter[side].value) || !helps(core, world, &edit, before)) return false;
+    snprintf(text, 96, "Set the %s to %.6g to tame the swing.", parameter_rows[side].name, value);
+    return true;
+}
+
 static bool tame(const struct curves *curves, const struct core *core, const struct editor_world *world,
                  const struct warning *warning, char text[96])
 {
@@ -75,6 +88,7 @@ static bool tame(const struct curves *curves, const struct core *core, const str
         snprintf(text, 96, "Added a knot at frame %.6g to tame the swing.", warning->frame);
         return true;
     }
+    if (limit_curve(core, world, spline, warning, before, text)) return true;
     return lower_frequency(core, world, spline, before, text);
 }
 
@@ -143,6 +157,6 @@ void warning_remedy(const struct curves *curves, struct core *core, const struct
     if (good) {
         core_message(core, false, text);
     } else if (chosen.kind == WARNING_SWING) {
-        core_message(core, false, "Calm, a knot or a lower frequency would not help here. Move the knots.");
+        core_message(core, false, "Calm, a limit, a knot or a lower frequency would not help here. Move the knots.");
     }
 }

@@ -43,6 +43,12 @@ struct knot_drag {
     double ripple_from; ///< frame of that knot, before
 };
 
+/// A drag of a limit.
+struct limit_drag {
+    int handle;   ///< 0: the low one, 1: the high one
+    double value; ///< before
+};
+
 /// Scaling of the selected knots (DRAG_SCALE), about a frame and a value.
 struct scaling {
     bool about_playhead; ///< else about the middle of the selection
@@ -116,6 +122,7 @@ struct curves {
     struct selection before_box; ///< the selection when a box was begun
     struct knot_drag knot_drag;
     struct scaling scaling;
+    struct limit_drag limit_drag;
     struct ghost ghost;
     struct curve_cache cache;
     struct warnings warnings;

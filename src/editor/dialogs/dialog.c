@@ -220,7 +220,7 @@ static void build_path(struct dialogs *dialogs, struct core *core)
     struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialog->ui;
     bool saving = dialog->kind == DIALOG_SAVE_AS;
-    ui_label(ui, ui_row(ui, UI_ROW), saving ? "Save the scene as" : "Open a scene", theme()->text);
+    ui_label(ui, ui_row(ui, UI_ROW), saving ? "Save the scene as" : "Open a scene or character", theme()->text);
     ui_space(ui, 4);
     if (ui_text_field(ui, ui_row(ui, 28), "dialog.path")) {
         dialog->error[0] = '\0';

@@ -1,4 +1,5 @@
-/// The Export dialog: a name whose ending is the format, the frames, and what the format lets choose.
+/// The Export dialog: a file name whose extension is the format, the frames, and the format's options.
+#include "base/path.h"
 #include "editor/core/core.h"
 #include "editor/dialogs/dialog.h"
 #include "editor/dialogs/dialogs.h"
@@ -8,6 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
+enum { STEM_MORE = 32 }; ///< bytes that a name may grow by
 enum { LEAST_ROWS = 3, CHOICE_ROWS = 3, NUMBER_WIDTH = 72, ENDING_WIDTH = 56, NOTE_HEIGHT = 40, MAX_SIDE = 8192 };
 
 static const char path_field[] = "export.path", clip_field[] = "export.clip";
@@ -59,14 +61,34 @@ static void choose_format(struct dialogs *dialogs, int format)
     dialogs->dialog.error[0] = '\0';
 }
 
-/// Another scene: beside its file, called like it, in the format of last time.
-static void begin_memory(struct dialogs *dialogs, const struct core *core)
+/// An absolute path without the ending of its file's name; false where it is too long for a dialog.
+static bool stem_of(const char *folder, const char *path, char stem[PATH_LIMIT])
+{
+    if (!path_resolve(folder, path, stem) || strlen(stem) >= DIALOG_PATH_SIZE - STEM_MORE) return false;
+    char *dot = strrchr(stem, '.'), *slash = strrchr(stem, '/');
+    if (dot && dot > slash + 1) *dot = '\0';
+    return true;
+}
+
+/// Beside the scene's file and called like it, or else like its character; but never like that character's own file.
+static void name_export(char path[DIALOG_PATH_SIZE], const struct core *core, const struct document *document)
+{
+    char scene[PATH_LIMIT], own[PATH_LIMIT];
+    const int model = document_find_rig(document, RIG_MODEL, 0);
+    const bool has_model = model >= 0 && stem_of(document->folder, document->rigs[model].model.model, own);
+    const char *like = core->path[0] ? core->path : has_model ? own : "untitled";
+    snprintf(path, DIALOG_PATH_SIZE, "%.*s", DIALOG_PATH_SIZE - STEM_MORE, like);
+    if (path_has_end(path, ".json")) path[strlen(path) - strlen(".json")] = '\0';
+    if (has_model && (like == own || (stem_of(NULL, core->path, scene) && strcmp(scene, own) == 0)))
+        strcat(path, "-animated");
+}
+
+/// Another scene: in the format of last time.
+static void begin_memory(struct dialogs *dialogs, const struct core *core, const struct document *document)
 {
     struct export_memory *memory = &dialogs->exporting.memory;
     snprintf(memory->scene, sizeof memory->scene, "%s", core->path);
-    snprintf(memory->path, sizeof memory->path, "%s", core->path[0] ? core->path : "untitled");
-    char *dot = strrchr(memory->path, '.');
-    if (dot && strcmp(dot, ".json") == 0) *dot = '\0';
+    name_export(memory->path, core, document);
     choose_format(dialogs, dialogs->exporting.format);
     memory->wish.part = false;
     memory->wish.rig[0] = memory->wish.clip[0] = '\0';
@@ -81,7 +103,7 @@ void dialogs_export(struct dialogs *dialogs, const struct core *core, const stru
     const int last = format_by_ending(files, memory->path);
     if (last >= 0) exporting->format = last;
     const bool same = core->path[0] ? strcmp(memory->scene, core->path) == 0 : exporting->serial == core->serial;
-    if (!same || !memory->path[0]) begin_memory(dialogs, core);
+    if (!same || !memory->path[0]) begin_memory(dialogs, core, world->document);
     exporting->serial = core->serial;
     exporting->typed = 0;
     exporting->dragged = NULL;
@@ -276,37 +298,46 @@ static void build_keys(struct dialogs *dialogs, const struct document *document,
         wish->keys = (int)keys;
 }
 
-/// The next of the scene's named rigs after that one; "" after the last where all may go in.
-static void next_rig(struct export_wish *wish, const struct document *document, bool one)
+static bool is_offered(const struct rig *rig, unsigned choices)
 {
-    int current = -1, found = -1;
-    for (int pass = 0; pass < 2 && found < 0; pass++) {
-        for (int i = 0; i < document->rig_count && found < 0; i++) {
-            const struct rig *rig = &document->rigs[i];
-            if (!rig->name || rig->kind == RIG_CHAIN) continue;
-            if (pass == 0 && current < 0) {
-                if (!wish->rig[0]) found = i;
-                if (strcmp(rig->name, wish->rig) == 0) current = i;
-                continue;
-            }
-            if (pass == 1 ? one || current < 0 : i > current) found = i;
-        }
-        if (pass == 0 && found < 0 && !one) break;
-    }
-    snprintf(wish->rig, sizeof wish->rig, "%s", found >= 0 ? document->rigs[found].name : "");
+    if (choices & CHOICE_JOINTS) return rig->kind == RIG_TAIL || rig->kind == RIG_CHAIN;
+    return rig->kind != RIG_CHAIN; // it goes with its character
 }
 
-static void build_rig(struct dialogs *dialogs, const struct document *document, bool one, struct rect *row)
+/// What an export calls it.
+static const char *label_of(const struct rig *rig) { return rig->name ? rig->name : rig_word(rig->kind); }
+
+/// The next of the scene's rigs after that one; "" after the last where all may go in.
+static void next_rig(struct export_wish *wish, const struct document *document, unsigned choices)
+{
+    int current = -1, first = -1, next = -1;
+    for (int i = 0; i < document->rig_count; i++) {
+        const struct rig *rig = &document->rigs[i];
+        if (!is_offered(rig, choices)) continue;
+        if (first < 0) first = i;
+        if (current >= 0 && next < 0) next = i;
+        if (current < 0 && strcmp(label_of(rig), wish->rig) == 0) current = i;
+    }
+    if (next < 0 && (current < 0 || (choices & CHOICE_ONE))) next = first;
+    snprintf(wish->rig, sizeof wish->rig, "%s", next >= 0 ? label_of(&document->rigs[next]) : "");
+}
+
+static void build_rig(struct dialogs *dialogs, const struct document *document, unsigned choices, struct rect *row)
 {
     struct export_wish *wish = &dialogs->exporting.memory.wish;
-    int named = 0;
-    for (int i = 0; i < document->rig_count; i++)
-        named += document->rigs[i].name && document->rigs[i].kind != RIG_CHAIN;
-    if (named < 2) return;
-    if (one && !wish->rig[0]) next_rig(wish, document, one);
-    const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH + 48, "of");
+    int offered = 0;
+    bool has_chosen = false;
+    for (int i = 0; i < document->rig_count; i++) {
+        if (!is_offered(&document->rigs[i], choices)) continue;
+        offered++;
+        has_chosen = has_chosen || strcmp(label_of(&document->rigs[i]), wish->rig) == 0;
+    }
+    if (!has_chosen) wish->rig[0] = '\0'; // the last was of another format, or has another name now
+    if (offered < 2) return;
+    if ((choices & CHOICE_ONE) && !wish->rig[0]) next_rig(wish, document, choices);
+    const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH + 48, "rig");
     if (ui_button(&dialogs->dialog.ui, r, "export.rig", wish->rig[0] ? wish->rig : "all rigs", false))
-        next_rig(wish, document, one);
+        next_rig(wish, document, choices);
 }
 
 static void build_toggle(struct ui *ui, struct rect *row, const char *name, const char *label, bool *on)
@@ -353,7 +384,7 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
         if (!memory->wish.clip[0] && ui->focus != ui_id(clip_field))
             ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, usual_clip(document), theme()->text_dim);
     }
-    if (format->choices & CHOICE_RIG) build_rig(dialogs, document, (format->choices & CHOICE_ONE) != 0, &rows[1]);
+    if (format->choices & CHOICE_RIG) build_rig(dialogs, document, format->choices, &rows[1]);
     build_flags(dialogs, document, format->choices, rows[2]);
 }
 

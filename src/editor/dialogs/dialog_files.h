@@ -28,6 +28,7 @@ enum dialog_choice {
     CHOICE_SIGNED = 32,
     CHOICE_SIZE = 64, ///< it is pictures
     CHOICE_ALPHA = 128,
+    CHOICE_JOINTS = 256, ///< it holds tails and chains
 };
 
 /// A file format that motion is exported to.

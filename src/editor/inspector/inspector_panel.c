@@ -46,6 +46,7 @@ static const struct section {
     {"section.model", "Imported character", inspector_model, inspector_model_lists, has_model, false},
     {"section.tail", NULL, inspector_tail, inspector_tail_lists, has_tail, false},
     {"section.character", "Character", inspector_character, inspector_character_lists, has_character, false},
+    {"section.limits", "Limits", inspector_limits, NULL, has_spline, true},
     {"section.history", "History", inspector_history, NULL, NULL, true}, // the last one: see there
 };
 

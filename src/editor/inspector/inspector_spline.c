@@ -40,6 +40,7 @@ static void build_number(struct inspection *in, const struct spline *spline, enu
     }
     struct rect button = {r.x + r.w + 2, r.y, UI_ROW, UI_ROW};
     if (may_follow) inspector_track_button(in, parameter, button);
+    if (spline->parameter[parameter].motion) inspector_joint(in);
 }
 
 static void build_choice(struct inspection *in, const struct spline *spline, enum parameter parameter)
@@ -144,7 +145,7 @@ void inspector_spline(struct inspection *in)
 {
     struct spline *spline = core_active_spline(in->core, in->world);
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        if (!spline_uses(spline, p, false)) continue;
+        if (!spline_uses(spline, p, false) || parameter_rows[p].kind == PARAMETER_LIMIT) continue;
         build_parameter(in, spline, p);
         if (p == PARAMETER_MODE) ui_space(in->ui, 4);
         if (p == PARAMETER_MODE && spline_mode(spline) == WIGGLY_CUBIC)
@@ -152,4 +153,30 @@ void inspector_spline(struct inspection *in)
         if (p == PARAMETER_DAMPING || p == PARAMETER_FRICTION) build_pair(in, spline);
     }
     build_warnings(in, spline);
+}
+
+/// A number and a switch beside it; off, the name alone.
+static void build_limit(struct inspection *in, const struct spline *spline, enum parameter parameter)
+{
+    const struct parameter_row *row = &parameter_rows[parameter];
+    const struct rect r = ui_row(in->ui, UI_ROW);
+    const struct rect name = {r.x, r.y, r.w - 34, r.h}, at = {r.x + r.w - 28, r.y, 28, r.h};
+    bool on = isfinite(spline->parameter[parameter].value);
+    if (on) {
+        build_slider(in, spline, parameter, name);
+    } else {
+        ui_label(in->ui, name, row->name, theme()->text_dim);
+    }
+    if (ui_hovered(in->ui, r)) in->ui->hint = row->hint;
+    if (!ui_toggle(in->ui, at, parameter == PARAMETER_HIGH ? "limit.high" : "limit.low", &on)) return;
+    struct edit edit =
+        core_parameter_edit(in->core->active, parameter, on ? core_fresh_limit(spline, parameter) : row->standard);
+    core_step(in->core, in->world, row->undo, 0, &edit);
+}
+
+void inspector_limits(struct inspection *in)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    build_limit(in, spline, PARAMETER_HIGH);
+    build_limit(in, spline, PARAMETER_LOW);
 }

@@ -1,6 +1,5 @@
 /// Tails and chains as rows of points: what is held, and what the overlays follow.
 #include "editor/stage/strand.h"
-#include "editor/stage/hold.h"
 #include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
 #include "model/vector.h"

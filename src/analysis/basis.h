@@ -1,0 +1,27 @@
+/// Sequences over the frames, and least squares on them.
+#ifndef ANALYSIS_BASIS_H
+#define ANALYSIS_BASIS_H
+
+#include <stdbool.h>
+
+/// B: `count` sequences, each of `frames` numbers. B = L Q with orthonormal rows of Q and L lower triangular.
+struct basis {
+    int frames, count, capacity;
+    double *q;     ///< capacity × frames
+    double *lower; ///< capacity × capacity
+};
+
+/// Room for `capacity` sequences. False where memory is short.
+bool basis_create(struct basis *basis, int frames, int capacity);
+void basis_free(struct basis *basis);
+
+/// Appends a sequence; one that the others span counts as zero.
+void basis_append(struct basis *basis, const double *sequence);
+
+/// How much of the motion's power Σ S² its last `last` sequences explain beyond those before; `gram` is G = S Sᵀ.
+double basis_gain(const struct basis *basis, int last, const double *gram);
+
+/// W = (B Bᵀ)⁻¹ B, count × frames: S ≈ Bᵀ (W S) with the least sum of squares.
+void basis_weights(const struct basis *basis, double *weights);
+
+#endif

@@ -1,0 +1,207 @@
+/// The courses R_k and the shapes Ñ_k of given poles z_k minimise
+///
+///     Σ_t |s_t − Σ_k Re(R_k,t Ñ_k)|²  +  Σ_k μ_k Σ_t |R_k,t+1 − z_k R_k,t|²        μ_k = |Ñ_k|² / 2 (β |ln z_k|)²
+///
+/// The first sum is what they leave of the motion s_t, the second what pushes them: as in a wiggly spline, but with one pole each.
+/// Motion that nothing disturbs costs no push, so that R is z^t and the fit is that of exponentials. A force changes R at rates up
+/// to about β of the pole's frequency; what is faster belongs to other poles, or is noise.
+///
+/// In turn, R given Ñ and Ñ given R are linear least squares, and each makes the sum smaller. Ñ = W S with weights W of the frames,
+/// so all that is needed of the motion is G = S Sᵀ: Ñᵢ·s_t = (W G)_it and Ñᵢ·Ñⱼ = (W G Wᵀ)_ij. R given Ñ is
+/// block tridiagonal over the frames, 2 × 2 a pole.
+#include "analysis/courses.h"
+#include "analysis/basis.h"
+#include "analysis/exponentials.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double freedom = 0.4;      ///< β
+static const double settled = 1e-4;     ///< change of what is left, as a share of the power, that ends the turns
+static const double least_push = 1e-12; ///< so that a shape of zero keeps the equations definite
+
+enum { TURNS_MAX = 30, ROWS_MAX = 2 * COURSES_MAX, BLOCK = ROWS_MAX * ROWS_MAX };
+
+/// Room for the turns.
+struct fit {
+    struct courses *courses;
+    const struct lapack *lapack;
+    const double *gram;
+    struct basis basis;
+    double *pull;         ///< W G, 2 count × frames
+    double metric[BLOCK]; ///< W G Wᵀ
+    double *factors;      ///< of each frame: L, then L⁻¹ E of the block E beside it, d × d each
+};
+
+/// A = L Lᵀ in place (d × d, row after row, the lower half).
+static void factor(double *a, int d)
+{
+    for (int j = 0; j < d; j++) {
+        for (int i = j; i < d; i++) {
+            double sum = a[i * d + j];
+            for (int k = 0; k < j; k++) sum -= a[i * d + k] * a[j * d + k];
+            a[i * d + j] = i == j ? sqrt(fmax(sum, 1e-300)) : sum / a[j * d + j];
+        }
+    }
+}
+
+/// x ← L⁻¹ x, each of `columns` columns of x (row after row).
+static void solve_lower(const double *l, int d, double *x, int columns)
+{
+    for (int i = 0; i < d; i++) {
+        for (int c = 0; c < columns; c++) {
+            for (int k = 0; k < i; k++) x[i * columns + c] -= l[i * d + k] * x[k * columns + c];
+            x[i * columns + c] /= l[i * d + i];
+        }
+    }
+}
+
+static void solve_upper(const double *l, int d, double *x)
+{
+    for (int i = d - 1; i >= 0; i--) {
+        for (int k = i + 1; k < d; k++) x[i] -= l[k * d + i] * x[k];
+        x[i] /= l[i * d + i];
+    }
+}
+
+/// μ_k of every pole, and z_k so that it does not grow.
+static void weigh_pushes(const struct fit *f, double *push, double complex *z)
+{
+    int d = 2 * f->courses->count;
+    double trace = 0;
+    for (int i = 0; i < d; i++) trace += f->metric[i * d + i];
+    for (int k = 0; k < f->courses->count; k++) {
+        double shape = f->metric[2 * k * d + 2 * k] + f->metric[(2 * k + 1) * d + 2 * k + 1];
+        z[k] = f->courses->pole[k] / fmax(1, cabs(f->courses->pole[k]));
+        push[k] = (shape + least_push * trace) / 2 / pow(freedom * cabs(clog(z[k])), 2);
+    }
+}
+
+/// E, the block between a frame and the next: −μ z̄ as it acts on (Re R, −Im R) … of the pairs.
+static void fill_beside(const double *push, const double complex *z, int d, double *e)
+{
+    memset(e, 0, (size_t)(d * d) * sizeof *e);
+    // Re(conj(R_t+1) z R_t) in a = Re R, b = −Im R: (a a' + b b') Re z + (a' b − b' a) Im z
+    for (int k = 0; k < d / 2; k++) {
+        double *at = e + 2 * k * d + 2 * k;
+        at[0] = at[d + 1] = -push[k] * creal(z[k]);
+        at[1] = push[k] * cimag(z[k]);
+        at[d] = -push[k] * cimag(z[k]);
+    }
+}
+
+/// R given Ñ.
+static void solve_courses(struct fit *f)
+{
+    int n = f->courses->frames, d = 2 * f->courses->count;
+    size_t block = (size_t)(d * d);
+    double push[COURSES_MAX], x[ROWS_MAX] = {0}, beside[BLOCK];
+    double complex z[COURSES_MAX];
+    weigh_pushes(f, push, z);
+    fill_beside(push, z, d, beside);
+    for (int t = 0; t < n; t++) {
+        double *l = f->factors + 2 * (size_t)t * block, *y = l + block;
+        const double *before = t > 0 ? y - 2 * block : NULL;
+        memcpy(l, f->metric, block * sizeof *l);
+        for (int i = 0; i < d; i++) {
+            double size = cabs(z[i / 2]);
+            l[i * d + i] += push[i / 2] * ((t > 0 ? 1 : 0) + (t < n - 1 ? size * size : 0));
+        }
+        for (int i = 0; before && i < d; i++) {
+            for (int j = 0; j <= i; j++) {
+                for (int k = 0; k < d; k++) l[i * d + j] -= before[k * d + i] * before[k * d + j];
+            }
+        }
+        factor(l, d);
+        memcpy(y, beside, block * sizeof *y);
+        solve_lower(l, d, y, d);
+        double right[ROWS_MAX];
+        for (int i = 0; i < d; i++) {
+            right[i] = f->pull[i * n + t];
+            for (int k = 0; before && k < d; k++) right[i] -= before[k * d + i] * x[k];
+        }
+        solve_lower(l, d, right, 1);
+        for (int i = 0; i < d; i++) f->courses->rows[i * n + t] = x[i] = right[i];
+    }
+    for (int t = n - 1; t >= 0; t--) {
+        const double *l = f->factors + 2 * (size_t)t * block, *y = l + block;
+        double right[ROWS_MAX];
+        for (int i = 0; i < d; i++) {
+            right[i] = f->courses->rows[i * n + t];
+            for (int k = 0; t < n - 1 && k < d; k++) right[i] -= y[i * d + k] * x[k];
+        }
+        solve_upper(l, d, right);
+        for (int i = 0; i < d; i++) f->courses->rows[i * n + t] = x[i] = right[i];
+    }
+}
+
+/// Each R to a largest modulus of 1, so that the push's weight means the same in every turn.
+static void scale_courses(struct courses *c)
+{
+    for (int k = 0; k < c->count; k++) {
+        double *re = c->rows + 2 * k * c->frames, *im = re + c->frames, largest = 0;
+        for (int t = 0; t < c->frames; t++) largest = fmax(largest, hypot(re[t], im[t]));
+        for (int t = 0; largest > 0 && t < c->frames; t++) {
+            re[t] /= largest;
+            im[t] /= largest;
+        }
+    }
+}
+
+/// Ñ given R; returns what both explain of Σ |s_t|².
+static double solve_shapes(struct fit *f)
+{
+    int n = f->courses->frames, d = 2 * f->courses->count;
+    double explained = 0;
+    scale_courses(f->courses);
+    f->basis.count = 0;
+    for (int i = 0; i < d; i++) basis_append(&f->basis, f->courses->rows + i * n);
+    basis_weights(&f->basis, f->courses->weights);
+    f->lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, d, n, n, 1, f->courses->weights, n, f->gram, n, 0,
+                     f->pull, n);
+    f->lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_TRANSPOSED, d, d, n, 1, f->pull, n, f->courses->weights, n,
+                     0, f->metric, d);
+    for (int i = 0; i < d * n; i++) explained += f->courses->rows[i] * f->pull[i];
+    return explained;
+}
+
+static void take_turns(struct fit *f)
+{
+    int n = f->courses->frames;
+    double power = 0, before, explained = solve_shapes(f);
+    for (int t = 0; t < n; t++) power += f->gram[(size_t)t * (size_t)(n + 1)];
+    for (int turn = 0; turn < TURNS_MAX; turn++) {
+        before = explained;
+        solve_courses(f);
+        explained = solve_shapes(f);
+        if (fabs(explained - before) < settled * power) break;
+    }
+}
+
+bool courses_create(struct courses *c, const struct lapack *lapack, const double *gram, int frames,
+                    const double complex *poles, int count)
+{
+    size_t n = (size_t)frames, d = 2 * (size_t)count;
+    struct fit fit = {.courses = c, .lapack = lapack, .gram = gram};
+    *c = (struct courses){.frames = frames, .count = count};
+    memcpy(c->pole, poles, (size_t)count * sizeof *poles);
+    c->rows = malloc(d * n * sizeof *c->rows);
+    c->weights = malloc(d * n * sizeof *c->weights);
+    fit.pull = malloc(d * n * sizeof *fit.pull);
+    fit.factors = malloc(2 * d * d * n * sizeof *fit.factors);
+    bool done = basis_create(&fit.basis, frames, (int)d) && c->rows && c->weights && fit.pull && fit.factors;
+    for (int k = 0; done && k < count; k++) exponentials_fill(poles[k], frames, c->rows + 2 * (size_t)k * n);
+    if (done) take_turns(&fit);
+    basis_free(&fit.basis);
+    free(fit.pull);
+    free(fit.factors);
+    if (!done) courses_free(c);
+    return done;
+}
+
+void courses_free(struct courses *c)
+{
+    free(c->rows);
+    free(c->weights);
+    *c = (struct courses){0};
+}

@@ -1,0 +1,24 @@
+/// One complex coordinate a pole: their courses over time, and the weights of the frames that give their shapes.
+#ifndef ANALYSIS_COURSES_H
+#define ANALYSIS_COURSES_H
+
+#include "base/lapack.h"
+#include <complex.h>
+
+enum { COURSES_MAX = 8 };
+
+/// S ≈ Σ_k Re(R_k Ñ_k). Row 2k of `rows` holds Re R_k and row 2k + 1 −Im R_k, so that with Ñ_k = (w_2k + j w_2k+1) S for the
+/// rows w of `weights` the sum is rowsᵀ weights S.
+struct courses {
+    int frames, count;
+    double complex pole[COURSES_MAX]; ///< z_k, R_k ~ z_k^t
+    double *rows, *weights;           ///< 2 count × frames
+};
+
+/// Fits the courses of `count` poles. `gram` is G = S Sᵀ of a motion without drift. A course swings at its pole, and leaves that
+/// as far as the motion asks for it, as where a force acts. False where memory is short.
+bool courses_create(struct courses *courses, const struct lapack *lapack, const double *gram, int frames,
+                    const double complex *poles, int count);
+void courses_free(struct courses *courses);
+
+#endif

@@ -1,0 +1,33 @@
+/// The steady drift of a motion, every vertex along a line at a speed of its own, and the position that it swings about.
+#ifndef ANALYSIS_DRIFT_H
+#define ANALYSIS_DRIFT_H
+
+#include "analysis/basis.h"
+
+/// Taking it out is a matrix on the frames: S′ = (1 − D) S, D = p₀ w₀ᵀ + p₁ w₁ᵀ, with p₀ = 1 and p₁ the frame number from the middle.
+struct drift {
+    int frames;
+    double *weights; ///< w₀ and w₁: w₁ S is what each column drifts by a frame
+    double share;    ///< of the motion's power, 0 … 1
+};
+
+/// Appends p₀ and p₁ to a basis; false where memory is short.
+bool drift_append(struct basis *basis);
+
+/// From a basis that begins with p₀ and p₁; `gram` is G = S Sᵀ. False where memory is short.
+bool drift_create(struct drift *drift, const struct basis *basis, const double *gram);
+void drift_free(struct drift *drift);
+
+/// Keeps each column's mean: D = p₁ w₁ᵀ from now on.
+void drift_keep_means(struct drift *drift);
+
+/// No drift at all: D = 0.
+void drift_keep_all(struct drift *drift);
+
+/// G becomes (1 − D) G (1 − D)ᵀ. False where memory is short.
+bool drift_remove(const struct drift *drift, double *gram);
+
+/// Weights of S′ become the weights of S that do the same: `rows` of them, each `frames` long.
+void drift_adapt(const struct drift *drift, double *weights, int rows);
+
+#endif

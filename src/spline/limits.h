@@ -1,0 +1,58 @@
+/// Limits: min E subject to low ≤ total ≤ high (docs/mathematics.md, Limits). Internal to src/spline.
+#ifndef SPLINE_LIMITS_H
+#define SPLINE_LIMITS_H
+
+#include "spline/problem.h"
+#include <math.h>
+
+static inline bool limits_are_set(const wiggly_desc *desc) { return desc->low > -INFINITY || desc->high < INFINITY; }
+
+/// Puts a limited spline's knots, which were just posed, and arrays of its own into the solver's memory; `all` is the curve with
+/// arrays where `curve` has none.
+void limits_begin(wiggly_solver *solver, const wiggly_desc *desc, const wiggly_curve *curve, wiggly_curve *all);
+
+/// problem_find() of a limited spline. WIGGLY_ERROR_CAPACITY where more samples are to be held than there is room for.
+wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result);
+
+/// Puts the completed total on the limits where it misses them in its last digits.
+void limits_clamp(const wiggly_solver *solver, const problem *p, wiggly_curve *curve);
+
+/// What a sample is: free, held at a limit, or keyed.
+enum { LIMITS_FREE = 0, LIMITS_LOW = -1, LIMITS_HIGH = 1, LIMITS_KEYED = 2 };
+
+/// A part of a limited spline: up to the last knot, or what the limits add to the motion behind it.
+typedef struct limits_part {
+    problem p; ///< with held samples as knots
+    wiggly_desc desc;
+    int begin;    ///< sample of the spline that is sample 0 here
+    int from, to; ///< samples that may be held, as the spline counts them
+    int held;     ///< how many are
+} limits_part;
+
+/// A limited spline in progress.
+typedef struct limits_work {
+    wiggly_solver *solver;
+    problem *p; ///< on its knots alone
+    wiggly_curve *curve;
+    minimum *result;
+    double tail_error;      ///< estimated, of what the limits add behind the last knot
+    limits_part body, tail; ///< one of them may be empty: to < from
+    wiggly_status status;
+} limits_work;
+
+/// Solves with the samples that are held; their `pull` becomes −½ of the energy's gradient there, by a positive factor. false where
+/// there is no room for so many.
+bool limits_solve(limits_work *work);
+
+/// −½ of the gradient of E·h³ by Re x of a system's sample, at a curve that begins with the system; `im` NULL outside complex mode.
+double limits_pull(const system_rows *rows, const double *re, const double *im, int k);
+
+static inline bool limits_hold(const limits_work *w, int sample) { return w->solver->limits.held[sample] & 1; }
+
+/// Where a sample's limit is that holds it.
+static inline double limits_bound(const limits_work *w, int sample)
+{
+    return w->solver->limits.held[sample] > 0 ? w->p->desc->high : w->p->desc->low;
+}
+
+#endif

@@ -1,0 +1,188 @@
+/// Solves a spline whose held samples are known: as knots of one like it, and of a real spline that pushes what is behind the last.
+//
+// Behind the last knot w moves by itself, w = e^{p…} w_L, until a limit pushes it: w = e^{p…} w_L + e, where Re e is the spline of
+// the real oscillator, from rest at L, through what the held samples lack. Its energy is a quadratic of v = Im w_L, because
+// what they lack is linear in it: E(v) = E₀ + D₀ v + ½ D₁ v², D = dE/dv from the pulls at the held samples. Up to the last knot that
+// is a slope there, whose speed Re(p w_L) is linear in v as well: of stiffness ½ D₁ / (Im p)² and reached at v = −D₀ / D₁.
+#include "spline/limits.h"
+#include "spline/oscillator.h"
+#include <math.h>
+#include <string.h>
+
+/// A stiffness at rest by which the force at the tail's first sample, e₁ of its row, counts as any other.
+static double stiffness_of_rest(const wiggly_desc *desc)
+{
+    const poles at = poles_at(desc, 0, 0);
+    const double seen = poles_speed(&at, desc->step, false).on_e.re;
+    const double weight = exp(poles_weight_exponent(&at, desc->step)) / (seen * seen);
+    return weight / (1 - 0.5 * weight) / desc->step;
+}
+
+/// What a held sample is to reach, in the body and of both parts of the tail.
+enum what { REACH_BOUND, PUSH_FREE, PUSH_TURN };
+
+static double target(const limits_work *w, int sample, enum what what)
+{
+    const limit_memory *m = &w->solver->limits;
+    if (what == REACH_BOUND) return limits_bound(w, sample);
+    if (what == PUSH_TURN) return -m->free[1][sample];
+    return limits_bound(w, sample) - problem_about(w->p, sample) - m->free[0][sample];
+}
+
+/// Adds the part's held samples to `count` knots that are in `all` already, in order; how many there are then, -1: no room.
+static int add_held(const limits_work *w, const limits_part *part, enum what what, const wiggly_knot *own,
+                    int own_count)
+{
+    const limit_memory *m = &w->solver->limits;
+    int count = 0, next = 0;
+    if (own_count + part->held > w->solver->knots) return -1;
+    for (int i = part->from; i <= part->to && count < own_count + part->held; i++) {
+        for (; next < own_count && own[next].sample + part->begin <= i; next++) m->all[count++] = own[next];
+        if (limits_hold(w, i))
+            m->all[count++] = (wiggly_knot){.sample = i - part->begin, .value = target(w, i, what)};
+    }
+    for (; next < own_count; next++) m->all[count++] = own[next];
+    return count;
+}
+
+static void take_knots(wiggly_solver *solver, limits_part *part, int count)
+{
+    part->desc.knots = solver->limits.all;
+    part->desc.knot_count = count;
+    part->p.desc = &part->desc;
+    for (int k = 0; k < count; k++) solver->order[k] = k;
+}
+
+/// The speed that a tail's cost asks for at the last knot, beside the one that a slope there may ask for.
+static void add_slope(const limits_work *w, wiggly_knot *last, const double on_turn[2])
+{
+    const problem *p = w->p;
+    const poles at = poles_at(p->desc, p->latest, 0);
+    const cplx pole = poles_passive(&at);
+    double stiffness = 0.5 * on_turn[1] / (pole.im * pole.im), w_re = last->value - problem_about(p, p->latest);
+    if (!(stiffness > 0 && stiffness < INFINITY)) return;
+    double speed = pole.re * w_re + pole.im * on_turn[0] / on_turn[1];
+    if (p->swing.speed) speed += swing_speed(p->desc, p->y, &p->swing, p->latest);
+    double own = last->has_slope ? last->stiffness : 0;
+    last->slope = (own * (last->has_slope ? last->slope : 0) + stiffness * speed) / (own + stiffness);
+    last->stiffness = own + stiffness;
+    last->has_slope = true;
+}
+
+/// Re e of a part of the tail; returns Σ pull · free[1] over the held samples in units of E. -1 where there is no room.
+static bool push(limits_work *w, enum what what, double *along_turn)
+{
+    wiggly_solver *solver = w->solver;
+    limit_memory *m = &solver->limits;
+    limits_part *tail = &w->tail;
+    const wiggly_knot start = {.has_slope = true, .stiffness = stiffness_of_rest(&tail->desc)};
+    double *re = m->pushed[what == PUSH_TURN] + tail->begin;
+    int count = add_held(w, tail, what, &start, 1);
+    if (count < 0) return false;
+    take_knots(solver, tail, count);
+    problem_pose(solver, &tail->desc, NULL, &tail->p);
+    wiggly_curve curve = {.re = re, .im = re};
+    minimum result;
+    problem_find(solver, &tail->p, &curve, &result);
+    w->tail_error += result.error;
+    problem_set_rows(solver, &tail->p);
+    const double h = tail->desc.step, unit = h * h * h * tail->p.unit;
+    *along_turn = 0;
+    for (int i = tail->from; i <= tail->to; i++) {
+        if (limits_hold(w, i))
+            *along_turn += 2 * limits_pull(&solver->rows, re, NULL, i - tail->begin) * m->free[1][i] / unit;
+    }
+    return true;
+}
+
+/// w behind the last knot as it moves by itself, from Re w there and from 1 of Im w.
+static void set_free(const limits_work *w)
+{
+    wiggly_solver *solver = w->solver;
+    const problem *p = w->p;
+    limit_memory *m = &solver->limits;
+    int L = w->tail.begin, count = p->desc->samples - L - 1;
+    m->free[0][L] = m->free[1][L] = 0;
+    if (p->latest < 0) {
+        memset(m->free[0] + L, 0, sizeof(double) * (size_t)(count + 1));
+        memset(m->free[1] + L, 0, sizeof(double) * (size_t)(count + 1));
+        return;
+    }
+    cplx re = {m->own[p->desc->knot_count - 1].value - problem_about(p, L), 0};
+    problem_fill_tail(solver, p, re, 1, count, m->free[0] + L + 1, m->pushed[0] + L + 1);
+    problem_fill_tail(solver, p, (cplx){0, 1}, 1, count, m->free[1] + L + 1, m->pushed[0] + L + 1);
+}
+
+/// Adds the tail's push to w, and what the held samples' pull is.
+static void add_push(limits_work *w)
+{
+    wiggly_solver *solver = w->solver;
+    limit_memory *m = &solver->limits;
+    limits_part *tail = &w->tail;
+    const int L = tail->begin, n = tail->desc.samples;
+    double turn = w->p->latest < 0 ? 0 : w->curve->im[L], *e = m->pushed[0] + L, h = tail->desc.step;
+    for (int i = 0; i < n; i++) e[i] += turn * m->pushed[1][L + i];
+    problem_set_rows(solver, &tail->p);
+    for (int i = tail->from; i <= tail->to; i++) {
+        if (limits_hold(w, i)) m->pull[i] = limits_pull(&solver->rows, e, NULL, i - L);
+    }
+    for (int i = 1; i < n; i++) {
+        poles at = poles_at(&tail->desc, i, 0);
+        oscillator o = {at.decay, at.natural * at.natural};
+        speed_form back = poles_speed(&at, h, true), ahead = poles_speed(&at, h, false);
+        double speed = back.on_x.re * e[i] + back.on_e.re * (e[i] - e[i - 1]);
+        if (i + 1 < n) speed = 0.5 * (speed + ahead.on_x.re * e[i] + ahead.on_e.re * (e[i + 1] - e[i]));
+        w->curve->re[L + i] += e[i];
+        if (w->p->desc->mode == WIGGLY_COMPLEX)
+            w->curve->im[L + i] += oscillator_turn(o, (w->p->desc->samples - 1) * h) * (speed / h + o.d * e[i]);
+    }
+}
+
+static bool solve_body(limits_work *w, const double on_turn[2])
+{
+    wiggly_solver *solver = w->solver;
+    limit_memory *m = &solver->limits;
+    limits_part *body = &w->body;
+    int count = add_held(w, body, REACH_BOUND, m->own, w->p->desc->knot_count);
+    if (count < 0) return false;
+    if (on_turn[1] > 0) add_slope(w, &m->all[count - 1], on_turn);
+    body->p = *w->p;
+    body->p.level_slope = problem_implies_slope(w->p);
+    body->desc = *w->p->desc;
+    take_knots(solver, body, count);
+    minimum result;
+    wiggly_status status = problem_find(solver, &body->p, w->curve, &result);
+    w->status = status > w->status ? status : w->status;
+    result.error += w->tail_error;
+    *w->result = result;
+    if (body->held == 0) return true;
+    problem_set_rows(solver, &body->p);
+    const double *re = w->curve->re + body->p.first, *im = w->curve->im + body->p.first;
+    for (int i = body->from; i <= body->to; i++) {
+        if (limits_hold(w, i))
+            m->pull[i] = limits_pull(&solver->rows, re, solver->rows.is_complex ? im : NULL, i - body->p.first);
+    }
+    return true;
+}
+
+bool limits_solve(limits_work *w)
+{
+    double on_turn[2] = {0, 0};
+    w->tail_error = 0;
+    w->solver->limits.solves++;
+    const int knots = w->p->desc->knot_count;
+    if (w->tail.held > 0) {
+        set_free(w);
+        if (!push(w, PUSH_FREE, &on_turn[0])) return false;
+        if (knots > 0 && !push(w, PUSH_TURN, &on_turn[1])) return false;
+    }
+    if (knots > 0 || w->body.held > 0) {
+        if (!solve_body(w, on_turn)) return false;
+    } else {
+        memset(w->curve->re, 0, sizeof(double) * (size_t)w->p->desc->samples);
+        memset(w->curve->im, 0, sizeof(double) * (size_t)w->p->desc->samples);
+        *w->result = (minimum){.solved = true, .error = w->tail_error};
+    }
+    if (w->tail.held > 0) add_push(w);
+    return true;
+}

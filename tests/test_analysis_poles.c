@@ -1,0 +1,280 @@
+/// The analysis by poles on planted oscillations: frequency, damping and shape, whatever the frame rate, noise and drift.
+#include "analysis/analysis.h"
+#include "analysis/knots.h"
+#include "planted.h"
+#include <string.h>
+
+static struct lapack lapack;
+
+enum { VERTICES = 60, COLUMNS = 3 * VERTICES, MOST = 2, SEEDS = 3 };
+
+/// Σ_k Re(Ñ_k z_k^t), with noise and a walk along x.
+struct plant {
+    int count, frames;
+    double fps;
+    double frequency[MOST], damping[MOST], size[MOST];
+    double noise; ///< root mean square, relative to that of the swing
+    double speed; ///< m/s along x
+    double complex shape[MOST][COLUMNS];
+    double level;   ///< of the noise: its root mean square, metres
+    uint32_t state; ///< of the noise
+};
+
+/// Normally distributed, of variance 1, near enough: the sum of twelve numbers in [-0.5, 0.5).
+static double bell(uint32_t *state)
+{
+    double sum = 0;
+    for (int i = 0; i < 12; i++) sum += noise(state);
+    return sum;
+}
+
+static double complex pole_of(const struct plant *p, int k)
+{
+    double omega = 2 * M_PI * p->frequency[k], damping = p->damping[k];
+    return omega * (-damping + I * sqrt(1 - damping * damping));
+}
+
+static double swing(const struct plant *p, int i, int j)
+{
+    double sum = 0;
+    for (int k = 0; k < p->count; k++) sum += creal(p->shape[k][j] * cexp(pole_of(p, k) * (i / p->fps)));
+    return sum;
+}
+
+static double planted(int i, int j, void *user)
+{
+    struct plant *p = user;
+    double walk = j % 3 == 0 ? p->speed * i / p->fps : 0;
+    return 0.01 * j + swing(p, i, j) + walk + (p->level > 0 ? p->level * bell(&p->state) : 0);
+}
+
+static void grow(struct plant *p, uint32_t seed)
+{
+    double power = 0;
+    p->state = seed;
+    for (int k = 0; k < p->count; k++) {
+        for (int j = 0; j < COLUMNS; j++) {
+            double re = bell(&p->state), im = bell(&p->state);
+            p->shape[k][j] = p->size[k] * (re + I * im);
+        }
+    }
+    for (int i = 0; i < p->frames; i++) {
+        for (int j = 0; j < COLUMNS; j++) power += pow(swing(p, i, j), 2);
+    }
+    p->level = p->noise * sqrt(power / (p->frames * COLUMNS));
+}
+
+static void analyse(struct analysis *analysis, struct plant *p, int modes)
+{
+    struct motion motion;
+    struct error error;
+    const struct analysis_plan plan = {ANALYSIS_POLES, p->fps, modes, NULL};
+    make_motion(&motion, p->frames, VERTICES, planted, p);
+    if (!analysis_create(analysis, &lapack, &motion, &plan, &error)) fail_msg("%s", error.text);
+    motion_close(&motion);
+}
+
+/// |⟨Ñ, planted Ñ⟩| / (|Ñ| |planted Ñ|)
+static double overlap(const struct component *c, const double complex *shape)
+{
+    double complex product = 0;
+    double a = 0, b = 0;
+    for (int j = 0; j < COLUMNS; j++) {
+        double complex n = c->shape[j / 3][j % 3];
+        product += conj(n) * shape[j];
+        a += creal(n * conj(n));
+        b += creal(shape[j] * conj(shape[j]));
+    }
+    return cabs(product) / sqrt(a * b);
+}
+
+/// The component at a frequency.
+static const struct component *component_near(const struct analysis *a, double frequency)
+{
+    const struct component *best = &a->components[0];
+    for (int k = 1; k < a->count; k++) {
+        if (fabs(a->components[k].frequency - frequency) < fabs(best->frequency - frequency))
+            best = &a->components[k];
+    }
+    return best;
+}
+
+struct bars {
+    double frequency, damping, overlap;
+};
+
+static void hold(struct plant p, struct bars bars)
+{
+    for (uint32_t seed = 1; seed <= SEEDS; seed++) {
+        struct analysis a;
+        grow(&p, seed);
+        analyse(&a, &p, p.count);
+        for (int k = 0; k < p.count; k++) {
+            const struct component *c = component_near(&a, p.frequency[k]);
+            double overlapping = overlap(c, p.shape[k]);
+            assert_near(c->frequency / p.frequency[k], 1, bars.frequency);
+            assert_near(c->damping / p.damping[k], 1, bars.damping);
+            if (!(overlapping >= bars.overlap)) fail_msg("%g Hz: overlap %g", p.frequency[k], overlapping);
+        }
+        analysis_free(&a);
+    }
+}
+
+static const double rates[] = {24, 48, 96};
+enum { RATES = sizeof rates / sizeof rates[0] };
+
+static void a_pole_at_any_rate_and_damping(void **state)
+{
+    (void)state;
+    static const double dampings[] = {0.02, 0.05, 0.1, 0.2, 0.3}, frequencies[] = {0.7, 2, 8};
+    for (int r = 0; r < RATES; r++) {
+        for (int d = 0; d < 5; d++) {
+            for (int f = 0; f < 3; f++) {
+                struct plant p = {1,     (int)(4 * rates[r]), rates[r], {frequencies[f]}, {dampings[d]},
+                                  {0.1}, .noise = 0};
+                hold(p, (struct bars){1e-6, 1e-5, 1 - 1e-6});
+            }
+        }
+    }
+}
+
+static void two_poles_are_told_apart(void **state)
+{
+    (void)state;
+    static const double frequencies[][MOST] = {{2, 2.3}, {2, 6}}, dampings[] = {0.02, 0.05, 0.1, 0.2};
+    for (int r = 0; r < RATES; r++) {
+        for (int f = 0; f < 2; f++) {
+            for (int d = 0; d < 4; d++) {
+                struct plant p = {2,
+                                  (int)(4 * rates[r]),
+                                  rates[r],
+                                  {frequencies[f][0], frequencies[f][1]},
+                                  {dampings[d], dampings[d]},
+                                  {0.1, 0.05},
+                                  .noise = 0};
+                hold(p, (struct bars){1e-4, 1e-3, 0.9999});
+            }
+        }
+    }
+}
+
+static void through_noise(void **state)
+{
+    (void)state;
+    static const double dampings[] = {0.02, 0.05, 0.1, 0.2, 0.3};
+    for (int r = 0; r < RATES; r++) {
+        for (int d = 0; d < 5; d++) {
+            struct plant p = {1, (int)(4 * rates[r]), rates[r], {2}, {dampings[d]}, {0.1}, .noise = 0.8};
+            hold(p, (struct bars){0.01, 0.05, 0.98});
+        }
+        struct plant p = {2, (int)(4 * rates[r]), rates[r], {2, 2.3}, {0.05, 0.05}, {0.1, 0.1}, .noise = 0.2};
+        hold(p, (struct bars){0.01, 0.05, 0.99});
+    }
+}
+
+static void a_walk_is_taken_out_and_said(void **state)
+{
+    (void)state;
+    struct plant p = {2, 96, 24, {1.3, 3}, {0.05, 0.1}, {0.05, 0.02}, .speed = 0.5};
+    hold(p, (struct bars){1e-5, 1e-4, 1 - 1e-5});
+    struct analysis a;
+    grow(&p, 1);
+    analyse(&a, &p, 1);
+    assert_near(a.drift[0], 0.5, 1e-4);
+    assert_near(a.drift[1], 0, 1e-4);
+    assert_true(a.drift_share > 0.5);
+    analysis_free(&a);
+    p.speed = 0;
+    analyse(&a, &p, 1);
+    assert_near(a.drift_share, 0, 0);
+    analysis_free(&a);
+}
+
+/// What a harmonic force at 2.7 Hz does to two bodies, the second softer and so behind: the force's own swing, which comes in over half a second, and
+/// the bodies' at 2 Hz, which that sets off.
+static double driven(int i, int j, void *user)
+{
+    const struct plant *p = user;
+    double t = i / p->fps, ramp = t < 0.5 ? t * t * (3 - 4 * t) * 4 : 1, late = j / 3 % 2 ? 1.2 : 0;
+    double force = ramp * sin(2 * M_PI * 2.7 * t - late);
+    double own = exp(-0.05 * 2 * M_PI * 2 * t) * sin(2 * M_PI * 2 * t - late / 2);
+    return (1 + 0.3 * sin(j)) * (force - 0.3 * own);
+}
+
+static void few_knots_move_it_so(void **state)
+{
+    (void)state;
+    struct plant p = {1, 192, 48, {2}, {0.05}, {0.1}, .noise = 0.2};
+    grow(&p, 1);
+    for (int forced = 0; forced < 2; forced++) {
+        const struct analysis_plan plan = {ANALYSIS_POLES, p.fps, 1, NULL};
+        struct motion motion;
+        struct analysis a;
+        struct knots knots;
+        struct error error;
+        make_motion(&motion, p.frames, VERTICES, forced ? driven : planted, &p);
+        if (!analysis_create(&a, &lapack, &motion, &plan, &error)) fail_msg("%s", error.text);
+        const struct component *c = a.components;
+        assert_near(c->frequency, forced ? 2.7 : 2, 0.02);
+        assert_near(c->damping, forced ? 0 : 0.05, 0.002);
+        assert_true(knots_create(&knots, c, p.fps));
+        assert_near(component_error(c, knots.course), knots.error, 0);
+        if (!(knots.error <= 1.1 * component_error(c, c->course)))
+            fail_msg("%d knots leave %g, the coordinate %g", knots.count, knots.error, component_error(c, c->course));
+        assert_true(forced ? knots.count <= KNOTS_MOST : knots.count <= 2);
+        knots_free(&knots);
+        analysis_free(&a);
+        motion_close(&motion);
+    }
+}
+
+/// 22 Hz at 48 frames a second, and 3.
+static double quick(int i, int j, void *user)
+{
+    (void)user;
+    return cos(2 * M_PI * 22 * i / 48.0 + j) * exp(-0.02 * i) + cos(2 * M_PI * 3 * i / 48.0 - j) * exp(-0.01 * i);
+}
+
+static void motion_near_half_the_rate_is_told(void **state)
+{
+    (void)state;
+    const struct analysis_plan plan = {ANALYSIS_POLES, 48, 2, NULL};
+    struct motion motion;
+    struct analysis a;
+    struct error error;
+    make_motion(&motion, 192, VERTICES, quick, NULL);
+    if (!analysis_create(&a, &lapack, &motion, &plan, &error)) fail_msg("%s", error.text);
+    assert_near(a.fast_share, 1 / 3.0, 0.02); // powers go as 1 / damping
+    assert_near(component_near(&a, 22)->frequency, 22, 0.01);
+    analysis_free(&a);
+    motion_close(&motion);
+}
+
+static int load(void **state)
+{
+    char description[128];
+    (void)state;
+    if (lapack_load(&lapack, description, sizeof description)) return 0;
+    print_error("LAPACKE: %s\n", description);
+    return 1;
+}
+
+static int unload(void **state)
+{
+    (void)state;
+    lapack_unload(&lapack);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_pole_at_any_rate_and_damping),
+        cmocka_unit_test(two_poles_are_told_apart),
+        cmocka_unit_test(through_noise),
+        cmocka_unit_test(a_walk_is_taken_out_and_said),
+        cmocka_unit_test(few_knots_move_it_so),
+        cmocka_unit_test(motion_near_half_the_rate_is_told),
+    };
+    return cmocka_run_group_tests(tests, load, unload);
+}
