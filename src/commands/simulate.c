@@ -1,7 +1,8 @@
-/// `wiggly simulate`: shakes a closed mesh as a soft body, or finds its normal modes.
+/// `wiggly simulate`: shakes a mesh as a soft body, or finds its normal modes.
 #include "base/clock.h"
 #include "base/file.h"
 #include "commands/commands.h"
+#include "commands/open_mesh.h"
 #include "commands/options.h"
 #include "commands/progress.h"
 #include "model/motion.h"
@@ -15,6 +16,7 @@
 
 struct job {
     const char *mesh, *output;
+    struct mesh_options opening;
     char rest[4096]; ///< the rest mesh beside the output
     const char *shake_text;
     struct shake shake;
@@ -116,7 +118,7 @@ static bool run(const struct job *job, struct error *error)
 {
     struct surface surface = {0};
     struct soft soft;
-    if (!surface_read(job->mesh, &surface, error)) return false;
+    if (!open_mesh(job->mesh, &job->opening, &surface, error)) return false;
     bool good = soft_create(&soft, &surface, job->mesh, &job->soft, error);
     if (good) {
         printf("%s: %d tetrahedra, %d nodes, %d of them pinned; Young's modulus %.4g Pa, lowest mode %.4g Hz\n",
@@ -167,12 +169,14 @@ static const char *check(struct job *job)
     if (!options_direction(job->shake_text, job->shake.direction))
         return "--shake: expected up, side, front or a vector x,y,z";
     snprintf(job->rest, sizeof job->rest, "%.*s.rest.obj", (int)strlen(job->output) - 4, job->output);
-    return set_material(&job->soft);
+    const char *wrong = mesh_options_check(&job->opening);
+    return wrong ? wrong : set_material(&job->soft);
 }
 
 int command_simulate(int argc, char **argv)
 {
     struct job job = {.soft = soft_default_options(),
+                      .opening = {.up = "y", .scale = 1},
                       .shake = {.amplitude = 0.2},
                       .shake_text = "up",
                       .seconds = 4,
@@ -184,6 +188,7 @@ int command_simulate(int argc, char **argv)
         {"--output", "-o", "FILE",
          "required: NAME.npy or NAME.pc2 (--modal: .npy); the rest mesh goes to NAME.rest.obj", OPTION_TEXT,
          &job.output, 0, 0},
+        MESH_OPTIONS(&job.opening),
         {"--shake", NULL, "DIR", "up, side, front or a vector x,y,z (default: up)", OPTION_TEXT, &job.shake_text, 0,
          0},
         {"--amplitude", NULL, "A", "how far the top moves, relative to the height (0.2)", OPTION_REAL,
@@ -210,8 +215,9 @@ int command_simulate(int argc, char **argv)
     };
     const struct usage usage = {
         .command = "simulate",
-        .operands = "mesh.obj",
-        .summary = "Shakes a closed mesh as a soft body (finite elements) and writes its vertices in every frame.",
+        .operands = "MESH",
+        .summary = "Shakes a mesh (OBJ, STL, PLY, OFF, glTF) as a soft body (finite elements) and writes its "
+                   "vertices in every frame.",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .operand_minimum = 1,
