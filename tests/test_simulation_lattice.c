@@ -63,7 +63,7 @@ static struct lattice lattice_of(const struct surface *surface, int target)
 {
     struct lattice lattice;
     struct error error = {0};
-    if (!lattice_create(&lattice, surface, target, "test", &error)) fail_msg("%s", error.text);
+    if (!lattice_create(&lattice, surface, target, NAN, "test", &error)) fail_msg("%s", error.text);
     return lattice;
 }
 
@@ -238,7 +238,7 @@ static void a_needle_is_cut_within_bounds(void **state)
     assert_true(lattice.tet_count > 100);
     lattice_free(&lattice);
     add_box(&hair, (const double[3]){0, 0, 0}, (const double[3]){1e-9, 2, 1e-9});
-    assert_false(lattice_create(&lattice, &hair, 3000, "hair.obj", &error));
+    assert_false(lattice_create(&lattice, &hair, 3000, NAN, "hair.obj", &error));
     assert_string_equal(error.text, "hair.obj: the mesh is too thin for a lattice of 3000 tetrahedra");
     surface_free(&needle);
     surface_free(&hair);
