@@ -149,7 +149,9 @@ static void a_box_falls_on_the_floor_and_stays(void **state)
         assert_true(integrator_step(&integrator));
         lattice_embed(&soft.lattice, (const double(*)[3])integrator.x, place);
         for (int i = 0; i < 8; i++) lowest = fminf(lowest, place[i][1]);
-        if (step % 100 > 80 && step%2) print_message("T %d %.4f %.3f calmed %ld\n", step, (double)place[0][1], integrator.v[0][1], integrator.calmed);
+        if (step % 100 > 80 && step % 2)
+            print_message("T %d %.4f %.3f calmed %ld\n", step, (double)place[0][1], integrator.v[0][1],
+                          integrator.calmed);
     }
     print_message("lowest %.3f m, at the end %.3f m at %.2g m/s\n", (double)lowest, (double)place[0][1],
                   integrator.v[0][1]);

@@ -175,7 +175,7 @@ static bool add_knot(const struct search *s, struct knots *k, int stride)
         struct knots changed = *k;
         int at = k->count;
         while (at > 0 && k->frame[at - 1] > frame) at--;
-        if (frame < k->frame[at - 1] + gap || (at < k->count && frame > k->frame[at] - gap)) continue;
+        if ((at > 0 && frame < k->frame[at - 1] + gap) || (at < k->count && frame > k->frame[at] - gap)) continue;
         memmove(changed.frame + at + 1, changed.frame + at, (size_t)(k->count - at) * sizeof *changed.frame);
         changed.frame[at] = frame;
         changed.count++;

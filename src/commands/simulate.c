@@ -183,9 +183,11 @@ static const char *check(struct job *job)
     return wrong ? wrong : set_material(&job->soft);
 }
 
+/// Among which the one that is shaken most is looked for.
+enum { MODES_SEARCHED = 24 };
+
 int command_simulate(int argc, char **argv)
 {
-    enum { MODES_SEARCHED = 24 };
     struct job job = {.soft = soft_default_options(),
                       .opening = {.up = "y", .scale = 1},
                       .shake = {.shake = {.amplitude = NAN}, .seconds = 4, .fps = 24, .accuracy = 0.02},
