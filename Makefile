@@ -80,7 +80,7 @@ PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs glfw3 epoxy egl jansson)
 comma := ,
 OPTIMISE := $(if $(DEBUG),-O0 -g3,$(if $(SANITIZE),-O1,-O2) -g) $(if $(SANITIZE),-fno-omit-frame-pointer)
 SANITIZERS := $(if $(SANITIZE),-fsanitize=address$(comma)undefined -fno-sanitize-recover=all)
-WARNINGS := -Wall -Wextra -Wshadow -Wconversion $(if $(WERROR),-Werror)
+WARNINGS := -Wall -Wextra -Wshadow -Wconversion -Wcast-qual $(if $(WERROR),-Werror)
 ERRORS := -Werror=implicit-function-declaration -Werror=implicit-int -Werror=int-conversion \
     -Werror=incompatible-pointer-types
 OWN_CPPFLAGS := -Isrc -Iinclude -D_GNU_SOURCE

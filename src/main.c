@@ -18,7 +18,7 @@ static const struct command {
     {"solve", command_solve, "scene.json [-o out.csv]", "writes every spline at every sample as CSV"},
     {"rig", command_rig, "in.glb --chain A:B -o scene.json", "gives a character's tail, ears or hair follow-through"},
     {"export", command_export, "scene.json -o FILE", "writes the motion for other programs: .glb, .usda, .csv …"},
-    {"check", command_check, "scene.json", "prints every problem in a scene file"},
+    {"check", command_check, "scene.json", "prints every problem in a scene file, or what a .glb holds"},
     {"simulate", command_simulate, "mesh.obj -o sim.npy",
      "shakes a closed mesh as a soft body and records its motion"},
     {"analyze", command_analyze, "up.npy --rest mesh.obj --fps N -o creature.glb",

@@ -18,13 +18,6 @@ static void wait_a_moment(void) { nanosleep(&(struct timespec){.tv_nsec = 500000
 
 static bool has_file(const struct autosave *autosave) { return access(autosave_path(autosave), F_OK) == 0; }
 
-/// Waits for the thread: until the file is there, or gone.
-static void wait_for_file(const struct autosave *autosave, bool there)
-{
-    for (int i = 0; i < 12000 && has_file(autosave) != there; i++) wait_a_moment();
-    assert_int_equal(has_file(autosave), there);
-}
-
 static struct autosave_work work_of(const struct world *world)
 {
     return (struct autosave_work){.document = world->document,
@@ -41,6 +34,13 @@ static void update(struct autosave *autosave, const struct world *world, double 
         if (!autosave_update(autosave, &work, now, &error)) fail_msg("%s", error.text);
         wait_a_moment();
     }
+}
+
+/// Updates until the file is there, or gone: what is due may be refused while the thread is at an earlier write.
+static void update_until(struct autosave *autosave, const struct world *world, double now, bool there)
+{
+    for (int i = 0; i < 3000 && has_file(autosave) != there; i++) update(autosave, world, now);
+    assert_int_equal(has_file(autosave), there);
 }
 
 static struct autosave *open_autosave(void)
@@ -77,25 +77,21 @@ static void test_when(void **state)
     wait_a_moment();
     assert_false(has_file(autosave));
     world_must(&world, edit_insert(SWAY, 5, 5));
-    update(autosave, &world, 10.1);
-    wait_for_file(autosave, true);
+    update_until(autosave, &world, 10.1, true);
     assert_int_equal(unlink(autosave_path(autosave)), 0); // so that the next write shows
     world_must(&world, edit_insert(SWAY, 6, 5));
     update(autosave, &world, 10.9); // less than a second after the one before
     wait_a_moment();
     assert_false(has_file(autosave));
-    update(autosave, &world, 11.2); // still within two seconds of the edit
-    wait_for_file(autosave, true);
+    update_until(autosave, &world, 11.2, true); // still within two seconds of the edit
     assert_int_equal(unlink(autosave_path(autosave)), 0);
     update(autosave, &world, 20); // nothing new to write
     wait_a_moment();
     assert_false(has_file(autosave));
     world_must(&world, edit_insert(SWAY, 7, 5));
-    update(autosave, &world, 30);
-    wait_for_file(autosave, true);
+    update_until(autosave, &world, 30, true);
     history_mark_saved(world.history);
-    update(autosave, &world, 30.1);
-    wait_for_file(autosave, false);
+    update_until(autosave, &world, 30.1, false);
     autosave_close(autosave, false);
     world_close(&world);
 }
@@ -112,8 +108,7 @@ static void test_large(void **state)
     double now = 100;
     update(autosave, &world, now);
     assert_false(has_file(autosave));
-    update(autosave, &world, now += 1);
-    wait_for_file(autosave, true);
+    update_until(autosave, &world, now += 1, true);
     assert_int_equal(unlink(autosave_path(autosave)), 0);
     for (int i = 0; i < 20; i++) {
         world_must(&world, edit_number(SWAY, PARAMETER_FREQUENCY, 1 + 0.01 * i));
@@ -121,14 +116,13 @@ static void test_large(void **state)
     }
     wait_a_moment();
     assert_false(has_file(autosave));
-    update(autosave, &world, now + 1); // still within two seconds of the last edit
-    wait_for_file(autosave, true);
+    update_until(autosave, &world, now + 1, true); // still within two seconds of the last edit
     assert_int_equal(unlink(autosave_path(autosave)), 0);
     for (int i = 0; i < 70; i++) {
         world_must(&world, edit_number(SWAY, PARAMETER_FREQUENCY, 2 + 0.01 * i));
         update(autosave, &world, now += 0.5);
     }
-    wait_for_file(autosave, true);
+    update_until(autosave, &world, now, true);
     autosave_close(autosave, false);
     world_close(&world);
 }
@@ -156,8 +150,7 @@ static void test_left_behind(void **state)
     autosave_move(other, &entry.slot); // recovered: the file stays until the work is saved
     assert_true(has_file(other));
     history_mark_saved(world.history);
-    update(other, &world, 1);
-    wait_for_file(other, false);
+    update_until(other, &world, 1, false);
     autosave_close(other, false);
     assert_false(recovery_find(folder, &entry, NULL));
     world_close(&world);
@@ -228,8 +221,7 @@ static void test_cannot_write(void **state)
     assert_int_equal(rename(moved, folder), 0);
     update(autosave, &world, 1000);
     wait_a_moment();
-    update(autosave, &world, 2000);
-    wait_for_file(autosave, true);
+    update_until(autosave, &world, 2000, true);
     autosave_close(autosave, false);
     world_close(&world);
 }

@@ -79,6 +79,34 @@ static void test_enter_exports_the_scene(void **state)
     session_close(&s);
 }
 
+/// A character's own file is not what Enter writes over, whether its scene has a file beside it or none.
+static void test_a_character_keeps_its_file(void **state)
+{
+    (void)state;
+    static const char with_dog[] =
+        "{\"frames\": [0, 24], \"splines\": [], \"rigs\": [{\"type\": \"model\", \"model\": "
+        "\"/somewhere/rex.glb\"}]}";
+    static const struct {
+        const char *path, *expected;
+    } cases[] = {
+        {"", "/somewhere/rex-animated.glb"},
+        {"/somewhere/rex.json", "/somewhere/rex-animated.glb"},
+        {"/somewhere/walk.json", "/somewhere/walk.glb"},
+        {"/elsewhere/rex.json", "/elsewhere/rex.glb"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct session s;
+        panel_open(&s, with_dog, 1280, 720);
+        editor_set_files(
+            s.editor, &(struct dialog_files){.formats = exporting_formats, .format_count = exporting_format_count});
+        editor_set_path(s.editor, cases[i].path);
+        session_key(&s, 'E', MOD_CTRL);
+        session_key(&s, KEY_ENTER, 0);
+        assert_string_equal(asked(&s).path, cases[i].expected);
+        session_close(&s);
+    }
+}
+
 static void test_the_ending_is_the_format(void **state)
 {
     (void)state;
@@ -238,6 +266,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_enter_exports_the_scene),
+        cmocka_unit_test(test_a_character_keeps_its_file),
         cmocka_unit_test(test_the_ending_is_the_format),
         cmocka_unit_test(test_a_name_without_an_ending_gets_one),
         cmocka_unit_test(test_choices_are_asked_for),

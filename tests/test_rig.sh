@@ -7,6 +7,17 @@ expect 0 "without -o it lists" "$WIGGLY" rig $dog
 says "the clips" "Walk (1 s)" "$out"
 says "and the bones, each under its parent" "          tail_3" "$out"
 
+says "the ways that chains can go" "  tail_1:tail_8 (8 bones)" "$out"
+expect 0 "check says what a character is" "$WIGGLY" check $dog
+says "and what it holds" "$dog: a glTF character of 19816 triangles and 43 joints" "$out"
+says "with its clips" "Trot (0.583 s)" "$out"
+says "and the ways that chains can go" "  ear_1_L:ear_4_L (4 bones)" "$out"
+head -c 5000 $dog >"$scratch/cut.glb"
+expect 1 "check of one that was cut off" "$WIGGLY" check "$scratch/cut.glb"
+expect 0 "the driver has nothing to remark" "$WIGGLY" live --headless --frames 3 --gl-debug assets/scenes/dog.json
+! grep -q OpenGL <<<"$err"
+ok "about the character's buffers" $?
+
 expect 0 "a tail and two ears" "$WIGGLY" rig $dog --chain tail_1:tail_8 --chain ear_1_L -c ear_1_R --frequency 2 -o "$scratch/dog.json"
 says "says what was made" "wrote $scratch/dog.json: 3 chains" "$out"
 expect 0 "the scene is sound, and finds its character from there" "$WIGGLY" check "$scratch/dog.json"
@@ -18,7 +29,7 @@ expect 0 "straight to an animated character" "$WIGGLY" rig $dog --chain tail_1 -
 expect 0 "which opens" "$WIGGLY" rig "$scratch/trot.glb"
 says "with the clip at its own length" "Trot (0.583 s)" "$out"
 expect 0 "a clip of its own for knots alone" "$WIGGLY" rig $dog --chain tail_1 --plain -o "$scratch/plain.json"
-grep -q joint "$scratch/plain.json"
+grep -q '"joint"' "$scratch/plain.json"
 [ $? -eq 1 ]
 ok "follows nothing" $?
 

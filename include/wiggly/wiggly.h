@@ -38,6 +38,7 @@ typedef enum wiggly_status {
     WIGGLY_ERROR_LOOP,   ///< a loop of one sample
     WIGGLY_ERROR_SPRING, ///< spring and friction in complex mode
     WIGGLY_ERROR_MEMORY, ///< out of memory
+    WIGGLY_ERROR_PIN,    ///< a pin outside the domain, or on a spline that has no motion of its own
     WIGGLY_ERROR_LIMIT,  ///< a knot beyond a limit, or a low limit that is not below the high one
     WIGGLY_STATUS_COUNT
 } wiggly_status;
@@ -95,7 +96,7 @@ typedef struct wiggly_desc {
     wiggly_param equilibrium; ///< y (eq. 25)
     double calm;              ///< 0 … 1; 0 is the paper's formula to the letter
     wiggly_passive passive;   ///< the oscillator, unless it says the filter
-    double low, high;         ///< what the total stays within wherever it is solved for; -INFINITY and INFINITY: no limit
+    double low, high; ///< what the total stays within wherever it is solved for; -INFINITY and INFINITY: no limit
     const wiggly_knot *knots; ///< any order
     int knot_count;
 } wiggly_desc;
@@ -208,6 +209,45 @@ wiggly_status wiggly_take_range(wiggly_take *take, int from, int count, int colu
 
 /// Frees; NULL is fine.
 void wiggly_take_destroy(wiggly_take *take);
+
+/// How a point moves with a spline of a group: by Re(c x), for each of x, y and z. c is (re, im).
+typedef struct wiggly_pull {
+    int spline;
+    double c[3][2];
+} wiggly_pull;
+
+/// A point that is to be somewhere at a sample: Σ over its pulls of Re(c x) is `to`, its way from where it is without any x.
+typedef struct wiggly_pin {
+    int sample;
+    const wiggly_pull *pulls; ///< each of another spline
+    int pull_count;
+    double to[3];
+    double left[3]; ///< filled: what of it is not reached
+} wiggly_pin;
+
+/// Splines that are solved together because points hang on several of them.
+typedef struct wiggly_group wiggly_group;
+
+/// The most pins of a group.
+#define WIGGLY_MOST_PINS 4096
+
+/// For up to so many splines, of up to `samples` samples and `knots` knots each, and so many pins. WIGGLY_ERROR_ARGUMENT,
+/// WIGGLY_ERROR_MEMORY.
+wiggly_status wiggly_group_create(int samples, int knots, int splines, int pins, wiggly_group **group);
+
+/// Solves all splines so that Σ weights[s] times the energy of spline s is least, through their knots and the pins; allocates nothing.
+/// A pin counts as a knot for where each spline that moves it starts and ends. Places that the splines can hardly move to are met in
+/// part, and `left` says what is missing. Weights are positive: they make the energies comparable (the mean of |c|² over what a spline
+/// moves serves). Returns the largest status; WIGGLY_ERROR_PIN for a pin outside a spline's samples (a loop's last one is outside), or on
+/// a spline that is cubic, of calm 0 or of frequency 0 from its first knot or pin to the last.
+wiggly_status wiggly_group_solve(wiggly_group *group, const wiggly_desc *descs, const double *weights,
+                                 wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count);
+
+/// Sets the method of all later solves; a new group has WIGGLY_CHAIN.
+void wiggly_group_set_method(wiggly_group *group, wiggly_method method);
+
+/// Frees; NULL is fine.
+void wiggly_group_destroy(wiggly_group *group);
 
 /// What a curve is at a time, in parts.
 typedef struct wiggly_value {

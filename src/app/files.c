@@ -165,12 +165,27 @@ static bool take_picture(struct app *app, struct error *error)
     return true;
 }
 
+/// Whether a file is one that shows a character of the document, which would swing twice if it held its own motion.
+static bool is_own_character(const struct document *document, const char *path)
+{
+    char own[PATH_LIMIT], file[PATH_LIMIT];
+    for (int r = document_next_rig(document, RIG_MODEL, 0); r >= 0;
+         r = document_next_rig(document, RIG_MODEL, r + 1)) {
+        const bool known = path_resolve(document->folder, document->rigs[r].model.model, own);
+        if (known && path_resolve(NULL, path, file) && strcmp(own, file) == 0) return true;
+    }
+    return false;
+}
+
 /// "Save as" over a file that is not the document's own: refused once, done when asked again.
 static bool may_replace(struct app *app, const char *path, struct error *error)
 {
     if (access(path, F_OK) != 0 || strcmp(path, app_path(app)) == 0 || strcmp(path, app->replaceable) == 0)
         return true;
     snprintf(app->replaceable, sizeof app->replaceable, "%s", path);
+    if (is_own_character(app->table.document, path))
+        return fail(error, ERROR_INPUT,
+                    "%s is this scene's character: press Enter again to replace it, or change the name", path);
     return fail(error, ERROR_INPUT, "%s already exists: press Enter again to replace it", path);
 }
 

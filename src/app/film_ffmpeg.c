@@ -16,18 +16,18 @@ struct film_file {
 enum { MAX_ARGUMENTS = 48 };
 
 /// ffmpeg writes where its standard output goes: a file, in which .mp4 needs to go back.
-static const char output_name[] = "/dev/fd/1";
+static char output_name[] = "/dev/fd/1";
 
-static struct film_file *open_encoder(const char *path, const struct film_shape *shape, const char *const *coding,
+static struct film_file *open_encoder(const char *path, const struct film_shape *shape, char *const *coding,
                                       struct error *error)
 {
     char size[32], rate[32];
     snprintf(size, sizeof size, "%dx%d", shape->width, shape->height);
     snprintf(rate, sizeof rate, "%.10g", shape->rate);
-    const char *const input[] = {"ffmpeg",   "-nostdin", "-hide_banner", "-loglevel",   "error", "-f",
-                                 "rawvideo", "-pix_fmt", "rgba",         "-video_size", size,    "-framerate",
-                                 rate,       "-i",       "pipe:0",       "-y"};
-    const char *arguments[MAX_ARGUMENTS] = {NULL};
+    char *const input[] = {"ffmpeg",   "-nostdin", "-hide_banner", "-loglevel",   "error", "-f",
+                           "rawvideo", "-pix_fmt", "rgba",         "-video_size", size,    "-framerate",
+                           rate,       "-i",       "pipe:0",       "-y"};
+    char *arguments[MAX_ARGUMENTS] = {NULL};
     int count = 0;
     for (size_t i = 0; i < sizeof input / sizeof *input; i++) arguments[count++] = input[i];
     while (*coding) arguments[count++] = *coding++;
@@ -59,14 +59,14 @@ static struct film_file *open_encoder(const char *path, const struct film_shape 
 
 static struct film_file *open_mp4(const char *path, const struct film_shape *shape, struct error *error)
 {
-    static const char *const coding[] = {"-vf",         "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
-                                         SCREEN_COLORS, "-c:v",
-                                         "libx264",     "-crf",
-                                         "18",
-                                         "-aq-mode", // bits for dark gradients, which else fall into bands
-                                         "3",           "-movflags",
-                                         "+faststart",  "-f",
-                                         "mp4",         NULL};
+    static char *const coding[] = {"-vf",         "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
+                                   SCREEN_COLORS, "-c:v",
+                                   "libx264",     "-crf",
+                                   "18",
+                                   "-aq-mode", // bits for dark gradients, which else fall into bands
+                                   "3",           "-movflags",
+                                   "+faststart",  "-f",
+                                   "mp4",         NULL};
     return open_encoder(path, shape, coding, error);
 }
 
@@ -77,21 +77,21 @@ static struct film_file *open_webm(const char *path, const struct film_shape *sh
         "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=" format, SCREEN_COLORS, "-c:v", "libvpx-vp9",      \
             "-crf", "24", "-b:v", "0", "-deadline", "good", "-cpu-used", "4", "-row-mt", "1", "-f", "webm", NULL     \
     }
-    static const char *const opaque[] = WEBM("yuv420p"), *const transparent[] = WEBM("yuva420p");
+    static char *const opaque[] = WEBM("yuv420p"), *const transparent[] = WEBM("yuva420p");
 #undef WEBM
     return open_encoder(path, shape, shape->transparent ? transparent : opaque, error);
 }
 
 static struct film_file *open_gif(const char *path, const struct film_shape *shape, struct error *error)
 {
-    static const char *const coding[] = {"-filter_complex",
-                                         "split[all][some];[some]palettegen=stats_mode=diff[palette];"
-                                         "[all][palette]paletteuse=dither=sierra2_4a:diff_mode=rectangle",
-                                         "-loop",
-                                         "0",
-                                         "-f",
-                                         "gif",
-                                         NULL};
+    static char *const coding[] = {"-filter_complex",
+                                   "split[all][some];[some]palettegen=stats_mode=diff[palette];"
+                                   "[all][palette]paletteuse=dither=sierra2_4a:diff_mode=rectangle",
+                                   "-loop",
+                                   "0",
+                                   "-f",
+                                   "gif",
+                                   NULL};
     return open_encoder(path, shape, coding, error);
 }
 

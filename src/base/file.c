@@ -93,7 +93,7 @@ static char *beside(const char *path, const char *name)
 }
 
 /// Where a path's symbolic links end, whether or not there is a file yet. NULL with errno set.
-static char *follow_links(const char *path)
+static char *resolve_links(const char *path)
 {
     char *target = strdup(path);
     for (int i = 0; target && i < MAX_LINKS; i++) {
@@ -141,7 +141,7 @@ static int open_output(const char *path, struct file_output *output)
     }
     if (exists && !S_ISREG(old.st_mode)) return open(path, O_WRONLY | O_CLOEXEC);
     if (exists && access(path, W_OK) != 0) return -1;
-    output->target = follow_links(path);
+    output->target = resolve_links(path);
     if (!output->target) return -1;
     int file = create_beside(output->target, &output->temporary);
     if (file >= 0 && exists && fchmod(file, old.st_mode & 07777) != 0) {

@@ -15,6 +15,8 @@ static const char *const status_text[WIGGLY_STATUS_COUNT] = {
     [WIGGLY_ERROR_LOOP] = "a loop needs more than one sample",
     [WIGGLY_ERROR_SPRING] = "spring and friction work in real mode only",
     [WIGGLY_ERROR_MEMORY] = "out of memory",
+    [WIGGLY_ERROR_PIN] =
+        "a pin is outside the domain, or on a spline that has no motion of its own: cubic, calm 0 or frequency 0",
     [WIGGLY_ERROR_LIMIT] = "a knot is beyond a limit, or the low limit is not below the high one",
 };
 

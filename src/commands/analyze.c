@@ -158,7 +158,7 @@ static bool run(const struct job *job, struct error *error)
     char description[128];
     if (!lapack_load(&lapack, description, sizeof description))
         return fail(error, ERROR_ENVIRONMENT, "LAPACKE and OpenBLAS: %s", description);
-    bool done = obj_read(job->rest, &rest, error);
+    bool done = surface_read(job->rest, &rest, error);
     if (done) done = analyse_files(job, &lapack, &rest, &character, error);
     character_free(&character);
     surface_free(&rest);

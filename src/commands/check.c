@@ -1,5 +1,7 @@
-/// wiggly check: prints every problem of a scene, its solution and its models.
+/// `wiggly check`: prints every problem of a scene, its solution and its models; of a character, what it holds.
+#include "base/path.h"
 #include "commands/commands.h"
+#include "commands/contents.h"
 #include "commands/options.h"
 #include "rig/clip_motion.h"
 #include "scene/evaluate.h"
@@ -87,7 +89,26 @@ static bool check_document(const char *path, struct document *document, struct p
     return done;
 }
 
-static int check(const char *path)
+static int check_character(const char *path)
+{
+    struct gltf gltf;
+    struct error error;
+    int triangles = 0;
+    if (!gltf_read(path, &gltf, &error)) {
+        fprintf(stderr, "%s\n", error.text);
+        return (int)error.kind;
+    }
+    for (int m = 0; m < gltf.mesh_count; m++) {
+        for (int p = 0; p < gltf.meshes[m].part_count; p++) triangles += gltf.meshes[m].parts[p].index_count / 3;
+    }
+    printf("%s: a glTF character of %d triangle%s and %d joint%s\n", path, triangles, triangles == 1 ? "" : "s",
+           gltf.joint_count, gltf.joint_count == 1 ? "" : "s");
+    contents_print(&gltf);
+    gltf_free(&gltf);
+    return 0;
+}
+
+static int check_scene(const char *path)
 {
     struct problems problems = {.report = print_problem};
     struct error error = {0};
@@ -100,15 +121,16 @@ static int check(const char *path)
 
 int command_check(int argc, char **argv)
 {
-    const char *scene;
+    const char *path;
     const struct usage usage = {
         .command = "check",
         .operands = "scene.json",
-        .summary = "Prints every problem in a scene file, with its line.",
+        .summary =
+            "Prints every problem in a scene file, with its line; of a character, its clips, bones and chains.",
         .operand_minimum = 1,
         .operand_maximum = 1,
     };
-    enum options_result result = options_parse(&usage, argc, argv, &scene);
+    enum options_result result = options_parse(&usage, argc, argv, &path);
     if (result != OPTIONS_RUN) return (int)result;
-    return check(scene);
+    return path_has_end(path, ".glb") || path_has_end(path, ".gltf") ? check_character(path) : check_scene(path);
 }

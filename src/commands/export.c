@@ -1,4 +1,4 @@
-/// wiggly export: writes the motion of a scene into the files of other programs.
+/// `wiggly export`: writes the motion of a scene into the files of other programs.
 #include "export/export.h"
 #include "app/film.h"
 #include "base/clock.h"
@@ -109,22 +109,23 @@ int command_export(int argc, char **argv)
     struct export_options *o = &job.options;
     const struct option_spec options[] = {
         {"--output", "-o", "FILE",
-         "required: .glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd, .npy, .mp4, .webm, .gif or .png, by its name's end",
-         OPTION_TEXT, &job.output, 0, 0},
-        {"--frames", NULL, "A:B", "from frame A to frame B (default: all)", OPTION_TEXT, &job.frames, 0, 0},
-        {"--fps", NULL, "N", "N keys or pictures a second (default: one a sample; pictures: the scene's frames)",
-         OPTION_REAL, &o->rate, 1e-3, 1e5},
-        {"--substeps", NULL, "N", "N keys a frame, instead of --fps", OPTION_INT, &o->substeps, 1, 1024},
-        {"--clip", NULL, "NAME", "what the animation is called (default: the clip that is played, else as the scene)",
+         "required: .glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd, .npy, .mp4, .webm, .gif or .png", OPTION_TEXT,
+         &job.output, 0, 0},
+        {"--frames", NULL, "A:B", "frames A to B (default: all)", OPTION_TEXT, &job.frames, 0, 0},
+        {"--fps", NULL, "N",
+         "N keys or pictures per second (default: one per sample; pictures: the scene's frame rate)", OPTION_REAL,
+         &o->rate, 1e-3, 1e5},
+        {"--substeps", NULL, "N", "N keys per frame, instead of --fps", OPTION_INT, &o->substeps, 1, 1024},
+        {"--clip", NULL, "NAME", "the animation's name (default: the clip that is played, else the scene's name)",
          OPTION_TEXT, &o->clip, 0, 0},
-        {"--rig", NULL, "NAME", "that rig alone (default: all that the file can hold)", OPTION_TEXT, &o->rig, 0, 0},
+        {"--rig", NULL, "NAME", "that rig alone (default: all that the format can hold)", OPTION_TEXT, &o->rig, 0, 0},
         {"--signed", NULL, NULL, "one morph target instead of two, with weights of either sign; Blender clamps them",
          OPTION_FLAG, &o->is_signed, 0, 0},
         {"--keys", NULL, "KIND", "linear (default) or cubic, with tangents (.glb, .gltf)", OPTION_TEXT, &job.keys, 0,
          0},
         {"--size", NULL, "WxH", "of films and pictures (1280x720; .gif 640x360)", OPTION_SIZE, job.size, 16, 8192},
         {"--theme", NULL, "NAME", "of films and pictures: dark (default) or light", OPTION_TEXT, &job.theme, 0, 0},
-        {"--loops", NULL, "N", "films of a looping scene: N rounds, each without its last frame", OPTION_INT,
+        {"--loops", NULL, "N", "films: play a looping scene N times, each time without its last frame", OPTION_INT,
          &job.film.loops, 1, 10000},
         {"--transparent", NULL, NULL, "the rigs alone, without ground and shadows (.png, .webm)", OPTION_FLAG,
          &job.film.transparent, 0, 0},
@@ -133,7 +134,7 @@ int command_export(int argc, char **argv)
     const struct usage usage = {
         .command = "export",
         .operands = "scene.json",
-        .summary = "Writes the motion of a scene into a file of another program's, by the end of its name.",
+        .summary = "Writes the motion of a scene for other programs. The file's extension chooses the format.",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .operand_minimum = 1,

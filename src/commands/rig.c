@@ -1,6 +1,7 @@
 /// wiggly rig: gives the bones of a glTF character follow-through, as a scene or straight as an animated glTF file.
 #include "base/path.h"
 #include "commands/commands.h"
+#include "commands/contents.h"
 #include "commands/options.h"
 #include "export/export.h"
 #include "rig/chain_make.h"
@@ -20,29 +21,6 @@ struct job {
 static const struct gltf *character_of(const struct opened *opened)
 {
     return &models_imported(opened->models, 0)->gltf;
-}
-
-enum { DEEPEST_SHOWN = 64 };
-
-/// The nodes below one (−1: all), each under its parent.
-static void print_below(const struct gltf *gltf, int parent, int depth)
-{
-    for (int n = 0; n < gltf->node_count && depth < DEEPEST_SHOWN; n++) {
-        if (gltf->nodes[n].parent != parent) continue;
-        printf("%*s%s\n", 2 + 2 * depth, "", gltf->nodes[n].name);
-        print_below(gltf, n, depth + 1);
-    }
-}
-
-/// What can be made chains of, for a user who does not know the file.
-static void print_contents(const struct gltf *gltf)
-{
-    printf("clips:%s\n", gltf->clip_count > 0 ? "" : " none");
-    for (int c = 0; c < gltf->clip_count; c++)
-        printf("  %s (%.3g s)\n", gltf->clips[c].name, gltf->clips[c].duration);
-    printf("bones and other nodes:\n");
-    print_below(gltf, -1, 0);
-    if (gltf->not_shown) printf("not shown: %s\n", gltf->not_shown);
 }
 
 /// "A" or "A:B". Names may have colons of their own, so the colon is one between two bones that there are.
@@ -115,7 +93,7 @@ static bool run(const struct job *job, struct error *error)
     if (!opened_read(&opened, job->character, error)) return false;
     bool done = true;
     if (!job->output) {
-        print_contents(character_of(&opened));
+        contents_print(character_of(&opened));
     } else {
         done = edit(job, &opened, error) && (path_has_end(job->output, ".json") ? write_scene(job, &opened, error)
                                                                                 : write_motion(job, &opened, error));
@@ -142,17 +120,17 @@ int command_rig(int argc, char **argv)
     struct job job = {0};
     const struct option_spec options[] = {
         {"--chain", "-c", "A:B",
-         "bones from A to B, or to the tip below A, become a chain; may be given several times", OPTION_LIST,
+         "makes a chain of the bones from A to B, or to the tip below A; can be given more than once", OPTION_LIST,
          &job.chains, 0, 0},
         {"--output", "-o", "FILE", "scene to write (.json), or the character with its motion (.glb, …)", OPTION_TEXT,
          &job.output, 0, 0},
         {"--clip", NULL, "NAME", "the clip that it plays (default: the first)", OPTION_TEXT, &job.clip, 0, 0},
-        {"--frequency", NULL, "HZ", "swings a second (default: by the chain's length)", OPTION_REAL,
+        {"--frequency", NULL, "HZ", "swings per second (default: by the chain's length)", OPTION_REAL,
          &job.wish.frequency, 1e-3, 1e3},
         {"--damping", NULL, "RATIO", "0 rings on, 1 is critical (default: 0.12)", OPTION_REAL, &job.wish.damping,
          1e-6, 1},
-        {"--lag", NULL, "DEGREES", "by which each bone is later than the one before", OPTION_REAL, &job.wish.lag,
-         1e-6, 360},
+        {"--lag", NULL, "DEGREES", "how far each bone lags behind the one before", OPTION_REAL, &job.wish.lag, 1e-6,
+         360},
         {"--plain", NULL, NULL, "do not follow the clip: knots alone will move the chains", OPTION_FLAG, &job.plain,
          0, 0},
     };

@@ -5,6 +5,7 @@
 #include "commands/options.h"
 #include "commands/progress.h"
 #include "model/motion.h"
+#include "model/obj.h"
 #include "simulation/soft.h"
 #include <math.h>
 #include <stdio.h>
@@ -58,7 +59,8 @@ static bool write_frames(const struct job *job, const struct soft *soft, struct 
     return true;
 }
 
-static bool shake(const struct job *job, const struct soft *soft, struct body *body, struct error *error)
+static bool shake(const struct job *job, const struct soft *soft, const struct surface *surface, struct body *body,
+                  struct error *error)
 {
     struct integrator integrator;
     int frames = (int)fmax(1, round(job->seconds * job->fps));
@@ -68,6 +70,7 @@ static bool shake(const struct job *job, const struct soft *soft, struct body *b
         free(position);
         return fail_no_memory(error, job->mesh);
     }
+    memcpy(position, surface->position, (size_t)surface->vertex_count * sizeof *position); // strays stay there
     integrator.mass_damping = soft->alpha;
     integrator.stiffness_damping = soft->beta;
     integrator.tolerance = 1e-4 * soft->lattice.cell; // Newton's next step would be a thousandth of that
@@ -113,18 +116,19 @@ static bool run(const struct job *job, struct error *error)
 {
     struct surface surface = {0};
     struct soft soft;
-    if (!obj_read(job->mesh, &surface, error)) return false;
+    if (!surface_read(job->mesh, &surface, error)) return false;
     bool good = soft_create(&soft, &surface, job->mesh, &job->soft, error);
     if (good) {
         printf("%s: %d tetrahedra, %d nodes, %d of them pinned; Young's modulus %.4g Pa, lowest mode %.4g Hz\n",
                job->mesh, soft.lattice.tet_count, soft.body.node_count, soft.pinned, soft.young,
                soft.modes.count ? soft.modes.frequency[0] : 0);
+        if (soft.lattice.repair[0]) printf("%s: %s\n", job->mesh, soft.lattice.repair);
         fflush(stdout);
         if (soft.loose_parts > 0) {
             fprintf(stderr, "%s: warning: %d of %d separate parts are not pinned and will drift\n", job->mesh,
                     soft.loose_parts, soft.lattice.part_count);
         }
-        good = job->modal ? write_modes(job, &soft, error) : shake(job, &soft, &soft.body, error);
+        good = job->modal ? write_modes(job, &soft, error) : shake(job, &soft, &surface, &soft.body, error);
         good = good && obj_write(job->rest, &surface, error);
         if (good) printf("%s: the mesh at rest\n", job->rest);
         soft_free(&soft);

@@ -1,4 +1,4 @@
-/// wiggly solve: writes every spline of a scene as CSV.
+/// `wiggly solve`: writes every spline of a scene as CSV.
 #include "base/file.h"
 #include "commands/commands.h"
 #include "commands/options.h"

@@ -23,9 +23,25 @@ static struct offsets offsets_of(const struct gltf_part *part)
     return at;
 }
 
-static void fill(size_t from, size_t to, const void *data)
+static void fill(char *to, size_t from, size_t end, const void *data)
 {
-    if (to > from) glBufferSubData(GL_ARRAY_BUFFER, (GLintptr)from, (GLsizeiptr)(to - from), data);
+    if (end > from) memcpy(to + from, data, end - from);
+}
+
+/// A buffer of the part's arrays, filled in one go: memory that drawing reads is not written again. Where it is short, it holds what it will.
+static void fill_vertices(const struct gltf_part *part, const struct offsets *at)
+{
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)at->end, NULL, GL_STATIC_DRAW);
+    char *to =
+        glMapBufferRange(GL_ARRAY_BUFFER, 0, (GLsizeiptr)at->end, GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+    if (!to) return;
+    fill(to, 0, at->normal, part->position);
+    fill(to, at->normal, at->uv, part->normal);
+    fill(to, at->uv, at->color, part->uv);
+    fill(to, at->color, at->joints, part->color);
+    fill(to, at->joints, at->weights, part->joints);
+    fill(to, at->weights, at->end, part->weights);
+    glUnmapBuffer(GL_ARRAY_BUFFER);
 }
 
 static long upload_part(const struct gltf_part *part, GLuint *vertices, GLuint *indices)
@@ -34,13 +50,7 @@ static long upload_part(const struct gltf_part *part, GLuint *vertices, GLuint *
     const size_t index_bytes = (size_t)part->index_count * sizeof *part->indices;
     glGenBuffers(1, vertices);
     glBindBuffer(GL_ARRAY_BUFFER, *vertices);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)at.end, NULL, GL_STATIC_DRAW);
-    fill(0, at.normal, part->position);
-    fill(at.normal, at.uv, part->normal);
-    fill(at.uv, at.color, part->uv);
-    fill(at.color, at.joints, part->color);
-    fill(at.joints, at.weights, part->joints);
-    fill(at.weights, at.end, part->weights);
+    fill_vertices(part, &at);
     glGenBuffers(1, indices);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, *indices);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)index_bytes, part->indices, GL_STATIC_DRAW);
@@ -117,6 +127,20 @@ static long upload_pictures(struct model_buffers *buffers, const struct gltf *gl
     return bytes;
 }
 
+static void create_samplers(struct model_buffers *buffers, const struct gltf *gltf)
+{
+    glGenSamplers(gltf->material_count, buffers->samplers);
+    for (int m = 0; m < gltf->material_count; m++) {
+        const struct gltf_sampler *sampler = &gltf->materials[m].sampler;
+        const GLuint made = buffers->samplers[m];
+        glSamplerParameteri(made, GL_TEXTURE_WRAP_S, sampler->wrap[0]);
+        glSamplerParameteri(made, GL_TEXTURE_WRAP_T, sampler->wrap[1]);
+        glSamplerParameteri(made, GL_TEXTURE_MIN_FILTER, sampler->far);
+        glSamplerParameteri(made, GL_TEXTURE_MAG_FILTER, sampler->near);
+    }
+    buffers->material_count = gltf->material_count;
+}
+
 /// Gives each skin, and each mesh without one, its place among the matrices; returns how many there are.
 static int lay_out_matrices(int *first, const struct gltf *gltf)
 {
@@ -134,11 +158,12 @@ static bool allocate(struct model_buffers *buffers, const struct gltf *gltf, int
     buffers->vertices = calloc((size_t)parts + 1, sizeof *buffers->vertices);
     buffers->indices = calloc((size_t)parts + 1, sizeof *buffers->indices);
     buffers->pictures = calloc((size_t)gltf->image_count + 1, sizeof *buffers->pictures);
+    buffers->samplers = calloc((size_t)gltf->material_count + 1, sizeof *buffers->samplers);
     buffers->shapes = calloc((size_t)shapes + 1, sizeof *buffers->shapes);
     buffers->weights = calloc((size_t)gltf->weight_count + 1, sizeof *buffers->weights);
     buffers->first = calloc((size_t)gltf->node_count + 1, sizeof *buffers->first);
-    if (!buffers->vertices || !buffers->indices || !buffers->pictures || !buffers->shapes || !buffers->weights ||
-        !buffers->first)
+    if (!buffers->vertices || !buffers->indices || !buffers->pictures || !buffers->samplers || !buffers->shapes ||
+        !buffers->weights || !buffers->first)
         return false;
     buffers->row_count = (lay_out_matrices(buffers->first, gltf) + MATRICES_A_ROW - 1) / MATRICES_A_ROW;
     buffers->rows = calloc((size_t)buffers->row_count * FLOATS_A_ROW + 1, sizeof *buffers->rows);
@@ -177,6 +202,7 @@ long model_buffers_create(struct model_buffers *buffers, const struct gltf *gltf
     }
     if (!allocate(buffers, gltf, parts, shapes)) return 0;
     long bytes = upload_pictures(buffers, gltf);
+    create_samplers(buffers, gltf);
     for (int m = 0; m < gltf->mesh_count; m++) {
         const int first = buffers->part_count;
         for (int p = 0; p < gltf->meshes[m].part_count; p++, buffers->part_count++) {
@@ -202,10 +228,12 @@ void model_buffers_free(struct model_buffers *buffers)
     glDeleteBuffers(buffers->part_count, buffers->indices);
     glDeleteTextures(buffers->image_count, buffers->pictures);
     glDeleteTextures(1, &buffers->white);
+    glDeleteSamplers(buffers->material_count, buffers->samplers);
     glDeleteTextures(1, &buffers->matrices);
     free(buffers->vertices);
     free(buffers->indices);
     free(buffers->pictures);
+    free(buffers->samplers);
     free(buffers->shapes);
     free(buffers->weights);
     free(buffers->first);

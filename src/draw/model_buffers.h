@@ -22,6 +22,8 @@ struct model_buffers {
     GLuint *pictures; ///< of each image
     GLuint white;     ///< for materials without one
     int image_count;
+    GLuint *samplers; ///< of each material
+    int material_count;
     struct model_shape *shapes;
     int shape_count;
     float *weights; ///< that the morphed parts show

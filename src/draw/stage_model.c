@@ -100,6 +100,7 @@ static void draw_shape(const struct stage_models *models, const struct model_buf
     glUniform1f(models->at.cutoff, material->cutoff);
     glUniform1i(models->at.both_sides, material->double_sided);
     glBindTexture(GL_TEXTURE_2D, picture ? picture : buffers->white);
+    glBindSampler(PICTURE_UNIT, part->material >= 0 ? buffers->samplers[part->material] : 0);
     glBindVertexArray(shape->vertex_array);
     glFrontFace(is_mirrored(shown, shape->node) ? GL_CW : GL_CCW);
     if (material->double_sided) glDisable(GL_CULL_FACE);
@@ -132,6 +133,7 @@ static void draw_model(const struct stage_models *models, const struct model_buf
         glDepthMask(GL_TRUE);
         glDisable(GL_BLEND);
     }
+    glBindSampler(PICTURE_UNIT, 0);
     glActiveTexture(GL_TEXTURE0);
 }
 

@@ -43,6 +43,9 @@ static void hear(void *who, const struct editor_world *world, enum news news, in
     case NEWS_DRAG_MOVES:
         curves_capture_ghost(editor->curves, &editor->core, world);
         break;
+    case NEWS_PULLED:
+        curves_include(editor->curves, &editor->core, world, spline);
+        break;
     }
 }
 
@@ -141,6 +144,8 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     editor->core.look = LOOK_WIGGLY;
     characters_open(&editor->core, document);
     bones_clear(&editor->core);
+    editor->core.pick = (struct bone_pick){0};
+    memset(editor->core.recent, 0, sizeof editor->core.recent);
     editor->core.active = first_spline(document);
     editor->core.active_id = editor->core.active >= 0 ? document->splines[editor->core.active].id : 0;
     selection_clear(&editor->core.hidden);

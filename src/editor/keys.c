@@ -55,12 +55,14 @@ static void run_insert(struct editor *e, const struct editor_world *w, int argum
     core_insert_on_curve(&e->core, w, core_frame(&e->core, w->document), true, argument);
 }
 
-/// Puts the brush away; without one, lets go of the bone, else clears the selection.
+/// Puts the brush away; without one, stops to pick a bone, lets go of the one that is selected, or clears the selection.
 static void run_select_none(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
     if (e->core.brush.on) {
         characters_set_brush(&e->core, w, false);
+    } else if (e->core.pick.use != BONE_SELECTED) {
+        e->core.pick = (struct bone_pick){0};
     } else if (e->core.bone.any) {
         bones_clear(&e->core);
     } else {

@@ -143,16 +143,28 @@ static bool find_chain(struct place *place, struct error *error)
     return find_along(place, RIG_CHAIN, "chain", error);
 }
 
-/// A bone of the imported characters: bone(tail_1).
+/// The name of a bone on a character: all of the target's, or what is behind the character's own name and a slash. NULL: another one's.
+static const char *bone_name(const struct place *place, const struct rig *character, bool whole)
+{
+    const char *name = place->target->name, *title = rig_title(character);
+    const size_t length = strlen(title);
+    if (whole) return name;
+    return strncmp(name, title, length) == 0 && name[length] == '/' ? name + length + 1 : NULL;
+}
+
+/// A bone of the imported characters: bone(tail_1), the first that there is, or bone(dog 2/tail_1).
 static bool find_bone(struct place *place, struct error *error)
 {
     const struct document *document = place->world->document;
-    for (int r = document_next_rig(document, RIG_MODEL, 0); r >= 0;
-         r = document_next_rig(document, RIG_MODEL, r + 1)) {
-        const struct imported *shown = bones_character(place->world, r);
-        const int node = shown ? gltf_find_node(&shown->gltf, place->target->name) : -1;
-        if (node >= 0 && stage_bone_point(place->editor->stage, &place->editor->core, r, node, place->xy))
-            return true;
+    for (int whole = 1; whole >= 0; whole--) {
+        for (int r = document_next_rig(document, RIG_MODEL, 0); r >= 0;
+             r = document_next_rig(document, RIG_MODEL, r + 1)) {
+            const struct imported *shown = bones_character(place->world, r);
+            const char *name = bone_name(place, &document->rigs[r], whole);
+            const int node = shown && name ? gltf_find_node(&shown->gltf, name) : -1;
+            if (node >= 0 && stage_bone_point(place->editor->stage, &place->editor->core, r, node, place->xy))
+                return true;
+        }
     }
     return fail(error, ERROR_INPUT, "there is no bone \"%s\" to be seen", place->target->name);
 }

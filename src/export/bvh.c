@@ -77,18 +77,18 @@ static void write_key(FILE *out, const struct form *form, const struct keys *key
     }
 }
 
-bool bvh_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool bvh_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     struct form form;
     struct keys keys;
-    take->total = take->key_count;
-    take->is_cubic = false;
-    if (!form_open(take, take->rigs[0], &form, error)) return false;
-    const bool done = keys_collect(take, take->rigs[0], &form, &keys, error);
+    shot->total = shot->key_count;
+    shot->is_cubic = false;
+    if (!form_open(shot, shot->rigs[0], &form, error)) return false;
+    const bool done = keys_collect(shot, shot->rigs[0], &form, &keys, error);
     if (done) {
         fputs("HIERARCHY\n", out);
         write_joint(out, &form, form.first_bone, 0);
-        fprintf(out, "MOTION\nFrames: %d\nFrame Time: %.12g\n", keys.count, take_seconds(take, 1));
+        fprintf(out, "MOTION\nFrames: %d\nFrame Time: %.12g\n", keys.count, shot_seconds(shot, 1));
         for (int k = 0; k < keys.count; k++) {
             const float *place = keys.at.translation[k];
             fprintf(out, "%.9g %.9g %.9g", (double)place[0], (double)place[1], (double)place[2]);

@@ -25,14 +25,15 @@ static bool add_targets(struct form *form, const struct figure *figure, int coor
     const size_t count = (size_t)form->vertex_count + 1;
     for (int part = 0; part < 2; part++) {
         struct form_target *target = &form->targets[form->target_count++];
-        float(*position)[3] = malloc(count * sizeof *position), (*normal)[3] = malloc(count * sizeof *normal);
-        *target = (struct form_target){
-            .position = (const float(*)[3])position, .normal = (const float(*)[3])normal, .group = coordinate};
-        if (!position || !normal || asprintf(&target->name, "%s.%s", n->name, parts[part]) < 0) return false;
+        *target = (struct form_target){.position = malloc(count * sizeof *target->position),
+                                       .normal = malloc(count * sizeof *target->normal),
+                                       .group = coordinate};
+        if (!target->position || !target->normal || asprintf(&target->name, "%s.%s", n->name, parts[part]) < 0)
+            return false;
         for (int i = 0; i < form->vertex_count; i++) {
-            for (int k = 0; k < 3; k++) position[i][k] = part ? -n->im[i][k] : n->re[i][k];
+            for (int k = 0; k < 3; k++) target->position[i][k] = part ? -n->im[i][k] : n->re[i][k];
         }
-        turn_normals(figure, coordinate, part == 1, normal);
+        turn_normals(figure, coordinate, part == 1, target->normal);
     }
     return true;
 }
@@ -63,8 +64,8 @@ static void close(struct form *form)
 {
     for (int t = 0; t < form->target_count; t++) {
         free(form->targets[t].name);
-        free((void *)form->targets[t].position);
-        free((void *)form->targets[t].normal);
+        free(form->targets[t].position);
+        free(form->targets[t].normal);
     }
     free(form->targets);
 }
@@ -97,10 +98,10 @@ static void vertices(const struct form *form, const struct rig_pose *pose, float
 }
 
 /// The weight of each coordinate: a complex number.
-static void columns(const struct take *take, int rig, const struct rig_pose *pose, double key, form_column *column,
+static void columns(const struct shot *shot, int rig, const struct rig_pose *pose, double key, form_column *column,
                     void *user)
 {
-    const char *name = form_name(&take->posing->document->rigs[rig]);
+    const char *name = form_name(&shot->posing->document->rigs[rig]);
     const struct character *c = &pose->character.figure->character;
     const struct morph *morph = &pose->character.morph;
     (void)key;

@@ -1,4 +1,4 @@
-/// A table: a row a key, a column for every spline and every channel of the rigs.
+/// A table: one row per key, a column for every spline and every channel of the rigs.
 #include "export/format.h"
 #include "scene/number.h"
 #include <stdarg.h>
@@ -42,35 +42,35 @@ static void write_column(void *user, double value, const char *format, ...)
     free(name);
 }
 
-static bool write_row(struct take *take, double key, struct row *row, struct error *error)
+static bool write_row(struct shot *shot, double key, struct row *row, struct error *error)
 {
     struct rig_pose pose;
-    const struct document *document = take->posing->document;
+    const struct document *document = shot->posing->document;
     row->columns = 0;
-    write_column(row, take_frame(take, key), "frame");
+    write_column(row, shot_frame(shot, key), "frame");
     for (int i = 0; i < document->spline_count; i++) {
-        const wiggly_value value = take_value(take, i, key);
+        const wiggly_value value = shot_value(shot, i, key);
         write_column(row, value.y + value.re, "%s", document->splines[i].name);
     }
-    for (int r = 0; r < take->rig_count; r++) {
-        const int rig = take->rigs[r];
-        if (!take_pose(take, rig, key, &pose, error)) return false;
+    for (int r = 0; r < shot->rig_count; r++) {
+        const int rig = shot->rigs[r];
+        if (!shot_pose(shot, rig, key, &pose, error)) return false;
         const struct form_kind *kind = form_kind(document->rigs[rig].kind);
-        if (kind->columns) kind->columns(take, rig, &pose, key, write_column, row);
+        if (kind->columns) kind->columns(shot, rig, &pose, key, write_column, row);
     }
     fputc('\n', row->out);
     return true;
 }
 
-bool csv_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool csv_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     struct row row = {.out = out, .names = true};
-    take->total = take->key_count;
-    if (!write_row(take, 0, &row, error)) return false;
+    shot->total = shot->key_count;
+    if (!write_row(shot, 0, &row, error)) return false;
     row.names = false;
-    for (int k = 0; k < take->key_count; k++) {
-        if (!write_row(take, k, &row, error) || !take_proceed(take, error)) return false;
+    for (int k = 0; k < shot->key_count; k++) {
+        if (!write_row(shot, k, &row, error) || !shot_proceed(shot, error)) return false;
     }
-    snprintf(summary, FORMAT_SUMMARY, "%d columns, %d rows", row.columns, take->key_count);
+    snprintf(summary, FORMAT_SUMMARY, "%d columns, %d rows", row.columns, shot->key_count);
     return true;
 }

@@ -11,7 +11,7 @@
 static const struct format formats[] = {
     {.ending = ".glb", .holds = FORM_MESH | FORM_FILE, .write = glb_write},
     {.ending = ".gltf", .holds = FORM_MESH | FORM_FILE, .write = gltf_write},
-    {.ending = ".usda", .holds = FORM_MESH, .write = usda_write},
+    {.ending = ".usda", .holds = FORM_MESH | FORM_FILE, .write = usda_write},
     {.ending = ".bvh", .holds = FORM_JOINTS, .write = bvh_write, .one_rig = true},
     {.ending = ".csv", .write = csv_write, .without_rigs = true},
     {.ending = ".pc2", .holds = FORM_POINTS, .write = pc2_write, .one_rig = true},
@@ -61,10 +61,10 @@ static void list_names(const struct document *document, char *text, size_t size)
 }
 
 /// Why there is no rig to write; `unfit` is one that the format cannot hold, or −1.
-static bool fail_rigs(const struct take *take, const struct format *format, const char *wanted, int unfit,
+static bool fail_rigs(const struct shot *shot, const struct format *format, const char *wanted, int unfit,
                       struct error *error)
 {
-    const struct document *document = take->posing->document;
+    const struct document *document = shot->posing->document;
     char names[256], endings[EXPORT_ENDINGS];
     list_names(document, names, sizeof names);
     if (document->rig_count == 0)
@@ -77,45 +77,45 @@ static bool fail_rigs(const struct take *take, const struct format *format, cons
                 rig_word(rig->kind), form_name(rig), endings);
 }
 
-static bool choose_rigs(struct take *take, const struct format *format, const char *wanted, struct error *error)
+static bool choose_rigs(struct shot *shot, const struct format *format, const char *wanted, struct error *error)
 {
-    const struct document *document = take->posing->document;
+    const struct document *document = shot->posing->document;
     int unfit = -1;
     for (int i = 0; i < document->rig_count && i < SCENE_MAX_RIGS; i++) {
         const struct rig *rig = &document->rigs[i];
         if (wanted && strcmp(form_name(rig), wanted) != 0) continue;
         if (fits(format, form_kind(rig->kind)->holds)) {
-            take->rigs[take->rig_count++] = i;
+            shot->rigs[shot->rig_count++] = i;
         } else if (unfit < 0) {
             unfit = i;
         }
     }
-    if (take->rig_count == 0 && !(format->without_rigs && !wanted))
-        return fail_rigs(take, format, wanted, unfit, error);
-    if (take->rig_count <= 1 || !format->one_rig) return true;
+    if (shot->rig_count == 0 && !(format->without_rigs && !wanted))
+        return fail_rigs(shot, format, wanted, unfit, error);
+    if (shot->rig_count <= 1 || !format->one_rig) return true;
     char names[256];
     list_names(document, names, sizeof names);
     return fail(error, ERROR_INPUT, "a %s file holds one rig: choose one of %s with --rig", format->ending, names);
 }
 
-static bool choose_keys(struct take *take, const struct export_options *options, struct export_report *report,
+static bool choose_keys(struct shot *shot, const struct export_options *options, struct export_report *report,
                         struct error *error)
 {
-    const struct document *document = take->posing->document;
+    const struct document *document = shot->posing->document;
     const double first = options->has_frames ? options->first : document->first_frame;
     const double last = options->has_frames ? options->last : document->last_frame;
     const int substeps = options->substeps > 0 ? options->substeps : document->substeps;
     if (!(first <= last) || first < document->first_frame || last > document->last_frame)
         return fail(error, ERROR_INPUT, "--frames: expected frames from %d to %d in this order, got %g:%g",
                     document->first_frame, document->last_frame, first, last);
-    take->first = first;
-    take->spacing = options->rate > 0 ? document->fps / options->rate : 1.0 / substeps;
-    const double keys = floor((last - first) / take->spacing + 1e-6) + 1;
+    shot->first = first;
+    shot->spacing = options->rate > 0 ? document->fps / options->rate : 1.0 / substeps;
+    const double keys = floor((last - first) / shot->spacing + 1e-6) + 1;
     if (keys > MAX_KEYS)
         return fail(error, ERROR_INPUT, "expected at most %d keys, got %.0f: ask for fewer frames or keys a second",
                     MAX_KEYS, keys);
-    take->key_count = (int)keys;
-    const double end = take_frame(take, take->key_count - 1);
+    shot->key_count = (int)keys;
+    const double end = shot_frame(shot, shot->key_count - 1);
     if (fabs(end - last) > 1e-6)
         snprintf(report->note, sizeof report->note, "the last key is on frame %g, because no key falls on frame %g",
                  end, last);
@@ -144,18 +144,36 @@ static void print_size(off_t bytes, char *text, size_t size)
     }
 }
 
-static bool write_file(struct take *take, const struct format *format, const char *path, struct export_report *report,
+/// The files that this one names come first; a full disk is seen before that.
+static bool commit(struct shot *shot, struct file_output *output, struct error *error)
+{
+    const bool broken = fflush(output->stream) != 0 || ferror(output->stream);
+    if (!broken && !beside_commit(&shot->beside, error)) {
+        file_output_discard(output);
+        beside_discard(&shot->beside);
+        return false;
+    }
+    if (!file_output_commit(output, error)) {
+        beside_discard(&shot->beside);
+        return false;
+    }
+    beside_free(&shot->beside);
+    return true;
+}
+
+static bool write_file(struct shot *shot, const struct format *format, const char *path, struct export_report *report,
                        struct error *error)
 {
     struct file_output output;
     char summary[FORMAT_SUMMARY] = "", size[32];
     if (!file_output_open(&output, path, error)) return false;
-    if (!format->write(take, output.stream, summary, error)) {
+    if (!format->write(shot, output.stream, summary, error)) {
         file_output_discard(&output);
+        beside_discard(&shot->beside);
         return false;
     }
     const off_t bytes = ftello(output.stream); // −1 for a pipe
-    if (!file_output_commit(&output, error)) return false;
+    if (!commit(shot, &output, error)) return false;
     print_size(bytes, size, sizeof size);
     snprintf(report->text, sizeof report->text, "%s%s%s", summary, bytes >= 0 ? ", " : "", bytes >= 0 ? size : "");
     return true;
@@ -166,7 +184,7 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
 {
     const struct format *format = find_format(path);
     char title[FORM_NAME], endings[EXPORT_ENDINGS];
-    struct take take = {
+    struct shot shot = {
         .posing = posing,
         .clip = options->clip,
         .title = title,
@@ -182,6 +200,6 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
         export_endings(endings);
         return fail(error, ERROR_USAGE, "%s: expected a name ending in %s", path, endings);
     }
-    if (!choose_rigs(&take, format, options->rig, error) || !choose_keys(&take, options, report, error)) return false;
-    return write_file(&take, format, path, report, error);
+    if (!choose_rigs(&shot, format, options->rig, error) || !choose_keys(&shot, options, report, error)) return false;
+    return write_file(&shot, format, path, report, error);
 }

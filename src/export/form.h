@@ -3,12 +3,12 @@
 #ifndef EXPORT_FORM_H
 #define EXPORT_FORM_H
 
-#include "export/take.h"
+#include "export/shot.h"
 
 enum { FORM_INFLUENCES = 4, FORM_NAME = 64 };
 
-/// What a kind of rig can be exported as, bits: a mesh with joints or targets, joints, the places of its vertices, the file that it came
-/// from with a new clip.
+/// What a kind of rig can be exported as, bits: a mesh with joints or targets, joints, the places of its vertices, all that is in the
+/// file that it came from.
 enum { FORM_MESH = 1, FORM_JOINTS = 2, FORM_POINTS = 4, FORM_FILE = 8 };
 
 struct form_joint {
@@ -20,8 +20,8 @@ struct form_joint {
 
 struct form_target {
     char *name;
-    const float (*position)[3], (*normal)[3]; ///< how far it moves vertices and turns normals at weight 1
-    int group;                                ///< targets of one group keep their proportion
+    float (*position)[3], (*normal)[3]; ///< how far it moves vertices and turns normals at weight 1
+    int group;                          ///< targets of one group keep their proportion
 };
 
 struct form {
@@ -63,7 +63,7 @@ struct form_kind {
     /// Where the vertices are, as the stage shows them.
     void (*vertices)(const struct form *form, const struct rig_pose *pose, float (*positions)[3]);
     /// What moves the rig at a key: always the same columns in the same order. NULL: it has none.
-    void (*columns)(const struct take *take, int rig, const struct rig_pose *pose, double key, form_column *column,
+    void (*columns)(const struct shot *shot, int rig, const struct rig_pose *pose, double key, form_column *column,
                     void *user);
 };
 
@@ -73,14 +73,14 @@ extern const struct form_kind tail_form, character_form, model_form, chain_form;
 const struct form_kind *form_kind(enum rig_kind kind);
 
 /// Columns of the angles in degrees by which channels bend joints.
-void form_channels(const struct take *take, int rig, const struct channel *channels, int count, int joints,
+void form_channels(const struct shot *shot, int rig, const struct channel *channels, int count, int joints,
                    double key, form_column *column, void *user);
 
 /// What a rig is called in files and messages: its name, or its kind's word.
 const char *form_name(const struct rig *rig);
 
 /// The form of a rig. False with a sentence, and nothing to close.
-bool form_open(const struct take *take, int rig, struct form *form, struct error *error);
+bool form_open(const struct shot *shot, int rig, struct form *form, struct error *error);
 void form_close(struct form *form);
 
 #endif

@@ -13,16 +13,16 @@ struct format {
     unsigned holds;    ///< of what a kind of rig gives (form.h); 0: any kind
     bool one_rig;      ///< it holds one rig
     /// Writes all of it to a stream, whose errors the caller sees, and says in a few words what it wrote.
-    bool (*write)(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+    bool (*write)(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
 };
 
-bool csv_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
-bool pc2_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
-bool mdd_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
-bool npy_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
-bool glb_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
-bool gltf_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
-bool bvh_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
-bool usda_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool csv_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool pc2_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool mdd_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool npy_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool glb_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool gltf_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool bvh_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+bool usda_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
 
 #endif

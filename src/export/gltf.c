@@ -1,16 +1,16 @@
 /// Rigs as glTF 2.0: meshes with skins or morph targets, and one clip that moves them all.
 #include "export/format.h"
-#include "export/gltf_file.h"
 #include "export/gltf_model.h"
 #include "export/gltf_motion.h"
 #include "export/keys.h"
 #include "export/targets.h"
+#include "model/gltf_file.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct scene {
-    struct take *take;
+    struct shot *shot;
     struct gltf_file file;
     json_t *roots, *nodes, *meshes, *skins;
     struct gltf_motion motion;
@@ -75,9 +75,9 @@ static json_t *make_targets(struct scene *scene, const struct part *part, float 
     json_t *targets = json_array();
     for (int t = 0; t < part->targets->count; t++) {
         const struct file_target *target = &part->targets->list[t];
-        targets_scale(target, form->targets[target->source].position, form->vertex_count, scratch);
+        targets_scale(target, (const float(*)[3])form->targets[target->source].position, form->vertex_count, scratch);
         const json_int_t position = add_vectors(scene, form, (const float(*)[3])scratch, true);
-        targets_scale(target, form->targets[target->source].normal, form->vertex_count, scratch);
+        targets_scale(target, (const float(*)[3])form->targets[target->source].normal, form->vertex_count, scratch);
         const json_int_t normal = add_vectors(scene, form, (const float(*)[3])scratch, false);
         append(targets, json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal));
     }
@@ -212,10 +212,10 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     struct form form;
     struct keys keys;
     struct file_targets targets = {0};
-    if (!form_open(scene->take, rig, &form, error)) return false;
-    bool done = keys_collect(scene->take, rig, &form, &keys, error);
+    if (!form_open(scene->shot, rig, &form, error)) return false;
+    bool done = keys_collect(scene->shot, rig, &form, &keys, error);
     float(*scratch)[3] = done ? malloc(((size_t)form.vertex_count + 1) * sizeof *scratch) : NULL;
-    if (done && (!scratch || !targets_create(scene->take, &form, &keys, &targets)))
+    if (done && (!scratch || !targets_create(scene->shot, &form, &keys, &targets)))
         done = fail_no_memory(error, form.name);
     if (done) {
         struct part part = {.form = &form, .keys = &keys, .targets = &targets};
@@ -240,7 +240,7 @@ static json_t *make_root(const struct scene *scene)
                              scene->nodes, "meshes", scene->meshes, "materials", material);
     if (json_array_size(scene->skins) > 0) json_object_set(root, "skins", scene->skins);
     if (json_array_size(scene->motion.channels) > 0) {
-        const char *name = scene->take->clip ? scene->take->clip : scene->take->title;
+        const char *name = scene->shot->clip ? scene->shot->clip : scene->shot->title;
         json_object_set_new(root, "animations", json_pack("[o]", gltf_motion_json(&scene->motion, name)));
     }
     return root;
@@ -251,19 +251,19 @@ static void summarise(const struct scene *scene, char summary[FORMAT_SUMMARY])
     char joints[32] = "", targets[32] = "";
     if (scene->joints > 0) snprintf(joints, sizeof joints, "%d joints, ", scene->joints);
     if (scene->targets > 0) snprintf(targets, sizeof targets, "%d morph targets, ", scene->targets);
-    snprintf(summary, FORMAT_SUMMARY, "%s%s%d keys", joints, targets, scene->take->key_count);
+    snprintf(summary, FORMAT_SUMMARY, "%s%s%d keys", joints, targets, scene->shot->key_count);
 }
 
-static bool write_scene(struct take *take, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+static bool write_scene(struct shot *shot, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    struct scene scene = {.take = take};
+    struct scene scene = {.shot = shot};
     json_t **const arrays[] = {&scene.roots, &scene.nodes, &scene.meshes, &scene.skins};
     enum { ARRAYS = sizeof arrays / sizeof *arrays };
     for (int i = 0; i < ARRAYS; i++) *arrays[i] = json_array();
-    take->total = (long)take->key_count * take->rig_count;
+    shot->total = (long)shot->key_count * shot->rig_count;
     bool done = true;
-    gltf_motion_begin(&scene.motion, &scene.file, take);
-    for (int r = 0; done && r < take->rig_count; r++) done = add_rig(&scene, take->rigs[r], error);
+    gltf_motion_begin(&scene.motion, &scene.file, shot);
+    for (int r = 0; done && r < shot->rig_count; r++) done = add_rig(&scene, shot->rigs[r], error);
     done = done && gltf_file_write(&scene.file, make_root(&scene), binary, out, error);
     summarise(&scene, summary);
     for (int i = 0; i < ARRAYS; i++) json_decref(*arrays[i]);
@@ -273,25 +273,25 @@ static bool write_scene(struct take *take, bool binary, FILE *out, char summary[
 }
 
 /// An imported character has a file of its own, in which nothing else has a place.
-static bool write_either(struct take *take, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+static bool write_either(struct shot *shot, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    const struct document *document = take->posing->document;
-    for (int r = 0; r < take->rig_count; r++) {
-        const struct rig *rig = &document->rigs[take->rigs[r]];
+    const struct document *document = shot->posing->document;
+    for (int r = 0; r < shot->rig_count; r++) {
+        const struct rig *rig = &document->rigs[shot->rigs[r]];
         if (!(form_kind(rig->kind)->holds & FORM_FILE)) continue;
-        if (take->rig_count == 1) return gltf_model_write(take, binary, out, summary, error);
+        if (shot->rig_count == 1) return gltf_model_write(shot, binary, out, summary, error);
         return fail(error, ERROR_INPUT, "\"%s\" is exported into a copy of its own file: choose one rig with --rig",
                     form_name(rig));
     }
-    return write_scene(take, binary, out, summary, error);
+    return write_scene(shot, binary, out, summary, error);
 }
 
-bool glb_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool glb_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_either(take, true, out, summary, error);
+    return write_either(shot, true, out, summary, error);
 }
 
-bool gltf_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool gltf_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_either(take, false, out, summary, error);
+    return write_either(shot, false, out, summary, error);
 }

@@ -2,6 +2,7 @@
 #include "export/gltf_model.h"
 #include "base/file.h"
 #include "base/path.h"
+#include "export/gltf_gather.h"
 #include "export/gltf_motion.h"
 #include "export/gltf_splice.h"
 #include "export/keys.h"
@@ -12,7 +13,7 @@
 #include <string.h>
 
 /// The character's own clip at all keys: what moves a node, one track after the other in each row.
-struct body {
+struct kept_motion {
     const struct gltf *gltf;
     const struct gltf_clip *clip; ///< NULL: it stands at rest
     const bool *is_bone;
@@ -21,9 +22,9 @@ struct body {
 };
 
 /// Chains have the rotation of their bones.
-static bool is_ours(const struct body *body, const struct gltf_channel *channel)
+static bool is_ours(const struct kept_motion *kept, const struct gltf_channel *channel)
 {
-    return channel->path == GLTF_ROTATION && body->is_bone[channel->node];
+    return channel->path == GLTF_ROTATION && kept->is_bone[channel->node];
 }
 
 static const float *values_of(const struct gltf *gltf, const struct gltf_pose *pose,
@@ -43,45 +44,45 @@ static const float *values_of(const struct gltf *gltf, const struct gltf_pose *p
     return pose->weights + gltf->nodes[channel->node].first_weight;
 }
 
-static bool collect_body(struct take *take, struct body *body, struct error *error)
+static bool collect_kept(struct shot *shot, struct kept_motion *kept, struct error *error)
 {
-    for (int c = 0; c < body->clip->channel_count; c++) body->width += body->clip->channels[c].components;
-    body->rows = malloc(((size_t)take->key_count * (size_t)body->width + 1) * sizeof *body->rows);
-    if (!body->rows) return fail_no_memory(error, body->gltf->path);
-    for (int k = 0; k < take->key_count; k++) {
+    for (int c = 0; c < kept->clip->channel_count; c++) kept->width += kept->clip->channels[c].components;
+    kept->rows = malloc(((size_t)shot->key_count * (size_t)kept->width + 1) * sizeof *kept->rows);
+    if (!kept->rows) return fail_no_memory(error, kept->gltf->path);
+    for (int k = 0; k < shot->key_count; k++) {
         struct rig_pose pose;
-        float *at = body->rows + (size_t)k * (size_t)body->width;
-        if (!take_pose(take, take->rigs[0], k, &pose, error) || !take_proceed(take, error)) return false;
-        for (int c = 0; c < body->clip->channel_count; c++) {
-            const struct gltf_channel *channel = &body->clip->channels[c];
-            memcpy(at, values_of(body->gltf, pose.model.pose, channel), (size_t)channel->components * sizeof *at);
-            if (channel->path == GLTF_ROTATION && k > 0) keys_turn_short_way(at - body->width, at);
+        float *at = kept->rows + (size_t)k * (size_t)kept->width;
+        if (!shot_pose(shot, shot->rigs[0], k, &pose, error) || !shot_proceed(shot, error)) return false;
+        for (int c = 0; c < kept->clip->channel_count; c++) {
+            const struct gltf_channel *channel = &kept->clip->channels[c];
+            memcpy(at, values_of(kept->gltf, pose.model.pose, channel), (size_t)channel->components * sizeof *at);
+            if (channel->path == GLTF_ROTATION && k > 0) keys_turn_short_way(at - kept->width, at);
             at += channel->components;
         }
     }
-    keys_close_loop(body->rows, body->width, take->key_count);
+    keys_close_loop(kept->rows, kept->width, shot->key_count);
     return true;
 }
 
-/// The tracks of the body, each in an array of its own.
-static void add_body(const struct body *body, struct gltf_motion *motion)
+/// The tracks that are kept, each in an array of its own.
+static void add_kept(const struct kept_motion *kept, struct gltf_motion *motion)
 {
     static const char *const paths[] = {"translation", "rotation", "scale", "weights"};
     static const enum gltf_elements elements[] = {ELEMENTS_KEY_VECTORS, ELEMENTS_TURNS, ELEMENTS_KEY_VECTORS,
                                                   ELEMENTS_KEYS};
     int first = 0;
-    for (int c = 0; c < body->clip->channel_count; c++) {
-        const struct gltf_channel *channel = &body->clip->channels[c];
-        const size_t width = (size_t)channel->components, from = (size_t)first, row = (size_t)body->width;
+    for (int c = 0; c < kept->clip->channel_count; c++) {
+        const struct gltf_channel *channel = &kept->clip->channels[c];
+        const size_t width = (size_t)channel->components, from = (size_t)first, row = (size_t)kept->width;
         first += channel->components;
-        if (is_ours(body, channel)) continue;
+        if (is_ours(kept, channel)) continue;
         float *track = malloc((size_t)motion->key_count * width * sizeof *track);
         if (!track) {
             motion->file->without_memory = true;
             return;
         }
         for (size_t k = 0; k < (size_t)motion->key_count; k++)
-            memcpy(track + k * width, body->rows + k * row + from, width * sizeof *track);
+            memcpy(track + k * width, kept->rows + k * row + from, width * sizeof *track);
         gltf_motion_add(motion, channel->node, paths[channel->path], elements[channel->path], track, NULL,
                         channel->components);
         free(track);
@@ -98,6 +99,14 @@ static void add_bones(const struct form *form, const struct keys *keys, struct g
     }
 }
 
+/// What the clip is put into: the file as it is, or gathered for the other container.
+struct original {
+    struct glb source;       ///< its JSON
+    char *text;              ///< of that
+    struct glb_buffer first; ///< its first buffer where that has no address
+    bool is_other;           ///< in another container than it came in
+};
+
 /// The JSON as a text of its own; NULL if memory is short.
 static char *text_of(const struct glb *source, bool binary)
 {
@@ -107,17 +116,18 @@ static char *text_of(const struct glb *source, bool binary)
     return strndup(source->data + 20, length);
 }
 
-static json_int_t count_of(const struct glb *source, const char *array)
+static json_int_t count_of(const struct original *original, const char *array)
 {
-    return (json_int_t)json_array_size(json_object_get(source->json, array));
+    return (json_int_t)json_array_size(json_object_get(original->source.json, array));
 }
 
-/// Bytes of the .glb's chunk that the file's first buffer is, or −1 where there is none.
-static json_int_t chunk_length(const struct glb *source)
+/// Bytes of the .glb's chunk that the file's first buffer is.
+static struct glb_bytes find_chunk(const struct glb *source)
 {
     const json_t *buffer = json_array_get(json_object_get(source->json, "buffers"), 0);
-    if (!source->chunk.at || !buffer || json_object_get(buffer, "uri")) return -1;
-    return glb_integer(buffer, "byteLength", -1);
+    if (!source->chunk.at || !buffer || json_object_get(buffer, "uri")) return (struct glb_bytes){0};
+    const int64_t length = glb_integer(buffer, "byteLength", 0), most = (int64_t)source->chunk.size;
+    return (struct glb_bytes){source->chunk.at, (size_t)(length < 0 || length > most ? most : length)};
 }
 
 static void append_all(struct splice *splice, const char *array, const json_t *values)
@@ -144,63 +154,63 @@ static void put_clip(struct splice *splice, const struct gltf *gltf, const struc
     json_decref(json);
 }
 
-/// The new bytes follow those of the chunk, or get a buffer of their own.
-static void put_bytes(struct splice *splice, const struct gltf_file *file, bool in_chunk)
+/// The new bytes follow those of the first buffer, or get a buffer of their own.
+static void put_bytes(struct splice *splice, const struct gltf_file *file, bool in_first, bool binary)
 {
-    char *value = NULL, *address = in_chunk ? NULL : gltf_file_address(file);
-    if (in_chunk) {
-        if (asprintf(&value, "%zu", file->first_byte + file->size) < 0) value = NULL;
+    char *value = NULL, *address = in_first && binary ? NULL : gltf_file_address(file);
+    if (in_first && binary) {
+        if (asprintf(&value, "%zu", file->size) < 0) value = NULL;
         if (value) splice_replace(splice, "buffers", 0, "byteLength", value);
     } else if (address) {
         if (asprintf(&value, "{\"byteLength\":%zu,\"uri\":\"%s\"}", file->size, address) < 0) value = NULL;
-        if (value) splice_append(splice, "buffers", value);
+        if (value && in_first) splice_replace(splice, "buffers", 0, NULL, value);
+        if (value && !in_first) splice_append(splice, "buffers", value);
     }
     splice->failed = splice->failed || !value;
     free(value);
     free(address);
 }
 
-/// The chunk of a .glb up to where the new bytes begin, and these.
-static bool write_glb(const struct glb *source, const struct gltf_file *file, const char *text, FILE *out,
-                      struct error *error)
+/// The text with what is new in it; NULL if memory is short. A file that no chain moves gets no clip.
+static char *patch(struct shot *shot, const struct form *form, const struct keys *keys,
+                   const struct kept_motion *kept, const struct original *original, struct gltf_file *file,
+                   bool binary)
 {
-    const size_t size = file->size > 0 ? file->first_byte : source->chunk.size;
-    unsigned char *before = calloc(size + 1, 1);
-    if (!before) return fail_no_memory(error, source->path);
-    if (source->chunk.size > 0)
-        memcpy(before, source->chunk.at, source->chunk.size < size ? source->chunk.size : size);
-    gltf_file_write_binary(file, text, before, size, out);
-    free(before);
-    return true;
+    struct gltf_motion motion;
+    struct splice splice = {.text = original->text};
+    if (form->joint_count > 0) {
+        gltf_motion_begin(&motion, file, shot);
+        if (kept->clip) add_kept(kept, &motion);
+        add_bones(form, keys, &motion);
+        put_clip(&splice, kept->gltf, &motion, shot->clip);
+        append_all(&splice, "accessors", file->accessors);
+        append_all(&splice, "bufferViews", file->views);
+        gltf_motion_free(&motion);
+    }
+    if (file->size > 0) put_bytes(&splice, file, original->first.bytes.size > 0, binary);
+    char *text = file->without_memory ? NULL : splice_apply(&splice);
+    splice_free(&splice);
+    return text;
 }
 
-static bool write_patched(struct take *take, const struct form *form, const struct keys *keys, struct body *body,
-                          const struct glb *source, bool binary, FILE *out, struct error *error)
+static bool write_patched(struct shot *shot, const struct form *form, const struct keys *keys,
+                          const struct kept_motion *kept, const struct original *original, bool binary, FILE *out,
+                          struct error *error)
 {
-    const json_int_t chunk = binary ? chunk_length(source) : -1;
-    struct gltf_file file = {.first_view = count_of(source, "bufferViews"),
-                             .first_accessor = count_of(source, "accessors"),
-                             .buffer = chunk >= 0 ? 0 : count_of(source, "buffers"),
-                             .first_byte = chunk >= 0 ? ((size_t)chunk + 3) / 4 * 4 : 0};
-    struct gltf_motion motion;
-    char *text = text_of(source, binary);
-    struct splice splice = {.text = text ? text : "{}"};
-    gltf_motion_begin(&motion, &file, take);
-    if (body->clip) add_body(body, &motion);
-    add_bones(form, keys, &motion);
-    put_clip(&splice, body->gltf, &motion, take->clip);
-    append_all(&splice, "accessors", file.accessors);
-    append_all(&splice, "bufferViews", file.views);
-    put_bytes(&splice, &file, chunk >= 0);
-    char *patched = text && !file.without_memory ? splice_apply(&splice) : NULL;
-    bool done = patched || fail_no_memory(error, body->gltf->path);
-    if (done && !binary) fputs(patched, out);
-    if (done && binary) done = write_glb(source, chunk >= 0 ? &file : &(struct gltf_file){0}, patched, out, error);
-    free(patched);
+    const struct glb_bytes first = original->first.bytes, chunk = original->source.chunk;
+    struct gltf_file file = {.first_view = count_of(original, "bufferViews"),
+                             .first_accessor = count_of(original, "accessors"),
+                             .buffer = first.size > 0 ? 0 : count_of(original, "buffers")};
+    struct gltf_file as_it_was = {0}; // a chunk that is not the first buffer
+    bool done = gltf_file_begin(&file, first.at, first.size);
+    if (done && binary && first.size == 0) done = gltf_file_begin(&as_it_was, chunk.at, chunk.size);
+    char *text = done ? patch(shot, form, keys, kept, original, &file, binary) : NULL;
+    if (text && binary) gltf_file_write_binary(first.size > 0 ? &file : &as_it_was, text, out);
+    if (text && !binary) fputs(text, out);
+    done = text || fail_no_memory(error, kept->gltf->path);
     free(text);
-    splice_free(&splice);
-    gltf_motion_free(&motion);
     gltf_file_free(&file);
+    gltf_file_free(&as_it_was);
     return done;
 }
 
@@ -230,58 +240,93 @@ static bool is_alone(const struct glb *source)
     return true;
 }
 
-/// The file must stay what it is: a .glb or text, and beside the files that it names.
-static bool check_place(const struct take *take, const struct glb *source, bool binary, struct error *error)
+/// A file that stays what it is must be beside the files that it names.
+static bool check_place(const struct shot *shot, const struct glb *source, struct error *error)
 {
     char from[PATH_LIMIT], to[PATH_LIMIT], folder[PATH_LIMIT];
-    const bool is_glb = memcmp(source->data, "glTF", 4) == 0;
-    if (is_glb != binary)
-        return fail(error, ERROR_INPUT, "%s: expected a name ending in %s, as %s has", take->path,
-                    is_glb ? ".glb" : ".gltf", source->path);
     if (is_alone(source)) return true;
     const bool same = path_folder(source->path, folder) && path_resolve(folder, ".", from) &&
-                      path_folder(take->path, folder) && path_resolve(folder, ".", to) && strcmp(from, to) == 0;
+                      path_folder(shot->path, folder) && path_resolve(folder, ".", to) && strcmp(from, to) == 0;
     if (same) return true;
-    return fail(error, ERROR_INPUT, "%s: names files beside it: export it to the same folder", source->path);
+    return fail(error, ERROR_INPUT, "%s: names files beside it: export it to the same folder, or as .glb",
+                source->path);
 }
 
-static bool write_model(struct take *take, const struct form *form, bool binary, FILE *out, struct error *error)
+static void close_original(struct original *original)
 {
-    const struct model_bones *own = form->owned;
-    const struct model_rig *model = &take->posing->document->rigs[take->rigs[0]].model;
-    const int clip = model->clip ? gltf_find_clip(own->gltf, model->clip) : -1;
-    struct body body = {
-        .gltf = own->gltf, .clip = clip >= 0 ? &own->gltf->clips[clip] : NULL, .is_bone = own->is_bone};
-    struct glb source;
-    struct keys keys;
-    if (body.clip) take->total += take->key_count;
-    if (!take->clip) take->clip = model->clip ? model->clip : take->title;
-    if (!glb_open_any(&source, own->gltf->path, error)) return false;
-    bool done = check_place(take, &source, binary, error);
-    if (done && form->joint_count == 0) {
-        done = write_same(own->gltf->path, out, error);
-    } else if (done && keys_collect(take, take->rigs[0], form, &keys, error)) {
-        done = (!body.clip || collect_body(take, &body, error)) &&
-               write_patched(take, form, &keys, &body, &source, binary, out, error);
-        keys_free(&keys);
+    free(original->text);
+    free(original->first.owned);
+    glb_close(&original->source);
+}
+
+/// False leaves nothing to close.
+static bool open_original(const struct shot *shot, const char *path, bool binary, struct original *original,
+                          struct error *error)
+{
+    *original = (struct original){0};
+    struct glb *source = &original->source;
+    if (!glb_open_any(source, path, error)) return false;
+    original->is_other = (memcmp(source->data, "glTF", 4) == 0) != binary;
+    bool done;
+    if (original->is_other) {
+        done = gltf_gather(source, &original->first, error);
+        if (done) original->text = json_dumps(source->json, binary ? JSON_COMPACT : JSON_INDENT(1));
     } else {
-        done = false;
+        done = check_place(shot, source, error);
+        if (done) original->text = text_of(source, binary);
+        original->first.bytes = binary ? find_chunk(source) : (struct glb_bytes){0};
     }
-    free(body.rows);
-    glb_close(&source);
+    if (done && original->text) return true;
+    if (done) fail_no_memory(error, path);
+    close_original(original);
+    return false;
+}
+
+static bool write_moved(struct shot *shot, const struct form *form, struct kept_motion *kept,
+                        const struct original *original, bool binary, FILE *out, struct error *error)
+{
+    struct keys keys;
+    if (!keys_collect(shot, shot->rigs[0], form, &keys, error)) return false;
+    const bool done = (!kept->clip || collect_kept(shot, kept, error)) &&
+                      write_patched(shot, form, &keys, kept, original, binary, out, error);
+    keys_free(&keys);
     return done;
 }
 
-bool gltf_model_write(struct take *take, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+static bool write_model(struct shot *shot, const struct form *form, bool binary, FILE *out, struct error *error)
+{
+    const struct model_bones *own = form->owned;
+    const struct model_rig *model = &shot->posing->document->rigs[shot->rigs[0]].model;
+    const int clip = model->clip ? gltf_find_clip(own->gltf, model->clip) : -1;
+    struct kept_motion kept = {
+        .gltf = own->gltf, .clip = clip >= 0 ? &own->gltf->clips[clip] : NULL, .is_bone = own->is_bone};
+    struct original original;
+    bool done;
+    if (kept.clip) shot->total += shot->key_count;
+    if (!shot->clip) shot->clip = model->clip ? model->clip : shot->title;
+    if (!open_original(shot, own->gltf->path, binary, &original, error)) return false;
+    if (form->joint_count > 0) {
+        done = write_moved(shot, form, &kept, &original, binary, out, error);
+    } else if (original.is_other) {
+        done = write_patched(shot, form, NULL, &kept, &original, binary, out, error);
+    } else {
+        done = write_same(own->gltf->path, out, error);
+    }
+    free(kept.rows);
+    close_original(&original);
+    return done;
+}
+
+bool gltf_model_write(struct shot *shot, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     struct form form;
-    take->total = take->key_count;
-    if (!form_open(take, take->rigs[0], &form, error)) return false;
-    const bool done = write_model(take, &form, binary, out, error);
+    shot->total = shot->key_count;
+    if (!form_open(shot, shot->rigs[0], &form, error)) return false;
+    const bool done = write_model(shot, &form, binary, out, error);
     if (form.joint_count > 0) {
-        snprintf(summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", form.joint_count, take->key_count);
+        snprintf(summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", form.joint_count, shot->key_count);
     } else {
-        snprintf(summary, FORMAT_SUMMARY, "the file as it was, because no chain moves it");
+        snprintf(summary, FORMAT_SUMMARY, "what is in the file as it was, because no chain moves it");
     }
     form_close(&form);
     return done;

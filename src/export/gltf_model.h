@@ -4,8 +4,8 @@
 
 #include "export/format.h"
 
-/// Writes the file that the take's only rig came from, with a clip added or, where it has one of that name, replaced; all else stays
-/// byte for byte. Without a chain it is the same file.
-bool gltf_model_write(struct take *take, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+/// Writes the file that the shot's only rig came from, with a clip added or, where it has one of that name, replaced. All else stays byte
+/// for byte; in the other container, .glb or .gltf, it says the same. Without a chain there is no new clip.
+bool gltf_model_write(struct shot *shot, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
 
 #endif

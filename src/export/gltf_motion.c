@@ -3,13 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct take *take)
+void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct shot *shot)
 {
-    const int count = take->key_count;
+    const int count = shot->key_count;
     *motion =
         (struct gltf_motion){.file = file, .samplers = json_array(), .channels = json_array(), .key_count = count};
     float *times = malloc((size_t)count * sizeof *times);
-    for (int k = 0; times && k < count; k++) times[k] = (float)take_seconds(take, k);
+    for (int k = 0; times && k < count; k++) times[k] = (float)shot_seconds(shot, k);
     if (!times) file->without_memory = true;
     if (times) motion->times = gltf_file_add(file, ELEMENTS_KEYS, times, (size_t)count, true);
     free(times);

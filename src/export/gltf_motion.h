@@ -2,8 +2,8 @@
 #ifndef EXPORT_GLTF_MOTION_H
 #define EXPORT_GLTF_MOTION_H
 
-#include "export/gltf_file.h"
-#include "export/take.h"
+#include "export/shot.h"
+#include "model/gltf_file.h"
 
 struct gltf_motion {
     struct gltf_file *file;
@@ -12,8 +12,8 @@ struct gltf_motion {
     int key_count;
 };
 
-/// Starts an animation with a take's keys. `file` must outlive it.
-void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct take *take);
+/// Starts an animation with a shot's keys. `file` must outlive it.
+void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct shot *shot);
 void gltf_motion_free(struct gltf_motion *motion);
 
 /// Adds what moves a node: `width` numbers a key, and how fast they change by second (NULL: straight lines between keys).

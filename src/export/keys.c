@@ -8,7 +8,7 @@
 
 /// All numbers of one time in one row: translation, rotations, weights.
 struct sampler {
-    const struct take *take;
+    const struct shot *shot;
     const struct form *form;
     int rig, width;
 };
@@ -17,7 +17,7 @@ static bool sample(const struct sampler *from, double key, float *row, struct er
 {
     struct rig_pose pose;
     struct form_key values = {.rotation = (float(*)[4])(row + 3), .weight = row + 3 + 4 * from->form->joint_count};
-    if (!take_pose(from->take, from->rig, key, &pose, error)) return false;
+    if (!shot_pose(from->shot, from->rig, key, &pose, error)) return false;
     from->form->kind->key(from->form, &pose, &values);
     memcpy(row, values.translation, sizeof values.translation);
     return true;
@@ -49,10 +49,10 @@ struct difference {
 };
 
 /// About the key; or, at an end of the document, from its inside.
-static struct difference choose_difference(const struct take *take, double key, bool loops)
+static struct difference choose_difference(const struct shot *shot, double key, bool loops)
 {
-    if (!loops && !take_is_inside(take, key - STEP)) return (struct difference){{0, STEP, 2 * STEP}, {-1.5, 2, -0.5}};
-    if (!loops && !take_is_inside(take, key + STEP))
+    if (!loops && !shot_is_inside(shot, key - STEP)) return (struct difference){{0, STEP, 2 * STEP}, {-1.5, 2, -0.5}};
+    if (!loops && !shot_is_inside(shot, key + STEP))
         return (struct difference){{0, -STEP, -2 * STEP}, {1.5, -2, 0.5}};
     return (struct difference){{-STEP, 0, STEP}, {-0.5, 0, 0.5}};
 }
@@ -60,8 +60,8 @@ static struct difference choose_difference(const struct take *take, double key, 
 static bool slope_at(const struct sampler *from, int key, bool loops, const float *at, float *slope, float *scratch,
                      struct error *error)
 {
-    const struct difference difference = choose_difference(from->take, key, loops);
-    const double seconds = take_seconds(from->take, STEP);
+    const struct difference difference = choose_difference(from->shot, key, loops);
+    const double seconds = shot_seconds(from->shot, STEP);
     memset(slope, 0, (size_t)from->width * sizeof *slope);
     for (int d = 0; d < 3; d++) {
         if (difference.factor[d] == 0) continue;
@@ -106,29 +106,29 @@ static bool collect_slopes(const struct sampler *from, struct keys *keys, const 
     return true;
 }
 
-static bool collect(struct take *take, const struct sampler *from, struct keys *keys, float *rows, float *scratch,
+static bool collect(struct shot *shot, const struct sampler *from, struct keys *keys, float *rows, float *scratch,
                     struct error *error)
 {
     const size_t width = (size_t)from->width;
     if (!reserve(&keys->at, from->form, keys->count)) return fail_no_memory(error, from->form->name);
     for (int k = 0; k < keys->count; k++) {
         float *row = rows + (size_t)k * width;
-        if (!sample(from, k, row, error) || !take_proceed(take, error)) return false;
+        if (!sample(from, k, row, error) || !shot_proceed(shot, error)) return false;
         if (k > 0) turn_short_way(from, row - width, row);
         if (k > 0) keys->travels = keys->travels || memcmp(row, rows, 3 * sizeof *row) != 0;
     }
     keys_close_loop(rows, from->width, keys->count);
     for (int k = 0; k < keys->count; k++) scatter(from->form, keys->count, k, rows + (size_t)k * width, &keys->at);
-    return !take->is_cubic || keys->count < 2 || collect_slopes(from, keys, rows, scratch, error);
+    return !shot->is_cubic || keys->count < 2 || collect_slopes(from, keys, rows, scratch, error);
 }
 
-bool keys_collect(struct take *take, int rig, const struct form *form, struct keys *keys, struct error *error)
+bool keys_collect(struct shot *shot, int rig, const struct form *form, struct keys *keys, struct error *error)
 {
-    const struct sampler from = {take, form, rig, 3 + 4 * form->joint_count + form->target_count};
+    const struct sampler from = {shot, form, rig, 3 + 4 * form->joint_count + form->target_count};
     const size_t width = (size_t)from.width;
-    float *rows = malloc(((size_t)take->key_count + 2) * width * sizeof *rows);
-    *keys = (struct keys){.count = take->key_count};
-    bool done = rows ? collect(take, &from, keys, rows, rows + (size_t)take->key_count * width, error)
+    float *rows = malloc(((size_t)shot->key_count + 2) * width * sizeof *rows);
+    *keys = (struct keys){.count = shot->key_count};
+    bool done = rows ? collect(shot, &from, keys, rows, rows + (size_t)shot->key_count * width, error)
                      : fail_no_memory(error, form->name);
     free(rows);
     if (!done) keys_free(keys);

@@ -3,55 +3,55 @@
 #include "model/motion.h"
 #include <stdlib.h>
 
-static bool write_keys(struct take *take, const struct form *form, FILE *out, enum motion_form as,
+static bool write_keys(struct shot *shot, const struct form *form, FILE *out, enum motion_form as,
                        float (*positions)[3], struct error *error)
 {
     struct rig_pose pose;
     const bool in_seconds = as == MOTION_MDD;
-    const struct document *document = take->posing->document;
+    const struct document *document = shot->posing->document;
     const struct motion_span span = {
-        .frames = take->key_count,
+        .frames = shot->key_count,
         .vertices = form->vertex_count,
-        .first = in_seconds ? take->first / document->fps : take->first,
-        .spacing = in_seconds ? take_seconds(take, 1) : take->spacing,
+        .first = in_seconds ? shot->first / document->fps : shot->first,
+        .spacing = in_seconds ? shot_seconds(shot, 1) : shot->spacing,
     };
     motion_print_start(out, as, &span);
-    for (int k = 0; k < take->key_count; k++) {
-        if (!take_pose(take, take->rigs[0], k, &pose, error)) return false;
+    for (int k = 0; k < shot->key_count; k++) {
+        if (!shot_pose(shot, shot->rigs[0], k, &pose, error)) return false;
         form->kind->vertices(form, &pose, positions);
         motion_print_frame(out, as, (const float(*)[3])positions, form->vertex_count);
         if (ferror(out)) return true; // the caller says what is wrong; a full disk need not be filled to the end
-        if (!take_proceed(take, error)) return false;
+        if (!shot_proceed(shot, error)) return false;
     }
     return true;
 }
 
-static bool write_points(struct take *take, FILE *out, enum motion_form as, char summary[FORMAT_SUMMARY],
+static bool write_points(struct shot *shot, FILE *out, enum motion_form as, char summary[FORMAT_SUMMARY],
                          struct error *error)
 {
     struct form form;
-    if (!form_open(take, take->rigs[0], &form, error)) return false;
+    if (!form_open(shot, shot->rigs[0], &form, error)) return false;
     float(*positions)[3] = malloc(((size_t)form.vertex_count + 1) * sizeof *positions);
-    take->total = take->key_count;
+    shot->total = shot->key_count;
     const bool done =
-        positions ? write_keys(take, &form, out, as, positions, error) : fail_no_memory(error, form.name);
-    snprintf(summary, FORMAT_SUMMARY, "%d vertices, %d frames", form.vertex_count, take->key_count);
+        positions ? write_keys(shot, &form, out, as, positions, error) : fail_no_memory(error, form.name);
+    snprintf(summary, FORMAT_SUMMARY, "%d vertices, %d frames", form.vertex_count, shot->key_count);
     free(positions);
     form_close(&form);
     return done;
 }
 
-bool pc2_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool pc2_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_points(take, out, MOTION_PC2, summary, error);
+    return write_points(shot, out, MOTION_PC2, summary, error);
 }
 
-bool mdd_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool mdd_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_points(take, out, MOTION_MDD, summary, error);
+    return write_points(shot, out, MOTION_MDD, summary, error);
 }
 
-bool npy_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool npy_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_points(take, out, MOTION_NPY, summary, error);
+    return write_points(shot, out, MOTION_NPY, summary, error);
 }

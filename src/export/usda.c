@@ -2,52 +2,25 @@
 #include "export/format.h"
 #include "export/keys.h"
 #include "export/targets.h"
-#include <ctype.h>
+#include "export/usda_model.h"
+#include "export/usda_text.h"
 #include <stdlib.h>
 #include <string.h>
 
 /// One rig being written.
 struct prim {
-    const struct take *take;
+    const struct shot *shot;
     const struct form *form;
     const struct keys *keys;
     const struct file_targets *targets;
     FILE *out;
-    char name[FORM_NAME];
+    const char *name;
 };
-
-/// A name of letters, digits and "_": "up.-re" → "up_minus_re".
-static void make_identifier(const char *name, char identifier[FORM_NAME])
-{
-    size_t used = 0;
-    if (!isalpha((unsigned char)name[0])) identifier[used++] = '_';
-    for (const char *c = name; *c && used + 6 < FORM_NAME; c++) {
-        if (*c == '-') {
-            memcpy(identifier + used, "minus_", 6);
-            used += 6;
-        } else {
-            identifier[used++] = isalnum((unsigned char)*c) ? *c : '_';
-        }
-    }
-    identifier[used] = '\0';
-}
-
-// --- arrays and time samples
-
-static void write_vectors(FILE *out, const char *declaration, const float (*vectors)[3], int count)
-{
-    fprintf(out, "            %s = [", declaration);
-    for (int i = 0; i < count; i++) {
-        fprintf(out, "%s(%.9g, %.9g, %.9g)", i > 0 ? ", " : "", (double)vectors[i][0], (double)vectors[i][1],
-                (double)vectors[i][2]);
-    }
-    fputs("]", out);
-}
 
 static void write_interpolated(FILE *out, const char *declaration, const float (*vectors)[3], int count)
 {
-    write_vectors(out, declaration, vectors, count);
-    fputs(" (\n                interpolation = \"vertex\"\n            )\n", out);
+    usda_vectors(out, declaration, vectors, count);
+    usda_by_vertex(out, 0);
 }
 
 static void write_triangles(FILE *out, const struct form *form)
@@ -61,7 +34,7 @@ static void write_triangles(FILE *out, const struct form *form)
 
 static void begin_sample(const struct prim *prim, int key)
 {
-    fprintf(prim->out, "                %.9g: ", take_frame(prim->take, key));
+    fprintf(prim->out, "                %.9g: ", shot_frame(prim->shot, key));
 }
 
 // --- the skeleton. A rig without joints has one that carries it.
@@ -80,7 +53,7 @@ static void write_path(FILE *out, const struct form *form, int j)
         write_path(out, form, form->joints[j].parent);
         fputc('/', out);
     }
-    make_identifier(form->joints[j].name, name);
+    usda_identifier(form->joints[j].name, name);
     fputs(name, out);
 }
 
@@ -170,7 +143,7 @@ static void write_target_names(const struct prim *prim, const char *declaration,
     char name[FORM_NAME];
     fprintf(prim->out, "            %s = [", declaration);
     for (int t = 0; t < prim->targets->count; t++) {
-        make_identifier(prim->targets->list[t].name, name);
+        usda_identifier(prim->targets->list[t].name, name);
         fprintf(prim->out, "%s%s%s%s", t > 0 ? ", " : "", before, name, after);
     }
     fputs("]\n", prim->out);
@@ -202,17 +175,15 @@ static void write_binding(const struct prim *prim)
     fputs("            int[] primvars:skel:jointIndices = [", prim->out);
     for (int i = 0; i < each * form->vertex_count; i++)
         fprintf(prim->out, "%s%d", i > 0 ? ", " : "", form->joint_count > 0 ? form->slots[i / each][i % each] : 0);
-    fprintf(prim->out,
-            "] (\n                elementSize = %d\n                interpolation = \"vertex\"\n            )\n",
-            each);
+    fputs("]", prim->out);
+    usda_by_vertex(prim->out, each);
     fputs("            float[] primvars:skel:jointWeights = [", prim->out);
     for (int i = 0; i < each * form->vertex_count; i++) {
         fprintf(prim->out, "%s%.9g", i > 0 ? ", " : "",
                 form->joint_count > 0 ? (double)form->weights[i / each][i % each] : 1.0);
     }
-    fprintf(prim->out,
-            "] (\n                elementSize = %d\n                interpolation = \"vertex\"\n            )\n",
-            each);
+    fputs("]", prim->out);
+    usda_by_vertex(prim->out, each);
 }
 
 static void write_shapes(const struct prim *prim, float (*scratch)[3])
@@ -221,13 +192,13 @@ static void write_shapes(const struct prim *prim, float (*scratch)[3])
     char name[FORM_NAME];
     for (int t = 0; t < prim->targets->count; t++) {
         const struct file_target *target = &prim->targets->list[t];
-        make_identifier(target->name, name);
+        usda_identifier(target->name, name);
         fprintf(prim->out, "\n            def BlendShape \"%s\"\n            {\n    ", name);
         targets_scale(target, form->targets[target->source].position, form->vertex_count, scratch);
-        write_vectors(prim->out, "uniform vector3f[] offsets", (const float(*)[3])scratch, form->vertex_count);
+        usda_vectors(prim->out, "uniform vector3f[] offsets", (const float(*)[3])scratch, form->vertex_count);
         fputs("\n    ", prim->out);
         targets_scale(target, form->targets[target->source].normal, form->vertex_count, scratch);
-        write_vectors(prim->out, "uniform vector3f[] normalOffsets", (const float(*)[3])scratch, form->vertex_count);
+        usda_vectors(prim->out, "uniform vector3f[] normalOffsets", (const float(*)[3])scratch, form->vertex_count);
         fputs("\n            }\n", prim->out);
     }
 }
@@ -239,7 +210,7 @@ static void write_mesh(const struct prim *prim, float (*scratch)[3])
     fputs(
         "        def Mesh \"mesh\" (\n            prepend apiSchemas = [\"SkelBindingAPI\"]\n        )\n        {\n",
         prim->out);
-    write_vectors(prim->out, "point3f[] points", form->position, form->vertex_count);
+    usda_vectors(prim->out, "point3f[] points", form->position, form->vertex_count);
     fputc('\n', prim->out);
     write_interpolated(prim->out, "normal3f[] normals", form->normal, form->vertex_count);
     write_interpolated(prim->out, "color3f[] primvars:displayColor", form->color, form->vertex_count);
@@ -259,56 +230,74 @@ static void write_mesh(const struct prim *prim, float (*scratch)[3])
 // --- all of it
 
 /// Rigs may have the same name, prims may not.
-static void name_prim(struct prim *prim, int rig)
+static void name_prim(const struct shot *shot, const struct form *form, int rig, char name[FORM_NAME])
 {
     char wanted[FORM_NAME + 16];
-    snprintf(wanted, sizeof wanted, "%.40s", prim->form->name);
+    snprintf(wanted, sizeof wanted, "%.40s", form->name);
     for (int r = 0; r < rig; r++) {
-        const struct document *document = prim->take->posing->document;
-        if (strncmp(form_name(&document->rigs[r]), prim->form->name, 40) != 0) continue;
-        snprintf(wanted, sizeof wanted, "%.40s_%d", prim->form->name, rig);
+        if (strncmp(form_name(&shot->posing->document->rigs[r]), form->name, 40) != 0) continue;
+        snprintf(wanted, sizeof wanted, "%.40s_%d", form->name, rig);
         break;
     }
-    make_identifier(wanted, prim->name);
+    usda_identifier(wanted, name);
 }
 
-static bool write_rig(struct take *take, int rig, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+static bool write_form(struct shot *shot, const struct form *form, int rig, const char *name, FILE *out,
+                       struct error *error)
 {
-    struct form form;
     struct keys keys;
     struct file_targets targets = {0};
-    if (!form_open(take, rig, &form, error)) return false;
-    bool done = keys_collect(take, rig, &form, &keys, error);
-    float(*scratch)[3] = done ? malloc(((size_t)form.vertex_count + 1) * sizeof *scratch) : NULL;
-    if (done && (!scratch || !targets_create(take, &form, &keys, &targets))) done = fail_no_memory(error, form.name);
+    if (!keys_collect(shot, rig, form, &keys, error)) return false;
+    float(*scratch)[3] = malloc(((size_t)form->vertex_count + 1) * sizeof *scratch);
+    const bool done = scratch && targets_create(shot, form, &keys, &targets);
     if (done) {
-        struct prim prim = {.take = take, .form = &form, .keys = &keys, .targets = &targets, .out = out};
-        name_prim(&prim, rig);
-        fprintf(out, "\n    def SkelRoot \"%s\"\n    {\n", prim.name);
+        const struct prim prim = {
+            .shot = shot, .form = form, .keys = &keys, .targets = &targets, .out = out, .name = name};
+        fprintf(out, "\n    def SkelRoot \"%s\"\n    {\n", name);
         write_skeleton(&prim);
         write_animation(&prim);
         write_mesh(&prim, scratch);
         fputs("    }\n", out);
-        snprintf(summary, FORMAT_SUMMARY, "%d rig%s, %d keys", take->rig_count, take->rig_count == 1 ? "" : "s",
-                 keys.count);
     }
     free(scratch);
     targets_free(&targets);
     keys_free(&keys);
+    return done || fail_no_memory(error, form->name);
+}
+
+static bool write_rig(struct shot *shot, int rig, FILE *out, struct error *error)
+{
+    struct form form;
+    char name[FORM_NAME];
+    if (!form_open(shot, rig, &form, error)) return false;
+    name_prim(shot, &form, rig, name);
+    const bool done = form.kind->holds & FORM_FILE ? usda_model_write(shot, rig, name, out, error)
+                                                   : write_form(shot, &form, rig, name, out, error);
     form_close(&form);
     return done;
 }
 
-bool usda_write(struct take *take, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+static void summarise(const struct shot *shot, char summary[FORMAT_SUMMARY])
+{
+    const int used = snprintf(summary, FORMAT_SUMMARY, "%d rig%s, %d keys", shot->rig_count,
+                              shot->rig_count == 1 ? "" : "s", shot->key_count);
+    if (shot->beside.count == 0) return;
+    const char *slash = strrchr(shot->beside.folder, '/');
+    snprintf(summary + used, FORMAT_SUMMARY - (size_t)used, ", %d texture%s in %.40s", shot->beside.count,
+             shot->beside.count == 1 ? "" : "s", slash ? slash + 1 : shot->beside.folder);
+}
+
+bool usda_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     bool done = true;
-    take->total = (long)take->key_count * take->rig_count;
-    take->is_cubic = false;
+    shot->total = (long)shot->key_count * shot->rig_count;
+    shot->is_cubic = false;
     fprintf(out, "#usda 1.0\n(\n    defaultPrim = \"scene\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n");
     fprintf(out, "    startTimeCode = %.9g\n    endTimeCode = %.9g\n    timeCodesPerSecond = %.9g\n)\n",
-            take_frame(take, 0), take_frame(take, take->key_count - 1), take->posing->document->fps);
+            shot_frame(shot, 0), shot_frame(shot, shot->key_count - 1), shot->posing->document->fps);
     fputs("\ndef Xform \"scene\"\n{", out);
-    for (int r = 0; done && r < take->rig_count; r++) done = write_rig(take, take->rigs[r], out, summary, error);
+    for (int r = 0; done && r < shot->rig_count; r++) done = write_rig(shot, shot->rigs[r], out, error);
     fputs("}\n", out);
+    summarise(shot, summary);
     return done;
 }

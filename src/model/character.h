@@ -8,7 +8,7 @@
 #define MODEL_CHARACTER_H
 
 #include "base/error.h"
-#include "model/obj.h"
+#include "model/surface.h"
 #include <stdbool.h>
 #include <stdint.h>
 

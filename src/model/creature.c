@@ -1,4 +1,4 @@
-/// Meshes the fox, coarser the more of them there are.
+/// Meshes the fox: the more of them a scene has, the coarser.
 #include "model/creature.h"
 
 static const struct level {

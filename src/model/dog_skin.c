@@ -7,25 +7,25 @@
 #define AXIS_WIDTH 0.03f
 
 /// The joints of a limb.
-struct chain {
+struct limb_joints {
     int joint[DOG_TAIL_JOINTS], count;
 };
 
-static struct chain chain_of(const struct dog_skeleton *skeleton, const struct dog_limb *limb)
+static struct limb_joints joints_of(const struct dog_skeleton *skeleton, const struct dog_limb *limb)
 {
-    struct chain chain = {0};
-    for (; limb->joints[chain.count]; chain.count++)
-        chain.joint[chain.count] = dog_joint(skeleton, limb->joints[chain.count]);
-    return chain;
+    struct limb_joints joints = {0};
+    for (; limb->joints[joints.count]; joints.count++)
+        joints.joint[joints.count] = dog_joint(skeleton, limb->joints[joints.count]);
+    return joints;
 }
 
-/// How far along the chain the point lies, in bones. Where several bones are about as near, their mean: so it is smooth across the
+/// How far along the limb the point lies, in bones. Where several bones are about as near, their mean: so it is smooth across the
 /// inside of a bend.
-static float place_along(const struct dog_skeleton *skeleton, const struct chain *chain, const float p[3])
+static float place_along(const struct dog_skeleton *skeleton, const struct limb_joints *joints, const float p[3])
 {
     float square[DOG_TAIL_JOINTS], place[DOG_TAIL_JOINTS], least = INFINITY, sum = 0.0f, total = 0.0f;
-    for (int i = 0; i < chain->count; i++) {
-        const struct dog_joint *joint = &skeleton->joints[chain->joint[i]];
+    for (int i = 0; i < joints->count; i++) {
+        const struct dog_joint *joint = &skeleton->joints[joints->joint[i]];
         const vec3s from = vec3_from(joint->position), bone = glms_vec3_sub(vec3_from(joint->tip), from);
         const vec3s q = glms_vec3_sub(vec3_from(p), from);
         const float t = glm_clamp(glms_vec3_dot(q, bone) / glms_vec3_norm2(bone), 0.0f, 1.0f);
@@ -33,7 +33,7 @@ static float place_along(const struct dog_skeleton *skeleton, const struct chain
         place[i] = (float)i + t;
         least = fminf(least, square[i]);
     }
-    for (int i = 0; i < chain->count; i++) {
+    for (int i = 0; i < joints->count; i++) {
         const float weight = expf((least - square[i]) / (AXIS_WIDTH * AXIS_WIDTH));
         sum += weight * place[i];
         total += weight;
@@ -44,13 +44,13 @@ static float place_along(const struct dog_skeleton *skeleton, const struct chain
 static void add(float *weights, const struct dog_skeleton *skeleton, const struct dog_limb *limb, const float p[3],
                 float share)
 {
-    const struct chain chain = chain_of(skeleton, limb);
-    const float place = place_along(skeleton, &chain, p);
+    const struct limb_joints joints = joints_of(skeleton, limb);
+    const float place = place_along(skeleton, &joints, p);
     float before = 1.0f; // how far the point is beyond the joint
-    for (int i = 0; i < chain.count; i++) {
+    for (int i = 0; i < joints.count; i++) {
         const float next = (float)(i + 1);
-        const float after = i + 1 < chain.count ? glm_smoothstep(next - limb->bend, next + limb->bend, place) : 0.0f;
-        weights[chain.joint[i]] += share * fmaxf(before - after, 0.0f);
+        const float after = i + 1 < joints.count ? glm_smoothstep(next - limb->bend, next + limb->bend, place) : 0.0f;
+        weights[joints.joint[i]] += share * fmaxf(before - after, 0.0f);
         before = fminf(before, after);
     }
 }

@@ -1,4 +1,4 @@
-/// Writes the dog to a .glb: one skinned mesh with a primitive a material, its skeleton, its clips.
+/// Writes the dog to a .glb: one skinned mesh with a primitive per material, its skeleton, its clips.
 #include "base/file.h"
 #include "model/dog.h"
 #include "model/glb.h"

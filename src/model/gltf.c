@@ -78,6 +78,7 @@ void gltf_free(struct gltf *gltf)
     free(gltf->order);
     free(gltf->skins);
     free(gltf->meshes);
+    for (int i = 0; i < gltf->material_count; i++) free(gltf->materials[i].name);
     free(gltf->materials);
     free(gltf->images);
     free(gltf->weights);

@@ -32,10 +32,28 @@ struct gltf_skin {
     float (*inverse_bind)[16];
 };
 
+/// How a texture is read outside of its picture and between its pixels, in glTF's numbers, which are OpenGL's too.
+enum gltf_reading {
+    GLTF_REPEATED = 10497,
+    GLTF_MIRRORED = 33648,
+    GLTF_CLAMPED = 33071,
+    GLTF_READ_NEAREST = 9728,
+    GLTF_READ_LINEAR = 9729,
+    GLTF_READ_SMALLER = 9984, ///< the first of four that read smaller copies of the picture where it is far
+    GLTF_READ_BETWEEN = 9987, ///< the last: linear in all ways
+};
+
+struct gltf_sampler {
+    int wrap[2];   ///< across and down
+    int far, near; ///< where it is smaller, or larger, than on the screen
+};
+
 struct gltf_material {
-    float color[4]; ///< base colour, linear, with opacity
-    int image;      ///< its texture, −1: none
-    float cutoff;   ///< alpha below it is not drawn; 0: all is
+    char *name;                  ///< "material 2" where the file has none
+    float color[4];              ///< base colour, linear, with opacity
+    int image;                   ///< its texture, −1: none
+    struct gltf_sampler sampler; ///< of that
+    float cutoff;                ///< alpha below it is not drawn; 0: all is
     bool blended, double_sided;
 };
 
@@ -62,6 +80,7 @@ struct gltf_part {
     int index_count;
     struct gltf_target *targets; ///< as many as the mesh has
     int material;                ///< −1: plain white
+    bool flat;                   ///< the file has no normals, so each triangle has vertices of its own
 };
 
 struct gltf_mesh {

@@ -5,14 +5,14 @@
 #include "model/gltf.h"
 
 /// What follows one joint of a mesh's skin, or a whole mesh that has none.
-struct gltf_follower {
+struct gltf_box {
     int node;           ///< that shows the mesh
     int joint;          ///< of its skin, −1: none
     float lo[3], hi[3]; ///< of these vertices in the mesh's own space
 };
 
 struct gltf_bounds {
-    struct gltf_follower *followers;
+    struct gltf_box *boxes;
     int count;
 };
 

@@ -9,12 +9,43 @@ static const struct {
 } ignored[] = {
     {"normalTexture", "normal maps"}, {"occlusionTexture", "occlusion maps"}, {"emissiveTexture", "emission"}};
 
-static bool read_texture(struct gltf_reader *r, const json_t *info, struct gltf_uv *uv, int *image)
+static const struct gltf_sampler usual = {
+    .wrap = {GLTF_REPEATED, GLTF_REPEATED}, .far = GLTF_READ_BETWEEN, .near = GLTF_READ_LINEAR};
+
+/// Sets a number of a sampler that glTF knows. What another program writes there besides does not keep a character from being shown.
+static void take(const json_t *json, const char *key, const int *known, int *number)
+{
+    const int64_t value = glb_integer(json, key, *number);
+    for (; *known; known++) {
+        if (value == *known) *number = *known;
+    }
+}
+
+static void read_sampler(const json_t *json, struct gltf_sampler *sampler)
+{
+    static const int wraps[] = {GLTF_REPEATED, GLTF_MIRRORED, GLTF_CLAMPED, 0};
+    static const int filters[] = {GLTF_READ_NEAREST,
+                                  GLTF_READ_LINEAR,
+                                  GLTF_READ_SMALLER,
+                                  GLTF_READ_SMALLER + 1,
+                                  GLTF_READ_SMALLER + 2,
+                                  GLTF_READ_BETWEEN,
+                                  0};
+    static const int near[] = {GLTF_READ_NEAREST, GLTF_READ_LINEAR, 0};
+    take(json, "wrapS", wraps, &sampler->wrap[0]);
+    take(json, "wrapT", wraps, &sampler->wrap[1]);
+    take(json, "minFilter", filters, &sampler->far);
+    take(json, "magFilter", near, &sampler->near);
+}
+
+static bool read_texture(struct gltf_reader *r, const json_t *info, struct gltf_uv *uv,
+                         struct gltf_material *material)
 {
     const json_t *textures = gltf_array(r, "textures"), *images = gltf_array(r, "images");
     const json_t *transform = json_object_get(json_object_get(info, "extensions"), "KHR_texture_transform");
     float rotation = (float)json_number_value(json_object_get(transform, "rotation"));
-    int texture, source;
+    const json_t *samplers = gltf_array(r, "samplers");
+    int texture, source, sampler;
     if (!gltf_index(r, info, "index", (int)json_array_size(textures), &texture) || texture < 0) return texture < 0;
     int64_t set = glb_integer(transform, "texCoord", glb_integer(info, "texCoord", 0));
     if (set < 0) return gltf_bad(r, ".texCoord: expected the number of a set of coordinates, got something else");
@@ -24,8 +55,11 @@ static bool read_texture(struct gltf_reader *r, const json_t *info, struct gltf_
         return false;
     gltf_at(r, "textures[%d]", texture);
     const json_t *described = json_array_get(textures, (size_t)texture);
-    if (!gltf_index(r, described, "source", (int)json_array_size(images), &source)) return false;
-    return source < 0 || gltf_read_image(r, source, image);
+    if (!gltf_index(r, described, "source", (int)json_array_size(images), &source) ||
+        !gltf_index(r, described, "sampler", (int)json_array_size(samplers), &sampler))
+        return false;
+    if (sampler >= 0) read_sampler(json_array_get(samplers, (size_t)sampler), &material->sampler);
+    return source < 0 || gltf_read_image(r, source, &material->image);
 }
 
 /// The base colour, which the older of two ways of describing materials calls diffuse.
@@ -38,18 +72,20 @@ static bool read_color(struct gltf_reader *r, const json_t *json, struct gltf_ma
         return false;
     if (metal || !gloss)
         return gltf_reals(r, metal, "baseColorFactor", material->color, 4) &&
-               read_texture(r, json_object_get(metal, "baseColorTexture"), uv, &material->image);
+               read_texture(r, json_object_get(metal, "baseColorTexture"), uv, material);
     return gltf_reals(r, gloss, "diffuseFactor", material->color, 4) &&
-           read_texture(r, json_object_get(gloss, "diffuseTexture"), uv, &material->image);
+           read_texture(r, json_object_get(gloss, "diffuseTexture"), uv, material);
 }
 
-static bool read_material(struct gltf_reader *r, const json_t *json, struct gltf_material *material,
+static bool read_material(struct gltf_reader *r, const json_t *json, size_t number, struct gltf_material *material,
                           struct gltf_uv *uv)
 {
     const char *mode = json_string_value(json_object_get(json, "alphaMode"));
     const json_t *cutoff = json_object_get(json, "alphaCutoff");
-    *material = (struct gltf_material){.color = {1, 1, 1, 1}, .image = -1};
+    *material = (struct gltf_material){.color = {1, 1, 1, 1}, .image = -1, .sampler = usual};
     *uv = (struct gltf_uv){.scale = {1, 1}};
+    material->name = gltf_name(r, json, "material", number);
+    if (!material->name) return false;
     material->double_sided = json_is_true(json_object_get(json, "doubleSided"));
     material->blended = mode && strcmp(mode, "BLEND") == 0;
     if (mode && strcmp(mode, "MASK") == 0) material->cutoff = cutoff ? (float)json_number_value(cutoff) : 0.5f;
@@ -73,8 +109,8 @@ bool gltf_read_materials(struct gltf_reader *r)
     json_array_foreach(materials, i, material)
     {
         gltf_at(r, "materials[%zu]", i);
-        if (!read_material(r, material, &r->gltf->materials[i], &r->uvs[i])) return false;
-        r->gltf->material_count++;
+        struct gltf_material *to = &r->gltf->materials[r->gltf->material_count++];
+        if (!read_material(r, material, i, to, &r->uvs[i])) return false;
     }
     return true;
 }

@@ -157,13 +157,13 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, int mode, 
     }
     if (!make_triangles(r, mode, corners, count, part)) return false;
     struct gltf_vertices vertices = {.in_file = (int)in_file, .count = (int)in_file};
-    bool flat = !json_object_get(attributes, "NORMAL");
-    if (flat) {
+    part->flat = !json_object_get(attributes, "NORMAL");
+    if (part->flat) {
         vertices.order = part->indices;
         vertices.count = part->index_count;
     }
     if (!read_vertices(r, primitive, &vertices, targets, joints, part)) return false;
-    for (int i = 0; flat && i < part->index_count; i++) part->indices[i] = (uint32_t)i;
+    for (int i = 0; part->flat && i < part->index_count; i++) part->indices[i] = (uint32_t)i;
     return true;
 }
 

@@ -151,11 +151,11 @@ static bool read_columns(const struct motion *m, int first, int count, char *byt
 
 bool motion_columns(const struct motion *motion, int first, int count, double *slab, struct error *error)
 {
-    size_t numbers = (size_t)(motion->columns_follow ? motion->frames : count);
+    size_t numbers = (size_t)(motion->columns_first ? motion->frames : count);
     char *bytes = malloc(numbers * (size_t)motion->number_size);
     if (!bytes) return fail_no_memory(error, motion->path);
-    bool done = motion->columns_follow ? read_columns(motion, first, count, bytes, slab, error)
-                                       : read_rows(motion, first, count, bytes, slab, error);
+    bool done = motion->columns_first ? read_columns(motion, first, count, bytes, slab, error)
+                                      : read_rows(motion, first, count, bytes, slab, error);
     free(bytes);
     return done;
 }

@@ -13,11 +13,11 @@ struct motion {
     const char *path; ///< the caller's, for messages
     // private
     int file;
-    int64_t data;        ///< where the numbers start
-    int number_size;     ///< 4 or 8 bytes
-    bool swapped;        ///< big endian
-    bool columns_follow; ///< all frames of a column lie together (Fortran order)
-    int64_t strides[3];  ///< bytes from one frame, vertex, coordinate to the next
+    int64_t data;       ///< where the numbers start
+    int number_size;    ///< 4 or 8 bytes
+    bool swapped;       ///< big endian
+    bool columns_first; ///< all frames of a column lie together (Fortran order)
+    int64_t strides[3]; ///< bytes from one frame, vertex, coordinate to the next
 };
 
 /// Opens a file and checks its header and its size. .npy: float32 or float64, little or big endian, C or Fortran order,

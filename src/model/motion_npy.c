@@ -17,8 +17,8 @@ static void set_order(struct motion *m, const struct npy *npy)
 {
     int64_t frame = m->number_size, column = frame * m->frames;
     bool flat = npy->count == 2;
-    m->columns_follow = npy->columns_first;
-    if (!m->columns_follow) return;
+    m->columns_first = npy->columns_first;
+    if (!m->columns_first) return;
     m->strides[0] = frame;
     m->strides[1] = flat ? 3 * column : column;
     m->strides[2] = flat ? column : column * m->vertices;

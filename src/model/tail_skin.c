@@ -75,8 +75,8 @@ struct skinned {
     float rows[3][4], stretch[3];
 };
 
-static struct skinned follow(const struct vertex *vertex, const float bind[4], const float rows[TAIL_SLOTS][3][4],
-                             int joints, float segment)
+static struct skinned skinned_at(const struct vertex *vertex, const float bind[4], const float rows[TAIL_SLOTS][3][4],
+                                 int joints, float segment)
 {
     struct skinned own = {0};
     memcpy(own.rows, rows[0], sizeof own.rows);
@@ -119,7 +119,7 @@ void tail_skin(const struct pose *pose, const struct mesh *mesh, float (*positio
     for (int i = 0; i < mesh->vertex_count; i++) {
         const struct vertex *v = &mesh->vertices[i];
         const float bind[4] = {scale * v->position[0], scale * v->position[1], scale * v->position[2], 1.0f};
-        const struct skinned own = follow(v, bind, (const float(*)[3][4])rows, joints, segment);
+        const struct skinned own = skinned_at(v, bind, (const float(*)[3][4])rows, joints, segment);
         for (int r = 0; r < 3; r++) {
             positions[i][r] = 0.0f;
             for (int c = 0; c < 4; c++) positions[i][r] += own.rows[r][c] * bind[c];

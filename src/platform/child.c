@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
@@ -17,7 +16,7 @@ struct child {
     FILE *log;     ///< its standard error
 };
 
-static int spawn(struct child *child, const char *const *arguments, int input, int output)
+static int spawn(struct child *child, char *const *arguments, int input, int output)
 {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -34,15 +33,13 @@ static int spawn(struct child *child, const char *const *arguments, int input, i
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &usual);
-    // The declaration lacks const; nothing is written.
-    char *const *argv = (char *const *)(uintptr_t)arguments;
-    int cause = posix_spawnp(&child->process, arguments[0], &files, &attributes, argv, environ);
+    int cause = posix_spawnp(&child->process, arguments[0], &files, &attributes, arguments, environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     return cause;
 }
 
-struct child *child_start(const char *const *arguments, FILE *output, bool *missing, struct error *error)
+struct child *child_start(char *const *arguments, FILE *output, bool *missing, struct error *error)
 {
     int ends[2] = {-1, -1}, cause = ENOMEM;
     struct child *child = calloc(1, sizeof *child);

@@ -9,8 +9,9 @@
 struct child;
 
 /// Runs a program that is found along PATH, without a shell; what it prints goes to `output`. `arguments` begin with its name and end with
-/// NULL. NULL with a sentence; `*missing` says whether there is no such program. Ctrl+C in the terminal does not reach it.
-struct child *child_start(const char *const *arguments, FILE *output, bool *missing, struct error *error);
+/// NULL; nothing is written to them. NULL with a sentence; `*missing` says whether there is no such program. Ctrl+C in the terminal does
+/// not reach it.
+struct child *child_start(char *const *arguments, FILE *output, bool *missing, struct error *error);
 
 enum child_state { CHILD_RUNS, CHILD_DONE, CHILD_FAILED };
 

@@ -87,6 +87,12 @@ static double length_of(const struct imported *imported, const struct chain_bone
     return fmax(scale * sum, 1e-3);
 }
 
+double chain_bend_a_metre(const struct imported *imported, const struct chain_bones *bones, double scale)
+{
+    // A bend of g at each of n bones takes the tip by g · length · (n + 1) / 2.
+    return DEGREES * 2 / (length_of(imported, bones, scale) * (bones->count + 1));
+}
+
 /// Whether the scene's range is the model's clip, once or several times.
 static bool is_loop(const struct document *document, const struct model_rig *model, const struct gltf *gltf)
 {
@@ -158,13 +164,11 @@ static bool add_chain(const struct plan *plan, const struct chain *chain, int *r
                          error);
 }
 
-/// Adds two splines, and the chain that they bend.
-static bool add_whole(const struct plan *plan, struct chain *chain, int bones, double length, int *rig,
+/// Adds two splines, and the chain of so many bones that they bend, each by `bend` degrees.
+static bool add_whole(const struct plan *plan, struct chain *chain, int bones, double bend, int *rig,
                       struct error *error)
 {
     const struct chain_wish *wish = plan->wish;
-    // A bend of g at each of n bones takes the tip by g · length · (n + 1) / 2: a metre of swing is that much of the tip.
-    const double bend = wish->follows ? DEGREES * 2 / (length * (bones + 1)) : WHOLE_BEND / bones;
     struct channel channels[2];
     for (int c = 0; c < 2; c++) {
         channels[c] = (struct channel){.spline = plan->document->spline_count + c,
@@ -213,7 +217,9 @@ bool chain_make(struct history *history, struct document *document, const struct
                               .loops = is_loop(document, &model->model, gltf)};
     struct chain chain = {.model = plan.model, .by_file = plan.by_file, .from = plan.from, .to = plan.to};
     const struct chain *twin = find_twin(document, wish);
-    if (!twin) return add_whole(&plan, &chain, bones.count, length, rig, error);
+    const double bend =
+        wish->follows ? chain_bend_a_metre(imported, &bones, model->model.scale) : WHOLE_BEND / bones.count;
+    if (!twin) return add_whole(&plan, &chain, bones.count, bend, rig, error);
     // What knots direct looks well mirrored; but what moves both sides, as a head does, throws both the same way.
     chain.turn = wish->follows ? twin->turn : -twin->turn;
     chain.mirror = wish->follows ? twin->mirror : !twin->mirror;

@@ -2,6 +2,7 @@
 #ifndef RIG_CHAIN_MAKE_H
 #define RIG_CHAIN_MAKE_H
 
+#include "rig/bones.h"
 #include "rig/models.h"
 #include "scene/edit.h"
 
@@ -21,6 +22,9 @@ struct chain_wish {
 /// it follows the clip. `rig`: its index. On failure the step may hold some of the edits; take them back.
 bool chain_make(struct history *history, struct document *document, const struct models *models,
                 const struct chain_wish *wish, int *rig, struct error *error);
+
+/// Degrees by which each of its bones is to bend where the tip is to move by a metre; `scale`: of the character.
+double chain_bend_a_metre(const struct imported *imported, const struct chain_bones *bones, double scale);
 
 enum { BONE_NAME_SIZE = 256 };
 

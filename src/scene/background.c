@@ -160,13 +160,13 @@ static void show_solved(struct evaluation *evaluation, const struct document *do
 }
 
 /// Brings the take up to what the document says of its spline; the band has none.
-static void follow_edits(const struct evaluation *evaluation, const struct document *document)
+static void update_preview(const struct evaluation *evaluation, const struct document *document)
 {
     struct preview *preview = &evaluation->storage->background->preview;
     wiggly_desc desc =
         storage_describe(evaluation->storage, evaluation->curves, document, preview->spline, evaluation->cubic);
     preview->is_current = false;
-    if (evaluation->method == WIGGLY_CHAIN) preview_follow(preview, document, &desc);
+    if (evaluation->method == WIGGLY_CHAIN) preview_update(preview, document, &desc);
 }
 
 static void adopt_take(struct evaluation *evaluation, const struct document *document, const struct job *job)
@@ -175,7 +175,7 @@ static void adopt_take(struct evaluation *evaluation, const struct document *doc
     b->preview = (struct preview){.take = job->take, .spline = b->condensing, .moved = -1};
     if (!job->take) b->unfit = b->condensing;
     b->condensing = -1;
-    if (job->take) follow_edits(evaluation, document);
+    if (job->take) update_preview(evaluation, document);
 }
 
 /// Collects the thread's job if it finishes within `seconds`.
@@ -315,7 +315,7 @@ static bool mark(struct evaluation *evaluation, const struct document *document,
         b->pending[s] = any = true;
         storage->baked[s].is_new = false;
         if (s == b->unfit) b->unfit = -1;
-        if (s == b->preview.spline && b->preview.take) follow_edits(evaluation, document);
+        if (s == b->preview.spline && b->preview.take) update_preview(evaluation, document);
     }
     return any;
 }

@@ -116,10 +116,10 @@ bool plan_feed(struct document *document, const struct edit *edit, struct change
 
 bool plan_append_channel(struct rig *rig, const struct edit *edit)
 {
-    int count;
-    struct channel *old = rig_channels(rig, &count);
-    struct channel *channels = realloc(old, (size_t)(count + 1) * sizeof *channels);
+    const size_t count = (size_t)rig->bent.channel_count;
+    struct channel *channels = realloc(rig->bent.channels, (count + 1) * sizeof *channels);
     if (!channels) return false;
+    rig->bent.channels = channels;
     struct channel *channel = &channels[count];
     memset(channel, 0, sizeof *channel);
     channel->spline = edit->spline;
@@ -127,7 +127,7 @@ bool plan_append_channel(struct rig *rig, const struct edit *edit)
     channel->of = edit->of;
     channel->lag.value[0] = CHANNEL_DEFAULT_LAG;
     channel->gain.value[0] = CHANNEL_DEFAULT_GAIN;
-    rig_set_channels(rig, channels, count + 1);
+    rig->bent.channel_count++;
     return true;
 }
 
@@ -156,9 +156,7 @@ bool plan_channel_remove(struct document *document, const struct edit *edit, str
     if (!find_channel(document, edit)) return no_channel(error);
     struct rig *rig = plan_rig_begin(document, edit->rig, error);
     if (!rig) return false;
-    int count;
-    struct channel *channels = rig_channels(rig, &count), *gone = &channels[edit->channel];
-    memmove(gone, gone + 1, (size_t)(count - 1 - edit->channel) * sizeof *gone);
-    rig_set_channels(rig, channels, count - 1);
+    struct channel *gone = &rig->bent.channels[edit->channel];
+    memmove(gone, gone + 1, (size_t)(--rig->bent.channel_count - edit->channel) * sizeof *gone);
     return plan_rig_finish(edit->rig, rig, list, error);
 }

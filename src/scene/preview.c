@@ -45,7 +45,7 @@ static bool move(struct preview *preview, const struct document *document, const
     return true;
 }
 
-void preview_follow(struct preview *preview, const struct document *document, const wiggly_desc *desc)
+void preview_update(struct preview *preview, const struct document *document, const wiggly_desc *desc)
 {
     const struct spline *spline = &document->splines[preview->spline];
     const wiggly_desc *old = take_desc(preview->take);

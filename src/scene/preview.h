@@ -16,7 +16,7 @@ bool preview_serves(const wiggly_desc *desc);
 
 /// Moves the take's knots to where the document has them. Sets is_current, which stays false when more than a few knots moved or
 /// anything else changed. `desc` is the spline's description.
-void preview_follow(struct preview *preview, const struct document *document, const wiggly_desc *desc);
+void preview_update(struct preview *preview, const struct document *document, const wiggly_desc *desc);
 
 /// Reads samples of the take into the curve's rows. false if the take has lost digits; it is then no longer current.
 bool preview_show(struct preview *preview, const wiggly_curve *curve, const struct extremes *extremes, int first,

@@ -23,6 +23,10 @@ struct rig {
     enum rig_kind kind;
     char *name; ///< NULL where the file has none
     union {
+        struct {
+            struct channel *channels;
+            int channel_count;
+        } bent; ///< what each kind that channels bend begins with
         struct tail tail;
         struct character_rig character;
         struct model_rig model;
@@ -43,9 +47,6 @@ int rig_input(const struct rig *rig, int input);
 
 /// Its channels and how many; NULL and 0 for a kind that has none.
 struct channel *rig_channels(const struct rig *rig, int *count);
-
-/// Gives it other channels, which it then owns, in place of those, which the caller has dealt with.
-void rig_set_channels(struct rig *rig, struct channel *channels, int count);
 
 /// A copy that owns its memory; false, with nothing to free, if memory runs out.
 bool rig_copy(const struct rig *rig, struct rig *copy);

@@ -46,29 +46,10 @@ static void print(struct members *members, const struct document *document, cons
     print_channels(members, document, chain->channels, chain->channel_count);
 }
 
-static int input_count(const struct rig *rig) { return rig->chain.channel_count; }
-
-static int input(const struct rig *rig, int input) { return rig->chain.channels[input].spline; }
-
-static void references(const struct rig *rig, int index, reference_visitor *visit, void *context)
-{
-    channels_references(rig->chain.channels, rig->chain.channel_count, index, visit, context);
-}
-
-static void set_reference(struct rig *rig, const struct reference *reference, int spline)
-{
-    rig->chain.channels[reference->which].spline = spline;
-}
-
 static bool copy(struct rig *copy)
 {
-    struct chain *chain = &copy->chain;
-    char **const texts[] = {&chain->model, &chain->from, &chain->to};
-    if (!rig_own_texts(texts, 3)) return false;
-    chain->channels = channels_copy(chain->channels, chain->channel_count);
-    if (chain->channels) return true;
-    for (int i = 0; i < 3; i++) free(*texts[i]);
-    return false;
+    char **const texts[] = {&copy->chain.model, &copy->chain.from, &copy->chain.to};
+    return rig_own_texts(texts, 3);
 }
 
 static void release(struct rig *rig)
@@ -76,14 +57,12 @@ static void release(struct rig *rig)
     free(rig->chain.model);
     free(rig->chain.from);
     free(rig->chain.to);
-    free(rig->chain.channels);
 }
 
 static size_t bytes(const struct rig *rig)
 {
     const struct chain *chain = &rig->chain;
-    return text_size(chain->model) + text_size(chain->from) + text_size(chain->to) +
-           (size_t)chain->channel_count * sizeof *chain->channels;
+    return text_size(chain->model) + text_size(chain->from) + text_size(chain->to);
 }
 
 static bool rebase(struct rig *rig, const char *from, const char *to)
@@ -97,10 +76,7 @@ const struct rig_functions chain_functions = {.word = "chain",
                                               .load = load,
                                               .resolve = resolve,
                                               .print = print,
-                                              .input_count = input_count,
-                                              .input = input,
-                                              .references = references,
-                                              .set_reference = set_reference,
+                                              .is_bent = true,
                                               .copy = copy,
                                               .release = release,
                                               .bytes = bytes,

@@ -161,18 +161,3 @@ void print_channels(struct members *members, const struct document *document, co
     }
     text_string(text, count > 0 ? "\n      ]" : "[]");
 }
-
-void channels_references(const struct channel *channels, int count, int index, reference_visitor *visit,
-                         void *context)
-{
-    for (int i = 0; i < count; i++) {
-        visit(&(struct reference){REFERENCE_CHANNEL, index, i, channels[i].spline}, context);
-    }
-}
-
-struct channel *channels_copy(const struct channel *channels, int count)
-{
-    struct channel *copy = malloc((size_t)(count > 0 ? count : 1) * sizeof *copy);
-    if (copy && count > 0) memcpy(copy, channels, (size_t)count * sizeof *copy);
-    return copy;
-}

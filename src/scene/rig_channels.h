@@ -1,4 +1,4 @@
-/// How channels and their angles are read, printed and copied, for every kind of rig that has some. Private to src/scene.
+/// How channels and their angles are read and printed, for every kind of rig that has some. Private to src/scene.
 #ifndef SCENE_RIG_CHANNELS_H
 #define SCENE_RIG_CHANNELS_H
 
@@ -25,13 +25,6 @@ struct channel *load_channels(struct reader *reader, struct value value, const c
 /// The member "channels".
 void print_channels(struct members *members, const struct document *document, const struct channel *channels,
                     int count);
-
-/// Visits the splines that they bend by; `index` is that of the rig.
-void channels_references(const struct channel *channels, int count, int index, reference_visitor *visit,
-                         void *context);
-
-/// A copy, NULL if memory runs out.
-struct channel *channels_copy(const struct channel *channels, int count);
 
 /// Keys of a channel's object, and the words for axes: of a tail, and of a chain.
 extern const char *const channel_keys[], *const tail_axes[], *const chain_axes[];

@@ -7,40 +7,48 @@
 static const struct rig_functions *const kinds[RIG_KINDS] = {RIG_KIND_LIST(RIG_ROW)};
 #undef RIG_ROW
 
+_Static_assert(offsetof(struct tail, channels) == 0 && offsetof(struct chain, channels) == 0,
+               "rig.bent is their beginning");
+
 const char *rig_word(enum rig_kind kind) { return kinds[kind]->word; }
 
 const char *rig_title(const struct rig *rig) { return rig->name ? rig->name : kinds[rig->kind]->title(rig); }
 
-int rig_input_count(const struct rig *rig) { return kinds[rig->kind]->input_count(rig); }
+int rig_input_count(const struct rig *rig)
+{
+    const struct rig_functions *kind = kinds[rig->kind];
+    if (kind->is_bent) return rig->bent.channel_count;
+    return kind->input_count ? kind->input_count(rig) : 0;
+}
 
-int rig_input(const struct rig *rig, int input) { return kinds[rig->kind]->input(rig, input); }
+int rig_input(const struct rig *rig, int input)
+{
+    const struct rig_functions *kind = kinds[rig->kind];
+    return kind->is_bent ? rig->bent.channels[input].spline : kind->input(rig, input);
+}
 
 struct channel *rig_channels(const struct rig *rig, int *count)
 {
-    const bool is_tail = rig->kind == RIG_TAIL, is_chain = rig->kind == RIG_CHAIN;
-    *count = is_tail ? rig->tail.channel_count : is_chain ? rig->chain.channel_count : 0;
-    return is_tail ? rig->tail.channels : is_chain ? rig->chain.channels : NULL;
-}
-
-void rig_set_channels(struct rig *rig, struct channel *channels, int count)
-{
-    if (rig->kind == RIG_TAIL) {
-        rig->tail.channels = channels;
-        rig->tail.channel_count = count;
-    } else {
-        rig->chain.channels = channels;
-        rig->chain.channel_count = count;
-    }
+    const bool is_bent = kinds[rig->kind]->is_bent;
+    *count = is_bent ? rig->bent.channel_count : 0;
+    return is_bent ? rig->bent.channels : NULL;
 }
 
 void rig_references(const struct rig *rig, int index, reference_visitor *visit, void *context)
 {
-    kinds[rig->kind]->references(rig, index, visit, context);
+    const struct rig_functions *kind = kinds[rig->kind];
+    if (kind->references) kind->references(rig, index, visit, context);
+    for (int i = 0; kind->is_bent && i < rig->bent.channel_count; i++)
+        visit(&(struct reference){REFERENCE_CHANNEL, index, i, rig->bent.channels[i].spline}, context);
 }
 
 void rig_set_reference(struct rig *rig, const struct reference *reference, int spline)
 {
-    kinds[rig->kind]->set_reference(rig, reference, spline);
+    if (reference->kind == REFERENCE_CHANNEL) {
+        rig->bent.channels[reference->which].spline = spline;
+    } else {
+        kinds[rig->kind]->set_reference(rig, reference, spline);
+    }
 }
 
 bool rig_own_texts(char **const *texts, int count)
@@ -55,23 +63,46 @@ bool rig_own_texts(char **const *texts, int count)
     return true;
 }
 
+static bool copy_channels(struct rig *copy)
+{
+    const size_t size = (size_t)copy->bent.channel_count * sizeof *copy->bent.channels;
+    const struct channel *channels = copy->bent.channels;
+    copy->bent.channels = malloc(size > 0 ? size : 1);
+    if (copy->bent.channels && size > 0) memcpy(copy->bent.channels, channels, size);
+    return copy->bent.channels != NULL;
+}
+
 bool rig_copy(const struct rig *rig, struct rig *copy)
 {
+    const struct rig_functions *kind = kinds[rig->kind];
     *copy = *rig;
     copy->name = rig->name ? strdup(rig->name) : NULL;
     if (rig->name && !copy->name) return false;
-    if (kinds[rig->kind]->copy(copy)) return true;
-    free(copy->name);
+    if (kind->copy && !kind->copy(copy)) {
+        free(copy->name);
+        return false;
+    }
+    if (!kind->is_bent || copy_channels(copy)) return true;
+    rig_release(copy);
     return false;
 }
 
 void rig_release(struct rig *rig)
 {
-    kinds[rig->kind]->release(rig);
+    const struct rig_functions *kind = kinds[rig->kind];
+    if (kind->release) kind->release(rig);
+    if (kind->is_bent) free(rig->bent.channels);
     free(rig->name);
 }
 
-size_t rig_bytes(const struct rig *rig) { return sizeof *rig + text_size(rig->name) + kinds[rig->kind]->bytes(rig); }
+size_t rig_bytes(const struct rig *rig)
+{
+    const struct rig_functions *kind = kinds[rig->kind];
+    size_t size = sizeof *rig + text_size(rig->name);
+    if (kind->bytes) size += kind->bytes(rig);
+    if (kind->is_bent) size += (size_t)rig->bent.channel_count * sizeof *rig->bent.channels;
+    return size;
+}
 
 bool rig_rebase(struct rig *rig, const char *from, const char *to)
 {

@@ -16,12 +16,16 @@ struct rig_functions {
     void (*print)(struct members *members, const struct document *document, const struct rig *rig,
                   const char *folder);
     holds_tracks *has_tracks; ///< which keys of its extra object belong to tracks; NULL: none
+    /// By channels: these are copied, counted and freed for all such kinds in one place, and the functions below leave them alone.
+    bool is_bent;
+    /// The splines that drive it; NULL: none.
     int (*input_count)(const struct rig *rig);
     int (*input)(const struct rig *rig, int input);
-    /// Visits the splines that the rig at `index` in the list names.
+    /// Visits the splines that the rig at `index` in the list names; NULL: it names none.
     void (*references)(const struct rig *rig, int index, reference_visitor *visit, void *context);
     void (*set_reference)(struct rig *rig, const struct reference *reference, int spline);
-    bool (*copy)(struct rig *copy); ///< gives a shallow copy memory of its own; nothing to free on failure
+    /// Gives a shallow copy memory of its own, with nothing to free on failure; NULL, as the next two: it owns none.
+    bool (*copy)(struct rig *copy);
     void (*release)(struct rig *rig);
     size_t (*bytes)(const struct rig *rig);                            ///< that it owns
     bool (*rebase)(struct rig *rig, const char *from, const char *to); ///< NULL: it names no files

@@ -32,24 +32,6 @@ static void print(struct members *members, const struct document *document, cons
     member_number(members, "turn", model->turn);
 }
 
-/// Splines move it through its chains only.
-static int input_count(const struct rig *rig)
-{
-    (void)rig;
-    return 0;
-}
-
-static int input(const struct rig *rig, int input)
-{
-    (void)rig, (void)input;
-    return -1;
-}
-
-static void references(const struct rig *rig, int index, reference_visitor *visit, void *context)
-{
-    (void)rig, (void)index, (void)visit, (void)context;
-}
-
 static bool copy(struct rig *copy)
 {
     char **const texts[] = {&copy->model.model, &copy->model.clip};
@@ -74,9 +56,6 @@ static const char *title(const struct rig *rig) { return rig->model.model; }
 const struct rig_functions model_functions = {.word = "model",
                                               .load = load,
                                               .print = print,
-                                              .input_count = input_count,
-                                              .input = input,
-                                              .references = references,
                                               .copy = copy,
                                               .release = release,
                                               .bytes = bytes,

@@ -83,46 +83,23 @@ static void print(struct members *members, const struct document *document, cons
 /// Of tracks, and of a ramp.
 static bool holds_keys(const char *key) { return strcmp(key, "position") == 0 || strcmp(key, "rest") == 0; }
 
-static int input_count(const struct rig *rig) { return rig->tail.channel_count; }
-
-static int input(const struct rig *rig, int input) { return rig->tail.channels[input].spline; }
-
 static void references(const struct rig *rig, int index, reference_visitor *visit, void *context)
 {
     for (int i = 0; i < 3; i++) {
         struct reference reference = {REFERENCE_POSITION, index, i, rig->tail.position[i].track};
         if (reference.spline >= 0) visit(&reference, context);
     }
-    channels_references(rig->tail.channels, rig->tail.channel_count, index, visit, context);
 }
 
 static void set_reference(struct rig *rig, const struct reference *reference, int spline)
 {
-    if (reference->kind == REFERENCE_POSITION) {
-        rig->tail.position[reference->which].track = spline;
-    } else {
-        rig->tail.channels[reference->which].spline = spline;
-    }
+    rig->tail.position[reference->which].track = spline;
 }
-
-static bool copy(struct rig *copy)
-{
-    copy->tail.channels = channels_copy(copy->tail.channels, copy->tail.channel_count);
-    return copy->tail.channels != NULL;
-}
-
-static void release(struct rig *rig) { free(rig->tail.channels); }
-
-static size_t bytes(const struct rig *rig) { return (size_t)rig->tail.channel_count * sizeof *rig->tail.channels; }
 
 const struct rig_functions tail_functions = {.word = "tail",
                                              .load = load,
                                              .print = print,
                                              .has_tracks = holds_keys,
-                                             .input_count = input_count,
-                                             .input = input,
+                                             .is_bent = true,
                                              .references = references,
-                                             .set_reference = set_reference,
-                                             .copy = copy,
-                                             .release = release,
-                                             .bytes = bytes};
+                                             .set_reference = set_reference};

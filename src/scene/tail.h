@@ -8,12 +8,12 @@
 enum { TAIL_MAX_JOINTS = ANGLES_MAX_JOINTS };
 
 struct tail {
+    struct channel *channels; ///< first, as in every kind of rig that has some (rig.h)
+    int channel_count;
     int joints; ///< 1 … TAIL_MAX_JOINTS
     double length;
     struct param position[3]; ///< metres; a track is the spline's total
     struct angles rest;
-    struct channel *channels;
-    int channel_count;
 };
 
 #define TAIL_DEFAULT_JOINTS 24

@@ -1,6 +1,5 @@
 /// Builds the lattice and embeds the surface in it.
 #include "simulation/lattice.h"
-#include "simulation/closed.h"
 #include "simulation/element.h"
 #include "simulation/tiling.h"
 #include "simulation/vec3.h"
@@ -11,10 +10,12 @@
 // Cutting takes some 13 bytes per voxel. A very thin sheet or needle would need more voxels: it gets fewer tetrahedra instead.
 static const double voxels_max = 3e7;
 
-/// Volume inside, m³: the tetrahedra from the first vertex to each triangle.
-static double surface_volume(const struct surface *surface)
+/// Volume inside, m³: the tetrahedra from the first vertex to each triangle. Of an open surface a guess, for which a hundredth of its box
+/// is little.
+static double solid_volume(const struct solid *solid)
 {
-    double sum = 0;
+    const struct surface *surface = &solid->shape;
+    double sum = 0, lo[3], hi[3];
     for (int i = 0; i < surface->index_count; i += 3) {
         double edge[3][3], across[3];
         for (int k = 0; k < 3; k++) {
@@ -24,7 +25,9 @@ static double surface_volume(const struct surface *surface)
         vec3_cross(edge[0], edge[1], across);
         sum += vec3_dot(across, edge[2]) / 6;
     }
-    return fabs(sum);
+    surface_bounds(surface, lo, hi);
+    const double box = (hi[0] - lo[0]) * (hi[1] - lo[1]) * (hi[2] - lo[2]);
+    return solid->open ? fmin(fmax(fabs(sum), 0.01 * box), box) : fabs(sum);
 }
 
 /// The smallest edge of a cube, from `cell` up, that keeps the voxels within bounds.
@@ -35,17 +38,17 @@ static double coarse_enough(const struct surface *surface, double cell)
 }
 
 /// Tries cubes of several sizes, twelve tetrahedra each inside, until the number is within 3 % or no longer gets nearer.
-static bool fit(struct tiling *best, const struct surface *surface, int target, double *best_cell)
+static bool fit(struct tiling *best, const struct solid *solid, int target, double *best_cell)
 {
     enum { TRIES = 8 };
-    double cell = cbrt(12 * surface_volume(surface) / target), nearest = INFINITY;
+    double cell = cbrt(12 * solid_volume(solid) / target), nearest = INFINITY;
     *best = (struct tiling){0};
     for (int i = 0; i < TRIES && nearest > 0.03; i++) {
         struct tiling tiling;
-        double allowed = coarse_enough(surface, cell);
+        double allowed = coarse_enough(&solid->shape, cell);
         if (allowed > cell && i > 0) break; // as fine as can be
         cell = allowed;
-        if (!tiling_create(&tiling, surface, cell)) return false;
+        if (!tiling_create(&tiling, solid, cell)) return false;
         double ratio = fmax(tiling.kept, 1) / target;
         if (fabs(log(ratio)) < nearest) {
             nearest = fabs(log(ratio));
@@ -124,16 +127,11 @@ static void locate(const struct lattice *lattice, int tet, const float point[3],
     for (int a = 0; a < 4; a++) weight[a] = (a == 0) + vec3_dot(element.gradient[a], away);
 }
 
-/// Hosts each vertex in the element of the nearest voxel, seen from half a voxel under the surface, lest it be another limb's.
-static bool embed(struct lattice *lattice, const struct tiling *t, const int *index, const struct surface *surface)
+/// Each vertex's normal, not of unit length; 0 where its triangles are left out.
+static double (*normals_of(const struct surface *surface))[3]
 {
-    size_t count = (size_t)surface->vertex_count;
-    lattice->vertex_count = surface->vertex_count;
-    lattice->host = calloc(count + 1, sizeof *lattice->host);
-    lattice->weight = calloc(count + 1, sizeof *lattice->weight);
-    double(*normal)[3] = calloc(count + 1, sizeof *normal);
-    bool good = lattice->host && lattice->weight && normal;
-    for (int i = 0; good && i < surface->index_count; i++) { // each corner adds its triangle's normal
+    double(*normal)[3] = calloc((size_t)surface->vertex_count + 1, sizeof *normal);
+    for (int i = 0; normal && i < surface->index_count; i++) { // each corner adds its triangle's normal
         double edge[2][3], across[3];
         const uint32_t *corner = surface->indices + i / 3 * 3;
         for (int c = 0; c < 3; c++) {
@@ -144,8 +142,24 @@ static bool embed(struct lattice *lattice, const struct tiling *t, const int *in
         vec3_cross(edge[0], edge[1], across);
         for (int c = 0; c < 3; c++) normal[surface->indices[i]][c] += across[c];
     }
+    return normal;
+}
+
+/// Hosts each vertex in the element of the nearest voxel, seen from half a voxel under the surface, lest it be another limb's.
+static bool embed(struct lattice *lattice, const struct tiling *t, const int *index, const struct surface *surface,
+                  const struct solid *solid)
+{
+    size_t count = (size_t)surface->vertex_count;
+    lattice->vertex_count = surface->vertex_count;
+    lattice->host = calloc(count + 1, sizeof *lattice->host);
+    lattice->weight = calloc(count + 1, sizeof *lattice->weight);
+    double(*normal)[3] = normals_of(&solid->shape);
+    uint8_t *used = surface_used_vertices(surface);
+    bool good = lattice->host && lattice->weight && normal && used;
     for (int i = 0; good && i < surface->vertex_count; i++) {
         double at[3], length = vec3_length(normal[i]);
+        lattice->host[i] = -1;
+        if (!used[i]) continue;
         for (int c = 0; c < 3; c++) {
             double inward = length > 0 ? 0.5 * normal[i][c] / length : 0;
             at[c] = ((double)surface->position[i][c] - t->voxels.origin[c]) / t->voxels.spacing - inward;
@@ -154,47 +168,53 @@ static bool embed(struct lattice *lattice, const struct tiling *t, const int *in
         locate(lattice, lattice->host[i], surface->position[i], lattice->weight[i]);
     }
     free(normal);
+    free(used);
     return good;
 }
 
-static bool build(struct lattice *lattice, const struct tiling *t, const struct surface *surface)
+static bool build(struct lattice *lattice, const struct tiling *t, const struct surface *surface,
+                  const struct solid *solid)
 {
     int *index = calloc((size_t)t->count + 1, sizeof *index);
     int *node_number = malloc(((size_t)t->count * 4 + 1) * sizeof *node_number);
     bool good = index && node_number;
     if (good) {
         memset(node_number, 0xFF, (size_t)t->count * 4 * sizeof *node_number); // −1
-        good = number(lattice, t, index, node_number) && embed(lattice, t, index, surface);
+        good = number(lattice, t, index, node_number) && embed(lattice, t, index, surface, solid);
     }
     free(index);
     free(node_number);
     return good;
 }
 
-bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, const char *name,
-                    struct error *error)
+/// The lattice of a solid with some volume.
+static bool lattice_of(struct lattice *lattice, const struct surface *surface, const struct solid *solid, int target,
+                       const char *name, struct error *error)
 {
-    *lattice = (struct lattice){0};
-    int open = surface->index_count ? surface_open_edges(surface) : 0;
-    if (open < 0) return fail_no_memory(error, name);
-    if (open > 0) {
-        return fail(error, ERROR_INPUT, "%s: the mesh is not closed: %d %s no triangle on the other side", name, open,
-                    open == 1 ? "edge has" : "edges have");
-    }
-    if (surface->index_count == 0 || !(surface_volume(surface) > 0)) {
-        return fail(error, ERROR_INPUT, "%s: the mesh encloses no volume", name);
-    }
     struct tiling tiling;
-    bool fitted = fit(&tiling, surface, target, &lattice->cell);
+    bool fitted = fit(&tiling, solid, target, &lattice->cell);
     if (fitted && tiling.kept == 0) {
         tiling_free(&tiling);
         return fail(error, ERROR_INPUT, "%s: the mesh is too thin for a lattice of %d tetrahedra", name, target);
     }
-    bool good = fitted && build(lattice, &tiling, surface);
+    bool good = fitted && build(lattice, &tiling, surface, solid);
     tiling_free(&tiling);
     if (good) return true;
     lattice_free(lattice);
     return fail_no_memory(error, name);
+}
+
+bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, const char *name,
+                    struct error *error)
+{
+    struct solid solid;
+    *lattice = (struct lattice){0};
+    if (!solid_create(&solid, surface)) return fail_no_memory(error, name);
+    solid_describe(&solid, lattice->repair);
+    bool good = solid_volume(&solid) > 0 ? lattice_of(lattice, surface, &solid, target, name, error)
+                                         : fail(error, ERROR_INPUT, "%s: the mesh encloses no volume", name);
+    solid_free(&solid);
+    return good;
 }
 
 void lattice_free(struct lattice *lattice)
@@ -211,6 +231,7 @@ void lattice_free(struct lattice *lattice)
 void lattice_embed(const struct lattice *lattice, const double (*x)[3], float (*position)[3])
 {
     for (int i = 0; i < lattice->vertex_count; i++) {
+        if (lattice->host[i] < 0) continue;
         const int *node = lattice->tet[lattice->host[i]];
         for (int c = 0; c < 3; c++) {
             double sum = 0;

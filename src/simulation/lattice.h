@@ -1,4 +1,4 @@
-/// A coarse lattice of tetrahedra around a closed surface, and the surface's vertices embedded in it.
+/// A coarse lattice of tetrahedra around a surface, and the surface's vertices embedded in it.
 ///
 /// The tetrahedra are those of the body-centred cubic lattice: the nodes are the corners and the centres of cubes, and each tetrahedron
 /// joins two neighbouring centres with an edge of the face between them. All are congruent and well shaped, and the lattice is
@@ -14,7 +14,7 @@
 #define SIMULATION_LATTICE_H
 
 #include "base/error.h"
-#include "model/obj.h"
+#include "simulation/solid.h"
 #include <stdbool.h>
 
 struct lattice {
@@ -26,17 +26,17 @@ struct lattice {
     int *part;        ///< per tetrahedron: which connected part it belongs to
     int part_count;
     int vertex_count;
-    int *host;           ///< per vertex: its tetrahedron
+    int *host;           ///< per vertex: its tetrahedron; −1: no triangle has the vertex, which stays where it is
     double (*weight)[4]; ///< and its barycentric coordinates there, a little outside 0 … 1 for some
+    char repair[160];    ///< what solid.h has done to the surface; "": nothing
 };
 
-/// The lattice with about `target` tetrahedra. Errors say: not closed and how many edges are open, no volume, no memory.
-/// `name` is the surface's, for messages.
+/// The lattice with about `target` tetrahedra. Errors say: no volume, no memory. `name` is the surface's, for messages.
 bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, const char *name,
                     struct error *error);
 void lattice_free(struct lattice *lattice);
 
-/// Vertex positions, float, from node positions: Σ_a w_a x_a.
+/// Vertex positions, float, from node positions: Σ_a w_a x_a. Those of vertices that no triangle has are left as they are.
 void lattice_embed(const struct lattice *lattice, const double (*x)[3], float (*position)[3]);
 
 #endif

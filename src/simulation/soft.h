@@ -3,7 +3,7 @@
 #define SIMULATION_SOFT_H
 
 #include "base/error.h"
-#include "model/obj.h"
+#include "model/surface.h"
 #include "simulation/body.h"
 #include "simulation/integrator.h"
 #include "simulation/lattice.h"

@@ -253,11 +253,11 @@ static bool cut(struct tiling *t, int *set, uint64_t *tetrahedron)
     return find_parts(t) && drop_crumbs(t);
 }
 
-bool tiling_create(struct tiling *t, const struct surface *surface, double cell)
+bool tiling_create(struct tiling *t, const struct solid *solid, double cell)
 {
     *t = (struct tiling){0};
-    lay_out(&t->voxels, surface, cell);
-    if (!voxels_fill(&t->voxels, surface)) return false;
+    lay_out(&t->voxels, &solid->shape, cell);
+    if (!voxels_fill(&t->voxels, solid)) return false;
     size_t count = voxels_count(&t->voxels);
     int *set = calloc(count, sizeof *set);
     uint64_t *tetrahedron = calloc(count, sizeof *tetrahedron);

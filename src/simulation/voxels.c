@@ -122,24 +122,125 @@ static void fill(struct voxels *voxels, int column, double from, double to)
     if (end > first) memset(start + first, 1, (size_t)(end - first));
 }
 
-bool voxels_fill(struct voxels *voxels, const struct surface *surface)
+/// All crossings, column by column upwards.
+static bool find_crossings(const struct voxels *voxels, const struct surface *surface, struct crossings *list)
 {
     double side = voxels->spacing * fmax(voxels->size[0], voxels->size[1]);
     struct raster raster = {.voxels = voxels, .scale = (1 << 24) / side};
-    struct crossings list = {0};
-    voxels->inside = calloc(voxels_count(voxels), 1);
-    for (int i = 0; i < surface->index_count; i += 3) rasterise(&raster, surface, surface->indices + i, &list);
-    bool good = voxels->inside && !list.failed;
-    if (good && list.count) qsort(list.items, list.count, sizeof *list.items, compare);
+    for (int i = 0; i < surface->index_count; i += 3) rasterise(&raster, surface, surface->indices + i, list);
+    if (!list->failed && list->count) qsort(list->items, list->count, sizeof *list->items, compare);
+    return !list->failed;
+}
+
+static void fill_closed(struct voxels *voxels, const struct crossings *list)
+{
     int winding = 0;
-    for (size_t i = 0; good && i + 1 < list.count; i++) {
-        const struct crossing *here = &list.items[i], *next = here + 1;
+    for (size_t i = 0; i + 1 < list->count; i++) {
+        const struct crossing *here = &list->items[i], *next = here + 1;
         winding += here->turn;
         if (next->column != here->column) {
             winding = 0;
         } else if (winding != 0) {
             fill(voxels, here->column, here->z, next->z);
         }
+    }
+}
+
+/// One column of an open surface. Where it crosses a triangle the winding number changes by one; the rest of it, w − `crossed`, changes
+/// smoothly, so that few points of it are enough.
+struct column {
+    struct voxels *voxels;
+    const struct winding *winding;
+    int i, j;
+    int *crossed; ///< per voxel: how often the column has gone in below, less how often out
+};
+
+static double smooth_at(const struct column *c, int k)
+{
+    const struct voxels *v = c->voxels;
+    const int at[3] = {c->i, c->j, k};
+    double point[3];
+    for (int a = 0; a < 3; a++) point[a] = v->origin[a] + (at[a] + 0.5) * v->spacing;
+    return winding_at(c->winding, point) - c->crossed[k];
+}
+
+/// Marks the voxels from k up to, but not including, `end`, between which the smooth part runs from `from` to `to`.
+static void fill_smooth(const struct column *c, int k, double from, int end, double to)
+{
+    uint8_t *inside = c->voxels->inside + (size_t)(c->i * c->voxels->size[1] + c->j) * (size_t)c->voxels->size[2];
+    for (int n = k; n < end; n++) inside[n] = from + (to - from) * (n - k) / (end - k) + c->crossed[n] > 0.5;
+}
+
+/// The same, halved until the smooth part is a line.
+static void fill_between(const struct column *c, int k, double from, int end, double to)
+{
+    static const double CURVED = 0.02;
+    const int middle = (k + end) / 2;
+    if (middle == k) {
+        fill_smooth(c, k, from, end, to);
+        return;
+    }
+    const double there = smooth_at(c, middle), line = from + (to - from) * (middle - k) / (end - k);
+    const bool straight = fabs(there - line) < CURVED;
+    void (*const half)(const struct column *, int, double, int, double) = straight ? fill_smooth : fill_between;
+    half(c, k, from, middle, there);
+    half(c, middle, there, end, to);
+}
+
+/// Voxels from lo up to, but not including, hi: those within the surface's box, and never the border.
+static void find_range(const struct voxels *v, const struct surface *surface, int lo[3], int hi[3])
+{
+    double least[3], most[3];
+    surface_bounds(surface, least, most);
+    for (int c = 0; c < 3; c++) {
+        lo[c] = (int)fmax(1, floor((least[c] - v->origin[c]) / v->spacing));
+        hi[c] = (int)fmin(v->size[c] - 1, ceil((most[c] - v->origin[c]) / v->spacing));
+    }
+}
+
+/// What is outside of the surface's box is outside.
+static bool fill_open(struct voxels *v, const struct solid *solid, const struct crossings *list)
+{
+    enum { STEP = 16 };
+    int lo[3], hi[3];
+    struct column c = {.voxels = v, .winding = &solid->winding};
+    c.crossed = malloc((size_t)v->size[2] * sizeof *c.crossed);
+    if (!c.crossed) return false;
+    find_range(v, &solid->shape, lo, hi);
+    size_t next = 0;
+    for (c.i = lo[0]; c.i < hi[0]; c.i++) {
+        for (c.j = lo[1]; c.j < hi[1]; c.j++) {
+            const int column = c.i * v->size[1] + c.j;
+            int sum = 0;
+            while (next < list->count && list->items[next].column < column) next++;
+            for (int k = 0; k < v->size[2]; k++) {
+                for (; next < list->count && list->items[next].column == column && list->items[next].z < k + 0.5;
+                     next++)
+                    sum -= list->items[next].turn; // a triangle that faces up is where the inside ends
+                c.crossed[k] = sum;
+            }
+            double from = smooth_at(&c, lo[2]);
+            for (int k = lo[2]; k < hi[2]; k += STEP) {
+                const int end = k + STEP < hi[2] ? k + STEP : hi[2];
+                const double to = smooth_at(&c, end);
+                fill_between(&c, k, from, end, to);
+                from = to;
+            }
+        }
+    }
+    free(c.crossed);
+    return true;
+}
+
+bool voxels_fill(struct voxels *voxels, const struct solid *solid)
+{
+    struct crossings list = {0};
+    voxels->inside = calloc(voxels_count(voxels), 1);
+    bool good = voxels->inside && find_crossings(voxels, &solid->shape, &list);
+    if (good && solid->open) {
+        good = fill_open(voxels, solid, &list);
+    } else if (good) {
+        fill_closed(voxels, &list);
     }
     free(list.items);
     if (!good) voxels_free(voxels);

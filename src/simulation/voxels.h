@@ -1,8 +1,8 @@
-/// Which points of a regular grid are inside a closed surface.
+/// Which points of a regular grid are inside a solid.
 #ifndef SIMULATION_VOXELS_H
 #define SIMULATION_VOXELS_H
 
-#include "model/obj.h"
+#include "simulation/solid.h"
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -11,11 +11,12 @@
 struct voxels {
     int size[3];
     double origin[3], spacing; ///< m
-    uint8_t *inside;           ///< 1 where the winding number at the centre is not 0
+    uint8_t *inside;           ///< 1 where the centre is inside
 };
 
-/// Fills `inside` for the given grid, which must hold the surface. False where memory is short.
-bool voxels_fill(struct voxels *voxels, const struct surface *surface);
+/// Fills `inside` for the given grid, which must hold the solid: where the winding number is not 0 or, of an open surface, above a half.
+/// False where memory is short.
+bool voxels_fill(struct voxels *voxels, const struct solid *solid);
 void voxels_free(struct voxels *voxels);
 
 static inline size_t voxels_count(const struct voxels *voxels)

@@ -63,13 +63,6 @@ static double estimated_error(const system_rows *rows, const pentadiagonal *m)
     return 16 * DBL_EPSILON * fmax(m->lost * cbrt(m->lost), g2 * g2 / 31);
 }
 
-/// A factorisation: of the squared matrix, else of the rows.
-typedef struct factorisation {
-    pentadiagonal_rank rank;
-    bool squared;
-    double error; ///< of one solve, estimated, relative to x
-} factorisation;
-
 static double enough(const system_rows *rows) { return rows->is_complex ? enough_complex : enough_real; }
 
 static factorisation factor_rows(wiggly_solver *solver)
@@ -78,7 +71,7 @@ static factorisation factor_rows(wiggly_solver *solver)
                            .error = INFINITY};
 }
 
-static factorisation factor(wiggly_solver *solver)
+factorisation solver_factor(wiggly_solver *solver)
 {
     const system_rows *rows = &solver->rows;
     factorisation f = {.rank = RANK_BROKEN, .squared = true, .error = INFINITY};
@@ -170,22 +163,27 @@ static void reset(const system_rows *rows)
     }
 }
 
-minimum solver_minimise(wiggly_solver *solver)
+minimum solver_refine(wiggly_solver *solver, factorisation *f)
 {
     const system_rows *rows = &solver->rows;
     minimum result = {0};
-    factorisation f = factor(solver);
-    if (f.rank != RANK_BROKEN) result.solved = refine(solver, &f, &result);
+    if (f->rank != RANK_BROKEN) result.solved = refine(solver, f, &result);
     bool settled = result.solved && result.error <= enough(rows) * result.largest;
-    if (f.squared && !settled && rows->count >= 3 && !solver_must_stop(solver->stop)) {
+    if (f->squared && !settled && rows->count >= 3 && !solver_must_stop(solver->stop)) {
         reset(rows);
-        f = factor_rows(solver);
-        if (f.rank == RANK_BROKEN) return (minimum){0};
-        result.solved = refine(solver, &f, &result);
+        *f = factor_rows(solver);
+        if (f->rank == RANK_BROKEN) return (minimum){0};
+        result.solved = refine(solver, f, &result);
     }
-    if (!result.solved) return result;
-    result.weak = f.rank == RANK_WEAK || result.error > 1e-6 * result.largest; // it never settled
-    if (!result.unrefined) result.error += sensitivity(solver, &f);
+    if (result.solved) result.weak = f->rank == RANK_WEAK || result.error > 1e-6 * result.largest; // it never settled
+    return result;
+}
+
+minimum solver_minimise(wiggly_solver *solver)
+{
+    factorisation f = solver_factor(solver);
+    minimum result = solver_refine(solver, &f);
+    if (result.solved && !result.unrefined) result.error += sensitivity(solver, &f);
     return result;
 }
 

@@ -79,7 +79,8 @@ static bool is_settling(const wiggly_solver *solver, const problem *p)
     const wiggly_desc *desc = p->desc;
     if (!problem_oscillates(p) || p->start == WIGGLY_LOOP || p->latest < 0 || p->count < 3) return false;
     if (desc->mode == WIGGLY_REAL) return false;
-    if (!desc->knots[solver->order[desc->knot_count - 1]].has_slope) return true;
+    const wiggly_knot *last = desc->knot_count > 0 ? &desc->knots[solver->order[desc->knot_count - 1]] : NULL;
+    if (!last || last->sample < p->latest || !last->has_slope) return true;
     poles at = poles_at(desc, p->latest, 0);
     return desc->mode == WIGGLY_COMPLEX && at.centre > slowest_settling * at.natural;
 }
@@ -87,9 +88,11 @@ static bool is_settling(const wiggly_solver *solver, const problem *p)
 static void set_domain(wiggly_solver *solver, problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    int knots = desc->knot_count;
+    int knots = desc->knot_count, pulls = p->pulls ? p->pulls->count : 0;
     p->earliest = knots > 0 ? desc->knots[solver->order[0]].sample : -1;
     p->latest = knots > 0 ? desc->knots[solver->order[knots - 1]].sample : -1;
+    if (pulls > 0 && (knots == 0 || p->pulls->sample[0] < p->earliest)) p->earliest = p->pulls->sample[0];
+    if (pulls > 0 && p->pulls->sample[pulls - 1] > p->latest) p->latest = p->pulls->sample[pulls - 1];
     bool on_rest = p->earliest == 0 || p->earliest == 1;
     p->start = desc->start == WIGGLY_REST && on_rest ? WIGGLY_FREE : desc->start;
     p->first = p->start == WIGGLY_FREE && p->earliest > 0 ? p->earliest : 0;
@@ -152,7 +155,7 @@ wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, doubl
     wiggly_status status = check_desc(solver, desc);
     if (status == WIGGLY_OK) status = order_knots(solver, desc);
     if (status != WIGGLY_OK) return status;
-    *p = (problem){.desc = desc, .calm = desc->calm};
+    *p = (problem){.desc = desc, .calm = desc->calm, .pulls = solver->pulls};
     if (desc->equilibrium.track) {
         memmove(y, desc->equilibrium.track, sizeof *y * (size_t)desc->samples);
         if (desc->start == WIGGLY_LOOP) y[desc->samples - 1] = y[0];

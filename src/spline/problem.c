@@ -100,13 +100,21 @@ static bool imaginary_fit(wiggly_solver *solver, const problem *p)
 bool problem_fits_chain(wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    if (solver->method == WIGGLY_BAND || p->level_slope || !poles_are_constant(desc)) return false;
+    if (solver->method == WIGGLY_BAND || p->pulls || p->level_slope || !poles_are_constant(desc)) return false;
     if (p->about && !problem_oscillates(p)) return false; // the paper's filter is driven by a moving equilibrium
     if (desc->mode == WIGGLY_COMPLEX && !imaginary_fit(solver, p)) return false;
     if (p->start == WIGGLY_REST && desc->knot_count > 0 && knot_at(solver, p, 0)->sample < 2)
         return false; // held at a limit: too near to the node at rest
     int begin = first_of_chain(solver, p);
     return begin >= 0 && slopes_fit(solver, p, begin);
+}
+
+bool problem_takes_pulls(wiggly_solver *solver, const problem *p)
+{
+    if (solver->method == WIGGLY_BAND || p->level_slope || !poles_are_constant(p->desc)) return false;
+    if (p->start == WIGGLY_LOOP || problem_is_loose(p) || problem_pulls_imaginary(solver, p)) return false;
+    if (p->about && !problem_oscillates(p)) return false;
+    return p->desc->knot_count == 0 || slopes_fit(solver, p, 0);
 }
 
 double problem_omission(wiggly_solver *solver, const problem *p)
@@ -225,8 +233,7 @@ static void set_speeds(chain *c, const problem *p, const constant_filter *f)
     if (!c->is_complex) c->tail = (cplx){0, 0};
 }
 
-/// Sets filter, start and end, and forgets what was made for others.
-static void set_chain(wiggly_solver *solver, const problem *p)
+void problem_set_chain(wiggly_solver *solver, const problem *p)
 {
     chain *c = &solver->chain;
     const constant_filter *f = problem_filter(solver, p);
@@ -281,7 +288,7 @@ bool problem_ends_in_pair(const wiggly_solver *solver, const problem *p)
 
 bool problem_make_chain(wiggly_solver *solver, const problem *p)
 {
-    set_chain(solver, p);
+    problem_set_chain(solver, p);
     return make_nodes(solver, p);
 }
 

@@ -27,16 +27,17 @@ typedef struct problem {
     swing swing; ///< u, where there is one; else its arrays are NULL
     wiggly_start start;
     double calm;
-    wiggly_status status; ///< WIGGLY_CALMED where u is not that of the calm as asked
-    int first;            ///< sample of the system's row 0
-    int count;            ///< samples from there to the domain's end (in a loop, round it)
-    int earliest, latest; ///< samples of the earliest and of the latest knot, or -1
-    bool settles;         ///< behind the latest knot w moves by itself: the system ends there
-    bool strict;          ///< one plain solve is not enough: the total is far smaller than x
-    bool level_slope;     ///< a level slope is implied at the earliest knot
-    bool free_end;        ///< c·H = 0
-    double unit;          ///< what weights are times that are not jets': the oscillator's |g|² at `first`, else 1
-    start_cost cost;      ///< of the start's swing, times calm; weights 0 where it is free
+    wiggly_status status;      ///< WIGGLY_CALMED where u is not that of the calm as asked
+    int first;                 ///< sample of the system's row 0
+    int count;                 ///< samples from there to the domain's end (in a loop, round it)
+    const system_pulls *pulls; ///< or NULL
+    int earliest, latest;      ///< samples of the earliest and of the latest knot or pull, or -1
+    bool settles;              ///< behind the latest knot w moves by itself: the system ends there
+    bool strict;               ///< one plain solve is not enough: the total is far smaller than x
+    bool level_slope;          ///< a level slope is implied at the earliest knot
+    bool free_end;             ///< c·H = 0
+    double unit;     ///< what weights are times that are not jets': the oscillator's |g|² at `first`, else 1
+    start_cost cost; ///< of the start's swing, times calm; weights 0 where it is free
 } problem;
 
 static inline double problem_y(const problem *p, int sample)
@@ -67,6 +68,9 @@ static inline const constant_filter *problem_filter(wiggly_solver *solver, const
 {
     return solver_filter(solver, p->desc, problem_least_damping(p));
 }
+
+/// Whether anything asks for a motion: knots or pulls.
+static inline bool problem_is_asked(const problem *p) { return p->earliest >= 0; }
 
 /// Whether the oscillator's rules hold: jets weighed by |g|⁻², speeds that the poles see, the tail.
 static inline bool problem_oscillates(const problem *p) { return p->desc->passive == WIGGLY_OSCILLATOR; }
@@ -105,6 +109,12 @@ double problem_omission(wiggly_solver *solver, const problem *p);
 
 /// Writes what a knot says into a node, with the knot on the next sample where there is one; true where only values changed.
 bool problem_put_knot(const problem *p, chain_node *node, const wiggly_knot *knot, const wiggly_knot *pair);
+
+/// Whether a chain serves where it is pulled at: its nodes are then the puller's (pull_chain.c).
+bool problem_takes_pulls(wiggly_solver *solver, const problem *p);
+
+/// Puts filter, start and end into the solver's chain, and forgets what was made for others.
+void problem_set_chain(wiggly_solver *solver, const problem *p);
 
 /// Puts filter, start and nodes into the solver's chain; true where the nodes differ from those before only in values.
 bool problem_make_chain(wiggly_solver *solver, const problem *p);

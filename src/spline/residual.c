@@ -180,9 +180,19 @@ static void add_start(const system_rows *rows)
     }
 }
 
-/// Slope, start and imaginary rows: a handful of terms without cancellation between samples.
+static void add_pulls(const system_rows *rows)
+{
+    for (int i = 0; rows->pulls && i < rows->pulls->count; i++) {
+        int k = rows->pulls->sample[i] - rows->first;
+        rows->gradient[rows->is_complex ? 2 * k : k] += rows->pulls->pull[i].re;
+        if (rows->is_complex) rows->gradient[2 * k + 1] += rows->pulls->pull[i].im;
+    }
+}
+
+/// Slope, start and imaginary rows, and pulls: a handful of terms without cancellation between samples.
 static void add_other_rows(const system_rows *rows)
 {
+    add_pulls(rows);
     add_slopes(rows);
     add_start(rows);
     for (int k = 0; k < rows->count && rows->is_complex; k++)

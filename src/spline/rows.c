@@ -108,7 +108,7 @@ static void set_filter(wiggly_solver *solver, const problem *p)
     chain_forget(&solver->chain); // its tables lie where the matrix will be
     system_rows *rows = &solver->rows;
     const wiggly_desc *desc = p->desc;
-    bool weighted = desc->mode == WIGGLY_COMPLEX && (p->start != WIGGLY_REST || desc->knot_count > 0);
+    bool weighted = desc->mode == WIGGLY_COMPLEX && (p->start != WIGGLY_REST || problem_is_asked(p));
     if (!poles_are_constant(desc)) {
         set_stretch(rows, solver, p, set_varying(rows, p, weighted));
         return;
@@ -208,7 +208,7 @@ static void add_slope(system_rows *rows, const problem *p, int sample, double sl
 bool problem_implies_slope(const problem *p)
 {
     if (p->level_slope) return true;
-    bool alone = p->desc->knot_count == 1 && !p->desc->knots[0].has_slope;
+    bool alone = p->desc->knot_count == 1 && !p->pulls && !p->desc->knots[0].has_slope;
     return alone && p->free_end && !(p->settles && p->desc->mode == WIGGLY_COMPLEX);
 }
 
@@ -280,6 +280,8 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     rows->jet_from = rows->loop ? 0 : 1;
     rows->jet_to = rows->loop ? rows->count - 1 : rows->count - 2;
     rows->start = p->cost;
+    rows->pulls = p->pulls;
+    rows->first = p->first;
     rows->is_held = !p->strict && !problem_is_loose(p) && !cancels(p);
     set_filter(solver, p);
     set_tail(rows, p);

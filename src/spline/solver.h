@@ -41,7 +41,8 @@ typedef struct limit_memory {
 struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
-    solver_stop *stop; ///< or NULL
+    solver_stop *stop;         ///< or NULL
+    const system_pulls *pulls; ///< on the splines to be solved, or NULL
     wiggly_method method;
     int longest_squared; ///< longer domains are factored without squaring: none, but tests set it
     system_rows rows;
@@ -54,6 +55,13 @@ struct wiggly_solver {
     int *order;   ///< indices of the description's knots by sample
     int *knot_at; ///< scratch: index of the knot on each sample, or -1
 };
+
+/// A factorisation: of the squared matrix, else of the rows.
+typedef struct factorisation {
+    pentadiagonal_rank rank;
+    bool squared;
+    double error; ///< of one solve, estimated, relative to x
+} factorisation;
 
 /// How a minimisation went.
 typedef struct minimum {
@@ -71,6 +79,11 @@ wiggly_solver *solver_lay_out(void *memory, int samples, int knots);
 
 /// Minimises the rows' energy over the unknowns that are not fixed; rows->x holds the fixed ones and 0 elsewhere.
 minimum solver_minimise(wiggly_solver *solver);
+
+/// Its two parts, for rows whose known values, targets, drives and pulls change while their factor stays. The second leaves out of the
+/// error how far x would be elsewhere if the coefficients were rounded otherwise.
+factorisation solver_factor(wiggly_solver *solver);
+minimum solver_refine(wiggly_solver *solver, factorisation *factor);
 
 /// The rows of a description, with knots fixed in x, as solver_minimise() would find them, and its matrix: for comparisons with
 /// other solvers. `y` receives the equilibrium, N numbers. WIGGLY_OK, or what is wrong with the description.

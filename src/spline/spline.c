@@ -106,7 +106,7 @@ static void solve_short(wiggly_solver *solver, const problem *p, wiggly_curve *c
 /// True where nothing moves w: no knots, and no drive that could.
 static bool is_still(const problem *p)
 {
-    if (p->desc->knot_count > 0) return false;
+    if (problem_is_asked(p)) return false;
     if (p->start == WIGGLY_FREE || !p->y) return true;
     if (p->desc->mode == WIGGLY_CUBIC) return p->start == WIGGLY_LOOP || problem_oscillates(p);
     if (problem_oscillates(p)) return true;
@@ -182,7 +182,7 @@ static void keep_asked(wiggly_curve *curve, wiggly_curve all)
 /// Whether nothing is to be minimised: too short, nothing moves, or nothing constrains.
 static bool is_plain(const problem *p)
 {
-    return p->count < 3 || is_still(p) || (p->start == WIGGLY_REST && p->desc->knot_count == 0);
+    return p->count < 3 || is_still(p) || (p->start == WIGGLY_REST && !problem_is_asked(p));
 }
 
 static void solve_plain(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
@@ -214,7 +214,7 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     const bool limited = limits_are_set(desc);
     if (limited) limits_begin(solver, desc, curve, &all);
     for (;;) {
-        minimum result;
+        minimum result = {0};
         status = (limited ? limits_find : problem_find)(solver, &p, &all, &result);
         if (status >= WIGGLY_ERROR_ARGUMENT) return status;
         problem_complete(solver, &p, &all);

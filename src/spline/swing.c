@@ -187,8 +187,8 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, swi
     return largest <= blow_up * (high - low);
 }
 
-WIDEST static void follow_constant(const double *restrict q, const double *restrict speed, double gain, double d,
-                                   int count, double *restrict im)
+WIDEST static void imaginary_constant(const double *restrict q, const double *restrict speed, double gain, double d,
+                                      int count, double *restrict im)
 {
     for (int i = 0; i < count; i++) im[i] = gain * (speed[i] + d * q[i]);
 }
@@ -198,7 +198,7 @@ static void set_imaginary(const wiggly_desc *desc, double floor, const swing *u)
     double t = (desc->samples - 1) * desc->step;
     if (poles_are_constant(desc)) {
         oscillator o = oscillator_at(desc, 0, floor);
-        follow_constant(u->total, u->speed, oscillator_turn(o, t), o.d, desc->samples, u->im);
+        imaginary_constant(u->total, u->speed, oscillator_turn(o, t), o.d, desc->samples, u->im);
         return;
     }
     for (int i = 0; i < desc->samples; i++) {

@@ -21,6 +21,13 @@ typedef struct slope_row {
     double weight, target;
 } slope_row;
 
+/// Pulls on x of one spline, by sample. Their samples count as knots for where it starts and ends, but hold nothing (pins.c).
+typedef struct system_pulls {
+    int count;
+    int *sample; ///< of the spline
+    cplx *pull;  ///< on Re x and Im x: what is added to −½ ∇(E·h³)
+} system_pulls;
+
 typedef struct system_rows {
     int count; ///< M
     bool loop, is_complex;
@@ -36,11 +43,13 @@ typedef struct system_rows {
     unsigned char *fixed;
     slope_row *slopes; ///< by sample
     int slope_count;
-    start_cost start; ///< times calm; weights 0 where it is free
-    cplx tail;        ///< x_M / x_{M−1} − 1: what moves by itself behind the last sample
-    double *x;        ///< 2M: re, im; in cubic and real mode M
-    double *gradient; ///< like x
-    double *jet;      ///< scratch of the residual: w r as double-doubles, 4M or 2M
+    start_cost start;          ///< times calm; weights 0 where it is free
+    const system_pulls *pulls; ///< or NULL
+    int first;                 ///< sample of the spline that row 0 is: pulls are counted by these
+    cplx tail;                 ///< x_M / x_{M−1} − 1: what moves by itself behind the last sample
+    double *x;                 ///< 2M: re, im; in cubic and real mode M
+    double *gradient;          ///< like x
+    double *jet;               ///< scratch of the residual: w r as double-doubles, 4M or 2M
 } system_rows;
 
 /// A row's coefficients on the samples j − 1, j and j + 1 that there are: `before` and `after` are their numbers or -1.

@@ -155,7 +155,8 @@ bool bench_run(struct bench *bench, void (*done)(void *user, const struct bench_
             }
         }
     }
-    return bench_batches(bench, shortest, done, user, error) && run_edit(bench, done, user, error);
+    return bench_batches(bench, shortest, done, user, error) && bench_pins(bench, done, user, error) &&
+           run_edit(bench, done, user, error);
 }
 
 bool bench_large(struct bench *bench, struct bench_result *result, struct error *error)

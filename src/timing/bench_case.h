@@ -30,4 +30,8 @@ bool bench_case(struct bench *bench, const wiggly_desc *desc, bool values_only, 
 bool bench_batches(struct bench *bench, const struct bench_result *singles,
                    void (*done)(void *user, const struct bench_result *result), void *user, struct error *error);
 
+/// Groups of splines whose pins are dragged.
+bool bench_pins(struct bench *bench, void (*done)(void *user, const struct bench_result *result), void *user,
+                struct error *error);
+
 #endif

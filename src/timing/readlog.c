@@ -93,20 +93,19 @@ static bool grow(struct log_reader *at)
     return true;
 }
 
-static bool read_row(struct log_reader *at, const char *text)
+static bool read_row(struct log_reader *at, char *text)
 {
     if (at->seen++ < at->warm_up) return true;
     if (!grow(at)) return false;
     struct timing_log *log = at->log;
     double *row = &log->values[(size_t)log->rows * COLUMN_COUNT];
-    const char *rest = text;
+    char *rest = text;
     for (int c = 0; c < COLUMN_COUNT; c++) row[c] = NAN;
     for (int i = 0; i < at->fields; i++) {
-        char *end;
+        char *end = rest + 2;
         bool missing = strncmp(rest, "NA", 2) == 0;
         double value = missing ? NAN : strtod(rest, &end);
         row[at->column[i]] = value;
-        if (missing) end = (char *)rest + 2;
         if (end == rest || *end != (i + 1 < at->fields ? ',' : 0) || (!missing && !isfinite(value))) {
             return bad(at, "a number or NA for each column, separated by commas", text);
         }

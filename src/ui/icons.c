@@ -105,6 +105,16 @@ static void draw_unfollow(const struct pen *pen)
     line(pen, 4.5f, -5.5f, -4.5f, 5.5f);
 }
 
+static void draw_pick(const struct pen *pen)
+{
+    arc(pen, (struct rect){0, 0, 4, 4}, 0, 1, RING_POINTS);
+    dot(pen, 0, 0, 1.2f);
+    line(pen, -6.5f, 0, -3, 0);
+    line(pen, 3, 0, 6.5f, 0);
+    line(pen, 0, -6.5f, 0, -3);
+    line(pen, 0, 3, 0, 6.5f);
+}
+
 bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon icon, bool lit, const char *hint)
 {
     static void (*const shapes[])(const struct pen *) = {
@@ -118,6 +128,7 @@ bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon
         [UI_ICON_SOLO] = draw_solo,
         [UI_ICON_FOLLOW] = draw_follow,
         [UI_ICON_UNFOLLOW] = draw_unfollow,
+        [UI_ICON_PICK] = draw_pick,
     };
     uint32_t id = ui_id(name);
     ui_register(ui, id, r);

@@ -2,8 +2,9 @@
 #include "ui/widgets_internal.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
-enum { POPUP_PAD = 4, MAX_ROWS = 10 }; ///< around its content; rows of a list seen at once
+enum { POPUP_PAD = 4, MAX_ROWS = 10, ROW_NAME = 96 }; ///< around its content; rows of a list seen at once
 
 void ui_popup_open(struct ui *ui, const char *name, int which, struct rect anchor)
 {
@@ -145,20 +146,71 @@ bool ui_color(struct ui *ui, struct rect r, const char *name, uint32_t color, bo
     return pressed;
 }
 
+static const char *row_name(char name[ROW_NAME], const struct ui_item *item)
+{
+    snprintf(name, ROW_NAME, "item.%s", item->name);
+    return name;
+}
+
+/// Whether a label holds what is typed, small letters and large ones being the same.
+static bool passes(const struct ui *ui, const char *label)
+{
+    return !ui->popup.filter[0] || strcasestr(label, ui->popup.filter);
+}
+
+/// What is typed changes the filter, and the first row that it leaves gets the focus.
+static void filter_event(struct ui *ui, const struct ui_item *items, int count)
+{
+    const struct event *event = ui->event;
+    char *filter = ui->popup.filter;
+    const size_t length = strlen(filter);
+    const bool erases = event->kind == EVENT_KEY && event->key == KEY_BACKSPACE && event->action != ACTION_RELEASE;
+    const bool types = event->kind == EVENT_TEXT && event->codepoint > ' ' && event->codepoint < 0x7F;
+    if (erases && length > 0) {
+        filter[length - 1] = '\0';
+    } else if (types && length + 1 < sizeof ui->popup.filter) {
+        filter[length] = (char)event->codepoint;
+    } else {
+        return;
+    }
+    ui->used = true;
+    ui->popup.scroll.offset = 0;
+    for (int i = 0; i < count; i++) {
+        char row[ROW_NAME];
+        if (!passes(ui, items[i].label)) continue;
+        ui->focus = ui_id(row_name(row, &items[i]));
+        ui_keep(ui, ui->focus);
+        return;
+    }
+}
+
+/// Above the rows: what is typed, or that one can.
+static void show_filter(struct ui *ui, struct rect area)
+{
+    const char *filter = ui->popup.filter;
+    const struct rect r = {area.x + 12, ui->y, area.w - 24, UI_ROW};
+    ui_label(ui, r, *filter ? filter : "Type to search", *filter ? theme()->accent : theme()->text_dim);
+    ui_space(ui, UI_ROW);
+}
+
 int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, int count, int chosen)
 {
     int picked = -1;
     if (!ui_popup_is_open(ui, name)) return -1;
-    ui_popup_begin(ui, ui->popup.anchor.w, (float)(UI_ROW * (count < MAX_ROWS ? count : MAX_ROWS)));
+    const bool is_long = count > MAX_ROWS;
+    ui_popup_begin(ui, ui->popup.anchor.w, (float)(UI_ROW * (is_long ? MAX_ROWS + 1 : count)));
     struct rect area = ui->scroll_area;
+    if (is_long) show_filter(ui, area);
     for (int i = 0; i < count; i++) {
-        char row[96];
-        snprintf(row, sizeof row, "item.%s", items[i].name);
+        char row[ROW_NAME];
+        if (!passes(ui, items[i].label)) continue;
+        row_name(row, &items[i]);
         if (ui->popup.fresh && i == chosen) ui->popup.focus = ui_id(row);
         struct rect r = {area.x + 6, ui->y, area.w - 12, UI_ROW};
         ui_space(ui, UI_ROW);
         if (ui_list_row(ui, r, row, items[i].label, items[i].color, i == chosen)) picked = i;
     }
+    if (is_long && ui->pass == UI_PASS_EVENT && !ui->used) filter_event(ui, items, count);
     ui_popup_end(ui);
     if (picked >= 0) ui_popup_close(ui);
     return picked;

@@ -4,7 +4,7 @@
 enum { REPLACEMENT = 0xFFFD };
 
 /// Number of bytes after a first byte, and its own bits; -1 if it cannot be a first byte.
-static int following_bytes(unsigned char first, uint32_t *bits)
+static int continuation_bytes(unsigned char first, uint32_t *bits)
 {
     if (first < 0x80) return *bits = first, 0;
     if (first >= 0xC2 && first <= 0xDF) return *bits = first & 0x1Fu, 1;
@@ -18,7 +18,7 @@ uint32_t utf8_next(const char **text)
     const unsigned char *s = (const unsigned char *)*text;
     if (*s == 0) return 0;
     uint32_t codepoint = 0;
-    int count = following_bytes(*s, &codepoint);
+    int count = continuation_bytes(*s, &codepoint);
     *text += 1;
     for (int i = 1; i <= count; i++) {
         if ((s[i] & 0xC0) != 0x80) return REPLACEMENT;

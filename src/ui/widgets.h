@@ -45,16 +45,19 @@ struct ui_stop {
     struct rect rect;
 };
 
+enum { UI_FILTER_SIZE = 32 };
+
 /// What opened over the panel: while open, it alone gets events.
 struct ui_popup {
     uint32_t id;        ///< of its name; 0: none
     int which;          ///< the caller's own: what it is about
     struct rect anchor; ///< what it hangs on
     struct ui_scroll scroll;
-    uint32_t focus;  ///< what begins with the focus; 0: its first widget
-    uint32_t opener; ///< what gets the focus back; 0 where the pointer opened it
-    bool fresh;      ///< opened in the running event
-    bool built;      ///< in the running pass
+    uint32_t focus;              ///< what begins with the focus; 0: its first widget
+    uint32_t opener;             ///< what gets the focus back; 0 where the pointer opened it
+    bool fresh;                  ///< opened in the running event
+    bool built;                  ///< in the running pass
+    char filter[UI_FILTER_SIZE]; ///< typed over a long list: rows without it are left out
 };
 
 /// One panel's widgets; zero is a valid start.
@@ -191,6 +194,7 @@ enum ui_icon {
     UI_ICON_SOLO,
     UI_ICON_FOLLOW,   ///< a link
     UI_ICON_UNFOLLOW, ///< the same, broken
+    UI_ICON_PICK,     ///< a target
 };
 /// A square button with an icon; `lit`: it shows something that is on. true if it was pressed.
 bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon icon, bool lit, const char *hint);
@@ -206,8 +210,8 @@ struct ui_item {
     const char *name, *label; ///< its row is found as "item.<name>"
     uint32_t color;           ///< of a swatch; 0: none
 };
-/// The popup of a drop-down: its rows, one of them chosen (-1: none). Built as ui_popup_begin() says. Returns the one
-/// picked, which closes it; -1: none.
+/// The popup of a drop-down: its rows, one of them chosen (-1: none); what is typed filters a long list. Built as ui_popup_begin() says.
+/// Returns the one picked, which closes it; -1: none.
 int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, int count, int chosen);
 
 /// Opens a popup under `anchor`, or above it if there is no room.

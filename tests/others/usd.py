@@ -1,28 +1,40 @@
-"""Skins a .usda with usd-core's own UsdSkel and compares every vertex at ten of its keys with point caches of the same rigs.
+"""Skins a .usda with usd-core's own UsdSkel and compares every vertex at ten of its keys with point caches of the same rigs, one after
+the other. Every texture that it names must be there.
 
 Usage: python usd.py file.usda rig.pc2...
 """
 import sys
 import numpy as np
-from pxr import Gf, Usd, UsdGeom, UsdSkel, UsdValidation
+from pxr import Gf, Usd, UsdGeom, UsdShade, UsdSkel, UsdValidation
 from compare import judge, read_cache, ten_of
 
 stage = Usd.Stage.Open(sys.argv[1])
-caches = [read_cache(path) for path in sys.argv[2:]]
+caches = [read_cache(path)[0] for path in sys.argv[2:]]
 meshes = [p for p in stage.Traverse() if p.IsA(UsdGeom.Mesh)]
+roots = [UsdSkel.Root.Find(p).GetPrim().GetPath() for p in meshes]
 times = stage.GetStartTimeCode(), stage.GetEndTimeCode()
 complaints = UsdValidation.ValidationContext(UsdValidation.ValidationRegistry().GetOrLoadAllValidators()).Validate(stage)
 for complaint in complaints:
     print(complaint.GetErrorAsString())
+textures = [i.Get() for p in stage.Traverse() if p.IsA(UsdShade.Shader) for i in UsdShade.Shader(p).GetInputs() if i.GetBaseName() == 'file']
+assert all(t.resolvedPath for t in textures), f'textures are missing: {textures}'
 assert UsdSkel.BakeSkinning(stage.Traverse(), Gf.Interval(*times)), 'UsdSkel cannot skin it'
-assert len(meshes) == len(caches), f'expected {len(caches)} meshes, got {len(meshes)}'
+
+
+def points_at(mesh, root, time):
+    """In the space of its SkelRoot, which a character's own file and its .pc2 have."""
+    points = np.array(UsdGeom.Mesh(mesh).GetPointsAttr().Get(time), float)
+    world, rooted = (np.array(UsdGeom.Xformable(p).ComputeLocalToWorldTransform(time)) for p in (mesh, stage.GetPrimAtPath(root)))
+    place = world @ np.linalg.inv(rooted)
+    return points @ place[:3, :3] + place[3, :3]
+
 
 off = 0.0
-for mesh, (cache, _) in zip(meshes, caches):
-    for key in ten_of(len(cache)):
-        time = times[0] + (times[1] - times[0]) * key / (len(cache) - 1)
-        points = np.array(UsdGeom.Mesh(mesh).GetPointsAttr().Get(time), float)
-        world = np.array(UsdGeom.Xformable(mesh).ComputeLocalToWorldTransform(time))
-        off = max(off, float(np.linalg.norm(points @ world[:3, :3] + world[3, :3] - cache[key], axis=1).max()))
-print('UsdGeom says:', UsdGeom.GetStageUpAxis(stage), 'up,', UsdGeom.GetStageMetersPerUnit(stage), 'm a unit')
-sys.exit(len(complaints) > 0 or judge('usd-core ' + '.'.join(str(n) for n in Usd.GetVersion()), off, caches[0][0]))
+for key in ten_of(len(caches[0])):
+    time = times[0] + (times[1] - times[0]) * key / (len(caches[0]) - 1)
+    points = np.concatenate([points_at(mesh, root, time) for mesh, root in zip(meshes, roots)])
+    expected = np.concatenate([cache[key] for cache in caches])
+    assert points.shape == expected.shape, f'expected {len(expected)} vertices, got {len(points)}'
+    off = max(off, float(np.linalg.norm(points - expected, axis=1).max()))
+print(f'UsdGeom says: {UsdGeom.GetStageUpAxis(stage)} up, {UsdGeom.GetStageMetersPerUnit(stage)} m a unit;', len(textures), 'textures')
+sys.exit(len(complaints) > 0 or judge('usd-core ' + '.'.join(str(n) for n in Usd.GetVersion()), off, caches[0]))

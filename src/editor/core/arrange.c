@@ -63,6 +63,7 @@ void arrange_refresh(struct core *core, const struct editor_world *world)
     core->playback.position = fmax(0, fmin(core->playback.position, document_samples(document) - 1));
     core->seen_first = document->first_frame;
     core->seen_substeps = document->substeps;
+    core->pick = (struct bone_pick){0};
     core_reserve(core, document);
 }
 

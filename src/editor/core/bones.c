@@ -19,6 +19,13 @@ int bones_selected(const struct core *core, const struct editor_world *world, in
     return shown && shown->gltf.id == bone->file ? bone->node : -1;
 }
 
+const char *bones_title(const struct document *document, int model, const char *name, char title[BONES_TITLE])
+{
+    if (document_count_rigs(document, RIG_MODEL) < 2) return name;
+    snprintf(title, BONES_TITLE, "%.200s/%.300s", rig_title(&document->rigs[model]), name);
+    return title;
+}
+
 void bones_select(struct core *core, const struct editor_world *world, int model, int node)
 {
     const struct imported *shown = bones_character(world, model);
@@ -43,9 +50,9 @@ int bones_joints(const struct editor_world *world, int rig)
 static void tell(struct core *core, const struct document *document, const struct rig *made, int model, bool follows)
 {
     const char *clip = document->rigs[model].model.clip;
-    char text[512];
-    const int length = snprintf(text, sizeof text, "Made the chain %.80s, from %.80s to %.80s.", rig_title(made),
-                                made->chain.from, made->chain.to);
+    char text[512], title[BONES_TITLE];
+    const int length = snprintf(text, sizeof text, "Made the chain %.80s, from %.160s to %.80s.", rig_title(made),
+                                bones_title(document, model, made->chain.from, title), made->chain.to);
     if (!follows) {
         snprintf(text + length, sizeof text - (size_t)length, " Drag it on the stage to set knots.");
     } else if (clip) {

@@ -8,8 +8,13 @@
 const struct imported *bones_character(const struct editor_world *world, int model);
 /// The selected bone's node, and the rig of its character; −1 where none is selected or its character is gone.
 int bones_selected(const struct core *core, const struct editor_world *world, int *model);
+enum { BONES_TITLE = 512 };
+/// What a bone is called: its name, and where there are several characters the rig's before it, as in "dog 2/tail_1".
+const char *bones_title(const struct document *document, int model, const char *name, char title[BONES_TITLE]);
 /// Selects a bone of a model rig.
 void bones_select(struct core *core, const struct editor_world *world, int model, int node);
+/// A click on a bone: it is what was asked for, or else becomes the selected one.
+void bones_click(struct core *core, const struct editor_world *world, int model, int node);
 /// Selects none.
 void bones_clear(struct core *core);
 
@@ -18,6 +23,20 @@ int bones_joints(const struct editor_world *world, int rig);
 
 /// Has a model rig (by its index) play a clip, NULL: none, as one step; import_choose_clip() says what it does to the scene's length.
 void bones_choose_clip(struct core *core, const struct editor_world *world, int model, const char *clip);
+
+/// The bones of a character to choose from, in the order of its file, those below `top` (−1: all); at most `most`. Returns how many.
+int bones_below(const struct imported *character, int top, int *nodes, int most);
+/// The model rig that a chain is on, or −1.
+int bones_model_of(const struct document *document, const struct chain *chain);
+
+/// Has a spline's equilibrium follow a joint of a model rig (−1: the one that suits best), as one step. What of it, how much of it and along
+/// which chain's axes stays as it was; at first it is what a chain that the spline bends wants.
+void bones_follow(struct core *core, const struct editor_world *world, int spline, int model, int node);
+/// Has a chain begin (or end) at another bone, as one step. One that begins beside its old end goes on to its own tip. Its splines that
+/// follow its last bone go on to do so.
+void bones_set_end(struct core *core, const struct editor_world *world, int chain, bool first, int node);
+/// The next click on a bone is what `use` says.
+void bones_pick(struct core *core, enum bone_use use, int which);
 
 /// Makes the selected bone, and those behind it to the tip, a chain; where `follow` is set one that swings after its motion in the clip.
 /// Its first spline becomes the active one.

@@ -1,4 +1,4 @@
-/// Knots on the clipboard and twice: copy, cut, paste at the playhead, duplicate.
+/// Knots on the clipboard, and duplicates: copy, cut, paste at the playhead, duplicate.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"

@@ -67,6 +67,21 @@ void core_refresh(struct core *core, const struct editor_world *world)
     }
 }
 
+/// Where undo has taken the active spline away, the one that was active before it is so again.
+static void return_to_active(struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    const bool gone = document_find_spline_id(document, core->active_id) < 0;
+    for (int r = 0; r < CORE_MAX_RECENT && gone; r++) {
+        if (core->recent[r] == 0 || document_find_spline_id(document, core->recent[r]) < 0) continue;
+        core->active_id = core->recent[r];
+        selection_clear(&core->selection);
+        break;
+    }
+    core_refresh(core, world);
+    if (gone && core->active >= 0) core_tell(core, world, NEWS_ACTIVATED, core->active);
+}
+
 void core_undo(struct core *core, const struct editor_world *world, int direction)
 {
     struct history *history = world->history;
@@ -83,7 +98,7 @@ void core_undo(struct core *core, const struct editor_world *world, int directio
     } else {
         history_redo(history, world->document);
     }
-    core_refresh(core, world);
+    return_to_active(core, world);
     core_message(core, false, text);
 }
 
@@ -92,7 +107,7 @@ void core_jump(struct core *core, const struct editor_world *world, size_t done)
     if (history_is_open(world->history)) return;
     size_t before = history_done(world->history), steps = before > done ? before - done : done - before;
     if (!history_jump(world->history, world->document, done)) return;
-    core_refresh(core, world);
+    return_to_active(core, world);
     char text[64];
     snprintf(text, sizeof text, "%s %zu step%s", before > done ? "Undone:" : "Redone:", steps, steps == 1 ? "" : "s");
     core_message(core, false, text);
@@ -130,6 +145,8 @@ void core_activate(struct core *core, const struct editor_world *world, int spli
 {
     if (spline == core->active || spline < 0 || spline >= world->document->spline_count) return;
     core_tell(core, world, NEWS_ACTIVATES, spline);
+    memmove(core->recent + 1, core->recent, (CORE_MAX_RECENT - 1) * sizeof *core->recent);
+    core->recent[0] = core->active_id;
     core->active = spline;
     core->active_id = world->document->splines[spline].id;
     selection_clear(&core->selection);

@@ -7,7 +7,7 @@
 #include "editor/core/world.h"
 #include <stdint.h>
 
-enum { EDITOR_MAX_REQUESTS = 8 };
+enum { EDITOR_MAX_REQUESTS = 8, CORE_MAX_RECENT = 16 };
 
 /// Rectangles of the panels, in logical pixels; made by core_layout().
 struct layout {
@@ -119,6 +119,7 @@ enum news {
     NEWS_ACTIVATES,  ///< a spline is about to become the active one
     NEWS_ACTIVATED,  ///< it is
     NEWS_DRAG_MOVES, ///< a drag is about to edit
+    NEWS_PULLED,     ///< a spline has got a knot at the playhead, pulled on the stage
 };
 
 /// Who hears it: the editor, which passes it on to its panels.
@@ -160,6 +161,14 @@ struct bone_selection {
     int node;
 };
 
+/// What the next click on a bone is for; otherwise it selects it.
+enum bone_use { BONE_SELECTED, BONE_FOLLOWED, BONE_FIRST, BONE_LAST };
+
+struct bone_pick {
+    enum bone_use use;
+    int which; ///< the spline that is to follow it, or the chain that is to begin or end with it
+};
+
 /// The brush that paints phase and amplitude onto a character's surface.
 struct brush {
     bool on;
@@ -176,8 +185,9 @@ struct overlays {
 struct core {
     struct layout layout;
     float scale;
-    int active;         ///< spline, -1 where there is none
-    unsigned active_id; ///< its id, by which it is found again when the list has changed
+    int active;                       ///< spline, -1 where there is none
+    unsigned active_id;               ///< its id, by which it is found again when the list has changed
+    unsigned recent[CORE_MAX_RECENT]; ///< ids of those that were active before, the last one first
     struct selection selection;
     struct selection hidden, solo; ///< splines, by their ids
     unsigned visibility;           ///< grows whenever these change
@@ -197,6 +207,7 @@ struct core {
 
     struct character_view characters;
     struct bone_selection bone;
+    struct bone_pick pick; ///< ends with the next edit
     struct brush brush;
     struct overlays overlays;
     bool record_armed; ///< the next drag of a body is recorded from its start

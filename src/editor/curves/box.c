@@ -1,4 +1,4 @@
-/// Selecting knots by a box that is dragged on empty, shown while it grows.
+/// Box selection: a drag that starts on empty space selects the knots inside.
 #include "editor/core/arrange.h"
 #include "editor/core/drag.h"
 #include "editor/core/selection.h"

@@ -66,6 +66,8 @@ void curves_frame_all(struct curves *curves, struct core *core, const struct edi
 void curves_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Pans just far enough to show a frame and value.
 void curves_reveal(struct curves *curves, struct core *core, double frame, double value);
+/// Shows a spline's knot at the playhead, if there is one and it is out of sight: time pans, values get room for it and its curve.
+void curves_include(struct curves *curves, struct core *core, const struct editor_world *world, int spline);
 /// Moves the view with the pointer, by logical pixels.
 void curves_pan(struct curves *curves, struct core *core, double dx, double dy);
 /// Zooms about a point of the panel; factors below 1 come closer.

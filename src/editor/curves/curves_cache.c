@@ -1,4 +1,4 @@
-/// Solved splines → polylines: one vertex a pixel column, and one of them on each knot.
+/// Solved splines → polylines: one vertex per pixel column, and one exactly on each knot.
 #include "base/hash.h"
 #include "editor/core/arrange.h"
 #include "editor/core/bones.h"

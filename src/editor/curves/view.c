@@ -149,6 +149,37 @@ void curves_reveal(struct curves *curves, struct core *core, double frame, doubl
     keep_sane(curves, core);
 }
 
+/// Widens a range to all of a solved curve, as it is drawn.
+static void include_curve(const struct editor_world *world, int spline, struct value_map map, double range[2])
+{
+    const struct evaluation *evaluation = world->evaluation;
+    if (!evaluation || spline >= evaluation->count || evaluation->samples == 0) return;
+    for (int highest = 0; highest < 2; highest++) {
+        const int sample = evaluation_extreme(evaluation, spline, 0, evaluation->samples - 1, highest);
+        include_value(range, map.scale * evaluation->curves[spline].total[sample] + map.offset);
+    }
+}
+
+void curves_include(struct curves *curves, struct core *core, const struct editor_world *world, int spline)
+{
+    const struct spline *shown = &world->document->splines[spline];
+    const int at = spline_find_knot(world->document, shown, (int)round(core->playback.position));
+    if (at < 0) return;
+    const struct value_map map = normal_map(curves, core, spline);
+    const double value = map.scale * shown->knots[at].value + map.offset, frame = shown->knots[at].frame;
+    struct view *view = &curves->view;
+    double range[2] = {view->value0, view->value1};
+    if (value < range[0] || value > range[1]) {
+        include_value(range, value);
+        include_curve(world, spline, map, range);
+        const double margin = 0.06 * (range[1] - range[0]);
+        if (range[0] < view->value0) view->value0 = range[0] - margin;
+        if (range[1] > view->value1) view->value1 = range[1] + margin;
+        keep_sane(curves, core);
+    }
+    if (frame < view->frame0 || frame > view->frame1) curves_reveal(curves, core, frame, value);
+}
+
 void view_rescale(struct curves *curves, struct core *core, double scale, double offset)
 {
     curves->view.value0 = (curves->view.value0 - offset) / scale;

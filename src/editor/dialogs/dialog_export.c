@@ -1,4 +1,5 @@
-/// The Export dialog: a name whose ending is the format, the frames, and what the format lets choose.
+/// The Export dialog: a file name whose extension is the format, the frames, and the format's options.
+#include "base/path.h"
 #include "editor/core/core.h"
 #include "editor/dialogs/dialog.h"
 #include "editor/dialogs/dialogs.h"
@@ -8,6 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
+enum { STEM_MORE = 32 }; ///< bytes that a name may grow by
 enum { LEAST_ROWS = 3, CHOICE_ROWS = 3, NUMBER_WIDTH = 72, ENDING_WIDTH = 56, NOTE_HEIGHT = 40, MAX_SIDE = 8192 };
 
 static const char path_field[] = "export.path", clip_field[] = "export.clip";
@@ -59,14 +61,34 @@ static void choose_format(struct dialogs *dialogs, int format)
     dialogs->dialog.error[0] = '\0';
 }
 
-/// Another scene: beside its file, called like it, in the format of last time.
-static void begin_memory(struct dialogs *dialogs, const struct core *core)
+/// An absolute path without the ending of its file's name; false where it is too long for a dialog.
+static bool stem_of(const char *folder, const char *path, char stem[PATH_LIMIT])
+{
+    if (!path_resolve(folder, path, stem) || strlen(stem) >= DIALOG_PATH_SIZE - STEM_MORE) return false;
+    char *dot = strrchr(stem, '.'), *slash = strrchr(stem, '/');
+    if (dot && dot > slash + 1) *dot = '\0';
+    return true;
+}
+
+/// Beside the scene's file and called like it, or else like its character; but never like that character's own file.
+static void name_export(char path[DIALOG_PATH_SIZE], const struct core *core, const struct document *document)
+{
+    char scene[PATH_LIMIT], own[PATH_LIMIT];
+    const int model = document_find_rig(document, RIG_MODEL, 0);
+    const bool has_model = model >= 0 && stem_of(document->folder, document->rigs[model].model.model, own);
+    const char *like = core->path[0] ? core->path : has_model ? own : "untitled";
+    snprintf(path, DIALOG_PATH_SIZE, "%.*s", DIALOG_PATH_SIZE - STEM_MORE, like);
+    if (path_has_end(path, ".json")) path[strlen(path) - strlen(".json")] = '\0';
+    if (has_model && (like == own || (stem_of(NULL, core->path, scene) && strcmp(scene, own) == 0)))
+        strcat(path, "-animated");
+}
+
+/// Another scene: in the format of last time.
+static void begin_memory(struct dialogs *dialogs, const struct core *core, const struct document *document)
 {
     struct export_memory *memory = &dialogs->exporting.memory;
     snprintf(memory->scene, sizeof memory->scene, "%s", core->path);
-    snprintf(memory->path, sizeof memory->path, "%s", core->path[0] ? core->path : "untitled");
-    char *dot = strrchr(memory->path, '.');
-    if (dot && strcmp(dot, ".json") == 0) *dot = '\0';
+    name_export(memory->path, core, document);
     choose_format(dialogs, dialogs->exporting.format);
     memory->wish.part = false;
     memory->wish.rig[0] = memory->wish.clip[0] = '\0';
@@ -81,7 +103,7 @@ void dialogs_export(struct dialogs *dialogs, const struct core *core, const stru
     const int last = format_by_ending(files, memory->path);
     if (last >= 0) exporting->format = last;
     const bool same = core->path[0] ? strcmp(memory->scene, core->path) == 0 : exporting->serial == core->serial;
-    if (!same || !memory->path[0]) begin_memory(dialogs, core);
+    if (!same || !memory->path[0]) begin_memory(dialogs, core, world->document);
     exporting->serial = core->serial;
     exporting->typed = 0;
     exporting->dragged = NULL;

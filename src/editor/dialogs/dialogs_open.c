@@ -1,4 +1,4 @@
-/// What lies over the panels, and who of it takes an event.
+/// What lies over the panels, and which of it takes an event.
 #include "editor/dialogs/dialog.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/dialogs/help.h"

@@ -14,7 +14,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
       {"<  >", "extend to that one"},
       {"Shift+PgUp, PgDn", "the same"},
       {"Alt+arrows", "nudge (Shift, Ctrl)"},
-      {"Ctrl+C, X, V, D", "copy, cut, paste, double"},
+      {"Ctrl+C, X, V, D", "copy, cut, paste, clone"},
       {"S", "scale the selection"}}},
     {"While dragging",
      {{"X, Y", "only time, only value"},

@@ -1,4 +1,4 @@
-/// The state of what lies over the panels: dialogs, help, the card for somebody who is new. Private to the room.
+/// The state of what lies over the panels: dialogs, help, the card for newcomers. Private to the room.
 #ifndef EDITOR_DIALOGS_STATE_H
 #define EDITOR_DIALOGS_STATE_H
 
@@ -75,7 +75,7 @@ struct dialogs {
     struct dialog dialog;
     struct exporting exporting;
     struct help help;
-    bool welcome; ///< the card for somebody who is new is shown
+    bool welcome; ///< the card for newcomers is shown
 };
 
 #endif

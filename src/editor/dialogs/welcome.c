@@ -7,15 +7,21 @@
 
 enum { MARGIN = 16, PAD = 14, LINE = 20, GAP = 16 };
 
+enum { HINTS = 4 };
+
+/// At first, and where a character of one's own is on the stage.
 static const struct hint {
     const char *what, *why;
-} hints[] = {
-    {"Drag a knot", "the curve hits it, and swings"},
-    {"Pull the tail", "this sets a knot at the playhead"},
-    {"Hold F, press ↑", "it swings faster"},
+} hints[2][HINTS] = {
+    {{"Drag a knot", "the curve hits it, and swings"},
+     {"Pull the tail", "this sets a knot at the playhead"},
+     {"Hold F, press ↑", "it swings faster"},
+     {"Drop a .glb", "your own: click a bone, press J"}},
+    {{"Click a bone", "the first of its tail, say"},
+     {"Press Shift+J", "it swings after the clip"},
+     {"Pull the tail", "this sets a knot at the playhead"},
+     {"Press Ctrl+E", "it goes back into its file"}},
 };
-
-enum { HINTS = sizeof hints / sizeof hints[0] };
 
 static const char closing[] = "Got it", more[] = "F1 shows all keys";
 
@@ -25,11 +31,12 @@ bool dialogs_is_welcoming(const struct dialogs *dialogs) { return dialogs->welco
 
 static float width_of(enum font font, const char *text) { return font_width(font, THEME_TEXT_NORMAL, text); }
 
-/// Width of the column of what to do.
+/// Width of the column of what to do, whichever it is.
 static float what_width(void)
 {
     float width = 0;
-    for (int i = 0; i < HINTS; i++) width = fmaxf(width, width_of(FONT_LABEL_BOLD, hints[i].what));
+    for (int i = 0; i < 2 * HINTS; i++)
+        width = fmaxf(width, width_of(FONT_LABEL_BOLD, hints[i / HINTS][i % HINTS].what));
     return ceilf(width) + GAP;
 }
 
@@ -37,7 +44,7 @@ struct rect welcome_card(const struct core *core)
 {
     const struct rect *stage = &core->layout.stage;
     float why = width_of(FONT_LABEL, more) + GAP + width_of(FONT_LABEL_BOLD, closing) - what_width();
-    for (int i = 0; i < HINTS; i++) why = fmaxf(why, width_of(FONT_LABEL, hints[i].why));
+    for (int i = 0; i < 2 * HINTS; i++) why = fmaxf(why, width_of(FONT_LABEL, hints[i / HINTS][i % HINTS].why));
     const float height = 2 * PAD + (HINTS + 1) * LINE + 2;
     return (struct rect){stage->x + MARGIN, stage->y + stage->h - MARGIN - height,
                          2 * PAD + what_width() + ceilf(why), height};
@@ -66,9 +73,10 @@ void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const stru
     drawlist_rounded(list, card, 8, theme()->panel);
     drawlist_rounded_line(list, card, 8, 1, theme()->zero);
     float left = card.x + PAD, y = card.y + PAD + 12;
+    const struct hint *shown = hints[document_find_rig(world->document, RIG_MODEL, 0) >= 0];
     for (int i = 0; i < HINTS; i++, y += LINE) {
-        show_text(core, left, y, FONT_LABEL_BOLD, theme()->text, hints[i].what);
-        show_text(core, left + what_width(), y, FONT_LABEL, theme()->text_dim, hints[i].why);
+        show_text(core, left, y, FONT_LABEL_BOLD, theme()->text, shown[i].what);
+        show_text(core, left + what_width(), y, FONT_LABEL, theme()->text_dim, shown[i].why);
     }
     y += 4;
     show_text(core, left, y, FONT_LABEL, theme()->text_dim, more);

@@ -49,17 +49,26 @@ void inspector_change_all(struct inspection *in, enum ui_change change, const ch
     history_end(history);
 }
 
-int inspector_spline_list(struct inspection *in, const char *list, const bool *left_out, int chosen)
+int inspector_spline_items(const struct inspection *in, const bool *left_out, int chosen, struct ui_item *items,
+                           int *splines, int *row)
 {
-    struct ui_item items[INSPECTOR_MAX_SPLINES];
-    int splines[INSPECTOR_MAX_SPLINES] = {0}, count = 0, row = -1;
+    int count = 0;
+    *row = -1;
     for (int s = 0; s < in->document->spline_count && s < INSPECTOR_MAX_SPLINES; s++) {
         if (left_out && left_out[s]) continue;
         const char *name = in->document->splines[s].name;
-        if (s == chosen) row = count;
+        if (s == chosen) *row = count;
         items[count] = (struct ui_item){name, name, arrange_color(in->document, s)};
         splines[count++] = s;
     }
+    return count;
+}
+
+int inspector_spline_list(struct inspection *in, const char *list, const bool *left_out, int chosen)
+{
+    struct ui_item items[INSPECTOR_MAX_SPLINES];
+    int splines[INSPECTOR_MAX_SPLINES] = {0}, row;
+    const int count = inspector_spline_items(in, left_out, chosen, items, splines, &row);
     int picked = ui_popup_list(in->ui, list, items, count, row);
     return picked < 0 ? -1 : splines[picked];
 }

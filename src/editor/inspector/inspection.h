@@ -44,6 +44,15 @@ void inspector_tail_lists(struct inspection *in);
 /// or lets go.
 void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r);
 void inspector_track_button(struct inspection *in, enum parameter parameter, struct rect r);
+/// Below the row of an equilibrium that follows a joint: what of it, how much; and the list of joints to choose from.
+void inspector_joint(struct inspection *in);
+void inspector_joint_list(struct inspection *in);
+/// The joint, in the field where the spline would be that is followed.
+void inspector_joint_field(struct inspection *in, const struct joint_motion *motion, struct rect field);
+/// The lists of the bones that a chain can begin and end with.
+void inspector_chain_lists(struct inspection *in);
+/// An open list of the bones of a model rig below one (−1: all), by name; the node that was picked, or −1.
+int inspector_bone_list(struct inspection *in, const char *list, int model, int top, const char *chosen);
 /// The list of an imported character's clips.
 void inspector_model_lists(struct inspection *in);
 /// The lists that open over the section on a character; built after all else in the panel.
@@ -60,7 +69,11 @@ void inspector_change(struct inspection *in, enum ui_change change, const char *
 void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
                           const struct edit *edits, int count);
 
-/// The open list of splines, without those that are left out (by index; NULL: none); the one that was picked, or -1.
+/// Rows for the splines of the document, without those that are left out (by index; NULL: none), in room for INSPECTOR_MAX_SPLINES;
+/// returns how many. `row`: that of the chosen spline, or -1.
+int inspector_spline_items(const struct inspection *in, const bool *left_out, int chosen, struct ui_item *items,
+                           int *splines, int *row);
+/// The open list of them; the one that was picked, or -1.
 int inspector_spline_list(struct inspection *in, const char *list, const bool *left_out, int chosen);
 
 /// A row with a label; returns what is right of it.

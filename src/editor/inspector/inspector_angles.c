@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SWITCH = 26 }; ///< width of a button between one, each and a ramp
+enum { SWITCH = 26, MOST_REACH = 1024 }; ///< width of a button between one, each and a ramp
 
 const struct angle_row angle_row_lag = {
     ANGLE_LAG, "lag", "How far each joint lags behind the last, in degrees of swing (hold L and press ↑ ↓)",
@@ -51,18 +51,30 @@ struct edit inspector_angles_edit(const struct inspection *in, const struct angl
     return edit;
 }
 
+/// By how much a slider's ends are taken further out, so that it has the angle on it; the same as long as it is dragged.
+static double reach_of(struct inspection *in, const struct angle_row *row, double angle)
+{
+    double *reach = &in->inspector->angle_reach[row->kind];
+    if (*reach >= 1 && in->ui->held == ui_id(row->name)) return *reach;
+    *reach = 1;
+    while (fabs(angle) > *reach * row->maximum && *reach < MOST_REACH) *reach *= 2;
+    return *reach;
+}
+
 static void build_slider(struct inspection *in, const struct angle_row *row, const struct angles *angles,
                          struct rect r)
 {
     char shown[64];
     const bool several = angles->form != ANGLES_ONE;
     bool lags = row->kind == ANGLE_LAG && several; // each joint's own lag: up to a few turns, not degrees a joint
+    double value = angles_number(angles, peak(angles));
+    const double reach = lags ? 1 : reach_of(in, row, value);
     struct ui_number number = {.name = row->name,
                                .label = row->name,
                                .unit = "°",
                                .hint = row->hint,
-                               .minimum = row->minimum,
-                               .maximum = lags ? 720 : row->maximum,
+                               .minimum = reach * row->minimum,
+                               .maximum = lags ? 720 : reach * row->maximum,
                                .lowest = -36000,
                                .highest = 36000,
                                .fallback = several ? NAN : row->fallback,
@@ -73,7 +85,6 @@ static void build_slider(struct inspection *in, const struct angle_row *row, con
                  angles_number(angles, angles->count - 1));
         number.shown = shown;
     }
-    double value = angles_number(angles, peak(angles));
     enum ui_change change = ui_value(in->ui, r, &number, &value);
     if (change == UI_NONE) return;
     inspector_take_back(in, change); // scaled from where the drag began, so that a drag through 0 loses no proportion

@@ -1,4 +1,4 @@
-/// The inspector's rows on the brush that paints phase and amplitude onto a character.
+/// The inspector's rows for the brush that paints phase and amplitude onto a character.
 #include "editor/core/characters.h"
 #include "editor/inspector/inspection.h"
 

@@ -2,10 +2,17 @@
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
-#include <stdio.h>
-#include <string.h>
 
 enum { ICON = 24 };
+
+/// Where a chain begins and where it ends.
+static const struct end {
+    const char *label, *list, *pick, *hint;
+    enum bone_use use;
+} ends[2] = {
+    {"from", "chain.from", "chain.from.pick", "The bone that it begins with", BONE_FIRST},
+    {"to", "chain.to", "chain.to.pick", "The bone that it ends with", BONE_LAST},
+};
 
 static struct edit chain_edit(const struct inspection *in, const struct rig *contents)
 {
@@ -15,12 +22,36 @@ static struct edit chain_edit(const struct inspection *in, const struct rig *con
     return edit;
 }
 
-static void build_bones(struct inspection *in, const struct chain *chain)
+/// The bone at one end: a list of those that it may be, and a button to pick it on the stage.
+static void build_end(struct inspection *in, const struct end *end, const char *bone)
 {
-    char text[256];
-    const bool single = strcmp(chain->from, chain->to) == 0;
-    snprintf(text, sizeof text, single ? "%.100s" : "%.100s → %.100s", chain->from, chain->to);
-    ui_label(in->ui, inspector_labelled(in, "bones"), text, theme()->text);
+    struct rect field = inspector_labelled(in, end->label), icon = {field.x + field.w - ICON, field.y, ICON, field.h};
+    field.w -= ICON + 4;
+    const int rig = in->inspector->rig;
+    if (ui_hovered(in->ui, field)) in->ui->hint = end->hint;
+    ui_dropdown(in->ui, field, end->list, rig, bone, 0);
+    const bool picking = in->core->pick.use == end->use && in->core->pick.which == rig;
+    if (ui_icon_button(in->ui, icon, end->pick, UI_ICON_PICK, picking, "Pick it on the stage"))
+        bones_pick(in->core, picking ? BONE_SELECTED : end->use, rig);
+}
+
+static void end_list(struct inspection *in, const struct end *end, const struct chain *chain)
+{
+    const int model = bones_model_of(in->document, chain);
+    const struct imported *character = model >= 0 ? bones_character(in->world, model) : NULL;
+    if (!ui_popup_is_open(in->ui, end->list) || !character) return;
+    const bool first = end->use == BONE_FIRST;
+    const int top = first ? -1 : gltf_find_node(&character->gltf, chain->from);
+    const int node = inspector_bone_list(in, end->list, model, top, first ? chain->from : chain->to);
+    if (node >= 0) bones_set_end(in->core, in->world, in->inspector->rig, first, node);
+}
+
+void inspector_chain_lists(struct inspection *in)
+{
+    for (int e = 0; e < 2; e++) {
+        const struct rig *rig = inspector_shown(in);
+        if (rig && rig->kind == RIG_CHAIN) end_list(in, &ends[e], &rig->chain);
+    }
 }
 
 static void build_turn(struct inspection *in)
@@ -70,7 +101,9 @@ static void build_buttons(struct inspection *in)
 
 void inspector_chain(struct inspection *in)
 {
-    build_bones(in, &inspector_shown(in)->chain);
+    const struct chain *chain = &inspector_shown(in)->chain;
+    build_end(in, &ends[0], chain->from);
+    build_end(in, &ends[1], chain->to);
     build_turn(in);
     build_mirror(in);
     build_buttons(in);

@@ -1,4 +1,4 @@
-/// The inspector's section on a soft character: what moves each of its coordinates, and how it is looked at.
+/// The inspector's section on a soft character: what moves each of its coordinates, and how it is shown.
 #include "editor/core/arrange.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"

@@ -59,7 +59,7 @@ static void build_clip(struct inspection *in, const struct model_rig *rig, const
 {
     if (!shown || shown->gltf.clip_count == 0) return;
     struct rect r = inspector_labelled(in, "clip");
-    if (ui_hovered(in->ui, r)) in->ui->hint = "The animation of the file that it plays, over and over";
+    if (ui_hovered(in->ui, r)) in->ui->hint = "The animation in the file that it plays, over and over";
     ui_dropdown(in->ui, r, clip_list, in->inspector->model, rig->clip ? rig->clip : "None", 0);
 }
 
@@ -95,7 +95,7 @@ static void build_place(struct inspection *in)
         .unit = "m", .lowest = -1e6, .highest = 1e6, .fallback = 0, .step = 0.01, .decimals = 3};
     static const struct ui_number scale = {.name = "model.scale",
                                            .label = "scale",
-                                           .hint = "Times the size that the file gives it",
+                                           .hint = "Scales the size that the file gives it",
                                            .lowest = 1e-9,
                                            .highest = 1e9,
                                            .fallback = 1,

@@ -132,7 +132,7 @@ static void remove_point(struct inspection *in, const struct ramp_view *view, in
 {
     struct angles next = *view->angles;
     if (next.count <= 2) {
-        core_message(in->core, false, "A ramp has two points at least.");
+        core_message(in->core, false, "A ramp needs at least two points.");
         return;
     }
     next.count--;

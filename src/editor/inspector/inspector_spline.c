@@ -40,6 +40,7 @@ static void build_number(struct inspection *in, const struct spline *spline, enu
     }
     struct rect button = {r.x + r.w + 2, r.y, UI_ROW, UI_ROW};
     if (may_follow) inspector_track_button(in, parameter, button);
+    if (spline->parameter[parameter].motion) inspector_joint(in);
 }
 
 static void build_choice(struct inspection *in, const struct spline *spline, enum parameter parameter)

@@ -162,6 +162,7 @@ static void place_popup(struct inspection *in)
 void inspector_tail_lists(struct inspection *in)
 {
     inspector_feed_list(in);
+    inspector_chain_lists(in);
     place_popup(in);
 }
 
@@ -215,7 +216,8 @@ static void build_view(struct inspection *in)
         {"onion", "onion skin", "Show the tail at the knots around the playhead (O)", &core->overlays.onion},
         {"trail", "motion arc", "Show the path of the tip, one mark per frame (P)", &core->overlays.trail},
     };
-    for (size_t i = 0; i < sizeof toggles / sizeof toggles[0]; i++) {
+    const size_t first = document_tail(in->document, 0) ? 0 : 1; // without a body nothing is recorded
+    for (size_t i = first; i < sizeof toggles / sizeof toggles[0]; i++) {
         struct rect r = inspector_labelled(in, toggles[i].label);
         if (ui_hovered(in->ui, r)) in->ui->hint = toggles[i].hint;
         ui_toggle(in->ui, r, toggles[i].name, toggles[i].on);

@@ -21,6 +21,7 @@ struct inspector {
     bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections that are not as they are at first, open or closed
     int rig, channel;                     ///< the tail or chain that is shown, and its channel
     int model;                            ///< the imported character that is shown, of their number
+    double angle_reach[3];                ///< by enum angle_kind: times the usual ends of its slider
     double ramp_scale[3][2];              ///< by enum angle_kind: lowest and highest angle that its curve shows
     struct bone_selection seen_bone;      ///< that was last shown
     const char *revealed;                 ///< section that is to be in sight, NULL: none

@@ -126,8 +126,8 @@ void bone_click(const struct stage *stage, struct core *core, const struct edito
     const bool on_chain = pressed->kind == HOVER_JOINT && pressed->rig < document->rig_count &&
                           document->rigs[pressed->rig].kind == RIG_CHAIN;
     if ((pressed->kind == HOVER_BONE || on_chain) && bone_exists(document, pressed->model)) {
-        bones_select(core, world, pressed->model, pressed->node);
-    } else {
+        bones_click(core, world, pressed->model, pressed->node);
+    } else if (core->pick.use == BONE_SELECTED) {
         bones_clear(core);
     }
 }

@@ -79,6 +79,7 @@ static void show_name(struct core *core, const char *name)
 
 /// How bones are shown in this frame: of which character, which is chosen, the tip of the chain that it could begin, and which is meant.
 struct showing {
+    bool all; ///< one of them is to be picked
     int model, chosen_model, chosen, tip, meant_model, meant;
 };
 
@@ -106,7 +107,7 @@ static void show_all(const struct stage *stage, struct core *core, const struct 
     for (int b = 0; b < stage->bone_count; b++) {
         const struct shown_bone *bone = &stage->bones[b];
         float ends[2][2];
-        if (bone->model != showing->model && bone->model != showing->chosen_model) continue;
+        if (bone->model != showing->model && bone->model != showing->chosen_model && !showing->all) continue;
         if (!stage_project_point(stage, core->layout.stage, bone->ends[0], ends[0]) ||
             !stage_project_point(stage, core->layout.stage, bone->ends[1], ends[1]))
             continue;
@@ -119,7 +120,8 @@ static void show_all(const struct stage *stage, struct core *core, const struct 
 void bones_show(const struct stage *stage, struct core *core, const struct editor_world *world)
 {
     const struct hover *hover = &core->hover;
-    struct showing showing = {.model = model_under(stage, core, world), .tip = -1, .meant = -1};
+    struct showing showing = {
+        .all = core->pick.use != BONE_SELECTED, .model = model_under(stage, core, world), .tip = -1, .meant = -1};
     showing.chosen = bones_selected(core, world, &showing.chosen_model);
     const struct imported *chosen = showing.chosen >= 0 ? bones_character(world, showing.chosen_model) : NULL;
     if (chosen) showing.tip = chain_end(&chosen->gltf, showing.chosen, NULL);
@@ -130,5 +132,7 @@ void bones_show(const struct stage *stage, struct core *core, const struct edito
     }
     show_all(stage, core, &showing, chosen ? &chosen->gltf : NULL);
     if (showing.meant < 0) return;
-    show_name(core, bones_character(world, hover->model)->gltf.nodes[hover->node].name);
+    char title[BONES_TITLE];
+    const char *name = bones_character(world, hover->model)->gltf.nodes[hover->node].name;
+    show_name(core, bones_title(world->document, hover->model, name, title));
 }

@@ -1,4 +1,4 @@
-/// Pulling a tail or chain: one damped Newton step a frame on the values of the knots at the playhead.
+/// Pulling a tail or chain: one damped Newton step per frame on the values of the knots at the playhead.
 ///
 /// The grabbed point p (pixels) depends on the values v of at most two knots, one for each axis. Its derivative J
 /// comes from posing it again with x changed by δ(1 + j·turn), which is what a change of the knot does once
@@ -77,7 +77,7 @@ void grab_begin(struct stage *stage, struct core *core, const struct editor_worl
     if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
         grab->axis[AXIS_UP].active = false;
     }
-    if (rig->kind == RIG_TAIL) follow_stop(stage, document_rig_number(world->document, grab->rig));
+    if (rig->kind == RIG_TAIL) sway_stop(stage, document_rig_number(world->document, grab->rig));
     grab->sample = sample_for(stage, core, world->document);
     core->playback.playing = false;
     core->playback.position = grab->sample;
@@ -188,4 +188,12 @@ void grab_apply(struct stage *stage, struct core *core, const struct editor_worl
     }
     grab->applied = true;
     select_knot(stage, core, world);
+}
+
+void grab_end(const struct stage *stage, const struct core *core, const struct editor_world *world)
+{
+    const struct grab *grab = &stage->grab;
+    for (int a = 0; a < 2 && grab->applied; a++) {
+        if (grab->axis[a].active) core_tell(core, world, NEWS_PULLED, grab->axis[a].spline);
+    }
 }

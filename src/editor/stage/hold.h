@@ -5,26 +5,26 @@
 #include "editor/stage/state.h"
 
 /// The body under a point of the stage (HOVER_BODY), the nearest to the eye, or HOVER_NONE.
-struct hover body_hover(const struct stage *stage, float x, float y);
+struct hover hold_hover(const struct stage *stage, float x, float y);
 /// Starts to drag a body.
-void body_begin(struct stage *stage, const struct core *core, int tail);
+void hold_begin(struct stage *stage, const struct core *core, int tail);
 /// The end of a drag, inside its step of the history: where `keep`, the document gets the new place (a number, or a knot at
 /// the playhead where a spline is followed).
-void body_release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep);
+void hold_release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep);
 /// A ring on the ground round the body that is held or can be.
-void body_show(struct stage *stage, struct core *core);
+void hold_show(struct stage *stage, struct core *core);
 
 /// How far the running drag has moved a tail's base from where the document has it, metres; 0 for all others.
-void body_offset(const struct stage *stage, const struct core *core, int tail, double offset[3]);
+void hold_offset(const struct stage *stage, const struct core *core, int tail, double offset[3]);
 
-/// Advances by `dt` seconds: the bases go where body_offset() says, and what hangs on them swings.
-void follow_advance(struct stage *stage, const struct core *core, const struct editor_world *world, double dt);
+/// Advances by `dt` seconds: the bases go where hold_offset() says, and what hangs on them swings.
+void sway_advance(struct stage *stage, const struct core *core, const struct editor_world *world, double dt);
 /// The document now holds the offset: the base has not moved by that.
-void follow_land(struct stage *stage, int tail);
+void sway_land(struct stage *stage, int tail);
 /// Stops a tail's swing at once.
-void follow_stop(struct stage *stage, int tail);
+void sway_stop(struct stage *stage, int tail);
 /// What follow-through adds to a channel's value now (y is 0).
-wiggly_value follow_value(const struct stage *stage, int tail, int channel);
+wiggly_value sway_value(const struct stage *stage, int tail, int channel);
 
 /// Starts to record at the playhead, and plays; the body must be held.
 void record_begin(struct stage *stage, struct core *core);
@@ -49,5 +49,7 @@ bool grab_holds(const struct document *document, int rig, int joint);
 void grab_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover);
 /// One step towards the pointer; needs the pose of the last solved frame.
 void grab_apply(struct stage *stage, struct core *core, const struct editor_world *world);
+/// It is let go: the curves are to show its knots.
+void grab_end(const struct stage *stage, const struct core *core, const struct editor_world *world);
 
 #endif

@@ -95,10 +95,10 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
 {
     const struct record *record = &stage->record;
     const struct document *document = world->document;
-    const struct param before = document_tail(document, stage->body_drag.tail)->position[coordinate];
+    const struct param before = document_tail(document, stage->hold.tail)->position[coordinate];
     double from[RECORD_SAMPLES];
     int knots[MAX_KNOTS], last = document_samples(document) - 1;
-    int spline = base_spline(core, world, stage->body_drag.tail, coordinate, loop);
+    int spline = base_spline(core, world, stage->hold.tail, coordinate, loop);
     if (spline < 0) return -1;
     int count = record->count, end = document_last_knot_sample(document, &document->splines[spline]);
     if (record->first + count - 1 > end) count = end - record->first + 1;
@@ -116,7 +116,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     if (!loop && record->first > 1) put_knot(core, world, spline, 0, from[0], true);
     if (!loop && record->first + count < last) put_knot(core, world, spline, last, from[count - 1], true);
     struct edit edit = core_edit_of(EDIT_POSITION, 0);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->hold.tail);
     edit.coordinate = coordinate;
     edit.param.track = spline;
     core_edit(core, world, &edit);
@@ -135,7 +135,7 @@ static void set_angles(const struct stage *stage, struct core *core, const struc
                        enum angle_kind kind, const struct angles *angles)
 {
     struct edit edit = core_edit_of(EDIT_ANGLES, 0);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->hold.tail);
     edit.channel = channel;
     edit.angle = kind;
     edit.angles = angles;
@@ -176,14 +176,14 @@ static void add_channel(const struct stage *stage, struct core *core, const stru
     struct edit edit = core_edit_of(EDIT_CHANNEL_ADD, add_follower(core, world, model->spline, base));
     struct angles gain = model->gain;
     const struct angles lag = model->lag;
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->hold.tail);
     edit.axis = model->axis;
     edit.of = PART_DISPLACEMENT;
     if (edit.spline < 0) return;
     for (int i = 0; i < angles_count(&gain); i++)
         angles_set_number(&gain, i, round(angles_number(&gain, i) * scale * 1e4) / 1e4);
     if (!core_edit(core, world, &edit)) return;
-    int added = document_tail(document, stage->body_drag.tail)->channel_count - 1;
+    int added = document_tail(document, stage->hold.tail)->channel_count - 1;
     set_angles(stage, core, world, added, ANGLE_LAG, &lag);
     set_angles(stage, core, world, added, ANGLE_GAIN, &gain);
 }
@@ -192,12 +192,12 @@ static void add_channel(const struct stage *stage, struct core *core, const stru
 static void hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world,
                           int coordinate, int base)
 {
-    int index = stage->body_drag.tail, count = document_tail(world->document, index)->channel_count;
+    int index = stage->hold.tail, count = document_tail(world->document, index)->channel_count;
     for (int c = 0; c < count; c++) {
         const struct tail *tail = document_tail(world->document, index);
         const struct channel channel = tail->channels[c];
         const struct param *equilibrium = &world->document->splines[channel.spline].parameter[PARAMETER_EQUILIBRIUM];
-        double direction[3], scale = stage->follow[index].scale[c];
+        double direction[3], scale = stage->sway[index].scale[c];
         swing_direction(tail, channel.axis, direction);
         bool swung = stage->record.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
         if (!swung) continue;
@@ -212,7 +212,7 @@ static void hang_channels(const struct stage *stage, struct core *core, const st
 void record_keep(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     struct record *record = &stage->record;
-    const struct tail *tail = document_tail(world->document, stage->body_drag.tail);
+    const struct tail *tail = document_tail(world->document, stage->hold.tail);
     bool loop = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
         record->hangs[c] = swing_hangs(tail, &tail->channels[c]);

@@ -25,7 +25,7 @@ void stage_destroy(struct stage *stage)
 
 void stage_open(struct stage *stage)
 {
-    memset(stage->follow, 0, sizeof stage->follow);
+    memset(stage->sway, 0, sizeof stage->sway);
     stage->strand_count = stage->bone_count = 0;
 }
 
@@ -43,7 +43,7 @@ static struct hover nearer(struct hover a, struct hover b, float x, float y)
 struct hover stage_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
     const struct hover hover = nearer(strand_hover(stage, core, x, y), bone_hover(stage, core, x, y), x, y);
-    return hover.kind == HOVER_NONE ? body_hover(stage, x, y) : hover;
+    return hover.kind == HOVER_NONE ? hold_hover(stage, x, y) : hover;
 }
 
 /// What is under a point and still in the document: an edit in the same frame may have taken away what was last shown.
@@ -68,10 +68,11 @@ void stage_press(struct stage *stage, struct core *core, const struct editor_wor
     if (brush_press(stage, core, world, event)) return;
     struct hover hover = hover_now(stage, core, world->document, event->x, event->y);
     stage->pressed = hover;
-    if (event->button == BUTTON_LEFT && hover.kind == HOVER_BODY) {
+    const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
+    if (holds && hover.kind == HOVER_BODY) {
         drag_begin(core, DRAG_BODY, "Move body", event);
-        body_begin(stage, core, hover.tail);
-    } else if (event->button == BUTTON_LEFT && hover.kind == HOVER_JOINT) {
+        hold_begin(stage, core, hover.tail);
+    } else if (holds && hover.kind == HOVER_JOINT) {
         const bool is_chain = world->document->rigs[hover.rig].kind == RIG_CHAIN;
         drag_begin(core, DRAG_GRAB, is_chain ? "Pull chain" : "Pull tail", event);
         grab_begin(stage, core, world, &hover);
@@ -91,8 +92,8 @@ static const float ORBIT_SPEED = 0.008f; ///< radians a pixel
 /// A body that is to be recorded is so from the first movement on.
 static void start_recording(struct stage *stage, struct core *core)
 {
-    if (core->drag.kind != DRAG_BODY || stage->body_drag.begun) return;
-    stage->body_drag.begun = true;
+    if (core->drag.kind != DRAG_BODY || stage->hold.begun) return;
+    stage->hold.begun = true;
     if (core->record_armed) record_begin(stage, core);
 }
 
@@ -124,7 +125,8 @@ enum drag_answer stage_drag_event(struct stage *stage, struct core *core, const 
 
 void stage_drag_end(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
 {
-    if (core->drag.kind == DRAG_BODY && core->drag.moved) body_release(stage, core, world, keep);
+    if (core->drag.kind == DRAG_BODY && core->drag.moved) hold_release(stage, core, world, keep);
+    if (core->drag.kind == DRAG_GRAB && keep) grab_end(stage, core, world);
     if (!core->drag.moved && core->drag.button == BUTTON_LEFT && keep) bone_click(stage, core, world);
     if (core->drag.kind == DRAG_PAINT) brush_end(stage, core, world, keep);
 }
@@ -133,6 +135,6 @@ void stage_advance(struct stage *stage, struct core *core, const struct editor_w
 {
     brush_advance(stage, core, world, dt);
     grab_apply(stage, core, world);
-    follow_advance(stage, core, world, dt);
+    sway_advance(stage, core, world, dt);
     record_advance(stage, core, world);
 }

@@ -136,7 +136,7 @@ void stage_show(struct stage *stage, struct core *core, const struct editor_worl
     trail_show(stage, core, world);
     characters_show(stage, core, world);
     brush_show(stage, core, world);
-    body_show(stage, core);
+    hold_show(stage, core);
     bones_show(stage, core, world);
     show_hold(stage, core);
     drawlist_set_clip(&core->list, clip);

@@ -56,7 +56,7 @@ struct grab {
 };
 
 /// The body held by the pointer, and how the pointer's way becomes one over the ground.
-struct body_drag {
+struct hold {
     int tail;
     bool begun;              ///< the pointer has moved
     double pixels_per_metre; ///< at the body
@@ -76,7 +76,7 @@ struct record {
 };
 
 /// A tail whose body is or was moved by hand.
-struct follow {
+struct sway {
     bool swings;
     double offset[3], velocity[3]; ///< of the base from where the document has it, metres and metres per second
     struct swing channel[SCENE_MAX_CHANNELS]; ///< in metres
@@ -124,9 +124,9 @@ struct stage {
     int bone_count;
     struct hover pressed; ///< what the running drag began on
     struct grab grab;
-    struct body_drag body_drag;
+    struct hold hold;
     struct record record;
-    struct follow follow[STAGE_MAX_TAILS];
+    struct sway sway[STAGE_MAX_TAILS];
     struct trail_point trail[TRAIL_FRAMES];
     struct painting painting;
 };

@@ -15,12 +15,12 @@ static struct by_hand by_hand(const struct stage *stage, const struct core *core
 {
     struct by_hand hand = {0};
     for (int c = 0; c < shown->channel_count; c++) {
-        hand.input[c] = follow_value(stage, tail, c);
+        hand.input[c] = sway_value(stage, tail, c);
         if (!change || change->spline != shown->channels[c].spline) continue;
         hand.input[c].re += change->re;
         hand.input[c].im += change->im;
     }
-    body_offset(stage, core, tail, hand.base);
+    hold_offset(stage, core, tail, hand.base);
     return hand;
 }
 

@@ -1,4 +1,4 @@
-/// The motion arc: where the tip of the tail or chain goes, a mark a frame, fading with the distance from the playhead.
+/// The motion arc: where the tip of the tail or chain goes, one mark per frame, fading with the distance from the playhead.
 #include "base/hash.h"
 #include "editor/core/core.h"
 #include "editor/stage/overlays.h"

@@ -26,6 +26,12 @@ void transport_advance(struct transport *transport, const struct core *core, dou
 
 static const char *hover_hint(const struct core *core, const struct document *document)
 {
+    static const char *const picks[] = {
+        [BONE_FOLLOWED] = "Click the bone that the equilibrium is to follow; Esc: none",
+        [BONE_FIRST] = "Click the bone that the chain is to begin with; Esc: none",
+        [BONE_LAST] = "Click the bone that the chain is to end with; Esc: none",
+    };
+    if (core->pick.use != BONE_SELECTED) return picks[core->pick.use];
     switch (core->hover.kind) {
     case HOVER_KNOT:
         return "Drag to move (X or Y locks an axis, R moves later knots too, Shift: fine, Ctrl: between frames)";

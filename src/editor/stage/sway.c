@@ -24,22 +24,22 @@ static bool drive(struct stage *stage, const struct core *core, const struct edi
                   const double kick[3], double dt)
 {
     const struct tail *driven = document_tail(world->document, tail);
-    struct follow *follow = &stage->follow[tail];
+    struct sway *sway = &stage->sway[tail];
     bool swings = false;
     for (int c = 0; c < driven->channel_count; c++) {
         const struct channel *channel = &driven->channels[c];
         struct swing_filter filter;
         double direction[3];
-        follow->scale[c] = 0;
+        sway->scale[c] = 0;
         if (!swing_hangs(driven, channel) || !filter_now(core, world, channel->spline, &filter)) {
-            follow->channel[c] = (struct swing){0};
+            sway->channel[c] = (struct swing){0};
             continue;
         }
         swing_direction(driven, channel->axis, direction);
         double along = kick[0] * direction[0] + kick[1] * direction[1] + kick[2] * direction[2];
-        swing_step(&follow->channel[c], &filter, along, dt);
-        follow->scale[c] = swing_scale(driven, channel, &filter);
-        swings |= !swing_settled(&follow->channel[c], &filter);
+        swing_step(&sway->channel[c], &filter, along, dt);
+        sway->scale[c] = swing_scale(driven, channel, &filter);
+        swings |= !swing_settled(&sway->channel[c], &filter);
     }
     return swings;
 }
@@ -47,57 +47,57 @@ static bool drive(struct stage *stage, const struct core *core, const struct edi
 static void advance_tail(struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
                          double dt)
 {
-    struct follow *follow = &stage->follow[tail];
+    struct sway *sway = &stage->sway[tail];
     double offset[3], kick[3];
     bool moves = false;
-    body_offset(stage, core, tail, offset);
+    hold_offset(stage, core, tail, offset);
     for (int k = 0; k < 3; k++) {
-        double velocity = (offset[k] - follow->offset[k]) / dt;
-        kick[k] = velocity - follow->velocity[k];
+        double velocity = (offset[k] - sway->offset[k]) / dt;
+        kick[k] = velocity - sway->velocity[k];
         moves |= velocity != 0 || kick[k] != 0;
-        follow->velocity[k] = velocity;
-        follow->offset[k] = offset[k];
+        sway->velocity[k] = velocity;
+        sway->offset[k] = offset[k];
     }
-    if (!moves && !follow->swings) return;
-    follow->swings = drive(stage, core, world, tail, kick, dt) || moves;
-    if (!follow->swings) memset(follow->channel, 0, sizeof follow->channel);
+    if (!moves && !sway->swings) return;
+    sway->swings = drive(stage, core, world, tail, kick, dt) || moves;
+    if (!sway->swings) memset(sway->channel, 0, sizeof sway->channel);
 }
 
-void follow_advance(struct stage *stage, const struct core *core, const struct editor_world *world, double dt)
+void sway_advance(struct stage *stage, const struct core *core, const struct editor_world *world, double dt)
 {
     if (!(dt > 0)) return;
     const int count = document_count_rigs(world->document, RIG_TAIL);
     for (int t = 0; t < count && t < STAGE_MAX_TAILS; t++) {
         if (core->look == LOOK_CUBIC) {
-            follow_stop(stage, t); // nothing pulls a cubic back
+            sway_stop(stage, t); // nothing pulls a cubic back
         } else {
             advance_tail(stage, core, world, t, dt);
         }
     }
 }
 
-void follow_land(struct stage *stage, int tail)
+void sway_land(struct stage *stage, int tail)
 {
-    memset(stage->follow[tail].offset, 0, sizeof stage->follow[tail].offset);
+    memset(stage->sway[tail].offset, 0, sizeof stage->sway[tail].offset);
 }
 
-void follow_stop(struct stage *stage, int tail)
+void sway_stop(struct stage *stage, int tail)
 {
-    if (tail < STAGE_MAX_TAILS) stage->follow[tail] = (struct follow){0};
+    if (tail < STAGE_MAX_TAILS) stage->sway[tail] = (struct sway){0};
 }
 
 bool stage_is_moving(const struct stage *stage)
 {
     for (int t = 0; t < STAGE_MAX_TAILS; t++) {
-        if (stage->follow[t].swings) return true;
+        if (stage->sway[t].swings) return true;
     }
     return false;
 }
 
-wiggly_value follow_value(const struct stage *stage, int tail, int channel)
+wiggly_value sway_value(const struct stage *stage, int tail, int channel)
 {
-    if (tail >= STAGE_MAX_TAILS || !stage->follow[tail].swings) return (wiggly_value){0};
-    const struct follow *follow = &stage->follow[tail];
-    const struct swing *swing = &follow->channel[channel];
-    return (wiggly_value){.re = follow->scale[channel] * swing->x[0], .im = follow->scale[channel] * swing->x[1]};
+    if (tail >= STAGE_MAX_TAILS || !stage->sway[tail].swings) return (wiggly_value){0};
+    const struct sway *sway = &stage->sway[tail];
+    const struct swing *swing = &sway->channel[channel];
+    return (wiggly_value){.re = sway->scale[channel] * swing->x[0], .im = sway->scale[channel] * swing->x[1]};
 }

@@ -1,5 +1,5 @@
 /// Puts glTF files together.
-#include "export/gltf_file.h"
+#include "model/gltf_file.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -36,6 +36,12 @@ static bool append(struct gltf_file *file, const void *data, size_t size)
     return true;
 }
 
+bool gltf_file_begin(struct gltf_file *file, const void *bytes, size_t size)
+{
+    static const char padding[3] = {0};
+    return append(file, bytes, size) && append(file, padding, (4 - size % 4) % 4);
+}
+
 static void add_bounds(json_t *accessor, const float *numbers, size_t count, int components)
 {
     json_t *low = json_array(), *high = json_array();
@@ -60,8 +66,8 @@ json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, co
     if (!file->views) file->views = json_array();
     if (!file->accessors) file->accessors = json_array();
     const json_int_t index = (json_int_t)json_array_size(file->accessors);
-    json_t *view = json_pack("{s:I, s:I, s:I}", "buffer", file->buffer, "byteOffset",
-                             (json_int_t)(file->first_byte + file->size), "byteLength", (json_int_t)size);
+    json_t *view = json_pack("{s:I, s:I, s:I}", "buffer", file->buffer, "byteOffset", (json_int_t)file->size,
+                             "byteLength", (json_int_t)size);
     json_t *accessor = json_pack("{s:I, s:i, s:I, s:s}", "bufferView", file->first_view + index, "componentType",
                                  kind->type, "count", (json_int_t)count, "type", kind->shape);
     if (kind->target) json_object_set_new(view, "target", json_integer(kind->target));
@@ -78,17 +84,16 @@ static void write_words(FILE *out, uint32_t a, uint32_t b)
     fwrite(words, sizeof words, 1, out);
 }
 
-void gltf_file_write_binary(const struct gltf_file *file, const char *text, const void *before, size_t before_size,
-                            FILE *out)
+void gltf_file_write_binary(const struct gltf_file *file, const char *text, FILE *out)
 {
-    const size_t length = strlen(text), padded = (length + 3) / 4 * 4, bytes = before_size + file->size;
-    const uint32_t total = (uint32_t)(12 + 8 + padded + 8 + bytes);
+    const size_t length = strlen(text), padded = (length + 3) / 4 * 4, chunk = file->size > 0 ? 8 + file->size : 0;
+    const uint32_t total = (uint32_t)(12 + 8 + padded + chunk);
     write_words(out, 0x46546C67, 2); // "glTF"
     fwrite(&total, sizeof total, 1, out);
     write_words(out, (uint32_t)padded, 0x4E4F534A); // "JSON"
     fprintf(out, "%s%*s", text, (int)(padded - length), "");
-    write_words(out, (uint32_t)bytes, 0x004E4942); // "BIN"
-    if (before_size > 0) fwrite(before, 1, before_size, out);
+    if (chunk == 0) return;
+    write_words(out, (uint32_t)file->size, 0x004E4942); // "BIN"
     fwrite(file->data, 1, file->size, out);
 }
 
@@ -133,7 +138,7 @@ bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *ou
                                                 : "a glTF file holds 2 GB: ask for fewer keys or frames");
     }
     if (binary) {
-        gltf_file_write_binary(file, text, NULL, 0, out);
+        gltf_file_write_binary(file, text, out);
     } else {
         fputs(text, out);
         fputc('\n', out);

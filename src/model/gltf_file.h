@@ -1,6 +1,6 @@
-/// A glTF 2.0 file being put together: accessors and the bytes that they find. Private to src/export.
-#ifndef EXPORT_GLTF_FILE_H
-#define EXPORT_GLTF_FILE_H
+/// A glTF 2.0 file being put together: accessors and the bytes that they find.
+#ifndef MODEL_GLTF_FILE_H
+#define MODEL_GLTF_FILE_H
 
 #include "base/error.h"
 #include <jansson.h>
@@ -11,8 +11,7 @@ struct gltf_file {
     json_t *views, *accessors;
     json_int_t first_view,
         first_accessor; ///< what the first ones are called: others come before them in a file that exists
-    json_int_t buffer;  ///< that the bytes are in,
-    size_t first_byte;  ///< from here on
+    json_int_t buffer;  ///< that the bytes are in
     char *data;
     size_t size, capacity;
     bool without_memory;
@@ -30,6 +29,9 @@ enum gltf_elements {
     ELEMENTS_TURNS
 };
 
+/// Begins with bytes that are there already. False if memory is short.
+bool gltf_file_begin(struct gltf_file *file, const void *bytes, size_t size);
+
 /// Adds `count` elements and returns the accessor's number; with bounds, it states their least and largest.
 json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, const void *data, size_t count,
                          bool bounds);
@@ -37,9 +39,8 @@ json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, co
 /// The bytes as a data URI; the caller frees it. NULL if memory is short.
 char *gltf_file_address(const struct gltf_file *file);
 
-/// Writes the parts of a .glb: `text` is all of the JSON, `before` and the bytes of the file make up the chunk.
-void gltf_file_write_binary(const struct gltf_file *file, const char *text, const void *before, size_t before_size,
-                            FILE *out);
+/// Writes the parts of a .glb: `text` is all of the JSON, the file's bytes are the chunk.
+void gltf_file_write_binary(const struct gltf_file *file, const char *text, FILE *out);
 
 /// Completes the JSON of the rest (which it takes over; NULL: memory was short) and writes both: as .glb, or as text with the bytes in it.
 /// False with a sentence if it cannot be made; the stream's errors are the caller's.

@@ -1,6 +1,6 @@
 /// Dragging the body over the ground: where the pointer takes it, and what the document makes of that.
-#include "editor/core/core.h"
 #include "editor/stage/hold.h"
+#include "editor/core/core.h"
 #include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
 #include "model/creature.h"
@@ -11,30 +11,30 @@
 static const double LEAST_AXIS = 0.3; ///< pixels of an axis in a pixel across, below which it is as slow as that
 
 /// Along one axis of the ground, so that the body stays under the pointer: the axis' own direction on the screen counts.
-static double along_axis(const struct body_drag *body, const double axis[2], double dx, double dy)
+static double along_axis(const struct hold *hold, const double axis[2], double dx, double dy)
 {
-    double across = axis[0] * body->right[0] + axis[1] * body->right[1];
-    double away = (axis[0] * body->right[1] - axis[1] * body->right[0]) * body->pitch;
+    double across = axis[0] * hold->right[0] + axis[1] * hold->right[1];
+    double away = (axis[0] * hold->right[1] - axis[1] * hold->right[0]) * hold->pitch;
     double square = fmax(across * across + away * away, LEAST_AXIS * LEAST_AXIS);
-    return (dx * across - dy * away) / square / body->pixels_per_metre;
+    return (dx * across - dy * away) / square / hold->pixels_per_metre;
 }
 
-void body_offset(const struct stage *stage, const struct core *core, int tail, double offset[3])
+void hold_offset(const struct stage *stage, const struct core *core, int tail, double offset[3])
 {
     const struct drag *drag = &core->drag;
-    const struct body_drag *body = &stage->body_drag;
+    const struct hold *hold = &stage->hold;
     offset[0] = offset[1] = offset[2] = 0;
-    if (drag->kind != DRAG_BODY || !drag->moved || body->tail != tail) return;
+    if (drag->kind != DRAG_BODY || !drag->moved || hold->tail != tail) return;
     const double x_axis[2] = {1, 0}, z_axis[2] = {0, 1};
     if (drag->lock_x) {
-        offset[0] = along_axis(body, x_axis, drag->moved_x, drag->moved_y);
+        offset[0] = along_axis(hold, x_axis, drag->moved_x, drag->moved_y);
     } else if (drag->lock_y) {
-        offset[2] = along_axis(body, z_axis, drag->moved_x, drag->moved_y);
+        offset[2] = along_axis(hold, z_axis, drag->moved_x, drag->moved_y);
     } else {
-        double across = drag->moved_x / body->pixels_per_metre;
-        double away = -drag->moved_y / body->pixels_per_metre / body->pitch;
-        offset[0] = across * body->right[0] + away * body->right[1];
-        offset[2] = across * body->right[1] - away * body->right[0];
+        double across = drag->moved_x / hold->pixels_per_metre;
+        double away = -drag->moved_y / hold->pixels_per_metre / hold->pitch;
+        offset[0] = across * hold->right[0] + away * hold->right[1];
+        offset[2] = across * hold->right[1] - away * hold->right[0];
     }
 }
 
@@ -76,7 +76,7 @@ static float trace(const float from[3], const float direction[3])
     return -1;
 }
 
-struct hover body_hover(const struct stage *stage, float x, float y)
+struct hover hold_hover(const struct stage *stage, float x, float y)
 {
     const struct stage_view *view = &stage->view;
     const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
@@ -108,17 +108,17 @@ bool stage_body_point(const struct stage *stage, const struct core *core, int ta
     return false;
 }
 
-void body_begin(struct stage *stage, const struct core *core, int tail)
+void hold_begin(struct stage *stage, const struct core *core, int tail)
 {
-    struct body_drag *body = &stage->body_drag;
+    struct hold *hold = &stage->hold;
     const struct camera *camera = &stage->camera;
-    *body = (struct body_drag){.tail = tail};
+    *hold = (struct hold){.tail = tail};
     const float depth = camera_depth(stage->view.view, stage->view.eye, base_of(stage, tail));
-    body->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
+    hold->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
     double pitch = sin((double)camera->elevation);
-    body->pitch = copysign(fmax(fabs(pitch), LEAST_PITCH), pitch);
-    body->right[0] = -sin((double)camera->azimuth);
-    body->right[1] = -cos((double)camera->azimuth);
+    hold->pitch = copysign(fmax(fabs(pitch), LEAST_PITCH), pitch);
+    hold->right[0] = -sin((double)camera->azimuth);
+    hold->right[1] = -cos((double)camera->azimuth);
 }
 
 /// A knot at the playhead of the spline that a coordinate follows.
@@ -151,20 +151,20 @@ static void key_offset(struct core *core, const struct editor_world *world, int 
     }
 }
 
-void body_release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
+void hold_release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
 {
-    int tail = stage->body_drag.tail;
+    int tail = stage->hold.tail;
     double offset[3];
     keep = keep && document_tail(world->document, tail); // an edit may have taken the tail out of the hand
-    body_offset(stage, core, tail, offset);
+    hold_offset(stage, core, tail, offset);
     if (keep && record_has_motion(stage)) {
         record_keep(stage, core, world);
-        follow_stop(stage, tail);
+        sway_stop(stage, tail);
     } else if (keep) {
         key_offset(core, world, tail, offset);
-        follow_land(stage, tail);
+        sway_land(stage, tail);
     } else {
-        follow_stop(stage, tail);
+        sway_stop(stage, tail);
     }
     record_forget(stage);
 }
@@ -175,11 +175,11 @@ static void show_arc(struct core *core, const float point[RING_POINTS + 1][2], i
     drawlist_line(&core->list, point[from], to - from + 1, 1.5f, color);
 }
 
-void body_show(struct stage *stage, struct core *core)
+void hold_show(struct stage *stage, struct core *core)
 {
     bool held = core->drag.kind == DRAG_BODY;
     if (!held && core->hover.kind != HOVER_BODY) return;
-    int tail = held ? stage->body_drag.tail : core->hover.tail;
+    int tail = held ? stage->hold.tail : core->hover.tail;
     if (tail >= stage->view.tail_count) return;
     const float scale = scale_of(stage, tail), *base = base_of(stage, tail);
     const uint32_t color = held ? theme()->accent : theme()->playhead;

@@ -1,10 +1,11 @@
 /// What is exported: rigs of a document, posed at evenly spaced times. Private to src/export.
-#ifndef EXPORT_TAKE_H
-#define EXPORT_TAKE_H
+#ifndef EXPORT_SHOT_H
+#define EXPORT_SHOT_H
 
+#include "export/beside.h"
 #include "rig/posing.h"
 
-struct take {
+struct shot {
     const struct posing *posing;
     int rigs[SCENE_MAX_RIGS]; ///< by index in the document
     int rig_count;
@@ -18,24 +19,25 @@ struct take {
     bool is_cubic;     ///< keys have tangents
     bool (*proceed)(void *user, long done, long total); ///< called as keys are done; false: stop. NULL: nobody asks
     void *user;
-    long done, total; ///< keys of all rigs
+    long done, total;     ///< keys of all rigs
+    struct beside beside; ///< files that the one that is written names
 };
 
 /// The frame of a key, and its time in seconds from the first.
-double take_frame(const struct take *take, double key);
-double take_seconds(const struct take *take, double key);
+double shot_frame(const struct shot *shot, double key);
+double shot_seconds(const struct shot *shot, double key);
 
 /// Poses a rig of the document at a key; between two keys for one that is not whole. Outside of the document loops go on, and all
 /// else stands still. False with a sentence if the rig's model is missing.
-bool take_pose(const struct take *take, int rig, double key, struct rig_pose *pose, struct error *error);
+bool shot_pose(const struct shot *shot, int rig, double key, struct rig_pose *pose, struct error *error);
 
 /// A spline's value at a key.
-wiggly_value take_value(const struct take *take, int spline, double key);
+wiggly_value shot_value(const struct shot *shot, int spline, double key);
 
 /// Whether a key's time is within the document.
-bool take_is_inside(const struct take *take, double key);
+bool shot_is_inside(const struct shot *shot, double key);
 
 /// Counts a key of a rig as done. False with a sentence if the export is to stop.
-bool take_proceed(struct take *take, struct error *error);
+bool shot_proceed(struct shot *shot, struct error *error);
 
 #endif

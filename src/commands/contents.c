@@ -1,0 +1,50 @@
+/// Prints what a glTF character holds.
+#include "commands/contents.h"
+#include "rig/bones.h"
+#include <stdio.h>
+
+enum { DEEPEST_SHOWN = 64 };
+
+/// The nodes below one (−1: all), each under its parent.
+static void print_below(const struct gltf *gltf, int parent, int depth)
+{
+    for (int n = 0; n < gltf->node_count && depth < DEEPEST_SHOWN; n++) {
+        if (gltf->nodes[n].parent != parent) continue;
+        printf("%*s%s\n", 2 + 2 * depth, "", gltf->nodes[n].name);
+        print_below(gltf, n, depth + 1);
+    }
+}
+
+/// Whether a way down to a tip begins at a node and not further up.
+static bool begins_chain(const struct gltf *gltf, int node)
+{
+    const int parent = gltf->nodes[node].parent;
+    struct error branches;
+    return chain_end(gltf, node, &branches) >= 0 && (parent < 0 || chain_end(gltf, parent, &branches) < 0);
+}
+
+static void print_chains(const struct gltf *gltf)
+{
+    bool any = false;
+    for (int n = 0; n < gltf->node_count; n++) {
+        struct chain_bones bones;
+        struct error error;
+        const int last = begins_chain(gltf, n) ? chain_end(gltf, n, &error) : -1;
+        if (last < 0 || last == n) continue;
+        if (!chain_find(gltf, gltf->nodes[n].name, gltf->nodes[last].name, &bones, &error)) continue;
+        printf("%s  %s:%s (%d bones)\n", any ? "" : "ways down to a tip, for --chain:\n", gltf->nodes[n].name,
+               gltf->nodes[last].name, bones.count);
+        any = true;
+    }
+}
+
+void contents_print(const struct gltf *gltf)
+{
+    printf("clips:%s\n", gltf->clip_count > 0 ? "" : " none");
+    for (int c = 0; c < gltf->clip_count; c++)
+        printf("  %s (%.3g s)\n", gltf->clips[c].name, gltf->clips[c].duration);
+    printf("bones and other nodes:\n");
+    print_below(gltf, -1, 0);
+    print_chains(gltf);
+    if (gltf->not_shown) printf("not shown: %s\n", gltf->not_shown);
+}

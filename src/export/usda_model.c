@@ -1,0 +1,284 @@
+/// The skeletons of an imported character in a .usda file, and what moves them.
+#include "export/usda_model.h"
+#include "export/keys.h"
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+// --- keys
+
+static bool collect_keys(struct usda_model *model, struct error *error)
+{
+    const struct gltf *gltf = model->gltf;
+    const size_t nodes = (size_t)gltf->node_count, weights = (size_t)gltf->weight_count;
+    for (int k = 0; k < model->shot->key_count; k++) {
+        struct rig_pose pose;
+        struct gltf_place *at = model->places + (size_t)k * nodes;
+        if (!shot_pose(model->shot, model->rig, k, &pose, error) || !shot_proceed(model->shot, error)) return false;
+        memcpy(at, pose.model.pose->place, nodes * sizeof *at);
+        memcpy(model->weights + (size_t)k * weights, pose.model.pose->weights, weights * sizeof *model->weights);
+        for (size_t n = 0; n < nodes; n++)
+            keys_turn_short_way(k > 0 ? (at + n - nodes)->rotation : gltf->nodes[n].place.rotation, at[n].rotation);
+    }
+    keys_close_loop((float *)model->places, gltf->node_count * (int)(sizeof *model->places / sizeof(float)),
+                    model->shot->key_count);
+    keys_close_loop(model->weights, gltf->weight_count, model->shot->key_count);
+    return true;
+}
+
+// --- the skeletons
+
+static void write_path(const struct usda_model *model, int joint)
+{
+    if (model->joints[joint].parent >= 0) {
+        write_path(model, model->joints[joint].parent);
+        fputc('/', model->out);
+    }
+    fputs(model->joint_names[joint], model->out);
+}
+
+static void write_joints(const struct usda_model *model, bool moving)
+{
+    const char *before = "";
+    fputs("            uniform token[] joints = [", model->out);
+    for (int j = 0; j < model->joint_count; j++) {
+        if (moving && !model->joints[j].moves) continue;
+        fprintf(model->out, "%s\"", before);
+        write_path(model, j);
+        fputc('"', model->out);
+        before = ", ";
+    }
+    fputs("]\n", model->out);
+}
+
+static bool is_animated(const struct usda_model *model)
+{
+    for (int j = 0; j < model->joint_count; j++) {
+        if (model->joints[j].moves) return true;
+    }
+    return model->gltf->weight_count > 0;
+}
+
+static void write_skeleton(const struct usda_model *model, int skeleton)
+{
+    double m[16];
+    fprintf(model->out, "        def Skeleton \"%s\" (\n            prepend apiSchemas = [\"SkelBindingAPI\"]\n",
+            model->prims[skeleton]);
+    fputs("        )\n        {\n", model->out);
+    write_joints(model, false);
+    fputs("            uniform matrix4d[] bindTransforms = [", model->out);
+    for (int j = 0; j < model->joint_count; j++) {
+        if (j > 0) fputs(", ", model->out);
+        usda_bind(model, skeleton, j, m);
+        usda_matrix(model->out, m);
+    }
+    fputs("]\n            uniform matrix4d[] restTransforms = [", model->out);
+    for (int j = 0; j < model->joint_count; j++) {
+        if (j > 0) fputs(", ", model->out);
+        usda_rest(model, j, m);
+        usda_matrix(model->out, m);
+    }
+    fputs("]\n", model->out);
+    if (is_animated(model))
+        fprintf(model->out, "            rel skel:animationSource = </scene/%s/animation>\n", model->name);
+    fputs("        }\n\n", model->out);
+}
+
+// --- what moves them
+
+typedef void write_key(const struct usda_model *model, int key);
+
+static void write_translations(const struct usda_model *model, int key)
+{
+    const char *before = "[";
+    for (int j = 0; j < model->joint_count; j++) {
+        if (!model->joints[j].moves) continue;
+        const float *p = usda_place(model, key, model->joints[j].node)->translation;
+        fprintf(model->out, "%s(%.9g, %.9g, %.9g)", before, (double)p[0], (double)p[1], (double)p[2]);
+        before = ", ";
+    }
+}
+
+static void write_rotations(const struct usda_model *model, int key)
+{
+    const char *before = "[";
+    for (int j = 0; j < model->joint_count; j++) {
+        if (!model->joints[j].moves) continue;
+        const float *q = usda_place(model, key, model->joints[j].node)->rotation;
+        fprintf(model->out, "%s(%.9g, %.9g, %.9g, %.9g)", before, (double)q[3], (double)q[0], (double)q[1],
+                (double)q[2]);
+        before = ", ";
+    }
+}
+
+static void write_scales(const struct usda_model *model, int key)
+{
+    static const float one[3] = {1, 1, 1};
+    const char *before = "[";
+    for (int j = 0; j < model->joint_count; j++) {
+        if (!model->joints[j].moves) continue;
+        const bool unscaled = model->joints[j].part == JOINT_UNSCALED;
+        const float *s = unscaled ? one : usda_place(model, key, model->joints[j].node)->scale;
+        fprintf(model->out, "%s(%.9g, %.9g, %.9g)", before, (double)s[0], (double)s[1], (double)s[2]);
+        before = ", ";
+    }
+}
+
+static void write_weights(const struct usda_model *model, int key)
+{
+    const int count = model->gltf->weight_count;
+    for (int i = 0; i < count; i++)
+        fprintf(model->out, "%s%.9g", i > 0 ? ", " : "[",
+                (double)model->weights[(size_t)key * (size_t)count + (size_t)i]);
+}
+
+static void write_samples(const struct usda_model *model, const char *declaration, write_key *write, int count)
+{
+    fprintf(model->out, "            %s.timeSamples = {\n", declaration);
+    for (int k = 0; k < count; k++) {
+        fprintf(model->out, "                %.9g: ", shot_frame(model->shot, k));
+        write(model, k);
+        fputs("],\n", model->out);
+    }
+    fputs("            }\n", model->out);
+}
+
+/// The keys of a member of all places: one, if it never changes.
+static int count_keys(const struct usda_model *model, size_t member, size_t size)
+{
+    for (int k = 1; k < model->shot->key_count; k++) {
+        for (int n = 0; n < model->gltf->node_count; n++) {
+            const char *first = (const char *)usda_place(model, 0, n), *now = (const char *)usda_place(model, k, n);
+            if (memcmp(first + member, now + member, size) != 0) return model->shot->key_count;
+        }
+    }
+    return 1;
+}
+
+static void write_animation(const struct usda_model *model)
+{
+    bool any = false;
+    for (int j = 0; j < model->joint_count; j++) any = any || model->joints[j].moves;
+    fputs("        def SkelAnimation \"animation\"\n        {\n", model->out);
+    if (any) {
+        write_joints(model, true);
+        write_samples(model, "float3[] translations", write_translations,
+                      count_keys(model, offsetof(struct gltf_place, translation), 3 * sizeof(float)));
+        write_samples(model, "quatf[] rotations", write_rotations,
+                      count_keys(model, offsetof(struct gltf_place, rotation), 4 * sizeof(float)));
+        write_samples(model, "half3[] scales", write_scales,
+                      count_keys(model, offsetof(struct gltf_place, scale), 3 * sizeof(float)));
+    }
+    if (model->gltf->weight_count > 0) {
+        fputs("            uniform token[] blendShapes = [", model->out);
+        for (int i = 0; i < model->gltf->weight_count; i++)
+            fprintf(model->out, "%s\"%s\"", i > 0 ? ", " : "", model->shapes[i]);
+        fputs("]\n", model->out);
+        write_samples(model, "float[] blendShapeWeights", write_weights, model->shot->key_count);
+    }
+    fputs("        }\n\n", model->out);
+}
+
+// --- all of it
+
+/// As the file calls them (a custom of many exporters), else by number; those of all nodes together differ.
+static void name_shapes(struct usda_model *model)
+{
+    const struct gltf *gltf = model->gltf;
+    for (int n = 0; n < gltf->node_count; n++) {
+        const int mesh = gltf->nodes[n].mesh, first = gltf->nodes[n].first_weight;
+        for (int t = 0; mesh >= 0 && t < gltf->meshes[mesh].target_count; t++) {
+            char numbered[32];
+            const char *name = gltf_source_target(model->source, mesh, t);
+            snprintf(numbered, sizeof numbered, "target_%d", t);
+            usda_unique(model->shapes, first + t, name ? name : numbered, model->shapes[first + t]);
+        }
+    }
+}
+
+/// Skeletons, what all have, and meshes: at most one for each part.
+static size_t count_prims(const struct gltf *gltf)
+{
+    size_t count = (size_t)gltf->skin_count + 3;
+    for (int n = 0; n < gltf->node_count; n++) {
+        if (gltf->nodes[n].mesh >= 0) count += (size_t)gltf->meshes[gltf->nodes[n].mesh].part_count;
+    }
+    return count;
+}
+
+static bool reserve(struct usda_model *model)
+{
+    const struct gltf *gltf = model->gltf;
+    const size_t keys = (size_t)model->shot->key_count, nodes = (size_t)gltf->node_count + 1,
+                 weights = (size_t)gltf->weight_count + 1;
+    model->places = calloc(keys * nodes, sizeof *model->places);
+    model->weights = calloc(keys * weights, sizeof *model->weights);
+    model->shapes = calloc(weights, sizeof *model->shapes);
+    model->joints = calloc(2 * nodes, sizeof *model->joints);
+    model->joint_names = calloc(2 * nodes, sizeof *model->joint_names);
+    model->joint_of = calloc(nodes, sizeof *model->joint_of);
+    model->materials = calloc((size_t)gltf->material_count + 1, sizeof *model->materials);
+    model->prims = calloc(count_prims(gltf), sizeof *model->prims);
+    return model->places && model->weights && model->shapes && model->joints && model->joint_names &&
+           model->joint_of && model->materials && model->prims;
+}
+
+static void release(struct usda_model *model)
+{
+    gltf_source_close(model->source);
+    free(model->places);
+    free(model->weights);
+    free(model->shapes);
+    free(model->joints);
+    free(model->joint_names);
+    free(model->joint_of);
+    free(model->materials);
+    free(model->prims);
+}
+
+/// Where the scene has it, which stands still.
+static void write_root(const struct usda_model *model, const struct rig_pose *pose)
+{
+    double root[16];
+    for (int i = 0; i < 16; i++) root[i] = (double)pose->model.root[i];
+    fprintf(model->out, "\n    def SkelRoot \"%s\"\n    {\n        matrix4d xformOp:transform = ", model->name);
+    usda_matrix(model->out, root);
+    fputs("\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n\n", model->out);
+}
+
+const char *usda_prim(struct usda_model *model, const char *wanted)
+{
+    char *name = model->prims[model->prim_count];
+    usda_unique(model->prims, model->prim_count++, wanted, name);
+    return name;
+}
+
+static bool write_all(struct usda_model *model, const struct rig_pose *pose, struct error *error)
+{
+    name_shapes(model);
+    write_root(model, pose);
+    const int skeletons = model->gltf->skin_count > 1 ? model->gltf->skin_count : 1;
+    for (int s = 0; s < skeletons; s++) usda_prim(model, "skeleton");
+    usda_prim(model, "animation");
+    usda_prim(model, "materials");
+    for (int s = 0; s < skeletons; s++) write_skeleton(model, s);
+    if (is_animated(model)) write_animation(model);
+    if (!usda_write_materials(model, error)) return false;
+    usda_write_meshes(model);
+    fputs("    }\n", model->out);
+    return true;
+}
+
+bool usda_model_write(struct shot *shot, int rig, const char *name, FILE *out, struct error *error)
+{
+    struct usda_model model = {.shot = shot, .rig = rig, .name = name, .out = out};
+    struct rig_pose pose;
+    if (!shot_pose(shot, rig, 0, &pose, error)) return false;
+    model.gltf = &pose.model.imported->gltf;
+    model.source = gltf_source_open(model.gltf->path, error);
+    if (!model.source) return false;
+    const bool done = (reserve(&model) || fail_no_memory(error, model.gltf->path)) && collect_keys(&model, error) &&
+                      usda_make_joints(&model, error) && write_all(&model, &pose, error);
+    release(&model);
+    return done;
+}

@@ -1,0 +1,100 @@
+/// Reads OFF surfaces: OFF, and with colours (C), normals (N) and texture coordinates (ST) at vertices, as text.
+#include "base/file.h"
+#include "model/surface_readers.h"
+#include "model/words.h"
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FILE_LIMIT = 1 << 30, NUMBERS_MAX = 16 };
+
+struct off {
+    struct words words;
+    struct surface_builder builder;
+    bool colors, normals, uvs;
+    long vertices, faces;
+};
+
+/// The word [ST][C][N]OFF, which may be missing.
+static bool read_head(struct off *o)
+{
+    long edges;
+    struct words *w = &o->words;
+    if (words_more(w) && strchr("SCNO", *w->at)) {
+        const char *end = w->at + strcspn(w->at, " \t\r\n");
+        o->uvs = strncmp(w->at, "ST", 2) == 0;
+        w->at += o->uvs ? 2 : 0;
+        o->colors = *w->at == 'C';
+        w->at += o->colors;
+        o->normals = *w->at == 'N';
+        w->at += o->normals;
+        if (end - w->at != 3 || !words_take(w, "OFF")) return words_expected(w, "OFF");
+        if (words_take(w, "BINARY"))
+            return fail(w->error, ERROR_INPUT, "%s: expected an OFF file as text, got a binary one", w->path);
+    }
+    return words_integer(w, "the number of vertices", 0, INT_MAX, &o->vertices) &&
+           words_integer(w, "the number of faces", 0, INT_MAX, &o->faces) &&
+           words_integer(w, "the number of edges", 0, LONG_MAX, &edges);
+}
+
+/// x y z [nx ny nz] [r g b a] [s t]; colours are 0 … 1, or 0 … 255.
+static bool read_vertex(struct off *o)
+{
+    double numbers[NUMBERS_MAX];
+    const int color = o->normals ? 6 : 3, uv = color + (o->colors ? 4 : 0), count = uv + (o->uvs ? 2 : 0);
+    for (int i = 0; i < count; i++) {
+        if (!words_number(&o->words, "a coordinate of a vertex", &numbers[i])) return false;
+    }
+    builder_vertex(&o->builder, numbers);
+    if (o->colors) {
+        double *rgb = numbers + color;
+        const bool bytes = rgb[0] > 1 || rgb[1] > 1 || rgb[2] > 1;
+        for (int k = 0; k < 3; k++) rgb[k] = rgb[k] / (bytes ? 255 : 1);
+        builder_color(&o->builder, rgb);
+    }
+    if (o->uvs) builder_uv(&o->builder, numbers[uv], 1 - numbers[uv + 1]);
+    return true;
+}
+
+/// n i j k … and perhaps a colour up to the end of the line
+static bool read_face(struct off *o)
+{
+    long corners, vertex;
+    if (!words_integer(&o->words, "a face of three corners or more", 1, INT_MAX, &corners)) return false;
+    for (long i = 0; i < corners; i++) {
+        if (!words_integer(&o->words, "the number of a vertex, from 0", 0, o->builder.surface->vertex_count - 1,
+                           &vertex))
+            return false;
+        builder_corner(&o->builder, (uint32_t)vertex, o->uvs ? (uint32_t)vertex : LOOKS_NONE);
+    }
+    builder_end_polygon(&o->builder);
+    words_skip_line(&o->words);
+    return true;
+}
+
+static bool read_all(struct off *o)
+{
+    if (!read_head(o)) return false;
+    for (long i = 0; i < o->vertices && !o->builder.failed; i++) {
+        if (!read_vertex(o)) return false;
+    }
+    for (long i = 0; i < o->faces && !o->builder.failed; i++) {
+        if (!read_face(o)) return false;
+    }
+    return true;
+}
+
+bool off_read(const char *path, struct surface *surface, struct error *error)
+{
+    char *text;
+    size_t size;
+    *surface = (struct surface){0};
+    if (!file_read(path, FILE_LIMIT, &text, &size, error)) return false;
+    struct off off = {.words = {.path = path, .at = text, .line = 1, .error = error},
+                      .builder = {.surface = surface, .material = LOOKS_NONE}};
+    const bool done = read_all(&off);
+    free(text);
+    if (done) return builder_finish(&off.builder, path, "an OFF file", error);
+    surface_free(surface);
+    return false;
+}

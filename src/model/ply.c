@@ -1,0 +1,324 @@
+/// Reads PLY surfaces, as text or binary in either byte order.
+///
+/// A header lists elements, and the properties of each: one number, or a list with its length before it. Everything is read in the file's
+/// order, number by number; of vertices x y z, colours and texture coordinates are kept, of faces the list of their vertices, and of
+/// triangle strips the triangles.
+#include "base/file.h"
+#include "model/surface_readers.h"
+#include "model/words.h"
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FILE_LIMIT = 1 << 30, ELEMENTS_MAX = 16, PROPERTIES_MAX = 64 };
+enum format { TEXT, LITTLE, BIG };
+enum type { NO_TYPE, INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64 };
+enum role { OTHER, X, Y, Z, RED, GREEN, BLUE, U, V, ROLES, CORNERS, STRIPS };
+
+struct property {
+    enum type count_type; ///< of a list's length; NO_TYPE: one number
+    enum type type;
+    enum role role;
+};
+
+struct element {
+    bool vertices;
+    long count;
+    struct property properties[PROPERTIES_MAX];
+    int property_count;
+    bool has[ROLES];
+};
+
+struct ply {
+    struct words words; ///< of the header, then of the text
+    const char *end;
+    enum format format;
+    struct element elements[ELEMENTS_MAX];
+    int element_count;
+    struct surface_builder builder;
+};
+
+static const struct {
+    const char *name;
+    enum type type;
+} types[] = {{"char", INT8},   {"uchar", UINT8},   {"short", INT16},     {"ushort", UINT16},
+             {"int", INT32},   {"uint", UINT32},   {"float", FLOAT32},   {"double", FLOAT64},
+             {"int8", INT8},   {"uint8", UINT8},   {"int16", INT16},     {"uint16", UINT16},
+             {"int32", INT32}, {"uint32", UINT32}, {"float32", FLOAT32}, {"float64", FLOAT64}};
+
+static const struct {
+    const char *name;
+    enum role role;
+} roles[] = {{"x", X},
+             {"y", Y},
+             {"z", Z},
+             {"red", RED},
+             {"green", GREEN},
+             {"blue", BLUE},
+             {"diffuse_red", RED},
+             {"diffuse_green", GREEN},
+             {"diffuse_blue", BLUE},
+             {"s", U},
+             {"t", V},
+             {"u", U},
+             {"v", V},
+             {"texture_u", U},
+             {"texture_v", V}};
+
+static int size_of(enum type type)
+{
+    static const int sizes[] = {
+        [INT8] = 1, [UINT8] = 1, [INT16] = 2, [UINT16] = 2, [INT32] = 4, [UINT32] = 4, [FLOAT32] = 4, [FLOAT64] = 8};
+    return sizes[type];
+}
+
+// --- header
+
+static bool read_type(struct words *w, enum type *type)
+{
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
+        *type = types[i].type;
+        if (words_take(w, types[i].name)) return true;
+    }
+    return words_expected(w, "a type of numbers");
+}
+
+/// What a property is for, by its name.
+static enum role read_role(struct words *w, bool of_vertices, bool list)
+{
+    if (!of_vertices)
+        return list && (words_take(w, "vertex_indices") || words_take(w, "vertex_index")) ? CORNERS : OTHER;
+    for (size_t i = 0; !list && i < sizeof roles / sizeof *roles; i++) {
+        if (words_take(w, roles[i].name)) return roles[i].role;
+    }
+    return OTHER;
+}
+
+static bool read_property(struct words *w, struct element *e)
+{
+    struct property *p = &e->properties[e->property_count];
+    if (e->property_count == PROPERTIES_MAX) return words_expected(w, "at most 64 properties");
+    *p = (struct property){0};
+    const bool list = words_take(w, "list");
+    if ((list && !read_type(w, &p->count_type)) || !read_type(w, &p->type)) return false;
+    p->role = read_role(w, e->vertices, list);
+    if (p->role < ROLES) e->has[p->role] = true;
+    if (p->role == OTHER) words_skip_line(w); // its name
+    e->property_count++;
+    return true;
+}
+
+static bool read_element(struct ply *ply)
+{
+    struct words *w = &ply->words;
+    if (ply->element_count == ELEMENTS_MAX) return words_expected(w, "at most 16 elements");
+    struct element *e = &ply->elements[ply->element_count++];
+    words_more(w);
+    e->vertices = words_take(w, "vertex");
+    const bool strips = !e->vertices && words_take(w, "tristrips");
+    if (!e->vertices && !strips) w->at += strcspn(w->at, " \t\r\n"); // its name
+    if (!words_integer(w, "the number of an element", 0, INT_MAX, &e->count)) return false;
+    for (;;) {
+        if (words_take(w, "comment")) {
+            words_skip_line(w);
+        } else if (!words_take(w, "property")) {
+            break;
+        } else if (!read_property(w, e)) {
+            return false;
+        }
+    }
+    for (int i = 0; strips && i < e->property_count; i++) {
+        if (e->properties[i].role == CORNERS) e->properties[i].role = STRIPS;
+    }
+    if (e->vertices && !(e->has[X] && e->has[Y] && e->has[Z]))
+        return fail(w->error, ERROR_INPUT, "%s: expected vertices with x, y and z, got others", w->path);
+    return true;
+}
+
+static bool read_format(struct ply *ply)
+{
+    static const char *const formats[] = {
+        [TEXT] = "ascii", [LITTLE] = "binary_little_endian", [BIG] = "binary_big_endian"};
+    struct words *w = &ply->words;
+    for (int f = TEXT; f <= BIG; f++) {
+        ply->format = (enum format)f;
+        if (words_take(w, formats[f])) {
+            words_skip_line(w);
+            return true;
+        }
+    }
+    return words_expected(w, "ascii, binary_little_endian or binary_big_endian");
+}
+
+static bool read_header(struct ply *ply)
+{
+    struct words *w = &ply->words;
+    if (!words_take(w, "ply"))
+        return fail(w->error, ERROR_INPUT, "%s: expected a PLY file, got something else", w->path);
+    while (!words_take(w, "end_header")) {
+        bool good = true;
+        if (words_take(w, "format")) {
+            good = read_format(ply);
+        } else if (words_take(w, "element")) {
+            good = read_element(ply);
+        } else if (words_more(w)) {
+            words_skip_line(w); // a comment, or what some program writes without that word
+        } else {
+            good = words_expected(w, "a header that ends in end_header");
+        }
+        if (!good) return false;
+    }
+    words_skip_line(w);
+    if (*w->at == '\n') w->at++;
+    w->line++;
+    return true;
+}
+
+// --- numbers
+
+static double binary_number(enum type type, uint64_t bits)
+{
+    float single;
+    double real;
+    const uint32_t low = (uint32_t)bits;
+    switch (type) {
+    case INT8:
+        return (int8_t)bits;
+    case INT16:
+        return (int16_t)bits;
+    case INT32:
+        return (int32_t)bits;
+    case FLOAT32:
+        memcpy(&single, &low, sizeof single);
+        return (double)single;
+    case FLOAT64:
+        memcpy(&real, &bits, sizeof real);
+        return real;
+    default:
+        return (double)bits;
+    }
+}
+
+/// Infinity and NaN are refused where they are `used`; properties that are left out may have them.
+static bool next_number(struct ply *ply, enum type type, bool used, double *number)
+{
+    struct words *w = &ply->words;
+    if (ply->format == TEXT) return words_number(w, "a number", number);
+    const int size = size_of(type);
+    uint64_t bits = 0;
+    if (ply->end - w->at < size)
+        return fail(w->error, ERROR_INPUT, "%s: expected as many numbers as the header says, got the end of the file",
+                    w->path);
+    for (int i = 0; i < size; i++) {
+        const int place = ply->format == LITTLE ? i : size - 1 - i;
+        bits |= (uint64_t)(unsigned char)w->at[i] << 8 * place;
+    }
+    w->at += size;
+    *number = binary_number(type, bits);
+    return !used || isfinite(*number) ||
+           fail(w->error, ERROR_INPUT, "%s: expected finite numbers, got NaN or infinity", w->path);
+}
+
+// --- elements
+
+/// The newest corners of a triangle strip.
+struct strip {
+    uint32_t last[2];
+    int length;
+};
+
+/// Adds the triangle that ends in this corner; −1 begins a new strip.
+static void add_to_strip(struct surface_builder *b, struct strip *strip, long vertex)
+{
+    if (vertex < 0) {
+        strip->length = 0;
+        return;
+    }
+    if (strip->length >= 2) {
+        const int odd = strip->length % 2;
+        builder_corner(b, strip->last[odd], LOOKS_NONE);
+        builder_corner(b, strip->last[!odd], LOOKS_NONE);
+        builder_corner(b, (uint32_t)vertex, LOOKS_NONE);
+        builder_end_polygon(b);
+    }
+    strip->last[0] = strip->last[1];
+    strip->last[1] = (uint32_t)vertex;
+    strip->length++;
+}
+
+static bool read_list(struct ply *ply, const struct property *p, bool textured)
+{
+    struct words *w = &ply->words;
+    struct strip strip = {0};
+    double length, number;
+    if (!next_number(ply, p->count_type, true, &length)) return false;
+    if (length < 0) return fail(w->error, ERROR_INPUT, "%s: expected the length of a list, got %g", w->path, length);
+    for (double i = 0; i < length && !ply->builder.failed; i++) {
+        if (!next_number(ply, p->type, p->role != OTHER, &number)) return false;
+        if (p->role != CORNERS && p->role != STRIPS) continue;
+        const int vertices = ply->builder.surface->vertex_count;
+        const bool ends = p->role == STRIPS && number < 0;
+        if (!ends && !(number >= 0 && number < vertices && number == floor(number)))
+            return fail(w->error, ERROR_INPUT, "%s: expected a vertex from 0 to %d, got %g", w->path, vertices - 1,
+                        number);
+        if (p->role == STRIPS) {
+            add_to_strip(&ply->builder, &strip, (long)number);
+        } else {
+            builder_corner(&ply->builder, (uint32_t)number, textured ? (uint32_t)number : LOOKS_NONE);
+        }
+    }
+    if (p->role == CORNERS) builder_end_polygon(&ply->builder);
+    return true;
+}
+
+static double largest_of(enum type type) { return type == UINT8 ? 255 : type == UINT16 ? 65535 : 1; }
+
+static bool read_one(struct ply *ply, const struct element *e, bool textured)
+{
+    double values[ROLES] = {0}, number;
+    for (int i = 0; i < e->property_count; i++) {
+        const struct property *p = &e->properties[i];
+        if (p->count_type != NO_TYPE) {
+            if (!read_list(ply, p, textured)) return false;
+        } else {
+            if (!next_number(ply, p->type, p->role != OTHER, &number)) return false;
+            const bool color = p->role >= RED && p->role <= BLUE;
+            if (p->role < ROLES) values[p->role] = color ? number / largest_of(p->type) : number;
+        }
+    }
+    if (!e->vertices) return true;
+    builder_vertex(&ply->builder, values + X);
+    if (e->has[RED] && e->has[GREEN] && e->has[BLUE]) builder_color(&ply->builder, values + RED);
+    if (e->has[U] && e->has[V]) builder_uv(&ply->builder, values[U], 1 - values[V]);
+    return true;
+}
+
+static bool read_elements(struct ply *ply)
+{
+    bool textured = false;
+    for (int i = 0; i < ply->element_count; i++) {
+        const struct element *e = &ply->elements[i];
+        if (e->vertices) textured = e->has[U] && e->has[V];
+        for (long n = 0; n < e->count && e->property_count > 0 && !ply->builder.failed; n++) {
+            if (!read_one(ply, e, textured)) return false;
+        }
+    }
+    return true;
+}
+
+bool ply_read(const char *path, struct surface *surface, struct error *error)
+{
+    char *data;
+    size_t size;
+    *surface = (struct surface){0};
+    if (!file_read(path, FILE_LIMIT, &data, &size, error)) return false;
+    struct ply ply = {.words = {.path = path, .at = data, .line = 1, .error = error},
+                      .end = data + size,
+                      .builder = {.surface = surface, .material = LOOKS_NONE}};
+    const bool done = read_header(&ply) && read_elements(&ply);
+    free(data);
+    if (done) return builder_finish(&ply.builder, path, "a PLY file", error);
+    surface_free(surface);
+    return false;
+}

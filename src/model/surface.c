@@ -1,0 +1,107 @@
+/// Copies, measures and frees surfaces.
+#include "model/surface.h"
+#include "base/path.h"
+#include "model/obj.h"
+#include "model/surface_readers.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool surface_read(const char *path, struct surface *surface, struct error *error)
+{
+    static const struct {
+        const char *end;
+        bool (*read)(const char *path, struct surface *surface, struct error *error);
+    } formats[] = {{".stl", stl_read},
+                   {".ply", ply_read},
+                   {".off", off_read},
+                   {".glb", gltf_surface_read},
+                   {".gltf", gltf_surface_read}};
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        if (path_has_end(path, formats[i].end)) return formats[i].read(path, surface, error);
+    }
+    return obj_read(path, surface, error);
+}
+
+uint8_t *surface_used_vertices(const struct surface *surface)
+{
+    uint8_t *used = calloc((size_t)surface->vertex_count + 1, 1);
+    for (int i = 0; used && i < surface->index_count; i++) used[surface->indices[i]] = 1;
+    return used;
+}
+
+void surface_bounds(const struct surface *surface, double lo[3], double hi[3])
+{
+    for (int c = 0; c < 3; c++) {
+        lo[c] = INFINITY;
+        hi[c] = -INFINITY;
+    }
+    for (int i = 0; i < surface->index_count; i++) {
+        const float *p = surface->position[surface->indices[i]];
+        for (int c = 0; c < 3; c++) {
+            lo[c] = fmin(lo[c], (double)p[c]);
+            hi[c] = fmax(hi[c], (double)p[c]);
+        }
+    }
+}
+
+void surface_free(struct surface *surface)
+{
+    free(surface->position);
+    free(surface->color);
+    free(surface->indices);
+    looks_free(&surface->looks);
+    *surface = (struct surface){0};
+}
+
+size_t looks_image_bytes(const struct looks *looks)
+{
+    size_t sum = 0;
+    for (int m = 0; m < looks->material_count; m++) sum += looks->materials[m].image_size;
+    return sum;
+}
+
+static void *copy_of(const void *bytes, size_t size, bool *good)
+{
+    void *copy = bytes ? malloc(size + 1) : NULL;
+    if (copy) memcpy(copy, bytes, size);
+    *good = *good && (copy || !bytes);
+    return copy;
+}
+
+bool looks_copy(struct looks *to, const struct looks *from, int index_count)
+{
+    const size_t indices = (size_t)index_count, triangles = indices / 3;
+    bool good = true;
+    *to = (struct looks){.uv_count = from->uv_count};
+    to->uv = copy_of(from->uv, (size_t)from->uv_count * sizeof *to->uv, &good);
+    to->corner = copy_of(from->corner, indices * sizeof *to->corner, &good);
+    to->material = copy_of(from->material, triangles * sizeof *to->material, &good);
+    to->joined = copy_of(from->joined, triangles * sizeof *to->joined, &good);
+    to->materials = calloc((size_t)from->material_count + 1, sizeof *to->materials);
+    good = good && to->materials;
+    for (int m = 0; good && m < from->material_count; m++) {
+        const struct looks_material *material = &from->materials[m];
+        struct looks_material *copy = &to->materials[to->material_count++];
+        *copy = *material;
+        copy->name = copy_of(material->name, strlen(material->name) + 1, &good);
+        copy->image = copy_of(material->image, material->image_size, &good);
+    }
+    if (!good) looks_free(to);
+    return good;
+}
+
+void looks_free(struct looks *looks)
+{
+    for (int m = 0; m < looks->material_count; m++) {
+        free(looks->materials[m].name);
+        free(looks->materials[m].image);
+    }
+    free(looks->materials);
+    free(looks->uv);
+    free(looks->corner);
+    free(looks->material);
+    free(looks->joined);
+    free(looks->left_out);
+    *looks = (struct looks){0};
+}

@@ -1,0 +1,66 @@
+/// Triangle surfaces: the rest meshes that are simulated and analysed, and how they look.
+#ifndef MODEL_SURFACE_H
+#define MODEL_SURFACE_H
+
+#include "base/error.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/// No texture coordinates, or no material.
+#define LOOKS_NONE UINT32_MAX
+
+/// The pictures of a surface together, bytes: any number of materials may name one small file.
+enum { LOOKS_IMAGES_LIMIT = 256 << 20 };
+
+struct looks_material {
+    char *name;
+    float color[4];       ///< base colour, linear, with opacity
+    unsigned char *image; ///< its texture: the bytes of a PNG or JPEG file, or NULL
+    size_t image_size;
+};
+
+/// What a surface has besides places and colours. NULL: it has none of that.
+struct looks {
+    float (*uv)[2]; ///< texture coordinates, (0, 0) the upper left of the picture
+    int uv_count;
+    uint32_t *corner;   ///< per index: which texture coordinates, or LOOKS_NONE
+    uint32_t *material; ///< per triangle: which material, or LOOKS_NONE
+    uint8_t *joined;    ///< per triangle: 1 where it goes on with the polygon (a fan) of the triangle before
+    struct looks_material *materials;
+    int material_count;
+    char *left_out; ///< a file of materials or a picture that could not be read, for people
+};
+
+/// Metres, right-handed, y up; triangles counter-clockwise seen from outside. All zero is the empty surface.
+struct surface {
+    float (*position)[3];
+    float (*color)[3]; ///< linear RGB per vertex, or NULL
+    int vertex_count;
+    uint32_t *indices; ///< three a triangle
+    int index_count;
+    struct looks looks;
+};
+
+/// Reads a mesh: OBJ, STL, PLY, OFF, .glb or .gltf by the end of its name (any other is read as OBJ). Vertices keep the file's order and
+/// number, which is what simulations refer to; those of an STL file, which has none, are the different places in the order of their first
+/// appearance. Errors name the file, the place in it, what was expected and what was found. Memory is bounded by the file's size.
+bool surface_read(const char *path, struct surface *surface, struct error *error);
+
+/// Per vertex, 1 where some triangle has it; the caller frees it. NULL where memory is short.
+uint8_t *surface_used_vertices(const struct surface *surface);
+
+/// The box around the vertices that triangles have, m; lo > hi if there are none.
+void surface_bounds(const struct surface *surface, double lo[3], double hi[3]);
+
+/// Leaves an empty surface.
+void surface_free(struct surface *surface);
+
+/// Bytes of all its pictures.
+size_t looks_image_bytes(const struct looks *looks);
+
+/// A deep copy. On failure, false and an empty one.
+bool looks_copy(struct looks *to, const struct looks *from, int index_count);
+void looks_free(struct looks *looks);
+
+#endif

@@ -1,0 +1,195 @@
+/// Grows surfaces vertex by vertex and polygon by polygon.
+#include "model/surface_builder.h"
+#include "base/srgb.h"
+#include "model/adjacency.h"
+#include <stdlib.h>
+#include <string.h>
+
+enum { COUNT_LIMIT = 1 << 28 };
+
+/// Room for one more element of `size` bytes; NULL, and failed, where there is none. The old block stays valid.
+static void *grow(struct surface_builder *b, void *block, size_t size, int count, int *capacity)
+{
+    if (count < *capacity) return block;
+    const int wanted = *capacity ? 2 * *capacity : 256;
+    void *larger = count < COUNT_LIMIT ? realloc(block, size * (size_t)wanted) : NULL;
+    if (larger) {
+        *capacity = wanted;
+    } else {
+        b->failed = true;
+    }
+    return larger;
+}
+
+/// array[count] = *value, in an array that grows. The caller counts.
+static bool put(struct surface_builder *b, void *array, int count, int *capacity, const void *value, size_t size)
+{
+    void *block;
+    memcpy(&block, array, sizeof block);
+    block = grow(b, block, size, count, capacity);
+    if (!block) return false;
+    memcpy(array, &block, sizeof block);
+    memcpy((char *)block + (size_t)count * size, value, size);
+    return true;
+}
+
+void builder_linear_color(struct surface_builder *b, const float rgb[3])
+{
+    static const float white[3] = {1, 1, 1};
+    struct surface *s = b->surface;
+    if (s->vertex_count == 0) return;
+    for (int i = s->color ? s->vertex_count - 1 : 0; i < s->vertex_count; i++) {
+        const float *color = i + 1 < s->vertex_count ? white : rgb;
+        if (!put(b, &s->color, i, &b->colors, color, sizeof *s->color)) return;
+    }
+}
+
+void builder_color(struct surface_builder *b, const double srgb[3])
+{
+    float rgb[3];
+    for (int k = 0; k < 3; k++) rgb[k] = srgb_to_linear((float)srgb[k]);
+    builder_linear_color(b, rgb);
+}
+
+void builder_vertex(struct surface_builder *b, const double position[3])
+{
+    static const float white[3] = {1, 1, 1};
+    struct surface *s = b->surface;
+    const float p[3] = {(float)position[0], (float)position[1], (float)position[2]};
+    if (!put(b, &s->position, s->vertex_count, &b->vertices, p, sizeof p)) return;
+    s->vertex_count++;
+    if (s->color) builder_linear_color(b, white);
+}
+
+void builder_uv(struct surface_builder *b, double u, double v)
+{
+    struct looks *looks = &b->surface->looks;
+    const float uv[2] = {(float)u, (float)v};
+    if (put(b, &looks->uv, looks->uv_count, &b->uvs, uv, sizeof uv)) looks->uv_count++;
+}
+
+static void add_triangle(struct surface_builder *b, const uint32_t last[2])
+{
+    struct surface *s = b->surface;
+    const uint32_t *const corners[3] = {b->first, b->last, last};
+    const uint8_t joined = b->polygon > 2;
+    const int triangle = s->index_count / 3;
+    for (int k = 0; k < 3; k++) {
+        const int at = s->index_count + k;
+        if (!put(b, &s->indices, at, &b->indices, corners[k], sizeof(uint32_t)) ||
+            !put(b, &s->looks.corner, at, &b->corners, corners[k] + 1, sizeof(uint32_t)))
+            return;
+    }
+    if (put(b, &s->looks.material, triangle, &b->materials_of, &b->material, sizeof b->material) &&
+        put(b, &s->looks.joined, triangle, &b->joins, &joined, sizeof joined))
+        s->index_count += 3;
+}
+
+void builder_corner(struct surface_builder *b, uint32_t vertex, uint32_t uv)
+{
+    const uint32_t corner[2] = {vertex, uv};
+    b->textured = b->textured || uv != LOOKS_NONE;
+    if (b->polygon >= 2) add_triangle(b, corner);
+    memcpy(b->polygon ? b->last : b->first, corner, sizeof corner);
+    b->polygon++;
+}
+
+int builder_end_polygon(struct surface_builder *b)
+{
+    const int corners = b->polygon;
+    b->polygon = 0;
+    return corners;
+}
+
+uint32_t builder_material(struct surface_builder *b, const char *name)
+{
+    struct looks *looks = &b->surface->looks;
+    for (int m = 0; m < looks->material_count; m++) {
+        if (strcmp(looks->materials[m].name, name) == 0) return (uint32_t)m;
+    }
+    const struct looks_material material = {.name = strdup(name), .color = {1, 1, 1, 1}};
+    if (!material.name ||
+        !put(b, &looks->materials, looks->material_count, &b->materials, &material, sizeof material)) {
+        free(material.name);
+        b->failed = true;
+        return LOOKS_NONE;
+    }
+    return (uint32_t)looks->material_count++;
+}
+
+void builder_merge(struct surface_builder *b, int first)
+{
+    struct surface *s = b->surface;
+    const int count = s->vertex_count - first;
+    if (count <= 0) return;
+    struct spot *spots = spots_sort((const float(*)[3])s->position + first, count);
+    uint32_t *name =
+        malloc((size_t)count * sizeof *name); // first each vertex's earliest at its place, then that one's new number
+    if (spots && name) {
+        for (int i = 0, earliest = 0; i < count; i++) {
+            if (!spots_meet(&spots[earliest], &spots[i])) earliest = i;
+            name[spots[i].vertex] = spots[earliest].vertex;
+        }
+        int kept = 0;
+        for (int i = 0; i < count; i++) {
+            if (name[i] != (uint32_t)i) {
+                name[i] = name[name[i]];
+                continue;
+            }
+            memmove(s->position[first + kept], s->position[first + i], sizeof *s->position);
+            if (s->color) memmove(s->color[first + kept], s->color[first + i], sizeof *s->color);
+            name[i] = (uint32_t)kept++;
+        }
+        for (int i = 0; i < s->index_count; i++) {
+            if (s->indices[i] >= (uint32_t)first)
+                s->indices[i] = (uint32_t)first + name[s->indices[i] - (uint32_t)first];
+        }
+        s->vertex_count = first + kept;
+    } else {
+        b->failed = true;
+    }
+    free(spots);
+    free(name);
+}
+
+static void drop_unused(struct surface_builder *b)
+{
+    struct looks *looks = &b->surface->looks;
+    if (!b->textured) {
+        free(looks->uv);
+        free(looks->corner);
+        looks->uv = NULL;
+        looks->corner = NULL;
+        looks->uv_count = 0;
+    }
+    bool dressed = false, polygons = false;
+    for (int t = 0; t < b->surface->index_count / 3; t++) {
+        dressed = dressed || looks->material[t] < (uint32_t)looks->material_count;
+        polygons = polygons || looks->joined[t];
+    }
+    if (!dressed) {
+        free(looks->material);
+        looks->material = NULL;
+    }
+    if (!polygons) {
+        free(looks->joined);
+        looks->joined = NULL;
+    }
+}
+
+bool builder_finish(struct surface_builder *b, const char *path, const char *kind, struct error *error)
+{
+    struct surface *s = b->surface;
+    bool good = false;
+    if (b->failed) {
+        fail_no_memory(error, path);
+    } else if (s->vertex_count == 0 || s->index_count == 0) {
+        fail(error, ERROR_INPUT, "%s: expected %s with %s, got none", path, kind,
+             s->vertex_count == 0 ? "vertices" : "faces");
+    } else {
+        drop_unused(b);
+        good = true;
+    }
+    if (!good) surface_free(s);
+    return good;
+}

@@ -1,0 +1,43 @@
+/// A surface that grows while a file is read. Private to the readers of meshes.
+#ifndef MODEL_SURFACE_BUILDER_H
+#define MODEL_SURFACE_BUILDER_H
+
+#include "model/surface.h"
+
+/// All zero but `surface` at first.
+struct surface_builder {
+    struct surface *surface;                                                     ///< an empty one at first
+    uint32_t material;                                                           ///< of the next triangles
+    int vertices, colors, uvs, indices, corners, materials_of, joins, materials; ///< there is room for
+    int polygon;                                                                 ///< corners of the open one
+    uint32_t first[2], last[2]; ///< its first and its newest corner: vertex, texture coordinates
+    bool textured;              ///< some corner has texture coordinates
+    bool failed;                ///< memory ran short and something is missing; stays set
+};
+
+void builder_vertex(struct surface_builder *builder, const double position[3]);
+
+/// Colours the newest vertex, sRGB; those before the first coloured one become white, and so do later ones without.
+void builder_color(struct surface_builder *builder, const double srgb[3]);
+void builder_linear_color(struct surface_builder *builder, const float rgb[3]);
+
+/// Texture coordinates, numbered from 0.
+void builder_uv(struct surface_builder *builder, double u, double v);
+
+/// The next corner of the open polygon, which becomes a fan of triangles. `uv` may be LOOKS_NONE.
+void builder_corner(struct surface_builder *builder, uint32_t vertex, uint32_t uv);
+
+/// Closes the polygon and returns how many corners it had.
+int builder_end_polygon(struct surface_builder *builder);
+
+/// The material of that name, made white where it is new.
+uint32_t builder_material(struct surface_builder *builder, const char *name);
+
+/// Drops what all lack: texture coordinates without corners, materials without triangles. Fails where the file has no vertices or no
+/// triangles; `kind` says what it is, as in "a PLY file". On failure the surface is empty.
+bool builder_finish(struct surface_builder *builder, const char *path, const char *kind, struct error *error);
+
+/// Makes one of vertices at the same place, from number `first` on.
+void builder_merge(struct surface_builder *builder, int first);
+
+#endif

@@ -1,0 +1,104 @@
+/// Which combinations of a sample's pins can be reached: the eigenvectors of B°B°ᵀ, B being how far each spline's Re x and Im x move them.
+#include "spline/pin_rows.h"
+#include "spline/symmetric.h"
+#include <math.h>
+#include <string.h>
+
+/// Of the largest eigenvalue: below the first a direction is out of reach; below the second it gives way.
+static const double out_of_reach = 1e-4, firm = 0.04;
+
+size_t pin_rows_scratch(int splines, int pins)
+{
+    size_t directions = 3 * (size_t)pins, columns = 2 * (size_t)splines;
+    return 2 * directions * columns + 2 * directions * directions + directions;
+}
+
+static bool is_pulled_at(const pulled *spline, int sample)
+{
+    for (int i = 0; i < spline->pulls.count; i++) {
+        if (spline->pulls.sample[i] == sample) return true;
+    }
+    return false;
+}
+
+static bool has_knot_at(const wiggly_desc *desc, int sample)
+{
+    for (int k = 0; k < desc->knot_count; k++) {
+        if (desc->knots[k].sample == sample) return true;
+    }
+    return false;
+}
+
+/// Three rows of B.
+static void put_pin(double *b, int columns, const pulled *splines, const wiggly_pin *pin)
+{
+    memset(b, 0, 3 * (size_t)columns * sizeof *b);
+    for (int i = 0; i < pin->pull_count; i++) {
+        const wiggly_pull *pull = &pin->pulls[i];
+        const pulled *spline = &splines[pull->spline];
+        if (!is_pulled_at(spline, pin->sample)) continue;
+        bool is_complex = spline->problem.desc->mode == WIGGLY_COMPLEX;
+        for (int axis = 0; axis < 3; axis++) {
+            b[columns * axis + 2 * pull->spline] += pull->c[axis][0];
+            if (is_complex) b[columns * axis + 2 * pull->spline + 1] -= pull->c[axis][1];
+        }
+    }
+}
+
+/// B°: keyed samples cannot move their Re x.
+static void hold_keyed(double *b, int rows, int columns, const pulled *splines, int sample)
+{
+    for (int s = 0; s < columns / 2; s++) {
+        if (!has_knot_at(splines[s].problem.desc, sample)) continue;
+        for (int r = 0; r < rows; r++) b[columns * r + 2 * s] = 0;
+    }
+}
+
+static double softness(double reach)
+{
+    double ratio = firm / reach, lack = fmax(0, ratio * ratio - 1);
+    return lack * lack;
+}
+
+static void add_rows(pin_rows *rows, const pulled *splines, const wiggly_pin *pins, const int *order, int pin_count)
+{
+    const int n = 3 * pin_count, columns = 2 * rows->splines, sample = pins[order[0]].sample;
+    double *b = rows->scratch, *held = b + n * columns, *square = held + n * columns, *vectors = square + n * n,
+           *values = vectors + n * n, largest = 0;
+    for (int p = 0; p < pin_count; p++) put_pin(b + 3 * columns * p, columns, splines, &pins[order[p]]);
+    memcpy(held, b, sizeof *b * (size_t)(n * columns));
+    hold_keyed(held, n, columns, splines, sample);
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++) {
+            double sum = 0;
+            for (int k = 0; k < columns; k++) sum += held[columns * i + k] * held[columns * j + k];
+            square[n * i + j] = sum;
+        }
+    }
+    symmetric_eigen(n, square, values, vectors);
+    for (int i = 0; i < n; i++) largest = fmax(largest, values[i]);
+    const int first = rows->count;
+    for (int i = 0; i < n; i++) {
+        double reach = largest > 0 ? values[i] / largest : 0;
+        if (!(reach >= out_of_reach)) continue;
+        double *on = rows->on + columns * rows->count, want = 0;
+        memset(on, 0, sizeof *on * (size_t)columns);
+        for (int r = 0; r < n; r++) {
+            double part = vectors[n * r + i];
+            want += part * pins[order[r / 3]].to[r % 3];
+            for (int k = 0; k < columns; k++) on[k] += part * b[columns * r + k];
+        }
+        rows->row[rows->count++] = (pin_row){.sample = sample, .first = first, .want = want, .soft = softness(reach)};
+    }
+    for (int r = first; r < rows->count; r++) rows->row[r].count = rows->count - first;
+}
+
+void pin_rows_find(pin_rows *rows, const pulled *splines, const wiggly_pin *pins, const int *order, int pin_count)
+{
+    rows->count = 0;
+    for (int from = 0, to; from < pin_count; from = to) {
+        for (to = from + 1; to < pin_count && pins[order[to]].sample == pins[order[from]].sample; to++) {
+        }
+        add_rows(rows, splines, pins, order + from, to - from);
+    }
+}

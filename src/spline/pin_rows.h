@@ -1,0 +1,29 @@
+/// What the pins of a group ask for, as rows: combinations of the places that the splines can be made to meet
+/// (docs/mathematics.md, Pins, Reach).
+#ifndef SPLINE_PIN_ROWS_H
+#define SPLINE_PIN_ROWS_H
+
+#include "spline/pull.h"
+
+/// One condition: Σ over splines of on[2s] Re x_s + on[2s + 1] Im x_s at a sample is `want`.
+typedef struct pin_row {
+    int sample;
+    int first, count; ///< the rows of that sample
+    double want;
+    double soft; ///< by how much it gives way, as a part of the largest eigenvalue of S among the sample's rows
+} pin_row;
+
+typedef struct pin_rows {
+    int count, splines;
+    pin_row *row;    ///< by sample
+    double *on;      ///< 2 × splines numbers a row
+    double *scratch; ///< room for the conditions of all pins in one sample
+} pin_rows;
+
+/// Numbers of scratch that so many splines and pins need.
+size_t pin_rows_scratch(int splines, int pins);
+
+/// Finds the rows of pins that are ordered by sample; `order` holds their indices. Splines without pulls at a sample have no part in it.
+void pin_rows_find(pin_rows *rows, const pulled *splines, const wiggly_pin *pins, const int *order, int pin_count);
+
+#endif

@@ -1,0 +1,418 @@
+/// Pins: splines solved together, so that points which they move are where they must be (docs/mathematics.md, Pins).
+//
+// Each spline is solved as it is but for where it starts and ends, and asked what a pull on Re x and on Im x at each pinned sample makes
+// of x at all of them. With R_s the rows' coefficients of spline s and Z_s its compliance,
+//
+//     S = Σ_s R_sᵀ Z_s R_s / w_s,     (S + diag(φ S_max)) λ = want − Σ_s R_s x_s⁰,
+//
+// and every spline is solved once more under the pulls R_sᵀ λ / w_s.
+#include "spline/pin_rows.h"
+#include "spline/symmetric.h"
+#include "spline/wide.h"
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// Rounds in which what the rows still miss is asked for again, and what they may miss, as a part of the largest.
+enum { MAX_ROUNDS = 3 };
+static const double near_enough = 1e-10;
+
+struct wiggly_group {
+    int splines, pins, knots; ///< capacity
+    pulled *pulled;
+    pin_rows rows;
+    int *order;         ///< of pins, by sample
+    int *pull_of;       ///< of each row, the pull on the spline in hand, or -1
+    double *compliance; ///< Z of the spline in hand, 2P × 2P, and what it does without pulls
+    double *alone;
+    double *columns; ///< scratch of its nodes
+    double *answer;  ///< Z R of the spline in hand, 2P × rows
+    double *system;  ///< S, the lower triangle, then its factor
+    double *soft;    ///< φ S_max of each row
+    double *lambda, *miss;
+};
+
+// --- memory ----------------------------------------------------------------------------------------------------------
+
+/// A block handed out piece by piece; without one it is only measured.
+typedef struct arena {
+    unsigned char *block;
+    size_t used;
+    bool too_large;
+} arena;
+
+static void *take(arena *a, size_t count, size_t size)
+{
+    enum { ALIGNMENT = 16 };
+    size_t bytes, end;
+    if (__builtin_mul_overflow(count, size, &bytes) || __builtin_add_overflow(bytes, ALIGNMENT - 1, &bytes) ||
+        __builtin_add_overflow(a->used, bytes & ~(size_t)(ALIGNMENT - 1), &end)) {
+        a->too_large = true;
+        return NULL;
+    }
+    void *at = a->block ? a->block + a->used : NULL;
+    a->used = end;
+    return at;
+}
+
+static void lay_out_spline(pulled *of, arena *a, int knots, int pins)
+{
+    pulled p = {.pulls = {.sample = take(a, (size_t)pins, sizeof(int)), .pull = take(a, (size_t)pins, sizeof(cplx))},
+                .place = take(a, (size_t)pins, sizeof(pull_place)),
+                .nodes = take(a, (size_t)knots + (size_t)pins + 1, sizeof(pull_node))};
+    if (of) *of = p;
+}
+
+static struct wiggly_group *lay_out(arena *a, int knots, int splines, int pins)
+{
+    const size_t s = (size_t)splines, p = (size_t)pins, rows = 3 * p;
+    struct wiggly_group measured = {.splines = splines, .pins = pins, .knots = knots};
+    struct wiggly_group *g = take(a, 1, sizeof *g), *at = g ? g : &measured;
+    *at = measured;
+    at->pulled = take(a, s, sizeof(pulled));
+    for (int i = 0; i < splines; i++) lay_out_spline(at->pulled ? &at->pulled[i] : NULL, a, knots, pins);
+    at->rows.row = take(a, rows, sizeof(pin_row));
+    at->rows.on = take(a, rows, 2 * s * sizeof(double));
+    at->rows.scratch = take(a, pin_rows_scratch(splines, pins), sizeof(double));
+    at->order = take(a, p, sizeof(int));
+    at->pull_of = take(a, rows, sizeof(int));
+    at->compliance = take(a, 2 * p, 2 * p * sizeof(double));
+    at->alone = take(a, 2 * p, sizeof(double));
+    at->columns = take(a, 8 * p, sizeof(double));
+    at->answer = take(a, 2 * p, rows * sizeof(double));
+    at->system = take(a, rows, rows * sizeof(double));
+    at->soft = take(a, rows, sizeof(double));
+    at->lambda = take(a, rows, sizeof(double));
+    at->miss = take(a, rows, sizeof(double));
+    return g;
+}
+
+wiggly_status wiggly_group_create(int samples, int knots, int splines, int pins, wiggly_group **group)
+{
+    if (!group || samples < 1 || knots < 0 || splines < 1 || pins < 0 || knots > INT_MAX - pins ||
+        pins > WIGGLY_MOST_PINS)
+        return WIGGLY_ERROR_ARGUMENT;
+    arena size = {0};
+    lay_out(&size, knots, splines, pins);
+    if (size.too_large) return WIGGLY_ERROR_MEMORY;
+    arena a = {.block = calloc(1, size.used)};
+    if (!a.block) return WIGGLY_ERROR_MEMORY;
+    *group = lay_out(&a, knots, splines, pins);
+    for (int s = 0; s < splines; s++) {
+        wiggly_status status = wiggly_create(samples, knots + pins, &(*group)->pulled[s].solver);
+        if (status == WIGGLY_OK) continue;
+        wiggly_group_destroy(*group);
+        *group = NULL;
+        return status;
+    }
+    return WIGGLY_OK;
+}
+
+void wiggly_group_destroy(wiggly_group *g)
+{
+    for (int s = 0; g && s < g->splines; s++) wiggly_destroy(g->pulled[s].solver);
+    free(g);
+}
+
+void wiggly_group_set_method(wiggly_group *g, wiggly_method method)
+{
+    for (int s = 0; s < g->splines; s++) wiggly_set_method(g->pulled[s].solver, method);
+}
+
+// --- what is asked ---------------------------------------------------------------------------------------------------
+
+static bool is_finite3(const double *v) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); }
+
+static wiggly_status check_pin(const wiggly_pin *pin, int spline_count)
+{
+    if (pin->pull_count < 0 || (pin->pull_count > 0 && !pin->pulls)) return WIGGLY_ERROR_ARGUMENT;
+    if (!is_finite3(pin->to)) return WIGGLY_ERROR_NUMBER;
+    for (int i = 0; i < pin->pull_count; i++) {
+        if (pin->pulls[i].spline < 0 || pin->pulls[i].spline >= spline_count) return WIGGLY_ERROR_ARGUMENT;
+        for (int axis = 0; axis < 3; axis++) {
+            const double *c = pin->pulls[i].c[axis];
+            if (!isfinite(c[0]) || !isfinite(c[1])) return WIGGLY_ERROR_NUMBER;
+        }
+    }
+    return WIGGLY_OK;
+}
+
+static wiggly_status check(const wiggly_group *g, const wiggly_desc *descs, const double *weights,
+                           const wiggly_curve *curves, int spline_count, const wiggly_pin *pins, int pin_count)
+{
+    if (!g || !descs || !weights || !curves || spline_count < 1 || pin_count < 0 || (pin_count > 0 && !pins))
+        return WIGGLY_ERROR_ARGUMENT;
+    if (spline_count > g->splines || pin_count > g->pins) return WIGGLY_ERROR_CAPACITY;
+    for (int s = 0; s < spline_count; s++) {
+        if (descs[s].knot_count > g->knots) return WIGGLY_ERROR_CAPACITY;
+        if (!(weights[s] > 0 && weights[s] < INFINITY)) return WIGGLY_ERROR_NUMBER;
+    }
+    for (int i = 0; i < pin_count; i++) {
+        wiggly_status status = check_pin(&pins[i], spline_count);
+        if (status != WIGGLY_OK) return status;
+    }
+    return WIGGLY_OK;
+}
+
+/// By sample; pins of one sample stay in their order.
+static void order_pins(wiggly_group *g, const wiggly_pin *pins, int pin_count)
+{
+    for (int i = 0; i < pin_count; i++) {
+        int at = i;
+        for (; at > 0 && pins[g->order[at - 1]].sample > pins[i].sample; at--) g->order[at] = g->order[at - 1];
+        g->order[at] = i;
+    }
+}
+
+/// Whether a pin moves with a spline.
+static bool moves(const wiggly_pin *pin, int spline)
+{
+    for (int i = 0; i < pin->pull_count; i++) {
+        if (pin->pulls[i].spline != spline) continue;
+        for (int axis = 0; axis < 3; axis++) {
+            if (pin->pulls[i].c[axis][0] != 0 || pin->pulls[i].c[axis][1] != 0) return true;
+        }
+    }
+    return false;
+}
+
+static void find_pulls(wiggly_group *g, int spline, const wiggly_pin *pins, int pin_count)
+{
+    system_pulls *pulls = &g->pulled[spline].pulls;
+    pulls->count = 0;
+    for (int i = 0; i < pin_count; i++) {
+        const wiggly_pin *pin = &pins[g->order[i]];
+        if (!moves(pin, spline)) continue;
+        if (pulls->count == 0 || pulls->sample[pulls->count - 1] != pin->sample)
+            pulls->sample[pulls->count++] = pin->sample;
+    }
+    for (int i = 0; i < pulls->count; i++) pulls->pull[i] = (cplx){0, 0};
+}
+
+/// Whether a spline can be pulled at those samples: it has a motion of its own, whose start costs something.
+static bool can_be_pulled(const pulled *of)
+{
+    const problem *p = &of->problem;
+    const wiggly_desc *desc = p->desc;
+    double fastest = 0;
+    poles_fastest(desc, p->first, p->start == WIGGLY_LOOP ? desc->samples - 1 : p->latest, &fastest);
+    return desc->mode != WIGGLY_CUBIC && desc->calm > 0 && fastest > 0;
+}
+
+/// Whether pulls are where the spline has samples of its own; a loop's last is its first.
+static bool are_inside(const system_pulls *pulls, const wiggly_desc *desc)
+{
+    int end = desc->samples - (desc->start == WIGGLY_LOOP ? 1 : 0);
+    return pulls->count == 0 || (pulls->sample[0] >= 0 && pulls->sample[pulls->count - 1] < end);
+}
+
+static wiggly_status pose_spline(pulled *of, const wiggly_desc *desc, double weight)
+{
+    wiggly_solver *solver = of->solver;
+    if (!are_inside(&of->pulls, desc)) return WIGGLY_ERROR_PIN;
+    solver->pulls = of->pulls.count > 0 ? &of->pulls : NULL;
+    wiggly_status status = problem_pose(solver, desc, solver->y, &of->problem);
+    if (status == WIGGLY_OK && of->pulls.count > 0 && of->problem.count < 3) {
+        of->pulls.count = 0; // too short for a pull to move anything
+        solver->pulls = NULL;
+        status = problem_pose(solver, desc, solver->y, &of->problem);
+    }
+    if (status != WIGGLY_OK) return status;
+    if (of->pulls.count > 0 && !can_be_pulled(of)) return WIGGLY_ERROR_PIN;
+    of->scale = of->problem.unit * desc->step * desc->step * desc->step / weight;
+    return WIGGLY_OK;
+}
+
+static wiggly_status pose(wiggly_group *g, const wiggly_desc *descs, const double *weights, int spline_count,
+                          const wiggly_pin *pins, int pin_count)
+{
+    for (int s = 0; s < spline_count; s++) {
+        find_pulls(g, s, pins, pin_count);
+        wiggly_status status = pose_spline(&g->pulled[s], &descs[s], weights[s]);
+        if (status != WIGGLY_OK) return status;
+    }
+    return WIGGLY_OK;
+}
+
+// --- the system of the pins ------------------------------------------------------------------------------------------
+
+/// Of each row, which pull on the spline is at its sample: both are ordered.
+static void match_rows(const pin_rows *rows, const system_pulls *pulls, int *pull_of)
+{
+    for (int r = 0, i = 0; r < rows->count; r++) {
+        while (i < pulls->count && pulls->sample[i] < rows->row[r].sample) i++;
+        pull_of[r] = i < pulls->count && pulls->sample[i] == rows->row[r].sample ? i : -1;
+    }
+}
+
+WIDEST static void add_two(double *restrict sum, double u, const double *restrict a, double v,
+                           const double *restrict b, int count)
+{
+    for (int i = 0; i < count; i++) sum[i] += u * a[i] + v * b[i];
+}
+
+/// Adds a spline to the lower triangle of S and takes what it does without pulls off what is wanted.
+static void add_spline(wiggly_group *g, int spline)
+{
+    const pulled *of = &g->pulled[spline];
+    const pin_rows *rows = &g->rows;
+    const int n = rows->count, width = 2 * of->pulls.count, columns = 2 * rows->splines;
+    match_rows(rows, &of->pulls, g->pull_of);
+    for (int k = 0; k < width; k++) {
+        const double *z = g->compliance + width * k;
+        for (int r = 0; r < n; r++) {
+            const double *on = rows->on + columns * r + 2 * spline;
+            int i = 2 * g->pull_of[r];
+            g->answer[n * k + r] = i < 0 ? 0 : z[i] * on[0] + z[i + 1] * on[1];
+        }
+    }
+    for (int r = 0; r < n; r++) {
+        const double *on = rows->on + columns * r + 2 * spline;
+        int i = 2 * g->pull_of[r];
+        if (i < 0) continue;
+        add_two(g->system + n * r, of->scale * on[0], g->answer + n * i, of->scale * on[1], g->answer + n * (i + 1),
+                r + 1);
+        g->miss[r] -= on[0] * g->alone[i] + on[1] * g->alone[i + 1];
+    }
+}
+
+/// What each spline answers: S and what is missed without pulls. false where one cannot be solved.
+static bool respond(wiggly_group *g, int spline_count)
+{
+    const int n = g->rows.count;
+    bool all = true;
+    memset(g->system, 0, sizeof *g->system * (size_t)(n * n));
+    for (int r = 0; r < n; r++) g->miss[r] = g->rows.row[r].want;
+    for (int s = 0; s < spline_count; s++) {
+        pulled *of = &g->pulled[s];
+        of->by_chain = false;
+        if (of->pulls.count == 0) continue;
+        of->by_chain = pull_chain_respond(of, g->compliance, g->alone, g->columns);
+        if (of->by_chain || pull_band_respond(of, g->compliance, g->alone)) {
+            add_spline(g, s);
+        } else {
+            all = false;
+        }
+    }
+    return all;
+}
+
+/// What can hardly be reached gives way.
+static void soften(wiggly_group *g)
+{
+    const int n = g->rows.count;
+    for (int from = 0, count; from < n; from += count) {
+        count = g->rows.row[from].count;
+        double *block = g->rows.scratch, *vectors = block + count * count, *values = vectors + count * count,
+               most = 0, softest = 0;
+        for (int i = 0; i < count; i++) softest = fmax(softest, g->rows.row[from + i].soft);
+        for (int i = 0; i < count && softest > 0; i++) {
+            for (int j = 0; j <= i; j++)
+                block[count * i + j] = block[count * j + i] = g->system[n * (from + i) + from + j];
+        }
+        if (softest > 0) symmetric_eigen(count, block, values, vectors);
+        for (int i = 0; i < count && softest > 0; i++) most = fmax(most, values[i]);
+        for (int i = from; i < from + count; i++) {
+            g->soft[i] = g->rows.row[i].soft * most;
+            g->system[n * i + i] += g->soft[i];
+        }
+    }
+}
+
+/// The pulls on a spline that λ means.
+static void set_pulls(wiggly_group *g, int spline)
+{
+    pulled *of = &g->pulled[spline];
+    const pin_rows *rows = &g->rows;
+    for (int i = 0; i < of->pulls.count; i++) of->pulls.pull[i] = (cplx){0, 0};
+    match_rows(rows, &of->pulls, g->pull_of);
+    for (int r = 0; r < rows->count; r++) {
+        if (g->pull_of[r] < 0) continue;
+        const double *on = rows->on + 2 * rows->splines * r + 2 * spline, force = of->scale * g->lambda[r];
+        cplx *pull = &of->pulls.pull[g->pull_of[r]];
+        pull->re += on[0] * force, pull->im += on[1] * force;
+    }
+}
+
+static wiggly_status solve_splines(wiggly_group *g, const wiggly_desc *descs, wiggly_curve *curves, int spline_count)
+{
+    wiggly_status worst = WIGGLY_OK;
+    for (int s = 0; s < spline_count; s++) {
+        pulled *of = &g->pulled[s];
+        wiggly_status status = of->problem.status;
+        set_pulls(g, s);
+        if (!of->by_chain || !pull_chain_solve(of, &curves[s]))
+            status = wiggly_solve(of->solver, &descs[s], &curves[s]);
+        worst = status > worst ? status : worst;
+    }
+    return worst;
+}
+
+/// x of a spline that has been solved: in the caller's arrays, else where the solver has them meanwhile.
+static cplx solved_x(const wiggly_solver *solver, const wiggly_curve *curve, int sample)
+{
+    return (cplx){(curve->re ? curve->re : solver->rows.gradient)[sample],
+                  (curve->im ? curve->im : solver->rows.gradient + solver->samples)[sample]};
+}
+
+/// What the rows miss; true where that is next to nothing beside what they want.
+static bool find_miss(wiggly_group *g, const wiggly_curve *curves)
+{
+    const pin_rows *rows = &g->rows;
+    double most = 0, size = 0;
+    for (int r = 0; r < rows->count; r++) {
+        const double *on = rows->on + 2 * rows->splines * r;
+        double miss = rows->row[r].want - g->soft[r] * g->lambda[r];
+        size = fmax(size, fabs(rows->row[r].want));
+        for (int s = 0; s < rows->splines; s++) {
+            if (on[2 * s] == 0 && on[2 * s + 1] == 0) continue;
+            cplx x = solved_x(g->pulled[s].solver, &curves[s], rows->row[r].sample);
+            double seen = on[2 * s] * x.re + on[2 * s + 1] * x.im;
+            miss -= seen;
+            size = fmax(size, fabs(seen));
+        }
+        g->miss[r] = miss;
+        most = fmax(most, fabs(miss));
+    }
+    return most <= near_enough * size;
+}
+
+static void tell_left(const wiggly_group *g, const wiggly_curve *curves, wiggly_pin *pins, int pin_count)
+{
+    for (int i = 0; i < pin_count; i++) {
+        wiggly_pin *pin = &pins[i];
+        memcpy(pin->left, pin->to, sizeof pin->left);
+        for (int k = 0; k < pin->pull_count; k++) {
+            const wiggly_pull *pull = &pin->pulls[k];
+            if (!moves(pin, pull->spline)) continue;
+            cplx x = solved_x(g->pulled[pull->spline].solver, &curves[pull->spline], pin->sample);
+            for (int axis = 0; axis < 3; axis++) pin->left[axis] -= pull->c[axis][0] * x.re - pull->c[axis][1] * x.im;
+        }
+    }
+}
+
+wiggly_status wiggly_group_solve(wiggly_group *g, const wiggly_desc *descs, const double *weights,
+                                 wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count)
+{
+    wiggly_status status = check(g, descs, weights, curves, spline_count, pins, pin_count);
+    if (status != WIGGLY_OK) return status;
+    order_pins(g, pins, pin_count);
+    status = pose(g, descs, weights, spline_count, pins, pin_count);
+    if (status != WIGGLY_OK) return status;
+    g->rows.splines = spline_count;
+    pin_rows_find(&g->rows, g->pulled, pins, g->order, pin_count);
+    const bool all = respond(g, spline_count);
+    const int n = g->rows.count;
+    soften(g);
+    symmetric_factor(n, g->system);
+    memset(g->lambda, 0, sizeof *g->lambda * (size_t)n);
+    for (int round = 0; round < MAX_ROUNDS; round++) {
+        symmetric_solve(n, g->system, g->miss);
+        for (int r = 0; r < n; r++) g->lambda[r] += g->miss[r];
+        status = solve_splines(g, descs, curves, spline_count);
+        if (find_miss(g, curves)) break;
+    }
+    tell_left(g, curves, pins, pin_count);
+    return all ? status : WIGGLY_SINGULAR;
+}

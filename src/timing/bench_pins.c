@@ -1,0 +1,117 @@
+/// The benchmark's pins: groups of splines that share points, one of which is dragged.
+#include "base/clock.h"
+#include "timing/bench_case.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { GAP = 24, MOST_SPLINES = 8, MOST_PINS = 40, RUNS = 2000 };
+
+static const struct {
+    const char *name;
+    int splines, pins, samples;
+    bool moves; ///< the dragged pin changes its sample too, so nothing of the run before serves
+} plan[] = {
+    {"pins/drag/6x9x240", 6, 9, 240, false},
+    {"pins/retime/6x9x240", 6, 9, 240, true},
+    {"pins/drag/8x40x1000", 8, 40, 1000, false},
+    {"pins/retime/8x40x1000", 8, 40, 1000, true},
+};
+
+struct pinned {
+    int splines, pins, samples;
+    wiggly_desc desc[MOST_SPLINES];
+    double weight[MOST_SPLINES];
+    wiggly_curve curve[MOST_SPLINES];
+    wiggly_pull pull[MOST_PINS][MOST_SPLINES];
+    wiggly_pin pin[MOST_PINS];
+    wiggly_knot *knots;
+    double *numbers;
+};
+
+static void describe(struct pinned *p, int s)
+{
+    wiggly_desc *desc = &p->desc[s];
+    const int knots = p->samples / GAP;
+    *desc = wiggly_default_desc();
+    desc->samples = p->samples;
+    desc->frequency.value = 1 + 0.15 * s;
+    desc->damping.value = 0.05 + 0.01 * s;
+    desc->knots = p->knots + s * knots;
+    desc->knot_count = knots;
+    for (int k = 0; k < knots; k++)
+        p->knots[s * knots + k] = (wiggly_knot){.sample = GAP * k + (5 * s + 7 * k) % 11, .value = sin(s + 2.0 * k)};
+    p->weight[s] = 1 + 0.1 * s;
+    double *at = p->numbers + (size_t)s * 3 * (size_t)p->samples;
+    p->curve[s] = (wiggly_curve){.total = at, .re = at + p->samples, .im = at + 2 * p->samples};
+}
+
+static void place(struct pinned *p, int i)
+{
+    p->pin[i] = (wiggly_pin){.sample = 10 + i * (p->samples - 20) / p->pins,
+                             .pulls = p->pull[i],
+                             .pull_count = p->splines,
+                             .to = {0.3 * sin(i), 0.3 * cos(2.0 * i), 0.2 * sin(3.0 * i)}};
+    for (int s = 0; s < p->splines; s++) {
+        p->pull[i][s].spline = s;
+        for (int k = 0; k < 6; k++) p->pull[i][s].c[k / 2][k % 2] = sin(i + 1.7 * (k + 1) * (s + 2));
+    }
+}
+
+static bool open_group(struct pinned *p, int splines, int pins, int samples)
+{
+    *p = (struct pinned){.splines = splines, .pins = pins, .samples = samples};
+    p->knots = calloc((size_t)(splines * (samples / GAP)), sizeof *p->knots);
+    p->numbers = calloc((size_t)(splines * 3 * samples), sizeof *p->numbers);
+    if (!p->knots || !p->numbers) return false;
+    for (int s = 0; s < splines; s++) describe(p, s);
+    for (int i = 0; i < pins; i++) place(p, i);
+    return true;
+}
+
+static double largest_left(const struct pinned *p)
+{
+    double left = 0;
+    for (int i = 0; i < p->pins; i++) {
+        for (int axis = 0; axis < 3; axis++) left = fmax(left, fabs(p->pin[i].left[axis]));
+    }
+    return left;
+}
+
+static bool run_group(struct bench *bench, struct pinned *p, bool moves, struct bench_result *result)
+{
+    wiggly_group *group = NULL;
+    wiggly_status status = wiggly_group_create(p->samples, p->samples / GAP, p->splines, p->pins, &group);
+    wiggly_pin *dragged = &p->pin[p->pins / 2];
+    const int at = dragged->sample;
+    int run = 0;
+    for (; run < RUNS && status == WIGGLY_OK; run++) {
+        dragged->to[0] = 0.3 * sin(0.1 * run);
+        if (moves) dragged->sample = at + run % 3;
+        double start = clock_now();
+        status = wiggly_group_solve(group, p->desc, p->weight, p->curve, p->splines, p->pin, p->pins);
+        bench->times[run] = clock_now() - start;
+    }
+    wiggly_group_destroy(group);
+    result->splines = p->splines;
+    result->error = largest_left(p);
+    bench_sum_up(bench, run, (double)p->samples * p->splines, result);
+    return status == WIGGLY_OK && result->error < 1e-9;
+}
+
+bool bench_pins(struct bench *bench, void (*done)(void *user, const struct bench_result *result), void *user,
+                struct error *error)
+{
+    for (size_t n = 0; n < sizeof plan / sizeof *plan; n++) {
+        struct pinned p;
+        struct bench_result result = bench_blank(WIGGLY_COMPLEX, plan[n].samples);
+        snprintf(result.name, sizeof result.name, "%s", plan[n].name);
+        bool good = open_group(&p, plan[n].splines, plan[n].pins, plan[n].samples) &&
+                    run_group(bench, &p, plan[n].moves, &result);
+        free(p.knots);
+        free(p.numbers);
+        if (!good) return fail(error, ERROR_ENVIRONMENT, "%s: points are off by %g", result.name, result.error);
+        done(user, &result);
+    }
+    return true;
+}

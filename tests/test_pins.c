@@ -1,0 +1,429 @@
+/// Splines solved together so that points are where they must be: against exact answers (tests/vectors/pins, 60-digit arithmetic), the
+/// chain against the band on random groups, and what is refused.
+#include "near.h"
+
+#include "base/file.h"
+#include "scene/evaluate.h"
+#include "scene/load.h"
+#include "scene/storage.h"
+#include "temporary.h"
+#include <dirent.h>
+#include <jansson.h>
+#include <string.h>
+
+enum { MOST_SPLINES = 8, MOST_PINS = 40 };
+
+static const char folder[] = "tests/vectors/pins";
+
+/// A group as a file has it.
+struct sheet {
+    int splines, pins;
+    int spline[MOST_SPLINES]; ///< of the scene
+    double weights[MOST_SPLINES];
+    wiggly_pull pulls[MOST_PINS][MOST_SPLINES];
+    wiggly_pin pin[MOST_PINS];
+    double left[MOST_PINS][3];
+};
+
+static void read_pin(struct sheet *sheet, const json_t *names, const json_t *from, int p)
+{
+    wiggly_pin *pin = &sheet->pin[p];
+    *pin = (wiggly_pin){.sample = (int)json_integer_value(json_object_get(from, "sample")), .pulls = sheet->pulls[p]};
+    for (int s = 0; s < sheet->splines; s++) {
+        const char *name = json_string_value(json_array_get(names, (size_t)s));
+        const json_t *c = json_object_get(json_object_get(from, "pulls"), name);
+        if (!c) continue;
+        wiggly_pull *pull = &sheet->pulls[p][pin->pull_count++];
+        pull->spline = s;
+        for (size_t i = 0; i < 6; i++)
+            pull->c[i / 2][i % 2] = json_number_value(json_array_get(json_array_get(c, i / 2), i % 2));
+    }
+    for (size_t i = 0; i < 3; i++) pin->to[i] = json_number_value(json_array_get(json_object_get(from, "to"), i));
+}
+
+static void read_sheet(struct sheet *sheet, const json_t *file, const struct document *document)
+{
+    const json_t *names = json_object_get(file, "group"), *pins = json_object_get(file, "pins");
+    sheet->splines = (int)json_array_size(names);
+    sheet->pins = (int)json_array_size(pins);
+    for (int s = 0; s < sheet->splines; s++) {
+        const char *name = json_string_value(json_array_get(names, (size_t)s));
+        sheet->weights[s] = json_number_value(json_object_get(json_object_get(file, "weight"), name));
+        for (int i = 0; i < document->spline_count; i++) {
+            if (strcmp(document->splines[i].name, name) == 0) sheet->spline[s] = i;
+        }
+    }
+    for (int p = 0; p < sheet->pins; p++) {
+        read_pin(sheet, names, json_array_get(pins, (size_t)p), p);
+        const json_t *left = json_array_get(json_object_get(file, "left"), (size_t)p);
+        for (size_t i = 0; i < 3; i++) sheet->left[p][i] = json_number_value(json_array_get(left, i));
+    }
+}
+
+static struct document *document_of(const json_t *file)
+{
+    struct error error = {0};
+    char *text = json_dumps(json_object_get(file, "scene"), 0);
+    const char *path = temporary_file("pins.json", text, strlen(text));
+    struct document *document = scene_load(path, NULL, &error);
+    if (!document) fail_msg("%s", error.text);
+    free(text);
+    return document;
+}
+
+/// Skips the header and the frame's column.
+static void read_rows(const char *path, double *numbers, int columns, int rows)
+{
+    char *text, *at;
+    size_t size;
+    struct error error;
+    if (!file_read(path, (size_t)1 << 24, &text, &size, &error)) fail_msg("%s", error.text);
+    at = strchr(text, '\n');
+    for (int i = 0; i < rows; i++) {
+        strtod(at + 1, &at);
+        for (int k = 0; k < columns; k++) numbers[columns * i + k] = strtod(at + 1, &at);
+    }
+    free(text);
+}
+
+static wiggly_curve curve_of(double *memory, int samples)
+{
+    return (wiggly_curve){.total = memory,
+                          .y = memory + samples,
+                          .re = memory + 2 * samples,
+                          .im = memory + 3 * samples,
+                          .omega = memory + 4 * samples};
+}
+
+static void compare(const char *name, const wiggly_curve *curve, const double *expected, int columns, int spline)
+{
+    double low = INFINITY, high = -INFINITY, worst = 0;
+    for (int i = 0; i < curve->samples; i++) {
+        const double *row = expected + columns * i + 3 * spline;
+        low = fmin(low, row[0]), high = fmax(high, row[0]);
+        worst = fmax(worst, fabs(curve->total[i] - row[0]));
+        worst = fmax(worst, fmax(fabs(curve->re[i] - row[1]), fabs(curve->im[i] - row[2])));
+    }
+    worst /= fmax(high - low, fmax(fabs(low), fabs(high)));
+    if (!(worst <= 1e-8)) fail_msg("%s, spline %d: off by %g of its range", name, spline, worst);
+}
+
+static void check_group(const char *name, struct sheet *sheet, const struct document *document,
+                        const double *expected, wiggly_method method)
+{
+    struct evaluation evaluation = {0};
+    struct error error = {0};
+    const int samples = document_samples(document);
+    assert_true(evaluation_resize(&evaluation, document, &error));
+    evaluation_update(&evaluation, document, NULL, false);
+    wiggly_group *group;
+    assert_int_equal(wiggly_group_create(samples, 16, sheet->splines, sheet->pins, &group), WIGGLY_OK);
+    wiggly_group_set_method(group, method);
+    wiggly_desc descs[MOST_SPLINES];
+    wiggly_curve curves[MOST_SPLINES];
+    wiggly_knot knots[MOST_SPLINES][16];
+    double *memory = calloc((size_t)(5 * samples * sheet->splines), sizeof *memory);
+    for (int s = 0; s < sheet->splines; s++) {
+        descs[s] = storage_describe(evaluation.storage, evaluation.curves, document, sheet->spline[s], false);
+        storage_add_knots(&descs[s], document, sheet->spline[s], knots[s]);
+        curves[s] = curve_of(memory + 5 * samples * s, samples);
+    }
+    wiggly_status status =
+        wiggly_group_solve(group, descs, sheet->weights, curves, sheet->splines, sheet->pin, sheet->pins);
+    if (status != WIGGLY_OK) fail_msg("%s: %s", name, wiggly_status_text(status));
+    for (int s = 0; s < sheet->splines; s++) compare(name, &curves[s], expected, 3 * sheet->splines, s);
+    for (int p = 0; p < sheet->pins; p++) {
+        for (int i = 0; i < 3; i++) assert_near(sheet->pin[p].left[i], sheet->left[p][i], 1e-9);
+    }
+    free(memory);
+    wiggly_group_destroy(group);
+    evaluation_free(&evaluation);
+}
+
+static void check_file(const char *name)
+{
+    char path[512];
+    json_error_t problem;
+    snprintf(path, sizeof path, "%s/%s.json", folder, name);
+    json_t *file = json_load_file(path, 0, &problem);
+    if (!file) fail_msg("%s: %s", path, problem.text);
+    struct document *document = document_of(file);
+    static struct sheet sheet;
+    memset(&sheet, 0, sizeof sheet);
+    read_sheet(&sheet, file, document);
+    const int samples = document_samples(document), columns = 3 * sheet.splines;
+    double *expected = malloc(sizeof *expected * (size_t)(samples * columns));
+    snprintf(path, sizeof path, "%s/%s.csv", folder, name);
+    read_rows(path, expected, columns, samples);
+    check_group(name, &sheet, document, expected, WIGGLY_CHAIN);
+    check_group(name, &sheet, document, expected, WIGGLY_BAND);
+    free(expected);
+    document_destroy(document);
+    json_decref(file);
+}
+
+static void chain_and_band_meet_every_vector(void **state)
+{
+    (void)state;
+    DIR *directory = opendir(folder);
+    assert_non_null(directory);
+    int files = 0;
+    struct dirent *entry;
+    while ((entry = readdir(directory)) != NULL) {
+        char *dot = strstr(entry->d_name, ".json");
+        if (!dot) continue;
+        *dot = '\0';
+        check_file(entry->d_name);
+        files++;
+    }
+    closedir(directory);
+    assert_true(files >= 9);
+}
+
+// --- random groups ---------------------------------------------------------------------------------------------------
+
+enum { SAMPLES = 240, KNOTS = 8 };
+
+/// A group with everything it needs.
+struct random_group {
+    int splines, pins, samples;
+    wiggly_desc descs[MOST_SPLINES];
+    wiggly_knot knots[MOST_SPLINES][KNOTS];
+    double weights[MOST_SPLINES];
+    wiggly_pull pulls[MOST_PINS][MOST_SPLINES];
+    wiggly_pin pin[MOST_PINS];
+    double track[SAMPLES];
+};
+
+static unsigned seed;
+
+static double uniform(double low, double high)
+{
+    seed = seed * 1664525 + 1013904223;
+    return low + (high - low) * (seed >> 8) / (1 << 24);
+}
+
+static int below(int end) { return (int)uniform(0, end) % end; }
+
+static void make_knots(struct random_group *g, int s)
+{
+    wiggly_desc *desc = &g->descs[s];
+    bool taken[SAMPLES] = {false};
+    desc->knots = g->knots[s];
+    desc->knot_count = below(KNOTS);
+    for (int k = 0; k < desc->knot_count; k++) {
+        int sample;
+        do sample = below(g->samples - 1);
+        while (taken[sample]);
+        taken[sample] = true;
+        g->knots[s][k] = (wiggly_knot){
+            .sample = sample, .value = uniform(-1, 1), .has_slope = below(4) == 0, .stiffness = uniform(1, 1000)};
+    }
+}
+
+static void make_spline(struct random_group *g, int s)
+{
+    wiggly_desc *desc = &g->descs[s];
+    *desc = wiggly_default_desc();
+    desc->samples = g->samples;
+    desc->mode = below(3) == 0 ? WIGGLY_REAL : WIGGLY_COMPLEX;
+    desc->start = below(4) == 0 ? WIGGLY_REST : WIGGLY_FREE;
+    desc->passive = below(4) == 0 ? WIGGLY_FILTER : WIGGLY_OSCILLATOR;
+    desc->frequency.value = uniform(0.6, 3);
+    desc->damping.value = uniform(0.02, 0.3);
+    desc->bandwidth.value = uniform(0, 0.2);
+    if (below(3) == 0) desc->equilibrium.track = g->track;
+    make_knots(g, s);
+    g->weights[s] = uniform(0.5, 2);
+}
+
+/// Pins sit on neighbouring frames and on knots more often than chance would have it.
+static void make_pin(struct random_group *g, int p)
+{
+    wiggly_pin *pin = &g->pin[p];
+    const wiggly_desc *desc = &g->descs[below(g->splines)];
+    int near = p > 0 ? g->pin[p - 1].sample : 0;
+    if (desc->knot_count > 0 && below(2)) near = desc->knots[below(desc->knot_count)].sample;
+    pin->sample = below(3) == 0 ? near + below(3) - 1 : below(g->samples);
+    pin->sample = pin->sample < 0 ? 0 : pin->sample >= g->samples ? g->samples - 1 : pin->sample;
+    pin->pulls = g->pulls[p];
+    pin->pull_count = g->splines;
+    for (int s = 0; s < g->splines; s++) {
+        wiggly_pull *pull = &g->pulls[p][s];
+        pull->spline = s;
+        for (int i = 0; i < 6; i++) pull->c[i / 2][i % 2] = uniform(-1, 1);
+    }
+    for (int i = 0; i < 3; i++) pin->to[i] = uniform(-1, 1);
+}
+
+static struct random_group *make_group(unsigned number, int splines, int pins)
+{
+    static struct random_group g;
+    memset(&g, 0, sizeof g);
+    seed = number * 2654435761u + 1;
+    g.splines = splines;
+    g.pins = pins;
+    g.samples = SAMPLES;
+    for (int i = 0; i < SAMPLES; i++) g.track[i] = 0.3 * sin(0.05 * i);
+    for (int s = 0; s < splines; s++) make_spline(&g, s);
+    for (int p = 0; p < pins; p++) make_pin(&g, p);
+    return &g;
+}
+
+static wiggly_status solve_group(struct random_group *g, wiggly_method method, double *memory, wiggly_curve *curves)
+{
+    wiggly_group *group;
+    assert_int_equal(wiggly_group_create(g->samples, KNOTS, g->splines, g->pins, &group), WIGGLY_OK);
+    wiggly_group_set_method(group, method);
+    for (int s = 0; s < g->splines; s++) curves[s] = curve_of(memory + 5 * g->samples * s, g->samples);
+    wiggly_status status = wiggly_group_solve(group, g->descs, g->weights, curves, g->splines, g->pin, g->pins);
+    wiggly_group_destroy(group);
+    return status;
+}
+
+static double largest(const wiggly_curve *curves, int splines)
+{
+    double size = 0;
+    for (int s = 0; s < splines; s++) {
+        for (int i = 0; i < curves[s].samples; i++)
+            size = fmax(size, fmax(fabs(curves[s].re[i]), fabs(curves[s].im[i])));
+    }
+    return size;
+}
+
+static void chain_and_band_agree_on_random_groups(void **state)
+{
+    (void)state;
+    static double memory[2][5 * SAMPLES * MOST_SPLINES];
+    wiggly_curve curves[2][MOST_SPLINES];
+    double worst = 0;
+    for (unsigned n = 0; n < 200; n++) {
+        struct random_group *g = make_group(n, 2 + below(4), 1 + below(6));
+        double left[MOST_PINS][3];
+        wiggly_status first = solve_group(g, WIGGLY_CHAIN, memory[0], curves[0]);
+        for (int p = 0; p < g->pins; p++) memcpy(left[p], g->pin[p].left, sizeof left[p]);
+        wiggly_status second = solve_group(g, WIGGLY_BAND, memory[1], curves[1]);
+        if (first != WIGGLY_OK || second != WIGGLY_OK) fail_msg("group %u: %d, %d", n, first, second);
+        double size = largest(curves[1], g->splines), apart = 0;
+        for (int s = 0; s < g->splines; s++) {
+            for (int i = 0; i < g->samples; i++) {
+                apart = fmax(apart, fabs(curves[0][s].re[i] - curves[1][s].re[i]));
+                apart = fmax(apart, fabs(curves[0][s].im[i] - curves[1][s].im[i]));
+            }
+        }
+        for (int p = 0; p < g->pins; p++) {
+            for (int i = 0; i < 3; i++) assert_near(left[p][i], g->pin[p].left[i], 1e-7 * size);
+        }
+        worst = fmax(worst, apart / size);
+    }
+    if (!(worst <= 1e-8)) fail_msg("chain and band are %g of the largest x apart", worst);
+}
+
+// --- what a user would miss ------------------------------------------------------------------------------------------
+
+/// A group without pins is its splines, and one that has solved others before gives the same bits as a new one.
+static void nothing_that_is_kept_changes_a_bit(void **state)
+{
+    (void)state;
+    static double memory[3][5 * SAMPLES * MOST_SPLINES];
+    wiggly_curve curves[3][MOST_SPLINES];
+    wiggly_group *group;
+    wiggly_solver *solver;
+    assert_int_equal(wiggly_group_create(SAMPLES, KNOTS, 4, 6, &group), WIGGLY_OK);
+    assert_int_equal(wiggly_create(SAMPLES, KNOTS, &solver), WIGGLY_OK);
+    for (unsigned n = 0; n < 20; n++) {
+        struct random_group *g = make_group(n, 4, 6);
+        for (int s = 0; s < 4; s++) {
+            for (int k = 1; k < 3; k++) curves[k][s] = curve_of(memory[k] + 5 * SAMPLES * s, SAMPLES);
+        }
+        assert_int_equal(solve_group(g, WIGGLY_CHAIN, memory[0], curves[0]), WIGGLY_OK);
+        assert_int_equal(wiggly_group_solve(group, g->descs, g->weights, curves[1], 4, g->pin, 6), WIGGLY_OK);
+        assert_memory_equal(memory[0], memory[1], sizeof(double) * 5 * SAMPLES * 4);
+        assert_int_equal(wiggly_group_solve(group, g->descs, g->weights, curves[1], 4, NULL, 0), WIGGLY_OK);
+        for (int s = 0; s < 4; s++) assert_int_equal(wiggly_solve(solver, &g->descs[s], &curves[2][s]), WIGGLY_OK);
+        assert_memory_equal(memory[1], memory[2], sizeof(double) * 5 * SAMPLES * 4);
+    }
+    wiggly_destroy(solver);
+    wiggly_group_destroy(group);
+}
+
+/// One spline that moves a point along a line: what is across it cannot be had, and is said.
+static void what_is_out_of_reach_is_left(void **state)
+{
+    (void)state;
+    static double memory[5 * SAMPLES * MOST_SPLINES];
+    wiggly_curve curve;
+    struct random_group *g = make_group(1, 1, 1);
+    g->descs[0].mode = WIGGLY_REAL;
+    g->pin[0] = (wiggly_pin){.sample = 100, .pulls = g->pulls[0], .pull_count = 1, .to = {0.5, 0.25, 0}};
+    g->pulls[0][0] = (wiggly_pull){.c = {{2, 0}, {0, 0}, {0, 0}}};
+    assert_int_equal(solve_group(g, WIGGLY_CHAIN, memory, &curve), WIGGLY_OK);
+    assert_near(curve.re[100], 0.25, 1e-12);
+    assert_near(g->pin[0].left[0], 0, 1e-12);
+    assert_near(g->pin[0].left[1], 0.25, 0);
+}
+
+static wiggly_status status_of(struct random_group *g)
+{
+    static double memory[5 * SAMPLES * MOST_SPLINES];
+    wiggly_curve curves[MOST_SPLINES];
+    memory[0] = 17;
+    wiggly_status status = solve_group(g, WIGGLY_CHAIN, memory, curves);
+    if (status >= WIGGLY_ERROR_ARGUMENT) assert_near(memory[0], 17, 0); // nothing is touched
+    return status;
+}
+
+static void what_cannot_be_held_is_refused(void **state)
+{
+    (void)state;
+    struct random_group *g = make_group(2, 2, 1);
+    g->pin[0].sample = SAMPLES;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
+    g = make_group(2, 2, 1);
+    g->descs[1].start = WIGGLY_LOOP;
+    g->descs[1].knot_count = 0;
+    g->pin[0].sample = SAMPLES - 1;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
+    g = make_group(2, 2, 1);
+    g->descs[0].mode = WIGGLY_CUBIC;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
+    g = make_group(2, 2, 1);
+    g->descs[0].calm = 0;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
+    g = make_group(2, 2, 1);
+    g->descs[0].frequency.value = 0;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
+    g = make_group(2, 2, 1);
+    g->pin[0].to[1] = NAN;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_NUMBER);
+    g = make_group(2, 2, 1);
+    g->weights[0] = 0;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_NUMBER);
+    g = make_group(2, 2, 1);
+    g->pulls[0][1].spline = 2;
+    assert_int_equal(status_of(g), WIGGLY_ERROR_ARGUMENT);
+}
+
+/// In a scene of two samples there is nothing to pull.
+static void pins_of_a_scene_too_short_are_passed_over(void **state)
+{
+    (void)state;
+    struct random_group *g = make_group(3, 2, 1);
+    g->samples = 2;
+    g->pin[0].sample = 1;
+    for (int s = 0; s < 2; s++)
+        g->descs[s].samples = 2, g->descs[s].knot_count = 0, g->descs[s].equilibrium.track = NULL;
+    assert_int_equal(status_of(g), WIGGLY_OK);
+    for (int i = 0; i < 3; i++) assert_near(g->pin[0].left[i], g->pin[0].to[i], 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(chain_and_band_meet_every_vector),
+                                       cmocka_unit_test(chain_and_band_agree_on_random_groups),
+                                       cmocka_unit_test(nothing_that_is_kept_changes_a_bit),
+                                       cmocka_unit_test(what_is_out_of_reach_is_left),
+                                       cmocka_unit_test(what_cannot_be_held_is_refused),
+                                       cmocka_unit_test(pins_of_a_scene_too_short_are_passed_over)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
