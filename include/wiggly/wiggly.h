@@ -96,7 +96,8 @@ typedef struct wiggly_desc {
     wiggly_param equilibrium; ///< y (eq. 25)
     double calm;              ///< 0 … 1; 0 is the paper's formula to the letter
     wiggly_passive passive;   ///< the oscillator, unless it says the filter
-    double low, high; ///< what the total stays within wherever it is solved for; -INFINITY and INFINITY: no limit
+    double low, high; ///< what the total stays within wherever it is solved for; -INFINITY and INFINITY: no limit.
+                      ///< wiggly_group_solve() does not look at them
     const wiggly_knot *knots; ///< any order
     int knot_count;
 } wiggly_desc;
