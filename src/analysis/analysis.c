@@ -230,8 +230,7 @@ static bool finish(struct analysis *a, const struct work *w, struct error *error
         struct component *c = &a->components[k];
         component_scale(c);
         component_turn(c, w->plan->direction);
-        if (w->plan->method == ANALYSIS_CPCA)
-            component_fit(c, w->plan->fps);
+        if (w->plan->method == ANALYSIS_CPCA) component_fit(c, w->plan->fps);
         if (!component_lags(c)) return fail_no_memory(error, w->motion->path);
     }
     return true;
