@@ -72,8 +72,8 @@ static void the_imaginary_target_is_negated(void **state)
     assert_true(character_write(temporary_path("sign.glb"), &c, &error));
     FILE *file = fopen(temporary_path("sign.glb"), "rb");
     float last[12];
-    fseek(file, -2 * (long)sizeof last,
-          SEEK_END); // the last coordinate's imaginary part, before how it turns normals
+    fseek(file, -3 * (long)sizeof last,
+          SEEK_END); // the last imaginary part, before how it turns normals and as many bytes of indices
     assert_int_equal(fread(last, sizeof last, 1, file), 1);
     fclose(file);
     for (int n = 0; n < 12; n++) assert_near(last[n], -c.coordinates[1].im[n / 3][n % 3], 0);
