@@ -1,6 +1,7 @@
-/// `wiggly simulate`: shakes a closed mesh as a soft body, or finds its normal modes.
+/// `wiggly simulate`: shakes a mesh as a soft body, or finds its normal modes.
 #include "base/file.h"
 #include "commands/commands.h"
+#include "commands/open_mesh.h"
 #include "commands/options.h"
 #include "commands/progress.h"
 #include "commands/simulate_shake.h"
@@ -15,6 +16,7 @@
 
 struct job {
     const char *mesh, *output;
+    struct mesh_options opening;
     char rest[4096]; ///< the rest mesh beside the output
     const char *shake_text, *drive_text, *pin_text;
     struct shake_job shake;
@@ -108,7 +110,7 @@ static bool run(struct job *job, struct error *error)
 {
     struct surface surface = {0};
     struct soft soft;
-    if (!surface_read(job->mesh, &surface, error)) return false;
+    if (!open_mesh(job->mesh, &job->opening, &surface, error)) return false;
     bool good = soft_create(&soft, &surface, job->mesh, &job->soft, error);
     if (good) {
         report_body(job, &soft);
@@ -176,14 +178,18 @@ static const char *check(struct job *job)
     snprintf(job->rest, sizeof job->rest, "%.*s.rest.obj", (int)strlen(job->output) - 4, job->output);
     job->shake.mesh = job->mesh;
     job->shake.output = job->output;
-    const char *wrong = set_drive(job);
+    const char *wrong = mesh_options_check(&job->opening);
+    if (!wrong) wrong = set_drive(job);
     return wrong ? wrong : set_material(&job->soft);
 }
 
+/// Among which the one that is shaken most is looked for.
+enum { MODES_SEARCHED = 24 };
+
 int command_simulate(int argc, char **argv)
 {
-    enum { MODES_SEARCHED = 24 };
     struct job job = {.soft = soft_default_options(),
+                      .opening = {.up = "y", .scale = 1},
                       .shake = {.shake = {.amplitude = NAN}, .seconds = 4, .fps = 24, .accuracy = 0.02},
                       .shake_text = "up",
                       .floor = -1};
@@ -194,6 +200,7 @@ int command_simulate(int argc, char **argv)
         {"--output", "-o", "FILE",
          "required: NAME.npy or NAME.pc2 (--modal: .npy); the rest mesh goes to NAME.rest.obj", OPTION_TEXT,
          &job.output, 0, 0},
+        MESH_OPTIONS(&job.opening),
         {"--shake", NULL, "DIR", "up, side, front or a vector x,y,z (default: up)", OPTION_TEXT, &job.shake_text, 0,
          0},
         {"--amplitude", NULL, "A",
@@ -239,8 +246,9 @@ int command_simulate(int argc, char **argv)
     };
     const struct usage usage = {
         .command = "simulate",
-        .operands = "mesh.obj",
-        .summary = "Shakes a closed mesh as a soft body (finite elements) and writes its vertices in every frame.",
+        .operands = "MESH",
+        .summary = "Shakes a mesh (OBJ, STL, PLY, OFF, glTF) as a soft body (finite elements) and writes its "
+                   "vertices in every frame.",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .operand_minimum = 1,

@@ -214,7 +214,7 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     const bool limited = limits_are_set(desc) && !solver->pulls; // pins come first
     if (limited) limits_begin(solver, desc, curve, &all);
     for (;;) {
-        minimum result;
+        minimum result = {0};
         status = (limited ? limits_find : problem_find)(solver, &p, &all, &result);
         if (status >= WIGGLY_ERROR_ARGUMENT) return status;
         problem_complete(solver, &p, &all);

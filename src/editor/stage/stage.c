@@ -4,6 +4,7 @@
 #include "editor/stage/bones.h"
 #include "editor/stage/brush.h"
 #include "editor/stage/hold.h"
+#include "editor/stage/skin.h"
 #include "editor/stage/strand.h"
 #include <math.h>
 #include <stdlib.h>
@@ -20,6 +21,7 @@ void stage_destroy(struct stage *stage)
 {
     if (!stage) return;
     brush_free(&stage->painting);
+    skin_free(&stage->skin);
     free(stage);
 }
 

@@ -6,6 +6,7 @@
 #include "editor/stage/hold.h"
 #include "editor/stage/overlays.h"
 #include "editor/stage/rigs.h"
+#include "editor/stage/skin.h"
 #include "editor/stage/stage.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -95,6 +96,7 @@ void stage_pose(struct stage *stage, struct core *core, const struct editor_worl
     view->colors = theme()->stage;
     camera_matrices(&stage->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
     view->hash = view_hash(view);
+    skin_reserve(stage);
     brush_pose(stage, core, world, covered);
 }
 
