@@ -5,6 +5,7 @@
 #include "editor/stage/brush.h"
 #include "editor/stage/hold.h"
 #include "editor/stage/overlays.h"
+#include "editor/stage/pins.h"
 #include "editor/stage/rigs.h"
 #include "editor/stage/skin.h"
 #include "editor/stage/stage.h"
@@ -98,6 +99,7 @@ void stage_pose(struct stage *stage, struct core *core, const struct editor_worl
     view->hash = view_hash(view);
     skin_reserve(stage);
     brush_pose(stage, core, world, covered);
+    pins_pose(stage, core, world);
 }
 
 /// A ring where a tail or chain can be taken hold of.
@@ -141,5 +143,6 @@ void stage_show(struct stage *stage, struct core *core, const struct editor_worl
     hold_show(stage, core);
     bones_show(stage, core, world);
     show_hold(stage, core);
+    pins_show(stage, core, world);
     drawlist_set_clip(&core->list, clip);
 }

@@ -27,7 +27,7 @@ struct grab_axis {
     double values_per_radian;   ///< of bend at the grabbed joint
 };
 
-enum { STAGE_MAX_STRANDS = 32, STAGE_MAX_BONES = 2048 };
+enum { STAGE_MAX_STRANDS = 32, STAGE_MAX_BONES = 2048, STAGE_MAX_PINS = SCENE_MAX_PINS };
 
 /// A tail or chain as a row of points, from its first joint to its tip.
 struct strand {
@@ -109,6 +109,34 @@ struct skin {
     uint64_t hash;     ///< of the stage and the character on it that `posed` was made for
 };
 
+/// What was last found of a surface, and under which point of which picture.
+struct pointed {
+    float x, y;
+    uint64_t hash; ///< of the stage
+    struct hover hover;
+};
+
+/// A pin as it was last shown.
+struct shown_pin {
+    unsigned id;
+    struct rig_point point;
+    double frame;
+    float to[3], place[3]; ///< where its point should be on its frame, and is; world
+    bool is_known;         ///< the second
+    uint32_t color;        ///< of the rig's first spline
+};
+
+/// The pin that is dragged.
+struct pin_drag {
+    struct rig_point point;
+    double frame;
+    double start[3];         ///< metres of the world
+    int axis;                ///< the only one along which it moves; −1: as the pointer does
+    double right[3], up[3];  ///< of the picture, world
+    double pixels_per_metre; ///< there
+    bool stale;              ///< the pointer moved since the edit was made
+};
+
 /// Memory for figures of up to `capacity` vertices.
 struct brush_work {
     int capacity;
@@ -143,6 +171,11 @@ struct stage {
     struct sway sway[STAGE_MAX_TAILS];
     struct trail_point trail[TRAILS][TRAIL_FRAMES];
     struct skin skin;
+    struct pointed pointed;
+    struct shown_pin pins[STAGE_MAX_PINS];
+    int pin_count;
+    uint64_t pins_key; ///< of what they were found in
+    struct pin_drag pin_drag;
     struct painting painting;
 };
 
