@@ -27,7 +27,8 @@ typedef struct problem {
     swing swing; ///< u, where there is one; else its arrays are NULL
     wiggly_start start;
     double calm;
-    double detune; ///< how many times as high the frequency of the engine's filter is (steady.h); of all that moves by itself it is the description's
+    double
+        detune; ///< how many times as high the frequency of the engine's filter is (steady.h); of all that moves by itself it is the description's
     wiggly_status status;      ///< WIGGLY_CALMED where u is not that of the calm as asked
     int first;                 ///< sample of the system's row 0
     int count;                 ///< samples from there to the domain's end (in a loop, round it)

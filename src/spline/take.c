@@ -4,8 +4,8 @@
 // stretches and three rows; the tree condenses the elements above these anew, and is descended where one looks.
 #include "spline/take.h"
 #include "spline/limits.h"
-#include "spline/steady.h"
 #include "spline/problem.h"
+#include "spline/steady.h"
 #include "spline/tree.h"
 #include <limits.h>
 #include <math.h>
