@@ -98,6 +98,8 @@ typedef struct wiggly_desc {
     wiggly_passive passive;   ///< the oscillator, unless it says the filter
     double low, high; ///< what the total stays within wherever it is solved for; -INFINITY and INFINITY: no limit
     double steady; ///< 0 … 1: how far to both sides frequencies are tried, to change less with where the knots are
+    double variation;   ///< how far another motion through the same knots strays (docs/mathematics.md); 0: not at all
+    int variation_seed; ///< which one
     const wiggly_knot *knots; ///< any order
     int knot_count;
 } wiggly_desc;
@@ -181,8 +183,8 @@ void wiggly_batch_destroy(wiggly_batch *batch);
 typedef struct wiggly_take wiggly_take;
 
 /// Condenses a spline; the description's knots are copied and must be in order. WIGGLY_ERROR_ARGUMENT where it is not of that
-/// kind (tracks, a loop, limits, steady, so slow a complex spline that Im x is not held by its oscillation, fewer than two knots), else what
-/// wiggly_solve() says of a wrong description.
+/// kind (tracks, a loop, limits, steady, a variation, so slow a complex spline that Im x is not held by its oscillation, fewer than
+/// two knots), else what wiggly_solve() says of a wrong description.
 wiggly_status wiggly_take_create(const wiggly_desc *desc, wiggly_take **take);
 
 /// Bytes that wiggly_take_create_at() needs, or 0 where samples < 1 or knots < 1 or the size does not fit.
@@ -272,6 +274,21 @@ typedef struct wiggly_poles {
 
 /// Poles of the description at a sample (section 4 and 5 of the paper).
 wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample);
+
+/// An oscillation that knots may be of.
+typedef struct wiggly_explanation {
+    double frequency, damping;
+    double cost; ///< the lower the better; a difference of 1 is e times less likely
+} wiggly_explanation;
+
+/// Knots from which a frequency can be told.
+#define WIGGLY_FEWEST_EXPLAINED 4
+
+/// The frequency and damping that explain the description's knots best, and the runner-up: how many were found, 0 … 2 (0: too few
+/// knots, or all of them at the equilibrium). Of real mode as such, of the others as complex mode without bandwidth. Frequencies
+/// go from half a swing over all knots to a little above half a swing over the smallest gap; of more than 48 knots the first ones
+/// count. Allocates nothing.
+int wiggly_explain(const wiggly_desc *desc, wiggly_explanation best[2]);
 
 #ifdef __cplusplus
 }

@@ -24,7 +24,8 @@ typedef struct problem {
     const double *y;     ///< equilibrium of the whole domain, where it moves; a loop's last is its first
     const double *about; ///< y + Re u of every sample, which w is measured from; NULL where that is `level`
     double level;
-    swing swing; ///< u, where there is one; else its arrays are NULL
+    swing swing; ///< u, where there is one, with the noise of a variation; else its arrays are NULL
+    cplx held;   ///< the noise before `first`
     wiggly_start start;
     double calm;
     double
