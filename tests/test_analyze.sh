@@ -5,7 +5,7 @@ WIGGLY=${WIGGLY:-build/wiggly}
 
 write_box "$scratch/box.obj"
 grep -v '^f' "$scratch/box.obj" | head -n 4 >"$scratch/small.obj"
-echo 'f 1 2 3' >>"$scratch/small.obj"
+echo 'f 1 2 3 4' >>"$scratch/small.obj"
 
 simulate() { # <name> <options>...
     local name=$1

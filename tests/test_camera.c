@@ -103,9 +103,9 @@ static void orbit_and_zoom_stay_in_range(void **state)
     assert_near(camera.elevation, CAMERA_MAX_ELEVATION, 1e-6);
     assert_true(fabsf(camera.azimuth) < 3.2f);
     camera_zoom(&camera, 1e9f);
-    assert_near(camera.distance, 100.0, 1e-3);
+    assert_near(camera.distance, 1e5, 1);
     camera_zoom(&camera, 1e-9f);
-    assert_near(camera.distance, 0.2, 1e-6);
+    assert_near(camera.distance, 1e-4, 1e-9);
 }
 
 int main(void)

@@ -10,7 +10,8 @@ static void make_character(struct character *c)
     float position[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     float color[4][3] = {{1, 0.5f, 0}, {1, 1, 1}, {0.25f, 0, 1}, {0, 0, 0}};
     uint32_t indices[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
-    const struct surface surface = {position, color, 4, indices, 12};
+    const struct surface surface = {
+        .position = position, .color = color, .vertex_count = 4, .indices = indices, .index_count = 12};
     assert_true(character_create(c, &surface, 2));
     for (int n = 0; n < 24; n++) {
         c->coordinates[n / 12].re[n / 3 % 4][n % 3] = (float)sin(n);
@@ -71,7 +72,8 @@ static void the_imaginary_target_is_negated(void **state)
     assert_true(character_write(temporary_path("sign.glb"), &c, &error));
     FILE *file = fopen(temporary_path("sign.glb"), "rb");
     float last[12];
-    fseek(file, -(long)sizeof last, SEEK_END); // the last accessor is the last coordinate's imaginary part
+    fseek(file, -3 * (long)sizeof last,
+          SEEK_END); // the last imaginary part, before how it turns normals and as many bytes of indices
     assert_int_equal(fread(last, sizeof last, 1, file), 1);
     fclose(file);
     for (int n = 0; n < 12; n++) assert_near(last[n], -c.coordinates[1].im[n / 3][n % 3], 0);

@@ -150,7 +150,7 @@ static void an_edit_of_each_is_seen_and_saved(void **state)
             const struct spline *spline = &document->splines[s];
             bool still =
                 p == PARAMETER_CALM && spline_start(spline) != WIGGLY_FREE; // nothing swings before the start
-            still |= p == PARAMETER_HIGH && s == 1; // it only falls
+            still |= p == PARAMETER_HIGH && s == 1;                         // it only falls
             if (!spline_uses(spline, p, false) || still) continue;
             try_edit(edit_number(s, p, another(spline, p)), parameter_rows[p].name);
             if (parameter_rows[p].kind == PARAMETER_TRACK)

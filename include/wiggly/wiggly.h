@@ -97,6 +97,7 @@ typedef struct wiggly_desc {
     double calm;              ///< 0 … 1; 0 is the paper's formula to the letter
     wiggly_passive passive;   ///< the oscillator, unless it says the filter
     double low, high; ///< what the total stays within wherever it is solved for; -INFINITY and INFINITY: no limit
+    double steady; ///< 0 … 1: how little the curve changes with where its knots are; the mean of so many neighbouring frequencies (steady.c)
     const wiggly_knot *knots; ///< any order
     int knot_count;
 } wiggly_desc;

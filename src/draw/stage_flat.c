@@ -2,10 +2,14 @@
 #include "draw/stage_flat.h"
 #include "draw/painter.h"
 #include "draw/stage_extent.h"
+#include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 
 #define GROUND_RADIUS 3.5f
+
+// Of figures between these sizes, metres, the ground is always the same; others have as much of it as the largest and the smallest of them.
+static const float SMALL = 0.2f, LARGE = 5.0f;
 
 enum { CORNERS = 6, MAX_QUADS = 2 + STAGE_MAX_BLOBS };
 
@@ -64,6 +68,21 @@ void stage_flat_destroy(struct stage_flat *flat)
     free(flat);
 }
 
+static float ground_radius(const struct stage_view *view)
+{
+    float largest = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        for (int c = 0; c < view->character_count; c++) {
+            const struct figure *figure = view->characters[c].figure;
+            largest = fmaxf(largest, figure->hi[k] - figure->lo[k]);
+        }
+        for (int m = 0; m < view->model_count; m++)
+            largest = fmaxf(largest, view->models[m].hi[k] - view->models[m].lo[k]);
+    }
+    const float scale = largest > LARGE ? largest / LARGE : largest > 0.0f ? fminf(largest / SMALL, 1.0f) : 1.0f;
+    return view->tail_count > 0 ? fmaxf(GROUND_RADIUS, GROUND_RADIUS * scale) : GROUND_RADIUS * scale;
+}
+
 static void set_color(struct corner *corner, uint32_t color, float opacity)
 {
     for (int k = 0; k < 3; k++) corner->color[k] = (float)(color >> (24 - 8 * k) & 0xFF) / 255.0f;
@@ -101,8 +120,8 @@ long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view)
     const mat4s clip_from_world = stage_clip_from_world(view);
     flat->quads = 0;
     add_background(flat, &view->colors);
-    add_disc(flat, clip_from_world, view->middle[0], ground, view->middle[1], GROUND_RADIUS, view->colors.ground,
-             1.0f);
+    add_disc(flat, clip_from_world, view->middle[0], ground, view->middle[1], ground_radius(view),
+             view->colors.ground, 1.0f);
     for (int b = 0; b < view->blob_count; b++) {
         const struct stage_blob *blob = &view->blobs[b];
         add_disc(flat, clip_from_world, blob->x, ground, blob->z, blob->radius, view->colors.shadow, blob->strength);

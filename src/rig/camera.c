@@ -6,8 +6,8 @@
 
 /// Half of the 30° vertical field of view, as a slope.
 #define HALF_FIELD 0.267949192f
-#define MIN_DISTANCE 0.2f
-#define MAX_DISTANCE 100.0f
+#define MIN_DISTANCE 1e-4f
+#define MAX_DISTANCE 1e5f
 #define FIT_MARGIN 1.15f
 
 enum { EDGES = 12 }; ///< of a box
@@ -59,7 +59,8 @@ void camera_matrices(const struct camera *camera, float aspect, float view[16], 
     view[13] = -glms_vec3_dot(axes.up, from);
     view[14] = -glms_vec3_dot(axes.back, from);
     view[15] = 1.0f;
-    const float near = 0.05f * camera->distance, far = 20.0f * camera->distance + 10.0f;
+    const float near = 0.05f * camera->distance;
+    const float far = 20.0f * camera->distance + fminf(10.0f, 1000.0f * camera->distance);
     memset(projection, 0, 16 * sizeof *projection);
     projection[0] = 1.0f / (HALF_FIELD * aspect);
     projection[5] = 1.0f / HALF_FIELD;

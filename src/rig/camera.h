@@ -49,7 +49,7 @@ void camera_orbit(struct camera *camera, float azimuth, float elevation);
 /// high.
 void camera_pan(struct camera *camera, float dx, float dy, float height);
 
-/// Multiplies the distance, clamped to 0.2 … 100 m.
+/// Multiplies the distance, clamped to 0.1 mm … 100 km.
 void camera_zoom(struct camera *camera, float factor);
 
 #endif
