@@ -12,9 +12,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ROUNDS = 8, FIRST_ROOM = 8 };
+enum { MOST_ROUNDS = 8, MOST_MISSES = 2, FIRST_ROOM = 8 };
 
 static const double FIRST_STEP = 0.5; ///< of a rig's size: how far one round may take a point of a tail or chain
+static const double STALLED = 1e-4;   ///< change of the distance squared, as a part of it, that ends the rounds
 static const double SMALLER = 0.25;   ///< factor of the step after a round that came no nearer
 
 static void free_solver(struct pinned *pinned)
@@ -376,25 +377,28 @@ static wiggly_status approach(struct evaluation *evaluation, const struct docume
     struct pinned *pinned = &evaluation->storage->pinned;
     struct pin_round *best = &pinned->round[0], *next = &pinned->round[1];
     bool is_best = true, has_best = false;
+    int misses = 0;
     double step = FIRST_STEP, nearest = distance(pinned, document);
     wiggly_status status = WIGGLY_OK;
-    for (int round = 0; round < MOST_ROUNDS && status < WIGGLY_ERROR_ARGUMENT; round++) {
+    for (int round = 0; round < MOST_ROUNDS && misses < MOST_MISSES && status < WIGGLY_ERROR_ARGUMENT; round++) {
         aim(pinned, document, next, step);
         status = solve_round(evaluation, next, true);
-        const bool there = look(evaluation, document);
+        const bool arrived = look(evaluation, document);
         const double now = distance(pinned, document);
-        is_best = now <= nearest;
+        const bool there = arrived || fabs(now - nearest) <= STALLED * nearest;
+        is_best = now <= nearest || there;
         if (is_best) {
             struct pin_round *solved = next;
             next = best;
             best = solved;
             has_best = true;
+            misses = 0;
             nearest = now;
             if (there) break;
             find_pulls(evaluation, document, next);
         } else {
-            if (there) break;
             step *= SMALLER;
+            misses++;
         }
     }
     return is_best ? status : solve_round(evaluation, best, has_best);
