@@ -271,7 +271,7 @@ static void run_panel(struct editor *editor, const struct editor_world *world, i
     editor_set_panels(editor, share, width);
 }
 
-enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT, ALT_SHIFT = MOD_ALT | MOD_SHIFT };
+enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT };
 
 const struct binding key_bindings[] = {
     {.key = 'Z', .mods = MOD_CTRL, .repeats = true, .core = core_undo, .argument = -1},
@@ -363,8 +363,6 @@ const struct binding key_bindings[] = {
     {.key = 'H', .run = run_hold},
     {.key = KEY_PAGE_UP, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = -1},
     {.key = KEY_PAGE_DOWN, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = 1},
-    {.key = KEY_PAGE_UP, .mods = ALT_SHIFT, .repeats = true, .core = pins_retime, .argument = -10},
-    {.key = KEY_PAGE_DOWN, .mods = ALT_SHIFT, .repeats = true, .core = pins_retime, .argument = 10},
     {.key = 'J', .core = bones_make_chain, .argument = false},
     {.key = 'J', .mods = MOD_SHIFT, .core = bones_make_chain, .argument = true},
     {.key = 0},

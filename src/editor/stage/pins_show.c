@@ -37,7 +37,8 @@ static void add_pin(struct stage *stage, const struct core *core, const struct e
     shown->is_known = point_place(core, world, shown->point, document_sample(document, pin->frame), shown->place);
 }
 
-void pins_pose(struct stage *stage, const struct core *core, const struct editor_world *world)
+/// Finds all markers for the document as it is solved now.
+static void update(struct stage *stage, const struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
     const uint64_t key = hash_word(state_key(core, world), (uint64_t)theme_in_use() << 32 | document->serial);
@@ -118,6 +119,7 @@ void pins_show(struct stage *stage, struct core *core, const struct editor_world
 {
     const struct document *document = world->document;
     int rig;
+    update(stage, core, world);
     const struct pin *selected = pins_selected(core, document, &rig);
     if (selected && point_exists(world, (struct rig_point){rig, selected->point}))
         path_show(stage, core, world, TRAIL_OF_PIN, (struct rig_point){rig, selected->point});
