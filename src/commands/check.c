@@ -4,6 +4,7 @@
 #include "commands/contents.h"
 #include "commands/options.h"
 #include "rig/clip_motion.h"
+#include "rig/pinning.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
 #include "scene/motion.h"
@@ -48,7 +49,7 @@ static bool check_solution(const char *path, const struct document *document, st
                            struct problems *problems, struct error *error)
 {
     const struct motion_source motions = clip_motions(models);
-    struct evaluation evaluation = {0};
+    struct evaluation evaluation = {.pins = pin_points(models)};
     if ((long long)document_samples(document) * document->spline_count > MAX_SOLVED_SAMPLES) return true;
     if (!evaluation_resize(&evaluation, document, error)) return false;
     motions_bake(&evaluation, document, &motions);
