@@ -25,16 +25,18 @@ static uint64_t state_key(const struct core *core, const struct editor_world *wo
                      (uint64_t)core->look);
 }
 
-static void add_pin(struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                    const struct pin *pin)
+static void add_pin(struct stage *stage, const struct editor_world *world, int rig, int at)
 {
     const struct document *document = world->document;
+    const struct pin *pin = &document->rigs[rig].pins[at];
+    const struct pin_left *left = evaluation_pin(world->evaluation, document, rig, at);
     const int spline = rig_input_count(&document->rigs[rig]) > 0 ? rig_input(&document->rigs[rig], 0) : -1;
     struct shown_pin *shown = &stage->pins[stage->pin_count++];
     *shown = (struct shown_pin){.id = pin->id, .point = {rig, pin->point}, .frame = pin->frame};
     shown->color = spline >= 0 ? arrange_color(document, spline) : theme()->text_dim;
+    shown->is_known = left && left->is_found;
     for (int k = 0; k < 3; k++) shown->to[k] = (float)pin->to[k];
-    shown->is_known = point_place(core, world, shown->point, document_sample(document, pin->frame), shown->place);
+    for (int k = 0; k < 3 && shown->is_known; k++) shown->place[k] = (float)left->at[k];
 }
 
 /// Finds all markers for the document as it is solved now.
@@ -47,8 +49,7 @@ static void update(struct stage *stage, const struct core *core, const struct ed
     stage->pin_count = 0;
     for (int r = 0; r < document->rig_count; r++) {
         if (document->rigs[r].kind == RIG_CHARACTER && core->characters.compare) continue; // they stand aside
-        for (int i = 0; i < document->rigs[r].pin_count; i++)
-            add_pin(stage, core, world, r, &document->rigs[r].pins[i]);
+        for (int i = 0; i < document->rigs[r].pin_count; i++) add_pin(stage, world, r, i);
     }
 }
 
