@@ -167,7 +167,6 @@ void grid_show(const struct curves *curves, struct core *core, const struct edit
     clip = drawlist_push_clip(&core->list, layout->ruler);
     range_show_ruler(curves, core, world->document);
     number_frames(curves, core, world->document, times);
-    ruler_pins_show(curves, core, world->document);
     drawlist_set_clip(&core->list, clip);
     show_units(curves, core);
     clip = drawlist_push_clip(&core->list, layout->value_axis);

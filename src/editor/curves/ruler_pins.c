@@ -19,7 +19,7 @@ static void place(const struct curves *curves, const struct core *core, const st
 {
     const struct rect *ruler = &core->layout.ruler;
     xy[0] = curves_x(curves, core, document_frame(document, document_sample(document, pin->frame)));
-    xy[1] = ruler->y + ruler->h - RADIUS - 2;
+    xy[1] = ruler->y + ruler->h - 1;
 }
 
 struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, const struct document *document,
@@ -91,6 +91,7 @@ void ruler_pins_show(const struct curves *curves, struct core *core, const struc
             const float radius = RADIUS + (selected || hot ? 1 : 0);
             float xy[2];
             place(curves, core, document, pin, xy);
+            if (xy[0] < core->layout.ruler.x || xy[0] > core->layout.ruler.x + core->layout.ruler.w) continue;
             const struct rect disc = {xy[0] - radius, xy[1] - radius, 2 * radius, 2 * radius};
             drawlist_rounded(&core->list, disc, radius, selected ? theme()->playhead : color);
             drawlist_rounded_line(&core->list, disc, radius, 1, selected || hot ? color : theme()->panel);
