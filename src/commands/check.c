@@ -3,6 +3,7 @@
 #include "commands/commands.h"
 #include "commands/contents.h"
 #include "commands/options.h"
+#include "commands/pin_warnings.h"
 #include "rig/clip_motion.h"
 #include "rig/pinning.h"
 #include "scene/evaluate.h"
@@ -29,6 +30,21 @@ static void print_warning(struct problems *problems, const char *path, const str
     fail(&warning, ERROR_INPUT, "%s: splines[%d]: \"%s\": %s", path, spline, document->splines[spline].name, what);
     problems->warnings++;
     problems->report(problems->user, false, warning.text);
+}
+
+/// Where problems are reported, and of which file.
+struct checked {
+    struct problems *problems;
+    const char *path;
+};
+
+static void warn_of_pin(void *user, const char *sentence)
+{
+    const struct checked *checked = user;
+    struct error warning;
+    fail(&warning, ERROR_INPUT, "%s: %s", checked->path, sentence);
+    checked->problems->warnings++;
+    checked->problems->report(checked->problems->user, false, warning.text);
 }
 
 /// A loop's last sample is its first, so an equilibrium that ends elsewhere jumps there.
@@ -62,6 +78,7 @@ static bool check_solution(const char *path, const struct document *document, st
             print_warning(problems, path, document, i, wiggly_status_text(evaluation.status[i]));
         }
     }
+    pin_warnings(document, &evaluation, warn_of_pin, &(struct checked){problems, path});
     evaluation_free(&evaluation);
     return true;
 }

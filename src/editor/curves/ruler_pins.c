@@ -11,7 +11,7 @@
 #include <math.h>
 
 static const float REACH = 6, HEIGHT = 9; ///< pixels beside a mark; from the ruler's lower edge up, where marks are
-static const float RADIUS = 3.5f;
+static const float RADIUS = 4;
 
 /// Where its mark is.
 static void place(const struct curves *curves, const struct core *core, const struct document *document,
