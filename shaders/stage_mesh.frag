@@ -37,7 +37,7 @@ vec3 direction(vec3 v)
     return v / max(length(v), 1e-12);
 }
 
-// How many pixels inside its silhouette a round shape's pixel is, at most 1: opacity of the soft seam (second pass;
+// How far inside its silhouette a round shape's pixel is, in 1.4 pixels, at most 1: opacity of the soft seam (second pass;
 // the first does not blend). Where the radius is R, `facing` f falls to 0 over R·f²/2. A triangle is a chord of that
 // arc: f changes by `slope` a pixel of a chord that is foreshortened to `flat_facing`, so R = 1/(slope · flat_facing).
 // Unlike fwidth(f²), this is exact for facets smaller than a pixel, as nothing but what is linear in them is
@@ -47,7 +47,7 @@ float seam_opacity(vec3 to_eye)
     float facing = dot(world_normal, to_eye);
     float slope = length(vec2(dFdx(facing), dFdy(facing)));
     float flat_facing = abs(dot(direction(cross(dFdx(world), dFdy(world))), to_eye));
-    return clamp(0.5 * facing * abs(facing) / max(slope * flat_facing, 1e-6), 0.0, 1.0);
+    return clamp(0.36 * facing * abs(facing) / max(slope * flat_facing, 1e-6), 0.0, 1.0);
 }
 
 #ifdef FURRED

@@ -64,8 +64,8 @@ void main()
     place = vec4(position, bend);
     in_head = (head_from_bind * vec4(position, 1.0)).xyz;
     open_sky = 0.45 + 0.55 * smoothstep(0.0, 0.35 * shape.x, world.y - shape.w);
-    // The seam is the same skin, 1.3 pixels larger (1 is too little where facets are large) and pushed back behind
+    // The seam is the same skin, 1.5 pixels larger (1 is too little where facets are large) and pushed back behind
     // the first pass: only what sticks out is seen.
     vec3 ray = world - eye;
-    gl_Position = clip_from_world * vec4(world + seam * (1.3 * length(ray) * world_normal + 2.5 * ray), 1.0);
+    gl_Position = clip_from_world * vec4(world + seam * (1.5 * length(ray) * world_normal + 2.5 * ray), 1.0);
 }

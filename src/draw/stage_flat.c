@@ -104,8 +104,7 @@ static void set_color(struct corner *corner, uint32_t color, float opacity)
 static void add_background(struct stage_flat *flat)
 {
     for (int c = 0; c < CORNERS; c++) {
-        flat->corners[flat->quads * CORNERS + c] =
-            (struct corner){.clip = {square[c][0], square[c][1], 0.0f, 1.0f}};
+        flat->corners[flat->quads * CORNERS + c] = (struct corner){.clip = {square[c][0], square[c][1], 0.0f, 1.0f}};
     }
     flat->quads++;
 }

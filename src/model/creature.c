@@ -6,10 +6,10 @@ static const struct level {
     float cell, tolerance; ///< of the torso, see mesh_torso()
     int rings, segments;   ///< of the tail
 } levels[CREATURE_LEVELS] = {
-    {1, 0.034f, 0.0018f, 84, 40},
+    {1, 0.030f, 0.0028f, 84, 40},
     {2, 0.044f, 0.0036f, 68, 24},
-    {4, 0.060f, 0.0090f, 52, 15},
-    {8, 0.076f, 0.0250f, 33, 8},
+    {4, 0.070f, 0.0120f, 52, 15},
+    {8, 0.100f, 0.0500f, 33, 8},
 };
 
 int creature_level(int animals)

@@ -83,7 +83,8 @@ void mesh_tail(int rings, int segments, struct mesh *mesh)
     const int tip_rings = rings / 3, swelling_rings = rings - tip_rings;
     const uint32_t first = (uint32_t)mesh->vertex_count, around = (uint32_t)segments;
     for (int r = 0; r < swelling_rings; r++) {
-        add_ring(swelling_ring(TUBE_START + (TIP_START - TUBE_START) * (float)r / (float)swelling_rings), segments, mesh);
+        add_ring(swelling_ring(TUBE_START + (TIP_START - TUBE_START) * (float)r / (float)swelling_rings), segments,
+                 mesh);
     }
     for (int r = 0; r < tip_rings; r++) {
         add_ring(tip_ring(0.5f * half_turn * (float)r / (float)tip_rings), segments, mesh);

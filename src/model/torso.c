@@ -17,10 +17,10 @@
 static const struct part trunk[] = {
     {{0, 0.235f, -0.22f}, {0, 0.53f, -0.40f}, 0.210f, 0.120f, 0.001f, COAT_FUR, false},           // rump to chest
     {{0, 0.54f, -0.40f}, {0, 0.70f, -0.385f}, 0.115f, 0.100f, 0.08f, COAT_FUR, false},            // neck
-    {{0.105f, 0.175f, -0.24f}, {0.150f, 0.12f, -0.37f}, 0.150f, 0.085f, 0.06f, COAT_FUR, true},   // haunches
-    {{0.155f, 0.042f, -0.37f}, {0.172f, 0.038f, -0.51f}, 0.044f, 0.038f, 0.03f, COAT_FUR, true},  // hind feet
-    {{0.074f, 0.45f, -0.455f}, {0.064f, 0.07f, -0.525f}, 0.064f, 0.033f, 0.04f, COAT_FUR, true},  // fore legs
-    {{0.064f, 0.037f, -0.53f}, {0.066f, 0.035f, -0.570f}, 0.039f, 0.037f, 0.03f, COAT_FUR, true}, // paws
+    {{0.105f, 0.175f, -0.23f}, {0.155f, 0.12f, -0.34f}, 0.150f, 0.090f, 0.07f, COAT_FUR, true},   // haunches
+    {{0.175f, 0.044f, -0.34f}, {0.205f, 0.040f, -0.485f}, 0.046f, 0.040f, 0.05f, COAT_FUR, true}, // hind feet
+    {{0.074f, 0.45f, -0.460f}, {0.064f, 0.07f, -0.535f}, 0.064f, 0.035f, 0.08f, COAT_FUR, true},  // fore legs
+    {{0.064f, 0.039f, -0.54f}, {0.066f, 0.037f, -0.580f}, 0.041f, 0.039f, 0.05f, COAT_FUR, true}, // paws
     {{0, 0.60f, -0.455f}, {0, 0.43f, -0.490f}, 0.088f, 0.070f, 0.08f, COAT_TIP, false},           // bib
 };
 
@@ -28,13 +28,13 @@ static const struct part head[] = {
     {{0, 0.010f, 0.015f}, {0.052f, -0.005f, 0.0f}, 0.140f, 0.118f, 0.08f, COAT_FUR, true},          // skull
     {{0.085f, -0.055f, -0.035f}, {0.172f, -0.085f, 0.005f}, 0.072f, 0.020f, 0.06f, COAT_TIP, true}, // cheeks
     {{0, -0.050f, -0.10f}, {0, -0.066f, -0.235f}, 0.078f, 0.041f, 0.07f, COAT_FUR, false},          // muzzle
-    {{0.088f, 0.10f, 0.015f}, {0.152f, 0.296f, 0.02f}, 0.082f, 0.018f, 0.04f, COAT_FUR, true},      // ears
+    {{0.088f, 0.10f, 0.015f}, {0.152f, 0.292f, 0.02f}, 0.082f, 0.021f, 0.04f, COAT_FUR, true},      // ears
     {{0, -0.046f, -0.262f}, {0, -0.050f, -0.270f}, 0.021f, 0.018f, 0.012f, COAT_DARK, false},       // nose
 };
 
 /// What ears are hollowed by.
 static const struct part ear_hollow[] = {
-    {{0.098f, 0.120f, -0.062f}, {0.145f, 0.255f, -0.018f}, 0.050f, 0.014f, 0.001f, COAT_TIP, true},
+    {{0.096f, 0.120f, -0.078f}, {0.143f, 0.245f, -0.034f}, 0.050f, 0.018f, 0.001f, COAT_TIP, true},
 };
 
 /// Markings: what lies in these is white, or dark.
@@ -48,7 +48,7 @@ static const struct part white_head[] = {
 };
 static const struct part dark_trunk[] = {
     {{0.064f, -0.02f, -0.56f}, {0.066f, 0.140f, -0.510f}, 0.095f, 0.060f, 0.001f, COAT_DARK, true},
-    {{0.172f, -0.02f, -0.56f}, {0.165f, -0.02f, -0.490f}, 0.085f, 0.080f, 0.001f, COAT_DARK, true},
+    {{0.207f, -0.02f, -0.53f}, {0.200f, -0.02f, -0.465f}, 0.085f, 0.080f, 0.001f, COAT_DARK, true},
 };
 static const struct part dark_head[] = {
     {{0.128f, 0.215f, 0.140f}, {0.185f, 0.380f, 0.140f}, 0.105f, 0.110f, 0.001f, COAT_DARK, true},

@@ -14,8 +14,8 @@ enum { TAIL_BLOBS = 14 };
 
 /// What the animal keeps the light from, bind space: rump, chest, and where each hind foot and fore paw touches the ground.
 static const struct shadow_blob body_blobs[] = {
-    {0.0f, -0.27f, 0.44f, 0.66f},   {0.0f, -0.48f, 0.27f, 0.40f},    {0.165f, -0.44f, 0.13f, 0.50f},
-    {-0.165f, -0.44f, 0.13f, 0.50f}, {0.065f, -0.545f, 0.085f, 0.70f}, {-0.065f, -0.545f, 0.085f, 0.70f},
+    {0.0f, -0.27f, 0.44f, 0.66f},    {0.0f, -0.48f, 0.27f, 0.40f},     {0.195f, -0.43f, 0.13f, 0.50f},
+    {-0.195f, -0.43f, 0.13f, 0.50f}, {0.065f, -0.555f, 0.085f, 0.70f}, {-0.065f, -0.555f, 0.085f, 0.70f},
 };
 
 /// A blob under the tail at `along` (0 base … 1 tip): the higher, the wider and the weaker.
