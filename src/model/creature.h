@@ -36,8 +36,8 @@ int creature_level(int animals);
 void mesh_creature(int level, struct mesh *mesh);
 
 /// Appends the torso, with the stump that the tail hides. Edges are about `cell` metres long,
-/// shorter where they would miss the round shape by more than `tolerance` metres.
-void mesh_torso(float cell, float tolerance, struct mesh *mesh);
+/// and halved in up to `rounds` rounds where they would miss the round shape by more than `tolerance` metres, or blur colours.
+void mesh_torso(float cell, float tolerance, int rounds, struct mesh *mesh);
 
 /// Appends the tail: `rings` rings of `segments` vertices each, from inside the body, where it is open, to a rounded
 /// tip.

@@ -67,7 +67,6 @@ static const float head_middle[3] = {0.01f, 0.80f, -0.385f};
 #define HEAD_RADIUS 0.36f /* of the ball that holds the head */
 #define NECK_BLEND 0.12f
 #define STUMP_BLEND 0.14f
-#define REFINE_ROUNDS 3
 #define EAR_BLEND 0.020f
 
 const float creature_torso_lo[3] = {-0.36f, -CREATURE_BASE_HEIGHT, -0.68f};
@@ -141,10 +140,10 @@ static void torso_paint(struct vertex *vertex)
     coat_mix(vertex->color, COAT_DARK, glm_smoothstep(0.004f, -0.004f, features));
 }
 
-void mesh_torso(float cell, float tolerance, struct mesh *mesh)
+void mesh_torso(float cell, float tolerance, int rounds, struct mesh *mesh)
 {
     const struct solid torso = {creature_torso_distance, torso_paint};
     const int first_index = mesh->index_count;
     isosurface(&torso, creature_torso_lo, creature_torso_hi, cell, mesh);
-    refine(&torso, tolerance, REFINE_ROUNDS, first_index, mesh);
+    refine(&torso, tolerance, rounds, first_index, mesh);
 }
