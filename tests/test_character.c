@@ -38,7 +38,7 @@ static void what_is_written_reads_back_equal(void **state)
     struct character out, in;
     struct error error;
     make_character(&out);
-    if (!character_write(temporary_path("character.glb"), &out, &error)) fail_msg("%s", error.text);
+    if (!character_write(temporary_path("character.glb"), &out, true, &error)) fail_msg("%s", error.text);
     read_good(temporary_path("character.glb"), &in);
     assert_int_equal(in.vertex_count, 4);
     assert_int_equal(in.index_count, 12);
@@ -69,7 +69,7 @@ static void the_imaginary_target_is_negated(void **state)
     struct character c;
     struct error error;
     make_character(&c);
-    assert_true(character_write(temporary_path("sign.glb"), &c, &error));
+    assert_true(character_write(temporary_path("sign.glb"), &c, true, &error));
     FILE *file = fopen(temporary_path("sign.glb"), "rb");
     float last[12];
     fseek(file, -3 * (long)sizeof last,
@@ -227,8 +227,8 @@ static void bad_files_get_one_sentence(void **state)
     struct character c;
     struct error error;
     make_character(&c);
-    assert_true(character_write(temporary_path("cut.glb"), &c, &error));
-    assert_false(character_write("/nowhere/a.glb", &c, &error));
+    assert_true(character_write(temporary_path("cut.glb"), &c, true, &error));
+    assert_false(character_write("/nowhere/a.glb", &c, true, &error));
     character_free(&c);
     char whole[8192];
     FILE *file = fopen(temporary_path("cut.glb"), "rb");
@@ -250,7 +250,7 @@ static void changed_bytes_do_no_harm(void **state)
     uint32_t seed = 12345;
     int refused = 0;
     make_character(&c);
-    assert_true(character_write(temporary_path("whole.glb"), &c, &error));
+    assert_true(character_write(temporary_path("whole.glb"), &c, true, &error));
     character_free(&c);
     FILE *file = fopen(temporary_path("whole.glb"), "rb");
     size_t size = fread(whole, 1, sizeof whole, file);

@@ -59,6 +59,8 @@ static void it_is_one_closed_manifold(void **state)
     assert_int_equal(creature.vertex_count - (int)count / 2 + (int)count / 3, 2);
 }
 
+/// A coordinate is six numbers a vertex in the file. Six coordinates of 14,000 triangles take 1.4 MB; of the 19,000 that there were
+/// while it had two, they would take 2 MB.
 static void it_keeps_to_its_budget(void **state)
 {
     (void)state;

@@ -217,7 +217,7 @@ static void looks_come_through(void **state)
     assert_true(character_create(&character, &again, 1));
     character.coordinates[0].name = strdup("up");
     character.coordinates[0].re[2][1] = 3;
-    assert_true(character_write(temporary_path("m.glb"), &character, &error));
+    assert_true(character_write(temporary_path("m.glb"), &character, true, &error));
     assert_true(character_read(temporary_path("m.glb"), &read, &error));
     assert_int_equal(read.vertex_count, 6 + 2);
     assert_memory_equal(read.position, s.position, 6 * sizeof *s.position); // first those of the mesh, in its order
@@ -260,7 +260,7 @@ static void nothing_is_written_where_memory_is_short(void **state)
         remove(path);
         calls_left = calls;
         json_set_alloc_funcs(stingy, free);
-        const bool written = character_write(path, &c, &error);
+        const bool written = character_write(path, &c, true, &error);
         json_set_alloc_funcs(malloc, free);
         if (written) {
             struct character read;

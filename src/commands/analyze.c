@@ -24,6 +24,7 @@ struct job {
     double fps;                  ///< 0: what the files say
     enum analysis_method method;
     int modes;
+    bool no_normals;
     double directions[FILES_MAX][3];
     int direction_count; ///< 0, 1 for all, or one a file
 };
@@ -251,7 +252,7 @@ static bool analyse_files(const struct job *job, const struct lapack *lapack, co
     }
     drop_unused(result);
     const struct character *character = &result->character;
-    return character_write(job->output, character, error) &&
+    return character_write(job->output, character, !job->no_normals, error) &&
            (!job->scene || analyze_scene_write(job->scene, job->output, character, result->analyzed, error)) &&
            (!job->coordinates || analyze_coordinates_write(job->coordinates, character, result->analyzed, error));
 }
@@ -315,6 +316,8 @@ int command_analyze(int argc, char **argv)
         {"--fps", NULL, "N", "frames per second; required for .npy and .pc2", OPTION_REAL, &job.fps, 1e-3, 100000},
         {"--modes", NULL, "K", "coordinates per motion, most important first (1)", OPTION_INT, &job.modes, 1,
          MODES_MAX},
+        {"--no-normals", NULL, NULL, "leave out how coordinates turn normals: a smaller file, the same on our stage",
+         OPTION_FLAG, &job.no_normals, 0, 0},
         {"--shake", NULL, "DIR",
          "direction of the shake: up, side, front or x,y,z; one for all or one per file (up:side)", OPTION_TEXT,
          &job.shake, 0, 0},

@@ -11,7 +11,7 @@
 /// A file being written.
 struct output {
     const struct character *character;
-    const struct figure *figure;
+    const struct figure *figure; ///< NULL: targets leave normals as they are
     struct split split;
     struct gltf_file file;
     float (*scratch)[3]; ///< room for a vector a vertex of the file
@@ -98,9 +98,13 @@ static json_t *make_targets(struct output *o, float (*turn)[3])
         const bool imaginary = i % 2;
         const json_int_t position =
             imaginary ? add_places(o, (const float(*)[3])n->im, -1) : add_places(o, (const float(*)[3])n->re, 1);
-        figure_turn_normals(o->figure, i / 2, imaginary, turn);
-        const json_int_t normal = add_vectors(o, (const float(*)[3])turn, 1, -INFINITY, INFINITY, false);
-        gltf_append(&o->file, targets, json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal));
+        json_t *target = json_pack("{s:I}", "POSITION", position);
+        if (o->figure) {
+            figure_turn_normals(o->figure, i / 2, imaginary, turn);
+            gltf_set(&o->file, target, "NORMAL",
+                     json_integer(add_vectors(o, (const float(*)[3])turn, 1, -INFINITY, INFINITY, false)));
+        }
+        gltf_append(&o->file, targets, target);
     }
     return targets;
 }
@@ -202,11 +206,11 @@ static bool write_file(struct output *o, const char *path, struct error *error)
     return fail(error, why.kind, "%s: %s", path, why.text);
 }
 
-bool character_write(const char *path, const struct character *character, struct error *error)
+bool character_write(const char *path, const struct character *character, bool turn_normals, struct error *error)
 {
     struct figure figure = {.character = *character};
-    struct output o = {.character = character, .figure = &figure};
-    bool done = figure_derive(&figure) && split_create(&o.split, character);
+    struct output o = {.character = character, .figure = turn_normals ? &figure : NULL};
+    bool done = (!turn_normals || figure_derive(&figure)) && split_create(&o.split, character);
     if (done) {
         o.scratch = malloc(((size_t)o.split.count + 1) * sizeof *o.scratch);
         o.materials = json_array();

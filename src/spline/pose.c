@@ -1,6 +1,7 @@
 /// From the description to the problem (docs/mathematics.md, Constraints): where the domain starts and ends, what knots are measured
 /// from, what the start costs.
 #include "spline/problem.h"
+#include "spline/variation.h"
 #include "spline/wide.h"
 #include <float.h>
 #include <math.h>
@@ -35,6 +36,7 @@ static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *
     if (desc->start == WIGGLY_LOOP && desc->samples < 2) return WIGGLY_ERROR_LOOP;
     if (!(desc->step > 0 && desc->step < INFINITY) || !is_part(desc->calm) || !is_part(desc->steady))
         return WIGGLY_ERROR_NUMBER;
+    if (!(desc->variation >= 0 && desc->variation < INFINITY)) return WIGGLY_ERROR_NUMBER;
     for (const desc_member *m = desc_members; m->name; m++) {
         if (m->kind != DESC_PARAM) continue;
         const wiggly_param *param = desc_param(desc, m);
@@ -115,7 +117,12 @@ static void set_about(wiggly_solver *solver, problem *p)
     } else {
         p->swing = solver->swing;
         p->about = p->swing.total;
-        p->status = swing_answer(desc, p->y, p->calm, &p->swing);
+        if (desc->equilibrium.track) {
+            p->status = swing_answer(desc, p->y, p->calm, &p->swing);
+        } else {
+            swing_rest(desc, p->y, &p->swing);
+        }
+        if (variation_is_set(desc)) variation_add(p);
     }
 }
 
@@ -152,6 +159,11 @@ void problem_set_start(wiggly_solver *solver, problem *p)
     p->free_end = p->start == WIGGLY_FREE && !(p->cost.row[0].weight > 0);
 }
 
+static void fill(double *x, double value, int count)
+{
+    for (int i = 0; i < count; i++) x[i] = value;
+}
+
 wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p)
 {
     wiggly_status status = check_desc(solver, desc);
@@ -161,6 +173,9 @@ wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, doubl
     if (desc->equilibrium.track) {
         memmove(y, desc->equilibrium.track, sizeof *y * (size_t)desc->samples);
         if (desc->start == WIGGLY_LOOP) y[desc->samples - 1] = y[0];
+        p->y = y;
+    } else if (variation_is_set(desc)) {
+        fill(y, desc->equilibrium.value, desc->samples);
         p->y = y;
     }
     set_domain(solver, p);

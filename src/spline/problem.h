@@ -24,10 +24,12 @@ typedef struct problem {
     const double *y;     ///< equilibrium of the whole domain, where it moves; a loop's last is its first
     const double *about; ///< y + Re u of every sample, which w is measured from; NULL where that is `level`
     double level;
-    swing swing; ///< u, where there is one; else its arrays are NULL
+    swing swing; ///< u, where there is one, with the noise of a variation; else its arrays are NULL
+    cplx held;   ///< the noise before `first`
     wiggly_start start;
     double calm;
-    double detune; ///< how many times as high the frequency of the engine's filter is (steady.h); of all that moves by itself it is the description's
+    double
+        detune; ///< how many times as high the frequency of the engine's filter is (steady.h); of all that moves by itself it is the description's
     wiggly_status status;      ///< WIGGLY_CALMED where u is not that of the calm as asked
     int first;                 ///< sample of the system's row 0
     int count;                 ///< samples from there to the domain's end (in a loop, round it)

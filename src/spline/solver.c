@@ -14,9 +14,9 @@ enum {
     LIMIT_DOUBLES = 8,
     STEADY_DOUBLES = 2,
     LINE = 64, ///< of the cache: columns begin with one
-    BYTES_PER_SAMPLE =
-        (int)((MATRIX_DOUBLES + 2 + 2 + 2 + 4 + 4) * sizeof(double) + sizeof(coefficients) +
-              (LIMIT_DOUBLES + STEADY_DOUBLES) * sizeof(double) + sizeof(cplx) + 3 * sizeof(int) + 2 * sizeof(unsigned char)),
+    BYTES_PER_SAMPLE = (int)((MATRIX_DOUBLES + 2 + 2 + 2 + 4 + 4) * sizeof(double) + sizeof(coefficients) +
+                             (LIMIT_DOUBLES + STEADY_DOUBLES) * sizeof(double) + sizeof(cplx) + 3 * sizeof(int) +
+                             2 * sizeof(unsigned char)),
     BYTES_PER_KNOT = (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) +
                            2 * sizeof(wiggly_knot) + 9 * sizeof(double) + sizeof(int)),
     FIXED_BYTES = (int)(RUN_DOUBLES * CHAIN_RUN * sizeof(double)) + CHAIN_DOUBLES * LINE + 3 * LINE,

@@ -2,7 +2,7 @@
 //
 // Where knots suit a frequency badly, a curve swings wide to get through them, and a small change of a knot changes it much. A
 // neighbouring frequency may suit them well. So the solutions at PARTS of them, each for itself a spline through the knots, are taken
-// together, each weighed by its energy to a negative power: those that have to be forced count little.
+// together, each weighed by E^(−3/2): those that have to be forced count little.
 //
 // Only the engine is detuned. What moves by itself, u and what is behind the last knot, is of the description's own frequency: it is
 // the same for all, so that the mean of the solutions swings out as any spline does, from the mean at the last knot. Where the filter's
@@ -15,8 +15,7 @@
 
 enum { PARTS = 5 };
 
-static const double spread = 0.1;  ///< of the frequency, on both sides
-static const double power = 2;     ///< of 1 / E
+static const double spread = 0.15; ///< of the frequency, on both sides
 static const double faint = 1e-26; ///< of Σ |w|²: an energy that may be rounding
 
 bool steady_is_set(const problem *p)
@@ -103,7 +102,7 @@ wiggly_status steady_find(wiggly_solver *solver, problem *p, wiggly_curve *curve
         add_result(result, &one);
         double energy = energy_of(solver, &part, curve);
         if (i == 0) first = energy;
-        double weight = pow(first / energy, power);
+        double ratio = first / energy, weight = ratio * sqrt(ratio);
         if (!isfinite(weight)) weight = 1; // nothing moves, or squares do not fit a double
         weights += weight;
         if (i == 0) {

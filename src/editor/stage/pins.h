@@ -19,9 +19,7 @@ bool pins_lock(struct stage *stage, int key);
 /// The point, or the marker, goes where the pointer is now.
 void pins_apply(struct stage *stage, struct core *core, const struct editor_world *world);
 
-/// Finds all markers for the document as it is solved now.
-void pins_pose(struct stage *stage, const struct core *core, const struct editor_world *world);
-/// Draws them, what is lit up, and the path of the point that is held or selected.
+/// Draws all markers, what is lit up, and the path of the point that is held or selected.
 void pins_show(struct stage *stage, struct core *core, const struct editor_world *world);
 
 #endif

@@ -99,7 +99,6 @@ void stage_pose(struct stage *stage, struct core *core, const struct editor_worl
     view->hash = view_hash(view);
     skin_reserve(stage);
     brush_pose(stage, core, world, covered);
-    pins_pose(stage, core, world);
 }
 
 /// A ring where a tail or chain can be taken hold of.
