@@ -7,6 +7,7 @@
 #include "editor/stage/pins.h"
 #include "editor/stage/points.h"
 #include "editor/stage/rigs.h"
+#include "editor/stage/stage.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
