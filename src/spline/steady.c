@@ -62,15 +62,13 @@ static void run_on(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
     }
 }
 
-/// One solution into the curve.
-static wiggly_status find_part(wiggly_solver *solver, problem *part, wiggly_curve *curve, minimum *result)
+/// The description with its knots in order, as limits take them.
+static wiggly_desc in_order(wiggly_solver *solver, const wiggly_desc *desc)
 {
-    const wiggly_desc *desc = part->desc;
-    problem_set_start(solver, part);
-    if (!limits_are_set(desc)) return problem_find(solver, part, curve, result);
-    wiggly_status status = limits_find(solver, part, curve, result);
+    wiggly_desc ordered = *desc;
+    ordered.knots = solver->limits.own;
     for (int k = 0; k < desc->knot_count; k++) solver->order[k] = k;
-    return status;
+    return ordered;
 }
 
 static void add_result(minimum *all, const minimum *one)
@@ -88,15 +86,15 @@ wiggly_status steady_find(wiggly_solver *solver, problem *p, wiggly_curve *curve
     const int from = p->first, count = p->count;
     wiggly_status status = p->status;
     double first = 0, weights = 0;
-    wiggly_desc ordered = *p->desc;
-    if (limited) ordered.knots = solver->limits.own;
+    const wiggly_desc desc = limited ? in_order(solver, p->desc) : *p->desc;
     *result = (minimum){.solved = true};
     for (int i = 0; i < PARTS; i++) {
         problem part = *p;
-        part.desc = &ordered;
+        part.desc = &desc;
         part.detune = 1 + p->desc->steady * spread * (2.0 * i / (PARTS - 1) - 1);
+        problem_set_start(solver, &part);
         minimum one;
-        wiggly_status found = find_part(solver, &part, curve, &one);
+        wiggly_status found = (limited ? limits_find : problem_find)(solver, &part, curve, &one);
         if (found >= WIGGLY_ERROR_ARGUMENT) return found;
         status = found > status ? found : status;
         add_result(result, &one);
