@@ -13,7 +13,7 @@ static void analyse(struct analysis *analysis, const struct motion *motion, doub
                     const double direction[3])
 {
     struct error error;
-    const struct analysis_plan plan = {ANALYSIS_CPCA, fps, modes, direction};
+    const struct analysis_plan plan = {ANALYSIS_CPCA, fps, modes, direction, 0};
     if (!analysis_create(analysis, &lapack, motion, &plan, &error)) fail_msg("%s", error.text);
 }
 
@@ -69,7 +69,7 @@ static void eigenvalues_agree_with_numpy(void **state)
     assert_true(slabs_gram(&lapack, &motion, gram, means, &error));
     for (int j = 0; j < 3 * REFERENCE_VERTICES; j++) assert_near(means[j], j, 0.7); // the offset, of less motion
     assert_true(spectrum_create(&spectrum, &lapack, gram, motion.frames));
-    assert_true(spectrum_real_shares(&lapack, gram, motion.frames, shares));
+    assert_true(spectrum_real_shares(&lapack, gram, motion.frames, 2, shares));
     for (int i = 0; i < REFERENCE_VALUES; i++) assert_near(spectrum.values[i], r.values[i], 1e-8 * r.values[i]);
     assert_near(spectrum.total, r.total, 1e-8 * r.total);
     assert_near(shares[0], r.pca1, 1e-10);
@@ -304,7 +304,7 @@ static void what_cannot_be_analysed_gets_one_sentence(void **state)
         struct analysis analysis;
         struct error error = {0};
         make_motion(&motion, cases[i].frames, 2, cases[i].at, &r);
-        const struct analysis_plan plan = {ANALYSIS_POLES, 24, 1, NULL};
+        const struct analysis_plan plan = {ANALYSIS_POLES, 24, 1, NULL, 0};
         assert_false(analysis_create(&analysis, &lapack, &motion, &plan, &error));
         if (!strstr(error.text, cases[i].says)) fail_msg("'%s' lacks '%s'", error.text, cases[i].says);
         motion_close(&motion);

@@ -68,7 +68,7 @@ static void analyse(struct analysis *analysis, struct plant *p, int modes)
 {
     struct motion motion;
     struct error error;
-    const struct analysis_plan plan = {ANALYSIS_POLES, p->fps, modes, NULL};
+    const struct analysis_plan plan = {ANALYSIS_POLES, p->fps, modes, NULL, 0};
     make_motion(&motion, p->frames, VERTICES, planted, p);
     if (!analysis_create(analysis, &lapack, &motion, &plan, &error)) fail_msg("%s", error.text);
     motion_close(&motion);
@@ -207,7 +207,7 @@ static void few_knots_move_it_so(void **state)
     struct plant p = {1, 192, 48, {2}, {0.05}, {0.1}, .noise = 0.2};
     grow(&p, 1);
     for (int forced = 0; forced < 2; forced++) {
-        const struct analysis_plan plan = {ANALYSIS_POLES, p.fps, 1, NULL};
+        const struct analysis_plan plan = {ANALYSIS_POLES, p.fps, 1, NULL, 0};
         struct motion motion;
         struct analysis a;
         struct knots knots;
@@ -228,6 +228,83 @@ static void few_knots_move_it_so(void **state)
     }
 }
 
+/// Modes that a burst of the base at 2.75 Hz sets off, and that swing freely from 1.1 s on.
+enum { KICKED_FRAMES = 144, KICKED_MODES = 3, KICKED_FREE = 53 };
+
+struct kicked {
+    double frequency[KICKED_MODES];
+    double course[KICKED_FRAMES][KICKED_MODES];
+};
+
+static double burst(double t)
+{
+    return t < 3 / 2.75 ? pow(sin(M_PI * t * 2.75 / 3), 4) * sin(2 * M_PI * 2.75 * t) : 0;
+}
+
+static double kicked(int i, int j, void *user)
+{
+    const struct kicked *body = user;
+    double sum = 0;
+    for (int k = 0; k < KICKED_MODES; k++) sum += cos(0.01 * (k + 1) * j + k) * body->course[i][k];
+    return sum;
+}
+
+/// Each mode answers exactly to short blows.
+static void kick(struct kicked *body)
+{
+    enum { STEPS = 200 };
+    const double damping = 0.2, h = 1 / (48.0 * STEPS);
+    for (int k = 0; k < KICKED_MODES; k++) {
+        const double omega = 2 * M_PI * body->frequency[k];
+        const double complex turn = cexp(h * omega * (-damping + I * sqrt(1 - damping * damping)));
+        double complex z = 0;
+        for (int i = 0; i < KICKED_FRAMES; i++) {
+            body->course[i][k] = omega * cimag(z);
+            for (int j = 0; j < STEPS; j++) z = (z + h * burst((i + (j + 0.5) / STEPS) / 48)) * turn;
+        }
+    }
+}
+
+static void analyse_kicked(struct analysis *a, struct kicked *body, int first)
+{
+    const struct analysis_plan plan = {ANALYSIS_POLES, 48, 3, NULL, first};
+    struct motion motion;
+    struct error error;
+    kick(body);
+    make_motion(&motion, KICKED_FRAMES, VERTICES, kicked, body);
+    if (!analysis_create(a, &lapack, &motion, &plan, &error)) fail_msg("%s", error.text);
+    motion_close(&motion);
+}
+
+static void what_was_driven_has_its_poles_where_it_swings_freely(void **state)
+{
+    (void)state;
+    struct kicked body = {.frequency = {1.04, 2.2, 4.1}};
+    struct analysis a;
+    analyse_kicked(&a, &body, KICKED_FREE);
+    assert_int_equal(a.count, KICKED_MODES);
+    for (int k = 0; k < KICKED_MODES; k++) {
+        const struct component *c = component_near(&a, body.frequency[k]);
+        assert_near(c->frequency, body.frequency[k], 1e-3 * body.frequency[k]);
+        assert_near(c->damping, 0.2, 1e-3);
+    }
+    assert_true(a.left < 0.15);
+    analysis_free(&a);
+}
+
+/// From the driven frames come three poles, two of them with shapes of 6 and 13 m in antiphase for a motion of 1.2 m.
+static void motions_that_cancel_are_left_out_and_said(void **state)
+{
+    (void)state;
+    struct kicked body = {.frequency = {1.04, 2.2, 6.5}};
+    struct analysis a;
+    analyse_kicked(&a, &body, 0);
+    assert_int_equal(a.cancelled, 1);
+    for (int k = 0; k < a.count; k++) assert_true(a.components[k].reach < 2);
+    assert_true(a.left < 0.2);
+    analysis_free(&a);
+}
+
 /// 22 Hz at 48 frames a second, and 3.
 static double quick(int i, int j, void *user)
 {
@@ -238,7 +315,7 @@ static double quick(int i, int j, void *user)
 static void motion_near_half_the_rate_is_told(void **state)
 {
     (void)state;
-    const struct analysis_plan plan = {ANALYSIS_POLES, 48, 2, NULL};
+    const struct analysis_plan plan = {ANALYSIS_POLES, 48, 2, NULL, 0};
     struct motion motion;
     struct analysis a;
     struct error error;
@@ -274,6 +351,8 @@ int main(void)
         cmocka_unit_test(through_noise),
         cmocka_unit_test(a_walk_is_taken_out_and_said),
         cmocka_unit_test(few_knots_move_it_so),
+        cmocka_unit_test(what_was_driven_has_its_poles_where_it_swings_freely),
+        cmocka_unit_test(motions_that_cancel_are_left_out_and_said),
         cmocka_unit_test(motion_near_half_the_rate_is_told),
     };
     return cmocka_run_group_tests(tests, load, unload);

@@ -13,7 +13,7 @@ simulate() { # <name> <options>...
     expect 0 "simulate $name" "$WIGGLY" simulate "$scratch/box.obj" --tets 60 --seconds 2 --fps 30 --substeps 2 "$@" \
         -o "$scratch/$name"
 }
-simulate up.npy --shake up
+simulate up.npy --shake up --frequency 7
 simulate side.pc2 --shake side --impulse
 
 mkdir "$scratch/out"
@@ -31,7 +31,7 @@ says "says what was read" "up.npy: 60 frames of 8 vertices at 30 fps" "$out"
 says "names coordinates after files" "  side: explains " "$out"
 says "and further modes" "  up-2: explains " "$out"
 says "compares with real principal components" "real PCA's first " "$out"
-says "says what all of them leave" "  relative error of the motion with all 2 coordinates: " "$out"
+says "says what all of them leave" "  relative error of the motion with 2 coordinates: " "$out"
 says "recommends a spline" '    spline: "mode": "complex", "frequency": ' "$out"
 says "and a range of lags" "lag over the surface: from " "$out"
 says "the file has the targets" '"targetNames":["up.re","up.im","up-2.re","up-2.im","side.re","side.im","side-2.re","side-2.im"]' \
@@ -76,6 +76,13 @@ tr , ' ' <"$scratch/side.csv" | paste -d ' ' - "$scratch/solved" |
     awk 'NR > 1 { d = $4 - $7; e = $5 - $9; if (d * d + e * e > 1e-12 || NF != 9) bad = 1 } END { exit bad || NR != 61 }'
 ok "and its fit is what the scene solves to" $?
 
+expect 0 "a driven base" "$WIGGLY" simulate "$scratch/box.obj" --tets 60 --seconds 3 --fps 48 --substeps 4 --drive burst \
+    --drive-frequency 2.75 --damping 0.1 --shake side -o "$scratch/burst.npy"
+says "says since when it swings freely" "nothing drives the base from 1.091 s on" "$out"
+analyze 0 "from there on" "$scratch/burst.npy" --rest "$scratch/box.obj" --fps 48 --from 1.091 -o "$scratch/burst.glb"
+printf '%s\n' "$out" | awk '/Hz, damping/ { good = $2 > 1.99 && $2 < 2.01 && $6 + 0 > 0.098 && $6 + 0 < 0.102 } END { exit !good }'
+ok "it swings as it does by itself" $?
+
 awk '/^v/ { print $1, $2, -$4, $3; next } { print }' "$scratch/box.obj" >"$scratch/z-up.obj"
 analyze 0 "a mesh with z up" "$scratch/up.npy" --rest "$scratch/z-up.obj" --fps 30 -o "$scratch/out/z-up.glb"
 says "is warned of" "up.npy: warning: the motion is not centred on the rest mesh" "$err"
@@ -101,6 +108,9 @@ rest="--rest $scratch/box.obj"
     refused 2 "--shake: expected up, side, front" "$scratch/up.npy" $rest --shake sideways
     refused 2 "--shake: expected up, side, front" "$scratch/up.npy" $rest --shake up:side
     refused 2 "--method: expected poles or cpca" "$scratch/up.npy" $rest --fps 30 --method pca
+    refused 2 "--method cpca looks for none" "$scratch/up.npy" $rest --fps 30 --method cpca --from 1
+    refused 1 "up.npy: expected 8 frames or more that nothing drives, got 6" "$scratch/up.npy" $rest --fps 30 --from 1.8
+    refused 1 "up.npy: expected 8 frames or more that nothing drives, got 0" "$scratch/up.npy" $rest --fps 30 --from 1e6
     refused 2 "an argument is missing" $rest
     refused 2 "--modes: expected a whole number from 1 to 8" "$scratch/up.npy" $rest --modes 9
     refused 1 "expected 4 vertices as $scratch/small.obj has, got 8" "$scratch/up.npy" --rest "$scratch/small.obj" --fps 30

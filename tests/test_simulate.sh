@@ -52,8 +52,36 @@ refused() { # <exit status> <what it says> <arguments>...
     ok "and no more" $?
 }
 o="-o $scratch/none.npy"
+sed 's/^v 0 0 0$/v 0 0 0 1e30 0 0/' "$scratch/box.obj" >"$scratch/bright.obj"
+# A .npy of float32, its numbers as bytes.
+write_map() { # <name> <shape> <bytes>
+    printf "\223NUMPY\1\0\166\0%-117s\n$3" "{'descr': '<f4', 'fortran_order': False, 'shape': $2, }" >"$scratch/$1.npy"
+}
+half='\0\0\0\77' nan='\0\0\300\177' two='\0\0\0\100'
+six=$half$half$half$half$half$half
+write_map map "(8,)" "$six$half$half"
+write_map short "(8,)" "$six"
+write_map long "(9,)" "$six$half$half$half"
+write_map huge "(8, 4611686018427387904)" "$six$half$half"
+write_map wild "(8,)" "$six$half$nan"
+write_map above "(8, 1)" "$two$six$half"
+printf '\223NUMPY\1\0\377\377{ and no more' >"$scratch/endless.npy"
+printf '\223NUMPY\1\0\166\0{ and no more' >"$scratch/header.npy"
+printf 'no' >"$scratch/tiny.npy"
+expect 0 "a painted map of softness" "$WIGGLY" simulate "$scratch/box.obj" --soft "$scratch/map.npy" $quick -o "$scratch/soft.npy"
 # shellcheck disable=SC2086
 {
+    refused 1 "bright.obj:1: expected a colour from 0 to 1, got '1e+30'" "$scratch/bright.obj" $o
+    refused 1 "short.npy: expected 8 numbers, got a file that ends before" "$scratch/box.obj" --soft "$scratch/short.npy" $o
+    refused 1 "long.npy: expected an array of 8 numbers, one a vertex" "$scratch/box.obj" --soft "$scratch/long.npy" $o
+    refused 1 "huge.npy: expected" "$scratch/box.obj" --soft "$scratch/huge.npy" $o
+    refused 1 "wild.npy: vertex 7: expected a number from 0 to 1, got nan" "$scratch/box.obj" --soft "$scratch/wild.npy" $o
+    refused 1 "above.npy: vertex 0: expected a number from 0 to 1, got 2" "$scratch/box.obj" --soft "$scratch/above.npy" $o
+    refused 1 "endless.npy: expected the header of an .npy array" "$scratch/box.obj" --soft "$scratch/endless.npy" $o
+    refused 1 "header.npy: expected a header of 128 bytes, got 23" "$scratch/box.obj" --soft "$scratch/header.npy" $o
+    refused 1 "tiny.npy: expected a .npy file" "$scratch/box.obj" --soft "$scratch/tiny.npy" $o
+    refused 1 "box.obj: expected" "$scratch/box.obj" --soft "$scratch/box.obj" $o
+    refused 1 "nowhere.npy: cannot be opened" "$scratch/box.obj" --soft "$scratch/nowhere.npy" $o
     refused 1 "flat.obj: the mesh encloses no volume" "$scratch/flat.obj" $o
     refused 1 "nowhere.obj" "$scratch/nowhere.obj" $o
     refused 1 "nothing can move" "$scratch/box.obj" --tets 60 --pin 9 $o

@@ -6,10 +6,12 @@
 #include "analysis/spectrum.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double least_drift = 0.02; ///< share of the motion's variance from which on a drift is one
 static const double least_swing = 1e-9; ///< what is left without a drift: less is the rounding of float data
-static const double fast_from = 0.8;    ///< of half the frame rate
+static const double cancelling = 2;  ///< times the motion's power: what a component's part has only against another's
+static const double fast_from = 0.8; ///< of half the frame rate
 
 /// What is worked with, all on frames alone.
 struct work {
@@ -17,6 +19,7 @@ struct work {
     const struct motion *motion;
     const struct analysis_plan *plan;
     double *gram; ///< of the motion without its drift, from find_drift() on
+    double *free; ///< of the frames that nothing drives, if these are not all
     double power; ///< its trace
     struct pole poles[SUBSPACE_POLES_MAX];
     int pole_count;
@@ -48,24 +51,37 @@ static double fast_share(const double *gram, int frames)
     return fmax(share / power, 0);
 }
 
-static bool swings(const struct work *w, const struct basis *line, struct error *error)
+static bool swings(const struct work *w, const double *gram, const struct basis *line, struct error *error)
 {
-    double power = trace(w->gram, w->motion->frames);
+    double power = trace(gram, line->frames);
     if (!(power > 0)) return fail(error, ERROR_INPUT, "%s: expected a motion, but nothing moves", w->motion->path);
-    if (power - basis_gain(line, 2, w->gram) > least_swing * power) return true;
+    if (power - basis_gain(line, 2, gram) > least_swing * power) return true;
     return fail(error, ERROR_INPUT, "%s: expected an oscillation, got a steady drift alone", w->motion->path);
 }
 
-/// Finds poles and drift, and takes the drift out of G.
+/// G of the frames from the plan's first on; NULL where memory is short.
+static const double *cut_gram(struct work *w)
+{
+    size_t first = (size_t)w->plan->first, n = (size_t)w->motion->frames, left = n - first;
+    if (first == 0) return w->gram;
+    w->free = malloc(left * left * sizeof *w->free);
+    for (size_t t = 0; w->free && t < left; t++)
+        memcpy(w->free + t * left, w->gram + (t + first) * n + first, left * sizeof *w->free);
+    return w->free;
+}
+
+/// Finds poles and drift where nothing drives the motion, and takes the drift out of G.
 static bool find_drift(struct work *w, struct basis *basis, struct error *error)
 {
-    int frames = w->motion->frames;
-    if (!basis_create(basis, frames, 2 + 2 * COURSES_MAX) || !drift_append(basis))
+    int first = w->plan->first, frames = w->motion->frames - first;
+    const double *gram = cut_gram(w);
+    if (!basis_create(basis, frames, 2 + 2 * COURSES_MAX) || !gram || !drift_append(basis))
         return fail_no_memory(error, w->motion->path);
-    if (!swings(w, basis, error)) return false;
-    int found = subspace_poles(w->lapack, w->gram, frames, w->poles);
-    if (found >= 0) w->pole_count = exponentials_choose(w->poles, found, COURSES_MAX, w->gram, basis);
-    if (found < 0 || w->pole_count < 0 || !drift_create(&w->drift, basis, w->gram))
+    if (!swings(w, gram, basis, error)) return false;
+    int found = subspace_poles(w->lapack, gram, frames, w->poles);
+    if (found >= 0) w->pole_count = exponentials_choose(w->poles, found, COURSES_MAX, gram, basis);
+    if (found < 0 || w->pole_count < 0 || !drift_create(&w->drift, basis, gram) ||
+        (first > 0 && !drift_extend(&w->drift, first, w->gram)))
         return fail_no_memory(error, w->motion->path);
     if (w->plan->method == ANALYSIS_CPCA) {
         if (w->drift.share < least_drift)
@@ -74,7 +90,7 @@ static bool find_drift(struct work *w, struct basis *basis, struct error *error)
             drift_keep_means(&w->drift);
     }
     if (!drift_remove(&w->drift, w->gram)) return fail_no_memory(error, w->motion->path);
-    w->power = trace(w->gram, frames);
+    w->power = trace(w->gram, w->motion->frames);
     return true;
 }
 
@@ -112,15 +128,42 @@ static bool find_principal(struct analysis *a, struct work *w)
     return true;
 }
 
+/// The last of the components whose part only others cancel; -1: none.
+static int find_cancelled(const struct courses *courses, double power)
+{
+    int k = courses->count - 1;
+    while (k >= 0 && courses->part[k] <= cancelling * power) k--;
+    return k;
+}
+
+/// Courses of the first poles, without those whose parts others cancel.
+static bool find_courses(struct analysis *a, struct work *w, struct courses *courses)
+{
+    for (;;) {
+        int count = w->pole_count < w->plan->modes ? w->pole_count : w->plan->modes;
+        double complex z[COURSES_MAX];
+        for (int k = 0; k < count; k++) z[k] = w->poles[k].z;
+        if (!courses_create(courses, w->lapack, w->gram, w->motion->frames, w->plan->first, z, count)) return false;
+        int cancelled = find_cancelled(courses, w->power);
+        if (cancelled < 0 || count == 1) return true;
+        courses_free(courses);
+        for (int k = cancelled; k + 1 < w->pole_count; k++) w->poles[k] = w->poles[k + 1];
+        w->pole_count--;
+        a->cancelled++;
+    }
+}
+
 /// A component a pole.
 static bool find_swinging(struct analysis *a, struct work *w)
 {
-    int frames = w->motion->frames, count = w->pole_count < w->plan->modes ? w->pole_count : w->plan->modes;
-    double complex z[COURSES_MAX];
     struct courses courses;
-    for (int k = 0; k < count; k++) z[k] = w->poles[k].z;
-    if (!create_components(a, w, count) || !courses_create(&courses, w->lapack, w->gram, frames, z, count))
+    if (!find_courses(a, w, &courses)) return false;
+    int frames = w->motion->frames, count = courses.count;
+    if (!create_components(a, w, count)) {
+        courses_free(&courses);
         return false;
+    }
+    const double complex *z = courses.pole;
     for (int k = 0; k < count; k++) {
         struct component *c = &a->components[k];
         const double *row = courses.rows + 2 * (size_t)k * (size_t)frames;
@@ -239,7 +282,7 @@ static bool finish(struct analysis *a, const struct work *w, struct error *error
 static bool find_components(struct analysis *a, struct work *w, struct error *error)
 {
     int frames = w->motion->frames;
-    double shares[2];
+    double shares[ANALYSIS_MODES_MAX];
     struct basis basis;
     bool done = find_drift(w, &basis, error);
     basis_free(&basis);
@@ -248,11 +291,12 @@ static bool find_components(struct analysis *a, struct work *w, struct error *er
         return fail(error, ERROR_INPUT, "%s: expected an oscillation, found none; the method cpca takes any motion",
                     w->motion->path);
     a->fast_share = fast_share(w->gram, frames);
-    if (!spectrum_real_shares(w->lapack, w->gram, frames, shares) ||
+    if (!spectrum_real_shares(w->lapack, w->gram, frames, ANALYSIS_MODES_MAX, shares) ||
         !(w->plan->method == ANALYSIS_CPCA ? find_principal(a, w) : find_swinging(a, w)))
         return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory for %d frames", w->motion->path, frames);
     a->pca1 = shares[0];
     a->pca2 = shares[1];
+    a->real_left = sqrt(fmax(1 - shares[a->count - 1], 0));
     return form_shapes(a, w, error) && finish(a, w, error);
 }
 
@@ -265,12 +309,16 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
     if (motion->frames < ANALYSIS_FRAMES_MIN || motion->frames > ANALYSIS_FRAMES_MAX)
         return fail(error, ERROR_INPUT, "%s: expected %d to %d frames, got %d", motion->path, ANALYSIS_FRAMES_MIN,
                     ANALYSIS_FRAMES_MAX, motion->frames);
+    if (motion->frames - plan->first < ANALYSIS_FRAMES_MIN)
+        return fail(error, ERROR_INPUT, "%s: expected %d frames or more that nothing drives, got %d", motion->path,
+                    ANALYSIS_FRAMES_MIN, motion->frames > plan->first ? motion->frames - plan->first : 0);
     a->mean = malloc((size_t)motion->vertices * sizeof *a->mean);
     work.gram = malloc(n * n * sizeof *work.gram);
     work.weights = malloc((2 * (size_t)plan->modes + 1) * n * sizeof *work.weights);
     bool done = a->mean && work.gram && work.weights ? true : fail_no_memory(error, motion->path);
     done = done && slabs_gram(lapack, motion, work.gram, a->mean[0], error) && find_components(a, &work, error);
     free(work.gram);
+    free(work.free);
     free(work.weights);
     drift_free(&work.drift);
     if (!done) analysis_free(a);

@@ -25,6 +25,7 @@ struct analysis_plan {
     double fps;              ///< frames per second
     int modes;               ///< at most so many components, 1 … ANALYSIS_MODES_MAX
     const double *direction; ///< three numbers that fix the gauge (see component_turn()), or NULL
+    int first; ///< the frame from which on nothing drives the motion, where poles are looked for; 0 by CPCA
 };
 
 struct analysis {
@@ -32,7 +33,9 @@ struct analysis {
     double (*mean)[3]; ///< each vertex's mean position, metres
     struct component *components;
     int count;
-    double left; ///< relative error of the motion with all components, 0 … 1
+    int cancelled; ///< poles that matter, but whose parts were larger than the motion because others cancel them; left out
+    double left;      ///< relative error of the motion with all components, 0 … 1
+    double real_left; ///< the same with as many of real PCA's
     double drift
         [3]; ///< m/s: the mean velocity of the vertices, where the motion has a steady drift that was taken out, else 0
     double drift_share; ///< of the motion's variance, 0 … 1; 0 where none is worth a word

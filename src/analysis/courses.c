@@ -165,6 +165,17 @@ static double solve_shapes(struct fit *f)
     return explained;
 }
 
+static void measure_parts(const struct fit *f)
+{
+    struct courses *c = f->courses;
+    for (int k = 0; k < c->count; k++) {
+        const double *re = c->rows + 2 * k * c->frames, *im = re + c->frames;
+        const double *m = f->metric + (size_t)(2 * k) * (size_t)(2 * c->count + 1), *below = m + 2 * c->count;
+        for (int t = 0; t < c->frames; t++)
+            c->part[k] += re[t] * re[t] * m[0] + 2 * re[t] * im[t] * m[1] + im[t] * im[t] * below[1];
+    }
+}
+
 static void take_turns(struct fit *f)
 {
     int n = f->courses->frames;
@@ -178,7 +189,7 @@ static void take_turns(struct fit *f)
     }
 }
 
-bool courses_create(struct courses *c, const struct lapack *lapack, const double *gram, int frames,
+bool courses_create(struct courses *c, const struct lapack *lapack, const double *gram, int frames, int first,
                     const double complex *poles, int count)
 {
     size_t n = (size_t)frames, d = 2 * (size_t)count;
@@ -190,8 +201,15 @@ bool courses_create(struct courses *c, const struct lapack *lapack, const double
     fit.pull = malloc(d * n * sizeof *fit.pull);
     fit.factors = malloc(2 * d * d * n * sizeof *fit.factors);
     bool done = basis_create(&fit.basis, frames, (int)d) && c->rows && c->weights && fit.pull && fit.factors;
-    for (int k = 0; done && k < count; k++) exponentials_fill(poles[k], frames, c->rows + 2 * (size_t)k * n);
-    if (done) take_turns(&fit);
+    for (int k = 0; done && k < count; k++) {
+        double *re = c->rows + 2 * (size_t)k * n, *im = re + n;
+        exponentials_fill(poles[k], frames, re);
+        for (int t = 0; t < first; t++) re[t] = im[t] = 0;
+    }
+    if (done) {
+        take_turns(&fit);
+        measure_parts(&fit);
+    }
     basis_free(&fit.basis);
     free(fit.pull);
     free(fit.factors);

@@ -13,11 +13,13 @@ struct courses {
     int frames, count;
     double complex pole[COURSES_MAX]; ///< z_k, R_k ~ z_k^t
     double *rows, *weights;           ///< 2 count × frames
+    double part[COURSES_MAX];         ///< Σ_t |Re(R_k Ñ_k)|²: above that of the motion where others cancel it
 };
 
 /// Fits the courses of `count` poles. `gram` is G = S Sᵀ of a motion without drift. A course swings at its pole, and leaves that
-/// as far as the motion asks for it, as where a force acts. False where memory is short.
-bool courses_create(struct courses *courses, const struct lapack *lapack, const double *gram, int frames,
+/// as far as the motion asks for it, as where a force acts. The first shapes are those of the frames from `first` on, which nothing
+/// drives. False where memory is short.
+bool courses_create(struct courses *courses, const struct lapack *lapack, const double *gram, int frames, int first,
                     const double complex *poles, int count);
 void courses_free(struct courses *courses);
 

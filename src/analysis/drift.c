@@ -20,23 +20,45 @@ bool drift_append(struct basis *basis)
     return true;
 }
 
-bool drift_create(struct drift *d, const struct basis *basis, const double *gram)
+static void measure(struct drift *d, const double *gram)
 {
-    size_t n = (size_t)basis->frames;
+    size_t n = (size_t)d->frames;
     double speed = 0, size = 0, power = 0;
-    double *weights = malloc((size_t)basis->count * n * sizeof *weights);
-    *d = (struct drift){.frames = basis->frames};
-    if (!weights) return false;
-    basis_weights(basis, weights);
     for (size_t t = 0; t < n; t++) {
         double along = 0;
-        for (size_t s = 0; s < n; s++) along += gram[t * n + s] * weights[n + s];
-        speed += weights[n + t] * along;
+        for (size_t s = 0; s < n; s++) along += gram[t * n + s] * d->weights[n + s];
+        speed += d->weights[n + t] * along;
         size += part(d->frames, 1, (int)t) * part(d->frames, 1, (int)t);
         power += gram[t * n + t];
     }
     d->share = power > 0 ? speed * size / power : 0;
+}
+
+bool drift_create(struct drift *d, const struct basis *basis, const double *gram)
+{
+    *d = (struct drift){.frames = basis->frames};
+    d->weights = malloc((size_t)basis->count * (size_t)d->frames * sizeof *d->weights);
+    if (!d->weights) return false;
+    basis_weights(basis, d->weights);
+    measure(d, gram);
+    return true;
+}
+
+bool drift_extend(struct drift *d, int first, const double *gram)
+{
+    size_t from = (size_t)first, n = from + (size_t)d->frames;
+    double *weights = calloc(ROWS * n, sizeof *weights);
+    if (!weights) return false;
+    for (size_t t = from; t < n; t++) {
+        const double position = d->weights[t - from], speed = d->weights[n - from + t - from];
+        weights[t] =
+            position - first / 2.0 * speed; // the middle of all frames lies first / 2 before that of the last ones
+        weights[n + t] = speed;
+    }
+    free(d->weights);
     d->weights = weights;
+    d->frames = (int)n;
+    measure(d, gram);
     return true;
 }
 

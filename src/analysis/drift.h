@@ -19,6 +19,9 @@ bool drift_append(struct basis *basis);
 bool drift_create(struct drift *drift, const struct basis *basis, const double *gram);
 void drift_free(struct drift *drift);
 
+/// From one of the frames from `first` on to one of all of them, whose G is `gram`. False where memory is short.
+bool drift_extend(struct drift *drift, int first, const double *gram);
+
 /// Keeps each column's mean: D = p₁ w₁ᵀ from now on.
 void drift_keep_means(struct drift *drift);
 

@@ -25,7 +25,7 @@ static bool covariance(const struct lapack *lapack, const double *h, const doubl
     return true;
 }
 
-bool spectrum_real_shares(const struct lapack *lapack, const double *gram, int frames, double shares[2])
+bool spectrum_real_shares(const struct lapack *lapack, const double *gram, int frames, int count, double *shares)
 {
     size_t n = (size_t)frames;
     double total = 0, *copy = malloc((n * n + n) * sizeof *copy);
@@ -34,9 +34,10 @@ bool spectrum_real_shares(const struct lapack *lapack, const double *gram, int f
     memcpy(copy, gram, n * n * sizeof *copy);
     bool done = lapack->dsyevd(LAPACK_COLUMNS_FIRST, 'N', 'L', frames, copy, frames, values) == 0;
     for (size_t i = 0; done && i < n; i++) total += values[i] > 0 ? values[i] : 0;
-    if (done) {
-        shares[0] = values[n - 1] / total;
-        shares[1] = shares[0] + values[n - 2] / total;
+    double sum = 0;
+    for (int k = 0; done && k < count; k++) {
+        sum += values[n - 1 - (size_t)k];
+        shares[k] = sum / total;
     }
     free(copy);
     return done;

@@ -14,9 +14,9 @@ struct spectrum {
     double total;            ///< their sum
 };
 
-/// The shares of the real variance that real PCA's first component and its first two explain, 0 … 1. `gram` is above 0. False
-/// where memory is short.
-bool spectrum_real_shares(const struct lapack *lapack, const double *gram, int frames, double shares[2]);
+/// The shares of the real variance that real PCA's first component, its first two … explain, 0 … 1: `count` of them, at most one a
+/// frame. `gram` is above 0. False where memory is short.
+bool spectrum_real_shares(const struct lapack *lapack, const double *gram, int frames, int count, double *shares);
 
 /// Decomposes; the trace of `gram` is above 0. False, with nothing to free, where memory is short.
 bool spectrum_create(struct spectrum *spectrum, const struct lapack *lapack, const double *gram, int frames);

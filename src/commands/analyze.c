@@ -25,6 +25,7 @@ struct job {
     enum analysis_method method;
     int modes;
     bool no_normals;
+    double from; ///< seconds
     double directions[FILES_MAX][3];
     int direction_count; ///< 0, 1 for all, or one a file
 };
@@ -141,6 +142,17 @@ static void warn_of_speed(const struct motion *motion, const struct analysis *a,
     }
 }
 
+/// What is driven is no sum of free swings; the method may then want two large motions that all but cancel each other.
+static void warn_of_cancelling(const struct motion *motion, const struct analysis *a)
+{
+    if (a->cancelled == 0) return;
+    fprintf(stderr,
+            "%s: warning: left out %d pole%s whose motion others would only cancel; where something drives the mesh, "
+            "say with "
+            "--from since when nothing does, or take --method cpca\n",
+            motion->path, a->cancelled, a->cancelled > 1 ? "s" : "");
+}
+
 static bool check_motion(const struct job *job, const struct motion *motion, const struct surface *rest, double *fps,
                          struct error *error)
 {
@@ -196,8 +208,8 @@ static bool keep_all(const struct job *job, const struct analysis *analysis, con
         if (!keep_course(job, analyzed, c, k, fps)) return fail_no_memory(error, motion->path);
         report(to, analyzed, c);
     }
-    if (analysis->count > 1)
-        printf("  relative error of the motion with all %d coordinates: %.3g\n", analysis->count, analysis->left);
+    printf("  relative error of the motion with %d coordinate%s: %.3g; as many real principal components: %.3g\n",
+           analysis->count, analysis->count > 1 ? "s" : "", analysis->left, analysis->real_left);
     return true;
 }
 
@@ -214,12 +226,14 @@ static bool analyse(const struct job *job, int file, const struct lapack *lapack
         .method = job->method,
         .fps = fps,
         .modes = job->modes,
+        .first = (int)fmin(ceil(job->from * fps), ANALYSIS_FRAMES_MAX),
         .direction = job->direction_count ? job->directions[job->direction_count > 1 ? file : 0] : NULL,
     };
     done = done && analysis_create(&analysis, lapack, &motion, &plan, error);
     if (done) {
         warn_of_distance(&motion, &analysis, rest);
         warn_of_speed(&motion, &analysis, fps);
+        warn_of_cancelling(&motion, &analysis);
         report_motion(job, &motion, &analysis, fps);
         done = keep_all(job, &analysis, &motion, fps, result, error);
     }
@@ -299,6 +313,8 @@ static const char *check(struct job *job)
     if (!job->output) return "-o creature.glb is missing: name the file to write";
     if (mesh_options_check(&job->opening)) return mesh_options_check(&job->opening);
     if (!read_method(job)) return "--method: expected poles or cpca";
+    if (job->from > 0 && job->method == ANALYSIS_CPCA)
+        return "--from says where poles are looked for, and --method cpca looks for none";
     if (!read_directions(job, files))
         return "--shake: expected up, side, front or a vector x,y,z, one for all files or one each with : between";
     return NULL;
@@ -323,6 +339,8 @@ int command_analyze(int argc, char **argv)
          &job.shake, 0, 0},
         {"--method", NULL, "NAME", "poles: a coordinate a pole (default); cpca: complex principal components",
          OPTION_TEXT, &job.method_name, 0, 0},
+        {"--from", NULL, "S", "the second from which on nothing drives the motion: poles are found there (0)",
+         OPTION_REAL, &job.from, 0, 1e6},
         {"--scene", NULL, "FILE", "write a scene too, with knots that move the character as the motions did",
          OPTION_TEXT, &job.scene, 0, 0},
         {"--coordinates", NULL, "FILE", "write each coordinate's course over time and its spline's, as CSV",

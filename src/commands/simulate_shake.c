@@ -160,6 +160,9 @@ static void report(const struct shake_job *job, const struct soft *soft, const s
     } else {
         printf("  %d steps a frame; error of the motion %.2g %%\n", record->substeps, 100 * left);
     }
+    if (job->loads.drive && drive_end(job->loads.drive) < job->seconds)
+        printf("  nothing drives the base from %.4g s on: the poles are there (analyze --from)\n",
+               drive_end(job->loads.drive));
     if (left > job->accuracy) {
         fflush(stdout);
         fprintf(stderr, "%s: warning: the motion never became as accurate as %.3g %%: it may be chaotic\n",

@@ -71,6 +71,12 @@ double drive_acceleration(const struct drive *d, double t)
     return (drive_place(d, t + h) - 2 * drive_place(d, t) + drive_place(d, t - h)) / (h * h);
 }
 
+double drive_end(const struct drive *d)
+{
+    if (d->kind == DRIVE_BURST) return BURST_PERIODS / d->frequency;
+    return d->kind == DRIVE_TRACK ? d->time[d->count - 1] : INFINITY;
+}
+
 /// Second derivatives of the natural cubic spline: a tridiagonal system, swept forwards and back.
 static void bend_track(struct drive *d, double *above)
 {

@@ -35,4 +35,7 @@ double drive_place(const struct drive *drive, double time);
 /// Its second derivative, m/s².
 double drive_acceleration(const struct drive *drive, double time);
 
+/// The second from which on nothing drives the base; infinite where that never ends.
+double drive_end(const struct drive *drive);
+
 #endif
