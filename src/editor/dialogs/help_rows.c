@@ -74,6 +74,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
       {"Ctrl+O, N, E", "open, new, export"},
       {"Ctrl+S, Ctrl+Shift+S", "save, save as"},
       {"Ctrl+1 … 8", "figures, and a dog"},
+      {"Ctrl+0", "a meadow"},
       {"F6, Shift+F6", "resize the panels"},
       {"F10", "light or dark"},
       {"F11, F12", "full screen, screenshot"},
