@@ -1,7 +1,6 @@
 /// Draws a meadow: one strip of triangles, instanced for every reed.
 #include "draw/painter.h"
 #include "draw/stage_extent.h"
-#include "scene/meadow_rig.h"
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -47,7 +46,7 @@ static void make_instances(struct reeds *painter)
                                      offsetof(struct stage_reed, pushed)};
     glGenBuffers(1, &painter->instances);
     glBindBuffer(GL_ARRAY_BUFFER, painter->instances);
-    glBufferData(GL_ARRAY_BUFFER, MEADOW_MAX_REEDS * sizeof(struct stage_reed), NULL, GL_STREAM_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, STAGE_MAX_REEDS * sizeof(struct stage_reed), NULL, GL_STREAM_DRAW);
     for (GLuint i = 0; i < 3; i++) {
         glEnableVertexAttribArray(i + 1);
         glVertexAttribPointer(i + 1, 4, GL_FLOAT, GL_FALSE, sizeof(struct stage_reed), (const void *)offsets[i]);

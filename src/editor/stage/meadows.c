@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+_Static_assert((int)MEADOW_MAX_REEDS <= (int)STAGE_MAX_REEDS, "the stage holds every meadow");
+
 /// Of a body, in the size of its model: metres from its base along z, and how far off it still touches reeds.
 static const double MIDDLE = -0.28, REACH = 0.62;
 
