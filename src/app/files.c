@@ -98,12 +98,13 @@ bool app_open(struct app *app, const char *path, struct error *error)
 }
 
 /// What follows the paper's seven figures.
-enum { FIGURES = 7, OTHERS = 2 };
+enum { FIGURES = 7, OTHERS = 3 };
 static const struct {
     const char *name, *undo;
-} others[OTHERS] = {{"dog.json", "Open the dog"}, {"hands.json", "Open the hands"}};
+} others[OTHERS] = {
+    {"dog.json", "Open the dog"}, {"hands.json", "Open the hands"}, {"meadow.json", "Open the meadow"}};
 
-/// Opens a figure of the paper, the dog or the hands in place of the document: undo brings the document back, with its file.
+/// Opens a figure of the paper or one of the others in place of the document: undo brings the document back, with its file.
 static bool open_figure(struct app *app, int number, struct error *error)
 {
     const int other = number - FIGURES - 1;

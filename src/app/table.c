@@ -99,6 +99,8 @@ bool table_frame(struct table *table, double dt, const struct table_hooks *hooks
     if (table->models) models_paint(table->models, table->document);
     start = clock_now();
     if (!solve(table, row, error)) return false;
+    if (table->models && !models_grow(table->models, table->document, &table->evaluation))
+        editor_message(table->editor, true, "There is not enough memory for the meadow.");
     row->solve_us = since(start);
     start = clock_now();
     show(table, hooks);

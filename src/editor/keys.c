@@ -292,6 +292,7 @@ const struct binding key_bindings[] = {
     {.key = '7', .mods = MOD_CTRL, .run = run_figure, .argument = 7},
     {.key = '8', .mods = MOD_CTRL, .run = run_figure, .argument = 8},
     {.key = '9', .mods = MOD_CTRL, .run = run_figure, .argument = 9},
+    {.key = '0', .mods = MOD_CTRL, .run = run_figure, .argument = 10},
     {.key = KEY_F10, .any_time = true, .run = run_theme},
     {.key = KEY_F11, .any_time = true, .run = run_request, .argument = REQUEST_FULLSCREEN},
     {.key = KEY_F12, .any_time = true, .run = run_request, .argument = REQUEST_SCREENSHOT},

@@ -27,10 +27,21 @@ struct models {
     int placed_count;
     struct character_model *characters; ///< in the order of the document
     int character_count;
+    struct meadow *meadow; ///< NULL until a document has one
     uint64_t version;
 };
 
 struct models *models_create(void) { return calloc(1, sizeof(struct models)); }
+
+bool models_grow(struct models *models, const struct document *document, const struct evaluation *evaluation)
+{
+    const bool wanted = document_find_rig(document, RIG_MEADOW, 0) >= 0;
+    if (wanted && !models->meadow) models->meadow = meadow_create();
+    if (!models->meadow) return !wanted;
+    return meadow_update(models->meadow, document, evaluation);
+}
+
+const struct meadow *models_meadow(const struct models *models) { return models ? models->meadow : NULL; }
 
 static void drop_characters(struct models *models)
 {
@@ -52,6 +63,7 @@ void models_destroy(struct models *models)
     if (!models) return;
     drop_characters(models);
     drop_placed(models);
+    meadow_destroy(models->meadow);
     free(models->placed);
     model_files_free(&models->files);
     free(models->characters);

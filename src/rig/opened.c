@@ -42,7 +42,8 @@ bool opened_solve(struct opened *opened, wiggly_method method, struct error *err
     if (!evaluation_resize(&opened->evaluation, opened->document, error)) return false;
     motions_bake(&opened->evaluation, opened->document, &source);
     evaluation_update(&opened->evaluation, opened->document, NULL, false);
-    return true;
+    return !opened->models || models_grow(opened->models, opened->document, &opened->evaluation) ||
+           fail(error, ERROR_ENVIRONMENT, "not enough memory for the meadow");
 }
 
 void opened_free(struct opened *opened)

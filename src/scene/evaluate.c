@@ -263,6 +263,14 @@ static void update_alone(struct evaluation *evaluation, const struct document *d
     solve(evaluation, document, spline, evaluation->cubic);
 }
 
+wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struct document *document, int spline,
+                                wiggly_knot *knots)
+{
+    wiggly_desc desc = storage_describe(evaluation->storage, evaluation->curves, document, spline, evaluation->cubic);
+    storage_add_knots(&desc, document, spline, knots);
+    return desc;
+}
+
 void evaluation_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic)
 {
     struct storage *storage = evaluation->storage;

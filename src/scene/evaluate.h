@@ -31,6 +31,10 @@ void evaluation_free(struct evaluation *evaluation);
 /// spline as a cubic on the same knots, keeping its equilibrium and, behind the last knot, its value; changing it solves all.
 void evaluation_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic);
 
+/// What is solved for one spline, with its knots, for which `knots` has room.
+wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struct document *document, int spline,
+                                wiggly_knot *knots);
+
 /// What a method is called: "chain" or "band".
 const char *evaluation_solver(wiggly_method method);
 

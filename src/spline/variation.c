@@ -15,11 +15,17 @@ typedef struct walk {
 
 /// Where the force comes from.
 typedef struct source {
-    uint64_t seed;
+    uint64_t key; ///< of the seed
     double cell;  ///< samples
+    double rate;  ///< cells a sample
     int64_t wrap; ///< cells round a loop; 0: no loop
     bool is_complex;
+    int64_t at; ///< the cell that `now` is of
+    cplx now, before;
 } source;
+
+/// SplitMix64's step.
+static const uint64_t GOLDEN = 0x9E3779B97F4A7C15u;
 
 /// SplitMix64's output for the state `x`.
 static uint64_t mixed(uint64_t x)
@@ -30,10 +36,9 @@ static uint64_t mixed(uint64_t x)
 }
 
 /// Variance 1, all but normal: the sum of four even numbers, so that every machine has the same.
-static double chance(uint64_t seed, int64_t place, int part)
+static double chance(uint64_t key)
 {
-    uint64_t bits =
-        mixed(mixed(seed + 0x9E3779B97F4A7C15u) + 0x9E3779B97F4A7C15u * (2 * (uint64_t)place + (uint64_t)part));
+    const uint64_t bits = mixed(key);
     int sum = 0;
     for (int k = 0; k < 4; k++) sum += (int)(bits >> 16 * k & 0xFFFF);
     return (sum - 2 * 0xFFFF) * (1.7320508075688772 / 0x10000);
@@ -42,21 +47,28 @@ static double chance(uint64_t seed, int64_t place, int part)
 static cplx chances(const source *s, int64_t place)
 {
     if (s->wrap > 0) place %= s->wrap;
-    return (cplx){chance(s->seed, place, 0), s->is_complex ? chance(s->seed, place, 1) : 0};
+    const uint64_t key = s->key + 2 * GOLDEN * (uint64_t)place;
+    return (cplx){chance(key), s->is_complex ? chance(key + GOLDEN) : 0};
 }
 
 /// The mean force over the sample's interval.
-static cplx force(const source *s, int sample)
+static inline cplx force(source *s, int sample)
 {
-    const double from = (sample - 0.5) / s->cell, to = (sample + 0.5) / s->cell, edge = floor(to);
-    const int64_t cell = (int64_t)edge + s->wrap;
-    if (from >= edge) return chances(s, cell);
-    const double after = (to - edge) / (to - from);
-    return cplx_add(cplx_scale(1 - after, chances(s, cell - 1)), cplx_scale(after, chances(s, cell)));
+    const double from = (sample - 0.5) * s->rate, to = (sample + 0.5) * s->rate;
+    const int64_t place = (int64_t)to, cell = place + s->wrap;
+    const double edge = (double)place;
+    if (cell != s->at) {
+        s->before = cell == s->at + 1 ? s->now : chances(s, cell - 1);
+        s->now = chances(s, cell);
+        s->at = cell;
+    }
+    if (from >= edge) return s->now;
+    const double after = (to - edge) * s->cell;
+    return cplx_add(cplx_scale(1 - after, s->before), cplx_scale(after, s->now));
 }
 
 /// One sample on.
-static void advance(walk *w, cplx force)
+static inline void advance(walk *w, cplx force)
 {
     const cplx bent = cplx_sub(cplx_mul(w->m, w->e), cplx_mul(w->p, w->n));
     w->n = cplx_add(w->n, w->e);
@@ -83,11 +95,15 @@ static double size_of(const problem *p)
 static source source_of(const problem *p, const poles *at)
 {
     const wiggly_desc *desc = p->desc;
-    source s = {.seed = (uint64_t)desc->variation_seed, .is_complex = desc->mode == WIGGLY_COMPLEX};
+    source s = {.key = mixed((uint64_t)desc->variation_seed + GOLDEN),
+                .is_complex = desc->mode == WIGGLY_COMPLEX,
+                .at = INT64_MIN / 2};
     s.cell = fmax(1, 2 * 3.14159265358979323846 / (CELLS * at->natural * desc->step));
-    if (p->start != WIGGLY_LOOP) return s;
-    s.wrap = llround(fmax(1, p->count / s.cell));
-    s.cell = (double)p->count / (double)s.wrap;
+    if (p->start == WIGGLY_LOOP) {
+        s.wrap = llround(fmax(1, p->count / s.cell));
+        s.cell = (double)p->count / (double)s.wrap;
+    }
+    s.rate = 1 / s.cell;
     return s;
 }
 
@@ -103,12 +119,12 @@ static void draw_start(walk *w, const source *s, const start_cost *cost, double 
 static cplx determinant(cplx a, cplx b, cplx c, cplx d) { return cplx_sub(cplx_mul(a, d), cplx_mul(b, c)); }
 
 /// n and e that come back to themselves after `count` samples.
-static void close_loop(walk *w, const source *s, int count)
+static void close_loop(walk *w, source *s, int count)
 {
     walk forced = *w, one = *w, other = *w;
     one.n = other.e = (cplx){1, 0};
     for (int i = 0; i < count; i++) {
-        advance(&forced, force(s, (i + 1) % count));
+        advance(&forced, force(s, i + 1 < count ? i + 1 : 0));
         advance(&one, (cplx){0, 0});
         advance(&other, (cplx){0, 0});
     }
@@ -146,8 +162,8 @@ void variation_add(problem *p)
     const poles at = poles_at(desc, 0, LEAST_DAMPING);
     const coefficients c = poles_coefficients(&at, desc->step);
     const start_cost cost = poles_start_cost(&at, desc->step);
-    const source s = source_of(p, &at);
-    const double size = size_of(p), h = desc->step;
+    source s = source_of(p, &at);
+    const double size = size_of(p), half_rate = 0.5 / desc->step;
     if (!(cost.row[0].weight > 0 && cost.row[1].weight > 0)) return;
     walk w = {.m = c.m, .p = c.p, .gain = cplx_scale(size * sqrt(cost.row[1].weight / s.cell), c.g)};
     if (loops) close_loop(&w, &s, p->count);
@@ -157,13 +173,13 @@ void variation_add(problem *p)
     for (int i = 0; i < p->first; i++) add_sample(&p->swing, i, w.n, 0);
     double before = w.e.re;
     for (int i = p->first; i < p->first + p->count; i++) {
-        add_sample(&p->swing, i, w.n, 0.5 * (before + w.e.re) / h);
+        add_sample(&p->swing, i, w.n, half_rate * (before + w.e.re));
         before = w.e.re;
         if (!loops && p->latest >= 0 && i + 1 >= p->latest && i <= p->latest) let_go(&w, desc);
-        advance(&w, force(&s, loops ? (i + 1) % p->count : i + 1));
+        advance(&w, force(&s, loops && i + 1 == p->count ? 0 : i + 1));
     }
     if (!loops) return;
-    p->swing.speed[0] += 0.5 * (before - w.e.re) / h; // w has come back to where it began
+    p->swing.speed[0] += half_rate * (before - w.e.re); // w has come back to where it began
     const swing *u = &p->swing;
     u->total[p->count] = u->total[0], u->im[p->count] = u->im[0], u->speed[p->count] = u->speed[0];
 }
