@@ -25,7 +25,7 @@ static void a_key_finds_the_frequency(void **state)
     session_open(&s, swinging);
     session_frame(&s);
     char *original = session_saved(&s);
-    session_key(&s, 'H', 0);
+    session_key(&s, 'F', MOD_SHIFT);
     session_frame(&s);
     assert_near(number(&s, PARAMETER_FREQUENCY), 1.26, 0.06);
     assert_true(number(&s, PARAMETER_DAMPING) < 0.1);
@@ -41,7 +41,7 @@ static void too_few_knots_are_told(void **state)
     struct session s;
     session_open(&s, few);
     session_frame(&s);
-    session_key(&s, 'H', 0);
+    session_key(&s, 'F', MOD_SHIFT);
     assert_non_null(strstr(s.editor->core.message.text, "Four knots"));
     assert_near(number(&s, PARAMETER_FREQUENCY), 3, 0);
     session_close(&s);

@@ -4,6 +4,7 @@
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
+#include "editor/core/pins.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialog_files.h"
@@ -144,6 +145,7 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     editor->core.look = LOOK_WIGGLY;
     characters_open(&editor->core, document);
     bones_clear(&editor->core);
+    pins_clear(&editor->core);
     editor->core.pick = (struct bone_pick){0};
     memset(editor->core.recent, 0, sizeof editor->core.recent);
     editor->core.active = first_spline(document);

@@ -208,7 +208,7 @@ static void update_hover(struct editor *editor, const struct editor_world *world
     if (rect_contains(editor->core.layout.curves, x, y))
         editor->core.hover = curves_hover(editor->curves, &editor->core, world, x, y);
     if (rect_contains(editor->core.layout.stage, x, y))
-        editor->core.hover = stage_hover(editor->stage, &editor->core, x, y);
+        editor->core.hover = stage_hover(editor->stage, &editor->core, world->document, x, y);
     if (rect_contains(editor->core.layout.status, x, y)) editor->core.hover = transport_hover(&editor->core, x, y);
 }
 
@@ -267,13 +267,16 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
         [DRAG_STAGE_DIVIDER] = CURSOR_VERTICAL,
         [DRAG_INSPECTOR_DIVIDER] = CURSOR_HORIZONTAL,
         [DRAG_LIMIT] = CURSOR_VERTICAL,
+        [DRAG_PIN] = CURSOR_HAND,
+        [DRAG_PIN_TIME] = CURSOR_HORIZONTAL,
     };
     static const enum mouse_cursor of_hover[] = {
         [HOVER_NONE] = CURSOR_ARROW,   [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
         [HOVER_CURVE] = CURSOR_HAND,   [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
         [HOVER_BONE] = CURSOR_HAND,    [HOVER_UNITS] = CURSOR_HAND,       [HOVER_BODY] = CURSOR_MOVE,
         [HOVER_PLAY] = CURSOR_HAND,    [HOVER_LOOP] = CURSOR_HAND,        [HOVER_SPEED] = CURSOR_HAND,
-        [HOVER_WARNING] = CURSOR_HAND, [HOVER_LIMIT] = CURSOR_VERTICAL,
+        [HOVER_WARNING] = CURSOR_HAND, [HOVER_LIMIT] = CURSOR_VERTICAL,   [HOVER_POINT] = CURSOR_HAND,
+        [HOVER_PIN] = CURSOR_MOVE,
     };
     static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};

@@ -4,6 +4,7 @@
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
+#include "editor/core/pins.h"
 #include "editor/core/playback.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
@@ -55,7 +56,14 @@ static void run_insert(struct editor *e, const struct editor_world *w, int argum
     core_insert_on_curve(&e->core, w, core_frame(&e->core, w->document), true, argument);
 }
 
-/// Puts the brush away; without one, stops to pick a bone, lets go of the one that is selected, or clears the selection.
+/// Whether a pin is selected that has not been undone.
+static bool has_pin(const struct editor *editor, const struct editor_world *world)
+{
+    int rig;
+    return pins_selected(&editor->core, world->document, &rig) != NULL;
+}
+
+/// Puts the brush away; without one, stops to pick a bone, lets go of the bone or pin that is selected, or clears the selection.
 static void run_select_none(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
@@ -65,9 +73,27 @@ static void run_select_none(struct editor *e, const struct editor_world *w, int 
         e->core.pick = (struct bone_pick){0};
     } else if (e->core.bone.any) {
         bones_clear(&e->core);
+    } else if (has_pin(e, w)) {
+        pins_clear(&e->core);
     } else {
         selection_clear(&e->core.selection);
     }
+}
+
+/// The selected pin, else the selected knots.
+static void run_delete(struct editor *e, const struct editor_world *w, int argument)
+{
+    if (has_pin(e, w)) {
+        pins_delete(&e->core, w);
+    } else {
+        core_delete_knots(&e->core, w, argument);
+    }
+}
+
+static void run_hold(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    stage_hold_point(e->stage, &e->core, w);
 }
 
 static void run_frame(struct editor *e, const struct editor_world *w, int argument)
@@ -211,6 +237,10 @@ static void reveal(struct editor *editor, const struct knot *knot)
 
 static void run_neighbour(struct editor *editor, const struct editor_world *world, int direction)
 {
+    if (has_pin(editor, world)) {
+        pins_select_neighbour(&editor->core, world, direction);
+        return;
+    }
     reveal(editor, core_select_neighbour(&editor->core, world, direction));
 }
 
@@ -261,14 +291,15 @@ const struct binding key_bindings[] = {
     {.key = '6', .mods = MOD_CTRL, .run = run_figure, .argument = 6},
     {.key = '7', .mods = MOD_CTRL, .run = run_figure, .argument = 7},
     {.key = '8', .mods = MOD_CTRL, .run = run_figure, .argument = 8},
-    {.key = '0', .mods = MOD_CTRL, .run = run_figure, .argument = 0},
+    {.key = '9', .mods = MOD_CTRL, .run = run_figure, .argument = 9},
+    {.key = '0', .mods = MOD_CTRL, .run = run_figure, .argument = 10},
     {.key = KEY_F10, .any_time = true, .run = run_theme},
     {.key = KEY_F11, .any_time = true, .run = run_request, .argument = REQUEST_FULLSCREEN},
     {.key = KEY_F12, .any_time = true, .run = run_request, .argument = REQUEST_SCREENSHOT},
     {.key = 'I', .run = run_insert, .argument = false},
     {.key = 'I', .mods = MOD_SHIFT, .run = run_insert, .argument = true},
-    {.key = KEY_DELETE, .core = core_delete_knots},
-    {.key = KEY_BACKSPACE, .core = core_delete_knots},
+    {.key = KEY_DELETE, .run = run_delete},
+    {.key = KEY_BACKSPACE, .run = run_delete},
     {.key = 'A', .mods = MOD_CTRL, .core = core_select_all},
     {.key = KEY_ESCAPE, .run = run_select_none},
     {.key = 'C', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_COPY},
@@ -288,7 +319,7 @@ const struct binding key_bindings[] = {
     {.key = 'E', .mods = MOD_SHIFT, .repeats = true, .core = slopes_stiffen, .argument = 1},
     {.key = 'M', .core = core_cycle_choice, .argument = PARAMETER_MODE},
     {.key = 'M', .mods = MOD_SHIFT, .core = core_cycle_choice, .argument = PARAMETER_PASSIVE},
-    {.key = 'H', .core = core_find_frequency},
+    {.key = 'F', .mods = MOD_SHIFT, .core = core_find_frequency},
     {.key = KEY_F2, .run = run_rename},
     {.key = 'S', .run = run_scale},
     {.key = 'N', .run = run_normalise},
@@ -331,6 +362,9 @@ const struct binding key_bindings[] = {
     {.key = 'O', .any_time = true, .run = run_overlay, .argument = 'O'},
     {.key = 'P', .any_time = true, .run = run_overlay, .argument = 'P'},
     {.key = 'K', .run = run_brush},
+    {.key = 'H', .run = run_hold},
+    {.key = KEY_PAGE_UP, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = -1},
+    {.key = KEY_PAGE_DOWN, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = 1},
     {.key = 'J', .core = bones_make_chain, .argument = false},
     {.key = 'J', .mods = MOD_SHIFT, .core = bones_make_chain, .argument = true},
     {.key = 0},
@@ -351,12 +385,12 @@ const struct binding character_bindings[] = {
 
 static const struct nudge_key {
     int key;
-    double frames, values; ///< frames, and shares of the visible values
+    int frames, values; ///< frames, and hundredths of the visible values; of a pin, hundredths of what is seen
 } nudge_keys[] = {
     {.key = KEY_LEFT, .frames = -1},
     {.key = KEY_RIGHT, .frames = 1},
-    {.key = KEY_UP, .values = 0.01},
-    {.key = KEY_DOWN, .values = -0.01},
+    {.key = KEY_UP, .values = 1},
+    {.key = KEY_DOWN, .values = -1},
 };
 
 /// Alt+arrows; Shift ten times, Ctrl a tenth.
@@ -366,8 +400,12 @@ static bool nudge_event(struct editor *editor, const struct editor_world *world,
     double factor = event->mods & MOD_SHIFT ? 10 : event->mods & MOD_CTRL ? 0.1 : 1;
     for (size_t i = 0; i < sizeof nudge_keys / sizeof nudge_keys[0]; i++) {
         if (nudge_keys[i].key != event->key) continue;
-        core_nudge_knots(&editor->core, world, nudge_keys[i].frames * factor,
-                         nudge_keys[i].values * factor * editor->core.visible);
+        const double across = nudge_keys[i].frames * factor, up = nudge_keys[i].values * factor;
+        if (has_pin(editor, world)) {
+            stage_nudge_pin(editor->stage, &editor->core, world, across, up);
+        } else {
+            core_nudge_knots(&editor->core, world, across, 0.01 * up * editor->core.visible);
+        }
         return true;
     }
     return false;

@@ -15,7 +15,7 @@ struct models *models_create(void);
 void models_destroy(struct models *models);
 
 /// Reads the models that are missing or have changed on disk; figures handed out before are stale afterwards. false with the
-/// first sentence if a model is missing or broken, or lacks a coordinate, clip or bone that the scene names; the others are loaded
+/// first sentence if a model is missing or broken, or lacks a coordinate, clip, bone or pinned point that the scene names; the others are loaded
 /// all the same.
 bool models_update(struct models *models, const struct document *document, struct error *error);
 

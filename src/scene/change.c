@@ -1,5 +1,6 @@
 /// Swaps a change with the document's state, which both does and undoes it.
 #include "scene/change.h"
+#include "scene/pins.h"
 #include "scene/reference.h"
 #include <assert.h>
 #include <limits.h>
@@ -20,9 +21,10 @@ bool change_list_reserve(struct change_list *list, size_t count)
     return true;
 }
 
-static size_t knots_of(const struct document *document)
+/// Knots and pins.
+static size_t frames_of(const struct document *document)
 {
-    size_t count = 0;
+    size_t count = (size_t)pins_count(document);
     for (int s = 0; s < document->spline_count; s++) count += (size_t)document->splines[s].knot_count;
     return count;
 }
@@ -49,7 +51,7 @@ size_t change_bytes(const struct change *change, const struct document *document
     case CHANGE_PAINT:
         return own + touched_bytes(change->stroke.touched);
     case CHANGE_TIMING:
-        return own + (change->timing.frames ? knots_of(document) * sizeof *change->timing.frames : 0);
+        return own + (change->timing.frames ? frames_of(document) * sizeof *change->timing.frames : 0);
     default:
         return own;
     }
@@ -111,6 +113,13 @@ static void swap_frames(struct document *document, double *frames)
         for (int k = 0; k < spline->knot_count; k++) {
             double frame = spline->knots[k].frame;
             spline->knots[k].frame = *frames;
+            *frames++ = frame;
+        }
+    }
+    for (int r = 0; r < document->rig_count; r++) {
+        for (int i = 0; i < document->rigs[r].pin_count; i++) {
+            double frame = document->rigs[r].pins[i].frame;
+            document->rigs[r].pins[i].frame = *frames;
             *frames++ = frame;
         }
     }
@@ -286,6 +295,15 @@ static void swap_drives(struct change *change, struct document *document)
     for (int i = 0; i < CHARACTER_MAX_DRIVES; i++) SWAP(struct drive, rig->drives[i], change->drives.drives[i]);
 }
 
+static void swap_pin(struct change *change, struct document *document)
+{
+    struct rig *rig = &document->rigs[change->pin.rig];
+    const struct pin other = change->pin.pin;
+    if (change->kind != CHANGE_PIN_OUT) change->pin.pin = pins_remove(rig, other.id);
+    if (change->kind != CHANGE_PIN_IN) pins_insert(rig, &other);
+    if (change->kind != CHANGE_PIN) change->kind = change->kind == CHANGE_PIN_IN ? CHANGE_PIN_OUT : CHANGE_PIN_IN;
+}
+
 void change_swap(struct change *change, struct document *document)
 {
     struct spline *spline = change->spline >= 0 ? &document->splines[change->spline] : NULL;
@@ -345,6 +363,11 @@ void change_swap(struct change *change, struct document *document)
         break;
     case CHANGE_PAINT:
         touched_swap(change->stroke.touched, document->rigs[change->stroke.rig].character.painted);
+        break;
+    case CHANGE_PIN_IN:
+    case CHANGE_PIN_OUT:
+    case CHANGE_PIN:
+        swap_pin(change, document);
         break;
     }
 }

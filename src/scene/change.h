@@ -29,6 +29,9 @@ enum change_kind {
     CHANGE_DRIVES,      ///< the drives of a character
     CHANGE_SHEET,       ///< all of the paint on a character
     CHANGE_PAINT,       ///< a stroke on it
+    CHANGE_PIN_IN,      ///< the pin is in the document: swapping takes it out and makes this a CHANGE_PIN_OUT
+    CHANGE_PIN_OUT,     ///< and the other way round
+    CHANGE_PIN,         ///< a pin's numbers
 };
 
 /// What EDIT_PARAMETER and EDIT_SPRING change.
@@ -47,7 +50,7 @@ struct angles_place {
 struct timing {
     double fps;
     int substeps, first, last;
-    double *frames; ///< of all knots, spline by spline; owned. NULL: they stay
+    double *frames; ///< of all knots, spline by spline, and of all pins, rig by rig; owned. NULL: they stay
 };
 
 struct change {
@@ -99,6 +102,10 @@ struct change {
             int rig;
             struct touched *touched; ///< owned
         } stroke;
+        struct {
+            int rig;
+            struct pin pin;
+        } pin;
     };
 };
 

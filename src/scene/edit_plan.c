@@ -23,7 +23,8 @@ bool plan_add(struct change_list *list, const struct change *change, struct erro
 enum target { TARGET_SCENE, TARGET_SPLINE, TARGET_RIG };
 
 #define KIND(kind) (1u << (kind))
-#define CHANNELS (KIND(RIG_TAIL) | KIND(RIG_CHAIN)) ///< kinds that have them
+#define CHANNELS (KIND(RIG_TAIL) | KIND(RIG_CHAIN))                     ///< kinds that have them
+#define PINNED (KIND(RIG_TAIL) | KIND(RIG_CHAIN) | KIND(RIG_CHARACTER)) ///< kinds that take pins
 #define ANY_KIND (KIND(RIG_KINDS) - 1)
 
 static const struct {
@@ -68,6 +69,9 @@ static const struct {
     [EDIT_CLIP] = {plan_clip, TARGET_RIG, KIND(RIG_MODEL)},
     [EDIT_PLACE] = {plan_place, TARGET_RIG, KIND(RIG_MODEL)},
     [EDIT_CHAIN] = {plan_chain, TARGET_RIG, KIND(RIG_CHAIN)},
+    [EDIT_PIN_ADD] = {plan_pin_add, TARGET_RIG, PINNED},
+    [EDIT_PIN_SET] = {plan_pin_set, TARGET_RIG, PINNED},
+    [EDIT_PIN_REMOVE] = {plan_pin_remove, TARGET_RIG, PINNED},
 };
 
 /// What to call a rig of one of those kinds.

@@ -16,6 +16,7 @@ planner plan_model_add, plan_chain_add, plan_clip, plan_place, plan_chain;
 planner plan_angles, plan_axis, plan_part, plan_feed, plan_position, plan_length;
 planner plan_drive, plan_drive_add, plan_drive_remove;
 planner plan_paint_new, plan_dab;
+planner plan_pin_add, plan_pin_set, plan_pin_remove;
 
 /// Adds a change to a plan, which takes over what the change owns, or frees it on failure.
 bool plan_add(struct change_list *list, const struct change *change, struct error *error);

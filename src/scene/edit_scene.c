@@ -1,5 +1,6 @@
 /// Edits of the whole document, its frames per second, substeps and range of frames.
 #include "scene/edit_plan.h"
+#include "scene/pins.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -82,16 +83,20 @@ static bool add_timing(const struct document *document, const struct timing *tim
     return true;
 }
 
-/// The frames of all knots times `factor`; NULL if memory runs out.
+/// The frames of all knots and pins times `factor`; NULL if memory runs out.
 static double *scaled_frames(const struct document *document, double factor)
 {
-    size_t count = 0;
+    size_t count = (size_t)pins_count(document);
     for (int s = 0; s < document->spline_count; s++) count += (size_t)document->splines[s].knot_count;
     double *frames = malloc((count + 1) * sizeof *frames);
     double *next = frames;
     for (int s = 0; frames && s < document->spline_count; s++) {
         const struct spline *spline = &document->splines[s];
         for (int k = 0; k < spline->knot_count; k++) *next++ = spline->knots[k].frame * factor + 0.0;
+    }
+    for (int r = 0; frames && r < document->rig_count; r++) {
+        const struct rig *rig = &document->rigs[r];
+        for (int i = 0; i < rig->pin_count; i++) *next++ = rig->pins[i].frame * factor + 0.0;
     }
     return frames;
 }
@@ -176,6 +181,24 @@ static bool move_knots(const struct document *moved, int spline_index, struct ch
     return true;
 }
 
+/// Moves a rig's pins that fall outside to the nearest sample inside, or removes them.
+static bool fit_pins(const struct document *moved, int rig, enum range_fit fit, struct change_list *list,
+                     struct error *error)
+{
+    const int last = pins_last_sample(moved, &moved->rigs[rig]);
+    for (int i = 0; i < moved->rigs[rig].pin_count; i++) {
+        struct change change = {.kind = fit == RANGE_TRIM ? CHANGE_PIN_IN : CHANGE_PIN, .spline = -1};
+        const struct pin *pin = &moved->rigs[rig].pins[i];
+        const int sample = document_sample(moved, pin->frame);
+        if (sample >= 0 && sample <= last) continue;
+        change.pin.rig = rig;
+        change.pin.pin = *pin;
+        if (fit == RANGE_MOVE) change.pin.pin.frame = document_frame(moved, sample < 0 ? 0 : last);
+        if (!plan_add(list, &change, error)) return false;
+    }
+    return true;
+}
+
 bool plan_range(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
     struct timing timing = timing_of(document);
@@ -187,6 +210,9 @@ bool plan_range(struct document *document, const struct edit *edit, struct chang
     for (int s = 0; edit->fit != RANGE_REFUSE && s < document->spline_count; s++) {
         bool fits = edit->fit == RANGE_TRIM ? trim_knots(&moved, s, list, error) : move_knots(&moved, s, list, error);
         if (!fits) return false;
+    }
+    for (int r = 0; edit->fit != RANGE_REFUSE && r < document->rig_count; r++) {
+        if (!fit_pins(&moved, r, edit->fit, list, error)) return false;
     }
     if (edit->fit == RANGE_REFUSE && !check_knots_fit(&moved, NULL, error)) return false;
     return add_timing(document, &timing, list, error);

@@ -35,6 +35,7 @@ static bool fill_new(const struct document *document, const struct edit *edit, s
         free(added->name);
         added->name = NULL;
         added->extra = NULL;
+        added->pin_count = 0; // what is pinned drives both
         struct tail *tail = &added->tail;
         if (tail->position[0].track < 0) tail->position[0].value += ASIDE * tail->length;
     } else if (plan_has_spline(document, edit->spline, NULL) && !plan_append_channel(added, edit)) {
@@ -74,6 +75,22 @@ static void resample(struct angles *angles, int to, double factor)
     }
 }
 
+/// Pins stay where they are along the tail; of two that meet, the first stays.
+static void move_pins(struct rig *rig, int from, int to)
+{
+    const int count = rig->pin_count;
+    rig->pin_count = 0;
+    for (int i = 0; i < count; i++) {
+        struct pin pin = rig->pins[i];
+        bool meets = false;
+        pin.point = (2 * (pin.point + 1) * to + from) / (2 * from) - 1;
+        if (pin.point < 0) pin.point = 0;
+        for (int k = 0; k < rig->pin_count; k++)
+            meets |= rig->pins[k].frame == pin.frame && rig->pins[k].point == pin.point;
+        if (!meets) rig->pins[rig->pin_count++] = pin;
+    }
+}
+
 /// The tail keeps its shape and swing: with twice the joints, each bends and lags half as much.
 bool plan_joints(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
@@ -88,6 +105,7 @@ bool plan_joints(struct document *document, const struct edit *edit, struct chan
     struct tail *tail = &rig->tail;
     const double factor = (double)from / to;
     tail->joints = to;
+    move_pins(rig, from, to);
     resample(&tail->rest, to, factor);
     for (int c = 0; c < tail->channel_count; c++) {
         struct channel *channel = &tail->channels[c];

@@ -1,6 +1,7 @@
 /// The history: steps of changes, undo and redo.
 #include "scene/change.h"
 #include "scene/edit.h"
+#include "scene/pins.h"
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,6 +151,19 @@ static void swap_change(struct history *history, struct change *change, struct d
     mark_dirty(history, change);
 }
 
+/// Whether the edited document's pins are as a file may have them.
+static bool suits_pins(const struct document *document, const struct edit *edit, struct error *error)
+{
+    struct pin_trouble trouble;
+    const bool follows = edit->kind == EDIT_PARAMETER && edit->param.track >= 0;
+    const bool regroups = edit->kind == EDIT_PIN_ADD || edit->kind == EDIT_FEED || edit->kind == EDIT_CHANNEL_ADD ||
+                          edit->kind == EDIT_DRIVE || edit->kind == EDIT_DRIVE_ADD;
+    if (edit->kind == EDIT_DOCUMENT || pins_count(document) == 0) return true;
+    if (pins_check(document, &trouble) && (!(follows || regroups) || pins_check_order(document, &trouble)))
+        return true;
+    return fail(error, ERROR_INPUT, "%s: pins: %s", rig_title(&document->rigs[trouble.rig]), trouble.sentence);
+}
+
 bool history_apply(struct history *history, struct document *document, const struct edit *edit, struct error *error)
 {
     assert(history->is_open);
@@ -163,8 +177,14 @@ bool history_apply(struct history *history, struct document *document, const str
         return false;
     }
     if (from == 0) history->open_bytes = 0;
+    for (size_t i = from; i < history->open.count; i++) swap_change(history, &history->open.items[i], document);
+    if (!suits_pins(document, edit, error)) {
+        for (size_t i = history->open.count; i > from; i--)
+            swap_change(history, &history->open.items[i - 1], document);
+        release_from(&history->open, from);
+        return false;
+    }
     for (size_t i = from; i < history->open.count; i++) {
-        swap_change(history, &history->open.items[i], document);
         history->open_bytes += change_bytes(&history->open.items[i], document);
     }
     history->revision++;

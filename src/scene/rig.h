@@ -7,6 +7,7 @@
 #include "scene/character.h"
 #include "scene/meadow_rig.h"
 #include "scene/model_rig.h"
+#include "scene/pin.h"
 #include "scene/tail.h"
 #include <stddef.h>
 
@@ -35,6 +36,8 @@ struct rig {
         struct chain chain;
         struct meadow_rig meadow;
     };
+    struct pin *pins; ///< by frame, then by point; at most one of a point on a sample
+    int pin_count, pin_capacity;
     struct json_t *extra;
 };
 
@@ -50,6 +53,9 @@ int rig_input(const struct rig *rig, int input);
 
 /// Its channels and how many; NULL and 0 for a kind that has none.
 struct channel *rig_channels(const struct rig *rig, int *count);
+
+/// What a point that can be pinned is called in the file, "vertex" or "joint"; NULL: such a rig takes no pins.
+const char *rig_pin_key(const struct rig *rig);
 
 /// A copy that owns its memory; false, with nothing to free, if memory runs out.
 bool rig_copy(const struct rig *rig, struct rig *copy);

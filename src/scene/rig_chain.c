@@ -4,7 +4,8 @@
 #include "scene/rig_kind.h"
 #include <stdlib.h>
 
-static const char *const chain_keys[] = {"type", "name", "model", "from", "to", "turn", "mirror", "channels", NULL};
+static const char *const chain_keys[] = {"type", "name",   "model",    "from", "to",
+                                         "turn", "mirror", "channels", "pins", NULL};
 
 static void load(struct reader *reader, const struct value *object, struct rig *rig)
 {
@@ -76,6 +77,7 @@ const struct rig_functions chain_functions = {.word = "chain",
                                               .load = load,
                                               .resolve = resolve,
                                               .print = print,
+                                              .pin_key = "joint",
                                               .is_bent = true,
                                               .copy = copy,
                                               .release = release,

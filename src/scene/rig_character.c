@@ -6,8 +6,8 @@
 
 _Static_assert((int)CHARACTER_MAX_DRIVES <= (int)RIG_MAX_INPUTS, "a drive is an input");
 
-static const char *const character_keys[] = {"type",        "name",   "model", "position",
-                                             "coordinates", "phases", "paint", NULL};
+static const char *const character_keys[] = {"type",   "name",  "model", "position", "coordinates",
+                                             "phases", "paint", "pins",  NULL};
 static const char *const axes[] = {"x", "y", "z", NULL};
 static const char *const drive_keys[] = {"name", "spline", "amplitude", "lag", NULL};
 
@@ -127,6 +127,7 @@ static bool rebase(struct rig *rig, const char *from, const char *to)
 const struct rig_functions character_functions = {.word = "character",
                                                   .load = load,
                                                   .print = print,
+                                                  .pin_key = "vertex",
                                                   .input_count = input_count,
                                                   .input = input,
                                                   .references = references,

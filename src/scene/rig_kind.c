@@ -1,5 +1,6 @@
 /// The table of rig kinds, and what all kinds share.
 #include "scene/rig_kind.h"
+#include "scene/rig_pins.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -72,14 +73,27 @@ static bool copy_channels(struct rig *copy)
     return copy->bent.channels != NULL;
 }
 
+const char *rig_pin_key(const struct rig *rig) { return kinds[rig->kind]->pin_key; }
+
+static bool copy_pins(struct rig *copy)
+{
+    const struct pin *pins = copy->pins;
+    const size_t size = (size_t)copy->pin_count * sizeof *pins;
+    copy->pin_capacity = copy->pin_count;
+    copy->pins = size > 0 ? malloc(size) : NULL;
+    if (copy->pins) memcpy(copy->pins, pins, size);
+    return size == 0 || copy->pins;
+}
+
 bool rig_copy(const struct rig *rig, struct rig *copy)
 {
     const struct rig_functions *kind = kinds[rig->kind];
     *copy = *rig;
+    if (!copy_pins(copy)) return false;
     copy->name = rig->name ? strdup(rig->name) : NULL;
-    if (rig->name && !copy->name) return false;
-    if (kind->copy && !kind->copy(copy)) {
+    if ((rig->name && !copy->name) || (kind->copy && !kind->copy(copy))) {
         free(copy->name);
+        free(copy->pins);
         return false;
     }
     if (!kind->is_bent || copy_channels(copy)) return true;
@@ -92,13 +106,14 @@ void rig_release(struct rig *rig)
     const struct rig_functions *kind = kinds[rig->kind];
     if (kind->release) kind->release(rig);
     if (kind->is_bent) free(rig->bent.channels);
+    free(rig->pins);
     free(rig->name);
 }
 
 size_t rig_bytes(const struct rig *rig)
 {
     const struct rig_functions *kind = kinds[rig->kind];
-    size_t size = sizeof *rig + text_size(rig->name);
+    size_t size = sizeof *rig + text_size(rig->name) + (size_t)rig->pin_capacity * sizeof *rig->pins;
     if (kind->bytes) size += kind->bytes(rig);
     if (kind->is_bent) size += (size_t)rig->bent.channel_count * sizeof *rig->bent.channels;
     return size;
@@ -147,6 +162,7 @@ void load_rigs(struct reader *reader, const struct value *scene)
         memset(rig, 0, sizeof *rig);
         rig->kind = kind < 0 ? RIG_TAIL : (enum rig_kind)kind; // any will do: the scene is refused
         if (kind >= 0) kinds[kind]->load(reader, &object, rig);
+        if (kind >= 0 && kinds[kind]->pin_key) load_pins(reader, &object, kinds[kind]->pin_key, rig);
         check_name(reader, &object.at, i);
     }
     for (int i = 0; i < count; i++) {
@@ -163,6 +179,7 @@ static void print_rig(struct text *text, const struct document *document, const 
     member_string(&members, "type", kind->word);
     if (rig->name) member_string(&members, "name", rig->name);
     kind->print(&members, document, rig, folder);
+    if (kind->pin_key) print_pins(&members, rig, kind->pin_key);
     members_extra(&members, rig->extra, kind->has_tracks);
     text_string(text, "\n    }");
 }

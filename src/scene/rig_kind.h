@@ -16,6 +16,7 @@ struct rig_functions {
     void (*print)(struct members *members, const struct document *document, const struct rig *rig,
                   const char *folder);
     holds_tracks *has_tracks; ///< which keys of its extra object belong to tracks; NULL: none
+    const char *pin_key;      ///< what a point that can be pinned is called; NULL: none can
     /// By channels: these are copied, counted and freed for all such kinds in one place, and the functions below leave them alone.
     bool is_bent;
     /// The splines that drive it; NULL: none.

@@ -6,7 +6,7 @@
 #include <string.h>
 
 static const char *const tail_keys[] = {"type",   "name", "joints", "length", "position", "rest", "channels",
-                                        "spline", "axis", "of",     "lag",    "gain",     NULL};
+                                        "spline", "axis", "of",     "lag",    "gain",     "pins", NULL};
 
 /// Each coordinate is in metres or follows a spline. Unknown keys of tracks are kept under the tail's extra key "position".
 static void load_position(struct reader *reader, struct value value, struct param position[3], json_t **extra)
@@ -99,6 +99,7 @@ static void set_reference(struct rig *rig, const struct reference *reference, in
 const struct rig_functions tail_functions = {.word = "tail",
                                              .load = load,
                                              .print = print,
+                                             .pin_key = "joint",
                                              .has_tracks = holds_keys,
                                              .is_bent = true,
                                              .references = references,

@@ -1,6 +1,7 @@
 /// Checks a loaded document as a whole: cycles, limits, aliasing.
 #include "scene/order.h"
 #include "scene/reader.h"
+#include "scene/rig_pins.h"
 #include <math.h>
 
 static const double TWO_PI = 6.283185307179586;
@@ -53,4 +54,5 @@ void validate_scene(struct reader *reader, const struct where *scene_at)
     struct where splines_at = {.parent = scene_at, .key = "splines"};
     check_cycles(reader, &splines_at);
     check_aliasing(reader, &splines_at);
+    if (reader->has_domain && !reader->failed) validate_pins(reader, scene_at);
 }

@@ -1,6 +1,7 @@
 /// Knots on the clipboard, and duplicates: copy, cut, paste at the playhead, duplicate.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
+#include "editor/core/pins.h"
 #include "editor/core/selection.h"
 #include "scene/knots.h"
 #include <math.h>
@@ -61,6 +62,7 @@ static bool insert_all(struct core *core, const struct editor_world *world, cons
     if (!good) return false;
     core_reserve(core, document);
     selection_clear(&core->selection);
+    pins_clear(core);
     for (unsigned id = first_id; id < document->next_id; id++) selection_set(&core->selection, id, true);
     return true;
 }

@@ -1,6 +1,7 @@
 /// A drag of the pointer, whichever panel began it: how far it has gone, and its step of the history.
 #include "editor/core/drag.h"
 #include "editor/core/core.h"
+#include "editor/core/pins.h"
 #include "editor/core/selection.h"
 #include <math.h>
 
@@ -86,6 +87,7 @@ void drag_end(struct core *core, const struct editor_world *world, bool keep)
     if (drag->moved && drag->label) {
         if (!keep) history_restart(world->history, world->document);
         if (!keep) selection_drop_from(&core->selection, world->document->next_id);
+        if (!keep && core->pin.id >= world->document->next_id) pins_clear(core);
         history_end(world->history);
     }
     drag->kind = DRAG_NONE;

@@ -95,7 +95,7 @@ void core_find_frequency(struct core *core, const struct editor_world *world, in
     if (count == 1) {
         snprintf(rest, room, " There is no runner-up.");
     } else {
-        snprintf(rest, room, " H again for the %s: %.2f Hz.", chosen ? "best" : "runner-up",
+        snprintf(rest, room, " Shift+F again for the %s: %.2f Hz.", chosen ? "best" : "runner-up",
                  found[1 - chosen].frequency);
     }
     core_message(core, false, text);

@@ -2,6 +2,7 @@
 #include "editor/core/knots.h"
 #include "base/hash.h"
 #include "editor/core/core.h"
+#include "editor/core/pins.h"
 #include "editor/core/selection.h"
 #include <math.h>
 
@@ -19,6 +20,7 @@ uint64_t core_merge_key(const struct core *core, const struct editor_world *worl
 
 static void select_only(struct core *core, unsigned id)
 {
+    pins_clear(core);
     selection_clear(&core->selection);
     selection_set(&core->selection, id, true);
 }
@@ -96,6 +98,7 @@ void core_select_all(struct core *core, const struct editor_world *world, int un
 {
     (void)unused;
     const struct spline *spline = core_active_spline(core, world);
+    pins_clear(core);
     for (int k = 0; spline && k < spline->knot_count; k++) selection_set(&core->selection, spline->knots[k].id, true);
 }
 

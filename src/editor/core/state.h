@@ -42,6 +42,8 @@ enum drag_kind {
     DRAG_STAGE_DIVIDER,
     DRAG_INSPECTOR_DIVIDER,
     DRAG_LIMIT,
+    DRAG_PIN,
+    DRAG_PIN_TIME, ///< on the ruler
 };
 
 /// What all kinds of mouse drags in progress have in common.
@@ -80,6 +82,8 @@ enum hover_kind {
     HOVER_LOOP,
     HOVER_SPEED,
     HOVER_LIMIT,
+    HOVER_POINT, ///< of a rig, that can be pinned
+    HOVER_PIN,   ///< on the stage or the ruler
 };
 
 struct hover {
@@ -88,7 +92,8 @@ struct hover {
     unsigned knot;
     int handle; ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING: which one; HOVER_LIMIT: 1: the high one
     int tail;        ///< HOVER_BODY: its number among tails
-    int rig, joint;  ///< HOVER_JOINT: of the tail or chain
+    int rig, joint;  ///< HOVER_JOINT: of the tail or chain; HOVER_POINT: a joint whose end it is, or a vertex
+    unsigned pin;    ///< HOVER_PIN: its id
     double fraction; ///< of the segment after the joint
     int model, node; ///< of HOVER_BONE and of a chain's HOVER_JOINT: the character's rig and the bone
     float x, y;      ///< of the point on the tail
@@ -161,6 +166,12 @@ struct bone_selection {
     int node;
 };
 
+/// The pin that is selected. Its id finds it again after undo.
+struct pin_selection {
+    bool any;
+    unsigned id;
+};
+
 /// What the next click on a bone is for; otherwise it selects it.
 enum bone_use { BONE_SELECTED, BONE_FOLLOWED, BONE_FIRST, BONE_LAST };
 
@@ -208,6 +219,7 @@ struct core {
     struct character_view characters;
     struct bone_selection bone;
     struct bone_pick pick; ///< ends with the next edit
+    struct pin_selection pin;
     struct brush brush;
     struct overlays overlays;
     bool record_armed; ///< the next drag of a body is recorded from its start

@@ -29,6 +29,7 @@ void inspector_poles(struct inspection *in);
 void inspector_knot(struct inspection *in);
 void inspector_tail(struct inspection *in);
 void inspector_character(struct inspection *in);
+void inspector_pins(struct inspection *in);
 void inspector_model(struct inspection *in);
 void inspector_history(struct inspection *in);
 

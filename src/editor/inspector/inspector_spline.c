@@ -140,7 +140,7 @@ static void build_pair(struct inspection *in, const struct spline *spline)
     build_settling(in, spline);
     const struct rect r = ui_row(in->ui, UI_ROW), button = {r.x, r.y + 2, r.w, r.h - 4};
     if (ui_hovered(in->ui, button))
-        in->ui->hint = "Frequency and damping that explain the knots best (H); again: the runner-up";
+        in->ui->hint = "Frequency and damping that explain the knots best (Shift+F); again: the runner-up";
     if (ui_button(in->ui, button, "frequency.find", "Find the frequency", false))
         core_find_frequency(in->core, in->world, 0);
     if (spline_mode(spline) == WIGGLY_REAL) build_spring_toggle(in, spline);

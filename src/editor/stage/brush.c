@@ -1,10 +1,9 @@
 /// The brush: strokes as an airbrush makes them. A stroke adds flow × time to every vertex under it.
 #include "editor/stage/brush.h"
-#include "base/hash.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "rig/pick.h"
+#include "editor/stage/skin.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +17,6 @@ static const float RIM = 0.25f;          ///< beyond the radius, so that the rin
 static void free_work(struct brush_work *work)
 {
     reach_free(&work->reach);
-    free(work->posed);
     free(work->vertices);
     free(work->values);
     free(work->steps);
@@ -34,13 +32,12 @@ static bool reserve(struct brush_work *work, int vertices)
     const size_t room = (size_t)vertices + 1;
     if (work->capacity >= vertices) return true;
     free_work(work);
-    work->posed = malloc(room * sizeof *work->posed);
     work->vertices = malloc(room * sizeof *work->vertices);
     work->values = malloc(room * sizeof *work->values);
     work->steps = malloc(room * sizeof *work->steps);
     work->turned = malloc(room * sizeof *work->turned);
-    const bool good = work->posed && work->vertices && work->values && work->steps && work->turned &&
-                      reach_create(&work->reach, vertices);
+    const bool good =
+        work->vertices && work->values && work->steps && work->turned && reach_create(&work->reach, vertices);
     if (!good) {
         free_work(work);
         return false;
@@ -53,41 +50,13 @@ static bool reserve(struct brush_work *work, int vertices)
     return true;
 }
 
-/// The selected character as the stage shows it, its stiff twin left out; NULL where it is not shown.
-static const struct stage_character *find_shown(const struct stage *stage, const struct core *core)
-{
-    const struct stage_view *view = &stage->view;
-    for (int i = 0; i < view->character_count; i++) {
-        if (view->characters[i].rig == core->characters.character && !view->characters[i].is_twin)
-            return &view->characters[i];
-    }
-    return NULL;
-}
-
-/// The figure that is painted on with `posed` as the stage shows it; NULL where there is none.
+/// The figure that is painted on with the skin as the stage shows it; NULL where there is none.
 static const struct figure *pose_figure(struct stage *stage, const struct core *core,
                                         const struct editor_world *world, int *coordinate)
 {
-    struct painting *painting = &stage->painting;
     const struct figure *figure = characters_figure(core, world, coordinate);
-    const struct stage_character *shown = find_shown(stage, core);
-    if (!figure || !shown || !reserve(&painting->work, figure->character.vertex_count)) return NULL;
-    const uint64_t hash = hash_word(hash_word(stage->view.hash, figure->id), (uint64_t)shown->rig);
-    if (painting->posed_hash != hash) {
-        pick_pose(figure, &shown->morph, shown->position, painting->work.posed);
-        painting->posed_hash = hash;
-    }
-    return figure;
-}
-
-static bool find_spot(const struct stage *stage, const struct figure *figure, float x, float y,
-                      struct surface_spot *spot)
-{
-    const struct stage_view *view = &stage->view;
-    const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
-    float direction[3];
-    camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
-    return pick_ray(figure, (const float(*)[3])stage->painting.work.posed, view->eye, direction, spot);
+    if (!figure || !reserve(&stage->painting.work, figure->character.vertex_count)) return NULL;
+    return skin_pose(stage, core->characters.character) ? figure : NULL;
 }
 
 enum brush_mode brush_stroke(const struct brush *brush, unsigned mods)
@@ -128,7 +97,7 @@ bool brush_press(struct stage *stage, struct core *core, const struct editor_wor
     int coordinate;
     if (!brush->on || event->button != BUTTON_LEFT || history_is_open(world->history)) return false;
     const struct figure *figure = pose_figure(stage, core, world, &coordinate);
-    if (!figure || !find_spot(stage, figure, event->x, event->y, &painting->spot)) return false;
+    if (!figure || !skin_spot(stage, figure, event->x, event->y, &painting->spot)) return false;
     const struct paint *paint = characters_selected(core, world)->painted;
     if (paint && !models_paint_fits(paint, figure)) {
         core_message(core, true, "The paint in this scene belongs to another model. Remove it first.");
@@ -157,7 +126,7 @@ static int find_way(const struct stage *stage, const struct core *core, const st
     int count = 0;
     for (int i = 1; i <= steps; i++) {
         const float share = (float)i / (float)steps;
-        count += find_spot(stage, figure, painting->x + share * dx, painting->y + share * dy, &spots[count]);
+        count += skin_spot(stage, figure, painting->x + share * dx, painting->y + share * dy, &spots[count]);
     }
     return count;
 }
@@ -231,7 +200,7 @@ void brush_pose(struct stage *stage, struct core *core, const struct editor_worl
     if (brush->on && !reserve_figure(stage, core, world)) return;
     if (!brush->on || !pointed || !free_hand || covered) return;
     const struct figure *figure = pose_figure(stage, core, world, &coordinate);
-    if (!figure || !find_spot(stage, figure, core->pointer_x, core->pointer_y, &painting->spot)) return;
+    if (!figure || !skin_spot(stage, figure, core->pointer_x, core->pointer_y, &painting->spot)) return;
     painting->covers = true;
     reach_find(&painting->work.reach, figure, &painting->spot, 1, (1 + RIM) * brush_radius_of(brush, figure));
 }

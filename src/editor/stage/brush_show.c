@@ -25,13 +25,13 @@ struct ring {
 };
 
 /// Where the distance passes `radius` on the side between two corners: the same for both triangles at it, to the last bit.
-static bool crosses(const struct brush_work *work, uint32_t one, uint32_t other, float radius, float point[3])
+static bool crosses(const struct stage *stage, uint32_t one, uint32_t other, float radius, float point[3])
 {
     const uint32_t a = one < other ? one : other, b = one < other ? other : one;
-    const float from = work->reach.distance[a], to = work->reach.distance[b];
+    const float *distance = stage->painting.work.reach.distance, from = distance[a], to = distance[b];
     if ((from < radius) == (to < radius) || !(from < INFINITY) || !(to < INFINITY)) return false;
     const float share = (radius - from) / (to - from);
-    glm_vec3_lerp(work->posed[a], work->posed[b], share, point);
+    glm_vec3_lerp(stage->skin.posed[a], stage->skin.posed[b], share, point);
     return true;
 }
 
@@ -39,8 +39,7 @@ static bool faces_eye(const struct stage *stage, const uint32_t *corner)
 {
     float xy[3][2];
     for (int c = 0; c < 3; c++) {
-        if (!stage_project_point(stage, stage->view.viewport, stage->painting.work.posed[corner[c]], xy[c]))
-            return false;
+        if (!stage_project_point(stage, stage->view.viewport, stage->skin.posed[corner[c]], xy[c])) return false;
     }
     return (xy[1][0] - xy[0][0]) * (xy[2][1] - xy[0][1]) < (xy[1][1] - xy[0][1]) * (xy[2][0] - xy[0][0]);
 }
@@ -50,8 +49,7 @@ static void add_piece(struct stage *stage, const uint32_t *corner, float radius,
     float ends[3][3];
     int count = 0;
     if (ring->count == MOST_PIECES) return;
-    for (int c = 0; c < 3; c++)
-        count += crosses(&stage->painting.work, corner[c], corner[(c + 1) % 3], radius, ends[count]);
+    for (int c = 0; c < 3; c++) count += crosses(stage, corner[c], corner[(c + 1) % 3], radius, ends[count]);
     if (count != 2 || !faces_eye(stage, corner)) return;
     float(*piece)[2] = ring->xy[ring->count];
     ring->count += stage_project_point(stage, stage->view.viewport, ends[0], piece[0]) &&

@@ -7,6 +7,7 @@
 ///
 ///     (JᵀJ + λ) dv = Jᵀ (target − p),   in radians of bend, so that both axes count alike.
 #include "editor/core/core.h"
+#include "editor/core/pins.h"
 #include "editor/core/selection.h"
 #include "editor/stage/hold.h"
 #include "editor/stage/rigs.h"
@@ -153,6 +154,7 @@ static void select_knot(const struct stage *stage, struct core *core, const stru
     int at = spline ? spline_find_knot(world->document, spline, grab->sample) : -1;
     if (at < 0) return;
     core_reserve(core, world->document);
+    pins_clear(core);
     selection_clear(&core->selection);
     selection_set(&core->selection, spline->knots[at].id, true);
 }

@@ -11,6 +11,9 @@ void onion_show(const struct stage *stage, struct core *core, const struct edito
 
 /// Motion arc (P): where the tip of the tail or chain goes within two seconds of the playhead, with a mark at each frame.
 void trail_show(struct stage *stage, struct core *core, const struct editor_world *world);
+/// The same of any point of a rig.
+void path_show(struct stage *stage, struct core *core, const struct editor_world *world, enum trail which,
+               struct rig_point point);
 
 /// Where the legend is, when it is shown.
 struct rect characters_legend(const struct core *core);

@@ -1,9 +1,12 @@
 /// The stage panel: its beginning and end, the mouse on it, what its drags do, and what time does.
 #include "editor/stage/stage.h"
 #include "editor/core/drag.h"
+#include "editor/core/pins.h"
 #include "editor/stage/bones.h"
 #include "editor/stage/brush.h"
 #include "editor/stage/hold.h"
+#include "editor/stage/pins.h"
+#include "editor/stage/skin.h"
 #include "editor/stage/strand.h"
 #include <math.h>
 #include <stdlib.h>
@@ -20,6 +23,7 @@ void stage_destroy(struct stage *stage)
 {
     if (!stage) return;
     brush_free(&stage->painting);
+    skin_free(&stage->skin);
     free(stage);
 }
 
@@ -27,7 +31,8 @@ void stage_open(struct stage *stage)
 {
     memset(stage->sway, 0, sizeof stage->sway);
     memset(&stage->meadow, 0, sizeof stage->meadow);
-    stage->strand_count = stage->bone_count = 0;
+    stage->strand_count = stage->bone_count = stage->pin_count = 0;
+    stage->pins_key = 0;
 }
 
 const struct stage_view *stage_seen(const struct stage *stage) { return &stage->view; }
@@ -41,28 +46,35 @@ static struct hover nearer(struct hover a, struct hover b, float x, float y)
     return a.kind == HOVER_NONE || hypotf(b.x - x, b.y - y) < hypotf(a.x - x, a.y - y) ? b : a;
 }
 
-struct hover stage_hover(const struct stage *stage, const struct core *core, float x, float y)
+struct hover stage_hover(struct stage *stage, const struct core *core, const struct document *document, float x,
+                         float y)
 {
-    const struct hover hover = nearer(strand_hover(stage, core, x, y), bone_hover(stage, core, x, y), x, y);
-    return hover.kind == HOVER_NONE ? hold_hover(stage, x, y) : hover;
+    const struct hover joint = nearer(strand_hover(stage, core, x, y), bone_hover(stage, core, x, y), x, y);
+    const struct hover body = joint.kind == HOVER_NONE ? hold_hover(stage, x, y) : joint;
+    const struct hover pin = pins_hover(stage, core, document, &body, x, y);
+    return pin.kind == HOVER_NONE ? body : pin;
 }
 
 /// What is under a point and still in the document: an edit in the same frame may have taken away what was last shown.
-static struct hover hover_now(const struct stage *stage, const struct core *core, const struct document *document,
-                              float x, float y)
+static struct hover hover_now(struct stage *stage, const struct core *core, const struct editor_world *world, float x,
+                              float y)
 {
-    struct hover hover = stage_hover(stage, core, x, y);
+    const struct document *document = world->document;
+    struct hover hover = stage_hover(stage, core, document, x, y);
     if (hover.kind == HOVER_JOINT && !grab_holds(document, hover.rig, hover.joint)) hover.kind = HOVER_NONE;
     if (hover.kind == HOVER_BONE && !bone_exists(document, hover.model)) hover.kind = HOVER_NONE;
     if (hover.kind == HOVER_BODY && !document_tail(document, hover.tail)) hover.kind = HOVER_NONE;
+    if ((hover.kind == HOVER_POINT || hover.kind == HOVER_PIN) && !pins_hover_exists(world, &hover))
+        hover.kind = HOVER_NONE;
     return hover;
 }
 
-bool stage_body_point(const struct stage *stage, const struct core *core, int tail, float xy[2])
+bool stage_body_point(struct stage *stage, const struct core *core, const struct document *document, int tail,
+                      float xy[2])
 {
     for (int i = 0; i < HOLD_POINTS; i++) {
         if (!hold_point(stage, core, tail, i, xy)) continue;
-        struct hover hover = stage_hover(stage, core, xy[0], xy[1]);
+        struct hover hover = stage_hover(stage, core, document, xy[0], xy[1]);
         if (hover.kind == HOVER_BODY && hover.tail == tail) return true;
     }
     return false;
@@ -77,10 +89,14 @@ void stage_press(struct stage *stage, struct core *core, const struct editor_wor
         return;
     }
     if (brush_press(stage, core, world, event)) return;
-    struct hover hover = hover_now(stage, core, world->document, event->x, event->y);
+    stage->pointed.hash = 0; // a press means what is there now, even while all moves
+    struct hover hover = hover_now(stage, core, world, event->x, event->y);
     stage->pressed = hover;
     const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
-    if (holds && hover.kind == HOVER_BODY) {
+    if (event->button == BUTTON_LEFT && hover.kind != HOVER_PIN) pins_clear(core);
+    if (holds && (hover.kind == HOVER_POINT || hover.kind == HOVER_PIN)) {
+        pins_begin(stage, core, world, &hover, event);
+    } else if (holds && hover.kind == HOVER_BODY) {
         drag_begin(core, DRAG_BODY, "Move body", event);
         hold_begin(stage, core, hover.tail);
     } else if (holds && hover.kind == HOVER_JOINT) {
@@ -112,6 +128,7 @@ void stage_drag_move(struct stage *stage, struct core *core)
 {
     const struct drag *drag = &core->drag;
     start_recording(stage, core);
+    stage->pin_drag.stale = true;
     if (drag->kind == DRAG_ORBIT) {
         camera_orbit(&stage->camera, -(float)drag->moved_x * ORBIT_SPEED, (float)drag->moved_y * ORBIT_SPEED);
     }
@@ -124,6 +141,7 @@ enum drag_answer stage_drag_event(struct stage *stage, struct core *core, const 
                                   const struct event *event)
 {
     bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & (MOD_CTRL | MOD_ALT));
+    if (core->drag.kind == DRAG_PIN && key) return pins_lock(stage, event->key) ? DRAG_USED : DRAG_PASSES;
     if (core->drag.kind != DRAG_BODY || !key) return DRAG_PASSES;
     if (event->key == 'R') {
         drag_start_moving(core, world);
@@ -146,6 +164,7 @@ void stage_advance(struct stage *stage, struct core *core, const struct editor_w
 {
     brush_advance(stage, core, world, dt);
     grab_apply(stage, core, world);
+    pins_apply(stage, core, world);
     sway_advance(stage, core, world, dt);
     stage->meadow.dt += dt;
     record_advance(stage, core, world);

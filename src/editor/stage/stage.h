@@ -11,7 +11,8 @@ struct stage *stage_create(void);
 /// NULL is fine.
 void stage_destroy(struct stage *stage);
 /// A point of the screen where hold_hover() finds that tail's body; false where it is hidden.
-bool stage_body_point(const struct stage *stage, const struct core *core, int tail, float xy[2]);
+bool stage_body_point(struct stage *stage, const struct core *core, const struct document *document, int tail,
+                      float xy[2]);
 /// What the scene is about, in the upper left corner of the stage: up to the first full stop as a title.
 void stage_show_caption(struct core *core, const struct document *document, float bottom);
 /// Where a point of its surface is on the screen: `uv` across and up its box at rest, seen from the front. false where it is not
@@ -49,12 +50,20 @@ void stage_show(struct stage *stage, struct core *core, const struct editor_worl
 /// Where a point of a tail or chain is on the screen, as of the last pose: `fraction` 0 … 1 of the way from joint to joint + 1.
 bool stage_project(const struct stage *stage, const struct core *core, int rig, int joint, double fraction,
                    float xy[2]);
-/// What can be held or clicked at a point: the nearest of tails and bones, else a body.
-struct hover stage_hover(const struct stage *stage, const struct core *core, float x, float y);
+/// What can be held or clicked at a point: the nearest of tails and bones, else a body; pins before these, surfaces behind.
+struct hover stage_hover(struct stage *stage, const struct core *core, const struct document *document, float x,
+                         float y);
 /// A press on the stage.
 void stage_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event);
 /// The wheel over the stage.
 void stage_wheel(struct stage *stage, struct core *core, const struct event *event);
+/// Moves the selected pin in the plane that faces the eye, by steps of 1 % of what is seen.
+void stage_nudge_pin(struct stage *stage, struct core *core, const struct editor_world *world, double right,
+                     double up);
+/// Pins what is pointed at where it is; else the selected pin's point once more, at the playhead.
+void stage_hold_point(struct stage *stage, struct core *core, const struct editor_world *world);
+/// Where a pin's marker is on the screen; false where it is not in sight.
+bool stage_pin_point(const struct stage *stage, const struct core *core, unsigned id, float xy[2]);
 /// Motion arc on, off.
 void stage_toggle_trail(struct core *core);
 

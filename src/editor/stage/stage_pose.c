@@ -5,7 +5,9 @@
 #include "editor/stage/brush.h"
 #include "editor/stage/hold.h"
 #include "editor/stage/overlays.h"
+#include "editor/stage/pins.h"
 #include "editor/stage/rigs.h"
+#include "editor/stage/skin.h"
 #include "editor/stage/stage.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -94,6 +96,7 @@ void stage_pose(struct stage *stage, struct core *core, const struct editor_worl
     view->colors = theme()->stage;
     camera_matrices(&stage->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
     view->hash = view_hash(view);
+    skin_reserve(stage);
     brush_pose(stage, core, world, covered);
 }
 
@@ -139,5 +142,6 @@ void stage_show(struct stage *stage, struct core *core, const struct editor_worl
     hold_show(stage, core);
     bones_show(stage, core, world);
     show_hold(stage, core);
+    pins_show(stage, core, world);
     drawlist_set_clip(&core->list, clip);
 }

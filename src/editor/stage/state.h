@@ -27,7 +27,7 @@ struct grab_axis {
     double values_per_radian;   ///< of bend at the grabbed joint
 };
 
-enum { STAGE_MAX_STRANDS = 32, STAGE_MAX_BONES = 2048 };
+enum { STAGE_MAX_STRANDS = 32, STAGE_MAX_BONES = 2048, STAGE_MAX_PINS = SCENE_MAX_PINS };
 
 /// A tail or chain as a row of points, from its first joint to its tip.
 struct strand {
@@ -83,22 +83,65 @@ struct sway {
     double scale[SCENE_MAX_CHANNELS];         ///< swing_scale() of each
 };
 
+/// A point of a rig that goes where it takes it: the end of a joint of a tail or chain, or a vertex of a character.
+struct rig_point {
+    int rig; ///< in the document
+    int at;  ///< the joint or vertex
+};
+
 enum { TRAIL_FRAMES = 256 };
 
-/// The tip of a tail at a frame, as it was when the document was at `key`.
+/// The arcs that can be shown at once.
+enum trail { TRAIL_OF_TIP, TRAIL_OF_PIN, TRAILS };
+
+/// A point of a rig at a frame, as it was when the document was at `key`.
 struct trail_point {
     bool known;
     uint64_t key;
     int frame;
-    float tip[3];
+    float place[3];
+};
+
+/// The surface of the character that was last pointed at, as the stage shows it; memory for up to `capacity` vertices.
+struct skin {
+    int capacity;
+    float (*posed)[3]; ///< positions in the world
+    uint64_t hash;     ///< of the stage and the character on it that `posed` was made for
+};
+
+/// What was last found of a surface, and under which point of which picture.
+struct pointed {
+    float x, y;
+    uint64_t hash; ///< of the stage
+    struct hover hover;
+};
+
+/// A pin as it was last shown.
+struct shown_pin {
+    unsigned id;
+    struct rig_point point;
+    double frame;
+    float to[3], place[3]; ///< where its point should be on its frame, and is; world
+    bool is_known;         ///< the second
+    uint32_t color;        ///< of the rig's first spline
+};
+
+/// The pin that is dragged.
+struct pin_drag {
+    struct rig_point point;
+    double frame;
+    double start[3];         ///< metres of the world
+    int axis;                ///< the only one along which it moves; −1: as the pointer does
+    double right[3], up[3];  ///< of the picture, world
+    double pixels_per_metre; ///< there
+    bool stale;              ///< the pointer moved since the edit was made
 };
 
 /// Memory for figures of up to `capacity` vertices.
 struct brush_work {
     int capacity;
     struct reach reach;
-    float (*posed)[3]; ///< positions in the world
-    int *vertices;     ///< of a dab, and their new values
+    int *vertices; ///< of a dab, and their new values
     float (*values)[2];
     float (*steps)[2];  ///< that smoothing is about to make
     float (*turned)[2]; ///< by what smoothing has multiplied each vertex in this frame; 1 for all others
@@ -109,9 +152,8 @@ struct painting {
     enum brush_mode stroke; ///< what the running stroke does (Shift and Ctrl make it another than the one chosen)
     bool covers;            ///< the pointer is over the character, at `spot`
     struct surface_spot spot;
-    uint64_t posed_hash; ///< of the stage and the character on it that `posed` was made for
-    float x, y;          ///< pointer in the last frame of the running stroke
-    bool has_dabbed;     ///< the running stroke has come to a frame
+    float x, y;      ///< pointer in the last frame of the running stroke
+    bool has_dabbed; ///< the running stroke has come to a frame
     struct brush_work work;
 };
 
@@ -140,7 +182,13 @@ struct stage {
     struct hold hold;
     struct record record;
     struct sway sway[STAGE_MAX_TAILS];
-    struct trail_point trail[TRAIL_FRAMES];
+    struct trail_point trail[TRAILS][TRAIL_FRAMES];
+    struct skin skin;
+    struct pointed pointed;
+    struct shown_pin pins[STAGE_MAX_PINS];
+    int pin_count;
+    uint64_t pins_key; ///< of what they were found in
+    struct pin_drag pin_drag;
     struct painting painting;
 };
 

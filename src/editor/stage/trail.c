@@ -1,13 +1,14 @@
-/// The motion arc: where the tip of the tail or chain goes, one mark per frame, fading with the distance from the playhead.
+/// Motion arcs: where the tip of the tail or chain or a held point goes, one mark per frame, fading with the distance from the playhead.
 #include "base/hash.h"
+#include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/stage/overlays.h"
+#include "editor/stage/points.h"
 #include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/strand.h"
 #include "ui/theme.h"
 #include <math.h>
-#include <string.h>
 
 enum {
     MAX_REACH = TRAIL_FRAMES / 2 - 1, ///< frames to each side
@@ -32,23 +33,18 @@ static bool rig_loops(const struct document *document, const struct rig *rig)
     return all;
 }
 
-/// The tip at a frame counted from the first, world; from memory while nothing was edited.
-static const float *tip_at(struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                           int frame)
+/// The point at a frame counted from the first, world; from memory while nothing was edited.
+static const float *place_at(struct trail_point *trail, const struct core *core, const struct editor_world *world,
+                             struct rig_point point, int frame)
 {
     uint64_t solved = world->evaluation ? world->evaluation->revision : 0;
     uint64_t key = hash_word(hash_word(HASH_START, history_revision(world->history)), solved);
-    key = hash_word(key, (uint64_t)rig << 8 | (uint64_t)core->look);
-    struct trail_point *point = &stage->trail[(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
-    if (point->known && point->key == key && point->frame == frame) return point->tip;
-    struct rig_pose pose;
-    const struct posing posing = stage_posing(core, world);
-    *point = (struct trail_point){.known = true, .key = key, .frame = frame};
-    if (!rig_pose(&posing, rig, (double)frame * world->document->substeps, NULL, &pose)) return point->tip;
-    const float *tip =
-        pose.kind == RIG_CHAIN ? pose.chain.point[pose.chain.count - 1] : pose.tail.matrix[pose.tail.count - 1] + 12;
-    memcpy(point->tip, tip, sizeof point->tip);
-    return point->tip;
+    key = hash_word(hash_word(key, (uint64_t)point.rig << 8 | (uint64_t)core->look), (uint64_t)point.at);
+    struct trail_point *kept = &trail[(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
+    if (kept->known && kept->key == key && kept->frame == frame) return kept->place;
+    *kept = (struct trail_point){.known = true, .key = key, .frame = frame};
+    point_place(core, world, point, (double)frame * world->document->substeps, kept->place);
+    return kept->place;
 }
 
 /// Catmull-Rom through four neighbours, on the screen.
@@ -106,15 +102,14 @@ static void show_now(struct stage *stage, struct core *core, int rig)
     drawlist_rounded_line(&core->list, ring, NOW, 1.5f, theme()->playhead);
 }
 
-void trail_show(struct stage *stage, struct core *core, const struct editor_world *world)
+void path_show(struct stage *stage, struct core *core, const struct editor_world *world, enum trail which,
+               struct rig_point point)
 {
     const struct document *document = world->document;
-    int rig = overlay_rig(stage, core, document);
-    if (!core->overlays.trail || rig < 0) return;
     double now = core->playback.position / document->substeps;
     double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
     int first = (int)ceil(now - reach), last = (int)floor(now + reach);
-    if (!rig_loops(document, &document->rigs[rig])) {
+    if (!rig_loops(document, &document->rigs[point.rig])) {
         first = first < 0 ? 0 : first;
         last =
             last < document->last_frame - document->first_frame ? last : document->last_frame - document->first_frame;
@@ -122,12 +117,19 @@ void trail_show(struct stage *stage, struct core *core, const struct editor_worl
     float screen[TRAIL_FRAMES][2], points[PIECES * TRAIL_FRAMES][2];
     int count = 0;
     for (int frame = first; frame <= last; frame++) {
-        if (!stage_project_point(stage, core->layout.stage, tip_at(stage, core, world, rig, frame), screen[count++]))
-            return;
+        const float *place = place_at(stage->trail[which], core, world, point, frame);
+        if (!stage_project_point(stage, core->layout.stage, place, screen[count++])) return;
     }
     if (count == 0) return;
     show_line(core, points, first, lay_out(screen, count, points), now, reach);
     show_marks(core, screen, first, count, now, reach);
+}
+
+void trail_show(struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    int rig = overlay_rig(stage, core, world->document);
+    if (!core->overlays.trail || rig < 0) return;
+    path_show(stage, core, world, TRAIL_OF_TIP, (struct rig_point){rig, bones_joints(world, rig) - 1});
     show_now(stage, core, rig);
 }
 

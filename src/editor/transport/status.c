@@ -49,8 +49,9 @@ static const char *hover_hint(const struct core *core, const struct document *do
         return "Click to switch between frames and seconds (U)";
     case HOVER_JOINT:
         return document->rigs[core->hover.rig].kind == RIG_CHAIN
-                   ? "Drag the chain to set the knot at the playhead; click to select the bone"
-                   : "Drag the tail to set the knot at the playhead";
+                   ? "Drag the chain to set the knot at the playhead; Ctrl+drag or H pins a joint; click to select "
+                     "the bone"
+                   : "Drag the tail to set the knot at the playhead; Ctrl+drag or H pins a joint";
     case HOVER_BONE:
         return "Click to select this bone";
     case HOVER_BODY:
@@ -63,6 +64,10 @@ static const char *hover_hint(const struct core *core, const struct document *do
         return "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)";
     case HOVER_LIMIT:
         return "Drag the limit; the curve stays on this side of it";
+    case HOVER_POINT:
+        return "Drag to pin this point at the playhead (X, Y or Z locks an axis, Shift: fine); H pins it where it is";
+    case HOVER_PIN:
+        return "Drag the pin (X, Y or Z locks an axis, Shift: fine); Del removes it; Alt+arrows nudge it";
     case HOVER_NONE:
         break;
     }

@@ -1,0 +1,151 @@
+/// Edits of pins, which the stage, the ruler, the inspector and the keyboard ask for.
+#include "editor/core/pins.h"
+#include "base/hash.h"
+#include "editor/core/core.h"
+#include "editor/core/playback.h"
+#include "editor/core/selection.h"
+#include "scene/pins.h"
+#include <math.h>
+
+enum pin_nudge { NUDGE_PLACE, NUDGE_FRAME };
+
+static const double RESOLUTION = 1e-4; ///< metres that the document gets
+
+const struct pin *pins_selected(const struct core *core, const struct document *document, int *rig)
+{
+    for (int r = 0; r < document->rig_count && core->pin.any; r++) {
+        const int at = pins_find_id(&document->rigs[r], core->pin.id);
+        if (at < 0) continue;
+        *rig = r;
+        return &document->rigs[r].pins[at];
+    }
+    return NULL;
+}
+
+void pins_select(struct core *core, unsigned id)
+{
+    selection_clear(&core->selection);
+    core->pin = (struct pin_selection){.any = true, .id = id};
+}
+
+void pins_visit(struct core *core, const struct document *document, const struct pin *pin)
+{
+    core->playback.playing = false;
+    playback_seek(core, document, pin->frame);
+    pins_select(core, pin->id);
+}
+
+void pins_clear(struct core *core) { core->pin.any = false; }
+
+bool pins_suit(const struct rig *rig)
+{
+    return rig->kind == RIG_TAIL || rig->kind == RIG_CHAIN || rig->kind == RIG_CHARACTER;
+}
+
+double pins_frame_here(const struct core *core, const struct document *document, int rig)
+{
+    const int sample = document_sample(document, round(core_frame(core, document)));
+    const int last = pins_last_sample(document, &document->rigs[rig]);
+    return document_frame(document, sample < 0 ? 0 : sample > last ? last : sample);
+}
+
+struct edit pins_edit(enum edit_kind kind, int rig, const struct pin *pin)
+{
+    struct edit edit = core_edit_of(kind, -1);
+    edit.rig = rig;
+    edit.pin = *pin;
+    for (int k = 0; k < 3; k++) edit.pin.to[k] = core_round(pin->to[k], RESOLUTION);
+    return edit;
+}
+
+bool pins_put(struct core *core, const struct editor_world *world, int rig, int point, double frame,
+              const double to[3])
+{
+    const struct document *document = world->document;
+    const int sample = document_sample(document, frame);
+    const int there = pins_find(document, &document->rigs[rig], point, sample);
+    struct pin pin = {.frame = frame, .point = point};
+    if (there >= 0) pin = document->rigs[rig].pins[there];
+    for (int k = 0; k < 3; k++) pin.to[k] = to[k];
+    const struct edit edit = pins_edit(there < 0 ? EDIT_PIN_ADD : EDIT_PIN_SET, rig, &pin);
+    if (!core_edit(core, world, &edit)) return false;
+    pins_select(core, document->rigs[rig].pins[pins_find(document, &document->rigs[rig], point, sample)].id);
+    return true;
+}
+
+void pins_put_here(struct core *core, const struct editor_world *world, int rig, int point, const double to[3])
+{
+    if (history_is_open(world->history)) return;
+    const double frame = pins_frame_here(core, world->document, rig);
+    history_begin(world->history, "Pin", 0);
+    const bool done = pins_put(core, world, rig, point, frame, to);
+    history_end(world->history);
+    if (!done) return;
+    core->playback.playing = false;
+    playback_seek(core, world->document, frame);
+}
+
+/// Equal nudges of the same pin are one step.
+static uint64_t merge_key(const struct pin *pin, enum pin_nudge kind)
+{
+    return hash_word(hash_word(HASH_START, (uint64_t)kind), pin->id);
+}
+
+void pins_nudge(struct core *core, const struct editor_world *world, const double by[3])
+{
+    int rig;
+    const struct pin *pin = pins_selected(core, world->document, &rig);
+    if (!pin) return;
+    struct pin moved = *pin;
+    for (int k = 0; k < 3; k++) moved.to[k] += by[k];
+    const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &moved);
+    core_step(core, world, "Nudge pin", merge_key(pin, NUDGE_PLACE), &edit);
+}
+
+void pins_retime(struct core *core, const struct editor_world *world, int frames)
+{
+    int rig;
+    const struct document *document = world->document;
+    const struct pin *pin = pins_selected(core, document, &rig);
+    if (!pin) return;
+    struct pin moved = *pin;
+    int sample;
+    do {
+        moved.frame += frames;
+        sample = document_sample(document, moved.frame);
+        if (sample < 0 || sample > pins_last_sample(document, &document->rigs[rig])) return;
+    } while (pins_find(document, &document->rigs[rig], pin->point, sample) >= 0);
+    const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &moved);
+    if (core_step(core, world, "Move pin in time", merge_key(pin, NUDGE_FRAME), &edit))
+        playback_seek(core, document, moved.frame);
+}
+
+void pins_delete(struct core *core, const struct editor_world *world)
+{
+    int rig;
+    const struct pin *pin = pins_selected(core, world->document, &rig);
+    if (!pin) return;
+    const struct edit edit = pins_edit(EDIT_PIN_REMOVE, rig, pin);
+    if (core_step(core, world, "Delete pin", 0, &edit)) pins_clear(core);
+}
+
+/// Whether a pin comes before another: by frames, then by ids.
+static bool is_before(const struct pin *a, const struct pin *b)
+{
+    return a->frame != b->frame ? a->frame < b->frame : a->id < b->id;
+}
+
+void pins_select_neighbour(struct core *core, const struct editor_world *world, int direction)
+{
+    int rig;
+    const struct document *document = world->document;
+    const struct pin *from = pins_selected(core, document, &rig), *best = NULL;
+    for (int r = 0; from && r < document->rig_count; r++) {
+        for (int i = 0; i < document->rigs[r].pin_count; i++) {
+            const struct pin *pin = &document->rigs[r].pins[i];
+            if (pin == from || is_before(pin, from) == (direction > 0)) continue;
+            if (!best || is_before(pin, best) == (direction > 0)) best = pin;
+        }
+    }
+    if (best) pins_visit(core, document, best);
+}

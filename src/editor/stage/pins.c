@@ -1,0 +1,245 @@
+/// Pins by mouse and keyboard: what is pointed at, drags in the plane that faces the eye, nudges in it.
+#include "editor/stage/pins.h"
+#include "editor/core/core.h"
+#include "editor/core/drag.h"
+#include "editor/core/pins.h"
+#include "editor/core/playback.h"
+#include "editor/stage/points.h"
+#include "editor/stage/rigs.h"
+#include "editor/stage/skin.h"
+#include "editor/stage/stage.h"
+#include "model/vector.h"
+#include "scene/pins.h"
+#include <math.h>
+#include <string.h>
+
+static const float MARKER_REACH = 9;    ///< pixels
+static const float LEAST_SHARE = 0.05f; ///< of how far the surface moves at most: what moves less is not offered
+static const double LEAST_AXIS = 0.3;   ///< pixels of an axis in a pixel across, below which it is as slow as that
+static const double NUDGE = 0.01;       ///< of the height of what is seen
+
+/// How far a vertex moves with a unit of what moves the character, squared, as a share of what is the most along each axis.
+static float share_of(const struct stage_character *shown, int vertex)
+{
+    float own = 0, most = 0;
+    for (int k = 0; k < shown->morph.count; k++) {
+        const int c = shown->morph.coordinate[k];
+        const struct coordinate *coordinate = &shown->figure->character.coordinates[c];
+        const float *largest = shown->figure->largest[c];
+        own +=
+            glms_vec3_norm2(vec3_from(coordinate->re[vertex])) + glms_vec3_norm2(vec3_from(coordinate->im[vertex]));
+        most += glms_vec3_norm2(vec3_from(largest));
+    }
+    return most > 0 ? own / most : 0;
+}
+
+/// The corner of the triangle under the point that is nearest to it.
+static int nearest_corner(const struct surface_spot *spot)
+{
+    int best = 0;
+    for (int c = 1; c < 3; c++) {
+        if (spot->weight[c] > spot->weight[best]) best = c;
+    }
+    return (int)spot->corner[best];
+}
+
+/// The vertex of the characters' surfaces under a point, that of the nearest to the eye.
+static struct hover find_vertex(struct stage *stage, const struct document *document, float x, float y)
+{
+    const struct stage_view *view = &stage->view;
+    struct hover hover = {.kind = HOVER_NONE};
+    float nearest = INFINITY;
+    for (int c = 0; c < view->character_count; c++) {
+        const struct stage_character *shown = &view->characters[c];
+        struct surface_spot spot;
+        float xy[2];
+        if (!skin_pose(stage, shown->rig) || !skin_spot(stage, shown->figure, x, y, &spot)) continue;
+        const int rig = document_find_rig(document, RIG_CHARACTER, shown->rig), vertex = nearest_corner(&spot);
+        const float *place = stage->skin.posed[vertex];
+        const float depth = camera_depth(view->view, view->eye, place);
+        if (depth >= nearest) continue;
+        nearest = depth;
+        hover.kind = HOVER_NONE;
+        if (share_of(shown, vertex) < LEAST_SHARE * LEAST_SHARE) continue;
+        if (!stage_project_point(stage, view->viewport, place, xy)) continue;
+        hover = (struct hover){.kind = HOVER_POINT, .rig = rig, .joint = vertex, .x = xy[0], .y = xy[1]};
+    }
+    return hover;
+}
+
+/// The same, from memory while neither pointer nor picture have moved. Nothing lights up by playing on under a still pointer.
+static struct hover surface_hover(struct stage *stage, const struct core *core, const struct document *document,
+                                  float x, float y)
+{
+    struct pointed *pointed = &stage->pointed;
+    const bool still = pointed->x == x && pointed->y == y;
+    if (core->brush.on || core->characters.compare || core->pick.use != BONE_SELECTED)
+        return (struct hover){.kind = HOVER_NONE};
+    if (still && pointed->hash == stage->view.hash) return pointed->hover;
+    if (still && core->playback.playing) return (struct hover){.kind = HOVER_NONE};
+    *pointed = (struct pointed){x, y, stage->view.hash, find_vertex(stage, document, x, y)};
+    return pointed->hover;
+}
+
+/// The marker under a point; of several the selected one, else the nearest.
+static struct hover marker_hover(const struct stage *stage, const struct core *core, float x, float y)
+{
+    struct hover hover = {.kind = HOVER_NONE};
+    float best = MARKER_REACH;
+    for (int i = 0; i < stage->pin_count; i++) {
+        const struct shown_pin *pin = &stage->pins[i];
+        float xy[2];
+        if (!stage_project_point(stage, core->layout.stage, pin->to, xy)) continue;
+        float distance = hypotf(xy[0] - x, xy[1] - y);
+        if (distance >= MARKER_REACH) continue;
+        if (core->pin.any && core->pin.id == pin->id) distance = 0;
+        if (distance >= best) continue;
+        best = distance;
+        hover = (struct hover){
+            .kind = HOVER_PIN, .rig = pin->point.rig, .joint = pin->point.at, .pin = pin->id, .x = xy[0], .y = xy[1]};
+    }
+    return hover;
+}
+
+/// The end of the joint that is nearest to a point between two.
+static struct hover joint_end(const struct stage *stage, const struct core *core, const struct hover *joint)
+{
+    struct hover hover = {.kind = HOVER_POINT, .rig = joint->rig};
+    hover.joint = (int)round(joint->joint + joint->fraction) - 1;
+    if (hover.joint < 0) hover.joint = 0;
+    float xy[2];
+    if (!stage_project(stage, core, hover.rig, hover.joint + 1, 0, xy)) hover.kind = HOVER_NONE;
+    hover.x = xy[0];
+    hover.y = xy[1];
+    return hover;
+}
+
+struct hover pins_hover(struct stage *stage, const struct core *core, const struct document *document,
+                        const struct hover *joint, float x, float y)
+{
+    if (core->brush.on || core->pick.use != BONE_SELECTED) return (struct hover){.kind = HOVER_NONE};
+    const struct hover marker = marker_hover(stage, core, x, y);
+    if (marker.kind != HOVER_NONE) return marker;
+    if (joint->kind == HOVER_JOINT && core->mods & MOD_CTRL) return joint_end(stage, core, joint);
+    return joint->kind == HOVER_NONE ? surface_hover(stage, core, document, x, y)
+                                     : (struct hover){.kind = HOVER_NONE};
+}
+
+bool pins_hover_exists(const struct editor_world *world, const struct hover *hover)
+{
+    if (hover->kind == HOVER_POINT) return point_exists(world, (struct rig_point){hover->rig, hover->joint});
+    const struct document *document = world->document;
+    return hover->rig < document->rig_count && pins_find_id(&document->rigs[hover->rig], hover->pin) >= 0;
+}
+
+/// The picture's directions in the world, and its scale at a place.
+static void take_plane(const struct stage *stage, const struct core *core, const double place[3],
+                       struct pin_drag *drag)
+{
+    const struct stage_view *view = &stage->view;
+    const float at[3] = {(float)place[0], (float)place[1], (float)place[2]};
+    const float depth = fmaxf(camera_depth(view->view, view->eye, at), 0.1f);
+    drag->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * view->projection[5] / depth);
+    for (int k = 0; k < 3; k++) {
+        drag->right[k] = (double)view->view[4 * k];
+        drag->up[k] = (double)view->view[4 * k + 1];
+    }
+}
+
+void pins_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
+                const struct event *event)
+{
+    struct pin_drag *drag = &stage->pin_drag;
+    const struct document *document = world->document;
+    drag_begin(core, DRAG_PIN, hover->kind == HOVER_PIN ? "Move pin" : "Pin", event);
+    *drag = (struct pin_drag){.point = {hover->rig, hover->joint}, .axis = -1};
+    if (hover->kind == HOVER_PIN) {
+        const struct rig *rig = &document->rigs[hover->rig];
+        const struct pin *pin = &rig->pins[pins_find_id(rig, hover->pin)];
+        pins_visit(core, document, pin);
+        drag->frame = pin->frame;
+        memcpy(drag->start, pin->to, sizeof drag->start);
+    } else {
+        float place[3] = {0};
+        drag->frame = pins_frame_here(core, document, hover->rig);
+        playback_seek(core, document, drag->frame);
+        point_place(core, world, drag->point, core->playback.position, place);
+        for (int k = 0; k < 3; k++) drag->start[k] = (double)place[k];
+    }
+    take_plane(stage, core, drag->start, drag);
+}
+
+bool pins_lock(struct stage *stage, int key)
+{
+    if (key != 'X' && key != 'Y' && key != 'Z') return false;
+    const int axis = key - 'X';
+    stage->pin_drag.axis = stage->pin_drag.axis == axis ? -1 : axis;
+    stage->pin_drag.stale = true;
+    return true;
+}
+
+/// Where the pointer has taken the point.
+static void drag_to(const struct pin_drag *drag, double dx, double dy, double to[3])
+{
+    for (int k = 0; k < 3; k++) {
+        to[k] = drag->start[k];
+        if (drag->axis < 0) to[k] += (dx * drag->right[k] - dy * drag->up[k]) / drag->pixels_per_metre;
+    }
+    if (drag->axis < 0) return;
+    const double across = drag->right[drag->axis], up = drag->up[drag->axis];
+    const double square = fmax(across * across + up * up, LEAST_AXIS * LEAST_AXIS);
+    to[drag->axis] += (dx * across - dy * up) / square / drag->pixels_per_metre;
+}
+
+void pins_apply(struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    struct pin_drag *drag = &stage->pin_drag;
+    double to[3];
+    if (core->drag.kind != DRAG_PIN || !core->drag.moved || !drag->stale) return;
+    drag->stale = false;
+    drag_to(drag, core->drag.moved_x, core->drag.moved_y, to);
+    history_restart(world->history, world->document);
+    pins_put(core, world, drag->point.rig, drag->point.at, drag->frame, to);
+}
+
+void stage_nudge_pin(struct stage *stage, struct core *core, const struct editor_world *world, double right,
+                     double up)
+{
+    int rig;
+    struct pin_drag plane;
+    const struct pin *pin = pins_selected(core, world->document, &rig);
+    if (!pin) return;
+    take_plane(stage, core, pin->to, &plane);
+    const double step = core_round(NUDGE * (double)core->layout.stage.h / plane.pixels_per_metre, 0.01);
+    double by[3];
+    for (int k = 0; k < 3; k++) by[k] = step * (right * plane.right[k] + up * plane.up[k]);
+    pins_nudge(core, world, by);
+}
+
+/// Where a selected pin's point is pinned again: at the same place.
+static void repeat(struct core *core, const struct editor_world *world)
+{
+    int rig;
+    const struct pin *pin = pins_selected(core, world->document, &rig);
+    if (pin) {
+        const double to[3] = {pin->to[0], pin->to[1], pin->to[2]};
+        pins_put_here(core, world, rig, pin->point, to);
+    } else {
+        core_message(core, false, "Point at a tail, a chain or a character to pin it where it is.");
+    }
+}
+
+void stage_hold_point(struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    struct hover hover = core->hover;
+    if (hover.kind == HOVER_JOINT) hover = joint_end(stage, core, &hover);
+    if (hover.kind != HOVER_POINT || !pins_hover_exists(world, &hover)) {
+        repeat(core, world);
+        return;
+    }
+    float place[3];
+    const struct rig_point point = {hover.rig, hover.joint};
+    const double frame = pins_frame_here(core, world->document, hover.rig);
+    if (!point_place(core, world, point, core_position(world->document, frame), place)) return;
+    pins_put_here(core, world, point.rig, point.at, (const double[3]){place[0], place[1], place[2]});
+}

@@ -1,0 +1,25 @@
+/// Pins on the stage: points are lit up and dragged, markers show where they are to be.
+#ifndef EDITOR_STAGE_PINS_H
+#define EDITOR_STAGE_PINS_H
+
+#include "editor/stage/state.h"
+
+/// What of pins is under a point of the stage: a marker (HOVER_PIN), else a point that can be pinned (HOVER_POINT): of a surface, and
+/// with Ctrl, the end of a joint of a tail or chain that `joint` has found. HOVER_NONE: nothing.
+struct hover pins_hover(struct stage *stage, const struct core *core, const struct document *document,
+                        const struct hover *joint, float x, float y);
+/// Whether what was found is still in the document.
+bool pins_hover_exists(const struct editor_world *world, const struct hover *hover);
+
+/// Starts to drag what is under the pointer, a point or a marker; edits nothing until it moves.
+void pins_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
+                const struct event *event);
+/// X, Y and Z lock an axis of the running drag; false for other keys.
+bool pins_lock(struct stage *stage, int key);
+/// The point, or the marker, goes where the pointer is now.
+void pins_apply(struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// Draws all markers, what is lit up, and the path of the point that is held or selected.
+void pins_show(struct stage *stage, struct core *core, const struct editor_world *world);
+
+#endif

@@ -1,0 +1,224 @@
+/// Keeps pins in order and checks them.
+#include "scene/pins.h"
+#include "scene/order.h"
+#include "scene/pin_groups.h"
+#include <assert.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FIRST_PINS = 4 };
+
+int pins_count(const struct document *document)
+{
+    int count = 0;
+    for (int r = 0; r < document->rig_count; r++) count += document->rigs[r].pin_count;
+    return count;
+}
+
+int pins_find_id(const struct rig *rig, unsigned id)
+{
+    for (int i = 0; i < rig->pin_count; i++) {
+        if (rig->pins[i].id == id) return i;
+    }
+    return -1;
+}
+
+int pins_find(const struct document *document, const struct rig *rig, int point, int sample)
+{
+    for (int i = 0; i < rig->pin_count; i++) {
+        if (rig->pins[i].point == point && document_sample(document, rig->pins[i].frame) == sample) return i;
+    }
+    return -1;
+}
+
+bool pins_reserve(struct rig *rig, int count)
+{
+    int capacity = rig->pin_capacity > 0 ? rig->pin_capacity : FIRST_PINS;
+    while (capacity < rig->pin_count + count) capacity *= 2;
+    if (capacity == rig->pin_capacity) return true;
+    struct pin *pins = realloc(rig->pins, (size_t)capacity * sizeof *pins);
+    if (!pins) return false;
+    rig->pins = pins;
+    rig->pin_capacity = capacity;
+    return true;
+}
+
+static bool comes_after(const struct pin *a, const struct pin *b)
+{
+    return a->frame > b->frame || (a->frame == b->frame && a->point > b->point);
+}
+
+void pins_insert(struct rig *rig, const struct pin *pin)
+{
+    assert(rig->pin_count < rig->pin_capacity);
+    int at = rig->pin_count++;
+    for (; at > 0 && comes_after(&rig->pins[at - 1], pin); at--) rig->pins[at] = rig->pins[at - 1];
+    rig->pins[at] = *pin;
+}
+
+struct pin pins_remove(struct rig *rig, unsigned id)
+{
+    const int at = pins_find_id(rig, id);
+    assert(at >= 0);
+    const struct pin pin = rig->pins[at];
+    rig->pin_count--;
+    memmove(&rig->pins[at], &rig->pins[at + 1], (size_t)(rig->pin_count - at) * sizeof pin);
+    return pin;
+}
+
+/// An earlier pin of the same point on the same sample, or -1.
+static int find_same(const struct document *document, const struct rig *rig, int at)
+{
+    const struct pin *pin = &rig->pins[at];
+    const int sample = document_sample(document, pin->frame);
+    for (int i = at - 1; i >= 0 && document_sample(document, rig->pins[i].frame) == sample; i--) {
+        if (rig->pins[i].point == pin->point) return i;
+    }
+    return -1;
+}
+
+int pins_last_sample(const struct document *document, const struct rig *rig)
+{
+    const int samples = document_samples(document);
+    for (int i = 0; i < rig_input_count(rig); i++) {
+        if (spline_start(&document->splines[rig_input(rig, i)]) == WIGGLY_LOOP) return samples - 2;
+    }
+    return samples - 1;
+}
+
+static bool check_frame(const struct document *document, const struct rig *rig, int at, struct pin_trouble *trouble)
+{
+    const double frame = rig->pins[at].frame;
+    const int sample = document_sample(document, frame), last = document_samples(document) - 1;
+    const size_t size = sizeof trouble->sentence;
+    trouble->member = "frame";
+    if (sample < 0 || sample > last) {
+        snprintf(trouble->sentence, size, "expected a frame from %d to %d, got %.10g", document->first_frame,
+                 document->last_frame, frame);
+        return false;
+    }
+    if (sample > pins_last_sample(document, rig)) {
+        snprintf(trouble->sentence, size,
+                 "expected a frame before %d, because the last frame of a loop repeats the first, got %.10g",
+                 document->last_frame, frame);
+        return false;
+    }
+    if (find_same(document, rig, at) < 0) return true;
+    snprintf(trouble->sentence, size, "expected a sample of its own for each pin of a point, got frame %.10g again",
+             frame);
+    return false;
+}
+
+/// Why pins cannot pull a spline; NULL: they can.
+static const char *stiffness_of(const struct spline *spline)
+{
+    const struct param *pull = &spline->parameter[spline->spring_friction ? PARAMETER_SPRING : PARAMETER_FREQUENCY];
+    if (spline_mode(spline) == WIGGLY_CUBIC) return "which is cubic";
+    if (pull->track < 0 && pull->value == 0)
+        return spline->spring_friction ? "whose spring is 0" : "whose frequency is 0";
+    const struct param *calm = &spline->parameter[PARAMETER_CALM];
+    return calm->track < 0 && calm->value == 0 ? "whose calm is 0" : NULL;
+}
+
+static bool check_splines(const struct document *document, const struct rig *rig, struct pin_trouble *trouble)
+{
+    for (int i = 0; i < rig_input_count(rig); i++) {
+        const struct spline *spline = &document->splines[rig_input(rig, i)];
+        const char *why = stiffness_of(spline);
+        if (!why) continue;
+        snprintf(trouble->sentence, sizeof trouble->sentence,
+                 "expected splines with a swing of their own, got \"%s\", %s", spline->name, why);
+        return false;
+    }
+    return true;
+}
+
+bool pins_check(const struct document *document, struct pin_trouble *trouble)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = &document->rigs[r];
+        for (int i = 0; i < rig->pin_count; i++) {
+            *trouble = (struct pin_trouble){.rig = r, .pin = i};
+            if (!check_frame(document, rig, i, trouble)) return false;
+        }
+        *trouble = (struct pin_trouble){.rig = r, .pin = -1};
+        if (rig->pin_count > 0 && !check_splines(document, rig, trouble)) return false;
+    }
+    return true;
+}
+
+/// The first pinned rig that a spline drives.
+static int pinned_rig_of(const struct document *document, int spline)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = &document->rigs[r];
+        for (int i = 0; rig->pin_count > 0 && i < rig_input_count(rig); i++) {
+            if (rig_input(rig, i) == spline) return r;
+        }
+    }
+    return 0;
+}
+
+/// Arrays of a search for an order, one element a spline.
+struct search {
+    struct order_space space;
+    int *group, *tracked, *order;
+    bool *placed;
+};
+
+static bool search_create(struct search *search, size_t count)
+{
+    *search = (struct search){.space = {malloc(count * sizeof(int)), malloc(count)},
+                              .group = malloc(count * sizeof(int)),
+                              .tracked = malloc(count * sizeof(int)),
+                              .order = malloc(count * sizeof(int)),
+                              .placed = malloc(count * sizeof(bool))};
+    return search->space.stack && search->space.next && search->group && search->tracked && search->order &&
+           search->placed;
+}
+
+static void search_free(struct search *search)
+{
+    free(search->space.stack);
+    free(search->space.next);
+    free(search->group);
+    free(search->tracked);
+    free(search->order);
+    free(search->placed);
+}
+
+static void name_cycle(const struct document *document, const int *group, const struct pin_cycle *cycle,
+                       struct pin_trouble *trouble)
+{
+    const char *name = document->splines[cycle->spline].name, *leader = document->splines[cycle->leader].name;
+    const bool is_pinned = group[cycle->spline] >= 0;
+    trouble->rig = pinned_rig_of(document, is_pinned ? cycle->spline : cycle->leader);
+    if (is_pinned && group[cycle->spline] == group[cycle->leader]) {
+        snprintf(trouble->sentence, sizeof trouble->sentence,
+                 "expected splines that do not follow each other, got \"%s\", which follows \"%s\"", name, leader);
+    } else {
+        snprintf(trouble->sentence, sizeof trouble->sentence,
+                 "expected splines that are not solved before and after each other, got \"%s\", which follows \"%s\"",
+                 name, leader);
+    }
+}
+
+bool pins_check_order(const struct document *document, struct pin_trouble *trouble)
+{
+    struct search search;
+    struct order_cycle tracks;
+    struct pin_cycle cycle;
+    if (pins_count(document) == 0) return true;
+    *trouble = (struct pin_trouble){.pin = -1};
+    bool good = search_create(&search, (size_t)document->spline_count + 1);
+    if (!good) {
+        snprintf(trouble->sentence, sizeof trouble->sentence, "not enough memory");
+    } else if (scene_order(document, search.space, search.tracked, &tracks)) {
+        pin_groups_find(document, search.group);
+        good = pin_groups_order(document, search.group, search.tracked, search.placed, search.order, &cycle);
+        if (!good) name_cycle(document, search.group, &cycle, trouble);
+    }
+    search_free(&search);
+    return good;
+}

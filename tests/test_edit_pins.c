@@ -1,0 +1,130 @@
+/// Pins in the document: read, saved byte by byte, edited, undone, and kept such that the saved file loads.
+#include "near.h"
+
+#include "scene/pins.h"
+#include "world.h"
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIDE, UP, BASE };
+
+static const char pinned_text[] =
+    "{\"frames\": [0, 48], \"splines\": ["
+    "{\"name\": \"side\", \"frequency\": 1, \"knots\": [{\"frame\": 0, \"value\": 0}]},"
+    "{\"name\": \"up\", \"frequency\": 2, \"equilibrium\": {\"spline\": \"base\"}},"
+    "{\"name\": \"base\", \"mode\": \"cubic\"}],"
+    "\"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"joints\": 12, \"position\": [0, {\"spline\": \"base\"}, 0],"
+    "\"channels\": [{\"spline\": \"side\"}, {\"spline\": \"up\", \"axis\": \"up\"}],"
+    "\"pins\": [{\"frame\": 30, \"joint\": 11, \"to\": [0, 1, 0.5], \"why\": \"grip\"},"
+    "{\"frame\": 12.25, \"joint\": 5, \"to\": [0.25, 0, 1]}]},"
+    "{\"type\": \"tail\", \"name\": \"free\"}]}";
+
+static void open(struct world *world)
+{
+    *world = (struct world){0};
+    world->document = scene_parse("scene.json", pinned_text, sizeof pinned_text - 1, NULL, &world->error);
+    if (!world->document) fail_msg("%s", world->error.text);
+    world->history = history_create();
+    assert_non_null(world->history);
+}
+
+static struct edit edit_pin(enum edit_kind kind, struct pin pin) { return (struct edit){.kind = kind, .pin = pin}; }
+
+static void test_saves_what_it_reads(void **state)
+{
+    (void)state;
+    struct world world;
+    open(&world);
+    const struct rig *rig = &world.document->rigs[0];
+    assert_int_equal(rig->pin_count, 2);
+    assert_near(rig->pins[0].frame, 12.25, 0);
+    assert_int_equal(rig->pins[1].point, 11);
+    assert_near(rig->pins[1].to[2], 0.5, 0);
+    char *text = world_print(&world);
+    assert_non_null(strstr(text, "\"pins\": [\n        { \"frame\": 12.25, \"joint\": 5, \"to\": [0.25, 0, 1] },\n"
+                                 "        { \"frame\": 30, \"joint\": 11, \"to\": [0, 1, 0.5], \"why\": \"grip\" }"));
+    struct world again = world;
+    again.document = scene_parse("scene.json", text, strlen(text), NULL, &world.error);
+    assert_non_null(again.document);
+    assert_document(&again, text);
+    document_destroy(again.document);
+    free(text);
+    world_close(&world);
+}
+
+static void test_every_edit_is_undone(void **state)
+{
+    (void)state;
+    struct world world;
+    open(&world);
+    char *before = world_print(&world);
+    const struct rig *rig = &world.document->rigs[0];
+    assert_reversible(&world, edit_pin(EDIT_PIN_ADD, (struct pin){.frame = 20, .point = 3, .to = {1, 2, 3}}));
+    assert_int_equal(rig->pin_count, 3);
+    struct pin moved = rig->pins[1];
+    moved.frame = 40; // past the other
+    moved.to[1] = -2;
+    assert_reversible(&world, edit_pin(EDIT_PIN_SET, moved));
+    assert_int_equal(rig->pins[2].id, moved.id);
+    assert_reversible(&world, edit_pin(EDIT_PIN_REMOVE, rig->pins[0]));
+    assert_reversible(&world, (struct edit){.kind = EDIT_JOINTS, .to = 24});
+    assert_int_equal(rig->pins[0].point, 23);
+    assert_reversible(&world, (struct edit){.kind = EDIT_FPS, .number = 48, .flag = true});
+    assert_near(rig->pins[1].frame, 80, 0);
+    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_ADD});
+    assert_int_equal(world.document->rigs[2].pin_count, 0);
+    rig = &world.document->rigs[0];
+    assert_reversible(&world, (struct edit){.kind = EDIT_RANGE, .last = 70, .fit = RANGE_MOVE});
+    assert_near(rig->pins[1].frame, 70, 0);
+    assert_reversible(&world, (struct edit){.kind = EDIT_RANGE, .last = 65, .fit = RANGE_TRIM});
+    assert_int_equal(rig->pin_count, 1);
+    world_undo_all(&world);
+    assert_document(&world, before);
+    free(before);
+    world_close(&world);
+}
+
+static void test_what_would_not_load_is_refused(void **state)
+{
+    (void)state;
+    struct world world;
+    open(&world);
+    struct pin pin = world.document->rigs[0].pins[1];
+    assert_refused(&world, edit_pin(EDIT_PIN_ADD, pin),
+                   "t: pins: expected a sample of its own for each pin of a point, got frame 30 again");
+    pin.frame = 49;
+    assert_refused(&world, edit_pin(EDIT_PIN_SET, pin), "t: pins: expected a frame from 0 to 48, got 49");
+    pin.to[1] = NAN;
+    assert_refused(&world, edit_pin(EDIT_PIN_SET, pin), "t: a pin's numbers must be finite");
+    pin = (struct pin){.frame = 2, .point = 12};
+    assert_refused(&world, edit_pin(EDIT_PIN_ADD, pin), "t: there is no point 12 to pin");
+    assert_refused(&world, edit_pin(EDIT_PIN_REMOVE, pin), "t: this pin no longer exists");
+    assert_refused(&world, edit_mode(SIDE, WIGGLY_CUBIC),
+                   "t: pins: expected splines with a swing of their own, got \"side\", which is cubic");
+    assert_refused(&world, edit_number(UP, PARAMETER_FREQUENCY, 0),
+                   "t: pins: expected splines with a swing of their own, got \"up\", whose frequency is 0");
+    assert_refused(&world, edit_number(UP, PARAMETER_CALM, 0),
+                   "t: pins: expected splines with a swing of their own, got \"up\", whose calm is 0");
+    assert_refused(&world, edit_track(UP, PARAMETER_EQUILIBRIUM, SIDE),
+                   "t: pins: expected splines that do not follow each other, got \"up\", which follows \"side\"");
+    assert_refused(&world, edit_track(BASE, PARAMETER_EQUILIBRIUM, SIDE),
+                   "t: pins: expected splines that are not solved before and after each other, got \"up\", which "
+                   "follows \"base\"");
+    assert_refused(&world, (struct edit){.kind = EDIT_FEED, .channel = 1, .spline = BASE},
+                   "t: pins: expected splines with a swing of their own, got \"base\", which is cubic");
+    assert_refused(&world, edit_range(0, 20), "t: pins: expected a frame from 0 to 20, got 30");
+    pin.frame = 48;
+    pin.point = 1;
+    world_must(&world, edit_pin(EDIT_PIN_ADD, pin));
+    assert_refused(&world, edit_start(UP, WIGGLY_LOOP),
+                   "t: pins: expected a frame before 48, because the last frame of a loop repeats the first, got 48");
+    world_close(&world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_saves_what_it_reads),
+                                       cmocka_unit_test(test_every_edit_is_undone),
+                                       cmocka_unit_test(test_what_would_not_load_is_refused)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
