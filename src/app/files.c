@@ -104,7 +104,7 @@ static const struct {
 } others[OTHERS] = {
     {"dog.json", "Open the dog"}, {"hands.json", "Open the hands"}, {"meadow.json", "Open the meadow"}};
 
-/// Opens a figure of the paper or one of the others in place of the document: undo brings the document back, with its file.
+/// Opens a figure of the paper, the dog, the hands or the meadow in place of the document: undo brings the document back, with its file.
 static bool open_figure(struct app *app, int number, struct error *error)
 {
     const int other = number - FIGURES - 1;

@@ -77,7 +77,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
      {{"Ctrl+Z, Ctrl+Y", "undo, redo (or Shift+Z)"},
       {"Ctrl+O, N, E", "open, new, export"},
       {"Ctrl+S, Ctrl+Shift+S", "save, save as"},
-      {"Ctrl+1 … 9, 0", "figures, other scenes"},
+      {"Ctrl+1 … 9, Ctrl+0", "figures, scenes"},
       {"F6, Shift+F6", "resize the panels"},
       {"F10", "light or dark"},
       {"F11, F12", "full screen, screenshot"},

@@ -30,9 +30,9 @@ void stage_destroy(struct stage *stage)
 void stage_open(struct stage *stage)
 {
     memset(stage->sway, 0, sizeof stage->sway);
+    memset(&stage->meadow, 0, sizeof stage->meadow);
     stage->strand_count = stage->bone_count = stage->pin_count = 0;
     stage->pins_key = 0;
-    memset(&stage->meadow, 0, sizeof stage->meadow);
 }
 
 const struct stage_view *stage_seen(const struct stage *stage) { return &stage->view; }
@@ -49,9 +49,7 @@ static struct hover nearer(struct hover a, struct hover b, float x, float y)
 struct hover stage_hover(struct stage *stage, const struct core *core, const struct document *document, float x,
                          float y)
 {
-    struct hover joint = nearer(strand_hover(stage, core, x, y), bone_hover(stage, core, x, y), x, y);
-    const bool pins = core->mods & MOD_CTRL && !core->brush.on && core->pick.use == BONE_SELECTED;
-    if (pins && joint.kind == HOVER_JOINT) joint = strand_end(stage, core, &joint);
+    const struct hover joint = nearer(strand_hover(stage, core, x, y), bone_hover(stage, core, x, y), x, y);
     const struct hover body = joint.kind == HOVER_NONE ? hold_hover(stage, x, y) : joint;
     const struct hover pin = pins_hover(stage, core, document, &body, x, y);
     return pin.kind == HOVER_NONE ? body : pin;
