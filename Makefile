@@ -9,6 +9,7 @@
 #   make proof    has three.js, Blender and usd-core evaluate what wiggly exports
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
+#   make feel     how curves answer to a knot that moves, and how far they overshoot, as a table
 #   make regress BASE=path/to/other/wiggly    frame times of two builds on the committed session
 #   make compile_commands.json    for clangd and other tools that read C
 #   make install  PREFIX=/usr/local DESTDIR=
@@ -108,7 +109,7 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all library run test bench proof models check figures regress install clean help packages compile_commands.json FORCE
+.PHONY: all library run test bench feel proof models check figures regress install clean help packages compile_commands.json FORCE
 
 all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
 
@@ -129,6 +130,9 @@ test: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%) $(TEST_PROGRAMS)
 
 bench: $(B)/wiggly
 	$(Q)$(B)/wiggly bench $(ARGS)
+
+feel: $(B)/feel
+	$(Q)$<
 
 models: $(B)/models/creature.obj $(B)/models/dog.glb
 $(B)/models/%.obj: $(B)/%_obj

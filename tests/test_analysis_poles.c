@@ -20,12 +20,12 @@ struct plant {
     uint32_t state; ///< of the noise
 };
 
-/// Normally distributed, of variance 1, near enough: the sum of twelve numbers in [-0.5, 0.5).
+/// Normally distributed, of variance 1, near enough: from the sum of four numbers in [-0.5, 0.5).
 static double bell(uint32_t *state)
 {
     double sum = 0;
-    for (int i = 0; i < 12; i++) sum += noise(state);
-    return sum;
+    for (int i = 0; i < 4; i++) sum += noise(state);
+    return sqrt(3) * sum;
 }
 
 static double complex pole_of(const struct plant *p, int k)

@@ -5,7 +5,7 @@ WIGGLY=${WIGGLY:-build/wiggly}
 
 write_box "$scratch/box.obj"
 grep -v '^f' "$scratch/box.obj" | head -n 4 >"$scratch/small.obj"
-echo 'f 1 2 3' >>"$scratch/small.obj"
+echo 'f 1 2 3 4' >>"$scratch/small.obj"
 
 simulate() { # <name> <options>...
     local name=$1
@@ -47,6 +47,17 @@ analyze 0 "the first again" "$scratch/up.npy" "$scratch/side.pc2" --rest "$scrat
     --method cpca --shake up:side -o "$scratch/out/box.glb" --scene "$scratch/box.json"
 [ "$first" = "$(cksum <"$scratch/out/box.glb")" ]
 ok "gives the same bytes" $?
+
+targets_turn_normals() { # <file>
+    tr -d '\0' <"$1" | grep -aq '"targets":\[{"POSITION":[0-9]*,"NORMAL":'
+}
+targets_turn_normals "$scratch/out/box.glb"
+ok "coordinates turn normals" $?
+analyze 0 "without" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 30 --no-normals -o "$scratch/still.glb"
+! targets_turn_normals "$scratch/still.glb"
+ok "they turn none" $?
+"$WIGGLY" analyze --help | grep -q -- --no-normals
+ok "the help says how" $?
 
 analyze 0 "by poles, with scene and table" "$scratch/side.pc2" --rest "$scratch/box.obj" --fps 30 --modes 3 -o "$scratch/side.glb" \
     --scene "$scratch/side.json" --coordinates "$scratch/side.csv"

@@ -40,7 +40,7 @@ static int make_model(void **state)
     struct error error = {0};
     struct character character = make_hand();
     close(mkstemp(model));
-    bool written = character_write(model, &character, &error);
+    bool written = character_write(model, &character, true, &error);
     character_free(&character);
     return written ? 0 : -1;
 }

@@ -10,7 +10,8 @@ static void make_character(struct character *c)
     float position[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     float color[4][3] = {{1, 0.5f, 0}, {1, 1, 1}, {0.25f, 0, 1}, {0, 0, 0}};
     uint32_t indices[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
-    const struct surface surface = {position, color, 4, indices, 12};
+    const struct surface surface = {
+        .position = position, .color = color, .vertex_count = 4, .indices = indices, .index_count = 12};
     assert_true(character_create(c, &surface, 2));
     for (int n = 0; n < 24; n++) {
         c->coordinates[n / 12].re[n / 3 % 4][n % 3] = (float)sin(n);
@@ -37,7 +38,7 @@ static void what_is_written_reads_back_equal(void **state)
     struct character out, in;
     struct error error;
     make_character(&out);
-    if (!character_write(temporary_path("character.glb"), &out, &error)) fail_msg("%s", error.text);
+    if (!character_write(temporary_path("character.glb"), &out, true, &error)) fail_msg("%s", error.text);
     read_good(temporary_path("character.glb"), &in);
     assert_int_equal(in.vertex_count, 4);
     assert_int_equal(in.index_count, 12);
@@ -68,10 +69,11 @@ static void the_imaginary_target_is_negated(void **state)
     struct character c;
     struct error error;
     make_character(&c);
-    assert_true(character_write(temporary_path("sign.glb"), &c, &error));
+    assert_true(character_write(temporary_path("sign.glb"), &c, true, &error));
     FILE *file = fopen(temporary_path("sign.glb"), "rb");
     float last[12];
-    fseek(file, -(long)sizeof last, SEEK_END); // the last accessor is the last coordinate's imaginary part
+    fseek(file, -3 * (long)sizeof last,
+          SEEK_END); // the last imaginary part, before how it turns normals and as many bytes of indices
     assert_int_equal(fread(last, sizeof last, 1, file), 1);
     fclose(file);
     for (int n = 0; n < 12; n++) assert_near(last[n], -c.coordinates[1].im[n / 3][n % 3], 0);
@@ -225,8 +227,8 @@ static void bad_files_get_one_sentence(void **state)
     struct character c;
     struct error error;
     make_character(&c);
-    assert_true(character_write(temporary_path("cut.glb"), &c, &error));
-    assert_false(character_write("/nowhere/a.glb", &c, &error));
+    assert_true(character_write(temporary_path("cut.glb"), &c, true, &error));
+    assert_false(character_write("/nowhere/a.glb", &c, true, &error));
     character_free(&c);
     char whole[8192];
     FILE *file = fopen(temporary_path("cut.glb"), "rb");
@@ -248,7 +250,7 @@ static void changed_bytes_do_no_harm(void **state)
     uint32_t seed = 12345;
     int refused = 0;
     make_character(&c);
-    assert_true(character_write(temporary_path("whole.glb"), &c, &error));
+    assert_true(character_write(temporary_path("whole.glb"), &c, true, &error));
     character_free(&c);
     FILE *file = fopen(temporary_path("whole.glb"), "rb");
     size_t size = fread(whole, 1, sizeof whole, file);

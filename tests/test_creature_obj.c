@@ -1,12 +1,13 @@
 /// The generated creature, as the file that is simulated: one closed manifold that stands on the ground, with the budget,
 /// normals and arms that the simulation and the stage count on.
 #include "model/character.h"
+#include "model/obj.h"
 #include "near.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { MOST_TRIANGLES = 20000 };
+enum { MOST_TRIANGLES = 15000 };
 
 static struct character creature;
 
@@ -58,10 +59,12 @@ static void it_is_one_closed_manifold(void **state)
     assert_int_equal(creature.vertex_count - (int)count / 2 + (int)count / 3, 2);
 }
 
+/// A coordinate is six numbers a vertex in the file. Six coordinates of 14,000 triangles take 1.4 MB; of the 19,000 that there were
+/// while it had two, they would take 2 MB.
 static void it_keeps_to_its_budget(void **state)
 {
     (void)state;
-    assert_in_range(creature.index_count / 3, 18000, MOST_TRIANGLES);
+    assert_in_range(creature.index_count / 3, 12000, MOST_TRIANGLES);
 }
 
 static void it_stands_on_the_ground(void **state)

@@ -22,7 +22,7 @@ static int make_model(void **state)
     }
     character.coordinates[0].frequency = 1.25;
     close(mkstemp(model));
-    bool written = character_write(model, &character, &error);
+    bool written = character_write(model, &character, true, &error);
     character_free(&character);
     return written ? 0 : -1;
 }

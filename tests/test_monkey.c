@@ -55,7 +55,7 @@ static void make_puppet(void)
     struct error error = {0};
     struct character character = puppet_character(0.2f, 2);
     for (int i = 0; i < character.vertex_count; i++) character.coordinates[0].re[i][1] = 0.2f;
-    if (!character_write("puppet.glb", &character, &error)) fail_msg("%s", error.text);
+    if (!character_write("puppet.glb", &character, true, &error)) fail_msg("%s", error.text);
     character_free(&character);
     FILE *file = fopen("puppet.json", "w");
     assert_non_null(file);

@@ -251,7 +251,7 @@ static void a_model_is_read_once_and_again_when_it_changes(void **state)
     struct models *models = models_create();
     struct error error = {0};
     char sentence[256];
-    assert_true(character_write(path, &character, &error));
+    assert_true(character_write(path, &character, true, &error));
     assert_false(models_update(models, document, &error));
     snprintf(sentence, sizeof sentence, "%s: expected a coordinate called \"z\", got others, such as a", path);
     assert_string_equal(error.text, sentence);
@@ -260,7 +260,7 @@ static void a_model_is_read_once_and_again_when_it_changes(void **state)
     const uint64_t id = figure->id;
     models_update(models, document, &error);
     assert_true(models_figure(models, 0)->id == id);
-    assert_true(character_write(path, &finer, &error));
+    assert_true(character_write(path, &finer, true, &error));
     models_update(models, document, &error);
     assert_true(models_figure(models, 0)->id != id);
     assert_int_equal(models_figure(models, 0)->character.vertex_count, finer.vertex_count);

@@ -492,7 +492,7 @@ static void paint_for_another_model_is_kept(void **state)
     struct studio s = studio_open(scene);
     struct models *models = models_create();
     struct error error = {0};
-    assert_true(character_write(in(folder, "m.glb"), &character, &error));
+    assert_true(character_write(in(folder, "m.glb"), &character, true, &error));
     settle_in(&s, folder);
     paint_stroke(&s);
     assert_false(models_update(models, s.document, &error));

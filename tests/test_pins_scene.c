@@ -152,9 +152,9 @@ static const char four_splines[] =
 static const char creature_and_tails[] =
     "{\"type\": \"character\", \"name\": \"creature\", \"model\": \"%s/assets/models/creature.glb\", \"position\": "
     "[0.5, "
-    "1, -0.25], \"coordinates\": [{\"name\": \"up\", \"spline\": \"up\", \"amplitude\": 0.7, \"lag\": 40}, "
+    "1, -0.25], \"coordinates\": [{\"name\": \"up-3\", \"spline\": \"up\", \"amplitude\": 11, \"lag\": 40}, "
     "{\"name\": "
-    "\"side\", \"spline\": \"side\", \"lag\": -10}]},"
+    "\"side-2\", \"spline\": \"side\", \"amplitude\": 4, \"lag\": -10}]},"
     "{\"type\": \"tail\", \"name\": \"shared\", \"joints\": 10, \"position\": [1, 0.5, 0], \"channels\": "
     "[{\"spline\": "
     "\"side\", \"gain\": 6}, {\"spline\": \"sway\", \"axis\": \"up\", \"gain\": 7}]},"
@@ -205,10 +205,11 @@ static int free_vertex(struct stand *stand)
             for (int k = 0; k < 3; k++) far += c[s][k][0] * c[s][k][0] + c[s][k][1] * c[s][k][1];
         }
         const double freely = freedom(c, all, 4);
-        if (far < 1e-3 || freely <= most) continue;
+        if (far < 0.03 || freely <= most) continue;
         most = freely;
         freest = v;
     }
+    if (most < 0.2) fail_msg("the splines hardly move the creature anywhere: %g", most);
     return freest;
 }
 

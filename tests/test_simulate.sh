@@ -32,6 +32,17 @@ says "prints their frequencies, the lowest as asked for" "   1          1.5" "$o
 [ "$(stat -c %s "$scratch/modes.npy")" -eq $((128 + 3 * 8 * 3 * 4)) ]
 ok "writes three shapes" $?
 
+# shellcheck disable=SC2086
+expect 0 "a mesh with a hole" "$WIGGLY" simulate "$scratch/open.obj" $quick -o "$scratch/open.npy"
+says "is told of" "open.obj: open at 3 edges: inside is where its winding number exceeds a half" "$out"
+{ echo "v 90 90 90" && awk '/^v/ { print $1, 1000 * $2, -1000 * $4, 1000 * $3; next } /^f/ { print $1, $2 + 1, $3 + 1, $4 + 1 }' \
+    "$scratch/box.obj"; } >"$scratch/z.obj"
+# shellcheck disable=SC2086
+expect 0 "a mesh in millimetres with z up" "$WIGGLY" simulate "$scratch/z.obj" --up z --scale 0.001 --shake side $quick -o "$scratch/z.npy"
+says "with a vertex too many" "z.obj: warning: 1 vertex is part of no triangle" "$err"
+tail -n +2 "$scratch/z.rest.obj" | sed -n '/^v/p' | sed 's/-0\b/0/g' | diff -q - <(sed -n '/^v/p' "$scratch/box.rest.obj") >/dev/null
+ok "stands as the box does" $?
+
 refused() { # <exit status> <what it says> <arguments>...
     local status=$1 what=$2
     shift 2
@@ -43,10 +54,10 @@ refused() { # <exit status> <what it says> <arguments>...
 o="-o $scratch/none.npy"
 # shellcheck disable=SC2086
 {
-    refused 1 "open.obj: the mesh is not closed: 3 edges have no triangle on the other side" "$scratch/open.obj" $o
     refused 1 "flat.obj: the mesh encloses no volume" "$scratch/flat.obj" $o
     refused 1 "nowhere.obj" "$scratch/nowhere.obj" $o
     refused 1 "nothing can move" "$scratch/box.obj" --tets 60 --pin 9 $o
+    refused 2 "--up: expected x, y or z" "$scratch/box.obj" --up w $o
     refused 2 "unknown option --yuong (did you mean --young?)" "$scratch/box.obj" --yuong 1 $o
     refused 2 "--poisson" "$scratch/box.obj" --poisson 0.5 $o
     refused 2 "--shake: expected up, side, front or a vector x,y,z" "$scratch/box.obj" --shake 0,0,0 $o

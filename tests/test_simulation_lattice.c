@@ -1,6 +1,5 @@
 /// The lattice around a surface: what is inside, how much of it, what hangs together, and where the vertices are.
 #include "near.h"
-#include "simulation/closed.h"
 #include "simulation/lattice.h"
 #include "simulation/voxels.h"
 #include <stdlib.h>
@@ -64,8 +63,15 @@ static struct lattice lattice_of(const struct surface *surface, int target)
 {
     struct lattice lattice;
     struct error error = {0};
-    if (!lattice_create(&lattice, surface, target, "test", &error)) fail_msg("%s", error.text);
+    if (!lattice_create(&lattice, surface, target, NAN, "test", &error)) fail_msg("%s", error.text);
     return lattice;
+}
+
+static struct solid solid_of(const struct surface *surface)
+{
+    struct solid solid;
+    assert_true(solid_create(&solid, surface));
+    return solid;
 }
 
 static double filled_volume(const struct lattice *lattice)
@@ -83,7 +89,9 @@ static void voxels_inside_a_sphere(void **state)
     for (int i = 0; i < sphere.vertex_count; i += 100) add_triangle(&sphere, i, i, i); // of no size: changes nothing
     // The grid's planes go through the poles and along edges: hits on vertices and edges are the rule here.
     struct voxels voxels = {.size = {41, 41, 41}, .origin = {-1.025, -1.025, -1.025}, .spacing = 0.05};
-    assert_true(voxels_fill(&voxels, &sphere));
+    struct solid solid = solid_of(&sphere);
+    assert_int_equal(solid.open, 0);
+    assert_true(voxels_fill(&voxels, &solid));
     for (int i = 0; i < 41 * 41 * 41; i++) {
         const int at[3] = {i / (41 * 41), i / 41 % 41, i % 41};
         double distance = 0.05 * sqrt(pow(at[0] - 20, 2) + pow(at[1] - 20, 2) + pow(at[2] - 20, 2));
@@ -91,6 +99,7 @@ static void voxels_inside_a_sphere(void **state)
         if (distance > 1.0001) assert_int_equal(voxels.inside[i], 0);
     }
     voxels_free(&voxels);
+    solid_free(&solid);
     surface_free(&sphere);
 }
 
@@ -229,10 +238,18 @@ static void a_needle_is_cut_within_bounds(void **state)
     assert_true(lattice.tet_count > 100);
     lattice_free(&lattice);
     add_box(&hair, (const double[3]){0, 0, 0}, (const double[3]){1e-9, 2, 1e-9});
-    assert_false(lattice_create(&lattice, &hair, 3000, "hair.obj", &error));
+    assert_false(lattice_create(&lattice, &hair, 3000, NAN, "hair.obj", &error));
     assert_string_equal(error.text, "hair.obj: the mesh is too thin for a lattice of 3000 tetrahedra");
     surface_free(&needle);
     surface_free(&hair);
+}
+
+static int open_edges(const struct surface *surface)
+{
+    struct solid solid = solid_of(surface);
+    int open = solid.open;
+    solid_free(&solid);
+    return open;
 }
 
 static void open_edges_are_counted(void **state)
@@ -240,22 +257,121 @@ static void open_edges_are_counted(void **state)
     (void)state;
     struct surface box = {0};
     add_box(&box, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
-    assert_int_equal(surface_open_edges(&box), 0);
+    assert_int_equal(open_edges(&box), 0);
     box.index_count -= 3;
-    assert_int_equal(surface_open_edges(&box), 3);
-    box.index_count += 3;
-    uint32_t swap = box.indices[0]; // one triangle seen from inside
-    box.indices[0] = box.indices[1];
-    box.indices[1] = swap;
-    assert_int_equal(surface_open_edges(&box), 3);
+    assert_int_equal(open_edges(&box), 3);
     surface_free(&box);
 
     struct surface split = {0}; // every corner there three times, as exporters write them for normals
     for (int i = 0; i < 3; i++) add_box(&split, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
     split.index_count /= 3;
     for (int i = 0; i < split.index_count; i++) split.indices[i] += 8 * (uint32_t)(i % 3);
-    assert_int_equal(surface_open_edges(&split), 0);
+    assert_int_equal(open_edges(&split), 0);
     surface_free(&split);
+}
+
+static void flip(struct surface *surface, int triangle)
+{
+    uint32_t *corner = surface->indices + 3 * triangle, swap = corner[0];
+    corner[0] = corner[1];
+    corner[1] = swap;
+}
+
+/// Every third triangle of a box seen from inside, all of another one that stands in it, and a cavity that faces rightly inwards.
+static void mixed_sides_are_made_to_agree(void **state)
+{
+    (void)state;
+    struct surface three = {0};
+    add_box(&three, (const double[3]){0, 0, 0}, (const double[3]){4, 4, 4});
+    add_box(&three, (const double[3]){3, 1, 1}, (const double[3]){8, 2, 2});
+    add_box(&three, (const double[3]){1, 1, 1}, (const double[3]){2, 2, 2});
+    for (int t = 0; t < 12; t += 3) flip(&three, t);
+    for (int t = 12; t < 36; t++) flip(&three, t);
+    struct solid solid = solid_of(&three);
+    assert_int_equal(solid.open, 0);
+    assert_int_equal(solid.turned, 4 + 12);
+    struct lattice lattice = lattice_of(&three, 2000);
+    assert_near(filled_volume(&lattice), 64 - 1 + 4, 1.5);
+    assert_string_equal(lattice.repair, "16 triangles turned to face outwards");
+    lattice_free(&lattice);
+    solid_free(&solid);
+    surface_free(&three);
+}
+
+static void a_triangle_there_twice_counts_once(void **state)
+{
+    (void)state;
+    struct surface sphere = {0};
+    add_sphere(&sphere, 1);
+    const int triangles = sphere.index_count / 3;
+    for (int t = 0; t < triangles; t++) {
+        const uint32_t *corner = sphere.indices + 3 * t;
+        const int a = (int)corner[0], b = (int)corner[1], c = (int)corner[2];
+        add_triangle(&sphere, b, a, c); // seen from both sides
+    }
+    struct lattice lattice = lattice_of(&sphere, 1000);
+    assert_near(filled_volume(&lattice) / (4 / 3.0 * acos(-1.0)), 1, 0.02);
+    assert_non_null(strstr(lattice.repair, " duplicate triangles left out"));
+    lattice_free(&lattice);
+    surface_free(&sphere);
+}
+
+/// Winding numbers against those of a plain sum over all triangles' solid angles, which for a closed sphere are 0 and 1.
+static void the_tree_sums_like_all_triangles(void **state)
+{
+    (void)state;
+    struct surface sphere = {0};
+    struct winding winding;
+    add_sphere(&sphere, 1);
+    assert_true(winding_create(&winding, &sphere));
+    for (int i = 0; i < 200; i++) {
+        const double r = i * 0.015, p[3] = {r * 0.6, r * 0.64, r * -0.48};
+        if (fabs(r - 1) > 0.01) assert_near(winding_at(&winding, p), r < 1, 0.01);
+    }
+    winding_free(&winding);
+    sphere.index_count /= 2; // the upper half: seen from its middle, half of all directions
+    assert_true(winding_create(&winding, &sphere));
+    assert_near(winding_at(&winding, (const double[3]){0, 0, 0}), 0.5, 0.01);
+    winding_free(&winding);
+    surface_free(&sphere);
+}
+
+/// A bowl is closed by a flat lid, on which it takes up half of all directions.
+static void a_hole_is_closed_by_winding_numbers(void **state)
+{
+    (void)state;
+    struct surface sphere = {0};
+    add_sphere(&sphere, 1);
+    memmove(sphere.indices, sphere.indices + 3 * 2 * 64 * 10,
+            sizeof *sphere.indices * (size_t)(sphere.index_count - 3 * 2 * 64 * 10));
+    sphere.index_count -= 3 * 2 * 64 * 10;
+    struct lattice lattice = lattice_of(&sphere, 2000);
+    const double pi = acos(-1.0), height = 1 - cos(pi * 10 / 32), cap = pi * height * height * (3 - height) / 3;
+    assert_near(filled_volume(&lattice), 4 / 3.0 * pi - cap, 0.02 * 4 / 3.0 * pi);
+    assert_non_null(strstr(lattice.repair, "open at 64 edges"));
+    lattice_free(&lattice);
+    surface_free(&sphere);
+}
+
+/// Vertices that no triangle has stay where they are, and do not widen the box.
+static void strays_stay(void **state)
+{
+    (void)state;
+    struct surface box = {0};
+    add_vertex(&box, 1000, 0, 0);
+    add_box(&box, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
+    struct lattice lattice = lattice_of(&box, 500);
+    assert_int_equal(lattice.host[0], -1);
+    assert_true(lattice.cell < 0.5);
+    float(*position)[3] = calloc((size_t)box.vertex_count, sizeof *position);
+    assert_non_null(position);
+    position[0][0] = 1000;
+    lattice_embed(&lattice, (const double(*)[3])lattice.node, position);
+    assert_near(position[0][0], 1000, 0);
+    assert_near(position[8][0], 1, 1e-6);
+    free(position);
+    lattice_free(&lattice);
+    surface_free(&box);
 }
 
 int main(void)
@@ -269,6 +385,11 @@ int main(void)
         cmocka_unit_test(the_lattice_is_as_symmetric_as_the_mesh),
         cmocka_unit_test(a_needle_is_cut_within_bounds),
         cmocka_unit_test(open_edges_are_counted),
+        cmocka_unit_test(mixed_sides_are_made_to_agree),
+        cmocka_unit_test(a_triangle_there_twice_counts_once),
+        cmocka_unit_test(the_tree_sums_like_all_triangles),
+        cmocka_unit_test(a_hole_is_closed_by_winding_numbers),
+        cmocka_unit_test(strays_stay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,8 +32,8 @@ static double trace(const double *gram, int frames)
     return sum;
 }
 
-/// Share of the power at frequencies above `fast_from` of half the frame rate: those of the discrete Fourier transform, on the sums g_d of
-/// G's diagonals.
+/// Share of the power at frequencies above `fast_from` of half the frame rate: those of the discrete Fourier transform, on the
+/// sums g_d of G's diagonals.
 static double fast_share(const double *gram, int frames)
 {
     size_t n = (size_t)frames;
@@ -148,8 +148,8 @@ static void fill_metric(struct component *c, const struct work *w, const double 
     m->power = w->power;
 }
 
-/// What component l does along Ñ_k in every frame, Re(R_l Ñ_l)·Ñ_k = (R_l Ñ_l·Ñ_k + R̄_l conj(Ñ_l)·Ñ_k) / 2. Returns Σ_t of its product with
-/// what component k does.
+/// What component l does along Ñ_k in every frame, Re(R_l Ñ_l)·Ñ_k = (R_l Ñ_l·Ñ_k + R̄_l conj(Ñ_l)·Ñ_k) / 2. Returns Σ_t of
+/// its product with what component k does.
 static double find_overlap(const struct component *k, const struct component *l, const double *weights,
                            double complex *along)
 {
@@ -230,8 +230,7 @@ static bool finish(struct analysis *a, const struct work *w, struct error *error
         struct component *c = &a->components[k];
         component_scale(c);
         component_turn(c, w->plan->direction);
-        if (w->plan->method == ANALYSIS_CPCA)
-            component_fit(c, w->plan->fps);
+        if (w->plan->method == ANALYSIS_CPCA) component_fit(c, w->plan->fps);
         if (!component_lags(c)) return fail_no_memory(error, w->motion->path);
     }
     return true;

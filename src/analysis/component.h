@@ -5,8 +5,8 @@
 #include <complex.h>
 #include <stdbool.h>
 
-/// Σ_t |s_t − Re(x_t Ñ)|² for any course x, from a few numbers. s_t is a frame of the component's own motion: that of all vertices less
-/// what the other components do.
+/// Σ_t |s_t − Re(x_t Ñ)|² for any course x, from a few numbers. s_t is a frame of the component's own motion: that of all
+/// vertices less what the other components do.
 struct course_metric {
     double complex *pull;  ///< s_t·Ñ per frame
     double norm;           ///< |Ñ|²

@@ -4,7 +4,8 @@
 
 #include "analysis/basis.h"
 
-/// Taking it out is a matrix on the frames: S′ = (1 − D) S, D = p₀ w₀ᵀ + p₁ w₁ᵀ, with p₀ = 1 and p₁ the frame number from the middle.
+/// Taking it out is a matrix on the frames: S′ = (1 − D) S, D = p₀ w₀ᵀ + p₁ w₁ᵀ, with p₀ = 1 and p₁ the frame number from the
+/// middle.
 struct drift {
     int frames;
     double *weights; ///< w₀ and w₁: w₁ S is what each column drifts by a frame

@@ -5,9 +5,9 @@
 
 enum { DRIFT = 2 }; ///< sequences of the drift, which the basis begins with
 
-static const double steady = 0.05;      ///< how far a pole of the motion may wander
-static const double least_gain = 0.002; ///< of the motion's power
-static const double wanderer_gain = 0.01;
+static const double steady = 0.05;        ///< how far a pole of the motion may wander
+static const double least_gain = 0.002;   ///< of the motion's power
+static const double wanderer_gain = 0.01; ///< the same, of a pole that wanders
 static const double cancelling = 4; ///< times the motion's power: what a pole's own part has only against another's
 
 void exponentials_fill(double complex z, int frames, double *rows)

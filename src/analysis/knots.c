@@ -1,10 +1,10 @@
-/// A spline's curve is linear in its knots' values: x = Σ_i v_i φ_i, where φ_i is the curve with knot i at 1 and the others at 0. So for given frames,
-/// frequency, damping and bandwidth the best values are linear least squares on the motion itself,
+/// A spline's curve is linear in its knots' values: x = Σ_i v_i φ_i, where φ_i is the curve with knot i at 1 and the others at
+/// 0. So for given frames, frequency, damping and bandwidth the best values are linear least squares on the motion itself,
 ///
 ///     Σ_t |s_t − Re(x_t Ñ)|² = power − 2 bᵀv + vᵀA v        b_i = Σ_t Re(φ_i s_t·Ñ),  A_ij = Σ_t Re(φ_i φ̄_j |Ñ|² + φ_i φ_j Ñ·Ñ) / 2
 ///
-/// and the solver answers in microseconds. The rest is search: one knot after the other where it helps most, then every frame and parameter in
-/// turn by shorter and shorter steps, all in a fixed order.
+/// and the solver answers in microseconds. The rest is search: one knot after the other where it helps most, then every frame
+/// and parameter in turn by shorter and shorter steps, all in a fixed order.
 #include "analysis/knots.h"
 #include <math.h>
 #include <stdlib.h>
@@ -47,7 +47,7 @@ static bool solve(const struct search *s, const struct knots *k, double complex 
     desc.bandwidth.value = k->bandwidth;
     desc.knots = knots;
     desc.knot_count = k->count;
-    if (wiggly_solve(s->solver, &desc, &curve) != WIGGLY_OK) return false;
+    if (wiggly_solve(s->solver, &desc, &curve) >= WIGGLY_ERROR_ARGUMENT) return false;
     for (int t = 0; t < desc.samples; t++) course[t] = s->re[t] + I * s->im[t];
     return true;
 }
@@ -173,8 +173,8 @@ static bool add_knot(const struct search *s, struct knots *k, int stride)
     int gap = least_gap(k);
     for (int frame = 1; frame < s->component->frames; frame += stride) {
         struct knots changed = *k;
-        int at = k->count;
-        while (at > 0 && k->frame[at - 1] > frame) at--;
+        int at = k->count; // the first knot, at 0, stays the first
+        while (at > 1 && k->frame[at - 1] > frame) at--;
         if (frame < k->frame[at - 1] + gap || (at < k->count && frame > k->frame[at] - gap)) continue;
         memmove(changed.frame + at + 1, changed.frame + at, (size_t)(k->count - at) * sizeof *changed.frame);
         changed.frame[at] = frame;

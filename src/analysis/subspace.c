@@ -1,15 +1,17 @@
-/// Windows of L = n/2 frames, one starting at each of J = n − L + 1 frames. For a sum of oscillations every window of every column lies
-/// in the span of the sequences z_k^i, i < L, and leaving out the first or the last frame of that span differs by Z = diag(z_k):
+/// Windows of L = n/2 frames, one starting at each of J = n − L + 1 frames. For a sum of oscillations every window of every
+/// column lies in the span of the sequences z_k^i, i < L, and leaving out the first or the last frame of that span differs by
+/// Z = diag(z_k):
 ///
 ///     C = Σ_j  G[j … j+L−1, j … j+L−1]        all windows of all columns, L × L: running sums along G's diagonals
 ///     C = U Λ Uᵀ,  U_r the r largest           U_r = V T,  V_ik = z_k^i
 ///     Φ = U_top⁺ U_bottom = T⁻¹ Z T            so the eigenvalues of Φ are the poles
 ///
-/// U_topᵀ U_top = 1 − u uᵀ with u the last row of U_r, so (Sherman, Morrison) Φ = A + u (uᵀA)/(1 − uᵀu), A = U_topᵀ U_bottom, and A of a
-/// smaller order is a corner of that of a larger one. White noise adds a multiple of 1 to C and leaves U alone.
+/// U_topᵀ U_top = 1 − u uᵀ with u the last row of U_r, so (Sherman, Morrison) Φ = A + u (uᵀA)/(1 − uᵀu), A = U_topᵀ U_bottom,
+/// and A of a smaller order is a corner of that of a larger one. White noise adds a multiple of 1 to C and leaves U alone.
 ///
-/// A constant and a drift t = j + i would be a double pole at 1 that pulls slow poles towards itself. Both are known beforehand: taking the
-/// parts that are constant and linear in j out of every row of windows removes them from the span, and nothing else.
+/// A constant and a drift t = j + i would be a double pole at 1 that pulls slow poles towards itself. Both are known
+/// beforehand: taking the parts that are constant and linear in j out of every row of windows removes them from the span, and
+/// nothing else.
 ///
 /// A motion that is not quite a sum of oscillations (large displacements, a force) needs more poles than it has. Those that chance
 /// puts where something is left to explain move as the order grows; those of the body stay, to three digits at any rate.

@@ -2,6 +2,7 @@
 #include "base/lapack.h"
 #include <dlfcn.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /// dlsym() returns an object pointer; POSIX allows copying it into a function pointer, C forbids the cast.
@@ -9,6 +10,18 @@ static void find(void *library, const char *name, void *function)
 {
     void *symbol = library ? dlsym(library, name) : NULL;
     memcpy(function, &symbol, sizeof symbol);
+}
+
+/// At its first call OpenBLAS takes a buffer of 128 MiB, which it keeps, and where there is none it asks again for ever. So that call is made
+/// here, once as much memory is known to be there.
+static bool take_buffer(const struct lapack *lapack)
+{
+    void *room = malloc((size_t)160 << 20);
+    if (!room) return false;
+    free(room);
+    double one = 1, sum = 0;
+    lapack->dsyrk(LAPACK_ROWS_FIRST, BLAS_LOWER, BLAS_PLAIN, 1, 1, 1, &one, 1, 0, &sum, 1);
+    return true;
 }
 
 bool lapack_load(struct lapack *lapack, char *description, size_t size)
@@ -33,6 +46,10 @@ bool lapack_load(struct lapack *lapack, char *description, size_t size)
     if (!whole) {
         lapack_unload(lapack);
         snprintf(description, size, "not found (install liblapacke and libopenblas0)");
+    } else if (!take_buffer(lapack)) {
+        lapack_unload(lapack);
+        snprintf(description, size, "not enough memory for OpenBLAS's buffer");
+        return false;
     } else {
         snprintf(description, size, "%s, one thread", get_config ? get_config() : "liblapacke.so.3");
     }

@@ -2,6 +2,7 @@
 #include "analysis/analysis.h"
 #include "commands/analyze_scene.h"
 #include "commands/commands.h"
+#include "commands/open_mesh.h"
 #include "commands/options.h"
 #include "model/character.h"
 #include <math.h>
@@ -19,9 +20,11 @@ static const double fast_pole = 0.8;             ///< of half the frame rate: a 
 struct job {
     const char *files[FILES_MAX + 1]; ///< NULL behind the last
     const char *rest, *output, *scene, *coordinates, *shake, *method_name;
-    double fps; ///< 0: what the files say
+    struct mesh_options opening; ///< of `rest`
+    double fps;                  ///< 0: what the files say
     enum analysis_method method;
     int modes;
+    bool no_normals;
     double directions[FILES_MAX][3];
     int direction_count; ///< 0, 1 for all, or one a file
 };
@@ -249,7 +252,7 @@ static bool analyse_files(const struct job *job, const struct lapack *lapack, co
     }
     drop_unused(result);
     const struct character *character = &result->character;
-    return character_write(job->output, character, error) &&
+    return character_write(job->output, character, !job->no_normals, error) &&
            (!job->scene || analyze_scene_write(job->scene, job->output, character, result->analyzed, error)) &&
            (!job->coordinates || analyze_coordinates_write(job->coordinates, character, result->analyzed, error));
 }
@@ -272,7 +275,7 @@ static bool run(const struct job *job, struct error *error)
     char description[128];
     if (!lapack_load(&lapack, description, sizeof description))
         return fail(error, ERROR_ENVIRONMENT, "LAPACKE and OpenBLAS: %s", description);
-    bool done = surface_read(job->rest, &rest, error);
+    bool done = open_mesh(job->rest, &job->opening, &rest, error);
     if (done) done = analyse_files(job, &lapack, &rest, &result, error);
     free_result(&result);
     surface_free(&rest);
@@ -294,6 +297,7 @@ static const char *check(struct job *job)
     while (job->files[files]) files++;
     if (!job->rest) return "--rest mesh.obj is missing: name the mesh at rest";
     if (!job->output) return "-o creature.glb is missing: name the file to write";
+    if (mesh_options_check(&job->opening)) return mesh_options_check(&job->opening);
     if (!read_method(job)) return "--method: expected poles or cpca";
     if (!read_directions(job, files))
         return "--shake: expected up, side, front or a vector x,y,z, one for all files or one each with : between";
@@ -302,14 +306,18 @@ static const char *check(struct job *job)
 
 int command_analyze(int argc, char **argv)
 {
-    struct job job = {.modes = 1, .method_name = "poles"};
+    struct job job = {.modes = 1, .method_name = "poles", .opening = {.up = "y", .scale = 1}};
     const struct option_spec options[] = {
-        {"--rest", NULL, "FILE", "required: the mesh at rest (OBJ), with the same vertices in the same order",
+        {"--rest", NULL, "FILE",
+         "required: the mesh at rest (OBJ, STL, PLY, OFF, glTF), with the same vertices in the same order",
          OPTION_TEXT, &job.rest, 0, 0},
+        MESH_OPTIONS(&job.opening),
         {"--output", "-o", "FILE", "required: the character to write (.glb)", OPTION_TEXT, &job.output, 0, 0},
         {"--fps", NULL, "N", "frames per second; required for .npy and .pc2", OPTION_REAL, &job.fps, 1e-3, 100000},
         {"--modes", NULL, "K", "coordinates per motion, most important first (1)", OPTION_INT, &job.modes, 1,
          MODES_MAX},
+        {"--no-normals", NULL, NULL, "leave out how coordinates turn normals: a smaller file, the same on our stage",
+         OPTION_FLAG, &job.no_normals, 0, 0},
         {"--shake", NULL, "DIR",
          "direction of the shake: up, side, front or x,y,z; one for all or one per file (up:side)", OPTION_TEXT,
          &job.shake, 0, 0},

@@ -1,9 +1,10 @@
-/// `wiggly simulate`: shakes a closed mesh as a soft body, or finds its normal modes.
-#include "base/clock.h"
+/// `wiggly simulate`: shakes a mesh as a soft body, or finds its normal modes.
 #include "base/file.h"
 #include "commands/commands.h"
+#include "commands/open_mesh.h"
 #include "commands/options.h"
 #include "commands/progress.h"
+#include "commands/simulate_shake.h"
 #include "model/motion.h"
 #include "model/obj.h"
 #include "simulation/soft.h"
@@ -15,69 +16,44 @@
 
 struct job {
     const char *mesh, *output;
+    struct mesh_options opening;
     char rest[4096]; ///< the rest mesh beside the output
-    const char *shake_text;
-    struct shake shake;
+    const char *shake_text, *drive_text, *pin_text;
+    struct shake_job shake;
+    struct drive drive;
     struct soft_options soft;
-    double seconds, fps;
-    int substeps;
-    bool modal, verbose;
+    double floor; ///< above the lowest point; below 0: none
+    bool modal;
 };
 
-/// One frame: the integrator's substeps, then the surface.
-static bool simulate_frame(const struct job *job, const struct soft *soft, struct integrator *integrator, int frame,
-                           float (*position)[3], struct error *error)
+/// The base's motion, along the shake, of its size and at the shaken mode's frequency if there is no other.
+static bool start_drive(struct job *job, const struct soft *soft, struct error *error)
 {
-    for (int s = 0; frame > 0 && s < job->substeps; s++) {
-        if (progress_interrupted()) return fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
-        if (integrator_step(integrator)) continue;
-        return fail(error, ERROR_INPUT,
-                    "frame %d: the simulation became unstable: try more --substeps or a smaller --amplitude", frame);
-    }
-    lattice_embed(&soft->lattice, (const double(*)[3])integrator->x, position);
+    struct drive *drive = &job->drive;
+    if (!job->drive_text) return true;
+    if (soft->pinned == 0)
+        return fail(error, ERROR_USAGE, "%s: --drive moves what is pinned, and --pin none pins nothing", job->mesh);
+    if (drive->kind == DRIVE_NONE && !drive_read_track(drive, job->drive_text, error)) return false;
+    memcpy(drive->direction, job->shake.shake.direction, sizeof drive->direction);
+    drive->size = drive->kind == DRIVE_TRACK ? 1 : job->shake.shake.amplitude * soft->height;
+    drive->seconds = job->shake.seconds;
+    if (drive->frequency == 0) drive->frequency = soft_frequency(soft);
+    job->shake.loads.drive = drive;
     return true;
 }
 
-static bool write_frames(const struct job *job, const struct soft *soft, struct integrator *integrator, int frames,
-                         float (*position)[3], struct error *error)
+static bool shake(struct job *job, struct soft *soft, const struct surface *surface, struct error *error)
 {
-    struct motion_writer writer;
-    const double started = clock_now();
-    struct progress progress = {.started = started, .lines = job->verbose};
-    if (!motion_write_open(&writer, job->output, frames, soft->lattice.vertex_count, error)) return false;
-    for (int frame = 0; frame < frames; frame++) {
-        if (!simulate_frame(job, soft, integrator, frame, position, error) ||
-            !motion_write_frame(&writer, (const float(*)[3])position, error)) {
-            motion_write_discard(&writer);
-            return false;
-        }
-        progress_show(&progress, frame + 1, frames);
+    struct floor floor = {0};
+    bool good = start_drive(job, soft, error);
+    if (good && job->floor >= 0) {
+        good = floor_create(&floor, &soft->lattice, surface, soft->bottom + job->floor, soft->young) ||
+               fail_no_memory(error, job->mesh);
+        job->shake.loads.floor = &floor;
     }
-    if (!motion_write_commit(&writer, error)) return false;
-    printf("%s: %d frames of %d vertices at %g fps, in %.1f s\n", job->output, frames, soft->lattice.vertex_count,
-           job->fps, clock_now() - started);
-    return true;
-}
-
-static bool shake(const struct job *job, const struct soft *soft, const struct surface *surface, struct body *body,
-                  struct error *error)
-{
-    struct integrator integrator;
-    int frames = (int)fmax(1, round(job->seconds * job->fps));
-    float(*position)[3] = calloc((size_t)soft->lattice.vertex_count + 1, sizeof *position);
-    bool good = position && integrator_create(&integrator, body, 1 / (job->fps * job->substeps));
-    if (!good) {
-        free(position);
-        return fail_no_memory(error, job->mesh);
-    }
-    memcpy(position, surface->position, (size_t)surface->vertex_count * sizeof *position); // strays stay there
-    integrator.mass_damping = soft->alpha;
-    integrator.stiffness_damping = soft->beta;
-    integrator.tolerance = 1e-4 * soft->lattice.cell; // Newton's next step would be a thousandth of that
-    soft_shake(soft, &job->shake, &integrator);
-    good = write_frames(job, soft, &integrator, frames, position, error);
-    integrator_free(&integrator);
-    free(position);
+    good = good && simulate_shake(&job->shake, soft, surface, error);
+    floor_free(&floor);
+    drive_free(&job->drive);
     return good;
 }
 
@@ -112,23 +88,33 @@ static bool write_modes(const struct job *job, const struct soft *soft, struct e
     return true;
 }
 
-static bool run(const struct job *job, struct error *error)
+/// What was made of the mesh.
+static void report_body(const struct job *job, const struct soft *soft)
+{
+    printf("%s: %d tetrahedra, %d nodes, %d of them pinned; Young's modulus %.4g Pa, lowest mode %.4g Hz\n",
+           job->mesh, soft->lattice.tet_count, soft->body.node_count, soft->pinned, soft->young,
+           soft->modes.count ? soft->modes.frequency[0] : 0);
+    if (!job->modal) {
+        printf("  shaken most: mode %d, %.4g Hz, with %.0f %% of the shake\n", soft->shaken + 1, soft_frequency(soft),
+               100 * soft->share);
+    }
+    if (soft->lattice.repair[0]) printf("%s: %s\n", job->mesh, soft->lattice.repair);
+    fflush(stdout);
+    if (soft->loose_parts > 0 && soft->pinned > 0) {
+        fprintf(stderr, "%s: warning: %d of %d separate parts are not pinned and will drift\n", job->mesh,
+                soft->loose_parts, soft->lattice.part_count);
+    }
+}
+
+static bool run(struct job *job, struct error *error)
 {
     struct surface surface = {0};
     struct soft soft;
-    if (!surface_read(job->mesh, &surface, error)) return false;
+    if (!open_mesh(job->mesh, &job->opening, &surface, error)) return false;
     bool good = soft_create(&soft, &surface, job->mesh, &job->soft, error);
     if (good) {
-        printf("%s: %d tetrahedra, %d nodes, %d of them pinned; Young's modulus %.4g Pa, lowest mode %.4g Hz\n",
-               job->mesh, soft.lattice.tet_count, soft.body.node_count, soft.pinned, soft.young,
-               soft.modes.count ? soft.modes.frequency[0] : 0);
-        if (soft.lattice.repair[0]) printf("%s: %s\n", job->mesh, soft.lattice.repair);
-        fflush(stdout);
-        if (soft.loose_parts > 0) {
-            fprintf(stderr, "%s: warning: %d of %d separate parts are not pinned and will drift\n", job->mesh,
-                    soft.loose_parts, soft.lattice.part_count);
-        }
-        good = job->modal ? write_modes(job, &soft, error) : shake(job, &soft, &surface, &soft.body, error);
+        report_body(job, &soft);
+        good = job->modal ? write_modes(job, &soft, error) : shake(job, &soft, &surface, error);
         good = good && obj_write(job->rest, &surface, error);
         if (good) printf("%s: the mesh at rest\n", job->rest);
         soft_free(&soft);
@@ -156,6 +142,27 @@ static const char *set_material(struct soft_options *soft)
     return NULL;
 }
 
+/// Reads --drive; a name that is none of the kinds is a file's. NULL or what is wrong.
+static const char *set_drive(struct job *job)
+{
+    static const char *const kinds[] = {[DRIVE_SINE] = "sine", [DRIVE_BURST] = "burst", [DRIVE_SWEEP] = "sweep"};
+    struct shake *shake = &job->shake.shake;
+    shake->driven = job->drive_text != NULL;
+    bool amplitude_given = isfinite(shake->amplitude);
+    if (!amplitude_given) shake->amplitude = shake->driven ? 0.05 : 0.2;
+    if (!shake->driven)
+        return job->drive.frequency > 0 || job->shake.world ? "--drive-frequency and --world need --drive" : NULL;
+    if (shake->impulse) return "--impulse and --drive both start the motion: give one";
+    for (enum drive_kind kind = DRIVE_SINE; kind < DRIVE_TRACK; kind++) {
+        if (strcmp(job->drive_text, kinds[kind]) == 0) job->drive.kind = kind;
+    }
+    if (job->drive.kind != DRIVE_NONE) return NULL;
+    if (!ends_in(job->drive_text, ".csv")) return "--drive: expected sine, burst, sweep or a track's FILE.csv";
+    if (amplitude_given || job->drive.frequency > 0)
+        return "--drive: a track has its own size in metres and time: leave out --amplitude and --drive-frequency";
+    return NULL;
+}
+
 /// Checks what the table of options cannot; NULL or what is wrong.
 static const char *check(struct job *job)
 {
@@ -164,54 +171,84 @@ static const char *check(struct job *job)
     if (!ends_in(job->output, ".npy") && !ends_in(job->output, ".pc2"))
         return "--output: expected a name ending in .npy or .pc2";
     if (strlen(job->output) + 16 > sizeof job->rest) return "--output: the name is too long";
-    if (!options_direction(job->shake_text, job->shake.direction))
+    if (!options_direction(job->shake_text, job->shake.shake.direction))
         return "--shake: expected up, side, front or a vector x,y,z";
+    if (job->pin_text && !region_parse(job->pin_text, &job->soft.pin))
+        return "--pin: expected a height, none, plane:x,y,z,nx,ny,nz, sphere:x,y,z,r or color:RRGGBB";
     snprintf(job->rest, sizeof job->rest, "%.*s.rest.obj", (int)strlen(job->output) - 4, job->output);
-    return set_material(&job->soft);
+    job->shake.mesh = job->mesh;
+    job->shake.output = job->output;
+    const char *wrong = mesh_options_check(&job->opening);
+    if (!wrong) wrong = set_drive(job);
+    return wrong ? wrong : set_material(&job->soft);
 }
+
+/// Among which the one that is shaken most is looked for.
+enum { MODES_SEARCHED = 24 };
 
 int command_simulate(int argc, char **argv)
 {
     struct job job = {.soft = soft_default_options(),
-                      .shake = {.amplitude = 0.2},
+                      .opening = {.up = "y", .scale = 1},
+                      .shake = {.shake = {.amplitude = NAN}, .seconds = 4, .fps = 24, .accuracy = 0.02},
                       .shake_text = "up",
-                      .seconds = 4,
-                      .fps = 24,
-                      .substeps = 8};
+                      .floor = -1};
+    struct shake_job *shake = &job.shake;
     int modes = 0;
     job.soft.frequency = job.soft.density = 0;
     const struct option_spec options[] = {
         {"--output", "-o", "FILE",
          "required: NAME.npy or NAME.pc2 (--modal: .npy); the rest mesh goes to NAME.rest.obj", OPTION_TEXT,
          &job.output, 0, 0},
+        MESH_OPTIONS(&job.opening),
         {"--shake", NULL, "DIR", "up, side, front or a vector x,y,z (default: up)", OPTION_TEXT, &job.shake_text, 0,
          0},
-        {"--amplitude", NULL, "A", "how far the top moves, relative to the height (0.2)", OPTION_REAL,
-         &job.shake.amplitude, -2, 2},
-        {"--impulse", NULL, NULL, "start with a push instead of a deformation", OPTION_FLAG, &job.shake.impulse, 0,
+        {"--amplitude", NULL, "A",
+         "how far the top moves, relative to the height (0.2); with --drive the base (0.05)", OPTION_REAL,
+         &shake->shake.amplitude, -2, 2},
+        {"--impulse", NULL, NULL, "start with a push instead of a deformation", OPTION_FLAG, &shake->shake.impulse, 0,
          0},
-        {"--seconds", NULL, "S", "duration in seconds (4)", OPTION_REAL, &job.seconds, 1e-3, 3600},
-        {"--fps", NULL, "N", "frames per second (24)", OPTION_REAL, &job.fps, 1, 1000},
-        {"--substeps", NULL, "N", "integrator steps per frame (8)", OPTION_INT, &job.substeps, 1, 1000},
+        {"--drive", NULL, "WHAT",
+         "shake the pinned base instead: sine, burst, sweep, or a track of seconds,metres in FILE.csv", OPTION_TEXT,
+         &job.drive_text, 0, 0},
+        {"--drive-frequency", NULL, "HZ", "of the sine, the burst, the sweep's middle (the shaken mode's)",
+         OPTION_REAL, &job.drive.frequency, 1e-3, 1e3},
+        {"--world", NULL, NULL, "write what a still observer sees, not the base", OPTION_FLAG, &shake->world, 0, 0},
+        {"--seconds", NULL, "S", "duration in seconds (4)", OPTION_REAL, &shake->seconds, 1e-3, 3600},
+        {"--fps", NULL, "N", "frames per second (24)", OPTION_REAL, &shake->fps, 1, 1000},
+        {"--accuracy", NULL, "E", "error of the motion allowed, relative to its size; sets the steps (0.02)",
+         OPTION_REAL, &shake->accuracy, 1e-4, 1},
+        {"--substeps", NULL, "N", "integrator steps per frame, instead of --accuracy", OPTION_INT, &shake->substeps,
+         1, 1000},
         {"--tets", NULL, "N", "approximate number of tetrahedra (3000)", OPTION_INT, &job.soft.tets, 50, 200000},
-        {"--pin", NULL, "H", "pin everything up to H above the lowest point (1/20 of the height)", OPTION_REAL,
-         &job.soft.pin, 0, 1e6},
-        {"--frequency", NULL, "HZ", "frequency of the lowest mode; sets the stiffness (2)", OPTION_REAL,
+        {"--pin", NULL, "WHERE",
+         "pin up to a height (1/20 of all), none, plane:x,y,z,nx,ny,nz, sphere:x,y,z,r, color:RRGGBB", OPTION_TEXT,
+         &job.pin_text, 0, 0},
+        {"--frequency", NULL, "HZ",
+         "frequency of the mode that is shaken most (--modal: the lowest); sets the stiffness (2)", OPTION_REAL,
          &job.soft.frequency, 1e-3, 1e3},
         {"--young", NULL, "E", "Young's modulus in Pa, instead of --frequency", OPTION_REAL, &job.soft.young, 1e-6,
          1e15},
+        {"--soft", NULL, "MAP", "soften by distance (from the pin), color (brightness) or FILE.npy (0 to 1 a vertex)",
+         OPTION_TEXT, &job.soft.softness.from, 0, 0},
+        {"--softness", NULL, "N", "how many times softer where the map is 1 (8)", OPTION_REAL,
+         &job.soft.softness.times, 1e-3, 1e3},
         {"--poisson", NULL, "NU", "Poisson's ratio (0.35)", OPTION_REAL, &job.soft.poisson, 0, 0.49},
         {"--density", NULL, "RHO", "density in kg/m^3, only with --young (1000)", OPTION_REAL, &job.soft.density,
          1e-6, 1e9},
-        {"--damping", NULL, "Z", "damping ratio at the lowest mode (0.03)", OPTION_REAL, &job.soft.damping, 0, 1},
+        {"--damping", NULL, "Z", "damping ratio at the shaken mode (0.03)", OPTION_REAL, &job.soft.damping, 0, 1},
+        {"--gravity", NULL, "G", "downwards, m/s^2 (0); what is pinned starts at rest under it", OPTION_REAL,
+         &shake->loads.gravity, 0, 1e4},
+        {"--floor", NULL, "H", "a smooth floor at H above the lowest point", OPTION_REAL, &job.floor, 0, 1e6},
         {"--modal", NULL, "K", "write the K lowest normal modes instead of a shake", OPTION_INT, &modes, 1, 200},
-        {"--verbose", NULL, NULL, "show progress even if standard error is not a terminal", OPTION_FLAG, &job.verbose,
-         0, 0},
+        {"--verbose", NULL, NULL, "show progress even if standard error is not a terminal", OPTION_FLAG,
+         &shake->verbose, 0, 0},
     };
     const struct usage usage = {
         .command = "simulate",
-        .operands = "mesh.obj",
-        .summary = "Shakes a closed mesh as a soft body (finite elements) and writes its vertices in every frame.",
+        .operands = "MESH",
+        .summary = "Shakes a mesh (OBJ, STL, PLY, OFF, glTF) as a soft body (finite elements) and writes its "
+                   "vertices in every frame.",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .operand_minimum = 1,
@@ -220,7 +257,8 @@ int command_simulate(int argc, char **argv)
     enum options_result result = options_parse(&usage, argc, argv, &job.mesh);
     if (result != OPTIONS_RUN) return (int)result;
     job.modal = modes > 0;
-    if (job.modal) job.soft.modes = modes;
+    job.soft.modes = job.modal ? modes : MODES_SEARCHED;
+    if (!job.modal) job.soft.shake = &shake->shake;
     const char *wrong = check(&job);
     if (wrong) return (int)options_wrong(&usage, "%s", wrong);
     progress_catch_interrupts();

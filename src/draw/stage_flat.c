@@ -2,12 +2,20 @@
 #include "draw/stage_flat.h"
 #include "draw/painter.h"
 #include "draw/stage_extent.h"
+#include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 
 #define GROUND_RADIUS 3.5f
 
-enum { CORNERS = 6, MAX_QUADS = 2 + STAGE_MAX_BLOBS };
+// Of figures between these sizes, metres, the ground is always the same; others have as much of it as the largest and the smallest of them.
+static const float SMALL = 0.2f, LARGE = 5.0f;
+
+enum {
+    CORNERS = 6,
+    SCENERY = 2, ///< quads of background and ground, which come first
+    MAX_QUADS = SCENERY + STAGE_MAX_BLOBS,
+};
 
 struct corner {
     float clip[4];
@@ -17,6 +25,10 @@ struct corner {
 
 struct stage_flat {
     GLuint program, vertex_array, vertices;
+    struct {
+        GLint top, bottom, rows, shadow;
+    } at;
+    struct stage_colors colors;
     int quads;
     struct corner corners[MAX_QUADS * CORNERS];
 };
@@ -36,6 +48,10 @@ struct stage_flat *stage_flat_create(struct error *error)
         free(flat);
         return NULL;
     }
+    flat->at.top = glGetUniformLocation(flat->program, "top");
+    flat->at.bottom = glGetUniformLocation(flat->program, "bottom");
+    flat->at.rows = glGetUniformLocation(flat->program, "rows");
+    flat->at.shadow = glGetUniformLocation(flat->program, "shadow");
     glGenVertexArrays(1, &flat->vertex_array);
     glBindVertexArray(flat->vertex_array);
     glGenBuffers(1, &flat->vertices);
@@ -64,18 +80,31 @@ void stage_flat_destroy(struct stage_flat *flat)
     free(flat);
 }
 
+static float ground_radius(const struct stage_view *view)
+{
+    float largest = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        for (int c = 0; c < view->character_count; c++) {
+            const struct figure *figure = view->characters[c].figure;
+            largest = fmaxf(largest, figure->hi[k] - figure->lo[k]);
+        }
+        for (int m = 0; m < view->model_count; m++)
+            largest = fmaxf(largest, view->models[m].hi[k] - view->models[m].lo[k]);
+    }
+    const float scale = largest > LARGE ? largest / LARGE : largest > 0.0f ? fminf(largest / SMALL, 1.0f) : 1.0f;
+    return view->tail_count > 0 ? fmaxf(GROUND_RADIUS, GROUND_RADIUS * scale) : GROUND_RADIUS * scale;
+}
+
 static void set_color(struct corner *corner, uint32_t color, float opacity)
 {
     for (int k = 0; k < 3; k++) corner->color[k] = (float)(color >> (24 - 8 * k) & 0xFF) / 255.0f;
     corner->color[3] = opacity;
 }
 
-static void add_background(struct stage_flat *flat, const struct stage_colors *colors)
+static void add_background(struct stage_flat *flat)
 {
     for (int c = 0; c < CORNERS; c++) {
-        struct corner *corner = &flat->corners[flat->quads * CORNERS + c];
-        *corner = (struct corner){.clip = {square[c][0], square[c][1], 0.0f, 1.0f}};
-        set_color(corner, square[c][1] > 0.0f ? colors->top : colors->bottom, 1.0f);
+        flat->corners[flat->quads * CORNERS + c] = (struct corner){.clip = {square[c][0], square[c][1], 0.0f, 1.0f}};
     }
     flat->quads++;
 }
@@ -100,9 +129,10 @@ long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view)
     const float ground = stage_lowest_ground(view);
     const mat4s clip_from_world = stage_clip_from_world(view);
     flat->quads = 0;
-    add_background(flat, &view->colors);
-    add_disc(flat, clip_from_world, view->middle[0], ground, view->middle[1], GROUND_RADIUS, view->colors.ground,
-             1.0f);
+    flat->colors = view->colors;
+    add_background(flat);
+    add_disc(flat, clip_from_world, view->middle[0], ground, view->middle[1], ground_radius(view),
+             view->colors.ground, 1.0f);
     for (int b = 0; b < view->blob_count; b++) {
         const struct stage_blob *blob = &view->blobs[b];
         add_disc(flat, clip_from_world, blob->x, ground, blob->z, blob->radius, view->colors.shadow, blob->strength);
@@ -113,14 +143,26 @@ long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view)
     return bytes;
 }
 
-void stage_flat_draw(const struct stage_flat *flat)
+static void set_srgb(GLint location, uint32_t color)
+{
+    struct corner corner;
+    set_color(&corner, color, 1.0f);
+    glUniform3fv(location, 1, corner.color);
+}
+
+void stage_flat_draw(const struct stage_flat *flat, int y, int height)
 {
     glUseProgram(flat->program);
+    set_srgb(flat->at.top, flat->colors.top);
+    set_srgb(flat->at.bottom, flat->colors.bottom);
+    glUniform2f(flat->at.rows, (float)y, 1.0f / (float)height);
+    glUniform1i(flat->at.shadow, false);
     glBindVertexArray(flat->vertex_array);
     glDisable(GL_BLEND);
-    glDrawArrays(GL_TRIANGLES, 0, CORNERS);
+    glDrawArrays(GL_TRIANGLES, 0, SCENERY * CORNERS);
+    glUniform1i(flat->at.shadow, true);
     glEnable(GL_BLEND);
-    glDrawArrays(GL_TRIANGLES, CORNERS, (flat->quads - 1) * CORNERS);
+    glDrawArrays(GL_TRIANGLES, SCENERY * CORNERS, (flat->quads - SCENERY) * CORNERS);
     glDisable(GL_BLEND);
     glBindVertexArray(0);
 }

@@ -318,6 +318,7 @@ const struct binding key_bindings[] = {
     {.key = 'E', .mods = MOD_SHIFT, .repeats = true, .core = slopes_stiffen, .argument = 1},
     {.key = 'M', .core = core_cycle_choice, .argument = PARAMETER_MODE},
     {.key = 'M', .mods = MOD_SHIFT, .core = core_cycle_choice, .argument = PARAMETER_PASSIVE},
+    {.key = 'F', .mods = MOD_SHIFT, .core = core_find_frequency},
     {.key = KEY_F2, .run = run_rename},
     {.key = 'S', .run = run_scale},
     {.key = 'N', .run = run_normalise},

@@ -4,19 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/// How a target turns a normal, to first order: n = t₁ × t₂, and the target moves both tangents.
-static void turn_normals(const struct figure *figure, int coordinate, bool imaginary, float (*turn)[3])
-{
-    const struct character *c = &figure->character;
-    for (int i = 0; i < c->vertex_count; i++) {
-        const struct slope *s = &figure->slopes[coordinate * c->vertex_count + i];
-        const vec3s u = vec3_from(figure->tangent[i]), v = glms_vec3_cross(vec3_from(c->normal[i]), u);
-        const vec3s du = vec3_from(imaginary ? s->im_u : s->re_u), dv = vec3_from(imaginary ? s->im_v : s->re_v);
-        const vec3s sum = glms_vec3_add(glms_vec3_cross(du, v), glms_vec3_cross(u, dv));
-        for (int k = 0; k < 3; k++) turn[i][k] = imaginary ? -sum.raw[k] : sum.raw[k];
-    }
-}
-
 /// Re Ñ and −Im Ñ of one coordinate, for the weights Re z and Im z.
 static bool add_targets(struct form *form, const struct figure *figure, int coordinate)
 {
@@ -33,7 +20,7 @@ static bool add_targets(struct form *form, const struct figure *figure, int coor
         for (int i = 0; i < form->vertex_count; i++) {
             for (int k = 0; k < 3; k++) target->position[i][k] = part ? -n->im[i][k] : n->re[i][k];
         }
-        turn_normals(figure, coordinate, part == 1, target->normal);
+        figure_turn_normals(figure, coordinate, part == 1, target->normal);
     }
     return true;
 }

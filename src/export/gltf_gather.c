@@ -47,7 +47,7 @@ static bool gather_buffers(struct gathered *gathered)
         const char *name;
         if (!done) break;
         move(view, starts, count);
-        json_object_foreach(json_object_get(view, "extensions"), name, extension) move(extension, starts, count);
+        json_object_foreach(json_object_get(view, "extensions"), name, extension) { move(extension, starts, count); }
     }
     free(starts);
     return done;

@@ -64,7 +64,8 @@ bool character_create(struct character *c, const struct surface *surface, int co
         .color = copy_colors(surface),
         .indices = copy_of(surface->indices, (size_t)surface->index_count * sizeof *c->indices),
     };
-    if (c->position && c->normal && c->color && c->indices && create_coordinates(c, coordinates)) {
+    if (c->position && c->normal && c->color && c->indices && create_coordinates(c, coordinates) &&
+        looks_copy(&c->looks, &surface->looks, surface->index_count)) {
         compute_normals(c);
         return true;
     }
@@ -84,5 +85,6 @@ void character_free(struct character *c)
     free(c->normal);
     free(c->color);
     free(c->indices);
+    looks_free(&c->looks);
     *c = (struct character){0};
 }

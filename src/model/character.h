@@ -1,7 +1,9 @@
 /// A character: a rest mesh and the complex normal coordinates that it oscillates in (the paper's section 7.2), and its file.
 ///
 /// creature.glb is plain glTF 2.0. Each coordinate is two morph targets, NAME.re = Re Ñ and NAME.im = −Im Ñ, so that with
-/// the weights Re z and Im z of z = A e^{jφ} x the deformation is Re(z Ñ) (equations 29 and 30) in any viewer. The mesh's
+/// the weights Re z and Im z of z = A e^{jφ} x the deformation is Re(z Ñ) (equations 29 and 30) in a viewer that takes negative weights.
+/// Targets may turn normals too, to first order. First come all vertices of the mesh at rest in their order, then copies of those that have
+/// several texture coordinates; each material is a primitive, and all share the vertices. The mesh's
 /// extras say {"targetNames": […], "wiggly": {"coordinates": [{"name", "frequency", "damping", …}]}}; "scale" there says by how
 /// much an export has scaled both targets up.
 #ifndef MODEL_CHARACTER_H
@@ -31,6 +33,8 @@ struct character {
     float (*color)[3]; ///< linear RGB, 1 where the file has none
     uint32_t *indices;
     int index_count;
+    struct looks
+        looks; ///< materials, texture coordinates; of a file with several materials, which triangles have which
     struct coordinate *coordinates;
     int coordinate_count;
 };
@@ -44,8 +48,9 @@ bool character_create(struct character *character, const struct surface *surface
 /// there are none. The first node that shows the mesh places it. Errors name the file, the place in it, what was expected and what was found.
 bool character_read(const char *path, struct character *character, struct error *error);
 
-/// Writes a .glb, whole or not at all.
-bool character_write(const char *path, const struct character *character, struct error *error);
+/// Writes a .glb, whole or not at all. Without `turn_normals` targets move vertices alone: two fifths smaller, and the same to
+/// whoever has figure_derive().
+bool character_write(const char *path, const struct character *character, bool turn_normals, struct error *error);
 
 /// Leaves an empty character.
 void character_free(struct character *character);

@@ -153,21 +153,46 @@ uint64_t figure_new_id(void)
     return ++made;
 }
 
+bool figure_derive(struct figure *figure)
+{
+    const struct character *c = &figure->character;
+    if (!reserve(figure) ||
+        !adjacency_create(&figure->edges, c->position, c->vertex_count, c->indices, c->index_count))
+        return false;
+    measure(figure);
+    for (int k = 0; k < c->coordinate_count; k++) {
+        figure_measure(figure, k);
+        for (int i = 0; i < c->vertex_count; i++) figure_fit(figure, k, i);
+    }
+    return true;
+}
+
+void figure_forget(struct figure *figure)
+{
+    figure->character = (struct character){0};
+    figure_free(figure);
+}
+
+void figure_turn_normals(const struct figure *figure, int coordinate, bool imaginary, float (*turn)[3])
+{
+    const struct character *c = &figure->character;
+    for (int i = 0; i < c->vertex_count; i++) {
+        const struct slope *s = &figure->slopes[coordinate * c->vertex_count + i];
+        const vec3s u = vec3_from(figure->tangent[i]), v = glms_vec3_cross(vec3_from(c->normal[i]), u);
+        const vec3s du = vec3_from(imaginary ? s->im_u : s->re_u), dv = vec3_from(imaginary ? s->im_v : s->re_v);
+        const vec3s sum = glms_vec3_add(glms_vec3_cross(du, v), glms_vec3_cross(u, dv));
+        for (int k = 0; k < 3; k++) turn[i][k] = imaginary ? -sum.raw[k] : sum.raw[k];
+    }
+}
+
 bool figure_create(struct figure *figure, struct character *character)
 {
     *figure = (struct figure){.character = *character, .id = figure_new_id()};
     *character = (struct character){0};
-    const struct character *c = &figure->character;
-    bool good =
-        reserve(figure) && adjacency_create(&figure->edges, c->position, c->vertex_count, c->indices, c->index_count);
+    bool good = figure_derive(figure);
     if (good) {
-        measure(figure);
-        for (int k = 0; k < c->coordinate_count; k++) {
-            figure_measure(figure, k);
-            for (int i = 0; i < c->vertex_count; i++) figure_fit(figure, k, i);
-        }
         find_soles(figure);
-        good = decimate(c, FIGURE_COARSE, figure->coarse, &figure->coarse_count);
+        good = decimate(&figure->character, FIGURE_COARSE, figure->coarse, &figure->coarse_count);
     }
     if (!good) figure_free(figure);
     return good;

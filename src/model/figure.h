@@ -45,6 +45,15 @@ struct figure {
 /// empty and the character freed.
 bool figure_create(struct figure *figure, struct character *character);
 
+/// The derivatives alone, for a figure whose character is set and all else zero. figure_forget() frees them and leaves the character to
+/// whom it belongs. False where memory is short: then too.
+bool figure_derive(struct figure *figure);
+void figure_forget(struct figure *figure);
+
+/// How the real or the imaginary part of a coordinate turns normals, to first order, as morph targets have it: n = t₁ × t₂, and the
+/// coordinate moves both tangents; −Im for the imaginary part.
+void figure_turn_normals(const struct figure *figure, int coordinate, bool imaginary, float (*turn)[3]);
+
 /// Blocks of FIGURE_BLOCK vertices that it has, the last one may be smaller.
 static inline int figure_blocks(const struct figure *figure)
 {

@@ -26,6 +26,14 @@ static int64_t attribute(const json_t *primitive, const char *name)
     return glb_integer(json_object_get(primitive, "attributes"), name, -1);
 }
 
+/// Whether a primitive has the vertices of the first one, as ours with several materials do: then they are read once.
+static bool shares(const json_t *primitives, size_t i)
+{
+    const json_t *first = json_array_get(primitives, 0), *other = json_array_get(primitives, i);
+    return i > 0 && json_equal(json_object_get(first, "attributes"), json_object_get(other, "attributes")) &&
+           json_equal(json_object_get(first, "targets"), json_object_get(other, "targets"));
+}
+
 static int64_t vertex_count_of(const struct glb *glb, const json_t *primitive)
 {
     int64_t position = attribute(primitive, "POSITION");
@@ -99,7 +107,7 @@ static bool read_surface(const struct glb *glb, const json_t *primitives, int co
     json_array_foreach(primitives, i, primitive)
     {
         if (!check_primitive(glb, primitive, error)) return false;
-        total += vertex_count_of(glb, primitive);
+        if (!shares(primitives, i)) total += vertex_count_of(glb, primitive);
     }
     int64_t with_targets = total <= COUNT_LIMIT ? total * (1 + (int64_t)coordinates) : total;
     if (with_targets > COUNT_LIMIT)
@@ -111,6 +119,10 @@ static bool read_surface(const struct glb *glb, const json_t *primitives, int co
     json_array_foreach(primitives, i, primitive)
     {
         int base = s->vertex_count, count = (int)vertex_count_of(glb, primitive);
+        if (shares(primitives, i)) {
+            if (!read_indices(glb, primitive, 0, count, s, error)) return false;
+            continue;
+        }
         if (!read_vectors(glb, attribute(primitive, "POSITION"), count, s->position + base, 1, error)) return false;
         if (!read_colors(glb, primitive, count, s->color + base, error)) return false;
         if (!read_indices(glb, primitive, base, count, s, error)) return false;
@@ -127,6 +139,7 @@ static bool read_normals(const struct glb *glb, const json_t *primitives, struct
     int base = 0;
     json_array_foreach(primitives, i, primitive)
     {
+        if (shares(primitives, i)) continue;
         int count = (int)vertex_count_of(glb, primitive);
         int64_t accessor = attribute(primitive, "NORMAL");
         if (accessor >= 0 && !read_vectors(glb, accessor, count, c->normal + base, 1, error)) return false;
@@ -169,6 +182,7 @@ static bool read_target(const struct glb *glb, const json_t *primitives, int tar
     int base = 0;
     json_array_foreach(primitives, i, primitive)
     {
+        if (shares(primitives, i)) continue;
         int count = (int)vertex_count_of(glb, primitive);
         const json_t *targets = json_object_get(primitive, "targets");
         int64_t accessor = glb_integer(json_array_get(targets, (size_t)target), "POSITION", -1);

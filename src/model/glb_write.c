@@ -1,19 +1,21 @@
 /// Writes a character to a .glb file.
 #include "base/file.h"
-#include "model/character.h"
-#include "model/glb.h"
+#include "model/figure.h"
+#include "model/glb_split.h"
+#include "model/gltf_file.h"
+#include "model/mtl.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { ARRAY_BUFFER = 34962, ELEMENT_ARRAY_BUFFER = 34963 };
-
-/// A file being written: its JSON, and the vectors that its binary chunk will hold, in the order of the accessors.
+/// A file being written.
 struct output {
     const struct character *character;
-    FILE *stream;
-    json_t *views, *accessors;
-    size_t size; ///< of the binary chunk so far
+    const struct figure *figure; ///< NULL: targets leave normals as they are
+    struct split split;
+    struct gltf_file file;
+    float (*scratch)[3]; ///< room for a vector a vertex of the file
+    json_t *materials, *textures, *images;
 };
 
 static bool has_colors(const struct character *c)
@@ -24,46 +26,123 @@ static bool has_colors(const struct character *c)
     return false;
 }
 
-/// Adds a buffer view of `size` bytes with one accessor, and returns the accessor's number.
-static json_int_t add_accessor(struct output *o, size_t size, int target, int type, int count, const char *shape)
+/// The character's vectors times `sign`, within [lowest, highest], for the vertices of the file.
+static json_int_t add_vectors(struct output *o, const float (*vectors)[3], float sign, float lowest, float highest,
+                              bool bounds)
 {
-    json_int_t index = (json_int_t)json_array_size(o->accessors);
-    json_array_append_new(o->views, json_pack("{s:i, s:I, s:I, s:i}", "buffer", 0, "byteOffset", (json_int_t)o->size,
-                                              "byteLength", (json_int_t)size, "target", target));
-    json_array_append_new(o->accessors, json_pack("{s:I, s:i, s:i, s:s}", "bufferView", index, "componentType", type,
-                                                  "count", count, "type", shape));
-    o->size += size;
-    return index;
-}
-
-/// Bounds of the vectors times `sign`: what positions must state.
-static void add_bounds(struct output *o, json_int_t accessor, const float (*vectors)[3], float sign)
-{
-    json_t *low = json_array(), *high = json_array(), *object = json_array_get(o->accessors, (size_t)accessor);
-    for (int k = 0; k < 3; k++) {
-        float least = INFINITY, most = -INFINITY;
-        for (int i = 0; i < o->character->vertex_count; i++) {
-            least = fminf(least, sign * vectors[i][k]);
-            most = fmaxf(most, sign * vectors[i][k]);
-        }
-        json_array_append_new(low, json_real((double)least));
-        json_array_append_new(high, json_real((double)most));
+    for (int v = 0; v < o->split.count; v++) {
+        const float *vector = vectors[o->split.source[v]];
+        for (int k = 0; k < 3; k++) o->scratch[v][k] = fminf(fmaxf(sign * vector[k], lowest), highest);
     }
-    json_object_set_new(object, "min", low);
-    json_object_set_new(object, "max", high);
+    return gltf_file_add(&o->file, ELEMENTS_VECTORS, o->scratch, (size_t)o->split.count, bounds);
 }
 
-static json_int_t add_vectors(struct output *o)
+static json_int_t add_places(struct output *o, const float (*vectors)[3], float sign)
 {
-    int count = o->character->vertex_count;
-    return add_accessor(o, (size_t)count * sizeof(float[3]), ARRAY_BUFFER, GLB_FLOAT, count, "VEC3");
+    return add_vectors(o, vectors, sign, -INFINITY, INFINITY, true);
 }
 
-static json_int_t add_positions(struct output *o, const float (*vectors)[3], float sign)
+// --- looks
+
+static void add_texture(struct output *o, const struct looks_material *material, json_t *base)
 {
-    json_int_t accessor = add_vectors(o);
-    add_bounds(o, accessor, vectors, sign);
-    return accessor;
+    const char *kind = looks_image_kind(material->image, material->image_size);
+    char type[16];
+    if (!kind) return;
+    snprintf(type, sizeof type, "image/%s", kind);
+    const json_int_t view = gltf_file_add_bytes(&o->file, material->image, material->image_size);
+    const json_int_t image =
+        gltf_append(&o->file, o->images,
+                    json_pack("{s:s, s:I, s:s}", "name", material->name, "bufferView", view, "mimeType", type));
+    const json_int_t texture = gltf_append(&o->file, o->textures, json_pack("{s:I}", "source", image));
+    gltf_set(&o->file, base, "baseColorTexture", json_pack("{s:I}", "index", texture));
+}
+
+static void add_material(struct output *o, const struct looks_material *material)
+{
+    const float *c = material->color;
+    json_t *base = json_pack("{s:f, s:f}", "metallicFactor", 0.0, "roughnessFactor", 0.8);
+    if (c[0] != 1 || c[1] != 1 || c[2] != 1 || c[3] != 1)
+        gltf_set(&o->file, base, "baseColorFactor",
+                 json_pack("[f, f, f, f]", (double)c[0], (double)c[1], (double)c[2], (double)c[3]));
+    if (material->image) add_texture(o, material, base);
+    json_t *json = json_pack("{s:s, s:o}", "name", material->name, "pbrMetallicRoughness", base);
+    if (c[3] < 1) gltf_set(&o->file, json, "alphaMode", json_string("BLEND"));
+    gltf_append(&o->file, o->materials, json);
+}
+
+// --- mesh
+
+static json_t *make_attributes(struct output *o)
+{
+    const struct character *c = o->character;
+    const json_int_t position = add_places(o, (const float(*)[3])c->position, 1);
+    const json_int_t normal = add_vectors(o, (const float(*)[3])c->normal, 1, -1, 1, false);
+    json_t *attributes = json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal);
+    if (has_colors(c))
+        gltf_set(&o->file, attributes, "COLOR_0",
+                 json_integer(add_vectors(o, (const float(*)[3])c->color, 1, 0, 1, false)));
+    if (o->split.uv)
+        gltf_set(&o->file, attributes, "TEXCOORD_0",
+                 json_integer(gltf_file_add(&o->file, ELEMENTS_UVS, o->split.uv, (size_t)o->split.count, false)));
+    return attributes;
+}
+
+/// Re Ñ and −Im Ñ of each coordinate, and how they turn normals; `turn` has room for a vector a vertex of the character.
+static json_t *make_targets(struct output *o, float (*turn)[3])
+{
+    const struct character *c = o->character;
+    json_t *targets = json_array();
+    for (int i = 0; i < 2 * c->coordinate_count; i++) {
+        const struct coordinate *n = &c->coordinates[i / 2];
+        const bool imaginary = i % 2;
+        const json_int_t position =
+            imaginary ? add_places(o, (const float(*)[3])n->im, -1) : add_places(o, (const float(*)[3])n->re, 1);
+        json_t *target = json_pack("{s:I}", "POSITION", position);
+        if (o->figure) {
+            figure_turn_normals(o->figure, i / 2, imaginary, turn);
+            gltf_set(&o->file, target, "NORMAL",
+                     json_integer(add_vectors(o, (const float(*)[3])turn, 1, -INFINITY, INFINITY, false)));
+        }
+        gltf_append(&o->file, targets, target);
+    }
+    return targets;
+}
+
+/// The triangles of one material; `corners` has room for all. −1: none.
+static json_int_t add_triangles(struct output *o, uint32_t material, uint32_t *corners)
+{
+    const struct character *c = o->character;
+    const uint32_t *of = c->looks.material;
+    size_t count = 0;
+    for (int i = 0; i < c->index_count; i++) {
+        const uint32_t own = of && of[i / 3] < (uint32_t)c->looks.material_count ? of[i / 3] : LOOKS_NONE;
+        if (own == material) corners[count++] = o->split.indices[i];
+    }
+    return count ? gltf_file_add(&o->file, ELEMENTS_INDICES, corners, count, false) : -1;
+}
+
+/// A primitive for each material that triangles have, and one for those without.
+static json_t *make_primitives(struct output *o, uint32_t *corners, float (*turn)[3])
+{
+    char name[] = "skin";
+    const struct looks_material skin = {.name = name, .color = {1, 1, 1, 1}};
+    const struct looks *looks = &o->character->looks;
+    json_t *primitives = json_array(), *attributes = make_attributes(o), *targets = make_targets(o, turn);
+    for (int m = 0; m <= looks->material_count; m++) {
+        const bool none = m == looks->material_count;
+        const json_int_t indices = add_triangles(o, none ? LOOKS_NONE : (uint32_t)m, corners);
+        if (indices < 0) continue;
+        json_t *primitive = json_pack("{s:O, s:I, s:I}", "attributes", attributes, "indices", indices, "material",
+                                      (json_int_t)json_array_size(o->materials));
+        if (json_array_size(targets) > 0) gltf_set(&o->file, primitive, "targets", json_incref(targets));
+        add_material(o, none ? &skin : &looks->materials[m]);
+        gltf_append(&o->file, primitives, primitive);
+    }
+    if (!attributes || !targets) o->file.without_memory = true;
+    json_decref(attributes);
+    json_decref(targets);
+    return primitives;
 }
 
 static json_t *describe(const struct coordinate *c)
@@ -72,124 +151,80 @@ static json_t *describe(const struct coordinate *c)
                      c->damping, "explained", c->explained, "pca1", c->pca1, "pca2", c->pca2);
 }
 
-static json_t *make_primitive(struct output *o)
-{
-    const struct character *c = o->character;
-    json_int_t indices = add_accessor(o, (size_t)c->index_count * sizeof *c->indices, ELEMENT_ARRAY_BUFFER,
-                                      GLB_UNSIGNED_INT, c->index_count, "SCALAR");
-    json_int_t position = add_positions(o, (const float(*)[3])c->position, 1), normal = add_vectors(o);
-    json_t *attributes = json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal);
-    if (has_colors(c)) json_object_set_new(attributes, "COLOR_0", json_integer(add_vectors(o)));
-    json_t *targets = json_array();
-    for (int i = 0; i < c->coordinate_count; i++) {
-        json_int_t re = add_positions(o, (const float(*)[3])c->coordinates[i].re, 1);
-        json_int_t im = add_positions(o, (const float(*)[3])c->coordinates[i].im, -1);
-        json_array_append_new(targets, json_pack("{s:I}", "POSITION", re));
-        json_array_append_new(targets, json_pack("{s:I}", "POSITION", im));
-    }
-    json_t *primitive = json_pack("{s:o, s:I, s:i}", "attributes", attributes, "indices", indices, "material", 0);
-    if (c->coordinate_count > 0) {
-        json_object_set_new(primitive, "targets", targets);
-    } else {
-        json_decref(targets);
-    }
-    return primitive;
-}
-
-static json_t *make_mesh(struct output *o)
+static json_t *make_mesh(struct output *o, json_t *primitives)
 {
     const struct character *c = o->character;
     json_t *names = json_array(), *coordinates = json_array(), *weights = json_array();
     for (int i = 0; i < c->coordinate_count; i++) {
-        json_array_append_new(names, json_sprintf("%s.re", c->coordinates[i].name));
-        json_array_append_new(names, json_sprintf("%s.im", c->coordinates[i].name));
-        json_array_append_new(coordinates, describe(&c->coordinates[i]));
-        for (int k = 0; k < 2; k++) json_array_append_new(weights, json_integer(0));
+        gltf_append(&o->file, names, json_sprintf("%s.re", c->coordinates[i].name));
+        gltf_append(&o->file, names, json_sprintf("%s.im", c->coordinates[i].name));
+        gltf_append(&o->file, coordinates, describe(&c->coordinates[i]));
+        for (int k = 0; k < 2; k++) gltf_append(&o->file, weights, json_integer(0));
     }
-    json_t *mesh = json_pack("{s:s, s:[o], s:{s:o, s:{s:o}}}", "name", "character", "primitives", make_primitive(o),
-                             "extras", "targetNames", names, "wiggly", "coordinates", coordinates);
+    json_t *mesh = json_pack("{s:s, s:o, s:{s:o, s:{s:o}}}", "name", "character", "primitives", primitives, "extras",
+                             "targetNames", names, "wiggly", "coordinates", coordinates);
     if (c->coordinate_count > 0) {
-        json_object_set_new(mesh, "weights", weights);
+        gltf_set(&o->file, mesh, "weights", weights);
     } else {
         json_decref(weights);
     }
     return mesh;
 }
 
-/// The whole JSON; NULL where memory is short or a name is not UTF-8.
-static json_t *make_json(struct output *o)
+/// All but the buffers, which belong to the file; NULL where memory is short or a name is not UTF-8.
+static json_t *make_root(struct output *o)
 {
-    o->views = json_array();
-    o->accessors = json_array();
-    json_t *mesh = make_mesh(o);
-    json_t *material = json_pack("{s:s, s:{s:f, s:f}}", "name", "skin", "pbrMetallicRoughness", "metallicFactor", 0.0,
-                                 "roughnessFactor", 0.8);
-    return json_pack("{s:{s:s, s:s}, s:i, s:[{s:[i]}], s:[{s:s, s:i}], s:[o], s:[o], s:[{s:I}], s:o, s:o}", "asset",
-                     "version", "2.0", "generator", "wiggly", "scene", 0, "scenes", "nodes", 0, "nodes", "name",
-                     "character", "mesh", 0, "meshes", mesh, "materials", material, "buffers", "byteLength",
-                     (json_int_t)o->size, "bufferViews", o->views, "accessors", o->accessors);
-}
-
-static void write_words(FILE *out, uint32_t a, uint32_t b)
-{
-    const uint32_t words[2] = {a, b};
-    fwrite(words, sizeof words, 1, out);
-}
-
-/// Vectors times `sign`, within [lowest, highest].
-static void write_vectors(struct output *o, const float (*vectors)[3], float sign, float lowest, float highest)
-{
-    for (int i = 0; i < o->character->vertex_count; i++) {
-        float vector[3];
-        for (int k = 0; k < 3; k++) vector[k] = fminf(fmaxf(sign * vectors[i][k], lowest), highest);
-        fwrite(vector, sizeof vector, 1, o->stream);
+    uint32_t *corners = malloc(((size_t)o->character->index_count + 1) * sizeof *corners);
+    float(*turn)[3] = malloc(((size_t)o->character->vertex_count + 1) * sizeof *turn);
+    json_t *root = NULL;
+    if (corners && turn) {
+        json_t *mesh = make_mesh(o, make_primitives(o, corners, turn));
+        root = json_pack("{s:{s:s, s:s}, s:i, s:[{s:[i]}], s:[{s:s, s:i}], s:[o], s:O}", "asset", "version", "2.0",
+                         "generator", "wiggly", "scene", 0, "scenes", "nodes", 0, "nodes", "name", "character",
+                         "mesh", 0, "meshes", mesh, "materials", o->materials);
+        if (root && json_array_size(o->images) > 0) {
+            gltf_set(&o->file, root, "textures", json_incref(o->textures));
+            gltf_set(&o->file, root, "images", json_incref(o->images));
+        }
     }
+    free(corners);
+    free(turn);
+    return root;
 }
 
-/// The binary chunk, in the order of make_primitive().
-static void write_binary(struct output *o)
+static bool write_file(struct output *o, const char *path, struct error *error)
 {
-    const struct character *c = o->character;
-    fwrite(c->indices, sizeof *c->indices, (size_t)c->index_count, o->stream);
-    write_vectors(o, (const float(*)[3])c->position, 1, -INFINITY, INFINITY);
-    write_vectors(o, (const float(*)[3])c->normal, 1, -1, 1);
-    if (has_colors(c)) write_vectors(o, (const float(*)[3])c->color, 1, 0, 1);
-    for (int i = 0; i < c->coordinate_count; i++) {
-        write_vectors(o, (const float(*)[3])c->coordinates[i].re, 1, -INFINITY, INFINITY);
-        write_vectors(o, (const float(*)[3])c->coordinates[i].im, -1, -INFINITY, INFINITY);
+    struct file_output out;
+    struct error why;
+    json_t *root = make_root(o);
+    if (!file_output_open(&out, path, error)) {
+        json_decref(root);
+        return false;
     }
+    if (gltf_file_write(&o->file, root, true, out.stream, &why)) return file_output_commit(&out, error);
+    file_output_discard(&out);
+    return fail(error, why.kind, "%s: %s", path, why.text);
 }
 
-/// Header, JSON padded with spaces, binary chunk (whose size is a multiple of 4 as it is).
-static void write_chunks(struct output *o, const char *text)
+bool character_write(const char *path, const struct character *character, bool turn_normals, struct error *error)
 {
-    size_t length = strlen(text), padded = (length + 3) / 4 * 4;
-    write_words(o->stream, GLB_MAGIC, 2);
-    uint32_t total = (uint32_t)(12 + 8 + padded + 8 + o->size);
-    fwrite(&total, sizeof total, 1, o->stream);
-    write_words(o->stream, (uint32_t)padded, GLB_JSON);
-    fprintf(o->stream, "%s%*s", text, (int)(padded - length), "");
-    write_words(o->stream, (uint32_t)o->size, GLB_BIN);
-    write_binary(o);
-}
-
-bool character_write(const char *path, const struct character *character, struct error *error)
-{
-    struct output output = {.character = character};
-    struct file_output file;
-    json_t *json = make_json(&output);
-    char *text = json ? json_dumps(json, JSON_COMPACT | JSON_REAL_PRECISION(17)) : NULL;
-    json_decref(json);
-    if (!text || output.size > UINT32_MAX / 2) {
-        free(text);
-        return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory, or a coordinate's name is not UTF-8", path);
-    }
-    bool done = file_output_open(&file, path, error);
+    struct figure figure = {.character = *character};
+    struct output o = {.character = character, .figure = turn_normals ? &figure : NULL};
+    bool done = (!turn_normals || figure_derive(&figure)) && split_create(&o.split, character);
     if (done) {
-        output.stream = file.stream;
-        write_chunks(&output, text);
-        done = file_output_commit(&file, error);
+        o.scratch = malloc(((size_t)o.split.count + 1) * sizeof *o.scratch);
+        o.materials = json_array();
+        o.textures = json_array();
+        o.images = json_array();
+        done = o.scratch && o.materials && o.textures && o.images;
     }
-    free(text);
+    done = done ? write_file(&o, path, error) : fail_no_memory(error, path);
+    json_decref(o.materials);
+    json_decref(o.textures);
+    json_decref(o.images);
+    free(o.scratch);
+    gltf_file_free(&o.file);
+    split_free(&o.split);
+    figure_forget(&figure);
     return done;
 }

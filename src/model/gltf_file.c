@@ -14,6 +14,7 @@ static const struct element {
 } kinds[] = {
     [ELEMENTS_INDICES] = {"SCALAR", 1, UNSIGNED_INT, 4, ELEMENT_ARRAY_BUFFER},
     [ELEMENTS_VECTORS] = {"VEC3", 3, FLOAT, 4, ARRAY_BUFFER},
+    [ELEMENTS_UVS] = {"VEC2", 2, FLOAT, 4, ARRAY_BUFFER},
     [ELEMENTS_JOINTS] = {"VEC4", 4, UNSIGNED_SHORT, 2, ARRAY_BUFFER},
     [ELEMENTS_WEIGHTS] = {"VEC4", 4, FLOAT, 4, ARRAY_BUFFER},
     [ELEMENTS_MATRICES] = {"MAT4", 16, FLOAT, 4, 0},
@@ -24,6 +25,7 @@ static const struct element {
 
 static bool append(struct gltf_file *file, const void *data, size_t size)
 {
+    if (size == 0) return true;
     if (file->size + size > file->capacity) {
         const size_t capacity = 2 * (file->size + size);
         char *larger = realloc(file->data, capacity);
@@ -38,11 +40,21 @@ static bool append(struct gltf_file *file, const void *data, size_t size)
 
 bool gltf_file_begin(struct gltf_file *file, const void *bytes, size_t size)
 {
-    static const char padding[3] = {0};
-    return append(file, bytes, size) && append(file, padding, (4 - size % 4) % 4);
+    return append(file, bytes, size) && append(file, "\0\0\0", (4 - size % 4) % 4);
 }
 
-static void add_bounds(json_t *accessor, const float *numbers, size_t count, int components)
+json_int_t gltf_append(struct gltf_file *file, json_t *array, json_t *value)
+{
+    if (json_array_append_new(array, value) != 0) file->without_memory = true;
+    return (json_int_t)json_array_size(array) - 1;
+}
+
+void gltf_set(struct gltf_file *file, json_t *object, const char *key, json_t *value)
+{
+    if (json_object_set_new(object, key, value) != 0) file->without_memory = true;
+}
+
+static void add_bounds(struct gltf_file *file, json_t *accessor, const float *numbers, size_t count, int components)
 {
     json_t *low = json_array(), *high = json_array();
     for (int k = 0; k < components; k++) {
@@ -51,31 +63,39 @@ static void add_bounds(json_t *accessor, const float *numbers, size_t count, int
             least = fminf(least, numbers[i * (size_t)components + (size_t)k]);
             most = fmaxf(most, numbers[i * (size_t)components + (size_t)k]);
         }
-        json_array_append_new(low, json_real((double)least));
-        json_array_append_new(high, json_real((double)most));
+        gltf_append(file, low, json_real((double)least));
+        gltf_append(file, high, json_real((double)most));
     }
-    json_object_set_new(accessor, "min", low);
-    json_object_set_new(accessor, "max", high);
+    gltf_set(file, accessor, "min", low);
+    gltf_set(file, accessor, "max", high);
+}
+
+/// Adds bytes up to a multiple of four, so that what follows is aligned.
+static json_int_t add_view(struct gltf_file *file, const void *data, size_t size, int target)
+{
+    if (!file->views) file->views = json_array();
+    json_t *view = json_pack("{s:I, s:I, s:I}", "buffer", file->buffer, "byteOffset", (json_int_t)file->size,
+                             "byteLength", (json_int_t)size);
+    if (target) gltf_set(file, view, "target", json_integer(target));
+    if (!gltf_file_begin(file, data, size)) file->without_memory = true;
+    return file->first_view + gltf_append(file, file->views, view);
+}
+
+json_int_t gltf_file_add_bytes(struct gltf_file *file, const void *data, size_t size)
+{
+    return add_view(file, data, size, 0);
 }
 
 json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, const void *data, size_t count,
                          bool bounds)
 {
     const struct element *kind = &kinds[elements];
-    const size_t size = count * (size_t)(kind->components * kind->size); // a multiple of 4, so that all are aligned
-    if (!file->views) file->views = json_array();
     if (!file->accessors) file->accessors = json_array();
-    const json_int_t index = (json_int_t)json_array_size(file->accessors);
-    json_t *view = json_pack("{s:I, s:I, s:I}", "buffer", file->buffer, "byteOffset", (json_int_t)file->size,
-                             "byteLength", (json_int_t)size);
-    json_t *accessor = json_pack("{s:I, s:i, s:I, s:s}", "bufferView", file->first_view + index, "componentType",
-                                 kind->type, "count", (json_int_t)count, "type", kind->shape);
-    if (kind->target) json_object_set_new(view, "target", json_integer(kind->target));
-    if (bounds && accessor) add_bounds(accessor, data, count, kind->components);
-    if (!append(file, data, size) || json_array_append_new(file->views, view) != 0 ||
-        json_array_append_new(file->accessors, accessor) != 0)
-        file->without_memory = true;
-    return file->first_accessor + index;
+    const json_int_t view = add_view(file, data, count * (size_t)(kind->components * kind->size), kind->target);
+    json_t *accessor = json_pack("{s:I, s:i, s:I, s:s}", "bufferView", view, "componentType", kind->type, "count",
+                                 (json_int_t)count, "type", kind->shape);
+    if (bounds) add_bounds(file, accessor, data, count, kind->components);
+    return file->first_accessor + gltf_append(file, file->accessors, accessor);
 }
 
 static void write_words(FILE *out, uint32_t a, uint32_t b)
@@ -118,8 +138,8 @@ static bool complete(struct gltf_file *file, json_t *root, bool binary)
 {
     json_t *buffer = json_pack("{s:I}", "byteLength", (json_int_t)file->size);
     char *address = binary ? NULL : gltf_file_address(file);
-    if (address) json_object_set_new(buffer, "uri", json_string(address));
-    const bool whole = buffer && (binary || address);
+    if (!binary) gltf_set(file, buffer, "uri", address ? json_string(address) : NULL);
+    const bool whole = buffer && !file->without_memory;
     free(address);
     return json_object_set_new(root, "buffers", json_pack("[o]", buffer)) == 0 &&
            json_object_set(root, "bufferViews", file->views) == 0 &&

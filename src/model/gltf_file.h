@@ -21,6 +21,7 @@ struct gltf_file {
 enum gltf_elements {
     ELEMENTS_INDICES,
     ELEMENTS_VECTORS,
+    ELEMENTS_UVS,
     ELEMENTS_JOINTS,
     ELEMENTS_WEIGHTS,
     ELEMENTS_MATRICES,
@@ -35,6 +36,14 @@ bool gltf_file_begin(struct gltf_file *file, const void *bytes, size_t size);
 /// Adds `count` elements and returns the accessor's number; with bounds, it states their least and largest.
 json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, const void *data, size_t count,
                          bool bounds);
+
+/// Adds bytes that no accessor finds, as those of a picture, and returns the buffer view's number.
+json_int_t gltf_file_add_bytes(struct gltf_file *file, const void *data, size_t size);
+
+/// Take `value` over. Where it, or the array or object, is NULL or memory is short, the file is without memory: so NULL may be handed on
+/// from any call of the JSON library.
+json_int_t gltf_append(struct gltf_file *file, json_t *array, json_t *value);
+void gltf_set(struct gltf_file *file, json_t *object, const char *key, json_t *value);
 
 /// The bytes as a data URI; the caller frees it. NULL if memory is short.
 char *gltf_file_address(const struct gltf_file *file);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILE_LIMIT = 1 << 30, SHOWN_MAX = 24 };
+enum { FILE_LIMIT = 1 << 30, SHOWN_MAX = 24, COLOR_LIMIT = 1000 };
 
 /// A file being read. `line` is cut off its text with a NUL, comments and continuations resolved.
 struct reader {
@@ -78,7 +78,13 @@ static bool read_vertex(struct reader *r, char *at)
     if (count < 0) return false;
     if (count < 3) return expected(r, "three coordinates of a vertex", "");
     builder_vertex(&r->builder, numbers);
-    if (count == 6) builder_color(&r->builder, numbers + 3);
+    if (count < 6) return true;
+    for (int k = 3; k < 6; k++) {
+        char got[32];
+        snprintf(got, sizeof got, "%g", numbers[k]);
+        if (!(fabs(numbers[k]) <= COLOR_LIMIT)) return expected(r, "a colour from 0 to 1", got);
+    }
+    builder_color(&r->builder, numbers + 3);
     return true;
 }
 

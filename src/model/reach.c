@@ -84,7 +84,8 @@ static void offer(struct reach *reach, uint32_t vertex, float along)
     sift_up(reach, (int)vertex);
 }
 
-void surface_position(const struct surface_spot *spot, const float (*positions)[3], float out[3])
+/// Where a spot is.
+static void spot_position(const struct surface_spot *spot, const float (*positions)[3], float out[3])
 {
     vec3s sum = glms_vec3_zero();
     for (int c = 0; c < 3; c++) sum = glms_vec3_muladds(vec3_from(positions[spot->corner[c]]), spot->weight[c], sum);
@@ -105,7 +106,7 @@ static float nearest_straight(const float (*positions)[3], const struct surface_
     float least = INFINITY;
     for (int s = 0; s < count; s++) {
         float at[3];
-        surface_position(&spots[s], positions, at);
+        spot_position(&spots[s], positions, at);
         least = fminf(least, glms_vec3_distance(vec3_from(at), vec3_from(positions[vertex])));
     }
     return least;
@@ -118,7 +119,7 @@ void reach_find(struct reach *reach, const struct figure *figure, const struct s
     clear(reach);
     for (int s = 0; s < count; s++) {
         float at[3];
-        surface_position(&spots[s], positions, at);
+        spot_position(&spots[s], positions, at);
         for (int c = 0; c < 3; c++)
             offer(reach, spots[s].corner[c],
                   glms_vec3_distance(vec3_from(at), vec3_from(positions[spots[s].corner[c]])));

@@ -38,7 +38,4 @@ void reach_free(struct reach *reach);
 void reach_find(struct reach *reach, const struct figure *figure, const struct surface_spot *spots, int count,
                 float limit);
 
-/// Where a spot is, given the positions of all vertices.
-void surface_position(const struct surface_spot *spot, const float (*positions)[3], float out[3]);
-
 #endif

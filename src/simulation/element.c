@@ -20,6 +20,7 @@ bool element_init(struct element *element, const int node[4], const double (*res
         b[0][i] = -(b[1][i] + b[2][i] + b[3][i]);
     }
     element->volume = fraction * fabs(six_volumes) / 6;
+    element->stiffness = 1;
     return true;
 }
 
@@ -56,10 +57,10 @@ double element_force(const struct element *element, const struct material *mater
         for (int i = 0; i < 3; i++) {
             double pb = 0;
             for (int k = 0; k < 3; k++) pb += svd->u[i][k] * stress[k] * g[a][k];
-            f[i] -= element->volume * pb;
+            f[i] -= element->volume * element->stiffness * pb;
         }
     }
-    return element->volume * material_energy(material, svd->sigma);
+    return element->volume * element->stiffness * material_energy(material, svd->sigma);
 }
 
 /// Row i, column k: Σ_jl (∂P_ij/∂F_kl) p_j q_l in principal axes, where only the entries below are not zero.
@@ -102,7 +103,7 @@ void element_stiffness(const struct element *element, const struct material *mat
     for (int a = 0; a < 4; a++) {
         for (int b = a; b < 4; b++) {
             contract(&stiffness, g[a], g[b], principal);
-            turn_back(svd->u, principal, element->volume, block[a][b]);
+            turn_back(svd->u, principal, element->volume * element->stiffness, block[a][b]);
             for (int i = 0; b > a && i < 9; i++) block[b][a][i] = block[a][b][3 * (i % 3) + i / 3];
         }
     }

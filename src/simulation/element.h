@@ -14,9 +14,11 @@ struct element {
     int node[4];
     double gradient[4][3]; ///< b_a, 1/m
     double volume;         ///< m³ of material at rest: the whole tetrahedron's, or the part that the solid fills
+    double stiffness;      ///< as a multiple of the material's
 };
 
-/// Sets the gradients and the volume of the tetrahedron with these nodes at rest, times `fraction`. False if it is flat.
+/// Sets the gradients and the volume of the tetrahedron with these nodes at rest, times `fraction`; stiffness 1. False if it
+/// is flat.
 bool element_init(struct element *element, const int node[4], const double (*rest)[3], double fraction);
 
 /// The singular value decomposition of F at the positions x.

@@ -9,8 +9,8 @@ enum { NEWTON_MAX = 60, GRADIENTS_MAX = 2000 };
 // Looser costs more Newton iterations, each with an assembly; tighter saves none.
 static const double linear_tolerance = 1e-3;
 
-// Nothing does work on the body, so its energy cannot rise; this much is allowed for rounding and the scheme's ripple.
-static const double growth_allowed = 1.01;
+// Without a drive the energy cannot rise; this part of it is allowed for rounding and the scheme's ripple.
+static const double growth_allowed = 0.01;
 
 struct integrator_work {
     double (*a)[3];         ///< accelerations; the start of the memory of all vectors
@@ -25,7 +25,9 @@ struct integrator_work {
     double (*drag)[3];      ///< K (y − q)
     struct blocks lagged;   ///< K at the step's start: the pattern is the body's, the blocks are its own
     bool started;           ///< there are accelerations
-    double least;           ///< energy so far, J
+    double least;           ///< energy so far, the loads' potential included; with a drive: at the step's start; J
+    double scale;           ///< strain and kinetic energy at the step's start; with a drive: the largest so far; J
+    double potential;       ///< of the loads at the step's start, J
 };
 
 /// A step in the form of Newmark's: x + h v + h² (k a + β a'), v + h ((1 − γ) a + γ a'), with a' from the balance of forces at
@@ -100,12 +102,24 @@ void integrator_free(struct integrator *integrator)
     *integrator = (struct integrator){0};
 }
 
+/// Forces of strain and loads at the positions x, 0 at pinned nodes. Returns the energy, the loads' part apart.
+static double add_up(struct integrator *m, double time, const double (*x)[3], double (*force)[3], double *potential)
+{
+    double energy = body_forces(m->body, x, force);
+    *potential = loads_forces(&m->loads, m->body, time, x, force);
+    for (int i = 0; i < m->body->node_count; i++) {
+        if (m->body->pinned[i]) memset(force[i], 0, sizeof force[i]);
+    }
+    return energy;
+}
+
 /// The potential at y, whose gradient's negative goes to work->downhill:
 /// κ/2 |y − t|²_M + r/2 (y − q)ᵀ C (y − q) + Ψ(y)
 static double evaluate(struct integrator *m, const struct scheme *scheme, const double (*y)[3])
 {
     struct integrator_work *w = m->work;
-    double energy = body_forces(m->body, y, w->force);
+    double potential, energy = add_up(m, m->time + m->step, y, w->force, &potential);
+    energy += potential;
     for (int i = 0; i < m->body->node_count; i++) {
         for (int c = 0; c < 3; c++) w->moved[i][c] = y[i][c] - w->origin[i][c];
     }
@@ -132,6 +146,7 @@ static void assemble(struct integrator *m, const struct scheme *scheme)
     struct blocks *a = &m->body->stiffness;
     const double factor = scheme->rate * m->stiffness_damping;
     body_stiffness(m->body);
+    if (m->loads.floor) floor_stiffness(m->loads.floor, m->body);
     int count = a->start[a->rows];
     for (int k = 0; factor > 0 && k < count; k++) {
         for (int i = 0; i < 9; i++) a->block[k][i] += factor * m->work->lagged.block[k][i];
@@ -195,9 +210,11 @@ static void minimise(struct integrator *m, const struct scheme *scheme)
 static void begin(struct integrator *m)
 {
     struct integrator_work *w = m->work;
-    double energy =
-        body_forces(m->body, (const double(*)[3])m->x, w->start) + body_kinetic(m->body, (const double(*)[3])m->v);
-    w->least = w->started ? fmin(w->least, energy) : energy;
+    double energy = add_up(m, m->time, (const double(*)[3])m->x, w->start, &w->potential) +
+                    body_kinetic(m->body, (const double(*)[3])m->v);
+    w->scale = m->loads.drive ? fmax(w->scale, energy) : energy;
+    energy += w->potential;
+    w->least = w->started && !m->loads.drive ? fmin(w->least, energy) : energy;
     if (m->stiffness_damping > 0) {
         body_stiffness(m->body);
         memcpy(w->lagged.block, m->body->stiffness.block,
@@ -241,17 +258,25 @@ static void after(const struct integrator *m, const struct scheme *s, int i, int
     *v = m->v[i][c] + h * ((1 - s->gamma) * before + s->gamma * *a);
 }
 
-/// Energy at the step's end, J.
-static double energy_after(struct integrator *m, const struct scheme *s)
+/// How far the energy at the step's end is above what it may be, J. A drive does the work ∂Φ/∂t on the body: by the trapezoidal
+/// rule the mean of what Φ changes by at the positions of the step's start and of its end.
+static double surplus(struct integrator *m, const struct scheme *s)
 {
-    double energy = body_forces(m->body, (const double(*)[3])m->work->y, m->work->force), a, v;
+    struct integrator_work *w = m->work;
+    double end, a, v, work = 0;
+    double energy = add_up(m, m->time + m->step, (const double(*)[3])w->y, w->force, &end);
     for (int i = 0; i < m->body->node_count; i++) {
         for (int c = 0; c < 3 && !m->body->pinned[i]; c++) {
             after(m, s, i, c, &a, &v);
             energy += 0.5 * m->body->mass[i] * v * v;
         }
     }
-    return energy;
+    if (m->loads.drive) {
+        work = loads_forces(&m->loads, m->body, m->time + m->step, (const double(*)[3])m->x, w->force) - w->potential;
+        work += end - loads_forces(&m->loads, m->body, m->time, (const double(*)[3])w->y, w->force);
+        work /= 2;
+    }
+    return energy + end - work - w->least - growth_allowed * w->scale;
 }
 
 /// Makes the step's end the new state. False where it is not finite.
@@ -267,7 +292,33 @@ static bool finish(struct integrator *m, const struct scheme *s)
             sum += m->x[i][c] + v;
         }
     }
+    m->time += m->step;
     return isfinite(sum);
+}
+
+bool integrator_settle(struct integrator *m)
+{
+    enum { STEPS_MAX = 200 };
+    const double step = m->step;
+    const size_t bytes = (size_t)m->body->node_count * sizeof *m->x;
+    double moved = INFINITY;
+    m->step = 10; // s: hardly any inertia
+    m->time = -m->step;
+    const struct scheme scheme = backward_euler(m->step);
+    for (int i = 0; i < STEPS_MAX && moved > m->tolerance; i++) {
+        memset(m->v, 0, bytes);
+        memset(m->work->a, 0, bytes);
+        aim(m, &scheme);
+        minimise(m, &scheme);
+        moved = 0;
+        for (int k = 0; k < 3 * m->body->node_count; k++) {
+            moved = fmax(moved, fabs(vec3_flat(m->work->y)[k] - vec3_flat(m->x)[k]));
+        }
+        memcpy(m->x, m->work->y, bytes);
+    }
+    m->step = step;
+    m->time = 0;
+    return moved <= m->tolerance;
 }
 
 bool integrator_step(struct integrator *m)
@@ -276,7 +327,7 @@ bool integrator_step(struct integrator *m)
     begin(m);
     aim(m, &scheme);
     minimise(m, &scheme);
-    if (!(energy_after(m, &scheme) <= growth_allowed * m->work->least)) { // also where it is not finite
+    if (!(surplus(m, &scheme) <= 0)) { // also where it is not finite
         scheme = backward_euler(m->step);
         aim(m, &scheme);
         minimise(m, &scheme);

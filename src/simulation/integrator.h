@@ -4,7 +4,7 @@
 /// length at 50 steps a period loses 0.4 % of its energy in 100 periods), those that it does not resolve lose a fifth per
 /// step. The midpoint rule, which damps nothing, gains energy from the latter in large deformations until it
 /// breaks; BDF2 takes half the energy of that same swing (table in README.md). Yet no such scheme is sure never to raise the
-/// energy in large deformations, and nothing here does work on the body: a step that would raise it is repeated by
+/// energy in large deformations: a step after which there is more than before and the loads' work together is repeated by
 /// backward Euler, which lowers it. With x as the unknown a step is
 ///
 ///   κ M (x − t) + r C (x − q) = f(x),    κ = (1 − α_m)/((1 − α_f) β h²),    r = γ/(β h)
@@ -15,11 +15,13 @@
 #ifndef SIMULATION_INTEGRATOR_H
 #define SIMULATION_INTEGRATOR_H
 
-#include "simulation/body.h"
+#include "simulation/loads.h"
 #include <stdbool.h>
 
 struct integrator {
     struct body *body;
+    struct loads loads;       ///< none at the start
+    double time;              ///< s
     double step;              ///< h, s
     double mass_damping;      ///< Rayleigh's α, 1/s
     double stiffness_damping; ///< Rayleigh's β, s
@@ -34,6 +36,9 @@ struct integrator {
 /// A body at rest, undamped. False where memory is short. The body must be ready and outlive it.
 bool integrator_create(struct integrator *integrator, struct body *body, double step);
 void integrator_free(struct integrator *integrator);
+
+/// Moves the body to where the loads of the start hold it, at rest. It must be pinned, or nothing stops its fall.
+bool integrator_settle(struct integrator *integrator);
 
 /// One step. False if a number is no longer finite, as after boundless forces.
 bool integrator_step(struct integrator *integrator);

@@ -38,7 +38,7 @@ static double coarse_enough(const struct surface *surface, double cell)
 }
 
 /// Tries cubes of several sizes, twelve tetrahedra each inside, until the number is within 3 % or no longer gets nearer.
-static bool fit(struct tiling *best, const struct solid *solid, int target, double *best_cell)
+static bool fit(struct tiling *best, const struct solid *solid, int target, double layer, double *best_cell)
 {
     enum { TRIES = 8 };
     double cell = cbrt(12 * solid_volume(solid) / target), nearest = INFINITY;
@@ -48,7 +48,7 @@ static bool fit(struct tiling *best, const struct solid *solid, int target, doub
         double allowed = coarse_enough(&solid->shape, cell);
         if (allowed > cell && i > 0) break; // as fine as can be
         cell = allowed;
-        if (!tiling_create(&tiling, solid, cell)) return false;
+        if (!tiling_create(&tiling, solid, cell, layer)) return false;
         double ratio = fmax(tiling.kept, 1) / target;
         if (fabs(log(ratio)) < nearest) {
             nearest = fabs(log(ratio));
@@ -189,10 +189,10 @@ static bool build(struct lattice *lattice, const struct tiling *t, const struct 
 
 /// The lattice of a solid with some volume.
 static bool lattice_of(struct lattice *lattice, const struct surface *surface, const struct solid *solid, int target,
-                       const char *name, struct error *error)
+                       double layer, const char *name, struct error *error)
 {
     struct tiling tiling;
-    bool fitted = fit(&tiling, solid, target, &lattice->cell);
+    bool fitted = fit(&tiling, solid, target, layer, &lattice->cell);
     if (fitted && tiling.kept == 0) {
         tiling_free(&tiling);
         return fail(error, ERROR_INPUT, "%s: the mesh is too thin for a lattice of %d tetrahedra", name, target);
@@ -204,14 +204,14 @@ static bool lattice_of(struct lattice *lattice, const struct surface *surface, c
     return fail_no_memory(error, name);
 }
 
-bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, const char *name,
-                    struct error *error)
+bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, double layer,
+                    const char *name, struct error *error)
 {
     struct solid solid;
     *lattice = (struct lattice){0};
     if (!solid_create(&solid, surface)) return fail_no_memory(error, name);
     solid_describe(&solid, lattice->repair);
-    bool good = solid_volume(&solid) > 0 ? lattice_of(lattice, surface, &solid, target, name, error)
+    bool good = solid_volume(&solid) > 0 ? lattice_of(lattice, surface, &solid, target, layer, name, error)
                                          : fail(error, ERROR_INPUT, "%s: the mesh encloses no volume", name);
     solid_free(&solid);
     return good;
@@ -239,4 +239,52 @@ void lattice_embed(const struct lattice *lattice, const double (*x)[3], float (*
             position[i][c] = (float)sum;
         }
     }
+}
+
+/// One round of spreading: nodes without a number take the mean of those in their elements that have one. Returns how many
+/// still have none.
+static int spread_further(const struct lattice *lattice, double *node, double *sum, double *share)
+{
+    int missing = 0;
+    for (int e = 0; e < lattice->tet_count; e++) {
+        for (int k = 0; k < 16; k++) {
+            int from = lattice->tet[e][k / 4], to = lattice->tet[e][k % 4];
+            if (isnan(node[from]) || !isnan(node[to])) continue;
+            sum[to] += node[from];
+            share[to] += 1;
+        }
+    }
+    for (int i = 0; i < lattice->node_count; i++) {
+        if (isnan(node[i]) && share[i] > 0) node[i] = sum[i] / share[i];
+        missing += isnan(node[i]);
+    }
+    return missing;
+}
+
+bool lattice_spread(const struct lattice *lattice, const double *vertex, double *node)
+{
+    double *sum = calloc((size_t)lattice->node_count + 1, sizeof *sum);
+    double *share = calloc((size_t)lattice->node_count + 1, sizeof *share);
+    bool good = sum && share;
+    for (int i = 0; good && i < lattice->vertex_count; i++) {
+        for (int a = 0; lattice->host[i] >= 0 && a < 4; a++) {
+            double weight = fmax(0, lattice->weight[i][a]);
+            sum[lattice->tet[lattice->host[i]][a]] += weight * vertex[i];
+            share[lattice->tet[lattice->host[i]][a]] += weight;
+        }
+    }
+    int missing = 0;
+    for (int i = 0; good && i < lattice->node_count; i++) {
+        node[i] = share[i] > 0 ? sum[i] / share[i] : NAN;
+        missing += isnan(node[i]);
+    }
+    for (int before = missing + 1; good && missing > 0 && missing < before;) {
+        before = missing;
+        missing = spread_further(lattice, node, sum, share);
+    }
+    for (int i = 0; good && i < lattice->node_count; i++)
+        node[i] = isnan(node[i]) ? 0 : node[i]; // a part without vertices
+    free(sum);
+    free(share);
+    return good;
 }

@@ -6,8 +6,14 @@
 
 struct soft_options soft_default_options(void)
 {
-    return (struct soft_options){
-        .tets = 3000, .pin = -1, .frequency = 2, .poisson = 0.35, .density = 1000, .damping = 0.03, .modes = 1};
+    return (struct soft_options){.tets = 3000,
+                                 .pin = {.kind = REGION_FOOT, .size = -1},
+                                 .softness = {.times = 8},
+                                 .frequency = 2,
+                                 .poisson = 0.35,
+                                 .density = 1000,
+                                 .damping = 0.03,
+                                 .modes = 1};
 }
 
 static void measure(struct soft *soft, const struct surface *surface)
@@ -18,15 +24,27 @@ static void measure(struct soft *soft, const struct surface *surface)
     soft->height = hi[1] - lo[1];
 }
 
-static void pin(struct soft *soft, double height)
+static bool pin(struct soft *soft, const struct surface *surface, const struct region *region, const char *name,
+                struct error *error)
 {
-    if (height < 0) height = 0.05 * soft->height;
-    for (int i = 0; i < soft->body.node_count; i++) {
-        if (soft->body.rest[i][1] > soft->bottom + height) continue;
+    bool *inside = calloc((size_t)soft->body.node_count + 1, sizeof *inside);
+    if (!inside) return fail_no_memory(error, name);
+    bool good = region_nodes(region, &soft->lattice, surface, name, inside, error);
+    for (int i = 0; good && i < soft->body.node_count; i++) {
+        if (!inside[i]) continue;
         body_pin(&soft->body, i);
         soft->pinned++;
     }
+    free(inside);
+    if (!good) return false;
+    if (soft->pinned == soft->body.node_count)
+        return fail(error, ERROR_INPUT, "%s: nothing can move: the whole lattice is in the region of --pin", name);
+    if (soft->pinned == 0 && region->kind != REGION_NONE)
+        return fail(error, ERROR_INPUT,
+                    "%s: the region of --pin holds nothing: it is off the mesh or smaller than a cell of %.3g m",
+                    name, soft->lattice.cell);
     body_ready(&soft->body);
+    return true;
 }
 
 /// Counts the parts of the lattice that nothing holds.
@@ -43,41 +61,103 @@ static bool count_loose(struct soft *soft)
     return true;
 }
 
+/// Heights between which nodes are pinned; both the lowest where none is.
+static void pinned_heights(const struct soft *soft, double range[2])
+{
+    range[0] = INFINITY;
+    range[1] = -INFINITY;
+    for (int i = 0; i < soft->body.node_count; i++) {
+        if (!soft->body.pinned[i]) continue;
+        range[0] = fmin(range[0], soft->body.rest[i][1]);
+        range[1] = fmax(range[1], soft->body.rest[i][1]);
+    }
+    if (soft->pinned == 0) range[0] = range[1] = soft->bottom;
+}
+
+/// How far a shake moves a node, relative to its amplitude: a driven body all alike, as seen from its base; else with the
+/// square of the height above the pinned nodes, or of the depth below them.
+static double shaken_part(const struct soft *soft, const struct shake *shake, const double pinned[2], int node)
+{
+    if (soft->body.pinned[node]) return 0;
+    if (shake->driven) return 1;
+    double y = soft->body.rest[node][1], top = soft->bottom + soft->height;
+    double away = fmax(0, fmax(y - pinned[1], pinned[0] - y));
+    double farthest = fmax(fmax(top - pinned[1], pinned[0] - soft->bottom), 1e-30);
+    return away / farthest * (away / farthest);
+}
+
+/// Finds the mode that has most of the shake's motion, Σ m |u|², in it.
+static void find_shaken(struct soft *soft, const struct shake *shake)
+{
+    const struct body *body = &soft->body;
+    double pinned[2], whole = 0;
+    pinned_heights(soft, pinned);
+    for (int i = 0; i < body->node_count; i++) {
+        double part = shaken_part(soft, shake, pinned, i);
+        whole += body->mass[i] * part * part;
+    }
+    for (int k = 0; k < soft->modes.count; k++) {
+        const double(*shape)[3] = (const double(*)[3])(soft->modes.shape + (size_t)k * (size_t)body->node_count);
+        double overlap = 0;
+        for (int i = 0; i < body->node_count; i++) {
+            double along = 0;
+            for (int c = 0; c < 3; c++) along += shape[i][c] * shake->direction[c];
+            overlap += body->mass[i] * shaken_part(soft, shake, pinned, i) * along;
+        }
+        double share = whole > 0 ? overlap * overlap / whole : 0;
+        if (share <= soft->share) continue;
+        soft->share = share;
+        soft->shaken = k;
+    }
+}
+
 /// Finds the modes with Young's modulus 1 and scales: frequencies go with its square root.
 static bool tune(struct soft *soft, const struct soft_options *options)
 {
     soft->body.material = material_from(1, options->poisson);
     if (!modes_create(&soft->modes, &soft->body, options->modes)) return false;
     if (soft->modes.count == 0) return true;
-    double first = soft->modes.frequency[0];
-    soft->young = options->young > 0 ? options->young : pow(options->frequency / first, 2);
+    if (options->shake) find_shaken(soft, options->shake);
+    soft->young =
+        options->young > 0 ? options->young : pow(options->frequency / soft->modes.frequency[soft->shaken], 2);
     for (int k = 0; k < soft->modes.count; k++) soft->modes.frequency[k] *= sqrt(soft->young);
     soft->body.material = material_from(soft->young, options->poisson);
-    double omega = 2 * M_PI * soft->modes.frequency[0];
+    double omega = 2 * M_PI * soft_frequency(soft);
     soft->alpha = options->damping * omega;
     soft->beta = options->damping / omega;
     return true;
+}
+
+double soft_frequency(const struct soft *soft)
+{
+    return soft->modes.count > 0 ? soft->modes.frequency[soft->shaken] : 0;
+}
+
+static bool make(struct soft *soft, const struct surface *surface, const char *name,
+                 const struct soft_options *options, struct error *error)
+{
+    struct lattice *lattice = &soft->lattice;
+    const struct region *held = &options->pin;
+    double foot = held->size < 0 ? 0.05 * soft->height : held->size;
+    double layer = held->kind == REGION_FOOT ? soft->bottom + foot : NAN;
+    if (!lattice_create(lattice, surface, options->tets, layer, name, error)) return false;
+    bool enough = body_create(&soft->body, (const double(*)[3])lattice->node, lattice->node_count,
+                              (const int(*)[4])lattice->tet, lattice->fraction, lattice->tet_count,
+                              material_from(1, options->poisson), options->density);
+    if (!enough) return fail_no_memory(error, name);
+    return pin(soft, surface, held, name, error) &&
+           softness_apply(&options->softness, lattice, surface, name, &soft->body, error) &&
+           ((count_loose(soft) && tune(soft, options)) || fail_no_memory(error, name));
 }
 
 bool soft_create(struct soft *soft, const struct surface *surface, const char *name,
                  const struct soft_options *options, struct error *error)
 {
     *soft = (struct soft){0};
-    struct lattice *lattice = &soft->lattice;
     measure(soft, surface);
-    if (!lattice_create(lattice, surface, options->tets, name, error)) return false;
-    bool good = body_create(&soft->body, (const double(*)[3])lattice->node, lattice->node_count,
-                            (const int(*)[4])lattice->tet, lattice->fraction, lattice->tet_count,
-                            material_from(1, options->poisson), options->density);
-    if (good) pin(soft, options->pin);
-    if (good && soft->pinned == soft->body.node_count) {
-        soft_free(soft);
-        return fail(error, ERROR_INPUT, "%s: nothing can move: the whole lattice is below the --pin height", name);
-    }
-    good = good && count_loose(soft) && tune(soft, options);
-    if (good) return true;
+    if (make(soft, surface, name, options, error)) return true;
     soft_free(soft);
-    return fail_no_memory(error, name);
+    return false;
 }
 
 void soft_free(struct soft *soft)
@@ -90,17 +170,13 @@ void soft_free(struct soft *soft)
 
 void soft_shake(const struct soft *soft, const struct shake *shake, struct integrator *integrator)
 {
-    double held = soft->bottom, top = soft->bottom + soft->height;
+    if (shake->driven) return;
+    double size = shake->amplitude * soft->height * (shake->impulse ? 2 * M_PI * soft_frequency(soft) : 1), pinned[2];
+    pinned_heights(soft, pinned);
     for (int i = 0; i < soft->body.node_count; i++) {
-        if (soft->body.pinned[i]) held = fmax(held, soft->body.rest[i][1]);
-    }
-    double omega = soft->modes.count ? 2 * M_PI * soft->modes.frequency[0] : 0;
-    double size = shake->amplitude * soft->height * (shake->impulse ? omega : 1);
-    for (int i = 0; i < soft->body.node_count; i++) {
-        if (soft->body.pinned[i]) continue;
-        double above = fmax(0, (soft->body.rest[i][1] - held) / fmax(top - held, 1e-30));
+        double part = shaken_part(soft, shake, pinned, i);
         for (int c = 0; c < 3; c++) {
-            double change = size * above * above * shake->direction[c];
+            double change = size * part * shake->direction[c];
             (shake->impulse ? integrator->v : integrator->x)[i][c] += change;
         }
     }

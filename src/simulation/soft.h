@@ -1,4 +1,4 @@
-/// A surface made soft: lattice, body, pinned feet and material, ready to be shaken.
+/// A surface made soft: lattice, body, pinned region and material, ready to be shaken.
 #ifndef SIMULATION_SOFT_H
 #define SIMULATION_SOFT_H
 
@@ -8,17 +8,31 @@
 #include "simulation/integrator.h"
 #include "simulation/lattice.h"
 #include "simulation/modes.h"
+#include "simulation/region.h"
+#include "simulation/softness.h"
+
+/// How a body is moved.
+struct shake {
+    double direction[3]; ///< of length 1
+    double amplitude;    ///< how far the top goes, or the base, as a fraction of the height
+    bool
+        impulse; ///< starts undeformed with the velocity that swings so far at the shaken mode's frequency; else starts
+                 ///< deformed and at rest
+    bool driven; ///< starts undeformed and at rest: the base moves
+};
 
 /// Start from soft_default_options().
 struct soft_options {
-    int tets;     ///< about how many tetrahedra
-    double pin;   ///< nodes up to this far above the lowest vertex are pinned, m; below 0: a twentieth of the height
-    double young; ///< Young's modulus, Pa; 0: whatever gives `frequency`
-    double frequency; ///< of the lowest mode, Hz, where young is 0
-    double poisson;   ///< 0 … 0.49
-    double density;   ///< kg/m³
-    double damping;   ///< ratio at the lowest mode: half of it by mass, half by stiffness (Rayleigh)
-    int modes;        ///< how many normal modes to find, at least 1
+    int tets; ///< about how many tetrahedra
+    struct region pin;
+    struct softness softness;
+    const struct shake *shake; ///< what the frequency refers to; NULL: the lowest mode
+    double young;              ///< Young's modulus, Pa; 0: whatever gives `frequency`
+    double frequency;          ///< of the mode that the shake moves most, Hz, where young is 0
+    double poisson;            ///< 0 … 0.49
+    double density;            ///< kg/m³
+    double damping;            ///< ratio at that mode: half of it by mass, half by stiffness (Rayleigh)
+    int modes;                 ///< how many normal modes to find, at least 1
 };
 struct soft_options soft_default_options(void);
 
@@ -26,6 +40,8 @@ struct soft {
     struct lattice lattice;
     struct body body;
     struct modes modes;    ///< with the body's final stiffness
+    int shaken;            ///< the mode that the shake moves most
+    double share;          ///< of the shake's motion in it, 0 … 1
     double bottom, height; ///< of the surface along y, m
     double young;          ///< Pa
     double alpha, beta;    ///< Rayleigh's coefficients, 1/s and s
@@ -33,21 +49,16 @@ struct soft {
     int loose_parts;       ///< parts of the lattice without a pinned node
 };
 
-/// `name` is the surface's, for messages. Errors are the lattice's, no memory, everything pinned.
+/// `name` is the surface's, for messages. Errors are the lattice's, the region's, the softness', no memory, everything pinned.
 bool soft_create(struct soft *soft, const struct surface *surface, const char *name,
                  const struct soft_options *options, struct error *error);
 void soft_free(struct soft *soft);
 
-/// How a shake starts.
-struct shake {
-    double direction[3]; ///< of length 1
-    double amplitude;    ///< how far the top goes, as a fraction of the height
-    bool impulse; ///< starts undeformed with the velocity that swings so far at the lowest frequency; else starts
-                  ///< deformed and at rest
-};
+/// The shaken mode's frequency, Hz; 0 if nothing oscillates.
+double soft_frequency(const struct soft *soft);
 
 /// Sets the initial state of a simulation: the displacement, or the velocity, grows with the square of the height above
-/// the pinned nodes.
+/// the pinned nodes, or of the depth below them. Nothing where the base moves.
 void soft_shake(const struct soft *soft, const struct shake *shake, struct integrator *integrator);
 
 #endif

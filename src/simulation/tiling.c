@@ -42,8 +42,9 @@ double tiling_voxels(const struct surface *surface, double cell)
     return count;
 }
 
-/// Voxels over the surface's box and its margin, centred, so that a symmetric solid is cut symmetrically.
-static void lay_out(struct voxels *voxels, const struct surface *surface, double cell)
+/// Voxels over the surface's box and its margin, centred, so that a symmetric solid is cut symmetrically; moved up or down by
+/// a quarter of a cell at most for the layer, which the margin allows.
+static void lay_out(struct voxels *voxels, const struct surface *surface, double cell, double layer)
 {
     double lo[3], hi[3];
     surface_bounds(surface, lo, hi);
@@ -53,6 +54,7 @@ static void lay_out(struct voxels *voxels, const struct surface *surface, double
         voxels->size[c] = cells * VOXELS_A_CELL;
         voxels->origin[c] = (lo[c] + hi[c] - cells * cell) / 2;
     }
+    if (isfinite(layer)) voxels->origin[1] += remainder(layer - voxels->origin[1], cell / 2);
 }
 
 /// Number of a point of the lattice, given in half cells from the origin.
@@ -253,10 +255,10 @@ static bool cut(struct tiling *t, int *set, uint64_t *tetrahedron)
     return find_parts(t) && drop_crumbs(t);
 }
 
-bool tiling_create(struct tiling *t, const struct solid *solid, double cell)
+bool tiling_create(struct tiling *t, const struct solid *solid, double cell, double layer)
 {
     *t = (struct tiling){0};
-    lay_out(&t->voxels, &solid->shape, cell);
+    lay_out(&t->voxels, &solid->shape, cell, layer);
     if (!voxels_fill(&t->voxels, solid)) return false;
     size_t count = voxels_count(&t->voxels);
     int *set = calloc(count, sizeof *set);

@@ -6,8 +6,8 @@
 
 enum { LEAF = 8, DEPTH_MAX = 64 };
 
-// A node counts as a dipole from this many radii away: the error of the sum is then some 0.001.
-static const double FAR = 3;
+// A node counts as a dipole from this many radii away: the error of the sum is then below 0.01.
+static const double FAR = 4;
 
 static void corners_of(const struct surface *surface, int triangle, double corner[3][3])
 {

@@ -14,7 +14,7 @@ enum {
     STAGE_MAX_TAILS = 8,
     STAGE_MAX_CHARACTERS = 4,
     STAGE_MAX_MODELS = 4,
-    STAGE_MAX_BLOBS = 16 * STAGE_MAX_TAILS + 4 * STAGE_MAX_CHARACTERS + 4 * STAGE_MAX_MODELS,
+    STAGE_MAX_BLOBS = 20 * STAGE_MAX_TAILS + 4 * STAGE_MAX_CHARACTERS + 4 * STAGE_MAX_MODELS,
 };
 
 /// One tail to draw; its mesh is rebuilt only when joints or length change.

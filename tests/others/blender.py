@@ -43,6 +43,7 @@ def compare_meshes(path, cache_paths):
     if 'CLIP' in os.environ:
         choose_clip(objects, os.environ['CLIP'])
     meshes = [o for o in objects if o.type == 'MESH' and len(o.data.vertices) in counts]  # not the importer's shapes for bones
+    assert len(meshes) == len(caches), f'expected {len(caches)} meshes, got {len(meshes)}'
     off = 0.0
     for key in ten_of(len(caches[0])):
         bpy.context.scene.frame_set(key)

@@ -37,6 +37,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
       {"F2", "rename it"},
       {"M; Shift+M", "mode; oscillator, filter"},
       {"V", "wiggly, stiff, cubic look"},
+      {"Shift+F", "find its frequency"},
       {"W", "fix a warning"}}},
     [HELP_HELD] = {"Hold and press ↑ ↓", {{"L", "lag of the tail"}}},
     {"Playback",

@@ -24,6 +24,7 @@ void inspector_scene(struct inspection *in);
 void inspector_splines(struct inspection *in);
 void inspector_spline(struct inspection *in);
 void inspector_limits(struct inspection *in);
+void inspector_variation(struct inspection *in);
 void inspector_poles(struct inspection *in);
 void inspector_knot(struct inspection *in);
 void inspector_tail(struct inspection *in);

@@ -12,6 +12,12 @@ enum { FOOTER = 40 }; ///< height of the look switch, which never scrolls away
 
 static bool has_spline(const struct inspection *in) { return core_active_spline(in->core, in->world) != NULL; }
 
+static bool may_vary(const struct inspection *in)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    return spline && spline_mode(spline) != WIGGLY_CUBIC;
+}
+
 static bool has_tail(const struct inspection *in)
 {
     const struct document *document = in->document;
@@ -56,6 +62,7 @@ static const struct section {
     {"section.character", "Character", inspector_character, inspector_character_lists, has_character, false},
     {"section.pins", "Pins", inspector_pins, NULL, takes_pins, false},
     {"section.limits", "Limits", inspector_limits, NULL, has_spline, true},
+    {"section.variation", "Variation", inspector_variation, NULL, may_vary, true},
     {"section.history", "History", inspector_history, NULL, NULL, true}, // the last one: see there
 };
 

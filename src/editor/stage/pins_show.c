@@ -22,8 +22,8 @@ static const float AXIS = 2; ///< metres of a locked axis to each side
 static uint64_t state_key(const struct core *core, const struct editor_world *world)
 {
     const uint64_t solved = world->evaluation ? world->evaluation->revision : 0;
-    return hash_word(hash_word(hash_word(HASH_START, history_revision(world->history)), solved),
-                     (uint64_t)core->look);
+    const uint64_t edited = world->history ? history_revision(world->history) : 0; // a film has none
+    return hash_word(hash_word(hash_word(HASH_START, edited), solved), (uint64_t)core->look);
 }
 
 static void add_pin(struct stage *stage, const struct editor_world *world, int rig, int at)

@@ -1,0 +1,148 @@
+/// What tests of exports share: a scene of ours exported into the test's folder, and how far a glTF file is from vertices.
+#ifndef TESTS_EXPORT_SCENE_H
+#define TESTS_EXPORT_SCENE_H
+
+#include "base/file.h"
+#include "export/export.h"
+#include "folder.h"
+#include "model/gltf.h"
+#include "model/motion.h"
+#include "near.h"
+#include "rig/models.h"
+#include "scene/load.h"
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// A scene that is open, solved, its models read.
+struct opened {
+    struct document *document;
+    struct evaluation evaluation;
+    struct models *models;
+    struct posing posing;
+};
+
+static inline struct opened open_scene(const char *path)
+{
+    struct opened scene = {.models = models_create()};
+    struct error error = {0};
+    scene.document = scene_load(path, NULL, &error);
+    if (!scene.document) fail_msg("%s", error.text);
+    assert_true(document_set_path(scene.document, path));
+    assert_true(models_update(scene.models, scene.document, &error));
+    assert_true(evaluation_resize(&scene.evaluation, scene.document, &error));
+    evaluation_update(&scene.evaluation, scene.document, NULL, false);
+    return scene;
+}
+
+static inline struct posing *posing_of(struct opened *scene)
+{
+    scene->posing =
+        (struct posing){.document = scene->document, .evaluation = &scene->evaluation, .models = scene->models};
+    return &scene->posing;
+}
+
+static inline void close_scene(struct opened *scene)
+{
+    evaluation_free(&scene->evaluation);
+    models_destroy(scene->models);
+    document_destroy(scene->document);
+}
+
+/// Exports a scene of assets/scenes; returns the file's path, of the same storage at each second call.
+static inline const char *export_scene(const char *name, const char *file, struct export_options options)
+{
+    char scene_path[128];
+    struct error error = {0};
+    struct export_report report;
+    const char *path = folder_path(file);
+    snprintf(scene_path, sizeof scene_path, "assets/scenes/%s.json", name);
+    struct opened scene = open_scene(scene_path);
+    if (!export_write(posing_of(&scene), path, &options, &report, &error)) fail_msg("%s", error.text);
+    close_scene(&scene);
+    return path;
+}
+
+/// All numbers of a motion, as floats.
+struct points {
+    int frames, vertices;
+    double fps;
+    double *number;
+};
+
+static inline struct points read_points(const char *path)
+{
+    struct motion motion;
+    struct error error;
+    if (!motion_open(&motion, path, &error)) fail_msg("%s", error.text);
+    struct points points = {motion.frames, motion.vertices, motion.fps, NULL};
+    const int columns = 3 * motion.vertices;
+    points.number = malloc((size_t)columns * (size_t)motion.frames * sizeof *points.number);
+    assert_non_null(points.number);
+    assert_true(motion_columns(&motion, 0, columns, points.number, &error));
+    motion_close(&motion);
+    return points;
+}
+
+static inline const double *frame_of(const struct points *points, int frame)
+{
+    return points->number + 3 * (ptrdiff_t)points->vertices * frame;
+}
+
+/// The largest distance, over all vertices and coordinates, of a glTF file at each of `frames` evenly spaced times from a motion.
+static inline double glb_clip_is_off(const char *path, const char *name, const struct points *points)
+{
+    struct gltf gltf;
+    struct gltf_pose pose;
+    struct error error;
+    double off = 0;
+    int node = 0;
+    float(*place)[3] = malloc((size_t)points->vertices * sizeof *place);
+    if (!gltf_read(path, &gltf, &error)) fail_msg("%s", error.text);
+    assert_true(place && gltf_pose_create(&gltf, &pose));
+    const int clip = name ? gltf_find_clip(&gltf, name) : 0;
+    assert_true(name ? clip >= 0 : gltf.clip_count == 1);
+    while (gltf.nodes[node].mesh < 0) node++;
+    assert_int_equal(gltf_vertex_count(&gltf, node), points->vertices);
+    for (int f = 0; f < points->frames; f += 3) { // a third says as much
+        const double *expected = frame_of(points, f);
+        gltf_pose_clip(&gltf, clip, gltf.clips[clip].duration * f / (points->frames - 1), &pose);
+        gltf_pose_world(&gltf, &pose);
+        gltf_pose_vertices(&gltf, &pose, node, place, NULL);
+        for (int i = 0; i < 3 * points->vertices; i++)
+            off = fmax(off, fabs((double)place[i / 3][i % 3] - expected[i]));
+    }
+    free(place);
+    gltf_pose_free(&pose);
+    gltf_free(&gltf);
+    return off;
+}
+
+/// All bytes of a file; the caller frees them.
+static inline char *bytes_of(const char *path, size_t *size)
+{
+    char *data;
+    struct error error;
+    if (!file_read(path, 1 << 28, &data, size, &error)) fail_msg("%s", error.text);
+    return data;
+}
+
+static inline uint32_t word_at(const char *bytes)
+{
+    uint32_t word;
+    memcpy(&word, bytes, sizeof word);
+    return word;
+}
+
+static inline int files_in_folder(void)
+{
+    int count = 0;
+    DIR *open = opendir(folder);
+    assert_non_null(open);
+    for (struct dirent *entry; (entry = readdir(open));)
+        count += strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..");
+    closedir(open);
+    return count;
+}
+
+#endif

@@ -1,0 +1,273 @@
+/// What wiggly export writes of imported characters: their own files with a clip more, in either container, and .usda.
+#include "export/gltf_splice.h"
+#include "export_scene.h"
+
+/// The dog's scene without its chains; the caller closes it.
+static struct opened open_dog_without_chains(void)
+{
+    struct opened scene = open_scene("assets/scenes/dog.json");
+    struct document *document = scene.document;
+    for (int r = document->rig_count - 1; r >= 0; r--) {
+        if (document->rigs[r].kind != RIG_CHAIN) continue;
+        rig_release(&document->rigs[r]);
+        memmove(&document->rigs[r], &document->rigs[r + 1],
+                (size_t)(document->rig_count - r - 1) * sizeof *document->rigs);
+        document->rig_count--;
+    }
+    return scene;
+}
+
+static void without_a_chain_the_file_stays_the_same(void **state)
+{
+    (void)state;
+    struct opened scene = open_dog_without_chains();
+    struct export_report report;
+    struct error error;
+    const struct export_options usual = {0};
+    size_t size, again;
+    assert_true(export_write(posing_of(&scene), folder_path("same.glb"), &usual, &report, &error));
+    close_scene(&scene);
+    char *original = bytes_of("assets/models/dog.glb", &size), *copy = bytes_of(folder_path("same.glb"), &again);
+    assert_int_equal(size, again);
+    assert_memory_equal(original, copy, size);
+    free(original);
+    free(copy);
+}
+
+/// The clip is replaced or added; the chunk begins with all bytes that it had, and the JSON keeps its words.
+static void an_imported_character_gets_a_clip(void **state)
+{
+    static const char *const names[] = {NULL, "Wag"};
+    (void)state;
+    struct points points = read_points(export_scene("dog", "dog.npy", (struct export_options){.substeps = 2}));
+    size_t size, larger;
+    char *original = bytes_of("assets/models/dog.glb", &size);
+    const size_t json = word_at(original + 12), chunk = word_at(original + 20 + json);
+    for (int n = 0; n < 2; n++) {
+        const struct export_options options = {.clip = names[n], .substeps = 2};
+        struct gltf before, after;
+        struct error error;
+        const char *path = export_scene("dog", "dog.glb", options);
+        assert_near(glb_clip_is_off(path, n ? "Wag" : "Walk", &points), 0, 5e-6);
+        assert_true(gltf_read("assets/models/dog.glb", &before, &error) && gltf_read(path, &after, &error));
+        assert_int_equal(after.clip_count, before.clip_count + n);
+        assert_string_equal(after.clips[1].name, before.clips[1].name);
+        assert_near(after.clips[1].duration, before.clips[1].duration, 0);
+        gltf_free(&before);
+        gltf_free(&after);
+        char *copy = bytes_of(path, &larger);
+        assert_memory_equal(original + 28 + json, copy + 28 + word_at(copy + 12), chunk);
+        free(copy);
+    }
+    free(original);
+    free(points.number);
+}
+
+/// A .gltf of ours goes in as a character, gets a chain, and comes out as a .gltf or .glb.
+static void text_files_get_a_clip_too(void **state)
+{
+    static const char scene_text[] =
+        "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": "
+        "[{\"frame\": 0, "
+        "\"value\": 2}]}], \"rigs\": [{\"type\": \"model\", \"name\": \"fox\", \"model\": \"fox.gltf\", \"clip\": "
+        "\"tail\"}, "
+        "{\"type\": \"chain\", \"name\": \"end\", \"model\": \"fox\", \"from\": \"tail_12\", \"to\": \"tail_23\", "
+        "\"channels\": [{\"spline\": \"s\"}]}]}";
+    (void)state;
+    struct export_report report;
+    struct error error = {0};
+    const struct export_options usual = {0}, signed_weights = {.is_signed = true};
+    export_scene("tail", "fox.gltf", usual);
+    assert_true(file_write_atomic(folder_path("scene.json"), scene_text, strlen(scene_text), &error));
+    struct opened scene = open_scene(folder_path("scene.json"));
+    assert_true(export_write(posing_of(&scene), folder_path("fox.npy"), &usual, &report, &error));
+    struct points points = read_points(folder_path("fox.npy"));
+    if (!export_write(posing_of(&scene), folder_path("out.gltf"), &signed_weights, &report, &error))
+        fail_msg("%s", error.text);
+    assert_near(glb_clip_is_off(folder_path("out.gltf"), "tail", &points), 0, 5e-6);
+    assert_true(export_write(posing_of(&scene), folder_path("out.glb"), &usual, &report, &error));
+    assert_near(glb_clip_is_off(folder_path("out.glb"), "tail", &points), 0, 5e-6);
+    close_scene(&scene);
+    free(points.number);
+}
+
+static void assert_same_part(const struct gltf_part *a, const struct gltf_part *b)
+{
+    const size_t count = (size_t)a->vertex_count;
+    assert_int_equal(a->vertex_count, b->vertex_count);
+    assert_int_equal(a->index_count, b->index_count);
+    assert_int_equal(a->material, b->material);
+    assert_memory_equal(a->position, b->position, count * sizeof *a->position);
+    assert_memory_equal(a->normal, b->normal, count * sizeof *a->normal);
+    assert_memory_equal(a->joints, b->joints, count * sizeof *a->joints);
+    assert_memory_equal(a->weights, b->weights, count * sizeof *a->weights);
+    assert_memory_equal(a->indices, b->indices, (size_t)a->index_count * sizeof *a->indices);
+}
+
+static void assert_same_clip(const struct gltf_clip *a, const struct gltf_clip *b)
+{
+    assert_string_equal(a->name, b->name);
+    assert_int_equal(a->channel_count, b->channel_count);
+    for (int c = 0; c < a->channel_count; c++) {
+        const struct gltf_channel *one = &a->channels[c], *other = &b->channels[c];
+        const size_t keys = (size_t)one->key_count, numbers = keys * (size_t)one->components;
+        assert_int_equal(one->key_count, other->key_count);
+        assert_memory_equal(one->times, other->times, keys * sizeof *one->times);
+        assert_memory_equal(one->values, other->values, numbers * sizeof *one->values);
+    }
+}
+
+/// Two files of a dog hold the same, whatever its clip "Walk" is.
+static void assert_same_dog(const char *path, const char *other_path)
+{
+    struct gltf a, b;
+    struct error error;
+    if (!gltf_read(path, &a, &error) || !gltf_read(other_path, &b, &error)) fail_msg("%s", error.text);
+    assert_int_equal(a.node_count, b.node_count);
+    for (int n = 0; n < a.node_count; n++) {
+        assert_string_equal(a.nodes[n].name, b.nodes[n].name);
+        assert_memory_equal(&a.nodes[n].place, &b.nodes[n].place, sizeof a.nodes[n].place);
+    }
+    assert_int_equal(a.meshes[0].part_count, b.meshes[0].part_count);
+    for (int p = 0; p < a.meshes[0].part_count; p++) assert_same_part(&a.meshes[0].parts[p], &b.meshes[0].parts[p]);
+    assert_int_equal(a.clip_count, b.clip_count);
+    for (int c = 0; c < a.clip_count; c++) {
+        if (strcmp(a.clips[c].name, "Walk") != 0) assert_same_clip(&a.clips[c], &b.clips[c]);
+    }
+    assert_int_equal(a.material_count, b.material_count);
+    for (int m = 0; m < a.material_count; m++) {
+        assert_string_equal(a.materials[m].name, b.materials[m].name);
+        assert_memory_equal(a.materials[m].color, b.materials[m].color, sizeof a.materials[m].color);
+        assert_memory_equal(&a.materials[m].sampler, &b.materials[m].sampler, sizeof a.materials[m].sampler);
+    }
+    assert_int_equal(a.image_count, 1);
+    assert_int_equal(b.image_count, 1);
+    assert_memory_equal(a.images[0].pixels, b.images[0].pixels, 4 * (size_t)(a.images[0].width * a.images[0].height));
+    gltf_free(&a);
+    gltf_free(&b);
+}
+
+/// Exports a scene whose only character is that file, without a chain.
+static void convert(const char *model, const char *file)
+{
+    char text[512];
+    struct export_report report;
+    struct error error;
+    const struct export_options usual = {0};
+    snprintf(text, sizeof text,
+             "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": "
+             "[]}], \"rigs\": [{\"type\": \"model\", \"model\": \"%s\"}]}",
+             model);
+    assert_true(file_write_atomic(folder_path("one.json"), text, strlen(text), &error));
+    struct opened scene = open_scene(folder_path("one.json"));
+    if (!export_write(posing_of(&scene), folder_path(file), &usual, &report, &error)) fail_msg("%s", error.text);
+    close_scene(&scene);
+}
+
+/// dog.glb as a .gltf that names a file of bytes and a picture beside it.
+static void scatter_dog(void)
+{
+    size_t size;
+    struct error error;
+    char *dog = bytes_of("assets/models/dog.glb", &size), buffer[64];
+    const size_t json = word_at(dog + 12), chunk = word_at(dog + 20 + json);
+    char *text = strndup(dog + 20, json), *picture = memmem(dog, size, "\x89PNG", 4);
+    struct splice splice = {.text = text};
+    assert_non_null(picture);
+    snprintf(buffer, sizeof buffer, "{\"byteLength\":%zu,\"uri\":\"a%%20dog.bin\"}", chunk);
+    splice_replace(&splice, "buffers", 0, NULL, buffer);
+    splice_replace(&splice, "images", 0, NULL, "{\"uri\":\"tag.png\"}");
+    char *scattered = splice_apply(&splice);
+    assert_non_null(scattered);
+    assert_true(file_write_atomic(folder_path("dog.gltf"), scattered, strlen(scattered), &error));
+    assert_true(file_write_atomic(folder_path("a dog.bin"), dog + 28 + json, chunk, &error));
+    assert_true(file_write_atomic(folder_path("tag.png"), picture, (size_t)(dog + size - picture), &error));
+    splice_free(&splice);
+    free(scattered);
+    free(text);
+    free(dog);
+}
+
+/// A .gltf with files beside it becomes one .glb, and a .glb one .gltf; there and back nothing is lost.
+static void containers_change_and_hold_the_same(void **state)
+{
+    (void)state;
+    scatter_dog();
+    assert_same_dog("assets/models/dog.glb", folder_path("dog.gltf"));
+    convert("dog.gltf", "whole.glb");
+    const char *const beside[] = {"dog.gltf", "a dog.bin", "tag.png"};
+    for (int i = 0; i < 3; i++) assert_int_equal(remove(folder_path(beside[i])), 0);
+    assert_same_dog("assets/models/dog.glb", folder_path("whole.glb"));
+    convert("whole.glb", "back.gltf");
+    assert_same_dog("assets/models/dog.glb", folder_path("back.gltf"));
+    struct points points = read_points(export_scene("dog", "dog.npy", (struct export_options){0}));
+    const char *chained = export_scene("dog", "chained.gltf", (struct export_options){0});
+    assert_near(glb_clip_is_off(chained, "Walk", &points), 0, 5e-6);
+    assert_same_dog("assets/models/dog.glb", chained);
+    free(points.number);
+}
+
+/// A .usda of an imported character names its textures, which are in a folder beside it, as the file had them.
+static void textures_are_written_beside(void **state)
+{
+    (void)state;
+    const char *path = export_scene("dog", "dog.usda", (struct export_options){.substeps = 1});
+    size_t size, chunk;
+    char *text = bytes_of(path, &size), *picture = bytes_of(folder_path("dog_textures/tag_0.png"), &size),
+         *dog = bytes_of("assets/models/dog.glb", &chunk);
+    assert_non_null(strstr(text, "asset inputs:file = @./dog_textures/tag_0.png@"));
+    assert_non_null(strstr(text, "rel material:binding = </scene/dog/materials/tag>"));
+    assert_non_null(memmem(dog, chunk, picture, size));
+    free(text);
+    free(picture);
+    free(dog);
+    assert_int_equal(files_in_folder(), 2);
+}
+
+/// Where the textures cannot be written, nothing is: neither the file nor a part of them.
+static void without_its_textures_nothing_is_written(void **state)
+{
+    (void)state;
+    struct opened scene = open_scene("assets/scenes/dog.json");
+    struct export_report report;
+    struct error error = {0};
+    const struct export_options usual = {.substeps = 1};
+    assert_true(file_write_atomic(folder_path("dog_textures"), "a file", 6, &error));
+    assert_false(export_write(posing_of(&scene), folder_path("dog.usda"), &usual, &report, &error));
+    assert_non_null(strstr(error.text, "dog_textures"));
+    assert_int_equal(files_in_folder(), 1);
+    close_scene(&scene);
+}
+
+/// With few cubic keys only the chains are a little off: the body keeps the keys of its own clip, whole or cut out of it.
+static void a_body_keeps_the_keys_of_its_clip(void **state)
+{
+    const struct export_options parts[] = {{0}, {.has_frames = true, .first = 5.5, .last = 77.5}};
+    (void)state;
+    for (int p = 0; p < 2; p++) {
+        struct export_options options = parts[p];
+        options.substeps = 4;
+        struct points points = read_points(export_scene("dog", "dog.npy", options));
+        options.substeps = 0;
+        options.rate = 12;
+        const double linear = glb_clip_is_off(export_scene("dog", "dog.glb", options), "Walk", &points);
+        options.is_cubic = true;
+        assert_true(linear > 0.02);
+        assert_near(glb_clip_is_off(export_scene("dog", "dog.glb", options), "Walk", &points), 0, 1e-3);
+        free(points.number);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(without_a_chain_the_file_stays_the_same, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(an_imported_character_gets_a_clip, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(text_files_get_a_clip_too, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(containers_change_and_hold_the_same, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(a_body_keeps_the_keys_of_its_clip, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(textures_are_written_beside, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(without_its_textures_nothing_is_written, folder_make, folder_remove),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,282 @@
+/// What acts on a soft body from outside: a base that moves, gravity, a floor; where it is held and how soft it is.
+#include "near.h"
+#include "simulation/soft.h"
+#include "simulation/vec3.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/// A box of `width` × `height` × `width` that stands on y = 0, white at its upper four corners and black below.
+struct box {
+    float position[8][3], color[8][3];
+    uint32_t indices[36];
+    struct surface surface;
+};
+
+static void make_box(struct box *box, float width, float height)
+{
+    static const uint32_t faces[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
+                                          {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+    *box = (struct box){0};
+    for (int i = 0; i < 8; i++) {
+        const float p[3] = {(i & 4 ? 0.5f : -0.5f) * width, i & 2 ? height : 0, (i & 1 ? 0.5f : -0.5f) * width};
+        memcpy(box->position[i], p, sizeof p);
+        for (int c = 0; c < 3; c++) box->color[i][c] = i & 2 ? 1.0f : 0.0f;
+    }
+    memcpy(box->indices, faces, sizeof faces);
+    box->surface = (struct surface){.position = box->position,
+                                    .color = box->color,
+                                    .vertex_count = 8,
+                                    .indices = box->indices,
+                                    .index_count = 36};
+}
+
+static void make_soft(struct soft *soft, struct box *box, const struct soft_options *options)
+{
+    struct error error;
+    if (!soft_create(soft, &box->surface, "box", options, &error)) fail_msg("%s", error.text);
+}
+
+/// φᵀM d, d being the direction for all nodes, or their displacements.
+static double project(const struct soft *soft, int mode, const double direction[3], const double (*x)[3])
+{
+    const double(*shape)[3] = (const double(*)[3])soft->modes.shape + (size_t)mode * (size_t)soft->body.node_count;
+    double sum = 0;
+    for (int i = 0; i < soft->body.node_count; i++) {
+        double moved[3];
+        for (int c = 0; c < 3; c++) moved[c] = x ? x[i][c] - soft->body.rest[i][c] : direction[c];
+        sum += soft->body.mass[i] * vec3_dot(shape[i], moved);
+    }
+    return sum;
+}
+
+/// Each mode of a body whose base moves a little is an oscillator that −Γ a(t) pushes: q'' + 2ζω q' + ω² q = −Γ a.
+static void a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator(void **state)
+{
+    (void)state;
+    const double side[3] = {1, 0, 0}, h = 1e-3;
+    struct box box;
+    struct soft soft;
+    struct integrator integrator;
+    struct shake shake = {.direction = {1, 0, 0}, .driven = true};
+    struct soft_options options = soft_default_options();
+    options.tets = 300;
+    options.shake = &shake;
+    options.modes = 6;
+    options.damping = 0.1;
+    make_box(&box, 0.3f, 1);
+    make_soft(&soft, &box, &options);
+    assert_near(soft_frequency(&soft), 2, 1e-9);
+    struct drive drive = {.kind = DRIVE_BURST, .direction = {1, 0, 0}, .size = 1e-4, .frequency = 1.7, .seconds = 3};
+    assert_true(integrator_create(&integrator, &soft.body, h));
+    integrator.mass_damping = soft.alpha;
+    integrator.stiffness_damping = soft.beta;
+    integrator.tolerance = 1e-10;
+    integrator.loads.drive = &drive;
+    const double omega = 2 * M_PI * 2, gamma = project(&soft, soft.shaken, side, NULL);
+    double q = 0, v = 0, difference = 0, size = 0;
+    for (int step = 0; step < 2000; step++) {
+        for (int k = 0; k < 20; k++) { // symplectic Euler in steps of a twentieth
+            v += h / 20 *
+                 (-gamma * drive_acceleration(&drive, (step + k / 20.0) * h) - 2 * 0.1 * omega * v -
+                  omega * omega * q);
+            q += h / 20 * v;
+        }
+        assert_true(integrator_step(&integrator));
+        double found = project(&soft, soft.shaken, side, (const double(*)[3])integrator.x);
+        difference += (found - q) * (found - q);
+        size += q * q;
+    }
+    print_message("differs from the oscillator by %.2g\n", sqrt(difference / size));
+    assert_true(size > 0 && sqrt(difference / size) < 0.01);
+    assert_int_equal(integrator.calmed, 0);
+    integrator_free(&integrator);
+    soft_free(&soft);
+}
+
+/// Under its weight a body rests where inner forces and weight balance, sunk and not moving.
+static void gravity_is_settled_before_the_start(void **state)
+{
+    (void)state;
+    struct box box;
+    struct soft soft;
+    struct integrator integrator;
+    struct soft_options options = soft_default_options();
+    options.tets = 300;
+    options.frequency = 3;
+    make_box(&box, 0.4f, 1);
+    make_soft(&soft, &box, &options);
+    assert_true(integrator_create(&integrator, &soft.body, 0.01));
+    integrator.tolerance = 1e-7;
+    integrator.loads.gravity = 9.81;
+    assert_true(integrator_settle(&integrator));
+    double(*held)[3] = calloc((size_t)soft.body.node_count, sizeof *held), lowest = 0;
+    memcpy(held, integrator.x, (size_t)soft.body.node_count * sizeof *held);
+    for (int step = 0; step < 50; step++) assert_true(integrator_step(&integrator));
+    for (int i = 0; i < soft.body.node_count; i++) {
+        for (int c = 0; c < 3; c++) assert_near(integrator.x[i][c], held[i][c], 1e-5);
+        lowest = fmin(lowest, held[i][1] - soft.body.rest[i][1]);
+    }
+    assert_true(lowest < -1e-3);
+    free(held);
+    integrator_free(&integrator);
+    soft_free(&soft);
+}
+
+/// A box that nothing holds falls, bounces and comes to rest on the floor, no corner below it by more than a hundredth of the height.
+static void a_box_falls_on_the_floor_and_stays(void **state)
+{
+    (void)state;
+    struct box box;
+    struct soft soft;
+    struct integrator integrator;
+    struct floor floor;
+    struct soft_options options = soft_default_options();
+    options.tets = 200;
+    options.pin.kind = REGION_NONE;
+    options.young = 1e5;
+    make_box(&box, 1, 1);
+    make_soft(&soft, &box, &options);
+    assert_true(floor_create(&floor, &soft.lattice, &box.surface, -0.3, soft.young));
+    assert_true(integrator_create(&integrator, &soft.body, 0.005));
+    integrator.tolerance = 1e-6;
+    integrator.stiffness_damping = 0.01;
+    integrator.mass_damping = 3;
+    integrator.loads.gravity = 9.81;
+    integrator.loads.floor = &floor;
+    float place[8][3], lowest = 1;
+    for (int step = 0; step < 800; step++) {
+        assert_true(integrator_step(&integrator));
+        lattice_embed(&soft.lattice, (const double(*)[3])integrator.x, place);
+        for (int i = 0; i < 8; i++) lowest = fminf(lowest, place[i][1]);
+    }
+    print_message("lowest %.3f m, at the end %.3f m at %.2g m/s\n", (double)lowest, (double)place[0][1],
+                  integrator.v[0][1]);
+    assert_true(lowest > -0.3f - 0.1f);
+    for (int i = 0; i < 8; i++) {
+        if (!(i & 2)) assert_near(place[i][1], -0.3, 0.01);
+    }
+    for (int i = 0; i < soft.body.node_count; i++) assert_near(integrator.v[i][1], 0, 0.1);
+    integrator_free(&integrator);
+    floor_free(&floor);
+    soft_free(&soft);
+}
+
+/// A clamped beam becomes softer with each refinement, towards Euler and Bernoulli's frequency, whatever the height of the clamp is.
+static void a_beam_is_monotone_under_refinement(void **state)
+{
+    (void)state;
+    const int tets[] = {200, 800, 3200, 12800};
+    const double young = 1e6, length = 7.6;
+    const double slender = 1.8751040687 * 1.8751040687 / (2 * M_PI * length * length) * sqrt(young / (12 * 1000));
+    struct box box;
+    make_box(&box, 1, 8);
+    double before = INFINITY;
+    for (int k = 0; k < 4; k++) {
+        struct soft soft;
+        struct soft_options options = soft_default_options();
+        options.tets = tets[k];
+        options.young = young;
+        options.poisson = 0;
+        options.pin = (struct region){.kind = REGION_FOOT, .size = 0.4};
+        make_soft(&soft, &box, &options);
+        double ratio = soft.modes.frequency[0] / slender;
+        print_message("%d tetrahedra: %.4f of Euler and Bernoulli's\n", soft.lattice.tet_count, ratio);
+        assert_true(ratio < before && ratio > 0.985);
+        before = ratio;
+        soft_free(&soft);
+    }
+    assert_near(before, 1, 0.015);
+}
+
+static int count_pinned(struct box *box, const char *where)
+{
+    struct soft soft;
+    struct soft_options options = soft_default_options();
+    options.tets = 300;
+    assert_true(region_parse(where, &options.pin));
+    make_soft(&soft, box, &options);
+    int pinned = soft.pinned, wrong = 0;
+    for (int i = 0; i < soft.body.node_count; i++) wrong += soft.body.pinned[i] && soft.body.rest[i][1] < 0.5;
+    soft_free(&soft);
+    return wrong ? -1 : pinned;
+}
+
+static void regions_hold_what_they_name(void **state)
+{
+    (void)state;
+    struct box box;
+    struct region region;
+    make_box(&box, 0.5f, 1);
+    assert_true(count_pinned(&box, "plane:0,0.7,0,0,-1,0") > 4); // all above 0.7
+    assert_true(count_pinned(&box, "sphere:0,1,0,0.3") > 0);
+    assert_true(count_pinned(&box, "color:FFFFFF") > 0); // the upper corners
+    assert_int_equal(count_pinned(&box, "none"), 0);
+    static const char *const wrong[] = {
+        "",          "foot",           "-1",          "0.1,2",        "plane:0,0,0,0,0,0",
+        "plane:1,2", "sphere:0,0,0,0", "color:12345", "color:GGGGGG", "0.1m"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) assert_false(region_parse(wrong[i], &region));
+}
+
+/// By distance and by brightness alike the box is N times softer at its top than at its foot, and evenly in between.
+static void softness_falls_as_the_map_says(void **state)
+{
+    (void)state;
+    static const char *const maps[] = {"distance", "color"};
+    struct box box;
+    make_box(&box, 0.3f, 1);
+    for (int m = 0; m < 2; m++) {
+        struct soft soft;
+        struct soft_options options = soft_default_options();
+        options.tets = 500;
+        options.softness = (struct softness){.from = maps[m], .times = 8};
+        make_soft(&soft, &box, &options);
+        double least = 1, most = 0;
+        for (int e = 0; e < soft.body.element_count; e++) {
+            least = fmin(least, soft.body.elements[e].stiffness);
+            most = fmax(most, soft.body.elements[e].stiffness);
+        }
+        print_message("%s: %.3f … %.3f\n", maps[m], least, most);
+        assert_true(least * 8 < 1.5 && least * 8 > 0.999 && most > 0.6 && most < 1.001);
+        soft_free(&soft);
+    }
+}
+
+/// A track's spline goes through its samples, and its second derivative is the acceleration.
+static void a_track_is_smooth(void **state)
+{
+    (void)state;
+    double time[5] = {0, 0.1, 0.3, 0.4, 0.7}, value[5] = {0, 0.02, -0.01, 0.03, 0};
+    char path[] = "/tmp/wiggly-track-XXXXXX";
+    FILE *file = fdopen(mkstemp(path), "w");
+    fputs("seconds,metres\n", file);
+    for (int i = 0; i < 5; i++) fprintf(file, "%g, %g\n", time[i], value[i]);
+    fclose(file);
+    struct drive drive = {.size = 1};
+    struct error error;
+    if (!drive_read_track(&drive, path, &error)) fail_msg("%s", error.text);
+    unlink(path);
+    for (int i = 0; i < 5; i++) assert_near(drive_place(&drive, time[i]), value[i], 1e-12);
+    for (double t = 0.05; t < 0.65; t += 0.0417) {
+        const double h = 1e-4;
+        double second =
+            (drive_place(&drive, t + h) - 2 * drive_place(&drive, t) + drive_place(&drive, t - h)) / (h * h);
+        assert_near(drive_acceleration(&drive, t), second, 0.01);
+    }
+    drive_free(&drive);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator),
+        cmocka_unit_test(gravity_is_settled_before_the_start),
+        cmocka_unit_test(a_box_falls_on_the_floor_and_stays),
+        cmocka_unit_test(a_beam_is_monotone_under_refinement),
+        cmocka_unit_test(regions_hold_what_they_name),
+        cmocka_unit_test(softness_falls_as_the_map_says),
+        cmocka_unit_test(a_track_is_smooth),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

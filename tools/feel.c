@@ -1,0 +1,163 @@
+/// What an animator feels, as a table: how far the curve moves when a knot moves by one frame, how far it overshoots, before and after the
+/// last knot, and Figure 4; of the paper's filter, the oscillator, steady splines, limits and the cubic.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <wiggly/wiggly.h>
+
+enum { SAMPLES = 121, MOST_KNOTS = 6, SETTINGS = 10, LAYOUTS = 200, RUNS = SETTINGS * LAYOUTS };
+enum way { FILTER, OSCILLATOR, STEADY, LIMITED, STEADY_LIMITED, CUBIC, WAYS };
+
+static const char *const names[] = {"filter", "oscillator", "steady", "limits", "steady+limits", "cubic"};
+static const double limit = 1.15;
+
+struct layout {
+    wiggly_desc desc;
+    wiggly_knot knots[MOST_KNOTS];
+    double largest;
+};
+
+static unsigned seed;
+
+static double uniform(void)
+{
+    seed = seed * 1664525U + 1013904223U;
+    return (seed >> 8) / 16777216.0;
+}
+
+/// Settings of the mathematics page by turns; knots at least `apart` frames apart.
+static void make_layout(struct layout *l, int number, int apart)
+{
+    static const double f[] = {0.5, 0.75, 1, 1.25, 1.5, 1.75, 2, 2.25, 2.5, 3};
+    static const double damping[] = {0, 0.05, 0.1, 0.15, 0.2, 0.3}, bandwidth[] = {0, 0.05, 0.1, 0.2};
+    seed = (unsigned)number * 2654435761U + 97;
+    for (int i = 0; i < 4; i++) uniform();
+    *l = (struct layout){.desc = wiggly_default_desc()};
+    l->desc.samples = SAMPLES;
+    l->desc.frequency.value = f[number % SETTINGS];
+    l->desc.damping.value = damping[number % 6];
+    l->desc.bandwidth.value = bandwidth[number % 4];
+    l->desc.knot_count = 3 + (int)(4 * uniform());
+    bool taken[SAMPLES] = {false};
+    for (int k = 0; k < l->desc.knot_count;) {
+        int at = 2 + (int)(uniform() * (SAMPLES - 42)); // the last second and a half is free
+        bool free = true;
+        for (int i = at - apart + 1; i < at + apart; i++) free = free && (i < 0 || !taken[i]);
+        if (!free) continue;
+        taken[at] = true;
+        l->knots[k++] = (wiggly_knot){.sample = at, .value = 2 * uniform() - 1};
+        l->largest = fmax(l->largest, fabs(l->knots[k - 1].value));
+    }
+}
+
+static int last_knot(const struct layout *l)
+{
+    int last = 0;
+    for (int k = 0; k < l->desc.knot_count; k++) last = l->knots[k].sample > last ? l->knots[k].sample : last;
+    return last;
+}
+
+struct arrays {
+    double total[256];
+};
+
+static void solve_way(wiggly_solver *solver, const struct layout *l, enum way way, struct arrays *out)
+{
+    struct layout own = *l;
+    own.desc.knots = own.knots;
+    if (way == FILTER) own.desc.passive = WIGGLY_FILTER;
+    if (way == CUBIC) own.desc.mode = WIGGLY_CUBIC;
+    if (way == LIMITED || way == STEADY_LIMITED) own.desc.high = limit * l->largest, own.desc.low = -own.desc.high;
+    if (way == STEADY || way == STEADY_LIMITED) own.desc.steady = 1;
+    wiggly_curve curve = {.total = out->total};
+    wiggly_status status = wiggly_solve(solver, &own.desc, &curve);
+    if (status >= WIGGLY_ERROR_ARGUMENT) fprintf(stderr, "%s\n", wiggly_status_text(status));
+}
+
+static int compare(const void *a, const void *b)
+{
+    const double *left = a, *right = b;
+    return (*left > *right) - (*left < *right);
+}
+
+/// Median and 99th percentile.
+static void print_two(double *values)
+{
+    qsort(values, RUNS, sizeof *values, compare);
+    printf("  %5.2f %6.2f", values[RUNS / 2], values[RUNS * 99 / 100]);
+}
+
+static bool is_alone(const struct layout *l, const wiggly_knot *knot)
+{
+    for (int k = 0; k < l->desc.knot_count; k++) {
+        if (&l->knots[k] != knot && l->knots[k].sample == knot->sample) return false;
+    }
+    return true;
+}
+
+static void measure(wiggly_solver *solver, enum way way, int apart)
+{
+    static double change[2][RUNS], overshoot[2][RUNS];
+    static struct arrays before, after;
+    for (int n = 0; n < RUNS; n++) {
+        struct layout l;
+        make_layout(&l, n, apart);
+        const int L = last_knot(&l);
+        solve_way(solver, &l, way, &before);
+        wiggly_knot *moved = &l.knots[(int)(uniform() * l.desc.knot_count)];
+        moved->sample++;
+        if (!is_alone(&l, moved)) moved->sample -= 2;
+        if (!is_alone(&l, moved)) moved->sample++; // between two it stays
+        solve_way(solver, &l, way, &after);
+        for (int side = 0; side < 2; side++) {
+            change[side][n] = overshoot[side][n] = 0;
+            for (int i = side ? L + 1 : 0; i < (side ? SAMPLES : L + 1); i++) {
+                change[side][n] = fmax(change[side][n], fabs(after.total[i] - before.total[i]) / l.largest);
+                overshoot[side][n] = fmax(overshoot[side][n], fabs(before.total[i]) / l.largest);
+            }
+        }
+    }
+    printf("%-14s", names[way]);
+    for (int side = 0; side < 2; side++) print_two(change[side]);
+    for (int side = 0; side < 2; side++) print_two(overshoot[side]);
+    printf("\n");
+}
+
+/// The smallest extremum between the second and the third knot of Figure 4, the third moved by a tenth.
+static void measure_figure(wiggly_solver *solver)
+{
+    printf("Figure 4, smallest extremum:");
+    for (enum way way = 0; way < CUBIC; way++) {
+        struct layout l = {.desc = wiggly_default_desc(), .largest = 1};
+        static struct arrays out;
+        const int samples[] = {0, 36, 115};
+        l.desc.samples = 176, l.desc.knot_count = 3;
+        l.desc.frequency.value = 1, l.desc.damping.value = 0.05;
+        for (int k = 0; k < 3; k++)
+            l.knots[k] = (wiggly_knot){.sample = samples[k], .value = k > 0, .has_slope = true, .stiffness = 1000};
+        solve_way(solver, &l, way, &out);
+        double least = INFINITY;
+        for (int i = 36 + 4; i <= 115 - 4; i++) {
+            double here = out.total[i], a = here - out.total[i - 1], b = out.total[i + 1] - here;
+            if (a * b <= 0) least = fmin(least, fabs(here));
+        }
+        printf("  %s %.3f", names[way], least);
+    }
+    printf("\n");
+}
+
+int main(void)
+{
+    wiggly_solver *solver;
+    if (wiggly_create(256, 256 + MOST_KNOTS, &solver) != WIGGLY_OK) return EXIT_FAILURE;
+    for (int harsh = 0; harsh < 2; harsh++) {
+        printf("%s; median and p99, of the largest knot\n%-14s  %-13s %-14s %-14s %s\n",
+               harsh ? "Knots on neighbouring frames too" : "Knots at least 6 frames apart", "", "change before",
+               "after the last", "largest before", "after the last");
+        for (enum way way = 0; way < WAYS; way++) measure(solver, way, harsh ? 1 : 6);
+    }
+    measure_figure(solver);
+    wiggly_destroy(solver);
+    return EXIT_SUCCESS;
+}
