@@ -206,6 +206,26 @@ static void test_what_hardly_moves_does_not_light_up(void **state)
     session_close(&s);
 }
 
+/// Without a mouse: H pins what moves most, Tab leads to its numbers.
+static void test_the_keyboard_alone_is_enough(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open_models(&s, creature);
+    session_move(&s, 2, 2);
+    session_frame(&s);
+    session_key(&s, 'H', 0);
+    assert_int_equal(pins_of(&s), 1);
+    session_close(&s);
+    open_tail(&s);
+    session_move(&s, 2, 2);
+    session_frame(&s);
+    session_key(&s, 'H', 0);
+    assert_int_equal(pins_of(&s), 1);
+    assert_int_equal(pin_of(&s, 0)->point, 23);
+    session_close(&s);
+}
+
 static void test_the_inspector_lists_pins_and_takes_numbers(void **state)
 {
     (void)state;
@@ -239,6 +259,7 @@ int main(void)
         cmocka_unit_test(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler),
         cmocka_unit_test(test_the_surface_of_a_character_is_pinned_and_follows_the_pointer),
         cmocka_unit_test(test_what_hardly_moves_does_not_light_up),
+        cmocka_unit_test(test_the_keyboard_alone_is_enough),
         cmocka_unit_test(test_the_inspector_lists_pins_and_takes_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
