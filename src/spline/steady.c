@@ -93,7 +93,7 @@ wiggly_status steady_find(wiggly_solver *solver, problem *p, wiggly_curve *curve
         part.desc = &desc;
         part.detune = 1 + p->desc->steady * spread * (2.0 * i / (PARTS - 1) - 1);
         problem_set_start(solver, &part);
-        minimum one;
+        minimum one = {0};
         wiggly_status found = (limited ? limits_find : problem_find)(solver, &part, curve, &one);
         if (found >= WIGGLY_ERROR_ARGUMENT) return found;
         status = found > status ? found : status;
