@@ -52,7 +52,7 @@ static void the_body_is_closed(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_torso(0.032f, 0.0034f, 2, &mesh);
+    mesh_torso(0.030f, 0.0028f, 3, &mesh);
     assert_false(mesh.failed);
     assert_int_equal(open_edges(&mesh), 0);
     mesh_free(&mesh);
@@ -136,7 +136,7 @@ static void the_body_stands_on_the_ground(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_torso(0.032f, 0.0034f, 2, &mesh);
+    mesh_torso(0.030f, 0.0028f, 3, &mesh);
     float low = INFINITY;
     for (int v = 0; v < mesh.vertex_count; v++) low = fminf(low, mesh.vertices[v].position[1]);
     assert_near(low, -CREATURE_BASE_HEIGHT, 0.02);
@@ -148,7 +148,7 @@ static void tail_and_body_meet_smoothly(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_torso(0.032f, 0.0034f, 2, &mesh);
+    mesh_torso(0.030f, 0.0028f, 3, &mesh);
     int seen = 0;
     for (int v = 0; v < mesh.vertex_count; v++) {
         const struct vertex *vertex = &mesh.vertices[v];

@@ -7,7 +7,7 @@ static const struct level {
     int rounds;
     int rings, segments; ///< of the tail
 } levels[CREATURE_LEVELS] = {
-    {1, 0.032f, 0.0034f, 2, 72, 32},
+    {1, 0.030f, 0.0028f, 3, 72, 32},
     {2, 0.036f, 0.0036f, 1, 68, 24},
     {4, 0.047f, 0.0150f, 1, 48, 15},
     {8, 0.059f, 0.0000f, 0, 30, 9},
