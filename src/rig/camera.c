@@ -34,7 +34,8 @@ static vec3s along(const struct axes *axes, float right, float up, float back)
 struct camera camera_default(void)
 {
     const float degree = 0.0174532925f;
-    return (struct camera){.azimuth = 35.0f * degree, .elevation = 12.0f * degree, .distance = 4.0f, .floor = -INFINITY};
+    return (struct camera){
+        .azimuth = 35.0f * degree, .elevation = 12.0f * degree, .distance = 4.0f, .floor = -INFINITY};
 }
 
 void camera_lamp(const struct camera *camera, float from[3])
