@@ -57,7 +57,8 @@ MAJOR := $(firstword $(subst ., ,$(VERSION)))
 SOURCES := $(sort $(shell find src -name '*.c'))
 LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/base/status.c
 EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json \
-    assets/scenes/figure*.json assets/scenes/dog.json)
+    assets/scenes/figure*.json assets/scenes/dog.json assets/scenes/hands.json \
+    assets/scenes/meadow.json)
 TOOLS := $(basename $(notdir $(wildcard tools/*.c)))
 TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))
 TEST_SUPPORT := $(filter-out tests/test_%.c,$(wildcard tests/*.c))

@@ -81,5 +81,5 @@ void main()
     fur = map_row >= 0 ? phase_color(phase) : color;
     open_sky = 0.45 + 0.55 * smoothstep(0.0, shade.y, world.y - shade.x);
     vec3 ray = world - eye;
-    gl_Position = clip_from_world * vec4(world + seam * (1.3 * length(ray) * world_normal + 2.5 * ray), 1.0);
+    gl_Position = clip_from_world * vec4(world + seam * (1.5 * length(ray) * world_normal + 2.5 * ray), 1.0);
 }

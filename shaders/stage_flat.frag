@@ -1,15 +1,23 @@
 #version 330 core
-// A disc that fades out smoothly, over what is there; the background's quad stays in the middle of its disc.
+// Background and ground, mixed before they become bytes; then, blended over them, shadows: discs that fade out smoothly.
 in vec2 disc;
 in vec4 tint;
+uniform vec3 top, bottom; // of the background, sRGB
+uniform vec2 rows;        // its lowest row of pixels, and 1 / how many it has
+uniform bool shadow;
 out vec4 pixel;
 
 void main()
 {
     float inside = max(1.0 - dot(disc, disc), 0.0);
-    float opacity = tint.a * inside * inside;
-    // Half a bit of noise (interleaved gradient noise) hides the steps of 8-bit gradients this dark; blending must not
-    // weaken it.
+    // Interleaved gradient noise hides the steps of 8-bit gradients this dark.
     float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
-    pixel = vec4(tint.rgb + noise / (255.0 * max(opacity, 0.3)), opacity);
+    if (shadow) {
+        float opacity = tint.a * inside * inside;
+        // Some drivers blend bytes, so that only noise in the opacity gets through; the sign keeps it apart from the ground's.
+        pixel = vec4(tint.rgb, opacity * (1.0 - 0.12 * noise));
+    } else {
+        vec3 background = mix(bottom, top, (gl_FragCoord.y - rows.x) * rows.y);
+        pixel = vec4(mix(background, tint.rgb, tint.a * inside * inside) + noise / 255.0, 1.0);
+    }
 }

@@ -2,8 +2,15 @@
 // Wrapped key light, hemisphere, rim. Colours are linear until the last line.
 in vec3 world;
 in vec3 world_normal;
+#ifdef FURRED // the fox
+in vec3 marking; // white, dark, brown: as in model/coat.h
+in vec4 place;   // in bind space, and how much of it is the tail's
+uniform mat4 head_from_bind; // to the head's own space, which looks towards -z
+uniform vec3 orange, brown, white, dark;
+#else
 in vec3 fur;
 in vec2 phase; // of the phase map: movement as a share of the largest, at the angle by which it leads
+#endif
 in float open_sky;
 uniform vec3 eye;
 uniform vec3 key_from;
@@ -30,7 +37,7 @@ vec3 direction(vec3 v)
     return v / max(length(v), 1e-12);
 }
 
-// How many pixels inside its silhouette a round shape's pixel is, at most 1: opacity of the soft seam (second pass;
+// How far inside its silhouette a round shape's pixel is, in 1.4 pixels, at most 1: opacity of the soft seam (second pass;
 // the first does not blend). Where the radius is R, `facing` f falls to 0 over R·f²/2. A triangle is a chord of that
 // arc: f changes by `slope` a pixel of a chord that is foreshortened to `flat_facing`, so R = 1/(slope · flat_facing).
 // Unlike fwidth(f²), this is exact for facets smaller than a pixel, as nothing but what is linear in them is
@@ -40,9 +47,81 @@ float seam_opacity(vec3 to_eye)
     float facing = dot(world_normal, to_eye);
     float slope = length(vec2(dFdx(facing), dFdy(facing)));
     float flat_facing = abs(dot(direction(cross(dFdx(world), dFdy(world))), to_eye));
-    return clamp(0.5 * facing * abs(facing) / max(slope * flat_facing, 1e-6), 0.0, 1.0);
+    return clamp(0.36 * facing * abs(facing) / max(slope * flat_facing, 1e-6), 0.0, 1.0);
 }
 
+#ifdef FURRED
+const float TUFT = 0.007; // metres: depth of the fringe of markings
+
+// How much of a pixel, `sharp` to a metre, lies inside an edge that is `depth` metres away.
+float covered(float depth, float sharp)
+{
+    return clamp(depth * sharp + 0.5, 0.0, 1.0);
+}
+
+// About sin(2 pi x), at a quarter of its price.
+float wave(float x)
+{
+    float t = abs(fract(x - 0.25) * 4.0 - 2.0) - 1.0;
+    return t * (1.5 - 0.5 * t * t);
+}
+
+// Strands of hair, -1 … 1: lengthwise on the tail, downwards elsewhere; none where they would be finer than pixels of `grain`
+// metres.
+float strands(float grain)
+{
+    vec3 q = place.xyz * mix(vec3(30.0, 5.4, 30.0), vec3(17.5, 17.5, 3.2), place.w);
+    float woven = wave(q.x + 0.6 * q.y + 0.30 * wave(0.41 * q.z)) +
+                  wave(q.z - 0.7 * q.y + 0.27 * wave(0.53 * q.x + 0.8 * q.y));
+    return 0.5 * woven * clamp(1.6 - 100.0 * grain, 0.0, 1.0);
+}
+
+// Eyes, nose and mouth, drawn on the head from the front: both sides at once. `gloss` is how wet it is.
+vec3 with_face(vec3 coat, float sharp, out float gloss)
+{
+    vec3 in_head = (head_from_bind * vec4(place.xyz, 1.0)).xyz;
+    vec3 p = vec3(abs(in_head.x), in_head.yz);
+    // A dark corner of the eye runs towards the nose.
+    vec2 from = p.xy - vec2(0.058, 0.004);
+    float share = clamp(-25.0 * (from.x + from.y), 0.0, 1.0);
+    float corner = 0.009 - 0.0072 * share - length(from + 0.02 * share);
+    vec2 e = (p.xy - vec2(0.076, 0.016)) / vec2(0.0285, 0.0335);
+    float ring = length(e);
+    // The mouth: two arcs that meet below the nose, and a line up to it.
+    vec2 m = p.xy - vec2(0.022, -0.070);
+    float mouth = 0.0032 - (m.y < 0.0 ? abs(length(m) - 0.027) : 1.0);
+    mouth = max(mouth, 0.0028 - max(p.x, abs(p.y + 0.072) - 0.012));
+    vec3 n = (in_head - vec3(0.0, -0.047, -0.268)) / vec3(0.0250, 0.0200, 0.0240);
+    float lines = covered(p.z < -0.14 ? max(corner, mouth) : corner, min(sharp, 330.0));
+    float front = step(p.z, -0.045);
+    float ball = front * covered((1.0 - ring) * 0.031, sharp), tip = covered((1.0 - length(n)) * 0.022, sharp);
+    // Amber that is lit through from below, around a pupil.
+    float iris = 0.6 * clamp(0.55 - 0.6 * e.y, 0.0, 1.0) * clamp(4.5 * ring - 2.3, 0.0, 1.0) * clamp(5.0 - 5.0 * ring, 0.0, 1.0);
+    vec3 drawn = mix(coat, dark, 0.85 * front * lines);
+    drawn = mix(drawn, mix(0.25 * dark, vec3(0.42, 0.15, 0.03), iris), ball);
+    drawn = mix(drawn, 0.4 * dark, tip);
+    gloss = max(ball, tip);
+    // The lamp's images: fixed, as lamps are large and eyes are round; on the same side of both eyes.
+    float side = in_head.x > 0.0 ? 0.009 : -0.009;
+    float glint = covered(0.0092 - length(p.xy - vec2(0.077 - side, 0.029)), sharp);
+    float second = covered(0.0036 - length(p.xy - vec2(0.084 - side, 0.006)), sharp);
+    float wet = covered(0.0055 - length((in_head.xy - vec2(-0.005, -0.036)) * vec2(0.7, 1.4)), min(sharp, 250.0));
+    return mix(drawn, vec3(1.3), max(ball * max(glint, 0.5 * second), 0.8 * tip * wet));
+}
+
+vec3 coat_here(out float gloss)
+{
+    float grain = 0.6 * length(fwidth(place.xyz));
+    float sharp = 1.0 / max(grain, 1e-5);
+    float hair = strands(grain);
+    vec3 coat = mix(orange, brown, clamp(marking.z + 0.10 * hair * (0.4 + marking.z), 0.0, 1.0)) * (1.0 + 0.07 * hair);
+    coat = mix(coat, white * (1.0 + 0.05 * hair), covered(marking.x + TUFT * hair, min(sharp, 250.0)));
+    coat = mix(coat, dark * (1.0 + 0.3 * hair), covered(marking.y + TUFT * hair, min(sharp, 250.0)));
+    return with_face(coat, sharp, gloss);
+}
+#endif
+
+#ifndef FURRED
 // Dark lines on the phase map between each eighth of a turn and the next, so that phases are told apart without hue and in any
 // light. What is in step has none across it. They fade where they would run together, and where next to nothing moves,
 // as phases mean nothing there.
@@ -61,24 +140,37 @@ vec3 with_phase_lines(vec3 color)
     covered *= smoothstep(3.0 * line, 8.0 * line, pixels) * smoothstep(0.05, 0.12, amplitude);
     return color * (1.0 - 0.8 * covered);
 }
+#endif
 
 void main()
 {
     vec3 n = direction(world_normal);
+    vec3 to_eye = normalize(eye - world);
+    float opacity_here = 1.0;
+#ifdef FURRED
+    float gloss;
+    vec3 coat = coat_here(gloss);
+#else
     vec4 surface = vec4(fur, 1.0);
 #ifdef PICTURED
     surface = vec4(fur, opacity) * texture(picture, at);
     if (surface.a < cutoff) discard;
     if (both_sides && !gl_FrontFacing) n = -n;
 #endif
-    vec3 to_eye = normalize(eye - world);
-    float facing = dot(n, to_eye);
-    float key = max((dot(n, key_from) + 0.4) / 1.4, 0.0);
-    float graze = 1.0 - clamp(facing, 0.0, 1.0);
-    float upward = 0.5 + 0.5 * n.y;
-    vec3 light = KEY * key + mix(earth, SKY, upward) * open_sky;
-    // The rim is the sky's: what faces the ground has less of it.
     vec3 coat = line > 0.0 ? with_phase_lines(surface.rgb) : surface.rgb;
-    vec3 linear = coat * light * EXPOSURE + RIM * (0.35 * graze * graze * graze * open_sky * upward);
-    pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), seam > 0.0 ? seam_opacity(to_eye) : surface.a);
+    opacity_here = surface.a;
+#endif
+    float facing = dot(n, to_eye);
+    float graze = 1.0 - clamp(facing, 0.0, 1.0);
+    float graze2 = graze * graze;
+    float key = max((dot(n, key_from) + 0.4) / 1.4, 0.0);
+    float upward = 0.5 + 0.5 * n.y;
+    // What the ground throws back is warm, and strongest near it.
+    vec3 light = KEY * key + mix(earth * (2.0 - open_sky), SKY, upward) * mix(open_sky, 1.0, 0.5 - 0.5 * upward);
+    // The sky's rim is thin and keeps to what faces up: a wider one would turn orange to lilac.
+    vec3 linear = coat * light * EXPOSURE + RIM * (0.26 * graze2 * graze2 * graze2 * open_sky * upward);
+#ifdef FURRED
+    linear += (1.0 - gloss) * coat * light * (0.55 * graze2 * graze); // hair that stands off catches the light
+#endif
+    pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), seam > 0.0 ? seam_opacity(to_eye) : opacity_here);
 }

@@ -2,7 +2,7 @@
 // The animal: its tail follows the joints by linear-blend skinning.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 color;
+layout(location = 2) in vec3 mark; // as in model/coat.h
 layout(location = 3) in float bend;
 uniform mat4 clip_from_world;
 uniform vec3 eye;
@@ -12,8 +12,8 @@ uniform float seam; // metres a pixel at a distance of 1 m in the pass that soft
 layout(std140) uniform Joints { vec4 rows[3 * 257]; };
 out vec3 world;
 out vec3 world_normal;
-out vec3 fur;
-out vec2 phase; // none
+out vec3 marking;
+out vec4 place;   // in bind space, and how much of it is the tail's
 out float open_sky;
 
 // Blends in what the joints do to a point: rows of bind → world, and how the weights' change along the tail moves it.
@@ -58,11 +58,11 @@ void main()
     vec3 cofactors = cross(upward, lengthwise) * normal.x + cross(lengthwise, across) * normal.y +
                      cross(across, upward) * normal.z;
     world_normal = cofactors / max(length(cofactors), 1e-9);
-    fur = color;
-    phase = vec2(0.0);
+    marking = mark;
+    place = vec4(position, bend);
     open_sky = 0.45 + 0.55 * smoothstep(0.0, 0.35 * shape.x, world.y - shape.w);
-    // The seam is the same skin, 1.3 pixels larger (1 is too little where facets are large) and pushed back behind
+    // The seam is the same skin, 1.5 pixels larger (1 is too little where facets are large) and pushed back behind
     // the first pass: only what sticks out is seen.
     vec3 ray = world - eye;
-    gl_Position = clip_from_world * vec4(world + seam * (1.3 * length(ray) * world_normal + 2.5 * ray), 1.0);
+    gl_Position = clip_from_world * vec4(world + seam * (1.5 * length(ray) * world_normal + 2.5 * ray), 1.0);
 }

@@ -108,6 +108,23 @@ static void orbit_and_zoom_stay_in_range(void **state)
     assert_near(camera.distance, 1e-4, 1e-9);
 }
 
+/// However one orbits, pans and zooms.
+static void the_eye_stays_above_the_floor(void **state)
+{
+    (void)state;
+    struct camera camera = camera_default();
+    const float lo[3] = {-1.0f, -0.5f, -1.0f}, hi[3] = {1.0f, 1.0f, 1.0f};
+    camera_fit(&camera, lo, hi, 1.6f);
+    for (int step = 0; step < 60; step++) {
+        float view[16], projection[16], eye[3];
+        if (step % 3 == 0) camera_orbit(&camera, 0.3f, -0.4f);
+        if (step % 3 == 1) camera_pan(&camera, 3.0f, step < 30 ? -20.0f : 10.0f, 400.0f);
+        if (step % 3 == 2) camera_zoom(&camera, step % 2 ? 1.4f : 0.8f);
+        camera_matrices(&camera, 1.6f, view, projection, eye);
+        if (camera.elevation < CAMERA_MAX_ELEVATION) assert_true(eye[1] > lo[1]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -117,6 +134,7 @@ int main(void)
         cmocka_unit_test(a_broken_box_changes_nothing),
         cmocka_unit_test(panning_follows_the_pointer),
         cmocka_unit_test(orbit_and_zoom_stay_in_range),
+        cmocka_unit_test(the_eye_stays_above_the_floor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,6 +55,19 @@ expect 1 "a scene that is not there" "$WIGGLY" solve "$scratch/missing.json"
 says "is named" "missing.json" "$err"
 expect 1 "a folder in place of a scene" "$WIGGLY" check "$scratch"
 
+# --- pins that are not met
+
+cat >"$scratch/pinned.json" <<'EOF'
+{ "frames": [0, 48],
+  "splines": [ { "name": "sway", "frequency": 1, "limits": [-1, 1], "knots": [ { "frame": 0, "value": 0 } ] } ],
+  "rigs": [ { "type": "tail", "name": "tail", "spline": "sway", "pins": [ { "frame": 20, "joint": 23, "to": [0, 9, 0] } ] } ] }
+EOF
+expect 0 "check of a scene with a pin out of reach" "$WIGGLY" check "$scratch/pinned.json"
+says "says how far it stays away" "pinned.json: rigs[0].pins[0]: the point stays 9." "$out"
+says "and that limits are passed over" "pinned.json: splines[0].limits: pins pass over them" "$out"
+expect 0 "solve of it" "$WIGGLY" solve "$scratch/pinned.json"
+says "says so too" "warning: rigs[0].pins[0]: the point stays 9." "$err"
+
 # --- every broken scene: exit status 1, one sentence that names the file and the fault, no crash
 
 if [ -s tests/bad/expected.txt ]; then

@@ -203,8 +203,8 @@ static void read_row(const char *text, struct chords *chords)
         unsigned mods = take_mods(&key);
         if (strcmp(key, "arrows") == 0) {
             for (int k = KEY_LEFT; k <= KEY_DOWN; k++) add(chords, k, mods);
-        } else if (strcmp(key, "1 … 8") == 0) {
-            for (int k = '1'; k <= '8'; k++) add(chords, k, mods);
+        } else if (strcmp(key, "1 … 9") == 0) {
+            for (int k = '1'; k <= '9'; k++) add(chords, k, mods);
         } else if (key_of(key)) {
             add(chords, key_of(key), mods);
             if (!mods) add(chords, key_of(key), before);

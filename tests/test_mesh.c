@@ -1,4 +1,5 @@
 /// The animal's mesh: closed, smooth, within its budget, and one animal where tail and body meet.
+#include "model/coat.h"
 #include "model/creature.h"
 #include "near.h"
 #include <math.h>
@@ -51,7 +52,7 @@ static void the_body_is_closed(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_torso(0.042f, 0.0012f, &mesh);
+    mesh_torso(0.030f, 0.0028f, 3, &mesh);
     assert_false(mesh.failed);
     assert_int_equal(open_edges(&mesh), 0);
     mesh_free(&mesh);
@@ -135,7 +136,7 @@ static void the_body_stands_on_the_ground(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_torso(0.042f, 0.0012f, &mesh);
+    mesh_torso(0.030f, 0.0028f, 3, &mesh);
     float low = INFINITY;
     for (int v = 0; v < mesh.vertex_count; v++) low = fminf(low, mesh.vertices[v].position[1]);
     assert_near(low, -CREATURE_BASE_HEIGHT, 0.02);
@@ -147,7 +148,7 @@ static void tail_and_body_meet_smoothly(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_torso(0.042f, 0.0012f, &mesh);
+    mesh_torso(0.030f, 0.0028f, 3, &mesh);
     int seen = 0;
     for (int v = 0; v < mesh.vertex_count; v++) {
         const struct vertex *vertex = &mesh.vertices[v];
@@ -163,22 +164,46 @@ static void tail_and_body_meet_smoothly(void **state)
     mesh_free(&mesh);
 }
 
-static void the_coat_has_dark_bands_and_a_white_tip(void **state)
+/// From the root it swells to about twice as much, and its pointed tip is white.
+static void the_brush_swells_and_ends_white(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
     mesh_tail(100, 40, &mesh);
-    int bands = 0;
-    bool in_band = false;
+    float thickest = 0.0f, at = 0.0f;
+    int edges = 0;
     for (int ring = 0; ring < 100; ring++) {
         const struct vertex *top = &mesh.vertices[ring * 40 + 10];
-        const bool dark = top->color[0] < 0.3f;
-        bands += dark && !in_band;
-        in_band = dark;
+        if (top->position[1] > thickest) at = top->position[2];
+        thickest = fmaxf(thickest, top->position[1]);
+        edges += ring > 0 && (top->mark[MARK_WHITE] > 0) != (top[-40].mark[MARK_WHITE] > 0);
     }
-    assert_int_equal(bands, 4);
+    assert_near(thickest / CREATURE_TAIL_RADIUS, 2.0, 0.1);
+    assert_true(at > 0.5f * CREATURE_TAIL_LENGTH && at < 0.75f * CREATURE_TAIL_LENGTH);
+    assert_int_equal(edges, 1);
     const struct vertex *tip = &mesh.vertices[mesh.vertex_count - 1];
     assert_true(tip->color[0] > 0.8f && tip->color[2] > 0.75f);
+    mesh_free(&mesh);
+}
+
+/// The stage draws eyes and nose in the head's own space, from the front.
+static void the_face_looks_where_the_stage_draws_it(void **state)
+{
+    (void)state;
+    struct mesh mesh = {0};
+    float m[16];
+    int nose = 0, eyes[2] = {0, 0};
+    creature_head_from_bind(m);
+    mesh_creature(0, &mesh);
+    for (int v = 0; v < mesh.vertex_count; v++) {
+        const float *p = mesh.vertices[v].position;
+        float q[3];
+        for (int k = 0; k < 3; k++) q[k] = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
+        if (mesh.vertices[v].color[0] > 0.1f || q[2] > -0.04f) continue;
+        nose += fabsf(q[0]) < 0.02f && fabsf(q[1] + 0.05f) < 0.03f && q[2] < -0.25f;
+        eyes[q[0] > 0] += fabsf(fabsf(q[0]) - 0.076f) < 0.03f && fabsf(q[1] - 0.016f) < 0.035f;
+    }
+    assert_true(nose > 3 && eyes[0] > 3 && eyes[1] > 3);
     mesh_free(&mesh);
 }
 
@@ -192,7 +217,8 @@ int main(void)
         cmocka_unit_test(the_stage_stays_within_its_triangles),
         cmocka_unit_test(the_body_stands_on_the_ground),
         cmocka_unit_test(tail_and_body_meet_smoothly),
-        cmocka_unit_test(the_coat_has_dark_bands_and_a_white_tip),
+        cmocka_unit_test(the_brush_swells_and_ends_white),
+        cmocka_unit_test(the_face_looks_where_the_stage_draws_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

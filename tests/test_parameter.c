@@ -12,9 +12,11 @@
 
 static const char scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 240], \"splines\": ["
-    "{\"name\": \"a\", \"frequency\": 1.1, \"damping\": 0.1, \"calm\": 0.5, \"knots\": ["
+    "{\"name\": \"a\", \"frequency\": 1.1, \"damping\": 0.1, \"calm\": 0.5, \"variation\": {\"seed\": 4, \"amount\": "
+    "0.2}, \"knots\": ["
     "{\"frame\": 8, \"value\": 1}, {\"frame\": 40, \"value\": 0, \"slope\": 1}, {\"frame\": 90, \"value\": 2}]},"
-    "{\"name\": \"b\", \"mode\": \"real\", \"spring\": 40, \"friction\": 1, \"knots\": ["
+    "{\"name\": \"b\", \"mode\": \"real\", \"spring\": 40, \"friction\": 1, \"variation\": {\"amount\": 0.2}, "
+    "\"knots\": ["
     "{\"frame\": 8, \"value\": 1}, {\"frame\": 40, \"value\": 0, \"slope\": 1}]},"
     "{\"name\": \"c\", \"mode\": \"cubic\", \"start\": \"rest\", \"knots\": ["
     "{\"frame\": 8, \"value\": 0.4}, {\"frame\": 40, \"value\": 0.5}]}]}";
@@ -22,6 +24,7 @@ static const char scene[] =
 static enum desc_kind kind_in_desc(enum parameter_kind kind)
 {
     if (kind == PARAMETER_CHOICE) return DESC_CHOICE;
+    if (kind == PARAMETER_WHOLE) return DESC_COUNT;
     return kind == PARAMETER_TRACK ? DESC_PARAM : DESC_NUMBER;
 }
 
@@ -57,7 +60,10 @@ static void every_row_is_whole(void **state)
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         const struct parameter_row *row = &parameter_rows[p];
         assert_true(row->name && row->hint && row->undo && row->modes);
-        const enum parameter first = p == PARAMETER_HIGH ? PARAMETER_LOW : p; // one member of the file
+        const enum parameter first = // one member of the file for two
+            p == PARAMETER_HIGH   ? PARAMETER_LOW
+            : p == PARAMETER_SEED ? PARAMETER_VARIATION
+                                  : p;
         assert_int_equal(parameter_find(parameter_key(p)), first);
         assert_true(row->standard >= row->minimum && row->standard <= row->maximum);
         assert_true(row->fresh >= row->minimum && row->fresh <= row->maximum);
@@ -109,6 +115,7 @@ static double another(const struct spline *spline, enum parameter p)
         if (p == PARAMETER_HIGH) edge = fmax(edge, knot + 0.001);
     }
     if (parameter_rows[p].kind == PARAMETER_LIMIT) return edge;
+    if (parameter_rows[p].kind == PARAMETER_WHOLE) return value + 1;
     return value > 0 ? 0.75 * value : 0.25;
 }
 

@@ -34,6 +34,13 @@ expect 0 "the full session plays" play tests/replays/full.replay tests/replays/f
 [ "$(wasteful "$scratch/full.csv")" -eq 0 ]
 ok "nor does one with everything shown" $?
 
+# A hand of the creature goes round at its frame, the other one's pin goes to another frame.
+expect 0 "pins are dragged" play tests/replays/pins.replay assets/scenes/hands.json pins --scale 0.5
+[ "$(wasteful "$scratch/pins.csv")" -eq 0 ]
+ok "which allocates only where it edits" $?
+grep -q '"frame": 84, "vertex": 8082' "$scratch/pins.json"
+ok "and moves a pin in time" $?
+
 expect 0 "what was recorded plays" play "$scratch/recorded.replay" $scene second --scale 0.5
 cmp "$scratch/second.json" tests/replays/session.result.json
 ok "to the same document" $?

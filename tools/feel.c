@@ -1,16 +1,16 @@
 /// What an animator feels, as a table: how far the curve moves when a knot moves by one frame, how far it overshoots, before and after the
-/// last knot, and Figure 4; of the paper's filter, the oscillator, a mean of neighbouring frequencies ("steady"), limits and the cubic.
-#include "spline/limits.h"
+/// last knot, and Figure 4; of the paper's filter, the oscillator, steady splines, limits and the cubic.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <wiggly/wiggly.h>
 
-enum { SAMPLES = 121, MOST_KNOTS = 6, SETTINGS = 10, LAYOUTS = 200, RUNS = SETTINGS * LAYOUTS, PARTS = 5 };
+enum { SAMPLES = 121, MOST_KNOTS = 6, SETTINGS = 10, LAYOUTS = 200, RUNS = SETTINGS * LAYOUTS };
 enum way { FILTER, OSCILLATOR, STEADY, LIMITED, STEADY_LIMITED, CUBIC, WAYS };
 
 static const char *const names[] = {"filter", "oscillator", "steady", "limits", "steady+limits", "cubic"};
-static const double spread = 0.1, power = 2, limit = 1.15, nowhere = 1e-300;
+static const double limit = 1.15;
 
 struct layout {
     wiggly_desc desc;
@@ -59,51 +59,8 @@ static int last_knot(const struct layout *l)
 }
 
 struct arrays {
-    double total[256], re[256], im[256];
+    double total[256];
 };
-
-static wiggly_curve solve(wiggly_solver *solver, const wiggly_desc *desc, struct arrays *out)
-{
-    wiggly_curve curve = {.total = out->total, .re = out->re, .im = out->im};
-    wiggly_status status = wiggly_solve(solver, desc, &curve);
-    if (status >= WIGGLY_ERROR_ARGUMENT) fprintf(stderr, "%s\n", wiggly_status_text(status));
-    return curve;
-}
-
-/// E at the solution, which is quadratic in the knots: half the sum of their values times their pulls, and that is twice −½ ∂E.
-static double energy(wiggly_solver *solver, const wiggly_desc *desc, const wiggly_curve *curve)
-{
-    double y[256], sum = 0;
-    problem p;
-    if (problem_pose(solver, desc, y, &p) != WIGGLY_OK) return 1;
-    problem_set_rows(solver, &p);
-    for (int k = 0; k < desc->knot_count; k++) {
-        const wiggly_knot *knot = &desc->knots[k];
-        sum -= knot->value *
-               limits_pull(&solver->rows, curve->re + p.first, curve->im + p.first, knot->sample - p.first);
-    }
-    return fmax(sum, 0) / p.unit;
-}
-
-/// The mean of the solutions at frequencies within the spread, by E to a negative power.
-static void solve_steady(wiggly_solver *solver, const struct layout *l, struct arrays *out)
-{
-    const int n = l->desc.samples;
-    double weights = 0;
-    struct arrays one;
-    memset(out, 0, sizeof *out);
-    for (int part = 0; part < PARTS; part++) {
-        wiggly_desc desc = l->desc;
-        desc.knots = l->knots;
-        desc.frequency.value *= 1 + spread * (2.0 * part / (PARTS - 1) - 1);
-        wiggly_curve curve = solve(solver, &desc, &one);
-        double weight = pow(energy(solver, &desc, &curve) + nowhere, -power);
-        weights += weight;
-        for (int i = 0; i < n; i++) out->re[i] += weight * one.re[i], out->im[i] += weight * one.im[i];
-    }
-    for (int i = 0; i < n; i++) out->re[i] /= weights, out->im[i] /= weights;
-    memcpy(out->total, out->re, sizeof out->re);
-}
 
 static void solve_way(wiggly_solver *solver, const struct layout *l, enum way way, struct arrays *out)
 {
@@ -112,11 +69,10 @@ static void solve_way(wiggly_solver *solver, const struct layout *l, enum way wa
     if (way == FILTER) own.desc.passive = WIGGLY_FILTER;
     if (way == CUBIC) own.desc.mode = WIGGLY_CUBIC;
     if (way == LIMITED || way == STEADY_LIMITED) own.desc.high = limit * l->largest, own.desc.low = -own.desc.high;
-    if (way == STEADY || way == STEADY_LIMITED) {
-        solve_steady(solver, &own, out);
-    } else {
-        solve(solver, &own.desc, out);
-    }
+    if (way == STEADY || way == STEADY_LIMITED) own.desc.steady = 1;
+    wiggly_curve curve = {.total = out->total};
+    wiggly_status status = wiggly_solve(solver, &own.desc, &curve);
+    if (status >= WIGGLY_ERROR_ARGUMENT) fprintf(stderr, "%s\n", wiggly_status_text(status));
 }
 
 static int compare(const void *a, const void *b)

@@ -33,7 +33,7 @@ typedef enum wiggly_status {
     WIGGLY_SINGULAR,       ///< singular whatever was tried: knots joined by straight lines
     WIGGLY_ERROR_ARGUMENT, ///< a pointer is missing or a count is out of range
     WIGGLY_ERROR_CAPACITY, ///< more samples or knots than the solver was created for
-    WIGGLY_ERROR_NUMBER, ///< a number is NaN or infinite, a value beyond 1e300, a stiffness not above 0, or calm outside 0 … 1
+    WIGGLY_ERROR_NUMBER, ///< a number is NaN or infinite, a value beyond 1e300, a stiffness not above 0, or calm or steady outside 0 … 1
     WIGGLY_ERROR_KNOT,   ///< two knots on one sample, or a knot outside the domain (a loop's last sample is outside)
     WIGGLY_ERROR_LOOP,   ///< a loop of one sample
     WIGGLY_ERROR_SPRING, ///< spring and friction in complex mode
@@ -97,6 +97,9 @@ typedef struct wiggly_desc {
     double calm;              ///< 0 … 1; 0 is the paper's formula to the letter
     wiggly_passive passive;   ///< the oscillator, unless it says the filter
     double low, high; ///< what the total stays within wherever it is solved for; -INFINITY and INFINITY: no limit
+    double steady; ///< 0 … 1: how little the curve changes when a knot moves; 1 gives up to 15 % of the frequency
+    double variation;   ///< how far another motion through the same knots strays (docs/mathematics.md); 0: not at all
+    int variation_seed; ///< which one
     const wiggly_knot *knots; ///< any order
     int knot_count;
 } wiggly_desc;
@@ -180,8 +183,8 @@ void wiggly_batch_destroy(wiggly_batch *batch);
 typedef struct wiggly_take wiggly_take;
 
 /// Condenses a spline; the description's knots are copied and must be in order. WIGGLY_ERROR_ARGUMENT where it is not of that
-/// kind (tracks, a loop, limits, so slow a complex spline that Im x is not held by its oscillation, fewer than two knots), else what
-/// wiggly_solve() says of a wrong description.
+/// kind (tracks, a loop, limits, steady, a variation, so slow a complex spline that Im x is not held by its oscillation, fewer than
+/// two knots), else what wiggly_solve() says of a wrong description.
 wiggly_status wiggly_take_create(const wiggly_desc *desc, wiggly_take **take);
 
 /// Bytes that wiggly_take_create_at() needs, or 0 where samples < 1 or knots < 1 or the size does not fit.
@@ -238,7 +241,7 @@ wiggly_status wiggly_group_create(int samples, int knots, int splines, int pins,
 /// Solves all splines so that Σ weights[s] times the energy of spline s is least, through their knots and the pins; allocates nothing.
 /// A pin counts as a knot for where each spline that moves it starts and ends. Places that the splines can hardly move to are met in
 /// part, and `left` says what is missing. Weights are positive: they make the energies comparable (the mean of |c|² over what a spline
-/// moves serves). The limits of a spline that a pin moves are passed over. Returns the largest status; WIGGLY_ERROR_PIN for a pin outside a spline's samples (a loop's last one is outside), or on
+/// moves serves). The limits of a spline that a pin moves are passed over, and so is steady. Returns the largest status; WIGGLY_ERROR_PIN for a pin outside a spline's samples (a loop's last one is outside), or on
 /// a spline that is cubic, of calm 0 or of frequency 0 from its first knot or pin to the last.
 wiggly_status wiggly_group_solve(wiggly_group *group, const wiggly_desc *descs, const double *weights,
                                  wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count);
@@ -271,6 +274,21 @@ typedef struct wiggly_poles {
 
 /// Poles of the description at a sample (section 4 and 5 of the paper).
 wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample);
+
+/// An oscillation that knots may be of.
+typedef struct wiggly_explanation {
+    double frequency, damping;
+    double cost; ///< the lower the better; a difference of 1 is e times less likely
+} wiggly_explanation;
+
+/// Knots from which a frequency can be told.
+#define WIGGLY_FEWEST_EXPLAINED 4
+
+/// The frequency and damping that explain the description's knots best, and the runner-up: how many were found, 0 … 2 (0: too few
+/// knots, or all of them at the equilibrium). Of real mode as such, of the others as complex mode without bandwidth. Frequencies
+/// go from half a swing over all knots to a little above half a swing over the smallest gap; of more than 48 knots the first ones
+/// count. Allocates nothing.
+int wiggly_explain(const wiggly_desc *desc, wiggly_explanation best[2]);
 
 #ifdef __cplusplus
 }

@@ -97,19 +97,26 @@ bool app_open(struct app *app, const char *path, struct error *error)
     return true;
 }
 
-enum { DOG = 8 }; ///< follows the paper's seven figures
+/// What follows the paper's seven figures.
+enum { FIGURES = 7, OTHERS = 3 };
+static const struct {
+    const char *name, *undo;
+} others[OTHERS] = {
+    {"dog.json", "Open the dog"}, {"hands.json", "Open the hands"}, {"meadow.json", "Open the meadow"}};
 
-/// Opens a figure of the paper, or the dog, in place of the document: undo brings the document back, with its file.
+/// Opens a figure of the paper, the dog, the hands or the meadow in place of the document: undo brings the document back, with its file.
 static bool open_figure(struct app *app, int number, struct error *error)
 {
-    char name[32] = "dog.json";
-    if (number != DOG) snprintf(name, sizeof name, "figure%d.json", number);
+    const int other = number - FIGURES - 1;
+    char name[32];
+    snprintf(name, sizeof name, "figure%d.json", number);
+    if (other >= 0 && other < OTHERS) snprintf(name, sizeof name, "%s", others[other].name);
     struct edit edit = {.kind = EDIT_DOCUMENT, .document = parse_built_in(name, error)};
     if (!edit.document) return false;
     edit.document->serial = ++app->last_serial;
     struct editor_world world = table_world(&app->table);
     editor_let_go(app->table.editor, &world); // a drag may have begun since the request
-    history_begin(app->table.history, number == DOG ? "Open the dog" : "Open a figure", 0);
+    history_begin(app->table.history, other >= 0 ? others[other].undo : "Open a figure", 0);
     bool done = history_apply(app->table.history, app->table.document, &edit, error);
     history_end(app->table.history);
     editor_refresh(app->table.editor, &world);

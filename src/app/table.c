@@ -2,6 +2,7 @@
 #include "app/table.h"
 #include "base/clock.h"
 #include "rig/clip_motion.h"
+#include "rig/pinning.h"
 #include "scene/background.h"
 #include "scene/load.h"
 #include <stdlib.h>
@@ -58,6 +59,7 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
     row->solver = evaluation_solver(method);
     if (!resized && !row->edited && same_way && !moved && !threaded && !evaluation->stale) return true;
     table->evaluation.method = method;
+    table->evaluation.pins = pin_points(table->models);
     evaluate(table, resized, cubic, threaded);
     row->splines_solved = evaluation->solved_splines;
     row->samples = evaluation->solved_samples;
@@ -82,7 +84,6 @@ static void read_models(struct table *table)
 static void show(struct table *table, const struct table_hooks *hooks)
 {
     struct editor_world world = table_world(table);
-    if (table->models) models_paint(table->models, table->document);
     editor_pose(table->editor, &world);
     if (hooks->posed) hooks->posed(hooks->user);
     editor_show(table->editor, &world);
@@ -95,8 +96,11 @@ bool table_frame(struct table *table, double dt, const struct table_hooks *hooks
     advance(table, dt, hooks);
     row->edit_us = since(start);
     read_models(table);
+    if (table->models) models_paint(table->models, table->document);
     start = clock_now();
     if (!solve(table, row, error)) return false;
+    if (table->models && !models_grow(table->models, table->document, &table->evaluation))
+        editor_message(table->editor, true, "There is not enough memory for the meadow.");
     row->solve_us = since(start);
     start = clock_now();
     show(table, hooks);

@@ -3,7 +3,9 @@
 #include "commands/commands.h"
 #include "commands/contents.h"
 #include "commands/options.h"
+#include "commands/pin_warnings.h"
 #include "rig/clip_motion.h"
+#include "rig/pinning.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
 #include "scene/motion.h"
@@ -30,6 +32,21 @@ static void print_warning(struct problems *problems, const char *path, const str
     problems->report(problems->user, false, warning.text);
 }
 
+/// Where problems are reported, and of which file.
+struct checked {
+    struct problems *problems;
+    const char *path;
+};
+
+static void warn_of_pin(void *user, const char *sentence)
+{
+    const struct checked *checked = user;
+    struct error warning;
+    fail(&warning, ERROR_INPUT, "%s: %s", checked->path, sentence);
+    checked->problems->warnings++;
+    checked->problems->report(checked->problems->user, false, warning.text);
+}
+
 /// A loop's last sample is its first, so an equilibrium that ends elsewhere jumps there.
 static bool jumps(const struct document *document, const struct evaluation *evaluation, int index)
 {
@@ -48,7 +65,7 @@ static bool check_solution(const char *path, const struct document *document, st
                            struct problems *problems, struct error *error)
 {
     const struct motion_source motions = clip_motions(models);
-    struct evaluation evaluation = {0};
+    struct evaluation evaluation = {.pins = pin_points(models)};
     if ((long long)document_samples(document) * document->spline_count > MAX_SOLVED_SAMPLES) return true;
     if (!evaluation_resize(&evaluation, document, error)) return false;
     motions_bake(&evaluation, document, &motions);
@@ -61,6 +78,7 @@ static bool check_solution(const char *path, const struct document *document, st
             print_warning(problems, path, document, i, wiggly_status_text(evaluation.status[i]));
         }
     }
+    pin_warnings(document, &evaluation, warn_of_pin, &(struct checked){problems, path});
     evaluation_free(&evaluation);
     return true;
 }

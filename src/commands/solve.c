@@ -2,6 +2,7 @@
 #include "base/file.h"
 #include "commands/commands.h"
 #include "commands/options.h"
+#include "commands/pin_warnings.h"
 #include "rig/opened.h"
 #include "scene/evaluate.h"
 #include "scene/number.h"
@@ -78,6 +79,12 @@ static void warn_statuses(const char *path, const struct document *document, con
     }
 }
 
+static void warn_of_pin(void *user, const char *sentence)
+{
+    const char *const *scene = user;
+    fprintf(stderr, "%s: warning: %s\n", *scene, sentence);
+}
+
 static bool solve(const char *scene, wiggly_method method, const char *out, struct error *error)
 {
     struct opened opened;
@@ -85,6 +92,7 @@ static bool solve(const char *scene, wiggly_method method, const char *out, stru
     bool done = opened_solve(&opened, method, error);
     if (done) {
         warn_statuses(scene, opened.document, &opened.evaluation);
+        pin_warnings(opened.document, &opened.evaluation, warn_of_pin, &scene);
         done = write_output(out, opened.document, &opened.evaluation, error);
     }
     opened_free(&opened);

@@ -1,7 +1,7 @@
 /// The painters, and the camera and light that they share.
 #include "draw/painter.h"
 
-const struct painter *const painters[PAINTERS] = {&tail_painter, &character_painter, &model_painter};
+const struct painter *const painters[PAINTERS] = {&tail_painter, &character_painter, &model_painter, &meadow_painter};
 
 struct painter_uniforms painter_find_uniforms(GLuint program)
 {

@@ -64,7 +64,7 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
     glViewport(x, y, width, height);
     glDisable(GL_DEPTH_TEST);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-    stage_flat_draw(renderer->flat);
+    stage_flat_draw(renderer->flat, y, height);
     begin_rigs();
     draw_rigs(renderer, view, scale, 0.0f);
     // Edges without multisampling: a second skin, a pixel larger, fades out from the silhouettes over

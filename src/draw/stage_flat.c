@@ -11,7 +11,11 @@
 // Of figures between these sizes, metres, the ground is always the same; others have as much of it as the largest and the smallest of them.
 static const float SMALL = 0.2f, LARGE = 5.0f;
 
-enum { CORNERS = 6, MAX_QUADS = 2 + STAGE_MAX_BLOBS };
+enum {
+    CORNERS = 6,
+    SCENERY = 2, ///< quads of background and ground, which come first
+    MAX_QUADS = SCENERY + STAGE_MAX_BLOBS,
+};
 
 struct corner {
     float clip[4];
@@ -21,6 +25,10 @@ struct corner {
 
 struct stage_flat {
     GLuint program, vertex_array, vertices;
+    struct {
+        GLint top, bottom, rows, shadow;
+    } at;
+    struct stage_colors colors;
     int quads;
     struct corner corners[MAX_QUADS * CORNERS];
 };
@@ -40,6 +48,10 @@ struct stage_flat *stage_flat_create(struct error *error)
         free(flat);
         return NULL;
     }
+    flat->at.top = glGetUniformLocation(flat->program, "top");
+    flat->at.bottom = glGetUniformLocation(flat->program, "bottom");
+    flat->at.rows = glGetUniformLocation(flat->program, "rows");
+    flat->at.shadow = glGetUniformLocation(flat->program, "shadow");
     glGenVertexArrays(1, &flat->vertex_array);
     glBindVertexArray(flat->vertex_array);
     glGenBuffers(1, &flat->vertices);
@@ -89,12 +101,10 @@ static void set_color(struct corner *corner, uint32_t color, float opacity)
     corner->color[3] = opacity;
 }
 
-static void add_background(struct stage_flat *flat, const struct stage_colors *colors)
+static void add_background(struct stage_flat *flat)
 {
     for (int c = 0; c < CORNERS; c++) {
-        struct corner *corner = &flat->corners[flat->quads * CORNERS + c];
-        *corner = (struct corner){.clip = {square[c][0], square[c][1], 0.0f, 1.0f}};
-        set_color(corner, square[c][1] > 0.0f ? colors->top : colors->bottom, 1.0f);
+        flat->corners[flat->quads * CORNERS + c] = (struct corner){.clip = {square[c][0], square[c][1], 0.0f, 1.0f}};
     }
     flat->quads++;
 }
@@ -119,7 +129,8 @@ long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view)
     const float ground = stage_lowest_ground(view);
     const mat4s clip_from_world = stage_clip_from_world(view);
     flat->quads = 0;
-    add_background(flat, &view->colors);
+    flat->colors = view->colors;
+    add_background(flat);
     add_disc(flat, clip_from_world, view->middle[0], ground, view->middle[1], ground_radius(view),
              view->colors.ground, 1.0f);
     for (int b = 0; b < view->blob_count; b++) {
@@ -132,14 +143,26 @@ long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view)
     return bytes;
 }
 
-void stage_flat_draw(const struct stage_flat *flat)
+static void set_srgb(GLint location, uint32_t color)
+{
+    struct corner corner;
+    set_color(&corner, color, 1.0f);
+    glUniform3fv(location, 1, corner.color);
+}
+
+void stage_flat_draw(const struct stage_flat *flat, int y, int height)
 {
     glUseProgram(flat->program);
+    set_srgb(flat->at.top, flat->colors.top);
+    set_srgb(flat->at.bottom, flat->colors.bottom);
+    glUniform2f(flat->at.rows, (float)y, 1.0f / (float)height);
+    glUniform1i(flat->at.shadow, false);
     glBindVertexArray(flat->vertex_array);
     glDisable(GL_BLEND);
-    glDrawArrays(GL_TRIANGLES, 0, CORNERS);
+    glDrawArrays(GL_TRIANGLES, 0, SCENERY * CORNERS);
+    glUniform1i(flat->at.shadow, true);
     glEnable(GL_BLEND);
-    glDrawArrays(GL_TRIANGLES, CORNERS, (flat->quads - 1) * CORNERS);
+    glDrawArrays(GL_TRIANGLES, SCENERY * CORNERS, (flat->quads - SCENERY) * CORNERS);
     glDisable(GL_BLEND);
     glBindVertexArray(0);
 }

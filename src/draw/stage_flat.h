@@ -14,7 +14,7 @@ void stage_flat_destroy(struct stage_flat *flat);
 /// Makes this frame's quads and uploads them; returns how many bytes that were.
 long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view);
 
-/// Covers the viewport, with the caller's blend function. Leaves blending off.
-void stage_flat_draw(const struct stage_flat *flat);
+/// Covers the viewport, whose lowest row is `y`, with the caller's blend function. Leaves blending off.
+void stage_flat_draw(const struct stage_flat *flat, int y, int height);
 
 #endif

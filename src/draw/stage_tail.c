@@ -1,6 +1,7 @@
 /// Draws tails and their animals, skinned.
 #include "draw/painter.h"
 #include "draw/stage_extent.h"
+#include "model/coat.h"
 #include "model/creature.h"
 #include "model/tail_skin.h"
 #include <math.h>
@@ -54,7 +55,7 @@ static bool model_create(struct model *model, int level, struct error *error)
                  GL_STATIC_DRAW);
     attribute(0, 3, offsetof(struct vertex, position));
     attribute(1, 3, offsetof(struct vertex, normal));
-    attribute(2, 3, offsetof(struct vertex, color));
+    attribute(2, 3, offsetof(struct vertex, mark));
     attribute(3, 1, offsetof(struct vertex, bend));
     glBindVertexArray(0);
     mesh_free(&mesh);
@@ -68,12 +69,30 @@ static void model_destroy(struct model *model)
     glDeleteBuffers(1, &model->indices);
 }
 
+/// What of the coat never changes.
+static void set_coat(GLuint program)
+{
+    static const struct {
+        const char *name;
+        uint32_t color;
+    } colors[] = {{"orange", COAT_FUR}, {"brown", COAT_BAND}, {"white", COAT_TIP}, {"dark", COAT_DARK}};
+    float matrix[16], linear[3];
+    creature_head_from_bind(matrix);
+    glUseProgram(program);
+    glUniformMatrix4fv(glGetUniformLocation(program, "head_from_bind"), 1, GL_FALSE, matrix);
+    for (size_t i = 0; i < sizeof colors / sizeof *colors; i++) {
+        coat_linear(colors[i].color, linear);
+        glUniform3fv(glGetUniformLocation(program, colors[i].name), 1, linear);
+    }
+}
+
 static bool program_create(struct animals *painter, struct error *error)
 {
-    painter->program = gl_program("stage_mesh.vert", "stage_mesh.frag", NULL, error);
+    painter->program = gl_program("stage_mesh.vert", "stage_mesh.frag", "FURRED", error);
     if (!painter->program) return false;
     painter->shape = glGetUniformLocation(painter->program, "shape");
     painter->shared = painter_find_uniforms(painter->program);
+    set_coat(painter->program);
     glUniformBlockBinding(painter->program, glGetUniformBlockIndex(painter->program, "Joints"), JOINT_BINDING);
     glGenBuffers(1, &painter->joints);
     glBindBuffer(GL_UNIFORM_BUFFER, painter->joints);
@@ -155,7 +174,7 @@ static void add_pose(struct extent *extent, const struct pose *pose)
 {
     float lo[3], hi[3];
     const float length = pose_length(pose), segment = length / (float)(pose->count - 1);
-    const float reach = hypotf(2.5f * segment, CREATURE_TAIL_RADIUS * length / CREATURE_TAIL_LENGTH);
+    const float reach = hypotf(2.5f * segment, CREATURE_BRUSH_RADIUS * length / CREATURE_TAIL_LENGTH);
     pose_bounds(pose, lo, hi);
     extent_add_box(extent, lo, hi);
     for (int n = 0; n < pose->count; n++) {

@@ -271,7 +271,7 @@ static void run_panel(struct editor *editor, const struct editor_world *world, i
     editor_set_panels(editor, share, width);
 }
 
-enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT, ALT_SHIFT = MOD_ALT | MOD_SHIFT };
+enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT };
 
 const struct binding key_bindings[] = {
     {.key = 'Z', .mods = MOD_CTRL, .repeats = true, .core = core_undo, .argument = -1},
@@ -292,6 +292,7 @@ const struct binding key_bindings[] = {
     {.key = '7', .mods = MOD_CTRL, .run = run_figure, .argument = 7},
     {.key = '8', .mods = MOD_CTRL, .run = run_figure, .argument = 8},
     {.key = '9', .mods = MOD_CTRL, .run = run_figure, .argument = 9},
+    {.key = '0', .mods = MOD_CTRL, .run = run_figure, .argument = 10},
     {.key = KEY_F10, .any_time = true, .run = run_theme},
     {.key = KEY_F11, .any_time = true, .run = run_request, .argument = REQUEST_FULLSCREEN},
     {.key = KEY_F12, .any_time = true, .run = run_request, .argument = REQUEST_SCREENSHOT},
@@ -318,6 +319,7 @@ const struct binding key_bindings[] = {
     {.key = 'E', .mods = MOD_SHIFT, .repeats = true, .core = slopes_stiffen, .argument = 1},
     {.key = 'M', .core = core_cycle_choice, .argument = PARAMETER_MODE},
     {.key = 'M', .mods = MOD_SHIFT, .core = core_cycle_choice, .argument = PARAMETER_PASSIVE},
+    {.key = 'F', .mods = MOD_SHIFT, .core = core_find_frequency},
     {.key = KEY_F2, .run = run_rename},
     {.key = 'S', .run = run_scale},
     {.key = 'N', .run = run_normalise},
@@ -363,8 +365,6 @@ const struct binding key_bindings[] = {
     {.key = 'H', .run = run_hold},
     {.key = KEY_PAGE_UP, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = -1},
     {.key = KEY_PAGE_DOWN, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = 1},
-    {.key = KEY_PAGE_UP, .mods = ALT_SHIFT, .repeats = true, .core = pins_retime, .argument = -10},
-    {.key = KEY_PAGE_DOWN, .mods = ALT_SHIFT, .repeats = true, .core = pins_retime, .argument = 10},
     {.key = 'J', .core = bones_make_chain, .argument = false},
     {.key = 'J', .mods = MOD_SHIFT, .core = bones_make_chain, .argument = true},
     {.key = 0},

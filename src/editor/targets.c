@@ -188,6 +188,40 @@ static bool find_character(struct place *place, struct error *error)
            fail(error, ERROR_INPUT, "there is no character \"%s\" to be seen", place->target->name);
 }
 
+/// The n-th pin of a rig, in the order of frames.
+static const struct pin *pin_named(const struct place *place, struct error *error)
+{
+    const struct document *document = place->world->document;
+    const double n = place->target->number[0];
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = &document->rigs[r];
+        if (strcmp(rig_title(rig), place->target->name) == 0 && n >= 0 && n < rig->pin_count)
+            return &rig->pins[(int)n];
+    }
+    fail(error, ERROR_INPUT, "there is no pin %g of \"%s\"", n, place->target->name);
+    return NULL;
+}
+
+/// The marker of a pin on the stage: pin(tail,0).
+static bool find_pin(struct place *place, struct error *error)
+{
+    const struct pin *pin = pin_named(place, error);
+    if (!pin) return false;
+    return stage_pin_point(place->editor->stage, &place->editor->core, pin->id, place->xy) ||
+           fail(error, ERROR_INPUT, "that pin of \"%s\" is not in sight", place->target->name);
+}
+
+/// Its mark on the ruler: pintime(tail,0).
+static bool find_pin_time(struct place *place, struct error *error)
+{
+    const struct editor *editor = place->editor;
+    const struct pin *pin = pin_named(place, error);
+    if (!pin) return false;
+    return curves_pin_point(editor->curves, &editor->core, place->world->document, pin, place->xy) ||
+           fail(error, ERROR_INPUT, "that pin of \"%s\" is not on the visible part of the ruler",
+                place->target->name);
+}
+
 static bool find_divider(struct place *place, struct error *error)
 {
     const struct layout *l = &place->editor->core.layout;
@@ -225,6 +259,8 @@ static const struct target_kind {
     {.kind = "bone", .named = true, .numbers = 0, .find = find_bone},
     {.kind = "body", .named = true, .numbers = 0, .find = find_body},
     {.kind = "character", .named = true, .numbers = 2, .find = find_character},
+    {.kind = "pin", .named = true, .numbers = 1, .find = find_pin},
+    {.kind = "pintime", .named = true, .numbers = 1, .find = find_pin_time},
     {.kind = "divider", .named = true, .numbers = 0, .find = find_divider},
     {.kind = "slider", .named = true, .numbers = 0, .find = find_widget},
     {.kind = "widget", .named = true, .numbers = 0, .find = find_widget},

@@ -4,10 +4,8 @@
 #include <string.h>
 
 static const struct form_kind *const kinds[RIG_KINDS] = {
-    [RIG_TAIL] = &tail_form,
-    [RIG_CHARACTER] = &character_form,
-    [RIG_MODEL] = &model_form,
-    [RIG_CHAIN] = &chain_form,
+    [RIG_TAIL] = &tail_form,   [RIG_CHARACTER] = &character_form,           [RIG_MODEL] = &model_form,
+    [RIG_CHAIN] = &chain_form, [RIG_MEADOW] = &(const struct form_kind){0}, // nothing holds one
 };
 
 const struct form_kind *form_kind(enum rig_kind kind) { return kinds[kind]; }

@@ -1,9 +1,10 @@
-/// Colours the fox by where on its skin a point is.
+/// Colours of the fox's coat.
 #include "model/coat.h"
 #include "base/srgb.h"
 #include "model/creature.h"
 #include "model/vector.h"
-#include <math.h>
+
+#define EDGE 0.025f /* metres: half the width of a marking's edge; a narrower one costs triangles */
 
 void coat_linear(uint32_t srgb, float rgb[3])
 {
@@ -17,15 +18,18 @@ void coat_mix(float rgb[3], uint32_t to, float amount)
     glm_vec3_lerp(rgb, other, amount, rgb);
 }
 
-void coat_tail(float z, float up, float rgb[3])
+void coat_marked(const float mark[MARKS], float rgb[3])
 {
-    static const float band_middle[] = {0.23f, 0.40f, 0.56f, 0.71f};
-    const float u = z / CREATURE_TAIL_LENGTH;
     coat_linear(COAT_FUR, rgb);
-    coat_mix(rgb, COAT_BELLY, glm_smoothstep(-0.15f, -0.75f, up));
-    for (int b = 0; b < 4; b++) {
-        const float across = glm_smoothstep(0.042f, 0.018f, fabsf(u - band_middle[b]));
-        coat_mix(rgb, COAT_BAND, across * (0.35f + 0.65f * glm_smoothstep(-0.9f, -0.1f, up)));
-    }
-    coat_mix(rgb, COAT_TIP, glm_smoothstep(0.80f, 0.86f, u));
+    coat_mix(rgb, COAT_BAND, mark[MARK_BROWN]);
+    coat_mix(rgb, COAT_TIP, glm_smoothstep(-EDGE, EDGE, mark[MARK_WHITE]));
+    coat_mix(rgb, COAT_DARK, glm_smoothstep(-EDGE, EDGE, mark[MARK_DARK]));
+}
+
+void coat_tail(float z, float up, float mark[MARKS])
+{
+    const float u = z / CREATURE_TAIL_LENGTH;
+    mark[MARK_WHITE] = z - 0.79f * CREATURE_TAIL_LENGTH;
+    mark[MARK_DARK] = -1.0f;
+    mark[MARK_BROWN] = glm_smoothstep(0.45f, 0.78f, u) * (0.45f + 0.2f * up);
 }

@@ -4,12 +4,13 @@
 static const struct level {
     int animals;           ///< up to how many
     float cell, tolerance; ///< of the torso, see mesh_torso()
-    int rings, segments;   ///< of the tail
+    int rounds;
+    int rings, segments; ///< of the tail
 } levels[CREATURE_LEVELS] = {
-    {1, 0.042f, 0.0016f, 96, 40},
-    {2, 0.050f, 0.0024f, 76, 27},
-    {4, 0.062f, 0.0060f, 58, 16},
-    {8, 0.076f, 0.0200f, 35, 7},
+    {1, 0.030f, 0.0028f, 3, 72, 32},
+    {2, 0.036f, 0.0036f, 1, 68, 24},
+    {4, 0.047f, 0.0150f, 1, 48, 15},
+    {8, 0.059f, 0.0000f, 0, 30, 9},
 };
 
 int creature_level(int animals)
@@ -21,6 +22,7 @@ int creature_level(int animals)
 
 void mesh_creature(int level, struct mesh *mesh)
 {
-    mesh_torso(levels[level].cell, levels[level].tolerance, mesh);
-    mesh_tail(levels[level].rings, levels[level].segments, mesh);
+    const struct level *l = &levels[level];
+    mesh_torso(l->cell, l->tolerance, l->rounds, mesh);
+    mesh_tail(l->rings, l->segments, mesh);
 }

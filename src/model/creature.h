@@ -8,7 +8,8 @@
 #include "model/mesh.h"
 
 #define CREATURE_TAIL_LENGTH 1.6f
-#define CREATURE_TAIL_RADIUS 0.11f /* at the base */
+#define CREATURE_TAIL_RADIUS 0.072f  /* at the base */
+#define CREATURE_BRUSH_RADIUS 0.140f /* where it is thickest */
 #define CREATURE_BASE_HEIGHT 0.26f
 
 /// Box of the torso: the animal without its tail, bind space.
@@ -17,6 +18,9 @@ extern const float creature_torso_lo[3], creature_torso_hi[3];
 /// Distance from a point to the torso's skin without the face, metres, bind space; negative inside, and never much too
 /// large, so that a ray can be marched in steps of it.
 float creature_torso_distance(const float p[3]);
+
+/// The head's own space, which looks towards −z: bind space → it, column-major.
+void creature_head_from_bind(float matrix[16]);
 
 /// Radius of the tail at z metres from its base, bind size; 0 at the tip and beyond.
 float creature_tail_radius(float z);
@@ -32,8 +36,8 @@ int creature_level(int animals);
 void mesh_creature(int level, struct mesh *mesh);
 
 /// Appends the torso, with the stump that the tail hides. Edges are about `cell` metres long,
-/// shorter where they would miss the round shape by more than `tolerance` metres.
-void mesh_torso(float cell, float tolerance, struct mesh *mesh);
+/// and halved in up to `rounds` rounds where they would miss the round shape by more than `tolerance` metres, or blur colours.
+void mesh_torso(float cell, float tolerance, int rounds, struct mesh *mesh);
 
 /// Appends the tail: `rings` rings of `segments` vertices each, from inside the body, where it is open, to a rounded
 /// tip.

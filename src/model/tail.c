@@ -3,11 +3,12 @@
 #include "model/creature.h"
 #include <math.h>
 
-/// Where the tube starts (inside the torso), and where its taper ends and the rounded tip, half an ellipsoid, begins.
+/// Where the tube starts (inside the torso), where the brush begins to swell, and where its tip begins.
 #define TUBE_START (-0.10f)
-#define TIP_START (0.8f * CREATURE_TAIL_LENGTH)
+#define SWELL_START (0.10f * CREATURE_TAIL_LENGTH)
+#define TIP_START (0.66f * CREATURE_TAIL_LENGTH)
 #define TIP_LENGTH (CREATURE_TAIL_LENGTH - TIP_START)
-#define TIP_RADIUS 0.05f
+#define TIP_POINT 0.35f /* how much narrower than half an ellipsoid */
 
 static const float half_turn = 3.14159265f;
 
@@ -16,28 +17,30 @@ struct ring {
     float z, radius, along, outward;
 };
 
-static struct ring taper_ring(float z)
+static struct ring swelling_ring(float z)
 {
-    const float angle = half_turn * fmaxf(z, 0.0f) / TIP_START;
-    const float half = 0.5f * (CREATURE_TAIL_RADIUS - TIP_RADIUS);
-    const float slope = -half * sinf(angle) * half_turn / TIP_START;
+    const float swell = TIP_START - SWELL_START, by = CREATURE_BRUSH_RADIUS - CREATURE_TAIL_RADIUS;
+    const float t = fminf(fmaxf((z - SWELL_START) / swell, 0.0f), 1.0f);
+    const float slope = by * 6.0f * t * (1.0f - t) / swell;
     const float length = hypotf(1.0f, slope);
-    return (struct ring){z, TIP_RADIUS + half * (1.0f + cosf(angle)), 1.0f / length, slope / length};
+    return (struct ring){z, CREATURE_TAIL_RADIUS + by * t * t * (3.0f - 2.0f * t), 1.0f / length, slope / length};
 }
+
+static float tip_radius(float s) { return CREATURE_BRUSH_RADIUS * sqrtf(1.0f - s * s) * (1.0f - TIP_POINT * s * s); }
 
 /// `angle` runs from 0 where the tip begins to a quarter turn at its end: rings stand closer where it curves more.
 static struct ring tip_ring(float angle)
 {
-    const float dz = TIP_LENGTH * cosf(angle), dr = -TIP_RADIUS * sinf(angle);
+    const float s = sinf(angle), c = cosf(angle);
+    const float dz = TIP_LENGTH * c;
+    const float dr = -CREATURE_BRUSH_RADIUS * s * (1.0f - TIP_POINT * s * s + 2.0f * TIP_POINT * c * c);
     const float length = hypotf(dz, dr);
-    return (struct ring){TIP_START + TIP_LENGTH * sinf(angle), TIP_RADIUS * cosf(angle), dz / length, dr / length};
+    return (struct ring){TIP_START + TIP_LENGTH * s, tip_radius(s), dz / length, dr / length};
 }
 
 float creature_tail_radius(float z)
 {
-    if (z < TIP_START) return taper_ring(z).radius;
-    const float s = fminf((z - TIP_START) / TIP_LENGTH, 1.0f);
-    return TIP_RADIUS * sqrtf(1.0f - s * s);
+    return z < TIP_START ? swelling_ring(z).radius : tip_radius(fminf((z - TIP_START) / TIP_LENGTH, 1.0f));
 }
 
 static void add_ring(struct ring ring, int segments, struct mesh *mesh)
@@ -50,7 +53,8 @@ static void add_ring(struct ring ring, int segments, struct mesh *mesh)
             .normal = {ring.along * x, ring.along * y, -ring.outward},
             .bend = 1.0f,
         };
-        coat_tail(ring.z, y, vertex.color);
+        coat_tail(ring.z, y, vertex.mark);
+        coat_marked(vertex.mark, vertex.color);
         mesh_vertex(mesh, &vertex);
     }
 }
@@ -68,17 +72,19 @@ static void join_rings(uint32_t first, uint32_t segments, struct mesh *mesh)
 static void close_tip(uint32_t last_ring, uint32_t segments, struct mesh *mesh)
 {
     struct vertex tip = {.position = {0.0f, 0.0f, CREATURE_TAIL_LENGTH}, .normal = {0.0f, 0.0f, 1.0f}, .bend = 1.0f};
-    coat_tail(CREATURE_TAIL_LENGTH, 0.0f, tip.color);
+    coat_tail(CREATURE_TAIL_LENGTH, 0.0f, tip.mark);
+    coat_marked(tip.mark, tip.color);
     const uint32_t end = mesh_vertex(mesh, &tip);
     for (uint32_t s = 0; s < segments; s++) mesh_triangle(mesh, last_ring + s, last_ring + (s + 1) % segments, end);
 }
 
 void mesh_tail(int rings, int segments, struct mesh *mesh)
 {
-    const int tip_rings = rings / 5, taper_rings = rings - tip_rings;
+    const int tip_rings = rings / 3, swelling_rings = rings - tip_rings;
     const uint32_t first = (uint32_t)mesh->vertex_count, around = (uint32_t)segments;
-    for (int r = 0; r < taper_rings; r++) {
-        add_ring(taper_ring(TUBE_START + (TIP_START - TUBE_START) * (float)r / (float)taper_rings), segments, mesh);
+    for (int r = 0; r < swelling_rings; r++) {
+        add_ring(swelling_ring(TUBE_START + (TIP_START - TUBE_START) * (float)r / (float)swelling_rings), segments,
+                 mesh);
     }
     for (int r = 0; r < tip_rings; r++) {
         add_ring(tip_ring(0.5f * half_turn * (float)r / (float)tip_rings), segments, mesh);

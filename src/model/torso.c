@@ -8,47 +8,66 @@
 #include <math.h>
 #include <stddef.h>
 
+#define PARTS(table) (sizeof(table) / sizeof *(table))
+
 /// The torso is a smooth union of round cones. Metres, bind size, but with y = 0 on the ground. The animal looks towards
 /// −z. Parts of the head are relative to its middle and also look towards −z: the head is turned afterwards.
 ///
 /// Later parts lie on top of earlier ones with their colours and fillets.
 static const struct part trunk[] = {
-    {{0, 0.265f, -0.25f}, {0, 0.56f, -0.34f}, 0.245f, 0.150f, 0.001f, COAT_FUR, false},            // rump to neck
-    {{0.12f, 0.17f, -0.27f}, {0.17f, 0.13f, -0.42f}, 0.165f, 0.110f, 0.10f, COAT_FUR, true},       // haunches
-    {{0.20f, 0.050f, -0.40f}, {0.225f, 0.045f, -0.50f}, 0.055f, 0.050f, 0.06f, COAT_FUR, true},    // hind feet
-    {{0.085f, 0.44f, -0.46f}, {0.085f, 0.06f, -0.52f}, 0.066f, 0.048f, 0.07f, COAT_FUR, true},     // fore legs
-    {{0, 0.58f, -0.445f}, {0, 0.36f, -0.465f}, 0.100f, 0.115f, 0.10f, COAT_BELLY, false},          // chest
-    {{0.080f, 0.045f, -0.54f}, {0.082f, 0.045f, -0.575f}, 0.050f, 0.047f, 0.05f, COAT_BAND, true}, // paws
+    {{0, 0.235f, -0.22f}, {0, 0.53f, -0.40f}, 0.210f, 0.120f, 0.001f, COAT_FUR, false},           // rump to chest
+    {{0, 0.54f, -0.40f}, {0, 0.70f, -0.385f}, 0.115f, 0.100f, 0.08f, COAT_FUR, false},            // neck
+    {{0.105f, 0.175f, -0.23f}, {0.155f, 0.12f, -0.34f}, 0.150f, 0.090f, 0.07f, COAT_FUR, true},   // haunches
+    {{0.175f, 0.044f, -0.34f}, {0.205f, 0.040f, -0.485f}, 0.046f, 0.040f, 0.05f, COAT_FUR, true}, // hind feet
+    {{0.074f, 0.45f, -0.460f}, {0.064f, 0.07f, -0.535f}, 0.064f, 0.035f, 0.08f, COAT_FUR, true},  // fore legs
+    {{0.064f, 0.039f, -0.54f}, {0.066f, 0.037f, -0.580f}, 0.041f, 0.039f, 0.05f, COAT_FUR, true}, // paws
+    {{0, 0.60f, -0.455f}, {0, 0.43f, -0.490f}, 0.088f, 0.070f, 0.08f, COAT_TIP, false},           // bib
 };
 
 static const struct part head[] = {
-    {{0, 0.01f, 0.01f}, {0.080f, -0.035f, -0.02f}, 0.172f, 0.115f, 0.10f, COAT_FUR, true},           // skull
-    {{0.10f, -0.065f, -0.085f}, {0.035f, -0.075f, -0.13f}, 0.065f, 0.055f, 0.05f, COAT_BELLY, true}, // cheeks
-    {{0, -0.060f, -0.12f}, {0, -0.055f, -0.205f}, 0.085f, 0.047f, 0.07f, COAT_BELLY, false},         // muzzle
-    {{0.110f, 0.10f, 0.02f}, {0.165f, 0.265f, 0.02f}, 0.085f, 0.032f, 0.05f, COAT_FUR, true},        // ears
-    {{0.160f, 0.25f, 0.022f}, {0.168f, 0.275f, 0.02f}, 0.036f, 0.030f, 0.04f, COAT_BAND, true},      // their tips
-    {{0.118f, 0.13f, -0.030f}, {0.150f, 0.205f, -0.005f}, 0.050f, 0.024f, 0.03f, COAT_BELLY, true},  // and insides
+    {{0, 0.010f, 0.015f}, {0.052f, -0.005f, 0.0f}, 0.140f, 0.118f, 0.08f, COAT_FUR, true},          // skull
+    {{0.085f, -0.055f, -0.035f}, {0.172f, -0.085f, 0.005f}, 0.072f, 0.020f, 0.06f, COAT_TIP, true}, // cheeks
+    {{0, -0.050f, -0.10f}, {0, -0.066f, -0.235f}, 0.078f, 0.041f, 0.07f, COAT_FUR, false},          // muzzle
+    {{0.088f, 0.10f, 0.015f}, {0.152f, 0.292f, 0.02f}, 0.082f, 0.021f, 0.04f, COAT_FUR, true},      // ears
+    {{0, -0.046f, -0.262f}, {0, -0.050f, -0.270f}, 0.021f, 0.018f, 0.012f, COAT_DARK, false},       // nose
 };
 
-/// Eyes and nose; small, so they are meshed more finely.
+/// What ears are hollowed by.
+static const struct part ear_hollow[] = {
+    {{0.096f, 0.120f, -0.078f}, {0.143f, 0.245f, -0.034f}, 0.050f, 0.018f, 0.001f, COAT_TIP, true},
+};
+
+/// Markings: what lies in these is white, or dark.
+static const struct part white_trunk[] = {
+    {{0, 0.64f, -0.57f}, {0, 0.40f, -0.60f}, 0.105f, 0.070f, 0.001f, COAT_TIP, false},
+};
+static const struct part white_head[] = {
+    {{0.036f, -0.098f, -0.250f}, {0.165f, -0.105f, -0.040f}, 0.064f, 0.080f, 0.001f, COAT_TIP, true},
+    {{0, -0.130f, -0.20f}, {0, -0.13f, -0.05f}, 0.050f, 0.060f, 0.02f, COAT_TIP, false},
+    {{0.100f, 0.125f, -0.050f}, {0.143f, 0.240f, -0.016f}, 0.062f, 0.022f, 0.001f, COAT_TIP, true},
+};
+static const struct part dark_trunk[] = {
+    {{0.064f, -0.02f, -0.56f}, {0.066f, 0.140f, -0.510f}, 0.095f, 0.060f, 0.001f, COAT_DARK, true},
+    {{0.207f, -0.02f, -0.53f}, {0.200f, -0.02f, -0.465f}, 0.085f, 0.080f, 0.001f, COAT_DARK, true},
+};
+static const struct part dark_head[] = {
+    {{0.128f, 0.215f, 0.140f}, {0.185f, 0.380f, 0.140f}, 0.105f, 0.110f, 0.001f, COAT_DARK, true},
+};
+
+/// Eyes and nose of a mesh that is coloured by vertex; the stage draws them by the pixel (stage_mesh.frag).
 static const struct part face[] = {
-    {{0.082f, 0.025f, -0.140f}, {0.082f, 0.040f, -0.140f}, 0.030f, 0.030f, 0.001f, COAT_DARK, true},
-    {{0, -0.035f, -0.247f}, {0, -0.032f, -0.252f}, 0.024f, 0.024f, 0.001f, COAT_DARK, false},
+    {{0.074f, 0.012f, -0.40f}, {0.074f, 0.018f, 0.0f}, 0.029f, 0.029f, 0.001f, COAT_DARK, true},
+    {{0, -0.046f, -0.262f}, {0, -0.050f, -0.272f}, 0.024f, 0.021f, 0.001f, COAT_DARK, false},
 };
 
 /// Middle of the head, how far it is turned to look back over its shoulder, and how far it is tilted (radians).
 static const float head_middle[3] = {0.01f, 0.80f, -0.385f};
 #define HEAD_TURN 1.35f /* about +y, towards the camera's first place */
 #define HEAD_TILT 0.12f
-#define HEAD_REACH 0.31f  /* of the face, from the head's middle, along each axis */
 #define HEAD_RADIUS 0.36f /* of the ball that holds the head */
 #define NECK_BLEND 0.12f
 #define STUMP_BLEND 0.14f
-#define REFINE_ROUNDS 3
-#define LID_WIDTH 0.016f
-
-/// Direction in which eyes and nose shine, standing coordinates.
-static const float glint[3] = {0.68f, 0.69f, -0.25f};
+#define EAR_BLEND 0.020f
 
 const float creature_torso_lo[3] = {-0.36f, -CREATURE_BASE_HEIGHT, -0.68f};
 const float creature_torso_hi[3] = {0.36f, 1.16f - CREATURE_BASE_HEIGHT, 0.38f};
@@ -63,6 +82,19 @@ static void into_head(const float p[3], float q[3])
     q[2] = z * cosf(HEAD_TURN) - x * sinf(HEAD_TURN);
 }
 
+void creature_head_from_bind(float matrix[16])
+{
+    static const float corner[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, CREATURE_BASE_HEIGHT, 0}};
+    float origin[3];
+    into_head(corner[3], origin);
+    for (int c = 0; c < 4; c++) {
+        const float standing[3] = {corner[c][0], corner[c][1] + (c < 3 ? CREATURE_BASE_HEIGHT : 0.0f), corner[c][2]};
+        into_head(standing, matrix + 4 * c);
+        for (int k = 0; k < 3 && c < 3; k++) matrix[4 * c + k] -= origin[k];
+        matrix[4 * c + 3] = c == 3;
+    }
+}
+
 /// The tail's stump: a hair thicker than the tail along the fillet, then sinking below the tail's own
 /// skin at so flat an angle that the seam cannot be seen.
 static float stump_distance(const float p[3])
@@ -72,69 +104,46 @@ static float stump_distance(const float p[3])
     return sqrtf(p[0] * p[0] + p[1] * p[1] + (p[2] - z) * (p[2] - z)) - radius;
 }
 
-/// Distance to the torso at a point in bind space, and its colour if `rgb` is not NULL.
-static float torso_distance_color(const float p[3], float rgb[3])
+float creature_torso_distance(const float p[3])
 {
     const float standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
-    float distance = parts_add(trunk, sizeof trunk / sizeof *trunk, standing, 1e3f, rgb);
-    float fur[3] = {0}, in_head[3], head_rgb[3] = {0};
-    if (rgb) coat_linear(COAT_FUR, fur);
-    distance = parts_union(distance, stump_distance(p), STUMP_BLEND, rgb, fur);
+    float distance = parts_add(trunk, PARTS(trunk), standing, 1e3f, NULL), in_head[3];
+    distance = parts_union(distance, stump_distance(p), STUMP_BLEND, NULL, NULL);
     into_head(standing, in_head);
     const float bound = glm_vec3_norm(in_head) - HEAD_RADIUS;
     if (bound > distance + NECK_BLEND) return distance;
-    const float head_distance = parts_add(head, sizeof head / sizeof *head, in_head, 1e3f, rgb ? head_rgb : NULL);
-    return parts_union(distance, head_distance, NECK_BLEND, rgb, head_rgb);
+    const float solid = parts_add(head, PARTS(head), in_head, 1e3f, NULL);
+    const float hollow = parts_add(ear_hollow, PARTS(ear_hollow), in_head, 1e3f, NULL);
+    return parts_union(distance, -parts_union(-solid, hollow, EAR_BLEND, NULL, NULL), NECK_BLEND, NULL, NULL);
 }
 
-float creature_torso_distance(const float p[3]) { return torso_distance_color(p, NULL); }
-
-static float face_distance(const float p[3])
-{
-    const float standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
-    float in_head[3];
-    into_head(standing, in_head);
-    return parts_add(face, sizeof face / sizeof *face, in_head, 1e3f, NULL);
-}
-
-/// Each part has its own colour; around the stump colour and bending go over into the tail's.
+/// Each marking has a volume; around the stump markings and bending go over into the tail's.
 static void torso_paint(struct vertex *vertex)
 {
-    const float *p = vertex->position;
-    torso_distance_color(p, vertex->color);
+    const float *p = vertex->position, standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
+    float in_head[3], of_tail[MARKS];
+    into_head(standing, in_head);
+    const float on_head = glm_smoothstep(HEAD_RADIUS, 0.8f * HEAD_RADIUS, glm_vec3_norm(in_head));
+    const float white = parts_add(white_trunk, PARTS(white_trunk), standing, 1e3f, NULL);
+    const float dark = parts_add(dark_trunk, PARTS(dark_trunk), standing, 1e3f, NULL);
+    vertex->mark[MARK_WHITE] = -fminf(white, parts_add(white_head, PARTS(white_head), in_head, 1e3f, NULL));
+    vertex->mark[MARK_DARK] = -fminf(dark, parts_add(dark_head, PARTS(dark_head), in_head, 1e3f, NULL));
+    vertex->mark[MARK_BROWN] = 0.25f * glm_smoothstep(0.2f, 1.0f, vertex->normal[2]) * (1.0f - on_head);
     const float from_axis = hypotf(p[0], p[1]) / CREATURE_TAIL_RADIUS;
-    const float near = glm_smoothstep(2.4f, 1.3f, from_axis);
-    float tail_rgb[3];
-    coat_tail(fmaxf(p[2], 0.0f), p[1] / fmaxf(hypotf(p[0], p[1]), 1e-6f), tail_rgb);
+    const float near = glm_smoothstep(3.6f, 1.5f, from_axis);
+    coat_tail(fmaxf(p[2], 0.0f), p[1] / fmaxf(hypotf(p[0], p[1]), 1e-6f), of_tail);
     const float share = near * glm_smoothstep(-0.10f, 0.05f, p[2]);
-    glm_vec3_lerp(vertex->color, tail_rgb, share, vertex->color);
-    // A dark lid hides the hard line where eyes and nose sink into the fur.
-    coat_mix(vertex->color, COAT_DARK, glm_smoothstep(LID_WIDTH, 0.3f * LID_WIDTH, face_distance(p)));
+    glm_vec3_lerp(vertex->mark, of_tail, share, vertex->mark);
     vertex->bend = near * glm_smoothstep(-0.25f, -0.05f, p[2]);
+    coat_marked(vertex->mark, vertex->color);
+    const float features = in_head[2] < 0.0f ? parts_add(face, PARTS(face), in_head, 1e3f, NULL) : 1.0f;
+    coat_mix(vertex->color, COAT_DARK, glm_smoothstep(0.004f, -0.004f, features));
 }
 
-/// Dark, with a glint as of a lamp above.
-static void face_paint(struct vertex *vertex)
-{
-    const float shine = glms_vec3_dot(vec3_from(vertex->normal), vec3_from(glint));
-    coat_linear(COAT_DARK, vertex->color);
-    coat_mix(vertex->color, COAT_TIP, glm_smoothstep(0.87f, 0.95f, shine));
-}
-
-void mesh_torso(float cell, float tolerance, struct mesh *mesh)
+void mesh_torso(float cell, float tolerance, int rounds, struct mesh *mesh)
 {
     const struct solid torso = {creature_torso_distance, torso_paint};
     const int first_index = mesh->index_count;
     isosurface(&torso, creature_torso_lo, creature_torso_hi, cell, mesh);
-    refine(&torso, tolerance, REFINE_ROUNDS, first_index, mesh);
-    const struct solid features = {face_distance, face_paint};
-    float lo[3], hi[3];
-    for (int k = 0; k < 3; k++) {
-        const float middle = head_middle[k] - (k == 1 ? CREATURE_BASE_HEIGHT : 0.0f);
-        lo[k] = middle - HEAD_REACH;
-        hi[k] = middle + HEAD_REACH;
-    }
-    const int first_feature = mesh->index_count;
-    isosurface(&features, lo, hi, 0.3f * cell, mesh);
-    refine(&features, tolerance, REFINE_ROUNDS - 1, first_feature, mesh);
+    refine(&torso, tolerance, rounds, first_index, mesh);
 }

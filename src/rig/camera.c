@@ -9,6 +9,7 @@
 #define MIN_DISTANCE 1e-4f
 #define MAX_DISTANCE 1e5f
 #define FIT_MARGIN 1.15f
+#define LEAST_HEIGHT 0.02f /* of the eye above the floor, as a share of its distance */
 
 enum { EDGES = 12 }; ///< of a box
 
@@ -33,7 +34,8 @@ static vec3s along(const struct axes *axes, float right, float up, float back)
 struct camera camera_default(void)
 {
     const float degree = 0.0174532925f;
-    return (struct camera){.azimuth = 35.0f * degree, .elevation = 12.0f * degree, .distance = 4.0f};
+    return (struct camera){
+        .azimuth = 35.0f * degree, .elevation = 12.0f * degree, .distance = 4.0f, .floor = -INFINITY};
 }
 
 void camera_lamp(const struct camera *camera, float from[3])
@@ -116,6 +118,7 @@ void camera_fit(struct camera *camera, const float lo[3], const float hi[3], flo
     const float wide = fit_axis(right, depth, HALF_FIELD * aspect / FIT_MARGIN, &shift_right);
     const float high = fit_axis(up, depth, HALF_FIELD / FIT_MARGIN, &shift_up);
     camera->distance = glm_clamp(fmaxf(wide, high), MIN_DISTANCE, MAX_DISTANCE);
+    camera->floor = lo[1];
     vec3s target = glms_vec3_center(vec3_from(lo), vec3_from(hi));
     target = glms_vec3_muladds(axes.up, shift_up, glms_vec3_muladds(axes.right, shift_right, target));
     glm_vec3_copy(target.raw, camera->target);
@@ -152,10 +155,18 @@ void camera_ray(const float view[16], const float projection[16], const float vi
     for (int k = 0; k < 3; k++) direction[k] = glms_vec3_dot(vec3_from(view + 4 * k), eye) / length;
 }
 
+/// Seen from below, the ground would hide nothing and lie over everything.
+static void stay_above_floor(struct camera *camera)
+{
+    const float least = (camera->floor - camera->target[1]) / camera->distance + LEAST_HEIGHT;
+    if (least > sinf(camera->elevation)) camera->elevation = fminf(asinf(fminf(least, 1.0f)), CAMERA_MAX_ELEVATION);
+}
+
 void camera_orbit(struct camera *camera, float azimuth, float elevation)
 {
     camera->azimuth = remainderf(camera->azimuth + azimuth, 6.28318531f);
     camera->elevation = glm_clamp(camera->elevation + elevation, -CAMERA_MAX_ELEVATION, CAMERA_MAX_ELEVATION);
+    stay_above_floor(camera);
 }
 
 void camera_pan(struct camera *camera, float dx, float dy, float height)
@@ -164,9 +175,11 @@ void camera_pan(struct camera *camera, float dx, float dy, float height)
     const float metres = 2.0f * HALF_FIELD * camera->distance / fmaxf(height, 1.0f);
     vec3s target = glms_vec3_muladds(along(&axes, -dx, dy, 0.0f), metres, vec3_from(camera->target));
     glm_vec3_copy(target.raw, camera->target);
+    stay_above_floor(camera);
 }
 
 void camera_zoom(struct camera *camera, float factor)
 {
     camera->distance = glm_clamp(camera->distance * factor, MIN_DISTANCE, MAX_DISTANCE);
+    stay_above_floor(camera);
 }

@@ -12,12 +12,13 @@ struct camera {
     float elevation; ///< above the target, within ±CAMERA_MAX_ELEVATION
     float distance;  ///< eye to target
     float target[3];
+    float floor; ///< height that the eye stays above
 };
 
 /// Just short of the poles, where "up" is undefined.
 #define CAMERA_MAX_ELEVATION 1.5f
 
-/// Azimuth 35°, elevation 12°, looking at the origin from 4 m.
+/// Azimuth 35°, elevation 12°, looking at the origin from 4 m; no floor yet.
 struct camera camera_default(void);
 
 /// World → eye, eye → clip (for width/height = `aspect`) and where the eye is.
@@ -27,7 +28,7 @@ void camera_matrices(const struct camera *camera, float aspect, float view[16], 
 void camera_lamp(const struct camera *camera, float from[3]);
 
 /// Moves target and distance, keeping both angles, so that the middles of the edges of the box lo … hi lie within the
-/// picture with 15 % to spare. An empty or broken box is left alone.
+/// picture with 15 % to spare. The box stands on the floor. An empty or broken box is left alone.
 void camera_fit(struct camera *camera, const float lo[3], const float hi[3], float aspect);
 
 /// Projects a point of the world to the screen; viewport is x, y, width, height. false if it is not in front of
@@ -42,7 +43,7 @@ float camera_depth(const float view[16], const float eye[3], const float world[3
 void camera_ray(const float view[16], const float projection[16], const float viewport[4], const float screen[2],
                 float direction[3]);
 
-/// Turns about the target: angles are added, elevation clamped.
+/// Turns about the target: angles are added, elevation clamped, also by the floor.
 void camera_orbit(struct camera *camera, float azimuth, float elevation);
 
 /// Moves the target so that the world follows a pointer that moved by (dx, dy) pixels in a viewport `height` pixels

@@ -51,14 +51,33 @@ struct chain_axes chain_axes_at_rest(const struct imported *imported, const stru
     return axes;
 }
 
-/// rotation ← rotation · exp(angle · axis), the axis given in the character's space. A mirrored frame turns the other way round.
+void chain_angles(const struct chain *chain, const wiggly_value *values, enum look look, int n, int bones,
+                  double angle[3])
+{
+    for (int axis = AXIS_SIDE; axis <= AXIS_TWIST; axis++) angle[axis] = 0;
+    for (int c = 0; c < chain->channel_count; c++) {
+        const struct channel *channel = &chain->channels[c];
+        angle[channel->axis] += chain_sign(chain, channel->axis) * channel_bend(channel, values[c], n, bones, look);
+    }
+}
+
+double chain_sign(const struct chain *chain, enum axis axis) { return chain->mirror && axis != AXIS_UP ? -1.0 : 1.0; }
+
+void chain_own_axis(const struct imported *imported, int node, const float axis[3], float own[3])
+{
+    const mat3s inward = into_bone(imported, node);
+    const float sign = glms_mat3_det(inward) < 0.0f ? -1.0f : 1.0f; // a mirrored frame turns the other way round
+    const vec3s turned = glms_vec3_scale(glms_vec3_normalize(glms_mat3_mulv(inward, vec3_from(axis))), sign);
+    memcpy(own, turned.raw, sizeof turned.raw);
+}
+
+/// rotation ← rotation · exp(angle · axis), the axis given in the character's space.
 static void turn_about(const struct imported *imported, int node, const float axis[3], double angle,
                        float rotation[4])
 {
-    const mat3s inward = into_bone(imported, node);
-    const float sign = glms_mat3_det(inward) < 0.0f ? -1.0f : 1.0f;
-    const vec3s own = glms_vec3_normalize(glms_mat3_mulv(inward, vec3_from(axis)));
-    versors before, turn = glms_quatv(sign * (float)angle, own);
+    float own[3];
+    chain_own_axis(imported, node, axis, own);
+    versors before, turn = glms_quatv((float)angle, vec3_from(own));
     memcpy(before.raw, rotation, sizeof before.raw);
     const versors after = glms_quat_normalize(glms_quat_mul(before, turn));
     memcpy(rotation, after.raw, sizeof after.raw);
@@ -70,15 +89,11 @@ void chain_bend(const struct imported *imported, const struct chain *chain, cons
     const struct chain_axes axes = chain_axes_at_rest(imported, bones, chain->turn);
     const float *const about[] = {[AXIS_SIDE] = axes.side, [AXIS_UP] = axes.up, [AXIS_TWIST] = axes.along};
     for (int n = 0; n < bones->count; n++) {
-        double angle[] = {[AXIS_SIDE] = 0, [AXIS_UP] = 0, [AXIS_TWIST] = 0};
-        for (int c = 0; c < chain->channel_count; c++) {
-            const struct channel *channel = &chain->channels[c];
-            angle[channel->axis] += channel_bend(channel, values[c], n, bones->count, look);
-        }
+        double angle[3];
+        chain_angles(chain, values, look, n, bones->count, angle);
         float *rotation = pose->place[bones->node[n]].rotation;
         for (int axis = AXIS_SIDE; axis <= AXIS_TWIST; axis++) {
-            const double sign = chain->mirror && axis != AXIS_UP ? -1.0 : 1.0;
-            if (angle[axis] != 0.0) turn_about(imported, bones->node[n], about[axis], sign * angle[axis], rotation);
+            if (angle[axis] != 0.0) turn_about(imported, bones->node[n], about[axis], angle[axis], rotation);
         }
     }
 }

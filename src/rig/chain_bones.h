@@ -17,6 +17,14 @@ struct chain_axes {
 /// `turn`: degrees by which `side` and `up` are turned about `along`.
 struct chain_axes chain_axes_at_rest(const struct imported *imported, const struct chain_bones *bones, double turn);
 
+/// Radians by which joint n of so many bones turns about each axis, and the sign that a mirrored chain gives an axis, which is in them.
+void chain_angles(const struct chain *chain, const wiggly_value *values, enum look look, int n, int bones,
+                  double angle[3]);
+double chain_sign(const struct chain *chain, enum axis axis);
+
+/// An axis of the character's space in a bone's own frame at rest.
+void chain_own_axis(const struct imported *imported, int node, const float axis[3], float own[3]);
+
 /// Turns the bones over the clip's pose, by the values of the chain's channels (eq. 27). Leaves world matrices alone. Allocates nothing.
 void chain_bend(const struct imported *imported, const struct chain *chain, const struct chain_bones *bones,
                 const wiggly_value *values, enum look look, struct gltf_pose *pose);

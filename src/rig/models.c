@@ -27,10 +27,21 @@ struct models {
     int placed_count;
     struct character_model *characters; ///< in the order of the document
     int character_count;
+    struct meadow *meadow; ///< NULL until a document has one
     uint64_t version;
 };
 
 struct models *models_create(void) { return calloc(1, sizeof(struct models)); }
+
+bool models_grow(struct models *models, const struct document *document, const struct evaluation *evaluation)
+{
+    const bool wanted = document_find_rig(document, RIG_MEADOW, 0) >= 0;
+    if (wanted && !models->meadow) models->meadow = meadow_create();
+    if (!models->meadow) return !wanted;
+    return meadow_update(models->meadow, document, evaluation);
+}
+
+const struct meadow *models_meadow(const struct models *models) { return models ? models->meadow : NULL; }
 
 static void drop_characters(struct models *models)
 {
@@ -52,6 +63,7 @@ void models_destroy(struct models *models)
     if (!models) return;
     drop_characters(models);
     drop_placed(models);
+    meadow_destroy(models->meadow);
     free(models->placed);
     model_files_free(&models->files);
     free(models->characters);
@@ -91,14 +103,28 @@ static bool resolve(const struct document *document, const char *model, char pat
     return path_resolve(document->folder, model, path) || fail(error, ERROR_INPUT, "%s: the path is too long", model);
 }
 
-/// The model of one rig, or NULL with a sentence; `error` is also set if the model does not suit the rig.
-static const struct figure *find_figure(struct models *models, const struct document *document,
-                                        const struct character_rig *rig, struct error *error)
+/// Whether a rig's model has all points that are pinned, of `points`.
+static bool check_pins(const struct rig *rig, int points, struct error *error)
 {
+    for (int i = 0; i < rig->pin_count; i++) {
+        const struct pin *pin = &rig->pins[i];
+        if (pin->point < points) continue;
+        return fail(error, ERROR_INPUT, "%s: expected a %s from 0 to %d in the pin at frame %.10g, got %d",
+                    rig_title(rig), rig_pin_key(rig), points - 1, pin->frame, pin->point);
+    }
+    return true;
+}
+
+/// The model of one rig, or NULL with a sentence; `error` is also set if the model does not suit the rig.
+static const struct figure *find_figure(struct models *models, const struct document *document, const struct rig *of,
+                                        struct error *error)
+{
+    const struct character_rig *rig = &of->character;
     char path[PATH_LIMIT];
     if (!resolve(document, rig->model, path, error)) return NULL;
     const struct figure *figure = model_files_figure(&models->files, path, error);
-    if (figure && check_names(rig, figure, error)) check_paint(rig, figure, error);
+    if (figure && check_names(rig, figure, error) && check_pins(of, figure->character.vertex_count, error))
+        check_paint(rig, figure, error);
     return figure;
 }
 
@@ -121,8 +147,8 @@ static void update_characters(struct models *models, const struct document *docu
     int rig = document_next_rig(document, RIG_CHARACTER, 0);
     for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_CHARACTER, rig + 1)) {
         struct error trouble = {0};
-        characters[i] = (struct character_model){
-            .plain = find_figure(models, document, &document->rigs[rig].character, &trouble)};
+        characters[i] =
+            (struct character_model){.plain = find_figure(models, document, &document->rigs[rig], &trouble)};
         keep_first(first, &trouble);
     }
     models->character_count = count;
@@ -172,7 +198,7 @@ static void update_placed(struct models *models, const struct document *document
     }
 }
 
-/// Whether all chains find their bones.
+/// Whether all chains find their bones, and pins theirs.
 static bool check_chains(const struct models *models, const struct document *document, struct error *error)
 {
     for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
@@ -182,7 +208,9 @@ static bool check_chains(const struct models *models, const struct document *doc
         const struct imported *imported =
             model < 0 ? NULL : models_imported(models, document_rig_number(document, model));
         struct chain_bones bones;
-        if (imported && !chain_find(&imported->gltf, chain->from, chain->to, &bones, error)) return false;
+        if (!imported) continue;
+        if (!chain_find(&imported->gltf, chain->from, chain->to, &bones, error)) return false;
+        if (!check_pins(&document->rigs[r], bones.count, error)) return false;
     }
     return true;
 }

@@ -5,6 +5,7 @@
 
 #include "model/painted.h"
 #include "rig/imported.h"
+#include "rig/meadow.h"
 #include "scene/document.h"
 
 struct models;
@@ -14,7 +15,7 @@ struct models *models_create(void);
 void models_destroy(struct models *models);
 
 /// Reads the models that are missing or have changed on disk; figures handed out before are stale afterwards. false with the
-/// first sentence if a model is missing or broken, or lacks a coordinate, clip or bone that the scene names; the others are loaded
+/// first sentence if a model is missing or broken, or lacks a coordinate, clip, bone or pinned point that the scene names; the others are loaded
 /// all the same.
 bool models_update(struct models *models, const struct document *document, struct error *error);
 
@@ -37,6 +38,12 @@ uint64_t models_version(const struct models *models);
 
 /// The document's i-th model rig; NULL if it could not be read. `models` may be NULL.
 const struct imported *models_imported(const struct models *models, int model);
+
+/// Solves the document's meadow where it has changed; false if memory is short.
+bool models_grow(struct models *models, const struct document *document, const struct evaluation *evaluation);
+
+/// The meadow as it was last solved; NULL: none. `models` may be NULL.
+const struct meadow *models_meadow(const struct models *models);
 
 /// Memory for a pose of it: one for what is shown, one for all else. NULL where models_imported() is.
 struct gltf_pose *models_pose(const struct models *models, int model, bool shown);

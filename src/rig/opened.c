@@ -2,7 +2,9 @@
 #include "rig/opened.h"
 #include "rig/clip_motion.h"
 #include "rig/import.h"
+#include "rig/pinning.h"
 #include "scene/load.h"
+#include "scene/pins.h"
 
 static bool read_models(struct opened *opened, const char *path, struct error *error)
 {
@@ -16,7 +18,7 @@ static bool read_any(struct opened *opened, const char *path, bool with_models, 
     *opened =
         (struct opened){.document = import_suits(path) ? import_scene(path, error) : scene_load(path, NULL, error)};
     if (!opened->document) return false;
-    if (!with_models && opened->document->motions.count == 0) return true;
+    if (!with_models && opened->document->motions.count == 0 && pins_count(opened->document) == 0) return true;
     if (read_models(opened, path, error)) return true;
     opened_free(opened);
     return false;
@@ -36,10 +38,12 @@ bool opened_solve(struct opened *opened, wiggly_method method, struct error *err
 {
     const struct motion_source source = clip_motions(opened->models);
     opened->evaluation.method = method;
+    opened->evaluation.pins = pin_points(opened->models);
     if (!evaluation_resize(&opened->evaluation, opened->document, error)) return false;
     motions_bake(&opened->evaluation, opened->document, &source);
     evaluation_update(&opened->evaluation, opened->document, NULL, false);
-    return true;
+    return !opened->models || models_grow(opened->models, opened->document, &opened->evaluation) ||
+           fail(error, ERROR_ENVIRONMENT, "not enough memory for the meadow");
 }
 
 void opened_free(struct opened *opened)

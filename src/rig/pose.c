@@ -14,9 +14,8 @@ double channel_bend(const struct channel *channel, wiggly_value value, int n, in
     return radians(angles_at(&channel->gain, n, joints)) * wiggly_lagged(value, lag);
 }
 
-/// The angles by which joint n turns about +y (`side`) and lifts (`up`), in radians.
-static void bend_at(const struct tail *tail, const wiggly_value *values, enum look look, int n, double *side,
-                    double *up)
+void tail_bend_at(const struct tail *tail, const wiggly_value *values, enum look look, int n, double *side,
+                  double *up)
 {
     *side = 0.0;
     *up = radians(angles_at(&tail->rest, n, tail->joints));
@@ -26,9 +25,7 @@ static void bend_at(const struct tail *tail, const wiggly_value *values, enum lo
     }
 }
 
-/// frame = frame · R_y(side) · R_x(−up): column-major, columns x, y, z, origin. R_x is negative because a positive angle turns
-/// +z down.
-static void bend_frame(double frame[16], double side, double up)
+void tail_bend_frame(double frame[16], double side, double up)
 {
     const double cs = cos(side), ss = sin(side), cu = cos(up), su = sin(up);
     for (int k = 0; k < 3; k++) {
@@ -50,8 +47,8 @@ void pose_tail(const struct tail *tail, const wiggly_value *values, enum look lo
     for (int n = 0; n <= tail->joints; n++) {
         if (n < tail->joints) {
             double side, up;
-            bend_at(tail, values, look, n, &side, &up);
-            bend_frame(frame, side, up);
+            tail_bend_at(tail, values, look, n, &side, &up);
+            tail_bend_frame(frame, side, up);
         }
         for (int k = 0; k < 16; k++) pose->matrix[n][k] = (float)frame[k];
         for (int k = 0; k < 3; k++) frame[12 + k] += segment * frame[8 + k];

@@ -49,6 +49,9 @@ struct rig_pose {
             float ground;                 ///< height of what it stands on, metres
         } model;
         struct chain_pose chain;
+        struct {
+            float lo[3], hi[3]; ///< the box around it
+        } meadow;
     };
 };
 

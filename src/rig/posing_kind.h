@@ -23,6 +23,14 @@ double posing_clip_time(const struct document *document, double position, double
 void posing_values(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                    wiggly_value values[RIG_MAX_INPUTS]);
 
+/// The angles by which joint n of a tail turns about +y (`side`) and lifts (`up`), in radians.
+void tail_bend_at(const struct tail *tail, const wiggly_value *values, enum look look, int n, double *side,
+                  double *up);
+
+/// frame = frame · R_y(side) · R_x(−up): column-major, columns x, y, z, origin. R_x is negative because a positive angle turns
+/// +z down.
+void tail_bend_frame(double frame[16], double side, double up);
+
 /// tail_posing …
 #define POSING_FUNCTIONS(constant, name) extern const struct posing_functions name##_posing;
 RIG_KIND_LIST(POSING_FUNCTIONS)

@@ -12,8 +12,11 @@ enum { TAIL_BLOBS = 14 };
 #define FADE_HEIGHT 0.22f
 #define BODY_FADE_HEIGHT 0.35f /* the same of a body that hops */
 
-/// Where the animal touches the ground, bind space: rump and hind feet, then the fore paws.
-static const struct shadow_blob body_blobs[] = {{0.0f, -0.27f, 0.46f, 0.75f}, {0.0f, -0.50f, 0.27f, 0.55f}};
+/// What the animal keeps the light from, bind space: rump, chest, and where each hind foot and fore paw touches the ground.
+static const struct shadow_blob body_blobs[] = {
+    {0.0f, -0.27f, 0.44f, 0.66f},    {0.0f, -0.48f, 0.27f, 0.40f},     {0.195f, -0.43f, 0.13f, 0.50f},
+    {-0.195f, -0.43f, 0.13f, 0.50f}, {0.065f, -0.555f, 0.085f, 0.70f}, {-0.065f, -0.555f, 0.085f, 0.70f},
+};
 
 /// A blob under the tail at `along` (0 base … 1 tip): the higher, the wider and the weaker.
 static struct shadow_blob tail_blob(const struct pose *pose, float along, float scale, float ground)

@@ -75,6 +75,8 @@ static bool check_constant(const struct spline *spline, enum parameter parameter
     double low = parameter_rows[parameter].minimum, high = parameter_maximum(parameter, spline_mode(spline));
     const char *name = parameter_rows[parameter].name;
     if (!isfinite(value)) return fail(error, ERROR_INPUT, "%s: %s must be finite", spline->name, name);
+    if (parameter_rows[parameter].kind == PARAMETER_WHOLE && value != floor(value))
+        return fail(error, ERROR_INPUT, "%s: %s must be a whole number", spline->name, name);
     if (value >= low && value <= high) return true;
     if (value < low) return fail(error, ERROR_INPUT, "%s: %s must be at least %g", spline->name, name, low);
     return fail(error, ERROR_INPUT, "%s: %s must be at most %g", spline->name, name, high);

@@ -2,11 +2,10 @@
 #include "scene/evaluate.h"
 #include "base/checked.h"
 #include "scene/storage.h"
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIRST_KNOTS = 256, MOST_HELD = 1 << 20 };
+enum { FIRST_KNOTS = 256 };
 
 static bool fail_memory(const struct document *document, struct error *error)
 {
@@ -22,6 +21,7 @@ static void free_splines(struct evaluation *evaluation, struct storage *storage)
     free(storage->solved);
     free(storage->space.stack);
     free(storage->space.next);
+    free(storage->forced);
     free(storage->extremes);
     for (int s = 0; s < storage->spline_capacity; s++) free(storage->baked[s].raw);
     free(storage->baked);
@@ -30,7 +30,7 @@ static void free_splines(struct evaluation *evaluation, struct storage *storage)
     evaluation->curves = NULL;
     evaluation->status = NULL;
     storage->order = NULL;
-    storage->solved = NULL;
+    storage->solved = storage->forced = NULL;
     storage->space = (struct order_space){0};
     storage->spline_capacity = 0;
 }
@@ -44,13 +44,14 @@ static bool resize_splines(struct evaluation *evaluation, struct storage *storag
     evaluation->status = calloc(count, sizeof *evaluation->status);
     storage->order = calloc(count, sizeof *storage->order);
     storage->solved = calloc(count, sizeof *storage->solved);
+    storage->forced = calloc(count, sizeof *storage->forced);
     storage->space.stack = calloc(count, sizeof *storage->space.stack);
     storage->space.next = calloc(count, sizeof *storage->space.next);
     storage->extremes = calloc(count, sizeof *storage->extremes);
     storage->baked = calloc(count, sizeof *storage->baked);
     storage->is_new = true;
     if (!storage->extremes || !storage->baked || !evaluation->curves || !evaluation->status || !storage->order ||
-        !storage->solved || !storage->space.stack || !storage->space.next) {
+        !storage->solved || !storage->forced || !storage->space.stack || !storage->space.next) {
         return false;
     }
     storage->spline_capacity = splines;
@@ -138,20 +139,11 @@ static bool fits(const struct evaluation *evaluation, const struct document *doc
            !storage->is_new && knots <= storage->solver_knots;
 }
 
-/// Knots of the solver: a limited spline needs as many more as samples may be held.
-static int room_for(const struct spline *spline, int samples)
-{
-    bool limited =
-        isfinite(spline->parameter[PARAMETER_LOW].value) || isfinite(spline->parameter[PARAMETER_HIGH].value);
-    int held = samples < MOST_HELD ? samples : MOST_HELD;
-    return spline->knot_count + (limited ? held : 0);
-}
-
 bool evaluation_resize(struct evaluation *evaluation, const struct document *document, struct error *error)
 {
     int splines = document->spline_count, samples = document_samples(document), knots = 0;
     for (int i = 0; i < splines; i++) {
-        int room = room_for(&document->splines[i], samples);
+        int room = storage_knot_room(&document->splines[i], samples);
         if (room > knots) knots = room;
     }
     if (!evaluation->storage) evaluation->storage = calloc(1, sizeof *evaluation->storage);
@@ -160,7 +152,7 @@ bool evaluation_resize(struct evaluation *evaluation, const struct document *doc
     if (!fits(evaluation, document, knots)) background_halt(evaluation);
     if (!resize_splines(evaluation, storage, splines) || !resize_numbers(storage, splines, samples) ||
         !resize_marks(storage, splines, samples) || !resize_solver(storage, samples, knots) ||
-        !resize_baked(evaluation, document, samples)) {
+        !resize_baked(evaluation, document, samples) || !pinned_resize(storage, document)) {
         evaluation->count = 0;
         return fail_memory(document, error);
     }
@@ -179,6 +171,7 @@ void evaluation_free(struct evaluation *evaluation)
         free(storage->marks);
         free(storage->knots);
         wiggly_destroy(storage->solver);
+        pinned_free(&storage->pinned);
         free(storage);
     }
     *evaluation = (struct evaluation){0};
@@ -194,26 +187,88 @@ static bool follows_solved(const struct storage *storage, const struct spline *s
     return false;
 }
 
+static void count_solved(struct evaluation *evaluation, const struct document *document, int spline,
+                         wiggly_status status)
+{
+    struct storage *storage = evaluation->storage;
+    extremes_update(&storage->extremes[spline], evaluation->curves[spline].total, evaluation->samples, 0,
+                    evaluation->samples);
+    evaluation->status[spline] = status;
+    evaluation->revision++;
+    evaluation->solved_splines++;
+    evaluation->solved_samples += evaluation->samples;
+    evaluation->solved_knots += document->splines[spline].knot_count;
+}
+
 static void solve(struct evaluation *evaluation, const struct document *document, int spline, bool cubic)
 {
     struct storage *storage = evaluation->storage;
-    int knots = document->splines[spline].knot_count;
     wiggly_curve *curve = &evaluation->curves[spline];
     wiggly_desc desc = {.samples = evaluation->samples, .step = document_step(document)};
     wiggly_status status = WIGGLY_ERROR_CAPACITY;
-    if (knots <= storage->solver_knots) {
+    if (document->splines[spline].knot_count <= storage->solver_knots) {
         desc = storage_describe(evaluation->storage, evaluation->curves, document, spline, cubic);
         storage_add_knots(&desc, document, spline, storage->knots);
         wiggly_set_method(storage->solver, storage->method);
         status = wiggly_solve(storage->solver, &desc, curve);
     }
     if (status >= WIGGLY_ERROR_ARGUMENT) storage_flatten(curve, &desc);
-    extremes_update(&storage->extremes[spline], curve->total, desc.samples, 0, desc.samples);
-    evaluation->status[spline] = status;
-    evaluation->revision++;
-    evaluation->solved_splines++;
-    evaluation->solved_samples += desc.samples;
-    evaluation->solved_knots += knots;
+    count_solved(evaluation, document, spline, status);
+}
+
+/// Whether a spline is out of date: it or what it follows was edited.
+static bool is_due(struct evaluation *evaluation, const struct document *document, const bool *dirty, int spline)
+{
+    const struct storage *storage = evaluation->storage;
+    return !dirty || dirty[spline] || storage->baked[spline].is_new || storage->forced[spline] ||
+           follows_solved(storage, &document->splines[spline], evaluation->cubic);
+}
+
+static void mark_solved(struct storage *storage, int spline)
+{
+    storage->solved[spline] = true;
+    storage->baked[spline].is_new = storage->forced[spline] = false;
+}
+
+/// Solves the splines of a group, which are in a row from `order` on, if one of them is out of date. Returns how many they are.
+static int update_group(struct evaluation *evaluation, const struct document *document, const bool *dirty,
+                        const int *order)
+{
+    struct storage *storage = evaluation->storage;
+    const struct pinned *pinned = &storage->pinned;
+    const int which = pinned->which[order[0]];
+    int count = 0;
+    wiggly_status status;
+    bool due = pinned_base_moved(evaluation, document, which);
+    for (int s = 0; s < evaluation->count; s++) {
+        if (pinned->which[s] != which) continue;
+        count++;
+        due |= is_due(evaluation, document, dirty, s);
+    }
+    const bool together = due && pinned_solve(evaluation, document, which, &status);
+    for (int i = 0; i < count; i++) {
+        pinned->placed[order[i]] = true;
+        if (due) mark_solved(storage, order[i]);
+        if (together) count_solved(evaluation, document, order[i], status);
+        if (due && !together) solve(evaluation, document, order[i], false);
+    }
+    return count;
+}
+
+static void update_alone(struct evaluation *evaluation, const struct document *document, const bool *dirty,
+                         int spline)
+{
+    if (!is_due(evaluation, document, dirty, spline)) return;
+    mark_solved(evaluation->storage, spline);
+    solve(evaluation, document, spline, evaluation->cubic);
+}
+
+wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struct document *document, int spline,
+                                wiggly_knot *knots)
+{
+    wiggly_desc desc = storage_describe(evaluation->storage, evaluation->curves, document, spline, evaluation->cubic);
+    storage_add_knots(&desc, document, spline, knots);
+    return desc;
 }
 
 void evaluation_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic)
@@ -225,19 +280,23 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
         return; // evaluation_resize() failed and reported it
     background_forget(evaluation);
     bool same_way = cubic == evaluation->cubic && evaluation->method == storage->method;
-    bool all = !dirty || storage->is_new || !same_way || evaluation->stale;
+    if (storage->is_new || !same_way || evaluation->stale) dirty = NULL;
     evaluation->cubic = cubic;
     storage->method = evaluation->method;
     if (!scene_order(document, storage->space, storage->order, &cycle)) return; // a document has no cycles
+    const bool grouped = pinned_begin(evaluation, document);
+    const int *order = grouped ? storage->pinned.order : storage->order;
     for (int i = 0; i < evaluation->count; i++) storage->solved[i] = false;
-    for (int i = 0; i < evaluation->count; i++) {
-        int spline = storage->order[i];
-        const bool edited = all || dirty[spline] || storage->baked[spline].is_new;
-        if (!edited && !follows_solved(storage, &document->splines[spline], cubic)) continue;
-        storage->solved[spline] = true;
-        storage->baked[spline].is_new = false;
-        solve(evaluation, document, spline, cubic);
+    for (int i = 0; i < evaluation->count;) {
+        if (grouped && storage->pinned.which[order[i]] >= 0) {
+            i += update_group(evaluation, document, dirty, &order[i]);
+            continue;
+        }
+        update_alone(evaluation, document, dirty, order[i]);
+        if (grouped) storage->pinned.placed[order[i]] = true;
+        i++;
     }
+    if (storage->pinned.pins > 0) pinned_measure(evaluation, document);
     storage->is_new = evaluation->stale = false;
 }
 

@@ -3,6 +3,7 @@
 #define SCENE_EVALUATE_H
 
 #include "scene/document.h"
+#include "scene/pin_source.h"
 
 /// Solutions of all splines of one document.
 struct evaluation {
@@ -17,6 +18,7 @@ struct evaluation {
     long solved_splines;   ///< solved by the last update
     long solved_samples;
     long solved_knots;
+    struct pin_source pins;  ///< where pinned points are; set it before each update. Zero: pins are passed over
     struct storage *storage; ///< private (storage.h)
 };
 
@@ -29,11 +31,27 @@ void evaluation_free(struct evaluation *evaluation);
 /// spline as a cubic on the same knots, keeping its equilibrium and, behind the last knot, its value; changing it solves all.
 void evaluation_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic);
 
+/// What is solved for one spline, with its knots, for which `knots` has room.
+wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struct document *document, int spline,
+                                wiggly_knot *knots);
+
 /// What a method is called: "chain" or "band".
 const char *evaluation_solver(wiggly_method method);
 
 /// A spline's value at a position in samples, possibly between two. Zeros if there is no such spline or `evaluation` is NULL.
 wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, double position);
+
+/// What a pin's point has reached in the last update.
+struct pin_left {
+    bool is_found; ///< false: there is no such point, as where the model is missing
+    double at[3];  ///< where it is, metres
+    double way[3]; ///< what is left to where it is to be
+    double size;   ///< of its rig
+};
+
+/// Of the pin at an index of a rig's; NULL where nothing is known, as in a document that has changed since.
+const struct pin_left *evaluation_pin(const struct evaluation *evaluation, const struct document *document, int rig,
+                                      int pin);
 
 /// The slope at a sample that, keyed there with the curve's value, leaves the curve as it is.
 double evaluation_slope(const struct evaluation *evaluation, const struct document *document, int spline, int sample);

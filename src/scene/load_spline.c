@@ -22,6 +22,30 @@ static void load_limit(struct reader *reader, const struct value limits, int ind
     if (!json_is_null(value.json)) reader_number(reader, value, true, range_any, limit);
 }
 
+/// One of the two numbers of a variation. Unknown keys are kept under the spline's extra key of that name.
+static void load_variation(struct reader *reader, const struct value variation, enum parameter parameter,
+                           double *number, json_t **extra)
+{
+    static const char *const keys[] = {"seed", "amount", NULL};
+    const struct parameter_row *row = &parameter_rows[parameter];
+    if (!json_is_object(variation.json)) {
+        if (parameter == PARAMETER_SEED) reader_unexpected(reader, variation, "{\"seed\", \"amount\"}");
+        return;
+    }
+    const struct range range = {row->minimum, row->maximum, false};
+    if (parameter == PARAMETER_VARIATION) {
+        reader_number(reader, reader_member(&variation, "amount"), true, range, number);
+        return;
+    }
+    int seed = 0;
+    const struct value value = reader_member(&variation, "seed");
+    if (value.json && reader_integer(reader, value, 0, (int)row->maximum, &seed)) *number = seed;
+    json_t *unknown = reader_extra(reader, &variation, keys);
+    if (!unknown) return;
+    if (!*extra) *extra = json_object();
+    if (!*extra || json_object_set_new(*extra, row->key, unknown) != 0) reader_no_memory(reader);
+}
+
 /// false if a word is not one of the choices.
 static bool load_parameter(struct reader *reader, const struct value *object, struct spline *spline,
                            enum parameter parameter, json_t **extra)
@@ -36,7 +60,9 @@ static bool load_parameter(struct reader *reader, const struct value *object, st
         if (word >= 0) param->value = word;
         return word >= 0;
     }
-    if (row->kind == PARAMETER_LIMIT) {
+    if (parameter == PARAMETER_VARIATION || parameter == PARAMETER_SEED) {
+        load_variation(reader, value, parameter, &param->value, extra);
+    } else if (row->kind == PARAMETER_LIMIT) {
         load_limit(reader, value, parameter == PARAMETER_HIGH, &param->value);
     } else if (row->kind == PARAMETER_TRACK) {
         reader_param(reader, value, range, row->name, parameter == PARAMETER_EQUILIBRIUM, param, extra);

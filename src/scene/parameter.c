@@ -121,6 +121,18 @@ const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
                            .print = PRINT_CHANGED,
                            .words = {"oscillator", "filter"},
                            .labels = {"Oscillator", "Filter"}},
+    [PARAMETER_STEADY] =
+        {.name = "steady",
+         .hint = "How little the curve changes when a knot moves; 1 gives up to 15 % of the frequency for it",
+         .undo = "Set steady",
+         .kind = PARAMETER_NUMBER,
+         .modes = IN_COMPLEX | IN_REAL,
+         .place = PLACE(steady),
+         .maximum = 1,
+         .usual = 1,
+         .print = PRINT_CHANGED,
+         .step = 0.05,
+         .decimals = 2},
     [PARAMETER_LOW] = {.name = "low limit",
                        .key = "limits",
                        .hint = "The curve never goes below this",
@@ -149,6 +161,27 @@ const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
                         .fresh = INFINITY,
                         .step = 0.01,
                         .decimals = 2},
+    [PARAMETER_VARIATION] = {.name = "variation",
+                             .hint = "How far another motion through the same knots strays, of the farthest knot",
+                             .undo = "Set variation",
+                             .kind = PARAMETER_NUMBER,
+                             .modes = IN_COMPLEX | IN_REAL,
+                             .place = PLACE(variation),
+                             .maximum = 100,
+                             .usual = 1,
+                             .print = PRINT_CHANGED,
+                             .step = 0.01,
+                             .decimals = 2},
+    [PARAMETER_SEED] = {.name = "seed",
+                        .key = "variation",
+                        .hint = "Which variation it is",
+                        .undo = "Set seed",
+                        .kind = PARAMETER_WHOLE,
+                        .modes = IN_COMPLEX | IN_REAL,
+                        .place = PLACE(variation_seed),
+                        .maximum = 999999,
+                        .print = PRINT_CHANGED,
+                        .step = 1},
 };
 
 double parameter_maximum(enum parameter parameter, enum wiggly_mode mode)
@@ -183,6 +216,8 @@ void parameter_describe(enum parameter parameter, double value, const double *tr
         *(wiggly_param *)at = (wiggly_param){value, track};
     } else if (parameter_rows[parameter].kind == PARAMETER_CHOICE) {
         *(unsigned *)at = (unsigned)value;
+    } else if (parameter_rows[parameter].kind == PARAMETER_WHOLE) {
+        *(int *)at = (int)value;
     } else {
         *(double *)at = value;
     }

@@ -20,8 +20,11 @@ enum parameter {
     PARAMETER_EQUILIBRIUM,
     PARAMETER_START,
     PARAMETER_PASSIVE,
+    PARAMETER_STEADY,
     PARAMETER_LOW, ///< these two are one member of the file, "limits": [low, high]
     PARAMETER_HIGH,
+    PARAMETER_VARIATION, ///< these two as well: "variation": { "seed", "amount" }
+    PARAMETER_SEED,
     PARAMETER_COUNT
 };
 
@@ -30,6 +33,7 @@ enum parameter_kind {
     PARAMETER_NUMBER, ///< a number only: a double
     PARAMETER_CHOICE, ///< one of several words: an enum
     PARAMETER_LIMIT,  ///< a number, or none: infinite
+    PARAMETER_WHOLE,  ///< a whole number: an int
 };
 
 /// Two pairs say the same; a spline has one of them.

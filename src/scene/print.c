@@ -9,13 +9,15 @@
 
 static bool is_parameter(const char *key) { return parameter_find(key) != PARAMETER_COUNT; }
 
+static bool is_variation(enum parameter p) { return p == PARAMETER_VARIATION || p == PARAMETER_SEED; }
+
 /// A file has one of the two pairs (frequency, damping and spring, friction). What differs from its default is kept even where the mode
 /// does not use it, because another mode may.
 static bool is_printed(const struct spline *spline, enum parameter parameter)
 {
     const struct param *param = &spline->parameter[parameter];
     const struct parameter_row *row = &parameter_rows[parameter];
-    if (!spline_has(spline, parameter) || row->kind == PARAMETER_LIMIT) return false;
+    if (!spline_has(spline, parameter) || row->kind == PARAMETER_LIMIT || is_variation(parameter)) return false;
     if (param_follows(param) || param->value != row->standard) return true;
     return row->print == PRINT_ALWAYS || (row->print == PRINT_USED && spline_uses(spline, parameter, false));
 }
@@ -36,6 +38,21 @@ static void print_limits(struct members *members, const struct spline *spline)
     text_string(members->text, "]");
 }
 
+/// "variation": { "seed", "amount" }, where there is one.
+static void print_variation(struct members *members, const struct spline *spline)
+{
+    const double amount = spline->parameter[PARAMETER_VARIATION].value,
+                 seed = spline->parameter[PARAMETER_SEED].value;
+    json_t *extra = json_object_get(spline->extra, parameter_key(PARAMETER_VARIATION));
+    if (amount == 0 && seed == 0 && !extra) return;
+    member(members, parameter_key(PARAMETER_VARIATION));
+    struct members pair = {members->text, "{ ", ", ", false};
+    member_number(&pair, "seed", seed);
+    member_number(&pair, "amount", amount);
+    members_extra(&pair, extra, NULL);
+    text_string(members->text, " }");
+}
+
 static void print_spline(struct text *text, const struct document *document, const struct spline *spline,
                          const char *folder)
 {
@@ -49,6 +66,7 @@ static void print_spline(struct text *text, const struct document *document, con
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         const char *name = parameter_rows[p].name;
         if (p == PARAMETER_LOW) print_limits(&members, spline);
+        if (p == PARAMETER_VARIATION) print_variation(&members, spline);
         if (!is_printed(spline, p)) continue;
         if (parameter_rows[p].kind == PARAMETER_CHOICE) {
             member_string(&members, name, parameter_rows[p].words[(int)spline->parameter[p].value]);

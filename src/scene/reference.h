@@ -9,6 +9,7 @@ enum reference_kind {
     REFERENCE_POSITION, ///< a coordinate of a tail's position that follows
     REFERENCE_CHANNEL,  ///< a tail's channel
     REFERENCE_DRIVE,    ///< what moves a coordinate of a character
+    REFERENCE_MEADOW,   ///< what a meadow swings by
 };
 
 struct reference {

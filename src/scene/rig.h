@@ -5,6 +5,7 @@
 
 #include "scene/chain.h"
 #include "scene/character.h"
+#include "scene/meadow_rig.h"
 #include "scene/model_rig.h"
 #include "scene/pin.h"
 #include "scene/tail.h"
@@ -12,7 +13,8 @@
 
 /// Every kind: its constant RIG_… and the name that its rows of functions begin with. Layers make their tables from this list.
 #define RIG_KIND_LIST(KIND)                                                                                          \
-    KIND(RIG_TAIL, tail) KIND(RIG_CHARACTER, character) KIND(RIG_MODEL, model) KIND(RIG_CHAIN, chain)
+    KIND(RIG_TAIL, tail)                                                                                             \
+    KIND(RIG_CHARACTER, character) KIND(RIG_MODEL, model) KIND(RIG_CHAIN, chain) KIND(RIG_MEADOW, meadow)
 
 #define RIG_CONSTANT(constant, name) constant,
 enum rig_kind { RIG_KIND_LIST(RIG_CONSTANT) RIG_KINDS };
@@ -32,6 +34,7 @@ struct rig {
         struct character_rig character;
         struct model_rig model;
         struct chain chain;
+        struct meadow_rig meadow;
     };
     struct pin *pins; ///< by frame, then by point; at most one of a point on a sample
     int pin_count, pin_capacity;

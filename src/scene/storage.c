@@ -1,9 +1,12 @@
 /// Lays curves out in memory, and describes a spline to the solver.
 #include "scene/storage.h"
+#include <math.h>
 #include <string.h>
 
 /// Curves of at least that many samples have extremes: scanning them all takes 1 ms of a frame.
 enum { MANY_SAMPLES = 250000 };
+
+enum { MOST_HELD = 1 << 20 };
 
 void storage_place(wiggly_curve *curve, double *numbers, int samples)
 {
@@ -69,6 +72,14 @@ void storage_add_knots(wiggly_desc *desc, const struct document *document, int s
     for (int i = 0; i < of->knot_count; i++) knots[i] = storage_knot(document, &of->knots[i]);
     desc->knots = knots;
     desc->knot_count = of->knot_count;
+}
+
+int storage_knot_room(const struct spline *spline, int samples)
+{
+    bool limited =
+        isfinite(spline->parameter[PARAMETER_LOW].value) || isfinite(spline->parameter[PARAMETER_HIGH].value);
+    int held = samples < MOST_HELD ? samples : MOST_HELD;
+    return spline->knot_count + (limited ? held : 0);
 }
 
 void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc)

@@ -6,6 +6,7 @@
 #include "scene/document.h"
 #include "scene/extremes.h"
 #include "scene/order.h"
+#include "scene/pinned.h"
 
 enum { ROWS = 5 }; ///< of each curve: total, y, re, im, omega
 
@@ -27,8 +28,9 @@ struct storage {
     int solver_samples, solver_knots;
     wiggly_method method; ///< of the last update
     wiggly_knot *knots;   ///< of the spline being solved; solver_knots
-    int *order;           ///< one for each spline, as the next four
+    int *order;           ///< one for each spline, as the next five
     bool *solved;
+    bool *forced; ///< to be solved whether edited or not: what moves its pinned rigs has changed
     struct order_space space;
     struct extremes *extremes;
     struct baked *baked;
@@ -37,6 +39,7 @@ struct storage {
     unsigned layout;               ///< counts the layouts
     unsigned threaded_layout;      ///< the last one offered to a thread
     struct background *background; ///< NULL: no thread
+    struct pinned pinned;
 };
 
 /// Lays a curve's rows out in ROWS · samples numbers.
@@ -58,6 +61,9 @@ wiggly_knot storage_knot(const struct document *document, const struct knot *kno
 
 /// Adds the spline's knots, for which `knots` must have room.
 void storage_add_knots(wiggly_desc *desc, const struct document *document, int spline, wiggly_knot *knots);
+
+/// Knots that the solver needs room for: a limited spline needs as many more as samples may be held.
+int storage_knot_room(const struct spline *spline, int samples);
 
 /// A curve at rest, for where there is no solution.
 void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc);

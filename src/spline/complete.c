@@ -137,6 +137,8 @@ static void hold_before_first(const problem *p, wiggly_curve *curve)
         curve->re[i] = total ? curve->re[first] + (p->y[i] - p->y[first]) : curve->re[first];
         curve->im[i] = curve->im[first];
     }
+    curve->before[0] += p->held.re;
+    curve->before[1] += p->held.im;
 }
 
 void problem_complete(wiggly_solver *solver, const problem *p, wiggly_curve *curve)

@@ -17,7 +17,10 @@
     X(calm, NUMBER, false)                                                                                           \
     X(passive, CHOICE, true)                                                                                         \
     X(low, NUMBER, false)                                                                                            \
-    X(high, NUMBER, false)
+    X(high, NUMBER, false)                                                                                           \
+    X(steady, NUMBER, false)                                                                                         \
+    X(variation, NUMBER, false)                                                                                      \
+    X(variation_seed, COUNT, false)
 
 #define ROW(member, kind, filters)                                                                                   \
     {#member, DESC_##kind, filters, offsetof(wiggly_desc, member), sizeof(((wiggly_desc *)0)->member)},

@@ -53,6 +53,7 @@ static limits_part tail_of(const problem *p)
     tail.desc.samples = desc->samples - tail.begin;
     tail.desc.low = -INFINITY, tail.desc.high = INFINITY;
     tail.desc.equilibrium = (wiggly_param){0};
+    tail.desc.variation = 0;
     wiggly_param *const tracks[] = {&tail.desc.frequency, &tail.desc.damping, &tail.desc.spring, &tail.desc.friction};
     for (int i = 0; i < 4; i++) {
         if (tracks[i]->track) tracks[i]->track += tail.begin;
@@ -242,6 +243,7 @@ wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve
 {
     limits_work w = {.solver = solver, .p = p, .curve = curve, .result = result};
     solver->limits.solves = 0;
+    solver->limits.tail_energy = 0;
     w.status = problem_find(solver, p, curve, result);
     if (w.status == WIGGLY_SINGULAR) return w.status;
     w.body = body_of(p);

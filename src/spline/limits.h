@@ -44,9 +44,6 @@ typedef struct limits_work {
 /// there is no room for so many.
 bool limits_solve(limits_work *work);
 
-/// −½ of the gradient of E·h³ by Re x of a system's sample, at a curve that begins with the system; `im` NULL outside complex mode.
-double limits_pull(const system_rows *rows, const double *re, const double *im, int k);
-
 static inline bool limits_hold(const limits_work *w, int sample) { return w->solver->limits.held[sample] & 1; }
 
 /// Where a sample's limit is that holds it.

@@ -90,7 +90,7 @@ static bool push(limits_work *w, enum what what, double *along_turn)
     *along_turn = 0;
     for (int i = tail->from; i <= tail->to; i++) {
         if (limits_hold(w, i))
-            *along_turn += 2 * limits_pull(&solver->rows, re, NULL, i - tail->begin) * m->free[1][i] / unit;
+            *along_turn += 2 * system_pull(&solver->rows, re, NULL, i - tail->begin) * m->free[1][i] / unit;
     }
     return true;
 }
@@ -123,8 +123,9 @@ static void add_push(limits_work *w)
     double turn = w->p->latest < 0 ? 0 : w->curve->im[L], *e = m->pushed[0] + L, h = tail->desc.step;
     for (int i = 0; i < n; i++) e[i] += turn * m->pushed[1][L + i];
     problem_set_rows(solver, &tail->p);
+    m->tail_energy = system_energy(&solver->rows, e, NULL) / tail->p.unit;
     for (int i = tail->from; i <= tail->to; i++) {
-        if (limits_hold(w, i)) m->pull[i] = limits_pull(&solver->rows, e, NULL, i - L);
+        if (limits_hold(w, i)) m->pull[i] = system_pull(&solver->rows, e, NULL, i - L);
     }
     for (int i = 1; i < n; i++) {
         poles at = poles_at(&tail->desc, i, 0);
@@ -160,7 +161,7 @@ static bool solve_body(limits_work *w, const double on_turn[2])
     const double *re = w->curve->re + body->p.first, *im = w->curve->im + body->p.first;
     for (int i = body->from; i <= body->to; i++) {
         if (limits_hold(w, i))
-            m->pull[i] = limits_pull(&solver->rows, re, solver->rows.is_complex ? im : NULL, i - body->p.first);
+            m->pull[i] = system_pull(&solver->rows, re, solver->rows.is_complex ? im : NULL, i - body->p.first);
     }
     return true;
 }
@@ -168,7 +169,7 @@ static bool solve_body(limits_work *w, const double on_turn[2])
 bool limits_solve(limits_work *w)
 {
     double on_turn[2] = {0, 0};
-    w->tail_error = 0;
+    w->tail_error = w->solver->limits.tail_energy = 0;
     w->solver->limits.solves++;
     const int knots = w->p->desc->knot_count;
     if (w->tail.held > 0) {

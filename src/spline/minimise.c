@@ -187,13 +187,15 @@ minimum solver_minimise(wiggly_solver *solver)
     return result;
 }
 
-void solver_run_forward(wiggly_solver *solver)
+void solver_run_forward(wiggly_solver *solver, int from)
 {
     system_rows *rows = &solver->rows;
     int width = rows->is_complex ? 2 : 1;
     // x is a double sum of small steps: extended precision keeps the rounding of N² additions below the last digit of x.
-    long double x_re = rows->x[width], x_im = 0, step_re = x_re, step_im = 0;
-    for (int i = 1; i < rows->count - 1; i++) {
+    const double *x = rows->x + width * from, *before = x - width;
+    long double x_re = x[0], x_im = 0, step_re = x_re - before[0], step_im = 0;
+    if (rows->is_complex) x_im = x[1], step_im = x_im - before[1];
+    for (int i = from; i < rows->count - 1; i++) {
         coefficients at = rows->at[i];
         long double before_re = x_re - step_re, before_im = x_im - step_im;
         long double re = step_re + (at.m.re * step_re - at.m.im * step_im) -

@@ -209,9 +209,9 @@ start_cost poles_start_seen_from(start_cost cost, const poles *damped, const pol
     return cost;
 }
 
-cplx poles_tail(const poles *at, const speed_form *ahead, double step)
+cplx poles_tail(cplx passive, const speed_form *ahead, double step)
 {
-    return cplx_divide(cplx_sub(cplx_scale(step, poles_passive(at)), ahead->on_x), ahead->on_e);
+    return cplx_divide(cplx_sub(cplx_scale(step, passive), ahead->on_x), ahead->on_e);
 }
 
 wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample)

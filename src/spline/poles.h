@@ -60,6 +60,14 @@ double poles_weight_exponent(const poles *at, double step);
 /// Poles at a sample. `floor` is the least damping ratio (0 but for loops and the start's cost).
 poles poles_at(const wiggly_desc *desc, int sample, double floor);
 
+/// The poles of a frequency that many times as high, of the same damping ratio and bandwidth.
+static inline poles poles_detuned(poles at, double by)
+{
+    for (int i = 0; i < 2; i++) at.s[i] = cplx_scale(by, at.s[i]);
+    at.natural *= by, at.centre *= by, at.decay *= by;
+    return at;
+}
+
 /// True where no pole parameter that the mode uses has a track.
 bool poles_are_constant(const wiggly_desc *desc);
 
@@ -72,8 +80,8 @@ speed_form poles_speed(const poles *at, double step, bool backwards);
 start_cost poles_start_seen_from(start_cost cost, const poles *damped, const poles *at, double step);
 /// The one pole of what moves by itself, −ζω_n + jω_n√(1−ζ²).
 static inline cplx poles_passive(const poles *at) { return (cplx){-at->decay, at->centre}; }
-/// What one sample of moving by itself adds, as a part, where the poles see the speed as in `ahead`.
-cplx poles_tail(const poles *at, const speed_form *ahead, double step);
+/// What one sample of moving by itself, by the pole `passive`, adds, as a part, where other poles see the speed as in `ahead`.
+cplx poles_tail(cplx passive, const speed_form *ahead, double step);
 cplx cplx_exp(cplx z);
 
 #endif

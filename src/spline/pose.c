@@ -1,6 +1,7 @@
 /// From the description to the problem (docs/mathematics.md, Constraints): where the domain starts and ends, what knots are measured
 /// from, what the start costs.
 #include "spline/problem.h"
+#include "spline/variation.h"
 #include "spline/wide.h"
 #include <float.h>
 #include <math.h>
@@ -23,6 +24,8 @@ static bool param_is_within(wiggly_param param, int samples, double limit)
     return param.track ? are_within(param.track, samples, limit) : fabs(param.value) <= limit;
 }
 
+static bool is_part(double x) { return x >= 0 && x <= 1; }
+
 static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *desc)
 {
     if (!solver || !desc) return WIGGLY_ERROR_ARGUMENT;
@@ -31,8 +34,9 @@ static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *
     if (desc->samples > solver->samples || desc->knot_count > solver->knots) return WIGGLY_ERROR_CAPACITY;
     if (desc->mode == WIGGLY_COMPLEX && desc->spring_friction) return WIGGLY_ERROR_SPRING;
     if (desc->start == WIGGLY_LOOP && desc->samples < 2) return WIGGLY_ERROR_LOOP;
-    if (!(desc->step > 0 && desc->step < INFINITY) || !(desc->calm >= 0 && desc->calm <= 1))
+    if (!(desc->step > 0 && desc->step < INFINITY) || !is_part(desc->calm) || !is_part(desc->steady))
         return WIGGLY_ERROR_NUMBER;
+    if (!(desc->variation >= 0 && desc->variation < INFINITY)) return WIGGLY_ERROR_NUMBER;
     for (const desc_member *m = desc_members; m->name; m++) {
         if (m->kind != DESC_PARAM) continue;
         const wiggly_param *param = desc_param(desc, m);
@@ -113,7 +117,12 @@ static void set_about(wiggly_solver *solver, problem *p)
     } else {
         p->swing = solver->swing;
         p->about = p->swing.total;
-        p->status = swing_answer(desc, p->y, p->calm, &p->swing);
+        if (desc->equilibrium.track) {
+            p->status = swing_answer(desc, p->y, p->calm, &p->swing);
+        } else {
+            swing_rest(desc, p->y, &p->swing);
+        }
+        if (variation_is_set(desc)) variation_add(p);
     }
 }
 
@@ -123,7 +132,7 @@ static start_cost cost_of_start(wiggly_solver *solver, const problem *p)
     const wiggly_desc *desc = p->desc;
     if (poles_are_constant(desc)) return problem_filter(solver, p)->start;
     int at = problem_oscillates(p) ? poles_fastest(desc, p->first, p->latest, NULL) : p->first;
-    poles damped = poles_at(desc, at, LEAST_DAMPING), here = poles_at(desc, p->first, 0);
+    poles damped = problem_poles(p, at, LEAST_DAMPING), here = problem_poles(p, p->first, 0);
     start_cost cost = poles_start_cost(&damped, desc->step);
     if (!problem_oscillates(p)) return cost;
     double weight = exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&here, desc->step));
@@ -135,7 +144,7 @@ static double unit_of(wiggly_solver *solver, const problem *p)
 {
     if (!problem_oscillates(p)) return 1;
     if (poles_are_constant(p->desc)) return problem_filter(solver, p)->unit;
-    poles at = poles_at(p->desc, p->first, problem_least_damping(p));
+    poles at = problem_poles(p, p->first, problem_least_damping(p));
     return exp(-poles_weight_exponent(&at, p->desc->step));
 }
 
@@ -150,15 +159,23 @@ void problem_set_start(wiggly_solver *solver, problem *p)
     p->free_end = p->start == WIGGLY_FREE && !(p->cost.row[0].weight > 0);
 }
 
+static void fill(double *x, double value, int count)
+{
+    for (int i = 0; i < count; i++) x[i] = value;
+}
+
 wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p)
 {
     wiggly_status status = check_desc(solver, desc);
     if (status == WIGGLY_OK) status = order_knots(solver, desc);
     if (status != WIGGLY_OK) return status;
-    *p = (problem){.desc = desc, .calm = desc->calm, .pulls = solver->pulls};
+    *p = (problem){.desc = desc, .calm = desc->calm, .detune = 1, .pulls = solver->pulls};
     if (desc->equilibrium.track) {
         memmove(y, desc->equilibrium.track, sizeof *y * (size_t)desc->samples);
         if (desc->start == WIGGLY_LOOP) y[desc->samples - 1] = y[0];
+        p->y = y;
+    } else if (variation_is_set(desc)) {
+        fill(y, desc->equilibrium.value, desc->samples);
         p->y = y;
     }
     set_domain(solver, p);

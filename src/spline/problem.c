@@ -199,12 +199,19 @@ static bool same_start(start_cost a, start_cost b)
     return same_row(a.row[0], b.row[0]) && same_row(a.row[1], b.row[1]);
 }
 
+/// What the last sample's jet sees of what moves by itself.
+static cplx tail_of(const constant_filter *f, const problem *p)
+{
+    if (p->desc->mode != WIGGLY_COMPLEX) return (cplx){0, 0};
+    return cplx_sub((cplx){1 + f->tail.re, f->tail.im}, f->lambda);
+}
+
 static bool same_filter(const wiggly_solver *solver, const problem *p)
 {
     const chain *c = &solver->chain;
     const constant_filter *f = &solver->filter;
     return (p->desc->mode == WIGGLY_COMPLEX) == c->is_complex && same_cplx(f->lambda, c->lambda) &&
-           same_cplx(f->delta2, c->delta2) && f->run == c->run;
+           same_cplx(f->delta2, c->delta2) && same_cplx(tail_of(f, p), c->tail) && f->run == c->run;
 }
 
 /// From rest the oscillator's jet at sample 0, which is d, counts twice.
@@ -229,8 +236,7 @@ static void set_speeds(chain *c, const problem *p, const constant_filter *f)
     c->speed[VIEW_BOTH] = speed_of(form, f->lambda, 0.5);
     c->speed[VIEW_BEHIND] = speed_of(form, f->lambda, 1);
     c->speed[VIEW_TAIL] = (chain_speed){.on_x = f->passive};
-    c->tail = cplx_sub((cplx){1 + f->tail.re, f->tail.im}, f->lambda);
-    if (!c->is_complex) c->tail = (cplx){0, 0};
+    c->tail = tail_of(f, p);
 }
 
 void problem_set_chain(wiggly_solver *solver, const problem *p)

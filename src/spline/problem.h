@@ -24,9 +24,12 @@ typedef struct problem {
     const double *y;     ///< equilibrium of the whole domain, where it moves; a loop's last is its first
     const double *about; ///< y + Re u of every sample, which w is measured from; NULL where that is `level`
     double level;
-    swing swing; ///< u, where there is one; else its arrays are NULL
+    swing swing; ///< u, where there is one, with the noise of a variation; else its arrays are NULL
+    cplx held;   ///< the noise before `first`
     wiggly_start start;
     double calm;
+    double
+        detune; ///< how many times as high the frequency of the engine's filter is (steady.h); of all that moves by itself it is the description's
     wiggly_status status;      ///< WIGGLY_CALMED where u is not that of the calm as asked
     int first;                 ///< sample of the system's row 0
     int count;                 ///< samples from there to the domain's end (in a loop, round it)
@@ -63,10 +66,16 @@ static inline bool problem_is_loose(const problem *p)
     return p->calm < LOOSE_CALM && p->start != WIGGLY_REST && p->desc->mode != WIGGLY_CUBIC;
 }
 
+/// The engine's poles at a sample, of at least so much damping.
+static inline poles problem_poles(const problem *p, int sample, double floor)
+{
+    return poles_detuned(poles_at(p->desc, sample, floor), p->detune);
+}
+
 /// The filter of a problem without pole tracks.
 static inline const constant_filter *problem_filter(wiggly_solver *solver, const problem *p)
 {
-    return solver_filter(solver, p->desc, problem_least_damping(p));
+    return solver_filter(solver, p->desc, problem_least_damping(p), p->detune);
 }
 
 /// Whether anything asks for a motion: knots or pulls.

@@ -68,9 +68,10 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
     double weight[POLES_BLOCK], reference = 0, highest = 0;
     double slowest = INFINITY;
     if (oscillates) poles_fastest(desc, p->first, p->first + rows->count - 1, &highest);
+    highest *= p->detune;
     for (int k = 0; k < rows->count; k += POLES_BLOCK) {
         int count = rows->count - k < POLES_BLOCK ? rows->count - k : POLES_BLOCK;
-        poles_block_fill(desc, p->first + k, count, floor, &block);
+        poles_block_fill(desc, p->first + k, count, floor, p->detune, &block);
         if (k == 0 && oscillates) reference = block.exponent[0];
         for (int i = 0; i < count; i++) weight[i] = oscillates ? block.exponent[i] - reference : 0;
         poles_block_exp(weight, count, weight);
@@ -177,11 +178,12 @@ static void see_speed(const problem *p, slope_row *row)
 {
     const double h = p->desc->step;
     const sides from = sides_of(p, row->sample);
-    poles at = poles_at(p->desc, p->first + row->sample, problem_least_damping(p));
     if (from.tied) {
-        row->here = cplx_scale(h, poles_passive(&at));
+        poles own = poles_at(p->desc, p->latest, 0);
+        row->here = cplx_scale(h, poles_passive(&own));
         return;
     }
+    poles at = problem_poles(p, p->first + row->sample, problem_least_damping(p));
     const double part = 1.0 / (from.ahead + from.behind);
     speed_form forward = poles_speed(&at, h, false), backward = poles_speed(&at, h, true);
     if (from.ahead) row->here = cplx_scale(part, forward.on_x), row->ahead = cplx_scale(part, forward.on_e);
@@ -254,9 +256,9 @@ static void set_tail(system_rows *rows, const problem *p)
     if (rows->count > 1) rows->jet_weight[rows->count - 1] *= 2;
     if (rows->count == 1) rows->jet_to = -1;
     if (!rows->is_complex) return;
-    poles at = poles_at(p->desc, p->latest, 0);
+    poles own = poles_at(p->desc, p->latest, 0), at = poles_detuned(own, p->detune);
     speed_form ahead = poles_speed(&at, p->desc->step, false);
-    rows->tail = poles_tail(&at, &ahead, p->desc->step);
+    rows->tail = poles_tail(poles_passive(&own), &ahead, p->desc->step);
 }
 
 /// Whether the knots are next to nothing beside what w has to take away for them: then w needs all its digits.

@@ -2,6 +2,7 @@
 /// (docs/mathematics.md, last rule of Constraints).
 #include "spline/limits.h"
 #include "spline/problem.h"
+#include "spline/steady.h"
 #include <math.h>
 #include <string.h>
 
@@ -192,7 +193,7 @@ static void solve_plain(wiggly_solver *solver, const problem *p, wiggly_curve *c
         return;
     }
     problem_set_rows(solver, p);
-    solver_run_forward(solver);
+    solver_run_forward(solver, 1);
     unpack(solver, p, curve);
 }
 
@@ -212,10 +213,11 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     wiggly_status status = problem_pose(solver, desc, all.y ? all.y : solver->y, &p);
     if (status != WIGGLY_OK) return status;
     const bool limited = limits_are_set(desc) && !solver->pulls; // pins come first
+    const bool steady = steady_is_set(&p);
     if (limited) limits_begin(solver, desc, curve, &all);
     for (;;) {
         minimum result = {0};
-        status = (limited ? limits_find : problem_find)(solver, &p, &all, &result);
+        status = (steady ? steady_find : limited ? limits_find : problem_find)(solver, &p, &all, &result);
         if (status >= WIGGLY_ERROR_ARGUMENT) return status;
         problem_complete(solver, &p, &all);
         if (limited) limits_clamp(solver, &p, &all);
@@ -231,7 +233,7 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
 bool problem_pose_for_group(wiggly_solver *solver, const wiggly_desc *desc, problem *p)
 {
     return problem_pose(solver, desc, solver->y, p) == WIGGLY_OK && p->start != WIGGLY_LOOP && !problem_is_loose(p) &&
-           !limits_are_set(desc) && !is_plain(p) && problem_fits_chain(solver, p) &&
+           !limits_are_set(desc) && !steady_is_set(p) && !is_plain(p) && problem_fits_chain(solver, p) &&
            problem_omission(solver, p) == 0 && !problem_ends_in_pair(solver, p);
 }
 

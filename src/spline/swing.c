@@ -12,6 +12,7 @@
 #include "spline/wide.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 static const double blow_up = 1e4;
 
@@ -236,6 +237,15 @@ wiggly_status swing_answer(const wiggly_desc *desc, const double *y, double calm
         u->im[desc->samples - 1] = u->im[0];
     }
     return status;
+}
+
+void swing_rest(const wiggly_desc *desc, const double *y, swing *u)
+{
+    const size_t size = sizeof(double) * (size_t)desc->samples;
+    u->error = 0;
+    memcpy(u->total, y, size);
+    memset(u->im, 0, size);
+    memset(u->speed, 0, size);
 }
 
 double swing_speed(const wiggly_desc *desc, const double *y, const swing *u, int sample)

@@ -16,6 +16,9 @@ typedef struct swing {
 /// the loop's damping floor. WIGGLY_CALMED where a loop of calm 0 has no answer, or one 10⁴ times y's range: that of calm 0.05 then.
 wiggly_status swing_answer(const wiggly_desc *desc, const double *y, double calm, swing *u);
 
+/// u of an equilibrium that stays where it is: 0.
+void swing_rest(const wiggly_desc *desc, const double *y, swing *u);
+
 /// The speed of y + Re u at a sample, 1/s: y's differences on both sides, from rest before the first, straight on behind the last.
 double swing_speed(const wiggly_desc *desc, const double *y, const swing *u, int sample);
 

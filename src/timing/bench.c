@@ -40,6 +40,8 @@ static const struct {
     {"short-8", BENCH_SHORT_8, COMPLEX | REAL, {240}, false},
     {"limits", BENCH_LIMITS, COMPLEX, {240, 1000}, false},
     {"limits", BENCH_LIMITS, REAL | CUBIC, {240}, false},
+    {"steady", BENCH_STEADY, COMPLEX, {240, 1000}, false},
+    {"steady", BENCH_STEADY, REAL, {240}, false},
 };
 enum { PLANS = sizeof plan / sizeof *plan };
 

@@ -28,8 +28,10 @@ static void work_destroy(struct work *w)
     free(w->curve.total);
 }
 
-/// LAPACK knows no limits: such a case is timed alone.
 static bool is_limited(const wiggly_desc *desc) { return desc->high < INFINITY; }
+
+/// Limits and the mean of several are no system for LAPACK: such a case is timed alone.
+static bool is_alone(const wiggly_desc *desc) { return is_limited(desc) || desc->steady > 0; }
 
 static bool work_create(struct work *w, const wiggly_desc *desc)
 {
@@ -146,7 +148,7 @@ static bool run(struct bench *bench, struct work *w, bool values_only, struct be
     if (status != WIGGLY_OK)
         return fail(error, ERROR_ENVIRONMENT, "%s: %s", result->name, wiggly_status_text(status));
     result->error = w->curve.error;
-    if (lapack->dpbsv && !is_limited(desc)) {
+    if (lapack->dpbsv && !is_alone(desc)) {
         result->error = compare(w, lapack);
         if (!(result->error <= agreement)) {
             return fail(error, ERROR_ENVIRONMENT, "%s: differs from LAPACKE_dpbsv by %g of the largest value",
@@ -156,7 +158,7 @@ static bool run(struct bench *bench, struct work *w, bool values_only, struct be
         if (desc->mode == WIGGLY_COMPLEX && desc->start != WIGGLY_LOOP)
             result->zpbsv_ns_per_sample = time_way(w, lapack, BY_ZPBSV);
     }
-    if (!is_limited(desc)) result->band_ns_per_sample = time_way(w, lapack, BY_BAND);
+    if (!is_alone(desc)) result->band_ns_per_sample = time_way(w, lapack, BY_BAND);
     time_solver(bench, w, values_only, result);
     return true;
 }

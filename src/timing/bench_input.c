@@ -84,6 +84,7 @@ bool bench_input_create(struct bench_input *input, enum bench_kind kind, wiggly_
     if (periods_of(kind) > 0) desc->frequency.value = periods_of(kind) / ((samples - 1) * desc->step);
     add_knots(input, kind);
     if (kind == BENCH_LIMITS) set_limits(input, 1.02);
+    if (kind == BENCH_STEADY) desc->steady = 1;
     return true;
 }
 

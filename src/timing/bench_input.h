@@ -19,6 +19,7 @@ enum bench_kind {
     BENCH_SHORT_4,
     BENCH_SHORT_8,
     BENCH_LIMITS, ///< the curve stays within 1.02 of the largest knot
+    BENCH_STEADY, ///< the mean of five
     BENCH_EDIT,   ///< like single, of fewer knots
 };
 

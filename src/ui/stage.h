@@ -14,7 +14,8 @@ enum {
     STAGE_MAX_TAILS = 8,
     STAGE_MAX_CHARACTERS = 4,
     STAGE_MAX_MODELS = 4,
-    STAGE_MAX_BLOBS = 16 * STAGE_MAX_TAILS + 4 * STAGE_MAX_CHARACTERS + 4 * STAGE_MAX_MODELS,
+    STAGE_MAX_REEDS = 4096,
+    STAGE_MAX_BLOBS = 20 * STAGE_MAX_TAILS + 4 * STAGE_MAX_CHARACTERS + 4 * STAGE_MAX_MODELS,
 };
 
 /// One tail to draw; its mesh is rebuilt only when joints or length change.
@@ -45,6 +46,23 @@ struct stage_model {
     float lo[3], hi[3];           ///< the box around it, world
 };
 
+/// A reed of a meadow as it stands now.
+struct stage_reed {
+    float place[3], height; ///< metres
+    float still, re, im;    ///< y and x of its spline
+    float turn;             ///< radians that its wind is off +x
+    float pushed[2];        ///< radians towards +x and +z, over its whole length
+    float shade, width;     ///< 0 … 1; metres
+};
+
+/// Reeds; live until the next frame at least.
+struct stage_meadow {
+    const struct stage_reed *reeds;
+    int count;
+    float lag, gain;    ///< radians a joint
+    float lo[3], hi[3]; ///< the box around it, world
+};
+
 /// A soft contact shadow on the ground: a disc that darkens; `strength` 0 … 1, more where nearer.
 struct stage_blob {
     float x, z, radius, strength;
@@ -64,6 +82,7 @@ struct stage_view {
     int character_count;
     struct stage_model models[STAGE_MAX_MODELS];
     int model_count;
+    struct stage_meadow meadow;
     struct stage_blob blobs[STAGE_MAX_BLOBS];
     int blob_count;
     uint64_t hash; ///< of everything above: equal hash, equal pixels

@@ -30,7 +30,7 @@ static const struct theme themes[THEME_COUNT] = {
                       .bottom = 0x111419FFu,
                       .ground = 0x39414CFFu,
                       .shadow = 0x07080AFFu,
-                      .bounce = 0x2A2420FFu},
+                      .bounce = 0x4A382AFFu},
             .spline = {0xFFB000FFu, 0x45A8F1FFu, 0xD2A4C7FFu, 0x379570FFu, 0xF4F1E8FFu, 0xCD5C33FFu},
         },
     [THEME_LIGHT] =
@@ -58,7 +58,7 @@ static const struct theme themes[THEME_COUNT] = {
                       .bottom = 0xCFD6DFFFu,
                       .ground = 0xF4F3EFFFu,
                       .shadow = 0x4A4640FFu,
-                      .bounce = 0x8A8378FFu},
+                      .bounce = 0x9A8A74FFu},
             .spline = {0xC25F00FFu, 0x1775C8FFu, 0x9E6690FFu, 0x4D7552FFu, 0x333B46FFu, 0xA43023FFu},
         },
 };

@@ -144,6 +144,9 @@ static struct edit release_edit(const struct core *core, const struct editor_wor
         edit.kind = EDIT_DRIVE_REMOVE;
         edit.channel = reference->which;
         break;
+    case REFERENCE_MEADOW:
+        edit.kind = EDIT_RIG_REMOVE;
+        break;
     }
     return edit;
 }

@@ -35,6 +35,9 @@ void slopes_set(struct core *core, const struct editor_world *world, int how);
 
 /// Moves the selected knots by frames and values; repeated nudges are one undo step.
 void core_nudge_knots(struct core *core, const struct editor_world *world, double frames, double value);
+/// Gives the active spline the frequency and damping that explain its knots best; where it has these, the runner-up's.
+void core_find_frequency(struct core *core, const struct editor_world *world, int unused);
+
 /// The channel of a tail or chain that the active spline moves, the first of all where it moves none; NULL where there is none at all.
 const struct channel *core_active_channel(const struct core *core, const struct document *document, int *rig,
                                           int *channel);

@@ -4,6 +4,7 @@
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/knots.h"
+#include "editor/core/pins.h"
 #include "editor/core/playback.h"
 #include "editor/core/selection.h"
 #include "editor/curves/gestures.h"
@@ -137,7 +138,7 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
 {
     struct hover hover = {.kind = HOVER_NONE};
     const struct spline *spline = core_active_spline(core, world);
-    if (rect_contains(core->layout.ruler, x, y)) hover.kind = HOVER_RULER;
+    if (rect_contains(core->layout.ruler, x, y)) hover = ruler_pins_hover(curves, core, world->document, x, y);
     if (rect_contains(ruler_corner(core), x, y)) hover.kind = HOVER_UNITS;
     if (!rect_contains(core->layout.plot, x, y) || !spline) return hover;
     bool seen = arrange_seen(core, world) != NULL;
@@ -208,7 +209,11 @@ void curves_press(struct curves *curves, struct core *core, const struct editor_
     }
     if (event->button != BUTTON_LEFT) return;
     struct hover hover = curves_hover(curves, core, world, event->x, event->y);
+    if (hover.kind != HOVER_PIN && hover.kind != HOVER_RULER) pins_clear(core);
     switch (hover.kind) {
+    case HOVER_PIN:
+        ruler_pins_begin(curves, core, world, &hover, event);
+        break;
     case HOVER_RULER:
         press_ruler(curves, core, world, event);
         break;

@@ -74,6 +74,9 @@ void curves_pan(struct curves *curves, struct core *core, double dx, double dy);
 void curves_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor);
 /// Samples that are in sight.
 void curves_span(const struct curves *curves, const struct document *document, int *first, int *count);
+/// Where the mark of a pin is on the ruler; false where it is out of sight.
+bool curves_pin_point(const struct curves *curves, const struct core *core, const struct document *document,
+                      const struct pin *pin, float xy[2]);
 /// Where a warning's marker is on the screen; false where there is none.
 bool curves_warning(const struct curves *curves, const struct core *core, double number, float xy[2]);
 

@@ -317,11 +317,24 @@ static void show_playhead(const struct curves *curves, struct core *core, const 
     drawlist_text(&core->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, text);
 }
 
+/// Whether pins move a spline.
+static bool is_pinned(const struct document *document, int spline)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = &document->rigs[r];
+        for (int i = 0; rig->pin_count > 0 && i < rig_input_count(rig); i++) {
+            if (rig_input(rig, i) == spline) return true;
+        }
+    }
+    return false;
+}
+
 /// What to do where there is nothing to edit yet, and no swing of the equilibrium's that the text would cover.
 static void show_empty(struct core *core, const struct editor_world *world)
 {
     const struct spline *spline = core_active_spline(core, world);
-    bool flat = spline && spline->knot_count == 0 && !param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]);
+    bool flat = spline && spline->knot_count == 0 && !param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]) &&
+                !is_pinned(world->document, core->active);
     bool hidden = spline && !arrange_seen(core, world);
     if (spline && !flat && !hidden) return;
     const bool has_bones = document_find_rig(world->document, RIG_MODEL, 0) >= 0;
@@ -371,6 +384,7 @@ void curves_show(struct curves *curves, struct core *core, const struct editor_w
     show_state(curves, core);
     show_labels(curves, core, world);
     show_playhead(curves, core, world->document);
+    ruler_pins_show(curves, core, world->document);
     warnings_show_words(curves, core);
     drawlist_set_clip(&core->list, clip);
 }

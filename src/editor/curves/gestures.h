@@ -23,6 +23,17 @@ void limits_apply(const struct curves *curves, struct core *core, const struct e
 /// The active spline's limits, dashed.
 void limits_show(const struct curves *curves, struct core *core, const struct editor_world *world);
 
+/// The pin whose mark on the ruler is there, else the ruler.
+struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, const struct document *document,
+                              float x, float y);
+/// Selects it, goes to its frame and starts to drag it.
+void ruler_pins_begin(struct curves *curves, struct core *core, const struct editor_world *world,
+                      const struct hover *hover, const struct event *event);
+/// Makes the edit for the pointer's present place; the playhead goes along.
+void ruler_pins_apply(struct curves *curves, struct core *core, const struct editor_world *world);
+/// The marks of all pins.
+void ruler_pins_show(const struct curves *curves, struct core *core, const struct document *document);
+
 /// Makes the edits for the pointer's present place.
 void scale_apply(struct curves *curves, struct core *core, const struct editor_world *world);
 /// The pivot, and the line from it to the pointer.

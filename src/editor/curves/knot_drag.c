@@ -193,6 +193,7 @@ void curves_drag_apply(struct curves *curves, struct core *core, const struct ed
     if (drag->kind == DRAG_SLOPE) apply_slope(curves, core, world);
     if (drag->kind == DRAG_SCALE) scale_apply(curves, core, world);
     if (drag->kind == DRAG_LIMIT) limits_apply(curves, core, world);
+    if (drag->kind == DRAG_PIN_TIME) ruler_pins_apply(curves, core, world);
 }
 
 void curves_drag_move(struct curves *curves, struct core *core, const struct editor_world *world,

@@ -49,6 +49,13 @@ struct limit_drag {
     double value; ///< before
 };
 
+/// A drag of a pin on the ruler.
+struct pin_time_drag {
+    unsigned id;
+    double frame;      ///< before
+    double free_frame; ///< the last on which its point had no other pin
+};
+
 /// Scaling of the selected knots (DRAG_SCALE), about a frame and a value.
 struct scaling {
     bool about_playhead; ///< else about the middle of the selection
@@ -123,6 +130,7 @@ struct curves {
     struct knot_drag knot_drag;
     struct scaling scaling;
     struct limit_drag limit_drag;
+    struct pin_time_drag pin_drag;
     struct ghost ghost;
     struct curve_cache cache;
     struct warnings warnings;

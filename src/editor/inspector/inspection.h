@@ -24,10 +24,12 @@ void inspector_scene(struct inspection *in);
 void inspector_splines(struct inspection *in);
 void inspector_spline(struct inspection *in);
 void inspector_limits(struct inspection *in);
+void inspector_variation(struct inspection *in);
 void inspector_poles(struct inspection *in);
 void inspector_knot(struct inspection *in);
 void inspector_tail(struct inspection *in);
 void inspector_character(struct inspection *in);
+void inspector_pins(struct inspection *in);
 void inspector_model(struct inspection *in);
 void inspector_history(struct inspection *in);
 

@@ -1,5 +1,6 @@
 /// Lays out the inspector: its sections, from top to bottom.
 #include "editor/core/core.h"
+#include "editor/core/pins.h"
 #include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector.h"
 #include <math.h>
@@ -10,6 +11,12 @@
 enum { FOOTER = 40 }; ///< height of the look switch, which never scrolls away
 
 static bool has_spline(const struct inspection *in) { return core_active_spline(in->core, in->world) != NULL; }
+
+static bool may_vary(const struct inspection *in)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    return spline && spline_mode(spline) != WIGGLY_CUBIC;
+}
 
 static bool has_tail(const struct inspection *in)
 {
@@ -30,6 +37,13 @@ static const char *tail_title(const struct inspection *in)
 
 static bool has_character(const struct inspection *in) { return document_character(in->document, 0) != NULL; }
 
+static bool takes_pins(const struct inspection *in)
+{
+    bool any = false;
+    for (int r = 0; r < in->document->rig_count; r++) any |= pins_suit(&in->document->rigs[r]);
+    return any;
+}
+
 /// From the top down; `name` is what replays call the header. Without a title it is tail_title().
 static const struct section {
     const char *name, *title;
@@ -46,7 +60,9 @@ static const struct section {
     {"section.model", "Imported character", inspector_model, inspector_model_lists, has_model, false},
     {"section.tail", NULL, inspector_tail, inspector_tail_lists, has_tail, false},
     {"section.character", "Character", inspector_character, inspector_character_lists, has_character, false},
+    {"section.pins", "Pins", inspector_pins, NULL, takes_pins, false},
     {"section.limits", "Limits", inspector_limits, NULL, has_spline, true},
+    {"section.variation", "Variation", inspector_variation, NULL, may_vary, true},
     {"section.history", "History", inspector_history, NULL, NULL, true}, // the last one: see there
 };
 

@@ -138,6 +138,11 @@ static void build_warnings(struct inspection *in, const struct spline *spline)
 static void build_pair(struct inspection *in, const struct spline *spline)
 {
     build_settling(in, spline);
+    const struct rect r = ui_row(in->ui, UI_ROW), button = {r.x, r.y + 2, r.w, r.h - 4};
+    if (ui_hovered(in->ui, button))
+        in->ui->hint = "Frequency and damping that explain the knots best (Shift+F); again: the runner-up";
+    if (ui_button(in->ui, button, "frequency.find", "Find the frequency", false))
+        core_find_frequency(in->core, in->world, 0);
     if (spline_mode(spline) == WIGGLY_REAL) build_spring_toggle(in, spline);
 }
 
@@ -145,7 +150,7 @@ void inspector_spline(struct inspection *in)
 {
     struct spline *spline = core_active_spline(in->core, in->world);
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        if (!spline_uses(spline, p, false) || parameter_rows[p].kind == PARAMETER_LIMIT) continue;
+        if (!spline_uses(spline, p, false) || p >= PARAMETER_LOW) continue; // they have sections
         build_parameter(in, spline, p);
         if (p == PARAMETER_MODE) ui_space(in->ui, 4);
         if (p == PARAMETER_MODE && spline_mode(spline) == WIGGLY_CUBIC)
@@ -179,4 +184,46 @@ void inspector_limits(struct inspection *in)
     const struct spline *spline = core_active_spline(in->core, in->world);
     build_limit(in, spline, PARAMETER_HIGH);
     build_limit(in, spline, PARAMETER_LOW);
+}
+
+/// Of a roll where there is no variation yet.
+static const double FRESH_VARIATION = 0.3;
+
+/// Another seed, and an amount where there was none, as one step.
+static void roll(struct inspection *in, const struct spline *spline)
+{
+    const int most = (int)parameter_rows[PARAMETER_SEED].maximum + 1;
+    const long long seed = (long long)spline->parameter[PARAMETER_SEED].value;
+    struct edit edit = core_parameter_edit(in->core->active, PARAMETER_SEED, (double)((seed * 7 + 1) % 1000 % most));
+    history_begin(in->world->history, "Roll variation", 0);
+    core_edit(in->core, in->world, &edit);
+    edit = core_parameter_edit(in->core->active, PARAMETER_VARIATION, FRESH_VARIATION);
+    if (spline->parameter[PARAMETER_VARIATION].value == 0) core_edit(in->core, in->world, &edit);
+    history_end(in->world->history);
+}
+
+/// Why there is no variation to see; NULL: there is.
+static const char *stillness(const struct spline *spline)
+{
+    const struct param *p = spline->parameter;
+    if (p[PARAMETER_PASSIVE].value != WIGGLY_OSCILLATOR) return "The paper's filter has no variations.";
+    for (enum parameter n = PARAMETER_FREQUENCY; n <= PARAMETER_FRICTION; n++) {
+        if (p[n].track >= 0 && spline_uses(spline, n, false))
+            return "Where frequency or damping follow a spline there are no variations.";
+    }
+    const enum parameter pace = spline->spring_friction ? PARAMETER_SPRING : PARAMETER_FREQUENCY;
+    return p[pace].value > 0 ? NULL : "What does not swing has no variations.";
+}
+
+void inspector_variation(struct inspection *in)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    const char *reason = stillness(spline);
+    build_slider(in, spline, PARAMETER_VARIATION, ui_row(in->ui, UI_ROW));
+    struct rect r = ui_row(in->ui, UI_ROW), button = {r.x + r.w - 64, r.y + 2, 64, r.h - 4};
+    r.w -= 70;
+    build_slider(in, spline, PARAMETER_SEED, r);
+    if (ui_hovered(in->ui, button)) in->ui->hint = "Another motion through the same knots";
+    if (ui_button(in->ui, button, "variation.roll", "Roll", false)) roll(in, spline);
+    if (reason) ui_paragraph(in->ui, reason, theme()->text_dim);
 }

@@ -1,4 +1,4 @@
-/// Pins by mouse and keyboard: what is pointed at, drags in the plane that faces the eye, nudges in it.
+/// Pins by mouse: what is pointed at, and drags in the plane that faces the eye.
 #include "editor/stage/pins.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
@@ -7,7 +7,6 @@
 #include "editor/stage/points.h"
 #include "editor/stage/rigs.h"
 #include "editor/stage/skin.h"
-#include "editor/stage/stage.h"
 #include "model/vector.h"
 #include "scene/pins.h"
 #include <math.h>
@@ -16,7 +15,6 @@
 static const float MARKER_REACH = 9;    ///< pixels
 static const float LEAST_SHARE = 0.05f; ///< of how far the surface moves at most: what moves less is not offered
 static const double LEAST_AXIS = 0.3;   ///< pixels of an axis in a pixel across, below which it is as slow as that
-static const double NUDGE = 0.01;       ///< of the height of what is seen
 
 /// How far a vertex moves with a unit of what moves the character, squared, as a share of what is the most along each axis.
 static float share_of(const struct stage_character *shown, int vertex)
@@ -101,27 +99,13 @@ static struct hover marker_hover(const struct stage *stage, const struct core *c
     return hover;
 }
 
-/// The end of the joint that is nearest to a point between two.
-static struct hover joint_end(const struct stage *stage, const struct core *core, const struct hover *joint)
-{
-    struct hover hover = {.kind = HOVER_POINT, .rig = joint->rig};
-    hover.joint = (int)round(joint->joint + joint->fraction) - 1;
-    if (hover.joint < 0) hover.joint = 0;
-    float xy[2];
-    if (!stage_project(stage, core, hover.rig, hover.joint + 1, 0, xy)) hover.kind = HOVER_NONE;
-    hover.x = xy[0];
-    hover.y = xy[1];
-    return hover;
-}
-
 struct hover pins_hover(struct stage *stage, const struct core *core, const struct document *document,
-                        const struct hover *joint, float x, float y)
+                        const struct hover *found, float x, float y)
 {
     if (core->brush.on || core->pick.use != BONE_SELECTED) return (struct hover){.kind = HOVER_NONE};
     const struct hover marker = marker_hover(stage, core, x, y);
     if (marker.kind != HOVER_NONE) return marker;
-    if (joint->kind == HOVER_JOINT && core->mods & MOD_CTRL) return joint_end(stage, core, joint);
-    return joint->kind == HOVER_NONE ? surface_hover(stage, core, document, x, y)
+    return found->kind == HOVER_NONE ? surface_hover(stage, core, document, x, y)
                                      : (struct hover){.kind = HOVER_NONE};
 }
 
@@ -132,9 +116,7 @@ bool pins_hover_exists(const struct editor_world *world, const struct hover *hov
     return hover->rig < document->rig_count && pins_find_id(&document->rigs[hover->rig], hover->pin) >= 0;
 }
 
-/// The picture's directions in the world, and its scale at a place.
-static void take_plane(const struct stage *stage, const struct core *core, const double place[3],
-                       struct pin_drag *drag)
+void pins_take_plane(const struct stage *stage, const struct core *core, const double place[3], struct pin_drag *drag)
 {
     const struct stage_view *view = &stage->view;
     const float at[3] = {(float)place[0], (float)place[1], (float)place[2]};
@@ -166,7 +148,7 @@ void pins_begin(struct stage *stage, struct core *core, const struct editor_worl
         point_place(core, world, drag->point, core->playback.position, place);
         for (int k = 0; k < 3; k++) drag->start[k] = (double)place[k];
     }
-    take_plane(stage, core, drag->start, drag);
+    pins_take_plane(stage, core, drag->start, drag);
 }
 
 bool pins_lock(struct stage *stage, int key)
@@ -200,46 +182,4 @@ void pins_apply(struct stage *stage, struct core *core, const struct editor_worl
     drag_to(drag, core->drag.moved_x, core->drag.moved_y, to);
     history_restart(world->history, world->document);
     pins_put(core, world, drag->point.rig, drag->point.at, drag->frame, to);
-}
-
-void stage_nudge_pin(struct stage *stage, struct core *core, const struct editor_world *world, double right,
-                     double up)
-{
-    int rig;
-    struct pin_drag plane;
-    const struct pin *pin = pins_selected(core, world->document, &rig);
-    if (!pin) return;
-    take_plane(stage, core, pin->to, &plane);
-    const double step = core_round(NUDGE * (double)core->layout.stage.h / plane.pixels_per_metre, 0.01);
-    double by[3];
-    for (int k = 0; k < 3; k++) by[k] = step * (right * plane.right[k] + up * plane.up[k]);
-    pins_nudge(core, world, by);
-}
-
-/// Where a selected pin's point is pinned again: at the same place.
-static void repeat(struct core *core, const struct editor_world *world)
-{
-    int rig;
-    const struct pin *pin = pins_selected(core, world->document, &rig);
-    if (pin) {
-        const double to[3] = {pin->to[0], pin->to[1], pin->to[2]};
-        pins_put_here(core, world, rig, pin->point, to);
-    } else {
-        core_message(core, false, "Point at a tail, a chain or a character to pin it where it is.");
-    }
-}
-
-void stage_hold_point(struct stage *stage, struct core *core, const struct editor_world *world)
-{
-    struct hover hover = core->hover;
-    if (hover.kind == HOVER_JOINT) hover = joint_end(stage, core, &hover);
-    if (hover.kind != HOVER_POINT || !pins_hover_exists(world, &hover)) {
-        repeat(core, world);
-        return;
-    }
-    float place[3];
-    const struct rig_point point = {hover.rig, hover.joint};
-    const double frame = pins_frame_here(core, world->document, hover.rig);
-    if (!point_place(core, world, point, core_position(world->document, frame), place)) return;
-    pins_put_here(core, world, point.rig, point.at, (const double[3]){place[0], place[1], place[2]});
 }

@@ -4,10 +4,13 @@
 
 #include "editor/stage/state.h"
 
-/// What of pins is under a point of the stage: a marker (HOVER_PIN), else a point that can be pinned (HOVER_POINT): of a surface, and
-/// with Ctrl, the end of a joint of a tail or chain that `joint` has found. HOVER_NONE: nothing.
+/// What of pins is under a point of the stage: a marker (HOVER_PIN), else, where nothing else was `found` there, a point of a surface
+/// that can be pinned (HOVER_POINT). HOVER_NONE: nothing.
 struct hover pins_hover(struct stage *stage, const struct core *core, const struct document *document,
-                        const struct hover *joint, float x, float y);
+                        const struct hover *found, float x, float y);
+/// The picture's directions in the world, and its scale at a place.
+void pins_take_plane(const struct stage *stage, const struct core *core, const double place[3],
+                     struct pin_drag *drag);
 /// Whether what was found is still in the document.
 bool pins_hover_exists(const struct editor_world *world, const struct hover *hover);
 
@@ -19,9 +22,7 @@ bool pins_lock(struct stage *stage, int key);
 /// The point, or the marker, goes where the pointer is now.
 void pins_apply(struct stage *stage, struct core *core, const struct editor_world *world);
 
-/// Finds all markers for the document as it is solved now.
-void pins_pose(struct stage *stage, const struct core *core, const struct editor_world *world);
-/// Draws them, what is lit up, and the path of the point that is held or selected.
+/// Draws all markers, what is lit up, and the path of the point that is held or selected.
 void pins_show(struct stage *stage, struct core *core, const struct editor_world *world);
 
 #endif

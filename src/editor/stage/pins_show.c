@@ -7,6 +7,7 @@
 #include "editor/stage/pins.h"
 #include "editor/stage/points.h"
 #include "editor/stage/rigs.h"
+#include "editor/stage/stage.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -21,23 +22,26 @@ static const float AXIS = 2; ///< metres of a locked axis to each side
 static uint64_t state_key(const struct core *core, const struct editor_world *world)
 {
     const uint64_t solved = world->evaluation ? world->evaluation->revision : 0;
-    return hash_word(hash_word(hash_word(HASH_START, history_revision(world->history)), solved),
-                     (uint64_t)core->look);
+    const uint64_t edited = world->history ? history_revision(world->history) : 0; // a film has none
+    return hash_word(hash_word(hash_word(HASH_START, edited), solved), (uint64_t)core->look);
 }
 
-static void add_pin(struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                    const struct pin *pin)
+static void add_pin(struct stage *stage, const struct editor_world *world, int rig, int at)
 {
     const struct document *document = world->document;
+    const struct pin *pin = &document->rigs[rig].pins[at];
+    const struct pin_left *left = evaluation_pin(world->evaluation, document, rig, at);
     const int spline = rig_input_count(&document->rigs[rig]) > 0 ? rig_input(&document->rigs[rig], 0) : -1;
     struct shown_pin *shown = &stage->pins[stage->pin_count++];
     *shown = (struct shown_pin){.id = pin->id, .point = {rig, pin->point}, .frame = pin->frame};
     shown->color = spline >= 0 ? arrange_color(document, spline) : theme()->text_dim;
+    shown->is_known = left && left->is_found;
     for (int k = 0; k < 3; k++) shown->to[k] = (float)pin->to[k];
-    shown->is_known = point_place(core, world, shown->point, document_sample(document, pin->frame), shown->place);
+    for (int k = 0; k < 3 && shown->is_known; k++) shown->place[k] = (float)left->at[k];
 }
 
-void pins_pose(struct stage *stage, const struct core *core, const struct editor_world *world)
+/// Finds all markers for the document as it is solved now.
+static void update(struct stage *stage, const struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
     const uint64_t key = hash_word(state_key(core, world), (uint64_t)theme_in_use() << 32 | document->serial);
@@ -46,8 +50,7 @@ void pins_pose(struct stage *stage, const struct core *core, const struct editor
     stage->pin_count = 0;
     for (int r = 0; r < document->rig_count; r++) {
         if (document->rigs[r].kind == RIG_CHARACTER && core->characters.compare) continue; // they stand aside
-        for (int i = 0; i < document->rigs[r].pin_count; i++)
-            add_pin(stage, core, world, r, &document->rigs[r].pins[i]);
+        for (int i = 0; i < document->rigs[r].pin_count; i++) add_pin(stage, world, r, i);
     }
 }
 
@@ -118,6 +121,7 @@ void pins_show(struct stage *stage, struct core *core, const struct editor_world
 {
     const struct document *document = world->document;
     int rig;
+    update(stage, core, world);
     const struct pin *selected = pins_selected(core, document, &rig);
     if (selected && point_exists(world, (struct rig_point){rig, selected->point}))
         path_show(stage, core, world, TRAIL_OF_PIN, (struct rig_point){rig, selected->point});

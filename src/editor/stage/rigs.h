@@ -16,7 +16,7 @@ struct stage_kind {
     uint64_t (*hash)(uint64_t hash, const struct stage_view *view);
 };
 
-extern const struct stage_kind stage_tails, stage_characters, stage_models, stage_chains;
+extern const struct stage_kind stage_tails, stage_characters, stage_models, stage_chains, stage_meadows;
 
 /// What rigs are posed from: the world, in the editor's look.
 struct posing stage_posing(const struct core *core, const struct editor_world *world);

@@ -30,6 +30,7 @@ void stage_destroy(struct stage *stage)
 void stage_open(struct stage *stage)
 {
     memset(stage->sway, 0, sizeof stage->sway);
+    memset(&stage->meadow, 0, sizeof stage->meadow);
     stage->strand_count = stage->bone_count = stage->pin_count = 0;
     stage->pins_key = 0;
 }
@@ -165,5 +166,6 @@ void stage_advance(struct stage *stage, struct core *core, const struct editor_w
     grab_apply(stage, core, world);
     pins_apply(stage, core, world);
     sway_advance(stage, core, world, dt);
+    stage->meadow.dt += dt;
     record_advance(stage, core, world);
 }

@@ -60,7 +60,7 @@ void stage_wheel(struct stage *stage, struct core *core, const struct event *eve
 /// Moves the selected pin in the plane that faces the eye, by steps of 1 % of what is seen.
 void stage_nudge_pin(struct stage *stage, struct core *core, const struct editor_world *world, double right,
                      double up);
-/// Pins what is pointed at where it is; else the selected pin's point once more, at the playhead.
+/// Pins what is pointed at where it is; else the selected pin's point once more, at the playhead; else a tip, or what moves most.
 void stage_hold_point(struct stage *stage, struct core *core, const struct editor_world *world);
 /// Where a pin's marker is on the screen; false where it is not in sight.
 bool stage_pin_point(const struct stage *stage, const struct core *core, unsigned id, float xy[2]);

@@ -32,10 +32,8 @@ static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f;
 
 /// In this order they are posed, hashed and drawn.
 static const struct stage_kind *const kinds[RIG_KINDS] = {
-    [RIG_TAIL] = &stage_tails,
-    [RIG_CHARACTER] = &stage_characters,
-    [RIG_MODEL] = &stage_models,
-    [RIG_CHAIN] = &stage_chains,
+    [RIG_TAIL] = &stage_tails,   [RIG_CHARACTER] = &stage_characters, [RIG_MODEL] = &stage_models,
+    [RIG_CHAIN] = &stage_chains, [RIG_MEADOW] = &stage_meadows,
 };
 
 /// Adds all motion of a kind to the box lo … hi; false where nothing of it is to be seen.
@@ -86,6 +84,7 @@ void stage_pose(struct stage *stage, struct core *core, const struct editor_worl
     struct stage_view *view = &stage->view;
     const struct document *document = world->document;
     view->tail_count = view->character_count = view->model_count = view->blob_count = 0;
+    view->meadow.count = 0;
     stage->strand_count = stage->bone_count = 0;
     for (int kind = 0; kind < RIG_KINDS; kind++) {
         int rig = document_next_rig(document, (enum rig_kind)kind, 0);
@@ -99,7 +98,6 @@ void stage_pose(struct stage *stage, struct core *core, const struct editor_worl
     view->hash = view_hash(view);
     skin_reserve(stage);
     brush_pose(stage, core, world, covered);
-    pins_pose(stage, core, world);
 }
 
 /// A ring where a tail or chain can be taken hold of.
@@ -119,7 +117,8 @@ static void show_hold(struct stage *stage, struct core *core)
 static const char *empty_text(const struct stage *stage, const struct core *core, const struct editor_world *world)
 {
     const struct stage_view *view = &stage->view;
-    if (view->tail_count > 0 || view->character_count > 0 || view->model_count > 0) return NULL;
+    if (view->tail_count > 0 || view->character_count > 0 || view->model_count > 0 || view->meadow.count > 0)
+        return NULL;
     if (document_character(world->document, 0) || document_find_rig(world->document, RIG_MODEL, 0) >= 0)
         return "wiggly could not read this scene's character. Its curves are below.";
     return core->active < 0 ? "This scene is empty." : "This scene has no tail. Its curves are below.";

@@ -157,8 +157,21 @@ struct painting {
     struct brush_work work;
 };
 
+/// A reed that something passes: how it is pushed, and what its own swing adds to that, radians towards +x and +z.
+struct brushed_reed {
+    double pushed[2], speed[2], q[2], v[2];
+};
+
+struct meadow_view {
+    struct stage_reed reeds[MEADOW_MAX_REEDS];
+    struct brushed_reed brushed[MEADOW_MAX_REEDS];
+    double dt; ///< seconds since it was last posed
+    bool swings;
+};
+
 struct stage {
     struct stage_view view;
+    struct meadow_view meadow;
     struct camera camera;
     struct strand strands[STAGE_MAX_STRANDS]; ///< shown
     int strand_count;

@@ -108,3 +108,17 @@ struct hover strand_hover(const struct stage *stage, const struct core *core, fl
     }
     return hover;
 }
+
+struct hover strand_end(const struct stage *stage, const struct core *core, const struct hover *between)
+{
+    struct hover hover = {.kind = HOVER_POINT, .rig = between->rig};
+    const struct strand *strand = strand_of(stage, hover.rig);
+    float xy[2];
+    hover.joint = (int)round(between->joint + between->fraction) - 1;
+    if (hover.joint < 0) hover.joint = 0;
+    if (!strand || hover.joint + 1 >= strand->count || !strand_project(stage, core, strand, hover.joint + 1, 0, xy))
+        return (struct hover){.kind = HOVER_NONE};
+    hover.x = xy[0];
+    hover.y = xy[1];
+    return hover;
+}

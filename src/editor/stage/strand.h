@@ -19,5 +19,7 @@ bool strand_project(const struct stage *stage, const struct core *core, const st
 float strand_nearest(const float a[2], const float b[2], const float p[2]);
 /// The nearest point of a tail (HOVER_JOINT), or HOVER_NONE. Chains are pointed at by their bones (bone_hover()).
 struct hover strand_hover(const struct stage *stage, const struct core *core, float x, float y);
+/// The end of the joint of a tail or chain that is nearest to a point between two (HOVER_POINT); HOVER_NONE where it is behind the eye.
+struct hover strand_end(const struct stage *stage, const struct core *core, const struct hover *between);
 
 #endif

@@ -91,7 +91,7 @@ bool stage_is_moving(const struct stage *stage)
     for (int t = 0; t < STAGE_MAX_TAILS; t++) {
         if (stage->sway[t].swings) return true;
     }
-    return false;
+    return stage->meadow.swings;
 }
 
 wiggly_value sway_value(const struct stage *stage, int tail, int channel)

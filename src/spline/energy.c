@@ -1,5 +1,5 @@
-/// How hard the energy pulls at one sample of a curve: the multiplier of what holds it there.
-#include "spline/limits.h"
+/// The energy of a curve, and how hard it pulls at one sample: the multiplier of what holds it there.
+#include "spline/system.h"
 
 typedef struct view {
     const system_rows *rows;
@@ -20,15 +20,21 @@ static cplx x_at(const view *v, int k)
 /// Re(conj(c) z).
 static double along(cplx c, cplx z) { return c.re * z.re + c.im * z.im; }
 
+static cplx jet_at(const view *v, int row)
+{
+    const coefficients *at = &v->rows->at[row];
+    cplx before = x_at(v, row - 1), here = x_at(v, row), after = x_at(v, row + 1), step = cplx_sub(here, before);
+    return cplx_add(cplx_add(cplx_sub(cplx_sub(after, here), step), v->rows->drive[row]),
+                    cplx_sub(cplx_mul(at->p, before), cplx_mul(at->m, step)));
+}
+
 static double jet_pull(const view *v, int i, int k)
 {
     const system_rows *rows = v->rows;
     int row = rows->loop ? (i + rows->count) % rows->count : i;
     if (row < rows->jet_from || row > rows->jet_to) return 0;
     const coefficients *at = &rows->at[row];
-    cplx before = x_at(v, i - 1), here = x_at(v, i), after = x_at(v, i + 1), step = cplx_sub(here, before);
-    cplx r = cplx_add(cplx_add(cplx_sub(cplx_sub(after, here), step), rows->drive[row]),
-                      cplx_sub(cplx_mul(at->p, before), cplx_mul(at->m, step)));
+    cplx r = jet_at(v, row);
     cplx by = {1, 0};
     if (k == i) by = (cplx){-2 - at->m.re, -at->m.im};
     if (k == i && !rows->loop && i == rows->count - 1) by = cplx_add(by, (cplx){1 + rows->tail.re, rows->tail.im});
@@ -37,32 +43,45 @@ static double jet_pull(const view *v, int i, int k)
     return rows->jet_weight[row] * along(by, r);
 }
 
-static double slope_pull(const view *v, const slope_row *slope, int k)
+/// What a slope misses its target by; `by` is how much of that comes from Re x of sample k.
+static double slope_miss(const view *v, const slope_row *slope, int k, double *by)
 {
     const stencil s = system_slope_stencil(v->rows, slope);
     const int at[3] = {s.before, s.at, s.after};
-    double seen = 0, by = 0;
+    double seen = 0;
+    *by = 0;
     for (int i = 0; i < 3; i++) {
         if (at[i] < 0) continue;
         seen += along(cplx_conj(s.c[i]), x_at(v, at[i]));
-        if (at[i] == k) by += s.c[i].re;
+        if (at[i] == k) *by += s.c[i].re;
     }
-    return slope->weight * by * (seen - slope->target);
+    return seen - slope->target;
+}
+
+static double slope_pull(const view *v, const slope_row *slope, int k)
+{
+    double by, miss = slope_miss(v, slope, k, &by);
+    return slope->weight * by * miss;
+}
+
+static cplx start_at(const view *v, const struct start_row *row)
+{
+    cplx x = x_at(v, 0), e = cplx_sub(x_at(v, 1), x);
+    return cplx_add(cplx_mul(row->on_x, x), cplx_mul(row->on_e, e));
 }
 
 static double start_pull(const view *v, int k)
 {
     double sum = 0;
-    cplx x = x_at(v, 0), e = cplx_sub(x_at(v, 1), x);
     for (int i = 0; i < 2 && k < 2; i++) {
         const struct start_row *row = &v->rows->start.row[i];
         cplx by = k == 1 ? row->on_e : cplx_sub(row->on_x, row->on_e);
-        sum += row->weight * along(by, cplx_add(cplx_mul(row->on_x, x), cplx_mul(row->on_e, e)));
+        sum += row->weight * along(by, start_at(v, row));
     }
     return sum;
 }
 
-double limits_pull(const system_rows *rows, const double *re, const double *im, int k)
+double system_pull(const system_rows *rows, const double *re, const double *im, int k)
 {
     view v = {rows, re, im};
     double sum = rows->loop ? 0 : start_pull(&v, k);
@@ -74,4 +93,19 @@ double limits_pull(const system_rows *rows, const double *re, const double *im, 
         if (beside || wraps) sum += slope_pull(&v, &rows->slopes[s], k);
     }
     return -sum;
+}
+
+double system_energy(const system_rows *rows, const double *re, const double *im)
+{
+    view v = {rows, re, im};
+    double sum = 0, by;
+    for (int i = rows->jet_from; i <= rows->jet_to; i++) sum += rows->jet_weight[i] * cplx_norm(jet_at(&v, i));
+    for (int s = 0; s < rows->slope_count; s++) {
+        double miss = slope_miss(&v, &rows->slopes[s], -1, &by);
+        sum += rows->slopes[s].weight * (miss * miss);
+    }
+    for (int i = 0; i < 2 && !rows->loop; i++)
+        sum += rows->start.row[i].weight * cplx_norm(start_at(&v, &rows->start.row[i]));
+    for (int i = 0; i < rows->count && im; i++) sum += rows->im_weight[i] * (im[i] * im[i]);
+    return sum;
 }

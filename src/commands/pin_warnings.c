@@ -1,0 +1,50 @@
+/// Puts what pins do not reach into words.
+#include "commands/pin_warnings.h"
+#include <math.h>
+#include <stdio.h>
+
+static const double MET = 1e-5; ///< of the rig's size: a chain is posed in floats
+
+static void tell_pin(const struct pin_left *left, int rig, int pin, void (*tell)(void *user, const char *sentence),
+                     void *user)
+{
+    char sentence[160];
+    const double away = left ? hypot(hypot(left->way[0], left->way[1]), left->way[2]) : 0;
+    if (!left || (left->is_found && away <= MET * left->size)) return;
+    if (left->is_found) {
+        snprintf(sentence, sizeof sentence, "rigs[%d].pins[%d]: the point stays %.3g m from its place", rig, pin,
+                 away);
+    } else {
+        snprintf(sentence, sizeof sentence, "rigs[%d].pins[%d]: there is no such point, so nothing is held", rig,
+                 pin);
+    }
+    tell(user, sentence);
+}
+
+static bool is_pinned(const struct document *document, int spline)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = &document->rigs[r];
+        for (int i = 0; rig->pin_count > 0 && i < rig_input_count(rig); i++) {
+            if (rig_input(rig, i) == spline) return true;
+        }
+    }
+    return false;
+}
+
+void pin_warnings(const struct document *document, const struct evaluation *evaluation,
+                  void (*tell)(void *user, const char *sentence), void *user)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        for (int i = 0; i < document->rigs[r].pin_count; i++)
+            tell_pin(evaluation_pin(evaluation, document, r, i), r, i, tell, user);
+    }
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct param *parameter = document->splines[s].parameter;
+        char sentence[80];
+        const bool limited = isfinite(parameter[PARAMETER_LOW].value) || isfinite(parameter[PARAMETER_HIGH].value);
+        if (!limited || !is_pinned(document, s)) continue;
+        snprintf(sentence, sizeof sentence, "splines[%d].limits: pins pass over them", s);
+        tell(user, sentence);
+    }
+}

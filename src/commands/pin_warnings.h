@@ -1,0 +1,11 @@
+/// What there is to say about a scene's pins once it is solved.
+#ifndef COMMANDS_PIN_WARNINGS_H
+#define COMMANDS_PIN_WARNINGS_H
+
+#include "scene/evaluate.h"
+
+/// Calls `tell` with a sentence for each pin that is not met, and for each spline whose limits pins pass over.
+void pin_warnings(const struct document *document, const struct evaluation *evaluation,
+                  void (*tell)(void *user, const char *sentence), void *user);
+
+#endif

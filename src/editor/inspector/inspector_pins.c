@@ -1,0 +1,166 @@
+/// The inspector's section on pins: the list of all, what is left of each, and the numbers of the selected one.
+#include "editor/core/bones.h"
+#include "editor/core/core.h"
+#include "editor/core/pins.h"
+#include "editor/inspector/inspection.h"
+#include "scene/pins.h"
+#include <math.h>
+#include <stdio.h>
+
+enum { MAX_ROWS = 8 }; ///< pins listed at once
+
+/// A pin in the list of all, rig by rig.
+struct place {
+    int rig, at;
+};
+
+static struct place place_of(const struct document *document, int row)
+{
+    int rig = 0;
+    while (row >= document->rigs[rig].pin_count) row -= document->rigs[rig++].pin_count;
+    return (struct place){rig, row};
+}
+
+/// The row of the selected pin, 0 where none is.
+static int selected_row(const struct inspection *in)
+{
+    int rig, row = 0;
+    const struct pin *pin = pins_selected(in->core, in->document, &rig);
+    if (!pin) return 0;
+    for (int r = 0; r < rig; r++) row += in->document->rigs[r].pin_count;
+    return row + (int)(pin - in->document->rigs[rig].pins);
+}
+
+/// Millimetres that are left; NAN where that is not known.
+static double left_of(const struct inspection *in, int rig, int at)
+{
+    const struct pin_left *left = evaluation_pin(in->world->evaluation, in->document, rig, at);
+    if (!left || !left->is_found) return NAN;
+    return 1e3 * sqrt(left->way[0] * left->way[0] + left->way[1] * left->way[1] + left->way[2] * left->way[2]);
+}
+
+static const char *word_of(const struct rig *rig) { return rig->kind == RIG_CHARACTER ? "vertex" : "joint"; }
+
+/// true if the pin was removed.
+static bool build_row(struct inspection *in, int row)
+{
+    struct ui *ui = in->ui;
+    const struct place place = place_of(in->document, row);
+    const struct rig *rig = &in->document->rigs[place.rig];
+    const struct pin *pin = &rig->pins[place.at];
+    struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
+    char name[32], remove[32], text[160], left[32] = "";
+    snprintf(name, sizeof name, "pin.%d", row);
+    snprintf(remove, sizeof remove, "pin.%d.remove", row);
+    snprintf(text, sizeof text, "%.6g: %.60s, %s %d", pin->frame, rig_title(rig), word_of(rig), pin->point);
+    const double millimetres = left_of(in, place.rig, place.at);
+    if (isfinite(millimetres)) snprintf(left, sizeof left, "%.1f mm", millimetres);
+    r.w -= r.h + 4;
+    const struct rect label = {r.x, r.y, r.w - 60, r.h};
+    const bool selected = in->core->pin.any && in->core->pin.id == pin->id;
+    const bool pressed = ui_list_row(ui, r, name, "", 0, selected);
+    ui_label(ui, (struct rect){label.x + 6, label.y, label.w - 6, label.h}, text, theme()->text);
+    ui_label_right(ui, (struct rect){r.x, r.y, r.w - 4, r.h}, left, theme()->text_dim);
+    if (ui_hovered(ui, r)) ui->hint = "Frame and point of a pin, and how far the point is from it";
+    if (pressed) pins_visit(in->core, in->document, pin);
+    if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this pin")) return false;
+    const struct edit edit = pins_edit(EDIT_PIN_REMOVE, place.rig, pin);
+    return core_step(in->core, in->world, "Delete pin", 0, &edit);
+}
+
+static void build_list(struct inspection *in, int count)
+{
+    const int rows = count < MAX_ROWS ? count : MAX_ROWS;
+    int first = selected_row(in) - MAX_ROWS / 2;
+    first = first > count - rows ? count - rows : first;
+    first = first < 0 ? 0 : first;
+    for (int row = first; row < first + rows; row++) {
+        if (build_row(in, row)) return;
+    }
+    if (count <= MAX_ROWS) return;
+    char text[64];
+    snprintf(text, sizeof text, "%d of %d pins; , and . show more", MAX_ROWS, count);
+    ui_paragraph(in->ui, text, theme()->text_dim);
+}
+
+/// Frame, point and place, in this order.
+enum { FIELD_FRAME, FIELD_POINT, FIELD_X, FIELDS = FIELD_X + 3 };
+
+static const struct {
+    struct ui_number number;
+    const char *undo;
+} fields[FIELDS] = {
+    [FIELD_FRAME] = {{.name = "pin.frame",
+                      .label = "frame",
+                      .hint = "Frame of the pin (Alt+PgUp, Alt+PgDn)",
+                      .fallback = NAN,
+                      .step = 1},
+                     "Move pin in time"},
+    [FIELD_POINT] = {{.name = "pin.point", .hint = "What is pinned", .fallback = NAN, .step = 1},
+                     "Pin another point"},
+    [FIELD_X] = {{.name = "pin.x", .label = "x", .hint = "Where the point is to be; 0 is the middle"}, "Move pin"},
+    [FIELD_X + 1] = {{.name = "pin.y", .label = "y", .hint = "Where the point is to be: height"}, "Move pin"},
+    [FIELD_X + 2] = {{.name = "pin.z", .label = "z", .hint = "Where the point is to be: depth"}, "Move pin"},
+};
+
+/// How many points the rig has.
+static int points_of(const struct inspection *in, int rig)
+{
+    const struct rig *pinned = &in->document->rigs[rig];
+    if (pinned->kind != RIG_CHARACTER) return bones_joints(in->world, rig);
+    const struct figure *figure = models_figure(in->world->models, document_rig_number(in->document, rig));
+    return figure ? figure->character.vertex_count : 1;
+}
+
+/// Ends of a field, and what it is called.
+static struct ui_number number_for(const struct inspection *in, int field, int rig)
+{
+    struct ui_number number = fields[field].number;
+    if (field == FIELD_FRAME) {
+        number.lowest = in->document->first_frame;
+        number.highest = document_frame(in->document, pins_last_sample(in->document, &in->document->rigs[rig]));
+    } else if (field == FIELD_POINT) {
+        number.label = word_of(&in->document->rigs[rig]);
+        number.highest = points_of(in, rig) - 1;
+    } else {
+        number.unit = "m";
+        number.lowest = -INSPECTOR_NO_LIMIT;
+        number.highest = INSPECTOR_NO_LIMIT;
+        number.fallback = NAN;
+        number.step = 0.005;
+        number.decimals = 3;
+    }
+    return number;
+}
+
+static void build_field(struct inspection *in, int field)
+{
+    int rig;
+    const struct pin *pin = pins_selected(in->core, in->document, &rig);
+    if (!pin) return;
+    struct pin next = *pin;
+    const struct ui_number number = number_for(in, field, rig);
+    double value = field == FIELD_FRAME ? pin->frame : field == FIELD_POINT ? pin->point : pin->to[field - FIELD_X];
+    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &number, &value);
+    if (field == FIELD_FRAME) next.frame = value;
+    if (field == FIELD_POINT) next.point = (int)lround(value);
+    if (field >= FIELD_X) next.to[field - FIELD_X] = value;
+    const int there =
+        pins_find(in->document, &in->document->rigs[rig], next.point, document_sample(in->document, next.frame));
+    if (change == UI_DRAG && there >= 0 && in->document->rigs[rig].pins[there].id != pin->id) return;
+    const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &next);
+    inspector_change(in, change, fields[field].undo, number.name, &edit);
+}
+
+void inspector_pins(struct inspection *in)
+{
+    int rig;
+    const int count = pins_count(in->document);
+    if (count == 0)
+        ui_paragraph(in->ui, "Drag a character's surface on the stage to pin it; on tails and chains, hold Ctrl.",
+                     theme()->text_dim);
+    build_list(in, count);
+    if (!pins_selected(in->core, in->document, &rig)) return;
+    ui_space(in->ui, 4);
+    for (int field = 0; field < FIELDS; field++) build_field(in, field);
+}

@@ -1,0 +1,148 @@
+/// A meadow on the stage: its reeds in their wind, pushed by bodies, and swinging after what was dragged through them.
+#include "base/hash.h"
+#include "editor/stage/rigs.h"
+#include "model/creature.h"
+#include "model/vector.h"
+#include <math.h>
+#include <string.h>
+
+_Static_assert((int)MEADOW_MAX_REEDS <= (int)STAGE_MAX_REEDS, "the stage holds every meadow");
+
+/// Of a body, in the size of its model: metres from its base along z, and how far off it still touches reeds.
+static const double MIDDLE = -0.28, REACH = 0.62;
+
+static const double FARTHEST = 1.35; ///< radians that a reed is pushed where a body stands on it
+static const double STILL = 1e-3;    ///< radians and radians a period that nobody sees
+static const double ROLL = 0.7;      ///< radians that a reed lags behind one a metre up the wind
+static const float WIDTH = 0.013f;   ///< of a reed of 1 m
+static const double DEGREE = 0.017453292519943295;
+
+/// How bodies push a reed, radians towards +x and +z.
+static void push_of(const struct stage_view *view, const float place[3], double pushed[2])
+{
+    pushed[0] = pushed[1] = 0;
+    for (int t = 0; t < view->tail_count; t++) {
+        const struct pose *pose = &view->tails[t].pose;
+        const float *base = pose->matrix[0] + 12;
+        const double scale = (double)(pose_length(pose) / CREATURE_TAIL_LENGTH);
+        const double x = (double)(place[0] - base[0]), z = (double)(place[2] - base[2]) - MIDDLE * scale;
+        const double far = hypot(x, 0.75 * z) / (REACH * scale); // longer than wide
+        if (!(far < 1) || !(far > 0)) continue;
+        const double share = FARTHEST * (1 - far * far) * (1 - far * far) / hypot(x, z);
+        pushed[0] += share * x;
+        pushed[1] += share * z;
+    }
+}
+
+/// What the reeds answer by: false where nothing pulls them back.
+static bool filter_of(const struct spline *spline, struct swing_filter *filter)
+{
+    double parameter[PARAMETER_COUNT];
+    for (int p = 0; p < PARAMETER_COUNT; p++) parameter[p] = spline->parameter[p].value;
+    return swing_filter(spline, parameter, filter);
+}
+
+/// While a body is in the hand, what it does to the push kicks the reed's own oscillator; then that swings out. Whether it still does.
+static bool brush_reed(struct brushed_reed *reed, const double pushed[2], bool held, const step_matrix *m,
+                       double natural, double dt)
+{
+    double left = 0;
+    for (int k = 0; k < 2; k++) {
+        const double speed = held ? (pushed[k] - reed->pushed[k]) / dt : 0, q = reed->q[k];
+        const double v = reed->v[k] - (speed - reed->speed[k]);
+        reed->pushed[k] = pushed[k];
+        reed->speed[k] = speed;
+        reed->q[k] = m->q_q * q + m->q_v * v;
+        reed->v[k] = m->v_q * q + m->v_v * v;
+        left = fmax(left, fabs(reed->q[k]) + fabs(reed->v[k]) / natural);
+    }
+    return left > STILL;
+}
+
+/// How all are pushed now, and how they swing.
+static void brush_all(struct meadow_view *shown, const struct core *core, const struct stage_view *view,
+                      const struct spline *spline, int count)
+{
+    struct swing_filter filter;
+    const bool held = core->drag.kind == DRAG_BODY && core->drag.moved, moves = filter_of(spline, &filter);
+    const bool steps = moves && shown->dt > 0 && (held || shown->swings);
+    step_matrix m = {0};
+    if (steps) m = oscillator_step(filter.of, shown->dt);
+    shown->swings = false;
+    for (int r = 0; r < count; r++) {
+        struct brushed_reed *reed = &shown->brushed[r];
+        double pushed[2];
+        push_of(view, shown->reeds[r].place, pushed);
+        if (steps) {
+            shown->swings |= brush_reed(reed, pushed, held, &m, filter.natural, shown->dt);
+        } else {
+            memcpy(reed->pushed, pushed, sizeof pushed);
+        }
+    }
+    shown->dt = 0;
+    if (!shown->swings && !held) {
+        for (int r = 0; r < count; r++) {
+            memset(shown->brushed[r].q, 0, sizeof shown->brushed[r].q);
+            memset(shown->brushed[r].v, 0, sizeof shown->brushed[r].v);
+            memset(shown->brushed[r].speed, 0, sizeof shown->brushed[r].speed);
+        }
+    }
+}
+
+static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
+{
+    const struct posing posing = stage_posing(core, world);
+    const struct meadow *meadow = models_meadow(world->models);
+    const struct meadow_rig *of = &world->document->rigs[rig].meadow;
+    struct meadow_view *shown = &stage->meadow;
+    struct stage_meadow *view = &stage->view.meadow;
+    struct rig_pose posed;
+    if (n > 0 || !rig_pose(&posing, rig, 0, NULL, &posed)) return;
+    const int count = meadow_count(meadow);
+    for (int r = 0; r < count; r++) {
+        const struct reed *reed = meadow_reed(meadow, r);
+        const wiggly_value value = meadow_value(meadow, r, core->playback.position);
+        const double lag = core->look == LOOK_STIFF ? 0 : ROLL * (double)reed->place[0];
+        shown->reeds[r] = (struct stage_reed){.height = reed->height,
+                                              .still = (float)value.y,
+                                              .re = (float)(cos(lag) * value.re + sin(lag) * value.im),
+                                              .im = (float)(cos(lag) * value.im - sin(lag) * value.re),
+                                              .turn = reed->turn,
+                                              .shade = reed->shade,
+                                              .width = WIDTH * (0.5f + 0.5f * reed->height)};
+        memcpy(shown->reeds[r].place, reed->place, sizeof reed->place);
+    }
+    brush_all(shown, core, &stage->view, &world->document->splines[of->spline], count);
+    for (int r = 0; r < count; r++) {
+        for (int k = 0; k < 2; k++)
+            shown->reeds[r].pushed[k] = (float)(shown->brushed[r].pushed[k] + shown->brushed[r].q[k]);
+    }
+    const double lag = core->look == LOOK_STIFF ? 0 : of->lag;
+    *view = (struct stage_meadow){
+        .reeds = shown->reeds, .count = count, .lag = (float)(DEGREE * lag), .gain = (float)(DEGREE * of->gain)};
+    rig_bounds(&posed, view->lo, view->hi);
+}
+
+static bool bounds(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
+                   int n, float lo[3], float hi[3])
+{
+    const struct posing posing = stage_posing(core, world);
+    struct rig_pose posed;
+    float low[3], high[3];
+    (void)stage;
+    if (n > 0 || !rig_pose(&posing, rig, 0, NULL, &posed)) return false;
+    rig_bounds(&posed, low, high);
+    glm_vec3_minv(low, lo, lo);
+    glm_vec3_maxv(high, hi, hi);
+    return true;
+}
+
+static uint64_t hash(uint64_t sum, const struct stage_view *view)
+{
+    const struct stage_meadow *meadow = &view->meadow;
+    if (meadow->count == 0) return sum;
+    sum = hash_bytes(sum, &meadow->lag, 2 * sizeof meadow->lag);
+    return hash_bytes(sum, meadow->reeds, (size_t)meadow->count * sizeof *meadow->reeds);
+}
+
+const struct stage_kind stage_meadows = {pose, bounds, hash};

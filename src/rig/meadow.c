@@ -1,0 +1,141 @@
+/// Solves a meadow's reeds in the batch's lanes, and plants them.
+#include "rig/meadow.h"
+#include "base/hash.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ROWS = 4 }; ///< of a reed's curve: re, im, y, omega
+
+struct meadow {
+    wiggly_batch *batch;
+    int batch_samples, batch_knots;
+    wiggly_desc *descs;
+    wiggly_curve *curves;
+    struct reed *reeds;
+    int capacity, count;
+    double *numbers;
+    size_t number_capacity;
+    wiggly_knot *knots;
+    int knot_capacity;
+    uint64_t key; ///< of what is solved; 0: nothing
+};
+
+struct meadow *meadow_create(void) { return calloc(1, sizeof(struct meadow)); }
+
+void meadow_destroy(struct meadow *meadow)
+{
+    if (!meadow) return;
+    wiggly_batch_destroy(meadow->batch);
+    free(meadow->descs);
+    free(meadow->curves);
+    free(meadow->reeds);
+    free(meadow->numbers);
+    free(meadow->knots);
+    free(meadow);
+}
+
+static bool make_room(struct meadow *m, int count, int samples, int knots)
+{
+    const size_t numbers = (size_t)count * ROWS * (size_t)samples;
+    if (count > m->capacity) {
+        free(m->descs), free(m->curves), free(m->reeds);
+        m->descs = calloc((size_t)count, sizeof *m->descs);
+        m->curves = calloc((size_t)count, sizeof *m->curves);
+        m->reeds = calloc((size_t)count, sizeof *m->reeds);
+        m->capacity = m->descs && m->curves && m->reeds ? count : 0;
+    }
+    if (numbers > m->number_capacity) {
+        free(m->numbers);
+        m->numbers = calloc(numbers, sizeof *m->numbers);
+        m->number_capacity = m->numbers ? numbers : 0;
+    }
+    if (knots > m->knot_capacity || !m->knots) {
+        free(m->knots);
+        m->knots = calloc((size_t)knots + 1, sizeof *m->knots);
+        m->knot_capacity = m->knots ? knots : 0;
+    }
+    if (!m->batch || samples > m->batch_samples || knots > m->batch_knots) {
+        wiggly_batch_destroy(m->batch);
+        m->batch = NULL;
+        m->batch_samples = samples, m->batch_knots = knots;
+        if (wiggly_batch_create(samples, knots + samples, 1, &m->batch) != WIGGLY_OK) m->batch = NULL;
+    }
+    return count <= m->capacity && numbers <= m->number_capacity && m->knots && m->batch;
+}
+
+/// A number from 0 to 1 that the seed, the reed and `what` alone decide.
+static float chance(int seed, int reed, int what)
+{
+    const int key[] = {seed, reed, what};
+    return (float)(hash_bytes(HASH_START, key, sizeof key) >> 40) * 0x1p-24f;
+}
+
+/// On a grid, each somewhere in its cell, so that they stand neither in rows nor in clumps.
+static struct reed plant(const struct meadow_rig *rig, int reed)
+{
+    const double wide = rig->area[0], deep = rig->area[1];
+    const int columns = (int)fmax(1, round(sqrt(rig->count * wide / deep))),
+              rows = (rig->count + columns - 1) / columns;
+    const float x = ((float)(reed % columns) + chance(rig->seed, reed, 0)) / (float)columns - 0.5f;
+    const float z = ((float)(reed / columns) + chance(rig->seed, reed, 1)) / (float)rows - 0.5f;
+    const float tall = 0.7f + 0.6f * chance(rig->seed, reed, 2);
+    return (struct reed){.place = {x * (float)wide, 0, z * (float)deep},
+                         .height = tall * (float)rig->height,
+                         .turn = 1.2f * (chance(rig->seed, reed, 3) - 0.5f),
+                         .shade = chance(rig->seed, reed, 4)};
+}
+
+static void describe(struct meadow *m, const struct meadow_rig *rig, const wiggly_desc *desc)
+{
+    const size_t samples = (size_t)desc->samples;
+    m->count = rig->count;
+    for (int r = 0; r < rig->count; r++) {
+        double *row = m->numbers + (size_t)r * ROWS * samples;
+        m->reeds[r] = plant(rig, r);
+        m->curves[r] =
+            (wiggly_curve){.re = row, .im = row + samples, .y = row + 2 * samples, .omega = row + 3 * samples};
+        m->descs[r] = *desc;
+        m->descs[r].variation = rig->variation;
+        m->descs[r].variation_seed = rig->seed * MEADOW_MAX_REEDS + r;
+    }
+}
+
+static uint64_t key_of(const struct meadow_rig *rig, const struct evaluation *evaluation)
+{
+    uint64_t key = hash_bytes(HASH_START, &evaluation->revision, sizeof evaluation->revision);
+    const double numbers[] = {rig->spline,  rig->count,  rig->seed,      rig->area[0],
+                              rig->area[1], rig->height, rig->variation, evaluation->samples};
+    return hash_bytes(key, numbers, sizeof numbers) | 1;
+}
+
+bool meadow_update(struct meadow *m, const struct document *document, const struct evaluation *evaluation)
+{
+    const int index = document_find_rig(document, RIG_MEADOW, 0);
+    const bool solved = index >= 0 && evaluation->count == document->spline_count && evaluation->samples > 0;
+    if (!solved) {
+        m->count = 0;
+        m->key = 0;
+        return true;
+    }
+    const struct meadow_rig *rig = &document->rigs[index].meadow;
+    const int knots = document->splines[rig->spline].knot_count;
+    const uint64_t key = key_of(rig, evaluation);
+    if (key == m->key) return true;
+    m->count = 0;
+    m->key = key;
+    if (!make_room(m, rig->count, evaluation->samples, knots)) return false;
+    const wiggly_desc desc = evaluation_describe(evaluation, document, rig->spline, m->knots);
+    describe(m, rig, &desc);
+    if (wiggly_batch_solve(m->batch, m->descs, m->curves, NULL, m->count) >= WIGGLY_ERROR_ARGUMENT) m->count = 0;
+    return true;
+}
+
+int meadow_count(const struct meadow *m) { return m ? m->count : 0; }
+
+const struct reed *meadow_reed(const struct meadow *m, int reed) { return &m->reeds[reed]; }
+
+wiggly_value meadow_value(const struct meadow *m, int reed, double position)
+{
+    return wiggly_evaluate(&m->curves[reed], position);
+}

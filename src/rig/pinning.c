@@ -1,0 +1,48 @@
+/// Finds pinned points by the kind of their rig.
+#include "rig/pinning.h"
+#include "rig/pinning_kind.h"
+#include <math.h>
+#include <string.h>
+
+static const struct pinning_functions *const kinds[RIG_KINDS] = {
+    [RIG_TAIL] = &tail_pinning, [RIG_CHARACTER] = &character_pinning, [RIG_CHAIN] = &chain_pinning};
+
+void pinning_add_channel(const struct channel *channel, int n, int joints, const double way[3], pin_pull c)
+{
+    const double to_radians = 3.14159265358979323846 / 180.0;
+    const double lag = to_radians * angles_lag(&channel->lag, n, joints);
+    const double gain = to_radians * angles_at(&channel->gain, n, joints);
+    for (int k = 0; k < 3; k++) {
+        c[k][0] += way[k] * gain * cos(lag);
+        c[k][1] -= way[k] * gain * sin(lag);
+    }
+}
+
+double pinning_square(const pin_pull c)
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) sum += c[k][0] * c[k][0] + c[k][1] * c[k][1];
+    return sum;
+}
+
+static bool find(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
+                 const struct pin *pin, const int *splines, int count, pin_pull *c, struct pin_point *point)
+{
+    const struct posing posing = {.document = document, .evaluation = evaluation, .models = context};
+    if (count > 0) memset(c, 0, (size_t)count * sizeof *c);
+    return kinds[document->rigs[rig].kind]->find(&posing, rig, document_sample(document, pin->frame), pin->point,
+                                                 splines, count, c, point);
+}
+
+static void weigh(void *context, const struct document *document, int rig, const int *splines, int count,
+                  double *weights)
+{
+    const struct posing posing = {.document = document, .models = context};
+    const struct pinning_functions *kind = kinds[document->rigs[rig].kind];
+    if (kind) kind->weigh(&posing, rig, splines, count, weights);
+}
+
+struct pin_source pin_points(struct models *models)
+{
+    return (struct pin_source){.find = find, .weigh = weigh, .context = models, .version = models_version(models)};
+}

@@ -1,0 +1,32 @@
+/// Where pinned points are, and how splines move them. Read by a layer above, which knows models, as motions are (motion.h).
+#ifndef SCENE_PIN_SOURCE_H
+#define SCENE_PIN_SOURCE_H
+
+#include "scene/document.h"
+
+struct evaluation;
+
+/// A pinned point at its sample.
+struct pin_point {
+    double at[3];   ///< metres of the world
+    double size;    ///< of its rig, metres
+    double slack;   ///< metres that do not count
+    bool is_linear; ///< it moves by Σ Re(c x), however far
+};
+
+/// c of each of some splines: the point moves by Re(c dx) in x, y and z.
+typedef double pin_pull[3][2];
+
+struct pin_source {
+    /// Finds a pin's point as the splines are in `evaluation`, and how `count` splines move it from there (`c` may be NULL if
+    /// there are none). false: its model is missing, or has no such point. NULL: pins are passed over.
+    bool (*find)(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
+                 const struct pin *pin, const int *splines, int count, pin_pull *c, struct pin_point *point);
+    /// Adds to each spline's weight the mean of |c|² over the surface of a rig at rest.
+    void (*weigh)(void *context, const struct document *document, int rig, const int *splines, int count,
+                  double *weights);
+    void *context;
+    uint64_t version; ///< changes when they may give something else for the same document
+};
+
+#endif

@@ -1,0 +1,67 @@
+/// Solves the splines of pinned rigs together. Private to src/scene.
+#ifndef SCENE_PINNED_H
+#define SCENE_PINNED_H
+
+#include "scene/evaluate.h"
+
+struct storage;
+
+/// A pin of the group in hand.
+struct held_pin {
+    int rig, pin;
+    bool is_found;
+    struct pin_point from; ///< where its pulls are those of
+    double passed[3];      ///< Σ Re(c x) there
+    double at[3];          ///< where it is now
+};
+
+/// What a group is solved with: a pin and its pulls for each held pin.
+struct pin_round {
+    wiggly_pin *pins;
+    wiggly_pull *pulls; ///< of all pins, as many for each as the group has splines
+};
+
+struct pinned {
+    wiggly_group *solver;
+    int samples, most_knots, group, pins; ///< its capacity; `group`: splines
+    int splines;                          ///< that there is room for below
+    int knot_capacity;
+    wiggly_knot *knots; ///< of the group in hand
+    int *which;         ///< for each spline, pin_groups_find()
+    int *order;
+    bool *placed; ///< by pin_groups_order(), then: solved, if need be, in this update
+    bool *was;    ///< it was solved in a group
+    bool base_moved;
+    double *weight; ///< for each spline
+    int *members;   ///< of the group in hand
+    int count;
+    wiggly_desc *descs; ///< of the members, as the next two
+    wiggly_curve *curves;
+    double *weights;
+    pin_pull *c; ///< of a pin, for each member
+    struct held_pin *held;
+    int held_count;
+    struct pin_round round[2]; ///< that was solved best, and that is tried
+    struct pin_left *left;     ///< of all pins of the document
+    int left_count;
+    uint64_t rigs_key, pins_key; ///< of what was solved
+};
+
+/// Makes room for the document's groups; false if memory runs out. Without pins it costs nothing.
+bool pinned_resize(struct storage *storage, const struct document *document);
+void pinned_free(struct pinned *pinned);
+
+/// Puts the splines into an order for groups, and finds what is to be solved again because rigs or pins have changed. Whether there are
+/// groups: if not, storage->order is the order.
+bool pinned_begin(struct evaluation *evaluation, const struct document *document);
+
+/// Whether a spline's group moves with something that was solved in this update.
+bool pinned_base_moved(struct evaluation *evaluation, const struct document *document, int which);
+
+/// Solves the group of a spline into the members' curves. false if it cannot be solved together.
+bool pinned_solve(struct evaluation *evaluation, const struct document *document, int which, wiggly_status *status);
+
+/// Measures what is left of all pins.
+void pinned_measure(struct evaluation *evaluation, const struct document *document);
+
+#endif

@@ -1,0 +1,132 @@
+/// The frequency and damping that explain knots best (docs/mathematics.md, Frequency).
+#include <math.h>
+#include <string.h>
+#include <wiggly/wiggly.h>
+
+enum { MOST = 48, PITCHES = 96, DAMPINGS = 10, REFINEMENTS = 24 };
+
+static const double dampings[DAMPINGS] = {0.01, 0.02, 0.035, 0.05, 0.08, 0.12, 0.18, 0.27, 0.4, 0.6};
+
+static const double pluck = 30;      ///< variance of what the body was set off with, to that of the noise it lives in
+static const double blur = 0.03;     ///< of the mean gap: how far a knot may be from the moment that is meant
+static const double headroom = 1.25; ///< above one extremum a gap, where the smallest gap is a little long
+static const double tau = 6.283185307179586;
+
+/// The knots that are looked at, by time.
+typedef struct sight {
+    double time[MOST], value[MOST]; ///< from the first one, seconds; over the equilibrium
+    int count;
+    double smallest, mean; ///< gap
+    bool is_real;
+} sight;
+
+/// The earliest MOST of them.
+static void sight_add(sight *s, double time, double value)
+{
+    int at = s->count;
+    if (at == MOST && !(time < s->time[MOST - 1])) return;
+    if (at == MOST) at--;
+    for (; at > 0 && s->time[at - 1] > time; at--) {
+        s->time[at] = s->time[at - 1];
+        s->value[at] = s->value[at - 1];
+    }
+    s->time[at] = time;
+    s->value[at] = value;
+    if (s->count < MOST) s->count++;
+}
+
+static sight sight_of(const wiggly_desc *desc)
+{
+    const wiggly_param *y = &desc->equilibrium;
+    sight s = {.is_real = desc->mode == WIGGLY_REAL, .smallest = INFINITY};
+    for (int k = 0; k < desc->knot_count; k++) {
+        const wiggly_knot *knot = &desc->knots[k];
+        sight_add(&s, knot->sample * desc->step, knot->value - (y->track ? y->track[knot->sample] : y->value));
+    }
+    for (int k = 1; k < s.count; k++) s.smallest = fmin(s.smallest, s.time[k] - s.time[k - 1]);
+    if (s.count > 1) s.mean = (s.time[s.count - 1] - s.time[0]) / (s.count - 1);
+    return s;
+}
+
+/// What values so far apart in time have to do with each other, of variance 1: noise through the filter without bandwidth.
+static double kinship(const sight *s, double decay, double turn, double apart)
+{
+    double t = fabs(apart), fading = exp(-decay * t);
+    if (s->is_real) return fading * (cos(turn * t) + decay / turn * sin(turn * t));
+    return fading * (1 + decay * t) * cos(turn * t);
+}
+
+/// m/2 log vᵀK⁻¹v + ½ log|K|; infinite where K is singular to rounding, or v is 0.
+static double cost_of(const sight *s, double frequency, double damping)
+{
+    const double natural = tau * frequency, decay = damping * natural;
+    const double turn = natural * sqrt((1 - damping) * (1 + damping)), missed = natural * blur * s->mean;
+    double factor[MOST][MOST], y[MOST], size = 0, volume = 0;
+    for (int i = 0; i < s->count; i++) {
+        y[i] = s->value[i];
+        for (int j = 0; j <= i; j++) {
+            const double apart = s->time[i] - s->time[j], age = s->time[i] + s->time[j] - 2 * s->time[0];
+            double sum = kinship(s, decay, turn, apart) + pluck * exp(-decay * age) * cos(turn * apart);
+            if (i == j) sum += missed * missed;
+            for (int k = 0; k < j; k++) sum -= factor[i][k] * factor[j][k];
+            if (i == j && !(sum > 0)) return INFINITY;
+            factor[i][j] = i == j ? sqrt(sum) : sum / factor[j][j];
+        }
+        for (int k = 0; k < i; k++) y[i] -= factor[i][k] * y[k];
+        y[i] /= factor[i][i];
+        size += y[i] * y[i];
+        volume += log(factor[i][i]);
+    }
+    return size > 0 ? 0.5 * s->count * log(size) + volume : INFINITY;
+}
+
+static wiggly_explanation explain_at(const sight *s, double frequency)
+{
+    wiggly_explanation best = {frequency, 0, INFINITY};
+    for (int d = 0; d < DAMPINGS; d++) {
+        const double cost = cost_of(s, frequency, dampings[d]);
+        if (cost < best.cost) best = (wiggly_explanation){frequency, dampings[d], cost};
+    }
+    return best;
+}
+
+/// Goes downhill from the best of the grid, in steps that halve.
+static wiggly_explanation refine(const sight *s, wiggly_explanation at, double ratio)
+{
+    double pitch = sqrt(ratio), more = 1.25;
+    for (int n = 0; n < REFINEMENTS; n++) {
+        const double frequency[] = {at.frequency * pitch, at.frequency / pitch, at.frequency, at.frequency};
+        const double damping[] = {at.damping, at.damping, fmin(at.damping * more, 0.9), at.damping / more};
+        const double before = at.cost;
+        for (int k = 0; k < 4; k++) {
+            const double cost = cost_of(s, frequency[k], damping[k]);
+            if (cost < at.cost) at = (wiggly_explanation){frequency[k], damping[k], cost};
+        }
+        if (at.cost == before) pitch = sqrt(pitch), more = sqrt(more);
+    }
+    return at;
+}
+
+int wiggly_explain(const wiggly_desc *desc, wiggly_explanation best[2])
+{
+    if (!desc || !best || desc->knot_count < WIGGLY_FEWEST_EXPLAINED) return 0;
+    const sight s = sight_of(desc);
+    const double lowest = 0.5 / (s.mean * (s.count - 1)), highest = fmax(headroom * 0.5 / s.smallest, 2 * lowest);
+    const double ratio = pow(highest / lowest, 1.0 / (PITCHES - 1));
+    wiggly_explanation all[PITCHES];
+    int count = 0;
+    for (int n = 0; n < PITCHES; n++) all[n] = explain_at(&s, lowest * pow(ratio, n));
+    for (int n = 0; n < PITCHES; n++) {
+        const double below = n > 0 ? all[n - 1].cost : INFINITY, above = n + 1 < PITCHES ? all[n + 1].cost : INFINITY;
+        if (!isfinite(all[n].cost) || !(all[n].cost < below && all[n].cost <= above)) continue;
+        const wiggly_explanation found = refine(&s, all[n], ratio);
+        if (count == 0 || found.cost < best[0].cost) {
+            best[1] = best[0];
+            best[0] = found;
+        } else if (count == 1 || found.cost < best[1].cost) {
+            best[1] = found;
+        }
+        count++;
+    }
+    return count < 2 ? count : 2;
+}

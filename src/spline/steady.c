@@ -1,0 +1,121 @@
+/// A steady spline: the mean of the solutions whose engines go by frequencies around the description's.
+//
+// Where knots suit a frequency badly, a curve swings wide to get through them, and a small change of a knot changes it much. A
+// neighbouring frequency may suit them well. So the solutions at PARTS of them, each for itself a spline through the knots, are taken
+// together, each weighed by E^(−3/2): those that have to be forced count little.
+//
+// Only the engine is detuned. What moves by itself, u and what is behind the last knot, is of the description's own frequency: it is
+// the same for all, so that the mean of the solutions swings out as any spline does, from the mean at the last knot. Where the filter's
+// rows go on behind that (real mode, the paper's filter), the mean of its first two samples there is run on.
+#include "spline/steady.h"
+#include "spline/limits.h"
+#include "spline/wide.h"
+#include <math.h>
+#include <string.h>
+
+enum { PARTS = 5 };
+
+static const double spread = 0.15; ///< of the frequency, on both sides
+static const double faint = 1e-26; ///< of Σ |w|²: an energy that may be rounding
+
+bool steady_is_set(const problem *p)
+{
+    const wiggly_desc *desc = p->desc;
+    if (!(desc->steady > 0) || desc->mode == WIGGLY_CUBIC || desc->knot_count == 0 || p->pulls) return false;
+    double fastest;
+    poles_fastest(desc, p->first, p->first + p->count - 1, &fastest);
+    return fastest > 0;
+}
+
+/// What a part's energy is; a little more than 0 wherever it is not still.
+static double energy_of(wiggly_solver *solver, const problem *part, const wiggly_curve *curve)
+{
+    const bool is_complex = part->desc->mode == WIGGLY_COMPLEX;
+    const double *re = curve->re + part->first, *im = is_complex ? curve->im + part->first : NULL;
+    problem_set_rows(solver, part);
+    double sum = 0;
+    for (int i = 0; i < solver->rows.count; i++) sum += re[i] * re[i] + (im ? im[i] * im[i] : 0);
+    double energy = system_energy(&solver->rows, re, im) / part->unit + faint * sum;
+    return limits_are_set(part->desc) ? energy + solver->limits.tail_energy : energy;
+}
+
+WIDEST static void move_towards(double *restrict mean, const double *restrict x, double part, int count)
+{
+    for (int i = 0; i < count; i++) mean[i] += part * (x[i] - mean[i]);
+}
+
+/// The filter run on behind the sample after the last knot.
+static void run_on(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
+{
+    system_rows *rows = &solver->rows;
+    const int from = p->latest + 1 - p->first, width = p->desc->mode == WIGGLY_COMPLEX ? 2 : 1;
+    double *re = curve->re + p->first, *im = curve->im + p->first;
+    problem_set_rows(solver, p);
+    for (int k = from - 1; k <= from; k++) {
+        rows->x[width * k] = re[k];
+        if (width == 2) rows->x[2 * k + 1] = im[k];
+    }
+    solver_run_forward(solver, from);
+    for (int k = from + 1; k < rows->count; k++) {
+        re[k] = rows->x[width * k];
+        if (width == 2) im[k] = rows->x[2 * k + 1];
+    }
+}
+
+/// The description with its knots in order, as limits take them.
+static wiggly_desc in_order(wiggly_solver *solver, const wiggly_desc *desc)
+{
+    wiggly_desc ordered = *desc;
+    ordered.knots = solver->limits.own;
+    for (int k = 0; k < desc->knot_count; k++) solver->order[k] = k;
+    return ordered;
+}
+
+static void add_result(minimum *all, const minimum *one)
+{
+    all->solved = all->solved && one->solved;
+    all->unrefined = all->unrefined || one->unrefined;
+    all->error = fmax(all->error, one->error);
+    if (one->sweeps > all->sweeps) all->sweeps = one->sweeps;
+}
+
+wiggly_status steady_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
+{
+    const bool limited = limits_are_set(p->desc), is_complex = p->desc->mode == WIGGLY_COMPLEX;
+    const steady_memory *mean = &solver->steady;
+    const int from = p->first, count = p->count;
+    wiggly_status status = p->status;
+    double first = 0, weights = 0;
+    const wiggly_desc desc = limited ? in_order(solver, p->desc) : *p->desc;
+    *result = (minimum){.solved = true};
+    for (int i = 0; i < PARTS; i++) {
+        problem part = *p;
+        part.desc = &desc;
+        part.detune = 1 + p->desc->steady * spread * (2.0 * i / (PARTS - 1) - 1);
+        problem_set_start(solver, &part);
+        minimum one = {0};
+        wiggly_status found = (limited ? limits_find : problem_find)(solver, &part, curve, &one);
+        if (found >= WIGGLY_ERROR_ARGUMENT) return found;
+        status = found > status ? found : status;
+        add_result(result, &one);
+        double energy = energy_of(solver, &part, curve);
+        if (i == 0) first = energy;
+        double ratio = first / energy, weight = ratio * sqrt(ratio);
+        if (!isfinite(weight)) weight = 1; // nothing moves, or squares do not fit a double
+        weights += weight;
+        if (i == 0) {
+            memcpy(mean->re, curve->re + from, sizeof(double) * (size_t)count);
+            if (is_complex) memcpy(mean->im, curve->im + from, sizeof(double) * (size_t)count);
+        }
+        move_towards(mean->re, curve->re + from, weight / weights, count);
+        if (is_complex) move_towards(mean->im, curve->im + from, weight / weights, count);
+    }
+    memcpy(curve->re + from, mean->re, sizeof(double) * (size_t)count);
+    if (is_complex) memcpy(curve->im + from, mean->im, sizeof(double) * (size_t)count);
+    if (limited) {
+        memset(solver->limits.held, LIMITS_FREE, (size_t)p->desc->samples);
+    } else if (!p->settles && p->start != WIGGLY_LOOP && p->latest + 2 < p->desc->samples) {
+        run_on(solver, p, curve);
+    }
+    return status;
+}

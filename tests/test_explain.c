@@ -1,0 +1,108 @@
+/// The frequency that explains knots: known oscillations are found again, from knots near their extrema.
+#include "near.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+#include <wiggly/wiggly.h>
+
+enum { SEEDS = 200, MOST = 8 };
+
+static const double tau = 6.283185307179586;
+
+static double next(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) * 0x1p-53;
+}
+
+/// Knots within a frame of the extrema of a damped oscillation, 24 frames a second.
+static double plant(int seed, wiggly_mode mode, wiggly_knot knots[MOST], wiggly_desc *desc)
+{
+    uint64_t state = (uint64_t)seed * 2654435761u + 99;
+    for (int i = 0; i < 8; i++) next(&state);
+    const double f = 0.5 + 1.5 * next(&state), damping = 0.15 * next(&state), root = sqrt(1 - damping * damping);
+    const int count = 5 + (int)(4 * next(&state));
+    *desc = wiggly_default_desc();
+    desc->samples = 400, desc->mode = mode, desc->knots = knots, desc->knot_count = count;
+    for (int i = 0; i < count; i++) {
+        int frame = (int)lround(5 + i * 12 / (f * root)) + (int)(3 * next(&state)) - 1;
+        if (i > 0 && frame <= knots[i - 1].sample) frame = knots[i - 1].sample + 1;
+        const double t = (frame - 5) / 24.0;
+        knots[i] = (wiggly_knot){.sample = frame, .value = exp(-damping * tau * f * t) * cos(tau * f * root * t)};
+    }
+    return f;
+}
+
+static int found(wiggly_mode mode)
+{
+    int good = 0, runners = 0;
+    for (int seed = 0; seed < SEEDS; seed++) {
+        wiggly_knot knots[MOST];
+        wiggly_desc desc;
+        const double f = plant(seed, mode, knots, &desc);
+        wiggly_explanation best[2];
+        const int count = wiggly_explain(&desc, best);
+        assert_true(count >= 1 && (count < 2 || best[0].cost <= best[1].cost));
+        runners += count == 2;
+        good += fabs(best[0].frequency / f - 1) < 0.05;
+    }
+    print_message("mode %d: %d of %d within 5 %%, %d with a runner-up\n", (int)mode, good, SEEDS, runners);
+    return good;
+}
+
+static void known_oscillations_are_found_again(void **state)
+{
+    (void)state;
+    assert_true(found(WIGGLY_COMPLEX) >= 0.9 * SEEDS);
+    assert_true(found(WIGGLY_REAL) >= 0.9 * SEEDS);
+}
+
+/// Neither the order of knots, nor their scale, nor the rate, nor what they swing about.
+static void only_the_shape_counts(void **state)
+{
+    (void)state;
+    wiggly_knot knots[MOST], other[MOST];
+    wiggly_desc desc;
+    plant(3, WIGGLY_COMPLEX, knots, &desc);
+    wiggly_explanation best[2], again[2];
+    wiggly_explain(&desc, best);
+    for (int i = 0; i < desc.knot_count; i++) {
+        other[i] = knots[desc.knot_count - 1 - i];
+        other[i].value = 20 + 7 * other[i].value;
+        other[i].sample *= 4;
+    }
+    desc.knots = other, desc.step /= 2, desc.equilibrium.value = 20;
+    wiggly_explain(&desc, again);
+    assert_near(again[0].frequency, best[0].frequency / 2, 1e-9);
+    assert_near(again[0].damping, best[0].damping, 1e-9);
+}
+
+static void what_cannot_be_told_is_not(void **state)
+{
+    (void)state;
+    wiggly_knot knots[MOST];
+    wiggly_desc desc;
+    wiggly_explanation best[2];
+    plant(3, WIGGLY_COMPLEX, knots, &desc);
+    desc.knot_count = WIGGLY_FEWEST_EXPLAINED - 1;
+    assert_int_equal(wiggly_explain(&desc, best), 0);
+    desc.knot_count = 5;
+    for (int i = 0; i < 5; i++) knots[i].value = 0;
+    assert_int_equal(wiggly_explain(&desc, best), 0);
+    static wiggly_knot many[2000];
+    for (int i = 0; i < 2000; i++) many[i] = (wiggly_knot){.sample = 6 * i, .value = i % 2 ? 1 : -1};
+    desc.knots = many, desc.knot_count = 2000;
+    assert_true(wiggly_explain(&desc, best) >= 1);
+    assert_near(best[0].frequency, 2, 0.02);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(known_oscillations_are_found_again),
+        cmocka_unit_test(only_the_shape_counts),
+        cmocka_unit_test(what_cannot_be_told_is_not),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,97 @@
+/// Meadows: loaded and saved, solved as the variations that they are, pushed by bodies and swinging after them.
+#include "near.h"
+
+#include "panel_session.h"
+#include "rig/meadow.h"
+#include "scene/load.h"
+#include <stdlib.h>
+#include <string.h>
+
+static const char scene[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"wind\", \"frequency\": 1, \"damping\": 0.1, "
+    "\"knots\": [{\"frame\": 10, \"value\": 0.5}, {\"frame\": 60, \"value\": -0.5}]}],"
+    "\"rigs\": [{\"type\": \"tail\", \"name\": \"fox\", \"position\": [0, 0.26, 0], \"channels\": []},"
+    "{\"type\": \"meadow\", \"name\": \"reeds\", \"spline\": \"wind\", \"count\": 300, \"seed\": 5, "
+    "\"area\": [4, 3], \"height\": 0.5, \"variation\": 0.4, \"mood\": \"mild\"}]}";
+
+static void it_is_read_and_written(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    const struct meadow_rig *meadow = &s.document->rigs[1].meadow;
+    assert_int_equal(meadow->count, 300);
+    assert_near(meadow->area[1], 3, 0);
+    assert_near(meadow->variation, 0.4, 0);
+    char *saved = session_saved(&s);
+    assert_non_null(strstr(saved, "\"count\": 300"));
+    assert_non_null(strstr(saved, "\"mood\": \"mild\""));
+    struct error error = {0};
+    struct document *again = scene_parse("again", saved, strlen(saved), NULL, &error);
+    if (!again) fail_msg("%s", error.text);
+    assert_memory_equal(&again->rigs[1].meadow, meadow, sizeof *meadow);
+    document_destroy(again);
+    free(saved);
+    session_close(&s);
+}
+
+static void every_reed_is_a_variation(void **state)
+{
+    (void)state;
+    struct session s;
+    struct models *models = panel_open_models(&s, scene);
+    session_frame(&s);
+    const struct meadow *meadow = models_meadow(models);
+    assert_int_equal(meadow_count(meadow), 300);
+    int others = 0;
+    for (int r = 0; r < 300; r++) {
+        const wiggly_value at_knot = meadow_value(meadow, r, 60), between = meadow_value(meadow, r, 35);
+        assert_near(at_knot.y + at_knot.re, -0.5, 1e-12);
+        others += fabs(between.re - s.world.evaluation->curves[0].re[35]) > 0.01;
+    }
+    assert_true(others > 250);
+    session_close(&s);
+}
+
+static double swing_of(const struct session *s)
+{
+    double most = 0;
+    for (int r = 0; r < 300; r++) {
+        for (int k = 0; k < 2; k++) most = fmax(most, fabs(s->editor->stage->meadow.brushed[r].q[k]));
+    }
+    return most;
+}
+
+static void a_dragged_body_sets_them_swinging(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open_models(&s, scene);
+    session_frame(&s);
+    assert_near(swing_of(&s), 0, 0);
+    session_point(&s, "body(fox)");
+    session_press(&s, BUTTON_LEFT, 1);
+    for (int i = 1; i <= 10; i++) {
+        session_move(&s, 12, 0);
+        session_frame(&s);
+    }
+    assert_true(swing_of(&s) > 0.05);
+    session_release(&s, BUTTON_LEFT);
+    for (int i = 0; i < 40; i++) session_frame(&s);
+    const double later = swing_of(&s);
+    assert_true(later > 0.001 && stage_is_moving(s.editor->stage));
+    for (int i = 0; i < 2000; i++) session_frame(&s);
+    assert_near(swing_of(&s), 0, 0);
+    assert_false(stage_is_moving(s.editor->stage));
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(it_is_read_and_written),
+        cmocka_unit_test(every_reed_is_a_variation),
+        cmocka_unit_test(a_dragged_body_sets_them_swinging),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,457 @@
+/// Pins of whole scenes: points of characters, tails and chains are where they must be, whatever was edited before.
+#include "near.h"
+
+#include "model/morph.h"
+#include "rig/opened.h"
+#include "rig/pinning.h"
+#include "scene/edit.h"
+#include "scene/load.h"
+#include "scene/pins.h"
+#include "temporary.h"
+#include <stdlib.h>
+#include <string.h>
+
+/// A scene that is edited and solved.
+struct stand {
+    struct opened opened;
+    struct history *history;
+};
+
+static struct document *document_of(struct stand *stand) { return stand->opened.document; }
+
+static void stand_open(struct stand *stand, const char *path)
+{
+    struct error error = {0};
+    if (!opened_read(&stand->opened, path, &error)) fail_msg("%s", error.text);
+    stand->history = history_create();
+    assert_non_null(stand->history);
+}
+
+static void stand_close(struct stand *stand)
+{
+    history_destroy(stand->history);
+    opened_free(&stand->opened);
+}
+
+/// An edit as a step of its own, which must be possible.
+static void must(struct stand *stand, struct edit edit)
+{
+    struct error error = {0};
+    history_begin(stand->history, "Edit", 0);
+    if (!history_apply(stand->history, document_of(stand), &edit, &error)) fail_msg("%s", error.text);
+    history_end(stand->history);
+}
+
+/// As a frame solves what its edits changed.
+static void solve(struct stand *stand)
+{
+    struct document *document = document_of(stand);
+    struct evaluation *evaluation = &stand->opened.evaluation;
+    bool dirty[64];
+    evaluation->pins = pin_points(stand->opened.models);
+    assert_true(evaluation_resize(evaluation, document, NULL));
+    history_take_dirty(stand->history, document, dirty, document->spline_count);
+    evaluation_update(evaluation, document, dirty, false);
+}
+
+/// Solves from nothing.
+static void solve_whole(struct stand *stand)
+{
+    evaluation_free(&stand->opened.evaluation);
+    assert_true(opened_solve(&stand->opened, WIGGLY_CHAIN, NULL));
+}
+
+static struct edit pin_edit(int rig, int point, double frame, const double to[3])
+{
+    return (struct edit){
+        .kind = EDIT_PIN_ADD, .rig = rig, .pin = {.frame = frame, .point = point, .to = {to[0], to[1], to[2]}}};
+}
+
+/// The point and, of each spline, how it moves it.
+static struct pin_point find(struct stand *stand, int rig, int point, double frame, pin_pull *c)
+{
+    const struct document *document = document_of(stand);
+    const struct pin_source source = pin_points(stand->opened.models);
+    struct pin_point found;
+    struct pin pin = {.frame = frame, .point = point};
+    int splines[64];
+    for (int s = 0; s < document->spline_count; s++) splines[s] = s;
+    assert_true(source.find(source.context, &stand->opened.evaluation, document, rig, &pin, splines,
+                            document->spline_count, c, &found));
+    return found;
+}
+
+static double left_of(struct stand *stand, int rig, int pin)
+{
+    const struct pin_left *left = evaluation_pin(&stand->opened.evaluation, document_of(stand), rig, pin);
+    assert_non_null(left);
+    assert_true(left->is_found);
+    return hypot(hypot(left->way[0], left->way[1]), left->way[2]);
+}
+
+/// c against what small changes of x do.
+static void check_pulls(const char *path, int rig, int point, double frame, double step, double tolerance)
+{
+    struct stand stand = {0};
+    stand_open(&stand, path);
+    solve_whole(&stand);
+    const int sample = document_sample(document_of(&stand), frame);
+    pin_pull c[64], ignored[64];
+    const struct pin_point at = find(&stand, rig, point, frame, c);
+    bool any = false;
+    for (int s = 0; s < document_of(&stand)->spline_count; s++) {
+        wiggly_curve *curve = &stand.opened.evaluation.curves[s];
+        for (int part = 0; part < 2; part++) {
+            double *x = part == 0 ? &curve->re[sample] : &curve->im[sample];
+            const double before = *x;
+            *x = before + step;
+            const struct pin_point up = find(&stand, rig, point, frame, ignored);
+            *x = before - step;
+            const struct pin_point down = find(&stand, rig, point, frame, ignored);
+            *x = before;
+            for (int k = 0; k < 3; k++) {
+                const double seen = (up.at[k] - down.at[k]) / (2 * step);
+                const double said = part == 0 ? c[s][k][0] : -c[s][k][1];
+                assert_near(said, seen, tolerance * at.size);
+                any |= fabs(said) > 0.01 * at.size;
+            }
+        }
+    }
+    assert_true(any);
+    stand_close(&stand);
+}
+
+static void test_pulls_are_derivatives(void **state)
+{
+    (void)state;
+    check_pulls("assets/scenes/tail.json", 0, 23, 30, 1e-4, 1e-6);
+    check_pulls("assets/scenes/follow.json", 0, 11, 40, 1e-4, 1e-6);
+    check_pulls("assets/scenes/character.json", 0, 100, 30, 1e-2, 1e-9);
+    check_pulls("assets/scenes/dog.json", 1, 7, 30, 1e-2, 1e-4);
+    check_pulls("assets/scenes/dog.json", 2, 1, 30, 1e-2, 1e-4);
+}
+
+static void write_scene(const char *name, const char *splines, const char *rigs, char path[512])
+{
+    char text[4096], folder[1024];
+    assert_non_null(getcwd(folder, sizeof folder));
+    const int size = snprintf(text, sizeof text, "{\"frames\": [0, 60], \"splines\": [%s], \"rigs\": [", splines);
+    const int rest = snprintf(text + size, sizeof text - (size_t)size, rigs, folder, folder);
+    const int whole = size + rest + snprintf(text + size + rest, sizeof text - (size_t)(size + rest), "]}");
+    snprintf(path, 512, "%s", temporary_file(name, text, (size_t)whole));
+}
+
+static const char four_splines[] =
+    "{\"name\": \"up\", \"frequency\": 1.5, \"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0.2}, "
+    "{\"frame\": 20, \"value\": 1}]},"
+    "{\"name\": \"side\", \"frequency\": 1, \"damping\": 0.1, \"equilibrium\": 0.3, \"knots\": [{\"frame\": 5, "
+    "\"value\": -0.5}]},"
+    "{\"name\": \"sway\", \"frequency\": 0.8, \"damping\": 0.1, \"knots\": [{\"frame\": 50, \"value\": 0.1}]},"
+    "{\"name\": \"after\", \"frequency\": 2, \"damping\": 0.2, \"equilibrium\": {\"spline\": \"up\"}}";
+
+static const char creature_and_tails[] =
+    "{\"type\": \"character\", \"name\": \"creature\", \"model\": \"%s/assets/models/creature.glb\", \"position\": "
+    "[0.5, "
+    "1, -0.25], \"coordinates\": [{\"name\": \"up-3\", \"spline\": \"up\", \"amplitude\": 11, \"lag\": 40}, "
+    "{\"name\": "
+    "\"side-2\", \"spline\": \"side\", \"amplitude\": 4, \"lag\": -10}]},"
+    "{\"type\": \"tail\", \"name\": \"shared\", \"joints\": 10, \"position\": [1, 0.5, 0], \"channels\": "
+    "[{\"spline\": "
+    "\"side\", \"gain\": 6}, {\"spline\": \"sway\", \"axis\": \"up\", \"gain\": 7}]},"
+    "{\"type\": \"tail\", \"name\": \"own\", \"joints\": 12, \"position\": [0, {\"spline\": \"up\"}, 0], \"rest\": "
+    "3, "
+    "\"channels\": [{\"spline\": \"after\", \"gain\": 7, \"of\": \"displacement\"}]}";
+
+static void open_zoo(struct stand *stand)
+{
+    char path[512];
+    write_scene("zoo.json", four_splines, creature_and_tails, path);
+    stand_open(stand, path);
+    solve(stand);
+}
+
+enum { CREATURE, SHARED, OWN };
+
+/// How freely splines move a point: 1 where equally far in all directions, 0 where some cannot be reached.
+static double freedom(const pin_pull *c, const int *splines, int count)
+{
+    double b[3][3] = {{0}}, trace = 0;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            for (int s = 0; s < count; s++) {
+                const double(*of)[2] = c[splines[s]];
+                b[i][j] += of[i][0] * of[j][0] + of[i][1] * of[j][1];
+            }
+        }
+        trace += b[i][i] / 3;
+    }
+    const double det = b[0][0] * (b[1][1] * b[2][2] - b[1][2] * b[2][1]) -
+                       b[0][1] * (b[1][0] * b[2][2] - b[1][2] * b[2][0]) +
+                       b[0][2] * (b[1][0] * b[2][1] - b[1][1] * b[2][0]);
+    return trace > 0 ? det / (trace * trace * trace) : 0;
+}
+
+/// The vertex that the splines move most freely of those that they move by at least a few centimetres a unit.
+static int free_vertex(struct stand *stand)
+{
+    const int all[] = {0, 1, 2, 3}, vertices = models_figure(stand->opened.models, 0)->character.vertex_count;
+    int freest = 0;
+    double most = 0;
+    for (int v = 0; v < vertices; v += 3) {
+        pin_pull c[64];
+        double far = 0;
+        find(stand, CREATURE, v, 0, c);
+        for (int s = 0; s < 2; s++) {
+            for (int k = 0; k < 3; k++) far += c[s][k][0] * c[s][k][0] + c[s][k][1] * c[s][k][1];
+        }
+        const double freely = freedom(c, all, 4);
+        if (far < 0.03 || freely <= most) continue;
+        most = freely;
+        freest = v;
+    }
+    if (most < 0.2) fail_msg("the splines hardly move the creature anywhere: %g", most);
+    return freest;
+}
+
+/// The frame from `from` on at which the splines move a tail's joint most freely.
+static int free_frame(struct stand *stand, int joint, int from)
+{
+    const int all[] = {0, 1};
+    int freest = from;
+    double most = 0;
+    for (int frame = from; frame < document_of(stand)->last_frame; frame++) {
+        pin_pull c[64];
+        find(stand, 0, joint, frame, c);
+        if (freedom(c, all, 2) <= most) continue;
+        most = freedom(c, all, 2);
+        freest = frame;
+    }
+    return freest;
+}
+
+/// Pins a point where it would be if all splines were `by` away from where they are.
+static void pin_near(struct stand *stand, int rig, int point, double frame, double re, double im)
+{
+    pin_pull c[64];
+    struct pin_point at = find(stand, rig, point, frame, c);
+    for (int s = 0; s < document_of(stand)->spline_count; s++) {
+        for (int k = 0; k < 3; k++) at.at[k] += c[s][k][0] * re - c[s][k][1] * im;
+    }
+    must(stand, pin_edit(rig, point, frame, at.at));
+}
+
+/// Where the stage shows a point.
+static void stage_point(const struct stand *stand, int rig, int point, double frame, float at[3])
+{
+    struct rig_pose pose;
+    const struct posing posing = opened_posing(&stand->opened);
+    assert_true(rig_pose(&posing, rig, document_sample(stand->opened.document, frame), NULL, &pose));
+    if (pose.kind == RIG_CHARACTER) {
+        const struct figure *figure = pose.character.figure;
+        morph_vertex(figure, &pose.character.morph, point, at, NULL);
+        for (int k = 0; k < 3; k++) at[k] += pose.character.position[k] - (k == 1 ? figure->lo[1] : 0);
+    } else if (pose.kind == RIG_TAIL) {
+        memcpy(at, pose.tail.matrix[point + 1] + 12, 3 * sizeof *at);
+    } else {
+        memcpy(at, pose.chain.point[point + 1], 3 * sizeof *at);
+    }
+}
+
+/// All pins of a rig are met, also where the stage shows them, and knots as ever.
+static void assert_met(struct stand *stand, int rig, double tolerance)
+{
+    const struct rig *of = &document_of(stand)->rigs[rig];
+    for (int i = 0; i < of->pin_count; i++) {
+        const struct pin_left *left = evaluation_pin(&stand->opened.evaluation, document_of(stand), rig, i);
+        float at[3];
+        if (!(left_of(stand, rig, i) <= tolerance * left->size))
+            fail_msg("pin %d of %s is off by %g m", i, rig_title(of), left_of(stand, rig, i));
+        stage_point(stand, rig, of->pins[i].point, of->pins[i].frame, at);
+        for (int k = 0; k < 3; k++) assert_near(at[k], of->pins[i].to[k], 1e-5);
+    }
+    for (int s = 0; s < document_of(stand)->spline_count; s++) {
+        const struct spline *spline = &document_of(stand)->splines[s];
+        for (int k = 0; k < spline->knot_count; k++) {
+            const int sample = document_sample(document_of(stand), spline->knots[k].frame);
+            assert_near(stand->opened.evaluation.curves[s].total[sample], spline->knots[k].value, 1e-9);
+        }
+    }
+}
+
+/// Bit by bit what a solve from nothing gives.
+static void assert_same_as_whole(struct stand *stand)
+{
+    struct evaluation whole = {.pins = pin_points(stand->opened.models)};
+    const struct evaluation *seen = &stand->opened.evaluation;
+    assert_true(evaluation_resize(&whole, document_of(stand), NULL));
+    evaluation_update(&whole, document_of(stand), NULL, false);
+    for (int s = 0; s < whole.count; s++) {
+        const size_t size = (size_t)whole.samples * sizeof(double);
+        assert_memory_equal(whole.curves[s].total, seen->curves[s].total, size);
+        assert_memory_equal(whole.curves[s].im, seen->curves[s].im, size);
+    }
+    evaluation_free(&whole);
+}
+
+static void test_a_character_meets_its_pins(void **state)
+{
+    (void)state;
+    struct stand stand = {0};
+    open_zoo(&stand);
+    const int vertex = free_vertex(&stand);
+    pin_near(&stand, CREATURE, vertex, 30, 0.4, -0.3);
+    pin_near(&stand, CREATURE, vertex, 41, -0.5, 0.2);
+    solve(&stand);
+    assert_met(&stand, CREATURE, 1e-9);
+    assert_same_as_whole(&stand);
+    stand_close(&stand);
+}
+
+static void test_a_tail_meets_its_pins(void **state)
+{
+    (void)state;
+    struct stand stand = {0};
+    stand_open(&stand, "assets/scenes/tail.json");
+    solve(&stand);
+    pin_near(&stand, 0, 23, 30, 0.2, 0.1);
+    pin_near(&stand, 0, 23, free_frame(&stand, 23, 70), -0.1, 0.1);
+    solve(&stand);
+    assert_met(&stand, 0, 1e-6);
+    assert_same_as_whole(&stand);
+    stand_close(&stand);
+}
+
+/// What a pin leaves, and what there was before it.
+static double part_left(struct stand *stand, int rig, int point, double frame, double re, double im)
+{
+    const struct pin_point before = find(stand, rig, point, frame, (pin_pull[64]){{{0}}});
+    pin_near(stand, rig, point, frame, re, im);
+    solve(stand);
+    const double *to = document_of(stand)->rigs[rig].pins[0].to;
+    const double way = hypot(hypot(to[0] - before.at[0], to[1] - before.at[1]), to[2] - before.at[2]);
+    return left_of(stand, rig, 0) / way;
+}
+
+static void test_a_chain_on_a_clip_is_pinned(void **state)
+{
+    (void)state;
+    struct stand stand = {0};
+    stand_open(&stand, "assets/scenes/dog.json");
+    solve(&stand);
+    assert_true(part_left(&stand, 1, 7, 30, 0.3, 0.1) < 0.3);
+    assert_same_as_whole(&stand);
+    float at[3];
+    stage_point(&stand, 1, 7, 30, at);
+    const struct pin_left *left = evaluation_pin(&stand.opened.evaluation, document_of(&stand), 1, 0);
+    for (int k = 0; k < 3; k++) assert_near(at[k], left->at[k], 1e-6);
+    stand_close(&stand);
+}
+
+static void test_a_tail_on_a_moving_base_is_pinned(void **state)
+{
+    (void)state;
+    struct stand stand = {0};
+    stand_open(&stand, "assets/scenes/follow.json");
+    solve(&stand);
+    assert_true(part_left(&stand, 0, 23, 30, 0.1, 0.1) < 0.5);
+    assert_same_as_whole(&stand);
+    struct edit base = {.kind = EDIT_KNOT_SET, .spline = 0, .knot = document_of(&stand)->splines[0].knots[1]};
+    base.knot.value = 0.9;
+    must(&stand, base);
+    solve(&stand); // the pinned splines follow the base by a track, and where it is
+    assert_same_as_whole(&stand);
+    stand_close(&stand);
+}
+
+/// The creature and a tail share a spline; another tail, pinned itself, follows a third that is pinned.
+static void test_rigs_that_share_splines(void **state)
+{
+    (void)state;
+    struct stand stand = {0};
+    open_zoo(&stand);
+    const double own = find(&stand, OWN, 11, 20, (pin_pull[64]){{{0}}}).at[1];
+    pin_near(&stand, CREATURE, free_vertex(&stand), 30, 0.4, -0.3);
+    pin_near(&stand, SHARED, 9, 44, 0.1, 0);
+    solve(&stand);
+    assert_met(&stand, CREATURE, 1e-6);
+    assert_true(left_of(&stand, SHARED, 0) < 0.05);
+    const double followed = find(&stand, OWN, 11, 20, (pin_pull[64]){{{0}}}).at[1];
+    assert_true(fabs(followed - own) > 1e-3); // it sees the pinned curve
+    pin_near(&stand, OWN, 11, 20, 0.3, 0.2);
+    solve(&stand);
+    assert_same_as_whole(&stand);
+    stand_close(&stand);
+}
+
+/// Whatever was edited, undone and looked at in between, the curves are those of the document.
+static void test_edits_give_the_same_bits(void **state)
+{
+    (void)state;
+    struct stand stand = {0};
+    open_zoo(&stand);
+    struct document *document = document_of(&stand);
+    pin_near(&stand, CREATURE, free_vertex(&stand), 30, 0.4, -0.3);
+    pin_near(&stand, SHARED, 9, 44, 0.1, 0.2);
+    pin_near(&stand, OWN, 7, 10, 0.2, 0.2);
+    solve(&stand);
+    struct angles gain = document->rigs[SHARED].tail.channels[1].gain;
+    gain.value[0] = 9;
+    struct edit moved = {.kind = EDIT_PIN_SET, .rig = SHARED, .pin = document->rigs[SHARED].pins[0]};
+    moved.pin.to[1] += 0.1;
+    moved.pin.frame = 40;
+    struct edit knot = {.kind = EDIT_KNOT_SET, .spline = 0, .knot = document->splines[0].knots[1]};
+    knot.knot.value = 0.5;
+    const struct edit edits[] = {
+        moved,
+        {.kind = EDIT_ANGLES, .rig = SHARED, .channel = 1, .angle = ANGLE_GAIN, .angles = &gain},
+        knot,
+        {.kind = EDIT_POSITION, .rig = SHARED, .coordinate = 0, .param = param_number(0.9)},
+        {.kind = EDIT_PIN_REMOVE, .rig = CREATURE, .pin = document->rigs[CREATURE].pins[0]},
+        {.kind = EDIT_PIN_REMOVE, .rig = OWN, .pin = document->rigs[OWN].pins[0]},
+        {.kind = EDIT_PIN_REMOVE, .rig = SHARED, .pin = document->rigs[SHARED].pins[0]},
+    };
+    for (size_t i = 0; i < sizeof edits / sizeof *edits; i++) {
+        must(&stand, edits[i]);
+        solve(&stand);
+        assert_same_as_whole(&stand);
+    }
+    evaluation_update(&stand.opened.evaluation, document, (bool[4]){false}, true);
+    while (history_undo(stand.history, document)) {
+        solve(&stand);
+        assert_same_as_whole(&stand);
+    }
+    while (history_redo(stand.history, document)) {
+        solve(&stand);
+        assert_same_as_whole(&stand);
+    }
+    stand_close(&stand);
+}
+
+static void test_a_point_that_the_model_lacks(void **state)
+{
+    (void)state;
+    struct stand stand = {0};
+    struct error error = {0};
+    char path[512];
+    write_scene("lacks.json", four_splines,
+                "{\"type\": \"character\", \"name\": \"soft\", \"model\": \"%s/assets/models/creature.glb\", "
+                "\"coordinates\": [{\"name\": \"up\", \"spline\": \"up\"}], \"pins\": [{\"frame\": 4, \"vertex\": "
+                "9999999, \"to\": [0, 0, 0]}]}",
+                path);
+    assert_false(opened_read(&stand.opened, path, &error));
+    assert_non_null(strstr(error.text, "soft: expected a vertex from 0 to "));
+    assert_non_null(strstr(error.text, " in the pin at frame 4, got 9999999"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pulls_are_derivatives),
+                                       cmocka_unit_test(test_a_character_meets_its_pins),
+                                       cmocka_unit_test(test_a_tail_meets_its_pins),
+                                       cmocka_unit_test(test_a_chain_on_a_clip_is_pinned),
+                                       cmocka_unit_test(test_a_tail_on_a_moving_base_is_pinned),
+                                       cmocka_unit_test(test_rigs_that_share_splines),
+                                       cmocka_unit_test(test_edits_give_the_same_bits),
+                                       cmocka_unit_test(test_a_point_that_the_model_lacks)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

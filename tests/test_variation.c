@@ -1,0 +1,230 @@
+/// Variations: other motions of the same material through the same knots.
+#include "near.h"
+
+#include <math.h>
+#include <string.h>
+#include <wiggly/wiggly.h>
+
+enum { MOST = 2000, SEEDS = 400 };
+
+static const wiggly_knot keys[] = {{.sample = 10, .value = 0},
+                                   {.sample = 40, .value = 1},
+                                   {.sample = 70, .value = -0.5, .has_slope = true, .slope = 2, .stiffness = 1000},
+                                   {.sample = 110, .value = 0.2}};
+enum { KEYS = sizeof keys / sizeof *keys };
+
+struct solved {
+    double total[MOST], re[MOST], im[MOST], y[MOST], omega[MOST];
+    wiggly_curve curve;
+};
+
+static wiggly_desc varied(int seed, double amount)
+{
+    wiggly_desc desc = wiggly_default_desc();
+    desc.samples = 241, desc.frequency.value = 1.3, desc.damping.value = 0.1;
+    desc.knots = keys, desc.knot_count = KEYS;
+    desc.variation = amount, desc.variation_seed = seed;
+    return desc;
+}
+
+static wiggly_curve rows_of(struct solved *s)
+{
+    return (wiggly_curve){.total = s->total, .re = s->re, .im = s->im, .y = s->y, .omega = s->omega};
+}
+
+static struct solved *solve(struct solved *s, const wiggly_desc *desc, wiggly_method method)
+{
+    wiggly_solver *solver;
+    assert_int_equal(wiggly_create(desc->samples, 64 + desc->samples, &solver), WIGGLY_OK);
+    wiggly_set_method(solver, method);
+    s->curve = rows_of(s);
+    assert_int_equal(wiggly_solve(solver, desc, &s->curve), WIGGLY_OK);
+    wiggly_destroy(solver);
+    return s;
+}
+
+static double apart(const double *a, const double *b, int from, int to)
+{
+    double most = 0;
+    for (int i = from; i < to; i++) most = fmax(most, fabs(a[i] - b[i]));
+    return most;
+}
+
+static void knots_are_hit_and_the_rest_is_another(void **state)
+{
+    (void)state;
+    static const wiggly_start starts[] = {WIGGLY_FREE, WIGGLY_REST, WIGGLY_LOOP};
+    for (int mode = WIGGLY_COMPLEX; mode <= WIGGLY_REAL; mode++) {
+        for (int s = 0; s < 3; s++) {
+            struct solved plain, one, same, other, band;
+            wiggly_desc desc = varied(7, 0.3);
+            desc.mode = (wiggly_mode)mode, desc.start = starts[s];
+            solve(&one, &desc, WIGGLY_CHAIN), solve(&same, &desc, WIGGLY_CHAIN), solve(&band, &desc, WIGGLY_BAND);
+            desc.variation_seed = 8;
+            solve(&other, &desc, WIGGLY_CHAIN);
+            desc.variation = 0;
+            solve(&plain, &desc, WIGGLY_CHAIN);
+            for (int k = 0; k < KEYS; k++) assert_true(one.total[keys[k].sample] == keys[k].value);
+            assert_memory_equal(one.total, same.total, sizeof(double) * 241);
+            assert_true(apart(one.total, band.total, 0, 241) < 1e-8);
+            assert_true(apart(one.im, band.im, 0, 241) < 1e-8);
+            assert_true(apart(one.total, plain.total, 10, 110) > 0.02);
+            assert_true(apart(one.total, plain.total, 0, 241) < 1.5);
+            assert_true(apart(one.total, other.total, 10, 110) > 0.02);
+            assert_near((one.total[71] - one.total[69]) * 12, 2, 0.15);
+        }
+    }
+}
+
+/// A seed alone is nothing, and neither are variations of what does not vary.
+static void without_one_the_bits_are_the_same(void **state)
+{
+    (void)state;
+    struct solved plain, seeded;
+    wiggly_desc desc = varied(0, 0);
+    solve(&plain, &desc, WIGGLY_CHAIN);
+    desc.variation_seed = 99;
+    solve(&seeded, &desc, WIGGLY_CHAIN);
+    assert_memory_equal(plain.total, seeded.total, sizeof(double) * 241);
+    desc.mode = WIGGLY_CUBIC;
+    solve(&plain, &desc, WIGGLY_CHAIN);
+    desc.variation = 1;
+    solve(&seeded, &desc, WIGGLY_CHAIN);
+    assert_memory_equal(plain.total, seeded.total, sizeof(double) * 241);
+}
+
+static void loops_close(void **state)
+{
+    (void)state;
+    struct solved s;
+    wiggly_desc desc = varied(3, 0.5);
+    desc.start = WIGGLY_LOOP;
+    solve(&s, &desc, WIGGLY_CHAIN);
+    assert_true(s.total[240] == s.total[0]);
+    double bend = 0, seam = 0;
+    for (int i = 1; i < 240; i++) {
+        const double here = fabs(s.total[i + 1] - 2 * s.total[i] + s.total[i - 1]);
+        if (i < 60 || i > 80) bend = fmax(bend, here);
+    }
+    seam = fabs(s.total[1] - 2 * s.total[0] + s.total[239]);
+    assert_true(seam < 1.5 * bend);
+}
+
+static void it_settles_after_the_last_knot(void **state)
+{
+    (void)state;
+    struct solved s;
+    for (int seed = 0; seed < 20; seed++) {
+        wiggly_desc desc = varied(seed, 1);
+        desc.samples = 400;
+        solve(&s, &desc, WIGGLY_CHAIN);
+        double late = 0;
+        for (int i = 360; i < 400; i++) late = fmax(late, fabs(s.total[i]));
+        assert_true(late < 0.01); // ten seconds on, e^−8.5 of the swing
+        const double before = s.total[110] - s.total[109], after = s.total[111] - s.total[110];
+        assert_true(fabs(after - before) < 0.35); // no kink where the noise ends
+    }
+}
+
+/// Without knots it is the noise itself: of the spread that was asked for, whatever the rate.
+static void the_noise_is_as_wide_as_asked(void **state)
+{
+    (void)state;
+    static struct solved s, fine;
+    double sum = 0, worst = 0;
+    long count = 0;
+    for (int seed = 0; seed < SEEDS; seed++) {
+        wiggly_desc desc = varied(seed, 0.5);
+        desc.knot_count = 0;
+        solve(&s, &desc, WIGGLY_CHAIN);
+        for (int i = 0; i < 241; i += 8, count++) sum += s.total[i] * s.total[i];
+        if (seed > 20) continue;
+        desc.samples = 961, desc.step /= 4;
+        solve(&fine, &desc, WIGGLY_CHAIN);
+        double off = 0;
+        for (int i = 0; i < 241; i++) off = fmax(off, fabs(fine.total[4 * i] - s.total[i]));
+        worst = fmax(worst, off);
+    }
+    print_message("spread %.3f, asked for 0.5; at four times the rate %.3f apart\n", sqrt(sum / (double)count),
+                  worst);
+    assert_true(worst < 0.2);
+    assert_near(sqrt(sum / (double)count), 0.5, 0.05);
+}
+
+/// With calm 1 the plain spline is the mean of all variations.
+static void their_mean_is_the_spline(void **state)
+{
+    (void)state;
+    static struct solved s, plain;
+    static double mean[241];
+    wiggly_desc desc = varied(0, 0);
+    memset(mean, 0, sizeof mean);
+    solve(&plain, &desc, WIGGLY_CHAIN);
+    for (int seed = 0; seed < SEEDS; seed++) {
+        desc = varied(seed, 1);
+        solve(&s, &desc, WIGGLY_CHAIN);
+        for (int i = 0; i < 241; i++) mean[i] += s.total[i] / SEEDS;
+    }
+    assert_true(apart(mean, plain.total, 0, 241) < 0.2);
+}
+
+static void before_the_first_knot_nothing_stirs(void **state)
+{
+    (void)state;
+    struct solved s;
+    wiggly_desc desc = varied(7, 1);
+    solve(&s, &desc, WIGGLY_CHAIN);
+    for (double at = 0; at < 9; at += 0.3) {
+        const wiggly_value value = wiggly_evaluate(&s.curve, at);
+        assert_near(value.y + value.re, keys[0].value, 1e-12);
+    }
+}
+
+static void limits_hold(void **state)
+{
+    (void)state;
+    struct solved s;
+    for (int seed = 0; seed < 20; seed++) {
+        wiggly_desc desc = varied(seed, 1);
+        desc.low = -0.6, desc.high = 1.02;
+        solve(&s, &desc, WIGGLY_CHAIN);
+        for (int i = 0; i < 241; i++) assert_true(s.total[i] >= -0.6 && s.total[i] <= 1.02);
+        for (int k = 0; k < KEYS; k++) assert_true(s.total[keys[k].sample] == keys[k].value);
+    }
+}
+
+/// In lanes beside others, as by itself.
+static void a_batch_has_the_same_bits(void **state)
+{
+    (void)state;
+    enum { COUNT = 37 };
+    static struct solved many[COUNT], one;
+    static wiggly_desc descs[COUNT];
+    static wiggly_curve curves[COUNT];
+    wiggly_batch *batch;
+    assert_int_equal(wiggly_batch_create(241, KEYS, 2, &batch), WIGGLY_OK);
+    for (int i = 0; i < COUNT; i++) descs[i] = varied(i, i % 5 ? 0.4 : 0), curves[i] = rows_of(&many[i]);
+    assert_int_equal(wiggly_batch_solve(batch, descs, curves, NULL, COUNT), WIGGLY_OK);
+    for (int i = 0; i < COUNT; i++) {
+        solve(&one, &descs[i], WIGGLY_CHAIN);
+        assert_memory_equal(one.total, many[i].total, sizeof(double) * 241);
+        assert_memory_equal(one.im, many[i].im, sizeof(double) * 241);
+    }
+    wiggly_batch_destroy(batch);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(knots_are_hit_and_the_rest_is_another),
+        cmocka_unit_test(without_one_the_bits_are_the_same),
+        cmocka_unit_test(loops_close),
+        cmocka_unit_test(it_settles_after_the_last_knot),
+        cmocka_unit_test(the_noise_is_as_wide_as_asked),
+        cmocka_unit_test(their_mean_is_the_spline),
+        cmocka_unit_test(before_the_first_knot_nothing_stirs),
+        cmocka_unit_test(limits_hold),
+        cmocka_unit_test(a_batch_has_the_same_bits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

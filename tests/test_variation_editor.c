@@ -1,0 +1,112 @@
+/// The frequency of knots by a key, and variations in the inspector and the file.
+#include "near.h"
+
+#include "panel_session.h"
+#include "scene/load.h"
+#include <stdlib.h>
+#include <string.h>
+
+/// Extrema of 1.25 Hz, 24 frames a second.
+static const char swinging[] =
+    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 3, \"damping\": 0.4, "
+    "\"knots\": [{\"frame\": 5, \"value\": 1}, {\"frame\": 15, \"value\": -0.9}, {\"frame\": 24, \"value\": 0.8}, "
+    "{\"frame\": 34, \"value\": -0.7}, {\"frame\": 43, \"value\": 0.62}]}]}";
+
+static const char few[] =
+    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 3, "
+    "\"knots\": [{\"frame\": 5, \"value\": 1}, {\"frame\": 15, \"value\": -0.9}, {\"frame\": 24, \"value\": 0.8}]}]}";
+
+static double number(const struct session *s, enum parameter p) { return s->document->splines[0].parameter[p].value; }
+
+static void a_key_finds_the_frequency(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, swinging);
+    session_frame(&s);
+    char *original = session_saved(&s);
+    session_key(&s, 'F', MOD_SHIFT);
+    session_frame(&s);
+    assert_near(number(&s, PARAMETER_FREQUENCY), 1.26, 0.06);
+    assert_true(number(&s, PARAMETER_DAMPING) < 0.1);
+    session_key(&s, 'Z', MOD_CTRL);
+    assert_saved(&s, original);
+    free(original);
+    session_close(&s);
+}
+
+static void too_few_knots_are_told(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, few);
+    session_frame(&s);
+    session_key(&s, 'F', MOD_SHIFT);
+    assert_non_null(strstr(s.editor->core.message.text, "Four knots"));
+    assert_near(number(&s, PARAMETER_FREQUENCY), 3, 0);
+    session_close(&s);
+}
+
+static void the_dice_rolls_another_motion(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open(&s, swinging, 1280, 1200);
+    char *original = session_saved(&s);
+    panel_click(&s, "section.variation");
+    const double before = s.world.evaluation->curves[0].total[20];
+    panel_click(&s, "variation.roll");
+    session_frame(&s);
+    assert_near(number(&s, PARAMETER_VARIATION), 0.3, 0);
+    assert_true(s.world.evaluation->curves[0].total[20] != before);
+    assert_true(s.world.evaluation->curves[0].total[15] == -0.9);
+    const double seed = number(&s, PARAMETER_SEED);
+    panel_click(&s, "variation.roll");
+    assert_true(number(&s, PARAMETER_SEED) != seed);
+    for (int i = 0; i < 2; i++) session_key(&s, 'Z', MOD_CTRL);
+    assert_saved(&s, original);
+    free(original);
+    session_close(&s);
+}
+
+static void load_fails(const char *variation, const char *sentence)
+{
+    char text[512];
+    struct error error = {0};
+    const int size =
+        snprintf(text, sizeof text,
+                 "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"a\", \"frequency\": 1, "
+                 "\"variation\": %s, \"knots\": []}]}",
+                 variation);
+    assert_null(scene_parse("scene", text, (size_t)size, NULL, &error));
+    if (!strstr(error.text, sentence)) fail_msg("%s", error.text);
+}
+
+static void the_file_has_both_numbers_and_what_else_is_there(void **state)
+{
+    (void)state;
+    static const char scene[] =
+        "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"a\", \"frequency\": 1, "
+        "\"variation\": {\"seed\": 7, \"amount\": 0.3, \"mood\": \"mild\"}, \"knots\": []}]}";
+    struct session s;
+    session_open(&s, scene);
+    char *saved = session_saved(&s);
+    assert_non_null(strstr(saved, "\"variation\": { \"seed\": 7, \"amount\": 0.3, \"mood\": \"mild\" }"));
+    free(saved);
+    session_close(&s);
+    load_fails("3", "variation: expected {\"seed\", \"amount\"}, got a number");
+    load_fails("{\"seed\": 1.5, \"amount\": 1}", "variation.seed: expected a whole number");
+    load_fails("{\"seed\": 1}", "variation.amount: expected");
+    load_fails("{\"seed\": 1, \"amount\": -1}", "variation.amount: expected");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_key_finds_the_frequency),
+        cmocka_unit_test(too_few_knots_are_told),
+        cmocka_unit_test(the_dice_rolls_another_motion),
+        cmocka_unit_test(the_file_has_both_numbers_and_what_else_is_there),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
