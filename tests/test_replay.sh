@@ -38,7 +38,7 @@ ok "nor does one with everything shown" $?
 expect 0 "pins are dragged" play tests/replays/pins.replay assets/scenes/hands.json pins --scale 0.5
 [ "$(wasteful "$scratch/pins.csv")" -eq 0 ]
 ok "which allocates only where it edits" $?
-grep -q '"frame": 84, "vertex": 8082' "$scratch/pins.json"
+grep -q '"frame": 84, "vertex": 2711' "$scratch/pins.json"
 ok "and moves a pin in time" $?
 
 expect 0 "what was recorded plays" play "$scratch/recorded.replay" $scene second --scale 0.5
