@@ -400,9 +400,9 @@ static int try_all_sliders(struct session *f)
     static const struct {
         const char *name;
         double ends[2];
-    } sliders[] = {{"frequency", {0, 12}}, {"damping", {0, 1}}, {"damping", {0, 3}},   {"bandwidth", {0, 1}},
-                   {"calm", {0, 1}},       {"steady", {0, 1}},  {"spring", {0, 2000}}, {"friction", {0, 50}},
-                   {"lag", {0, 30}},       {"gain", {0, 20}},   {"rest", {-15, 15}}};
+    } sliders[] = {{"frequency", {0, 12}}, {"damping", {0, 1}},   {"damping", {0, 3}},   {"bandwidth", {0, 1}},
+                   {"calm", {0, 1}},       {"spring", {0, 2000}}, {"friction", {0, 50}}, {"lag", {0, 30}},
+                   {"gain", {0, 20}},      {"rest", {-15, 15}}};
     for (size_t s = 0; s < sizeof sliders / sizeof sliders[0]; s++) {
         for (int end = 0; end < 2; end++) {
             if (!panel_shows(f, sliders[s].name)) continue;

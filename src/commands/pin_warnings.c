@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double MET = 1e-5; ///< of the rig's size: a chain is posed in floats
+static const double MET = 1e-4; ///< of the rig's size: a chain is posed in floats
 
 static void tell_pin(const struct pin_left *left, int rig, int pin, void (*tell)(void *user, const char *sentence),
                      void *user)

@@ -94,6 +94,9 @@ bool region_nodes(const struct region *region, const struct lattice *lattice, co
     surface_bounds(surface, lo, hi);
     double foot = region->size < 0 ? 0.05 * (hi[1] - lo[1]) : region->size;
     double rounding = 1e-9 * (hi[1] - lo[1]); // a layer of nodes lies at this height
+    double top = lo[1] + foot, lowest = INFINITY;
+    for (int i = 0; i < lattice->node_count; i++) lowest = fmin(lowest, lattice->node[i][1]);
+    if (region->size < 0) top = fmax(top, lowest); // feet thinner than a cell
     for (int i = 0; i < lattice->node_count; i++) {
         double away[3], ahead = 0, squared = 0;
         for (int c = 0; c < 3; c++) {
@@ -101,7 +104,7 @@ bool region_nodes(const struct region *region, const struct lattice *lattice, co
             ahead += away[c] * region->normal[c];
             squared += away[c] * away[c];
         }
-        if (region->kind == REGION_FOOT) inside[i] = lattice->node[i][1] <= lo[1] + foot + rounding;
+        if (region->kind == REGION_FOOT) inside[i] = lattice->node[i][1] <= top + rounding;
         if (region->kind == REGION_PLANE) inside[i] = ahead <= 0;
         if (region->kind == REGION_SPHERE) inside[i] = squared <= region->size * region->size;
     }

@@ -44,6 +44,7 @@ bool core_edit(struct core *core, const struct editor_world *world, const struct
         return true;
     }
     core_message(core, true, error.text);
+    selection_drop_from(&core->selection, world->document->next_id); // what the drag had inserted a moment ago
     return false;
 }
 

@@ -61,7 +61,7 @@ static const struct section {
     {"section.tail", NULL, inspector_tail, inspector_tail_lists, has_tail, false},
     {"section.character", "Character", inspector_character, inspector_character_lists, has_character, false},
     {"section.pins", "Pins", inspector_pins, NULL, takes_pins, false},
-    {"section.limits", "Limits", inspector_limits, NULL, has_spline, true},
+    {"section.limits", "Limits and steadiness", inspector_limits, NULL, has_spline, true},
     {"section.variation", "Variation", inspector_variation, NULL, may_vary, true},
     {"section.history", "History", inspector_history, NULL, NULL, true}, // the last one: see there
 };

@@ -1,5 +1,6 @@
 /// The inspector's view of the active spline's poles: dragged in an inset, seen on the unit circle and in their response.
 #include "editor/core/core.h"
+#include "editor/core/knots.h"
 #include "editor/inspector/inspection.h"
 #include "editor/inspector/poles.h"
 #include <math.h>
@@ -155,5 +156,11 @@ void inspector_poles(struct inspection *in)
     struct rect response = ui_row(ui, RESPONSE);
     if (ui_hovered(ui, response)) ui->hint = "Response in dB over Hz: the complex filter rejects low frequencies";
     if (ui->pass == UI_PASS_DRAW) poles_draw_response(view, response, ui->list);
+    ui_space(ui, 4);
+    struct rect find = ui_row(ui, UI_ROW);
+    if (ui_hovered(ui, find))
+        ui->hint = "Frequency and damping that explain the knots best (Shift+F); again: the runner-up";
+    if (ui_button(ui, find, "frequency.find", "Find the frequency", false))
+        core_find_frequency(in->core, in->world, 0);
     ui_space(ui, 4);
 }

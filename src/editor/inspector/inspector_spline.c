@@ -138,11 +138,6 @@ static void build_warnings(struct inspection *in, const struct spline *spline)
 static void build_pair(struct inspection *in, const struct spline *spline)
 {
     build_settling(in, spline);
-    const struct rect r = ui_row(in->ui, UI_ROW), button = {r.x, r.y + 2, r.w, r.h - 4};
-    if (ui_hovered(in->ui, button))
-        in->ui->hint = "Frequency and damping that explain the knots best (Shift+F); again: the runner-up";
-    if (ui_button(in->ui, button, "frequency.find", "Find the frequency", false))
-        core_find_frequency(in->core, in->world, 0);
     if (spline_mode(spline) == WIGGLY_REAL) build_spring_toggle(in, spline);
 }
 
@@ -150,7 +145,8 @@ void inspector_spline(struct inspection *in)
 {
     struct spline *spline = core_active_spline(in->core, in->world);
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        if (!spline_uses(spline, p, false) || p >= PARAMETER_LOW) continue; // they have sections
+        if (!spline_uses(spline, p, false) || p >= PARAMETER_LOW || p == PARAMETER_STEADY)
+            continue; // they have sections
         build_parameter(in, spline, p);
         if (p == PARAMETER_MODE) ui_space(in->ui, 4);
         if (p == PARAMETER_MODE && spline_mode(spline) == WIGGLY_CUBIC)
@@ -184,6 +180,7 @@ void inspector_limits(struct inspection *in)
     const struct spline *spline = core_active_spline(in->core, in->world);
     build_limit(in, spline, PARAMETER_HIGH);
     build_limit(in, spline, PARAMETER_LOW);
+    if (spline_uses(spline, PARAMETER_STEADY, false)) build_parameter(in, spline, PARAMETER_STEADY);
 }
 
 /// Of a roll where there is no variation yet.

@@ -49,7 +49,9 @@ static struct hover nearer(struct hover a, struct hover b, float x, float y)
 struct hover stage_hover(struct stage *stage, const struct core *core, const struct document *document, float x,
                          float y)
 {
-    const struct hover joint = nearer(strand_hover(stage, core, x, y), bone_hover(stage, core, x, y), x, y);
+    struct hover joint = nearer(strand_hover(stage, core, x, y), bone_hover(stage, core, x, y), x, y);
+    const bool pins = core->mods & MOD_CTRL && !core->brush.on && core->pick.use == BONE_SELECTED;
+    if (pins && joint.kind == HOVER_JOINT) joint = strand_end(stage, core, &joint);
     const struct hover body = joint.kind == HOVER_NONE ? hold_hover(stage, x, y) : joint;
     const struct hover pin = pins_hover(stage, core, document, &body, x, y);
     return pin.kind == HOVER_NONE ? body : pin;
