@@ -72,8 +72,8 @@ static void bad_characters_are_refused(void **state)
     static const struct {
         const char *text, *sentence;
     } cases[] = {
-        {SCENE("{\"type\": \"bear\"}"),
-         "scene.json:3: rigs[0].type: expected \"tail\", \"character\", \"model\", \"chain\" or \"meadow\", got \"bear\""},
+        {SCENE("{\"type\": \"bear\"}"), "scene.json:3: rigs[0].type: expected \"tail\", \"character\", \"model\", "
+                                        "\"chain\" or \"meadow\", got \"bear\""},
         {SCENE("{\"type\": \"character\"}"), "scene.json:3: rigs[0].model: expected a string, got nothing"},
         {SCENE("{\"type\": \"character\", \"model\": 3}"),
          "scene.json:3: rigs[0].model: expected a string, got a number"},
