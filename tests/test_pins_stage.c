@@ -105,15 +105,21 @@ static void test_an_axis_can_be_locked_and_esc_cancels(void **state)
     session_close(&s);
 }
 
+/// Pins the tip where it is, at frame 10.
+static void pin_the_tip(struct session *s)
+{
+    for (int step = 0; step < 10; step++) session_key(s, KEY_RIGHT, 0);
+    session_point(s, "tail(tail,1)");
+    session_frame(s);
+    session_key(s, 'H', 0);
+}
+
 static void test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys(void **state)
 {
     (void)state;
     struct session s;
     open_tail(&s);
-    for (int step = 0; step < 10; step++) session_key(&s, KEY_RIGHT, 0);
-    session_point(&s, "tail(tail,1)");
-    session_frame(&s);
-    session_key(&s, 'H', 0);
+    pin_the_tip(&s);
     assert_int_equal(pins_of(&s), 1);
     char *placed = session_saved(&s);
     const struct pin first = *pin_of(&s, 0);
@@ -145,10 +151,7 @@ static void test_a_marker_is_dragged_on_the_stage_and_on_the_ruler(void **state)
     (void)state;
     struct session s;
     open_tail(&s);
-    for (int step = 0; step < 10; step++) session_key(&s, KEY_RIGHT, 0);
-    session_point(&s, "tail(tail,1)");
-    session_frame(&s);
-    session_key(&s, 'H', 0);
+    pin_the_tip(&s);
     session_key(&s, KEY_ESCAPE, 0);
     char *placed = session_saved(&s);
     session_pull(&s, "pin(tail,0)", 0, -25, 4);

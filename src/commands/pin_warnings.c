@@ -1,5 +1,6 @@
 /// Puts what pins do not reach into words.
 #include "commands/pin_warnings.h"
+#include "scene/pins.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -21,17 +22,6 @@ static void tell_pin(const struct pin_left *left, int rig, int pin, void (*tell)
     tell(user, sentence);
 }
 
-static bool is_pinned(const struct document *document, int spline)
-{
-    for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
-        for (int i = 0; rig->pin_count > 0 && i < rig_input_count(rig); i++) {
-            if (rig_input(rig, i) == spline) return true;
-        }
-    }
-    return false;
-}
-
 void pin_warnings(const struct document *document, const struct evaluation *evaluation,
                   void (*tell)(void *user, const char *sentence), void *user)
 {
@@ -43,7 +33,7 @@ void pin_warnings(const struct document *document, const struct evaluation *eval
         const struct param *parameter = document->splines[s].parameter;
         char sentence[80];
         const bool limited = isfinite(parameter[PARAMETER_LOW].value) || isfinite(parameter[PARAMETER_HIGH].value);
-        if (!limited || !is_pinned(document, s)) continue;
+        if (!limited || !pins_move_spline(document, s)) continue;
         snprintf(sentence, sizeof sentence, "splines[%d].limits: pins pass over them", s);
         tell(user, sentence);
     }

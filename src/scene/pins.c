@@ -16,6 +16,17 @@ int pins_count(const struct document *document)
     return count;
 }
 
+bool pins_move_spline(const struct document *document, int spline)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = &document->rigs[r];
+        for (int i = 0; rig->pin_count > 0 && i < rig_input_count(rig); i++) {
+            if (rig_input(rig, i) == spline) return true;
+        }
+    }
+    return false;
+}
+
 int pins_find_id(const struct rig *rig, unsigned id)
 {
     for (int i = 0; i < rig->pin_count; i++) {

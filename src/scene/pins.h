@@ -6,6 +6,8 @@
 
 /// Pins over all rigs.
 int pins_count(const struct document *document);
+/// Whether pins move a spline: one of a rig that has some.
+bool pins_move_spline(const struct document *document, int spline);
 
 /// Index of a rig's pin with that id, or -1.
 int pins_find_id(const struct rig *rig, unsigned id);

@@ -7,6 +7,7 @@
 #include "editor/curves/show.h"
 #include "editor/curves/view.h"
 #include "editor/curves/warnings.h"
+#include "scene/pins.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -317,24 +318,12 @@ static void show_playhead(const struct curves *curves, struct core *core, const 
     drawlist_text(&core->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, text);
 }
 
-/// Whether pins move a spline.
-static bool is_pinned(const struct document *document, int spline)
-{
-    for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
-        for (int i = 0; rig->pin_count > 0 && i < rig_input_count(rig); i++) {
-            if (rig_input(rig, i) == spline) return true;
-        }
-    }
-    return false;
-}
-
 /// What to do where there is nothing to edit yet, and no swing of the equilibrium's that the text would cover.
 static void show_empty(struct core *core, const struct editor_world *world)
 {
     const struct spline *spline = core_active_spline(core, world);
     bool flat = spline && spline->knot_count == 0 && !param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]) &&
-                !is_pinned(world->document, core->active);
+                !pins_move_spline(world->document, core->active);
     bool hidden = spline && !arrange_seen(core, world);
     if (spline && !flat && !hidden) return;
     const bool has_bones = document_find_rig(world->document, RIG_MODEL, 0) >= 0;
