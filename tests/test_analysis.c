@@ -4,10 +4,9 @@
 #include "analysis/slabs.h"
 #include "analysis/spectrum.h"
 #include "planted.h"
+#include "with_lapack.h"
 #include <stdlib.h>
 #include <string.h>
-
-static struct lapack lapack;
 
 static void analyse(struct analysis *analysis, const struct motion *motion, double fps, int modes,
                     const double direction[3])
@@ -336,22 +335,6 @@ static void odd_motions_give_finite_numbers(void **state)
     motion_close(&motion);
 }
 
-static int load(void **state)
-{
-    char description[128];
-    (void)state;
-    if (lapack_load(&lapack, description, sizeof description)) return 0;
-    print_error("LAPACKE: %s\n", description);
-    return 1;
-}
-
-static int unload(void **state)
-{
-    (void)state;
-    lapack_unload(&lapack);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -364,5 +347,5 @@ int main(void)
         cmocka_unit_test(what_cannot_be_analysed_gets_one_sentence),
         cmocka_unit_test(odd_motions_give_finite_numbers),
     };
-    return cmocka_run_group_tests(tests, load, unload);
+    return cmocka_run_group_tests(tests, with_lapack_load, with_lapack_unload);
 }

@@ -2,9 +2,8 @@
 #include "analysis/analysis.h"
 #include "analysis/knots.h"
 #include "planted.h"
+#include "with_lapack.h"
 #include <string.h>
-
-static struct lapack lapack;
 
 enum { VERTICES = 60, COLUMNS = 3 * VERTICES, MOST = 2, SEEDS = 3 };
 
@@ -327,22 +326,6 @@ static void motion_near_half_the_rate_is_told(void **state)
     motion_close(&motion);
 }
 
-static int load(void **state)
-{
-    char description[128];
-    (void)state;
-    if (lapack_load(&lapack, description, sizeof description)) return 0;
-    print_error("LAPACKE: %s\n", description);
-    return 1;
-}
-
-static int unload(void **state)
-{
-    (void)state;
-    lapack_unload(&lapack);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -355,5 +338,5 @@ int main(void)
         cmocka_unit_test(motions_that_cancel_are_left_out_and_said),
         cmocka_unit_test(motion_near_half_the_rate_is_told),
     };
-    return cmocka_run_group_tests(tests, load, unload);
+    return cmocka_run_group_tests(tests, with_lapack_load, with_lapack_unload);
 }
