@@ -82,6 +82,16 @@ bool glb_open_any(struct glb *glb, const char *path, struct error *error)
     return open_file(glb, path, read_either, error);
 }
 
+bool glb_take_room(struct glb *glb, size_t count, size_t size, struct error *error)
+{
+    if (count > glb->room / size)
+        return fail(error, ERROR_INPUT,
+                    "%s: expected no more data than fits a file of this size, got %zu times %zu bytes", glb->path,
+                    count, size);
+    glb->room -= count * size;
+    return true;
+}
+
 void glb_close(struct glb *glb)
 {
     for (int i = 0; i < glb->buffer_count; i++) free(glb->buffers[i].owned);

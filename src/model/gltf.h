@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 enum { GLTF_INFLUENCES = 8 };
@@ -138,6 +139,10 @@ struct gltf {
 /// read, whatever they claim. Errors name file, place, what was expected and what was found; on error nothing is left to free.
 bool gltf_read(const char *path, struct gltf *gltf, struct error *error);
 void gltf_free(struct gltf *gltf);
+
+/// Decodes a PNG or JPEG into at most `most` bytes of pixels, which the caller frees. False with a sentence that names no file.
+bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, struct gltf_image *image,
+                       struct error *error);
 
 /// The node, or clip, with that name, or −1.
 int gltf_find_node(const struct gltf *gltf, const char *name);

@@ -162,19 +162,7 @@ static void drop_unused(struct surface_builder *b)
         looks->corner = NULL;
         looks->uv_count = 0;
     }
-    bool dressed = false, polygons = false;
-    for (int t = 0; t < b->surface->index_count / 3; t++) {
-        dressed = dressed || looks->material[t] < (uint32_t)looks->material_count;
-        polygons = polygons || looks->joined[t];
-    }
-    if (!dressed) {
-        free(looks->material);
-        looks->material = NULL;
-    }
-    if (!polygons) {
-        free(looks->joined);
-        looks->joined = NULL;
-    }
+    looks_drop_unused(looks, b->surface->index_count / 3);
 }
 
 bool builder_finish(struct surface_builder *b, const char *path, const char *kind, struct error *error)
