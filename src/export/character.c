@@ -39,6 +39,7 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     form->color = (const float(*)[3])c->color;
     form->indices = c->indices;
     form->index_count = c->index_count;
+    form->looks = &c->looks;
     form->targets = calloc((size_t)c->coordinate_count * 2 + 1, sizeof *form->targets);
     if (!form->targets) return fail_no_memory(error, form->name);
     for (int k = 0; k < c->coordinate_count; k++) {

@@ -22,6 +22,7 @@ static bool read_json(struct glb *glb, const char *text, size_t length, struct e
 {
     json_error_t wrong;
     glb->json = json_loadb(text, length, 0, &wrong);
+    if (!glb->json && json_error_code(&wrong) == json_error_out_of_memory) return fail_no_memory(error, glb->path);
     if (!glb->json) return fail(error, ERROR_INPUT, "%s: JSON, line %d: %s", glb->path, wrong.line, wrong.text);
     return true;
 }

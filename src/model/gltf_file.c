@@ -54,6 +54,12 @@ void gltf_set(struct gltf_file *file, json_t *object, const char *key, json_t *v
     if (json_object_set_new(object, key, value) != 0) file->without_memory = true;
 }
 
+void gltf_append_to(struct gltf_file *file, json_t *object, const char *key, json_t *value)
+{
+    if (!json_object_get(object, key)) gltf_set(file, object, key, json_array());
+    gltf_append(file, json_object_get(object, key), value);
+}
+
 static void add_bounds(struct gltf_file *file, json_t *accessor, const float *numbers, size_t count, int components)
 {
     json_t *low = json_array(), *high = json_array();

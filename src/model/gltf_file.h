@@ -45,6 +45,9 @@ json_int_t gltf_file_add_bytes(struct gltf_file *file, const void *data, size_t 
 json_int_t gltf_append(struct gltf_file *file, json_t *array, json_t *value);
 void gltf_set(struct gltf_file *file, json_t *object, const char *key, json_t *value);
 
+/// Appends to a member that is an array, which is made where it is missing.
+void gltf_append_to(struct gltf_file *file, json_t *object, const char *key, json_t *value);
+
 /// The bytes as a data URI; the caller frees it. NULL if memory is short.
 char *gltf_file_address(const struct gltf_file *file);
 
