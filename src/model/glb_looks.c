@@ -1,6 +1,6 @@
 /// Reads how a character in a .glb looks.
 #include "model/glb_looks.h"
-#include "model/gltf_looks.h"
+#include "model/gltf.h"
 #include "model/mtl.h"
 #include <stdio.h>
 #include <stdlib.h>

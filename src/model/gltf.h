@@ -11,6 +11,10 @@
 
 enum { GLTF_INFLUENCES = 8 };
 
+/// An extension: those triangles of a primitive that follow each other and begin with the same vertex are one polygon, a fan. It is a
+/// proposal, and no viewer needs to know it.
+#define GLTF_POLYGONS "FB_ngon_encoding"
+
 /// Translation, rotation (unit quaternion x y z w) and scale of a node against its parent.
 struct gltf_place {
     float translation[3], rotation[4], scale[3];
@@ -81,6 +85,7 @@ struct gltf_part {
     int index_count;
     struct gltf_target *targets; ///< as many as the mesh has
     int material;                ///< −1: plain white
+    bool has_polygons;           ///< GLTF_POLYGONS, unless flat
     bool flat;                   ///< the file has no normals, so each triangle has vertices of its own
 };
 

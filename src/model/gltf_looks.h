@@ -1,14 +1,12 @@
 /// Materials, their pictures, and the triangles that have them, in a glTF file being put together.
 ///
-/// Polygons are kept as FB_ngon_encoding has them, a proposal that no viewer needs to know: those triangles that follow each other and
-/// begin with the same vertex are one polygon, a fan.
+/// Polygons are kept as GLTF_POLYGONS has them: of two in a row each begins with another vertex.
 #ifndef MODEL_GLTF_LOOKS_H
 #define MODEL_GLTF_LOOKS_H
 
+#include "model/gltf.h"
 #include "model/gltf_file.h"
 #include "model/surface.h"
-
-#define GLTF_POLYGONS "FB_ngon_encoding"
 
 /// All zero but `file` at first. What fails leaves the file without memory.
 struct gltf_looks {

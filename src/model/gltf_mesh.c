@@ -158,6 +158,8 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, int mode, 
     if (!make_triangles(r, mode, corners, count, part)) return false;
     struct gltf_vertices vertices = {.in_file = (int)in_file, .count = (int)in_file};
     part->flat = !json_object_get(attributes, "NORMAL");
+    part->has_polygons =
+        !part->flat && json_object_get(json_object_get(primitive, "extensions"), GLTF_POLYGONS) != NULL;
     if (part->flat) {
         vertices.order = part->indices;
         vertices.count = part->index_count;

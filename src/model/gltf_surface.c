@@ -51,11 +51,15 @@ static void add_part(struct surface_builder *b, const struct gltf *gltf, const s
         if (part->color) builder_linear_color(b, part->color[i]);
         if (part->uv) builder_uv(b, (double)part->uv[i][0], (double)part->uv[i][1]);
     }
-    for (int i = 0; i < part->index_count && !b->failed; i++) {
-        const uint32_t corner = part->indices[i];
-        builder_corner(b, (uint32_t)first + corner, part->uv ? (uint32_t)first_uv + corner : LOOKS_NONE);
-        if (i % 3 == 2) builder_end_polygon(b);
+    for (int i = 0; i + 2 < part->index_count && !b->failed; i += 3) {
+        const uint32_t *corner = part->indices + i;
+        const bool joined =
+            part->has_polygons && i > 0 && corner[0] == corner[-3] && corner[1] == corner[-1]; // goes on with the fan
+        if (!joined) builder_end_polygon(b);
+        for (int k = joined ? 2 : 0; k < 3; k++)
+            builder_corner(b, (uint32_t)first + corner[k], part->uv ? (uint32_t)first_uv + corner[k] : LOOKS_NONE);
     }
+    builder_end_polygon(b);
     if (part->flat && !b->failed) builder_merge(b, first); // the reader has given each triangle vertices of its own
 }
 
