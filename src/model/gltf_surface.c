@@ -1,6 +1,7 @@
 /// Makes one surface of all that a glTF file shows at rest.
 #include "model/gltf.h"
 #include "model/surface_readers.h"
+#include "model/vector.h"
 #include <stb/stb_image_write.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,7 +49,11 @@ static void add_part(struct surface_builder *b, const struct gltf *gltf, const s
     for (int i = 0; i < part->vertex_count && !b->failed; i++) {
         const double p[3] = {(double)position[i][0], (double)position[i][1], (double)position[i][2]};
         builder_vertex(b, p);
-        if (part->color) builder_linear_color(b, part->color[i]);
+        if (part->color) {
+            const float *c = part->color[i];
+            const float rgb[3] = {glm_clamp(c[0], 0, 1), glm_clamp(c[1], 0, 1), glm_clamp(c[2], 0, 1)};
+            builder_linear_color(b, rgb);
+        }
         if (part->uv) builder_uv(b, (double)part->uv[i][0], (double)part->uv[i][1]);
     }
     for (int i = 0; i + 2 < part->index_count && !b->failed; i += 3) {
