@@ -1,6 +1,7 @@
 /// Opens .glb and .gltf files.
 #include "model/glb.h"
 #include "base/file.h"
+#include "base/json.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,7 +22,7 @@ static bool expected(const struct glb *glb, const char *what, struct error *erro
 static bool read_json(struct glb *glb, const char *text, size_t length, struct error *error)
 {
     json_error_t wrong;
-    glb->json = json_loadb(text, length, 0, &wrong);
+    glb->json = json_read(text, length, 0, &wrong);
     if (!glb->json && json_error_code(&wrong) == json_error_out_of_memory) return fail_no_memory(error, glb->path);
     if (!glb->json) return fail(error, ERROR_INPUT, "%s: JSON, line %d: %s", glb->path, wrong.line, wrong.text);
     return true;

@@ -1,5 +1,6 @@
 /// Puts glTF files together.
 #include "model/gltf_file.h"
+#include "base/json.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -181,7 +182,7 @@ bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *ou
 {
     char *text = NULL;
     if (root && !file->without_memory && file->size < UINT32_MAX / 2 && complete(file, root, binary))
-        text = json_dumps(root, (binary ? JSON_COMPACT : JSON_INDENT(1)) | JSON_REAL_PRECISION(17));
+        text = json_print(root, (binary ? JSON_COMPACT : JSON_INDENT(1)) | JSON_REAL_PRECISION(17));
     json_decref(root);
     if (!text) {
         return fail(error, ERROR_ENVIRONMENT,
