@@ -157,7 +157,7 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     editor->core.held_key = 0;
     editor->core.space_down = false;
     editor->core.message = (struct message){0};
-    editor->core.playback = (struct playback){.looping = true, .speed = 1};
+    editor->core.playback = (struct playback){.looping = true, .speed = 1, .playing = document->about != NULL};
     for (int s = 0; s < document->spline_count; s++) {
         editor->core.playback.playing |= spline_start(&document->splines[s]) == WIGGLY_LOOP;
     }

@@ -50,10 +50,7 @@ static const float *base_of(const struct stage *stage, int tail)
     return stage->view.tails[tail].pose.matrix[0] + 12;
 }
 
-static float scale_of(const struct stage *stage, int tail)
-{
-    return pose_length(&stage->view.tails[tail].pose) / CREATURE_TAIL_LENGTH;
-}
+static float scale_of(const struct pose *pose) { return pose_length(pose) / CREATURE_TAIL_LENGTH; }
 
 /// Where the ray from the eye meets the body (metres along it, bind size), or a negative number: steps of the distance to the
 /// skin cannot pass through it.
@@ -75,17 +72,23 @@ static float trace(const float from[3], const float direction[3])
     return -1;
 }
 
-struct hover hold_hover(const struct stage *stage, float x, float y)
+float hold_distance(const struct stage *stage, const struct pose *pose, float x, float y)
 {
     const struct stage_view *view = &stage->view;
     const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
-    struct hover hover = {.kind = HOVER_NONE};
-    float direction[3], nearest = INFINITY;
+    const float scale = scale_of(pose);
+    float direction[3];
     camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
-    for (int t = 0; t < view->tail_count; t++) {
-        const float scale = scale_of(stage, t);
-        const vec3s from = glms_vec3_divs(glms_vec3_sub(vec3_from(view->eye), vec3_from(base_of(stage, t))), scale);
-        const float distance = scale * trace(from.raw, direction);
+    const vec3s from = glms_vec3_divs(glms_vec3_sub(vec3_from(view->eye), vec3_from(pose->matrix[0] + 12)), scale);
+    return scale * trace(from.raw, direction);
+}
+
+struct hover hold_hover(const struct stage *stage, float x, float y)
+{
+    struct hover hover = {.kind = HOVER_NONE};
+    float nearest = INFINITY;
+    for (int t = 0; t < stage->view.tail_count; t++) {
+        const float distance = hold_distance(stage, &stage->view.tails[t].pose, x, y);
         if (!(distance >= 0 && distance < nearest)) continue;
         nearest = distance;
         hover = (struct hover){.kind = HOVER_BODY, .tail = t, .x = x, .y = y};
@@ -98,7 +101,7 @@ bool hold_point(const struct stage *stage, const struct core *core, int tail, in
     static const float places[HOLD_POINTS][3] = {
         {0, 0.18f, -0.45f}, {0, 0.54f, -0.385f}, {0, 0.05f, -0.25f}, {0, 0, -0.5f}}; // chest, head, rump, paws
     const vec3s base = vec3_from(base_of(stage, tail));
-    const vec3s place = glms_vec3_muladds(vec3_from(places[point]), scale_of(stage, tail), base);
+    const vec3s place = glms_vec3_muladds(vec3_from(places[point]), scale_of(&stage->view.tails[tail].pose), base);
     return stage_project_point(stage, core->layout.stage, place.raw, xy);
 }
 
@@ -175,7 +178,7 @@ void hold_show(struct stage *stage, struct core *core)
     if (!held && core->hover.kind != HOVER_BODY) return;
     int tail = held ? stage->hold.tail : core->hover.tail;
     if (tail >= stage->view.tail_count) return;
-    const float scale = scale_of(stage, tail), *base = base_of(stage, tail);
+    const float scale = scale_of(&stage->view.tails[tail].pose), *base = base_of(stage, tail);
     const uint32_t color = held ? theme()->accent : theme()->playhead;
     float point[RING_POINTS + 1][2];
     for (int i = 0; i <= RING_POINTS; i++) { // from the right side of the picture over the near half

@@ -6,6 +6,11 @@
 
 /// The body under a point of the stage (HOVER_BODY), the nearest to the eye, or HOVER_NONE.
 struct hover hold_hover(const struct stage *stage, float x, float y);
+/// How far from the eye a point of the stage meets the body of a posed tail, metres, or a negative number.
+float hold_distance(const struct stage *stage, const struct pose *pose, float x, float y);
+/// What was under a point within the last third of a second of a scene that plays: who presses there aimed at that.
+struct hover hold_moment_ago(const struct stage *stage, const struct core *core, const struct editor_world *world,
+                             float x, float y);
 /// Points of a body that are likely to be in sight, the likeliest first, on the screen; false where one is behind the eye.
 enum { HOLD_POINTS = 4 };
 bool hold_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2]);

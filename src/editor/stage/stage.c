@@ -93,8 +93,9 @@ void stage_press(struct stage *stage, struct core *core, const struct editor_wor
     if (brush_press(stage, core, world, event)) return;
     stage->pointed.hash = 0; // a press means what is there now, even while all moves
     struct hover hover = hover_now(stage, core, world, event->x, event->y);
-    stage->pressed = hover;
     const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
+    if (holds && hover.kind == HOVER_NONE) hover = hold_moment_ago(stage, core, world, event->x, event->y);
+    stage->pressed = hover;
     if (event->button == BUTTON_LEFT && hover.kind != HOVER_PIN) pins_clear(core);
     if (holds && (hover.kind == HOVER_POINT || hover.kind == HOVER_PIN)) {
         pins_begin(stage, core, world, &hover, event);
