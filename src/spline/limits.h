@@ -7,9 +7,10 @@
 
 static inline bool limits_are_set(const wiggly_desc *desc) { return desc->low > -INFINITY || desc->high < INFINITY; }
 
-/// Puts a limited spline's knots, which were just posed, and arrays of its own into the solver's memory; `all` is the curve with
-/// arrays where `curve` has none.
-void limits_begin(wiggly_solver *solver, const wiggly_desc *desc, const wiggly_curve *curve, wiggly_curve *all);
+/// Puts the knots of a limited spline that was just posed into the solver's memory by sample, where held samples will come between
+/// them: its description becomes `ordered`. `all` is the curve with arrays of the solver's where `curve` has none.
+void limits_begin(wiggly_solver *solver, problem *p, wiggly_desc *ordered, const wiggly_curve *curve,
+                  wiggly_curve *all);
 
 /// problem_find() of a limited spline. WIGGLY_ERROR_CAPACITY where more samples are to be held than there is room for.
 wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result);
