@@ -235,8 +235,28 @@ static enum outcome go_round(limits_work *w)
     return TIRED;
 }
 
+/// Solves with what was guessed and lets go until nothing has to be pulled: the dual method can go on from there.
+static bool settle(limits_work *w)
+{
+    double slack, noise;
+    for (bool any = true; any;) {
+        if (!limits_solve(w)) return false;
+        measure_work(w, &slack, &noise);
+        any = relax(w, &w->body, noise);
+    }
+    const limit_memory *m = &w->solver->limits;
+    for (int i = w->body.from; i <= w->body.to; i++) {
+        if (limits_hold(w, i)) m->now[i] = m->pull[i];
+    }
+    return true;
+}
+
 static enum outcome search(limits_work *w)
 {
+    double slack, noise;
+    measure_work(w, &slack, &noise);
+    limits_guess(w, slack);
+    if (w->body.held > 0 && !settle(w)) return NO_ROOM;
     enum outcome outcome = climb(w, FEW);
     if (outcome == TIRED) outcome = go_round(w);
     if (outcome != TIRED) return outcome;
