@@ -17,6 +17,8 @@ static const float HALF_BEND = 0.20f;                    ///< of an ear's length
 static const float HEAD_RADIUS = 0.50f;                  ///< around the neck's joint, bind size: holds head and ears
 static const float SPLAY = 0.4f;                         ///< of an ear that is laid back
 
+const int limb_parents[LIMBS] = {-1, LIMB_BODY, LIMB_BODY, LIMB_HEAD, LIMB_HEAD, LIMB_EAR, LIMB_EAR + 1};
+
 static mat4s about(const float pivot[3], mat4s turn)
 {
     const vec3s p = vec3_from(pivot);
@@ -49,47 +51,60 @@ void limbs_base_slope(double stretch, double scale, double slope[3])
     slope[2] = 0.5 * scale * FEET * pow(1.0 + stretch, -1.5);
 }
 
-static mat4s head_turn(const struct limbs *limbs, mat4s into_head, float scale)
+static mat4s head_from_bind(void)
 {
-    float pivot[3];
-    into_bind(neck, scale, pivot);
-    const vec3s across = {{into_head.m00, into_head.m10, into_head.m20}};
-    const mat4s nod = glms_rotate_make(limbs->nod, across), look = glms_rotate_make(limbs->look, (vec3s){{0, 1, 0}});
-    return about(pivot, glms_mat4_mul(look, nod));
+    float matrix[16];
+    creature_head_from_bind(matrix);
+    return mat4_from(matrix);
 }
 
-/// The bend of an ear's joint, in bind space; the head's own axes are right-handed and its left ear is at +x.
-static mat4s ear_bend(mat4s into_head, float scale, int side, float place, float angle)
+void limbs_pivots(float scale, float pivot[LIMBS][3])
 {
-    const float sign = side ? -1.0f : 1.0f;
-    float pivot[3];
-    for (int k = 0; k < 3; k++) pivot[k] = scale * (ear_root[k] + place * (ear_tip[k] - ear_root[k]));
-    pivot[0] *= sign;
-    const mat4s back = glms_rotate_make(angle, (vec3s){{1, 0, 0}});
-    const mat4s aside = glms_rotate_make(-sign * SPLAY * angle, (vec3s){{0, 0, 1}});
-    return glms_mat4_mul(glms_mat4_inv(into_head),
-                         glms_mat4_mul(about(pivot, glms_mat4_mul(aside, back)), into_head));
+    const mat4s from_head = glms_mat4_inv(head_from_bind());
+    memset(pivot, 0, LIMBS * sizeof *pivot);
+    into_bind(chest, 1.0f, pivot[LIMB_CHEST]);
+    into_bind(neck, 1.0f, pivot[LIMB_HEAD]);
+    for (int l = LIMB_EAR; l < LIMBS; l++) {
+        const float place = JOINT[l >= LIMB_EAR_TIP];
+        vec3s joint = glms_vec3_lerp(vec3_from(ear_root), vec3_from(ear_tip), place);
+        if ((l - LIMB_EAR) % 2 != 0) joint.x = -joint.x;
+        joint = glms_mat4_mulv3(from_head, joint, 1.0f);
+        memcpy(pivot[l], joint.raw, sizeof pivot[l]);
+    }
+    for (int l = 0; l < LIMBS; l++) glm_vec3_scale(pivot[l], scale, pivot[l]);
+}
+
+void limbs_motions(const struct limbs *limbs, float turn[LIMBS][4], float size[LIMBS][3])
+{
+    const mat4s into_head = head_from_bind();
+    const vec3s across = {{into_head.m00, into_head.m10, into_head.m20}};
+    const vec3s forth = {{into_head.m02, into_head.m12, into_head.m22}};
+    const versors look = glms_quatv(limbs->look, (vec3s){{0, 1, 0}}), nod = glms_quatv(limbs->nod, across);
+    for (int l = 0; l < LIMBS; l++) {
+        versors own = l == LIMB_HEAD ? glms_quat_mul(look, nod) : glms_quat_identity();
+        if (l >= LIMB_EAR) {
+            const float back = limbs->ears[l >= LIMB_EAR_TIP], sign = (l - LIMB_EAR) % 2 ? -1.0f : 1.0f;
+            own = glms_quat_mul(glms_quatv(-sign * SPLAY * back, forth), glms_quatv(back, across));
+        }
+        memcpy(turn[l], own.raw, sizeof turn[l]);
+        for (int k = 0; k < 3; k++) size[l][k] = l == LIMB_CHEST ? 1.0f + limbs->breath : 1.0f;
+    }
+    const vec3s stretched = size_of(limbs);
+    memcpy(size[LIMB_BODY], stretched.raw, sizeof size[LIMB_BODY]);
 }
 
 void limbs_matrices(const struct limbs *limbs, float scale, float matrix[LIMBS][16])
 {
-    mat4s part[LIMBS];
-    float middle[3], head[16];
-    creature_head_from_bind(head);
-    mat4s into_head = mat4_from(head);
-    glm_vec3_scale(into_head.raw[3], scale, into_head.raw[3]);
-    into_bind(chest, scale, middle);
-    const float wider = 1.0f + limbs->breath;
-    part[LIMB_BODY] = glms_scale_make(size_of(limbs));
-    part[LIMB_CHEST] = glms_mat4_mul(part[LIMB_BODY], about(middle, glms_scale_make((vec3s){{wider, wider, wider}})));
-    part[LIMB_HEAD] = glms_mat4_mul(part[LIMB_BODY], head_turn(limbs, into_head, scale));
-    for (int side = 0; side < 2; side++) {
-        const mat4s root = ear_bend(into_head, scale, side, JOINT[0], limbs->ears[0]);
-        const mat4s tip = ear_bend(into_head, scale, side, JOINT[1], limbs->ears[1]);
-        part[LIMB_EAR + side] = glms_mat4_mul(part[LIMB_HEAD], root);
-        part[LIMB_EAR_TIP + side] = glms_mat4_mul(part[LIMB_EAR + side], tip);
+    float pivot[LIMBS][3], turn[LIMBS][4], size[LIMBS][3];
+    limbs_pivots(scale, pivot);
+    limbs_motions(limbs, turn, size);
+    for (int l = 0; l < LIMBS; l++) {
+        versors q;
+        memcpy(q.raw, turn[l], sizeof turn[l]);
+        mat4s part = about(pivot[l], glms_mat4_mul(glms_quat_mat4(q), glms_scale_make(vec3_from(size[l]))));
+        if (limb_parents[l] >= 0) part = glms_mat4_mul(mat4_from(matrix[limb_parents[l]]), part);
+        memcpy(matrix[l], part.raw, sizeof matrix[l]);
     }
-    for (int l = 0; l < LIMBS; l++) memcpy(matrix[l], part[l].raw, sizeof matrix[l]);
 }
 
 void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3])
