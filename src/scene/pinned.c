@@ -260,7 +260,8 @@ static void find_held(struct pinned *pinned, const struct document *document, in
     pinned->held_count = 0;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = &document->rigs[r];
-        const bool is_held = rig_input_count(rig) > 0 && pinned->which[rig_input(rig, 0)] == which;
+        const int spline = rig_point_spline(rig);
+        const bool is_held = spline >= 0 && pinned->which[spline] == which;
         for (int i = 0; is_held && i < rig->pin_count; i++)
             pinned->held[pinned->held_count++] = (struct held_pin){.rig = r, .pin = i};
     }

@@ -34,7 +34,7 @@ bool pins_move_spline(const struct document *document, int spline)
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = &document->rigs[r];
         for (int i = 0; pins_hold_rig(rig) && i < rig_input_count(rig); i++) {
-            if (rig_input(rig, i) == spline) return true;
+            if (rig_point_input(rig, i) == spline) return true;
         }
     }
     return false;
@@ -106,7 +106,8 @@ int pins_last_sample(const struct document *document, const struct rig *rig)
 {
     const int samples = document_samples(document);
     for (int i = 0; i < rig_input_count(rig); i++) {
-        if (spline_start(&document->splines[rig_input(rig, i)]) == WIGGLY_LOOP) return samples - 2;
+        const int spline = rig_point_input(rig, i);
+        if (spline >= 0 && spline_start(&document->splines[spline]) == WIGGLY_LOOP) return samples - 2;
     }
     return samples - 1;
 }
@@ -163,6 +164,7 @@ static const char *member_that_holds(const struct rig *rig) { return rig->pin_co
 static bool check_splines(const struct document *document, const struct rig *rig, struct pin_trouble *trouble)
 {
     for (int i = 0; i < rig_input_count(rig); i++) {
+        if (rig_point_input(rig, i) < 0) continue;
         const struct spline *spline = &document->splines[rig_input(rig, i)];
         const char *why = stiffness_of(spline);
         if (!why) continue;
@@ -194,7 +196,7 @@ static int pinned_rig_of(const struct document *document, int spline)
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = &document->rigs[r];
         for (int i = 0; pins_hold_rig(rig) && i < rig_input_count(rig); i++) {
-            if (rig_input(rig, i) == spline) return r;
+            if (rig_point_input(rig, i) == spline) return r;
         }
     }
     return 0;
