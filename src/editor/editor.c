@@ -90,7 +90,7 @@ void editor_destroy(struct editor *editor)
     free(editor->core.hidden.bits);
     free(editor->core.solo.bits);
     free(editor->core.clipboard);
-    free(editor->core.originals.knot);
+    free(editor->core.originals.list);
     free(editor);
 }
 

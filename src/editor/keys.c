@@ -146,8 +146,7 @@ static void run_units(struct editor *e, const struct editor_world *w, int argume
 
 static void run_scale(struct editor *e, const struct editor_world *w, int argument)
 {
-    (void)argument;
-    curves_scale(e->curves, &e->core, w);
+    curves_scale(e->curves, &e->core, w, argument);
 }
 
 static void run_overlay(struct editor *e, const struct editor_world *w, int argument)
@@ -300,7 +299,8 @@ const struct binding key_bindings[] = {
     {.key = 'I', .mods = MOD_SHIFT, .run = run_insert, .argument = true},
     {.key = KEY_DELETE, .run = run_delete},
     {.key = KEY_BACKSPACE, .run = run_delete},
-    {.key = 'A', .mods = MOD_CTRL, .core = core_select_all},
+    {.key = 'A', .mods = MOD_CTRL, .core = core_select_all, .argument = false},
+    {.key = 'A', .mods = CTRL_SHIFT, .core = core_select_all, .argument = true},
     {.key = KEY_ESCAPE, .run = run_select_none},
     {.key = 'C', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_COPY},
     {.key = 'X', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_CUT},
@@ -321,7 +321,8 @@ const struct binding key_bindings[] = {
     {.key = 'M', .mods = MOD_SHIFT, .core = core_cycle_choice, .argument = PARAMETER_PASSIVE},
     {.key = 'F', .mods = MOD_SHIFT, .core = core_find_frequency},
     {.key = KEY_F2, .run = run_rename},
-    {.key = 'S', .run = run_scale},
+    {.key = 'S', .run = run_scale, .argument = false},
+    {.key = 'S', .mods = MOD_SHIFT, .run = run_scale, .argument = true},
     {.key = 'N', .run = run_normalise},
     {.key = 'U', .any_time = true, .run = run_units},
     {.key = 'G', .any_time = true, .core = drag_toggle_snap},
@@ -404,7 +405,7 @@ static bool nudge_event(struct editor *editor, const struct editor_world *world,
         if (has_pin(editor, world)) {
             stage_nudge_pin(editor->stage, &editor->core, world, across, up);
         } else {
-            core_nudge_knots(&editor->core, world, across, 0.01 * up * editor->core.visible);
+            curves_nudge(editor->curves, &editor->core, world, across, up);
         }
         return true;
     }

@@ -1,19 +1,20 @@
 /// Inserting, deleting and choosing knots.
 #include "editor/core/knots.h"
 #include "base/hash.h"
+#include "editor/core/arrange.h"
 #include "editor/core/core.h"
+#include "editor/core/picked.h"
 #include "editor/core/pins.h"
 #include "editor/core/selection.h"
 #include <math.h>
 
 uint64_t core_merge_key(const struct core *core, const struct editor_world *world, uint64_t kind)
 {
-    const struct spline *spline = core_active_spline(core, world);
     uint64_t key = hash_bytes(HASH_START, &kind, sizeof kind);
     key = hash_bytes(key, &core->active, sizeof core->active);
-    for (int k = 0; spline && k < spline->knot_count; k++) {
-        unsigned id = spline->knots[k].id;
-        if (selection_has(&core->selection, id)) key = hash_bytes(key, &id, sizeof id);
+    for (struct knot_place at = PICKED_START; picked_next(core, world->document, &at);) {
+        unsigned id = knot_at(world->document, at)->id;
+        key = hash_bytes(key, &id, sizeof id);
     }
     return key ? key : 1;
 }
@@ -74,13 +75,13 @@ void core_insert_on_curve(struct core *core, const struct editor_world *world, d
 
 void core_remove_knots(struct core *core, const struct editor_world *world, const char *label)
 {
-    const struct spline *spline = core_active_spline(core, world);
-    if (!spline || history_is_open(world->history)) return;
+    const struct originals *originals = &core->originals;
+    if (history_is_open(world->history)) return;
+    core_collect(core, world->document, false);
     history_begin(world->history, label, 0);
-    for (int k = spline->knot_count - 1; k >= 0; k--) {
-        if (!selection_has(&core->selection, spline->knots[k].id)) continue;
-        struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, core->active);
-        edit.knot.id = spline->knots[k].id;
+    for (int i = originals->count - 1; i >= 0; i--) {
+        struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, originals->list[i].spline);
+        edit.knot.id = originals->list[i].knot.id;
         core_edit(core, world, &edit);
     }
     history_end(world->history);
@@ -90,16 +91,20 @@ void core_remove_knots(struct core *core, const struct editor_world *world, cons
 void core_delete_knots(struct core *core, const struct editor_world *world, int unused)
 {
     (void)unused;
-    int count = selection_count(&core->selection, core_active_spline(core, world));
-    core_remove_knots(core, world, count == 1 ? "Delete knot" : "Delete knots");
+    core_remove_knots(core, world, picked_count(core, world->document) == 1 ? "Delete knot" : "Delete knots");
 }
 
-void core_select_all(struct core *core, const struct editor_world *world, int unused)
+void core_select_all(struct core *core, const struct editor_world *world, int all_splines)
 {
-    (void)unused;
-    const struct spline *spline = core_active_spline(core, world);
+    const struct document *document = world->document;
     pins_clear(core);
-    for (int k = 0; spline && k < spline->knot_count; k++) selection_set(&core->selection, spline->knots[k].id, true);
+    selection_clear(&core->selection);
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct spline *spline = &document->splines[s];
+        if (all_splines ? !arrange_shows(core, document, s) : s != core->active) continue;
+        for (int k = 0; k < spline->knot_count; k++) selection_set(&core->selection, spline->knots[k].id, true);
+    }
+    picked_settle(core, world);
 }
 
 /// Index of the first knot after, or last one before, a position; -1 where there is none.

@@ -53,9 +53,12 @@ void curves_toggle_normal(struct curves *curves, struct core *core, const struct
 void curves_activate(struct curves *curves, struct core *core, int spline);
 /// Fixes the first warning.
 void curves_remedy_first(struct curves *curves, struct core *core, const struct editor_world *world);
-/// Starts to scale the selected knots with the pointer, about the middle of the selection (P: about the
-/// equilibrium at the playhead).
-void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Starts to scale the selected knots with the pointer: about the middle of the selection, or their values about the
+/// equilibrium. P goes on to the next pivot.
+void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world, bool about_equilibrium);
+/// Moves the selected knots by frames, and by hundredths of the values in sight; repeated nudges are one undo step.
+void curves_nudge(const struct curves *curves, struct core *core, const struct editor_world *world, double frames,
+                  double hundredths);
 /// Frame to logical pixels, within a few thousand of the plot.
 float curves_x(const struct curves *curves, const struct core *core, double frame);
 /// Value to logical pixels, within a few thousand of the plot.

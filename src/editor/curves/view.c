@@ -1,7 +1,7 @@
 /// What part of time and value the curves panel shows.
 #include "editor/curves/view.h"
 #include "editor/core/core.h"
-#include "editor/core/selection.h"
+#include "editor/core/picked.h"
 #include "editor/curves/curves.h"
 #include <math.h>
 
@@ -109,15 +109,28 @@ void curves_frame_all(struct curves *curves, struct core *core, const struct edi
     keep_sane(curves, core);
 }
 
+/// Widens a range to what a curve does in the frames that are in sight.
+static void include_part(const struct curves *curves, const struct core *core, const struct editor_world *world,
+                         int spline, double range[2])
+{
+    enum { COLUMNS = 200 };
+    const struct value_map map = normal_map(curves, core, spline);
+    for (int column = 0; column <= COLUMNS; column++) {
+        double frame = curves->view.frame0 + (curves->view.frame1 - curves->view.frame0) * column / COLUMNS;
+        wiggly_value v = evaluation_at(world->evaluation, spline, core_position(world->document, frame));
+        include_value(range, map.scale * (v.y + v.re) + map.offset);
+    }
+}
+
 void curves_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world)
 {
-    const struct spline *spline = core_active_spline(core, world);
+    const struct document *document = world->document;
     double values[2] = {INFINITY, -INFINITY};
     double frames[2] = {INFINITY, -INFINITY};
-    for (int k = 0; spline && k < spline->knot_count; k++) {
-        if (!selection_has(&core->selection, spline->knots[k].id)) continue;
-        include_value(values, spline->knots[k].value);
-        include_value(frames, spline->knots[k].frame);
+    for (struct knot_place at = PICKED_START; picked_next(core, document, &at);) {
+        const struct value_map map = normal_map(curves, core, at.spline);
+        include_value(values, map.scale * knot_at(document, at)->value + map.offset);
+        include_value(frames, knot_at(document, at)->frame);
     }
     if (frames[0] > frames[1]) {
         curves_frame_all(curves, core, world);
@@ -126,10 +139,9 @@ void curves_frame_selection(struct curves *curves, struct core *core, const stru
     double margin = fmax(0.25 * (frames[1] - frames[0]), 6);
     curves->view.frame0 = frames[0] - margin;
     curves->view.frame1 = frames[1] + margin;
-    for (int column = 0; column <= 200; column++) {
-        double frame = curves->view.frame0 + (curves->view.frame1 - curves->view.frame0) * column / 200;
-        wiggly_value v = evaluation_at(world->evaluation, core->active, core_position(world->document, frame));
-        include_value(values, v.y + v.re);
+    int seen = -1;
+    for (struct knot_place at = PICKED_START; picked_next(core, document, &at); seen = at.spline) {
+        if (at.spline != seen) include_part(curves, core, world, at.spline, values);
     }
     show_values(&curves->view, values);
     keep_sane(curves, core);
