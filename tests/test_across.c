@@ -285,6 +285,35 @@ static void test_two_factors_and_what_stops_them(void **state)
     session_close(&s);
 }
 
+/// With Alt, from the playhead; a system that sends the comma all the same goes no further.
+static void test_the_playhead_goes_to_the_next_knot(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TWO);
+    const struct playback *playback = &s.editor->core.playback;
+    session_strike(&s, '.', MOD_ALT, '.');
+    assert_near(playback->position, 10, 0);
+    session_key(&s, '.', MOD_ALT);
+    session_key(&s, KEY_END, MOD_ALT);
+    assert_near(playback->position, 30, 0);
+    session_strike(&s, ',', MOD_ALT, ',');
+    assert_near(playback->position, 20, 0);
+    assert_true(selection_has(&s.editor->core.selection, knot(&s, 0, 1)->id));
+    session_key(&s, KEY_HOME, MOD_ALT);
+    session_key(&s, KEY_HOME, MOD_ALT);
+    assert_near(playback->position, 10, 0);
+    assert_non_null(strstr(s.editor->core.message.text, "No knot lies before"));
+    session_point(&s, "knot(sway,3)");
+    session_press(&s, BUTTON_LEFT, 1);
+    session_release(&s, BUTTON_LEFT);
+    session_press(&s, BUTTON_LEFT, 2);
+    session_release(&s, BUTTON_LEFT);
+    assert_near(playback->position, 60, 0);
+    assert_null(history_undo_label(s.history));
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -300,6 +329,7 @@ int main(void)
         cmocka_unit_test(test_copies_go_behind_the_end),
         cmocka_unit_test(test_scaling_about_the_equilibrium),
         cmocka_unit_test(test_two_factors_and_what_stops_them),
+        cmocka_unit_test(test_the_playhead_goes_to_the_next_knot),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

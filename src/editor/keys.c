@@ -243,6 +243,15 @@ static void run_neighbour(struct editor *editor, const struct editor_world *worl
     reveal(editor, core_select_neighbour(&editor->core, world, direction));
 }
 
+static void run_visit(struct editor *editor, const struct editor_world *world, int direction)
+{
+    if (has_pin(editor, world)) {
+        pins_select_neighbour(&editor->core, world, direction);
+        return;
+    }
+    reveal(editor, core_visit_neighbour(&editor->core, world, direction));
+}
+
 static void run_extend(struct editor *editor, const struct editor_world *world, int direction)
 {
     reveal(editor, core_extend_selection(&editor->core, world, direction));
@@ -366,6 +375,10 @@ const struct binding key_bindings[] = {
     {.key = 'H', .run = run_hold},
     {.key = KEY_PAGE_UP, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = -1},
     {.key = KEY_PAGE_DOWN, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = 1},
+    {.key = ',', .mods = MOD_ALT, .repeats = true, .run = run_visit, .argument = -1},
+    {.key = '.', .mods = MOD_ALT, .repeats = true, .run = run_visit, .argument = 1},
+    {.key = KEY_HOME, .mods = MOD_ALT, .repeats = true, .run = run_visit, .argument = -1},
+    {.key = KEY_END, .mods = MOD_ALT, .repeats = true, .run = run_visit, .argument = 1},
     {.key = 'J', .core = bones_make_chain, .argument = false},
     {.key = 'J', .mods = MOD_SHIFT, .core = bones_make_chain, .argument = true},
     {.key = 0},
@@ -459,5 +472,7 @@ bool keys_event(struct editor *editor, const struct editor_world *world, const s
     }
     if (mods == 0 && event->action == ACTION_PRESS && is_held_letter(event->key)) editor->core.held_key = event->key;
     if (nudge_event(editor, world, event)) return true;
-    return run(editor, world, key_bindings, event->key, mods, event->action == ACTION_REPEAT);
+    const bool bound = run(editor, world, key_bindings, event->key, mods, event->action == ACTION_REPEAT);
+    editor->press.used |= bound && mods & MOD_ALT; // some systems still send the character of such a key
+    return bound;
 }

@@ -5,6 +5,7 @@
 #include "editor/core/core.h"
 #include "editor/core/picked.h"
 #include "editor/core/pins.h"
+#include "editor/core/playback.h"
 #include "editor/core/selection.h"
 #include <math.h>
 
@@ -129,6 +130,22 @@ const struct knot *core_select_neighbour(struct core *core, const struct editor_
     if (next < 0 || next >= spline->knot_count) return NULL;
     select_only(core, spline->knots[next].id);
     return &spline->knots[next];
+}
+
+const struct knot *core_visit_neighbour(struct core *core, const struct editor_world *world, int direction)
+{
+    const struct document *document = world->document;
+    const struct spline *spline = core_active_spline(core, world);
+    const int next = spline ? beside(document, spline, core->playback.position, direction) : -1;
+    if (next < 0) {
+        core_message(core, false,
+                     direction < 0 ? "No knot lies before the playhead." : "No knot lies behind the playhead.");
+        return NULL;
+    }
+    const struct knot *knot = &spline->knots[next];
+    select_only(core, knot->id);
+    playback_seek(core, document, document_frame(document, document_sample(document, knot->frame)));
+    return knot;
 }
 
 const struct knot *core_extend_selection(struct core *core, const struct editor_world *world, int direction)

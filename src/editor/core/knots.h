@@ -18,6 +18,8 @@ void core_delete_knots(struct core *core, const struct editor_world *world, int 
 void core_select_all(struct core *core, const struct editor_world *world, int all_splines);
 /// Selects the selected knot's neighbour (from the playhead where not just one is selected); NULL where there is none.
 const struct knot *core_select_neighbour(struct core *core, const struct editor_world *world, int direction);
+/// Selects the first knot after the playhead (1), or the last one before it (-1), and goes there; NULL where there is none.
+const struct knot *core_visit_neighbour(struct core *core, const struct editor_world *world, int direction);
 /// Also selects the knot after the last selected one (1) or before the first one (-1); NULL if there is none.
 const struct knot *core_extend_selection(struct core *core, const struct editor_world *world, int direction);
 /// Activates the next spline in the list (1) or the previous one (-1), wrapping round.

@@ -159,6 +159,11 @@ static void press_knot(struct curves *curves, struct core *core, const struct ed
     unsigned id = hover->knot;
     bool selected = selection_has(&core->selection, id);
     core_turn_to(core, world, hover->spline);
+    if (event->clicks == 2) {
+        const struct spline *spline = &world->document->splines[hover->spline];
+        playback_seek(core, world->document, spline->knots[spline_find_id(spline, id)].frame);
+        return;
+    }
     if (event->mods & MOD_SHIFT) {
         selection_set(&core->selection, id, !selected);
         picked_settle(core, world);
