@@ -44,8 +44,8 @@ static void hear(void *who, const struct editor_world *world, enum news news, in
     case NEWS_DRAG_MOVES:
         curves_capture_ghost(editor->curves, &editor->core, world);
         break;
-    case NEWS_PULLED:
-        curves_include(editor->curves, &editor->core, world, spline);
+    case NEWS_EDITED:
+        curves_follow(editor->curves, spline);
         break;
     }
 }

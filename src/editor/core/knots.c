@@ -41,7 +41,9 @@ static void insert_at(struct core *core, const struct editor_world *world, const
         core_reserve(core, document);
         at = spline_find_knot(document, spline, sample);
     }
-    if (at >= 0) select_only(core, spline->knots[at].id);
+    if (at < 0) return;
+    select_only(core, spline->knots[at].id);
+    core_tell(core, world, NEWS_EDITED, -1);
 }
 
 /// The frame for a knot of the active spline: a whole one when `snap`, inside the range.

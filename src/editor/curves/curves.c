@@ -33,6 +33,7 @@ void curves_open(struct curves *curves)
 {
     curves->cache.key = 0;
     curves->cache.range_count = 0;
+    follow_stop(curves);
     curves->warnings = (struct warnings){0};
 }
 
@@ -48,7 +49,10 @@ void curves_forget(struct curves *curves)
     curves->cache.other_count = curves->cache.count = 0;
 }
 
-bool curves_wants_frames(const struct curves *curves) { return curves->warnings.search.running; }
+bool curves_wants_frames(const struct curves *curves)
+{
+    return curves->warnings.search.running || follow_moves(curves);
+}
 
 const char *curves_hint(const struct curves *curves, const struct core *core)
 {

@@ -28,7 +28,7 @@ void curves_open(struct curves *curves);
 bool curves_reserve(struct curves *curves, const struct core *core);
 /// Splines have new indices: drops the polylines, which use them.
 void curves_forget(struct curves *curves);
-/// Whether a search for warnings goes on.
+/// Whether a search for warnings goes on, or the view moves.
 bool curves_wants_frames(const struct curves *curves);
 /// A sentence on what is being done, or NULL.
 const char *curves_hint(const struct curves *curves, const struct core *core);
@@ -69,8 +69,12 @@ void curves_frame_all(struct curves *curves, struct core *core, const struct edi
 void curves_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Pans just far enough to show a frame and value.
 void curves_reveal(struct curves *curves, struct core *core, double frame, double value);
-/// Shows a spline's knot at the playhead, if there is one and it is out of sight: time pans, values get room for it and its curve.
-void curves_include(struct curves *curves, struct core *core, const struct editor_world *world, int spline);
+/// All of a spline's knots, or the selected ones (-1), have been edited: once they are solved they are to be in sight.
+void curves_follow(struct curves *curves, int spline);
+/// After the solve: where what was edited has left the panel, the view is to widen.
+void follow_edits(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Time passes: the view goes on to where it is to be.
+void curves_advance(struct curves *curves, struct core *core, double dt);
 /// Moves the view with the pointer, by logical pixels.
 void curves_pan(struct curves *curves, struct core *core, double dx, double dy);
 /// Zooms about a point of the panel; factors below 1 come closer.

@@ -78,7 +78,8 @@ void drag_begin_slope(struct curves *curves, struct core *core, const struct edi
     assert(spline && core->originals.capacity > 0);
     drag_begin(core, DRAG_SLOPE, "Change slope", event);
     curves->knot_drag = (struct knot_drag){.knot = knot, .handle = handle};
-    core->originals.list[0] = (struct original){.spline = core->active, .knot = spline->knots[spline_find_id(spline, knot)]};
+    core->originals.list[0] =
+        (struct original){.spline = core->active, .knot = spline->knots[spline_find_id(spline, knot)]};
     core->originals.count = 1;
 }
 
@@ -214,7 +215,9 @@ enum drag_answer curves_drag_event(struct curves *curves, struct core *core, con
 void curves_drag_end(struct curves *curves, struct core *core, const struct editor_world *world, bool keep)
 {
     const struct drag *drag = &core->drag;
+    const bool edits = drag->kind == DRAG_KNOTS || drag->kind == DRAG_SLOPE || drag->kind == DRAG_SCALE;
     if (keep) curves_drag_apply(curves, core, world);
+    if (keep && edits && drag->moved) curves_follow(curves, -1);
     if (drag->kind == DRAG_KNOTS && !drag->moved && keep) end_click(curves, core);
     if (drag->kind == DRAG_RANGE) range_end(core, keep);
     if (drag->kind == DRAG_BOX) box_end(curves, core, world, keep);

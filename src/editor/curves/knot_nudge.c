@@ -41,4 +41,5 @@ void curves_nudge(const struct curves *curves, struct core *core, const struct e
         core_edit(core, world, &edit);
     }
     history_end(world->history);
+    core_tell(core, world, NEWS_EDITED, -1);
 }

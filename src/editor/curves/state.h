@@ -29,6 +29,17 @@ struct view {
     double value0, value1; ///< at its bottom and top edge
 };
 
+enum { CURVES_MAX_FOLLOWED = 8 };
+
+/// The view on its way to what was edited.
+struct following {
+    bool moves;
+    struct view goal;
+    bool selection; ///< the selected knots were edited since the last picture
+    int count;      ///< and all knots of these splines
+    int spline[CURVES_MAX_FOLLOWED];
+};
+
 /// What a box does with the knots in it.
 enum box_mode { BOX_REPLACE, BOX_ADD, BOX_REMOVE };
 
@@ -135,6 +146,7 @@ struct ghost {
 
 struct curves {
     struct view view;
+    struct following following;
     struct curve_options options;
     struct selection before_box; ///< the selection when a box was begun
     struct knot_drag knot_drag;

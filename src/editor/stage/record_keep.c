@@ -221,7 +221,9 @@ void record_keep(struct stage *stage, struct core *core, const struct editor_wor
     for (int k = 0; k < 3; k++) {
         if (largest(record->way[k], record->count) < STILL) continue;
         int base = key_coordinate(stage, core, world, k, loop);
-        if (base >= 0) hang_channels(stage, core, world, k, base);
+        if (base < 0) continue;
+        hang_channels(stage, core, world, k, base);
+        core_tell(core, world, NEWS_EDITED, base);
     }
     record_forget(stage);
 }
