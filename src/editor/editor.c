@@ -44,8 +44,8 @@ static void hear(void *who, const struct editor_world *world, enum news news, in
     case NEWS_DRAG_MOVES:
         curves_capture_ghost(editor->curves, &editor->core, world);
         break;
-    case NEWS_PULLED:
-        curves_include(editor->curves, &editor->core, world, spline);
+    case NEWS_EDITED:
+        curves_follow(editor->curves, spline);
         break;
     }
 }
@@ -90,7 +90,7 @@ void editor_destroy(struct editor *editor)
     free(editor->core.hidden.bits);
     free(editor->core.solo.bits);
     free(editor->core.clipboard);
-    free(editor->core.originals.knot);
+    free(editor->core.originals.list);
     free(editor);
 }
 

@@ -175,6 +175,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
     transport_advance(editor->transport, &editor->core, dt);
     playback_advance(&editor->core, world, dt);
     curves_drag_apply(editor->curves, &editor->core, world);
+    curves_advance(editor->curves, &editor->core, dt);
     stage_advance(editor->stage, &editor->core, world, dt);
 }
 
@@ -187,6 +188,7 @@ void editor_pose(struct editor *editor, const struct editor_world *world)
     }
     if (editor->core.refit_curves) curves_frame_all(editor->curves, &editor->core, world);
     editor->core.refit_curves = false;
+    follow_edits(editor->curves, &editor->core, world);
     stage_pose(editor->stage, &editor->core, world, dialogs_cover(editor->dialogs));
 }
 

@@ -62,7 +62,5 @@ bool grab_holds(const struct document *document, int rig, int joint);
 void grab_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover);
 /// One step towards the pointer; needs the pose of the last solved frame.
 void grab_apply(struct stage *stage, struct core *core, const struct editor_world *world);
-/// It is let go: the curves are to show its knots.
-void grab_end(const struct stage *stage, const struct core *core, const struct editor_world *world);
 
 #endif

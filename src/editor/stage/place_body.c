@@ -45,12 +45,14 @@ static void key_coordinate(const struct stage *stage, struct core *core, const s
         struct edit edit = core_knot_edit(document, spline, sample);
         edit.knot.value = core_round(before + by, RESOLUTION);
         core_edit(core, world, &edit);
+        core_tell(core, world, NEWS_EDITED, spline);
         return;
     }
     if (sample > 1) base_put_knot(core, world, spline, 0, before, true);
     base_put_knot(core, world, spline, sample, before + by, true);
     base_follow(stage, core, world, coordinate, spline);
     base_hang_channels(stage, core, world, coordinate, spline);
+    core_tell(core, world, NEWS_EDITED, spline);
 }
 
 static void key_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3])
@@ -83,6 +85,7 @@ static void shift_spline(struct core *core, const struct editor_world *world, in
         edit.knot.value = core_round(edit.knot.value + by, RESOLUTION);
         core_edit(core, world, &edit);
     }
+    core_tell(core, world, NEWS_EDITED, spline);
 }
 
 /// A height that is a number says where the ground is, which stays.

@@ -60,6 +60,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     }
     if (is_new) base_follow(stage, core, world, coordinate, spline);
     base_hang_channels(stage, core, world, coordinate, spline);
+    core_tell(core, world, NEWS_EDITED, spline);
     return made;
 }
 

@@ -158,7 +158,6 @@ enum drag_answer stage_drag_event(struct stage *stage, struct core *core, const 
 void stage_drag_end(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
 {
     if (core->drag.kind == DRAG_BODY && core->drag.moved) hold_release(stage, core, world, keep);
-    if (core->drag.kind == DRAG_GRAB && keep) grab_end(stage, core, world);
     if (!core->drag.moved && core->drag.button == BUTTON_LEFT && keep) bone_click(stage, core, world);
     if (core->drag.kind == DRAG_PAINT) brush_end(stage, core, world, keep);
 }
