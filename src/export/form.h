@@ -48,6 +48,7 @@ struct form {
 struct form_key {
     float translation[3]; ///< of the root, metres
     float (*rotation)[4]; ///< of each joint in its parent, unit quaternions x y z w
+    float (*scale)[3];    ///< of each joint, along its own axes; 1 unless its kind sets it
     float *weight;        ///< of each target
 };
 

@@ -190,6 +190,15 @@ static void add_weights(struct scene *scene, const struct part *part)
     free(slopes);
 }
 
+/// Whether any key is other than at rest.
+static bool differs(const float *keys, int width, int count, const float *rest)
+{
+    for (int i = 0; i < width * count; i++) {
+        if (keys[i] != rest[i % width]) return true;
+    }
+    return false;
+}
+
 static void add_animation(struct scene *scene, const struct part *part)
 {
     const struct form *form = part->form;
@@ -199,10 +208,15 @@ static void add_animation(struct scene *scene, const struct part *part)
         gltf_motion_add(&scene->motion, form->joint_count > 0 ? part->first_joint : part->mesh_node, GLTF_TRANSLATION,
                         keys->at.translation[0], slopes, 3);
     }
-    for (int j = form->first_bone; j < form->joint_count; j++) {
-        const float *slopes = keys->slope.translation ? keys->slope.rotation[j * keys->count] : NULL;
-        gltf_motion_add(&scene->motion, part->first_joint + j, GLTF_ROTATION, keys->at.rotation[j * keys->count],
-                        slopes, 4);
+    for (int j = 0; j < form->joint_count; j++) {
+        const int at = j * keys->count;
+        const float *turns = keys->at.rotation[at], *sizes = keys->at.scale[at];
+        if (j >= form->first_bone || differs(turns, 4, keys->count, (const float[]){0, 0, 0, 1}))
+            gltf_motion_add(&scene->motion, part->first_joint + j, GLTF_ROTATION, turns,
+                            keys->slope.translation ? keys->slope.rotation[at] : NULL, 4);
+        if (differs(sizes, 3, keys->count, (const float[]){1, 1, 1}))
+            gltf_motion_add(&scene->motion, part->first_joint + j, GLTF_SCALE, sizes,
+                            keys->slope.translation ? keys->slope.scale[at] : NULL, 3);
     }
     add_weights(scene, part);
 }

@@ -110,6 +110,17 @@ static void write_translations(const struct prim *prim, int key)
     fputs("],\n", prim->out);
 }
 
+static void write_scales(const struct prim *prim, int key)
+{
+    fputs("[", prim->out);
+    for (int j = 0; j < joint_count(prim->form); j++) {
+        static const float whole[3] = {1, 1, 1};
+        const float *s = prim->form->joint_count > 0 ? prim->keys->at.scale[j * prim->keys->count + key] : whole;
+        fprintf(prim->out, "%s(%.6g, %.6g, %.6g)", j > 0 ? ", " : "", (double)s[0], (double)s[1], (double)s[2]);
+    }
+    fputs("],\n", prim->out);
+}
+
 static void write_weights(const struct prim *prim, int key)
 {
     fputs("[", prim->out);
@@ -149,9 +160,7 @@ static void write_animation(const struct prim *prim)
     write_joints(prim);
     write_samples(prim, "float3[] translations", write_translations, keys->travels ? keys->count : 1);
     write_samples(prim, "quatf[] rotations", write_rotations, prim->form->joint_count > 0 ? keys->count : 1);
-    fputs("            half3[] scales = [", prim->out);
-    for (int j = 0; j < joint_count(prim->form); j++) fputs(j > 0 ? ", (1, 1, 1)" : "(1, 1, 1)", prim->out);
-    fputs("]\n", prim->out);
+    write_samples(prim, "half3[] scales", write_scales, prim->form->joint_count > 0 ? keys->count : 1);
     if (prim->targets->count > 0) {
         write_target_names(prim, "uniform token[] blendShapes", "\"", "\"");
         write_samples(prim, "float[] blendShapeWeights", write_weights, keys->count);
