@@ -138,7 +138,7 @@ static void a_box_falls_on_the_floor_and_stays(void **state)
     options.young = 1e5;
     make_box(&box, 1, 1);
     make_soft(&soft, &box, &options);
-    assert_true(floor_create(&floor, &soft.lattice, &box.surface, -0.3, soft.young));
+    assert_true(floor_create(&floor, &soft.lattice, &box.surface, -0.3, soft.young, options.density));
     assert_true(integrator_create(&integrator, &soft.body, 0.005));
     integrator.tolerance = 1e-6;
     integrator.stiffness_damping = 0.01;
@@ -158,6 +158,45 @@ static void a_box_falls_on_the_floor_and_stays(void **state)
         if (!(i & 2)) assert_near(place[i][1], -0.3, 0.01);
     }
     for (int i = 0; i < soft.body.node_count; i++) assert_near(integrator.v[i][1], 0, 0.1);
+    integrator_free(&integrator);
+    floor_free(&floor);
+    soft_free(&soft);
+}
+
+/// What lies on the floor and has hardly any damping of its own stays in touch: its vertices do not go in and out with every step.
+static void a_box_on_the_floor_does_not_chatter(void **state)
+{
+    (void)state;
+    enum { STEPS = 1800, LAST = 600, FEW = 60 };
+    struct box box;
+    struct soft soft;
+    struct integrator integrator;
+    struct floor floor;
+    struct soft_options options = soft_default_options();
+    options.tets = 200;
+    options.pin.kind = REGION_NONE;
+    options.young = 1e5;
+    make_box(&box, 1, 1);
+    make_soft(&soft, &box, &options);
+    assert_true(floor_create(&floor, &soft.lattice, &box.surface, -0.1, soft.young, options.density));
+    assert_true(integrator_create(&integrator, &soft.body, 0.005));
+    integrator.tolerance = 1e-6;
+    integrator.stiffness_damping = 0.002;
+    integrator.mass_damping = 0.5;
+    integrator.loads.gravity = 9.81;
+    integrator.loads.floor = &floor;
+    bool below[8] = {false};
+    int changes = 0;
+    for (int step = 0; step < STEPS; step++) {
+        assert_true(integrator_step(&integrator));
+        for (int i = 0; i < 8; i++) {
+            changes += step >= STEPS - LAST && floor.touched[i] != below[i];
+            below[i] = floor.touched[i];
+        }
+    }
+    print_message("%d changes of touch in %d steps; %ld steps calmed\n", changes, LAST, integrator.calmed);
+    assert_true(changes < FEW);
+    assert_true(integrator.calmed < 5);
     integrator_free(&integrator);
     floor_free(&floor);
     soft_free(&soft);
@@ -283,6 +322,7 @@ int main(void)
         cmocka_unit_test(a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator),
         cmocka_unit_test(gravity_is_settled_before_the_start),
         cmocka_unit_test(a_box_falls_on_the_floor_and_stays),
+        cmocka_unit_test(a_box_on_the_floor_does_not_chatter),
         cmocka_unit_test(a_beam_is_monotone_under_refinement),
         cmocka_unit_test(regions_hold_what_they_name),
         cmocka_unit_test(softness_falls_as_the_map_says),
