@@ -53,6 +53,7 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     form->index_count = c->index_count;
     struct moving *moving = form->owned =
         malloc(sizeof *moving + (size_t)c->coordinate_count * sizeof *moving->coordinates);
+    form->looks = &c->looks;
     form->targets = calloc((size_t)c->coordinate_count * 2 + 1, sizeof *form->targets);
     if (!moving || !form->targets) return fail_no_memory(error, form->name);
     moving->character = *c;

@@ -7,6 +7,8 @@
 #include "ui/theme.h"
 #include <math.h>
 
+enum { AXIS_X, AXIS_Y, AXIS_Z };
+
 static const double LEAST_AXIS = 0.3; ///< pixels of an axis in a pixel across, below which it is as slow as that
 
 /// Along one axis of the ground, so that the body stays under the pointer: the axis' own direction on the screen counts.
@@ -25,23 +27,33 @@ void hold_offset(const struct stage *stage, const struct core *core, int tail, d
     offset[0] = offset[1] = offset[2] = 0;
     if (drag->kind != DRAG_BODY || !drag->moved || hold->tail != tail) return;
     const double x_axis[2] = {1, 0}, z_axis[2] = {0, 1};
-    if (drag->lock_x) {
+    const double across = drag->moved_x / hold->pixels_per_metre;
+    const double up = -drag->moved_y / hold->pixels_per_metre;
+    const double away = hold->lifts ? 0 : up / hold->pitch;
+    if (hold->axis == AXIS_X) {
         offset[0] = along_axis(hold, x_axis, drag->moved_x, drag->moved_y);
-    } else if (drag->lock_y) {
+    } else if (hold->axis == AXIS_Z) {
         offset[2] = along_axis(hold, z_axis, drag->moved_x, drag->moved_y);
-    } else {
-        double across = drag->moved_x / hold->pixels_per_metre;
-        double away = -drag->moved_y / hold->pixels_per_metre / hold->pitch;
+    } else if (hold->axis != AXIS_Y) {
         offset[0] = across * hold->right[0] + away * hold->right[1];
         offset[2] = across * hold->right[1] - away * hold->right[0];
     }
+    if (hold->axis == AXIS_Y || (hold->axis < 0 && hold->lifts)) offset[1] = fmax(up / hold->rise, hold->lowest);
+}
+
+bool hold_lock(struct stage *stage, int key)
+{
+    if (key != 'X' && key != 'Y' && key != 'Z') return false;
+    const int axis = key - 'X';
+    stage->hold.axis = stage->hold.axis == axis ? -1 : axis;
+    return true;
 }
 
 enum { TRACE_STEPS = 64, RING_POINTS = 64 };
 
 static const float TRACE_NEAR = 0.004f; ///< metres from the skin that count as touching it, bind size
 static const double LEAST_PITCH = 0.35; ///< sine of the camera's elevation below which depth follows the pointer less
-static const double RESOLUTION = 1e-3;  ///< metres that the document gets
+static const double LEAST_RISE = 0.3;   ///< cosine of it below which height does
 static const float ring_middle[2] = {0, -0.25f}; ///< x and z in bind size, metres
 static const float RING_RADIUS = 0.6f;
 
@@ -105,47 +117,21 @@ bool hold_point(const struct stage *stage, const struct core *core, int tail, in
     return stage_project_point(stage, core->layout.stage, place.raw, xy);
 }
 
-void hold_begin(struct stage *stage, const struct core *core, int tail)
+void hold_begin(struct stage *stage, const struct core *core, int tail, bool lifts)
 {
     struct hold *hold = &stage->hold;
     const struct camera *camera = &stage->camera;
-    *hold = (struct hold){.tail = tail};
+    const struct pose *pose = &stage->view.tails[tail].pose;
+    *hold = (struct hold){.tail = tail, .lifts = lifts, .axis = -1};
     const float depth = camera_depth(stage->view.view, stage->view.eye, base_of(stage, tail));
     hold->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
     double pitch = sin((double)camera->elevation);
     hold->pitch = copysign(fmax(fabs(pitch), LEAST_PITCH), pitch);
+    hold->rise = fmax(cos((double)camera->elevation), LEAST_RISE);
+    const float sitting = pose->ground + CREATURE_BASE_HEIGHT * scale_of(pose);
+    hold->lowest = fmin(0, (double)(sitting - base_of(stage, tail)[1]));
     hold->right[0] = -sin((double)camera->azimuth);
     hold->right[1] = -cos((double)camera->azimuth);
-}
-
-/// A knot at the playhead of the spline that a coordinate follows.
-static void key_position(struct core *core, const struct editor_world *world, int track, double by)
-{
-    const struct document *document = world->document;
-    int sample = document_sample(document, round(core_frame(core, document)));
-    int last = document_last_knot_sample(document, &document->splines[track]);
-    sample = sample > last ? last : sample < 0 ? 0 : sample;
-    struct edit edit = core_knot_edit(document, track, sample);
-    wiggly_value value = evaluation_at(world->evaluation, track, sample);
-    edit.knot.value = core_round(value.y + value.re + by, RESOLUTION);
-    core_edit(core, world, &edit);
-}
-
-static void key_offset(struct core *core, const struct editor_world *world, int tail, const double offset[3])
-{
-    for (int k = 0; k < 3; k++) {
-        const struct param *param = &document_tail(world->document, tail)->position[k];
-        if (offset[k] == 0) continue;
-        if (param->track >= 0) {
-            key_position(core, world, param->track, offset[k]);
-            continue;
-        }
-        struct edit edit = core_edit_of(EDIT_POSITION, 0);
-        edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
-        edit.coordinate = k;
-        edit.param.value = core_round(param->value + offset[k], RESOLUTION);
-        core_edit(core, world, &edit);
-    }
 }
 
 void hold_release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
@@ -158,8 +144,7 @@ void hold_release(struct stage *stage, struct core *core, const struct editor_wo
         record_keep(stage, core, world);
         sway_stop(stage, tail);
     } else if (keep) {
-        key_offset(core, world, tail, offset);
-        sway_land(stage, tail);
+        place_body(stage, core, world, offset);
     } else {
         sway_stop(stage, tail);
     }

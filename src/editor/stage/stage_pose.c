@@ -142,6 +142,7 @@ void stage_show(struct stage *stage, struct core *core, const struct editor_worl
     names_show(stage, core, world->document);
     brush_show(stage, core, world);
     hold_show(stage, core);
+    record_show(stage, core, world);
     bones_show(stage, core, world);
     show_hold(stage, core);
     pins_show(stage, core, world);
