@@ -52,8 +52,8 @@ static void probe(const char *start, const char *knots, const char *more)
     for (int i = 0; i < o.evaluation.samples; i++) { double l = lowest(&o, i); if (l < low) low = l, at = i; most = fmax(most, fabs(o.evaluation.curves[0].total[i])); }
     const struct floor_left *left = evaluation_floor(&o.evaluation, 0);
     double t = clock_now();
-    for (int k = 0; k < 20; k++) evaluation_update(&o.evaluation, o.document, NULL, false);
-    t = (clock_now() - t) / 20;
+    for (int k = 0; k < 200; k++) evaluation_update(&o.evaluation, o.document, NULL, false);
+    t = (clock_now() - t) / 200;
     printf("%s [%s] %s: lowest %g at %d, largest %g; left %g at %d; %.3f ms\n", start, knots, more, low, at, most, left ? left->depth : -1, left ? left->sample : -1, t * 1e3);
     opened_free(&o);
 }
