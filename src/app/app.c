@@ -1,6 +1,7 @@
 /// Starts the app, runs its frames and ends it.
 #include "app/app.h"
 #include "app/state.h"
+#include "app/ui_scale.h"
 #include "base/clock.h"
 #include "platform/process.h"
 #include "platform/turns.h"
@@ -149,6 +150,7 @@ static bool start(struct app *app, struct error *error)
     if (!(app->table.history = history_create()) || !(app->table.models = models_create()))
         return fail(error, ERROR_ENVIRONMENT, "out of memory");
     editor_set_method(app->table.editor, o->method);
+    app->ui_scale = o->ui_scale > 0 ? o->ui_scale : app->replay ? replay_get_header(app->replay)->ui_scale : 1;
     app_connect_files(app);
     app_resize(app, (float)width / scale, (float)height / scale, scale);
     if (!app_open(app, o->scene, error)) return false;
@@ -162,6 +164,7 @@ static bool start(struct app *app, struct error *error)
         struct replay_header header = {.width = (int)lroundf((float)width / scale),
                                        .height = (int)lroundf((float)height / scale),
                                        .scale = (double)scale,
+                                       .ui_scale = app->ui_scale,
                                        .scene_hash = hash};
         if (!(app->recording = recording_open(o->record, &header, error))) return false;
     }

@@ -1,5 +1,6 @@
 /// One frame of the app: take input, work on the table, draw, log.
 #include "app/state.h"
+#include "app/ui_scale.h"
 #include "base/clock.h"
 #include "platform/process.h"
 #include <limits.h>
@@ -8,7 +9,6 @@
 
 static const double replay_dt = 1.0 / 60;
 static const double idle_wait = 0.5;
-static const float smallest_width = 320, smallest_height = 240; ///< of the layout; less shows a part of it
 static const double longest_step = 1; ///< after a longer stall playback goes on from where it was
 
 static double microseconds(double from, double to) { return 1e6 * (to - from); }
@@ -22,16 +22,23 @@ static bool locate(void *user, const char *target, float *x, float *y, struct er
 
 void app_resize(struct app *app, float width, float height, float scale)
 {
-    editor_resize(app->table.editor, fmaxf(width, smallest_width), fmaxf(height, smallest_height), scale);
+    app->display.width = width;
+    app->display.height = height;
+    app->display.scale = scale;
+    ui_scale_fit(app);
 }
 
 static void handle_event(struct app *app, const struct event *event)
 {
     if (app->recording) recording_event(app->recording, app->frame, event);
     if (event->kind == EVENT_EXPOSE) app->lost = true;
-    if (event->kind == EVENT_SIZE) app_resize(app, event->x, event->y, event->scale);
     struct editor_world world = table_world(&app->table);
-    editor_event(app->table.editor, &world, event);
+    struct event seen = *event;
+    if (event->kind == EVENT_SIZE) {
+        app_resize(app, event->x, event->y, event->scale);
+        ui_scale_to_ui(app, &seen);
+    }
+    editor_event(app->table.editor, &world, &seen);
 }
 
 static void play_events(struct app *app)
@@ -91,7 +98,9 @@ static bool take_input(struct app *app)
     for (int i = 0; i < count; i++) {
         if (app->replay && events[i].kind != EVENT_EXPOSE && events[i].kind != EVENT_CLOSE) continue;
         if (isnan(app->oldest_event)) app->oldest_event = events[i].time;
-        handle_event(app, &events[i]);
+        struct event event = events[i];
+        if (event.kind != EVENT_SIZE) ui_scale_to_ui(app, &event); // recorded as the display has it
+        handle_event(app, &event);
     }
     if (app->replay) play_events(app);
     app->row.input_us = microseconds(app->frame_start, clock_now());
@@ -120,6 +129,7 @@ static void on_advanced(void *user)
 {
     struct app *app = user;
     app_requests(app);
+    ui_scale_update(app);
     personal_update(app);
 }
 
@@ -157,6 +167,7 @@ static struct draw_input draw_input(const struct app *app, float stage_scale)
         .stage_scale = stage_scale,
     };
     platform_size(app->platform, &input.width, &input.height, &input.scale);
+    input.scale *= (float)app->ui_scale_shown;
     return input;
 }
 

@@ -34,6 +34,11 @@ struct app {
     bool fixed_clock; ///< every frame is 1/60 s (headless, replays, recordings)
     bool was_idle;    ///< nothing moved by itself before this frame
     bool lost;        ///< the framebuffer does not hold the last frame
+    struct {
+        float width, height, scale;
+    } display;             ///< the window in logical pixels of the display, device pixels to one of them
+    double ui_scale;       ///< as chosen: how large everything is, beyond the display's scale
+    double ui_scale_shown; ///< as there is room
     struct pace pace;
     struct resolution resolution;
     double process_start; ///< on the clock
@@ -68,7 +73,7 @@ void app_requests(struct app *app);
 /// path to the error's sentence.
 void app_rescue(struct app *app, struct error *error);
 
-/// A new size of the window, in logical pixels.
+/// A new size of the window, in logical pixels of the display.
 void app_resize(struct app *app, float width, float height, float scale);
 
 /// The folder in which the editor's dialogs look for files.
