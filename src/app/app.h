@@ -23,6 +23,7 @@ struct app_options {
     const char *log;         ///< timing log, CSV
     const char *screenshot;  ///< PNG of the last frame
     const char *frames_dir;  ///< a PNG for each frame
+    bool demo;               ///< plays by itself until somebody presses something
     const char *replay;      ///< events from this file; its clock is its own
     const char *record;      ///< events to this file
     const char *result;      ///< the document at the end

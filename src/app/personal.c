@@ -211,7 +211,7 @@ static void start_autosave(struct app *app)
 void personal_start(struct app *app)
 {
     const struct app_options *o = app->options;
-    if (!platform_is_window(app->platform) || o->replay) return;
+    if (!platform_is_window(app->platform) || app->replay) return;
     app->personal = calloc(1, sizeof *app->personal);
     if (!app->personal) return;
     start_autosave(app);

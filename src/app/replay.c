@@ -165,25 +165,50 @@ static bool check_frames(struct replay *replay, struct error *error)
     return true;
 }
 
-struct replay *replay_load(const char *path, struct error *error)
+/// Reads the text that a replay was made for, and checks it.
+static struct replay *finish(struct replay *replay, size_t size, struct error *error)
+{
+    replay->at = replay->text;
+    const bool whole =
+        strlen(replay->text) == size || fail(error, ERROR_INPUT, "%s: expected text, got a NUL byte", replay->path);
+    if (whole && read_header(replay, error) && check_frames(replay, error)) return replay;
+    replay_destroy(replay);
+    return NULL;
+}
+
+static struct replay *create(const char *path, struct error *error)
 {
     struct replay *replay = calloc(1, sizeof *replay);
-    size_t size = 0;
-    if (!replay) {
+    if (replay) replay->path = strdup(path);
+    if (!replay || !replay->path) {
+        replay_destroy(replay);
         fail(error, ERROR_ENVIRONMENT, "out of memory for the replay %s", path);
         return NULL;
     }
-    replay->path = strdup(path);
     replay->header.scale = replay->header.ui_scale = 1;
     replay->header.frames = -1;
     replay->next_line = 1;
-    bool good = replay->path && file_read(path, MAX_REPLAY, &replay->text, &size, error);
-    replay->at = replay->text;
-    if (good && strlen(replay->text) != size) {
-        good = fail(error, ERROR_INPUT, "%s: expected text, got a NUL byte", path);
-    }
-    if (good && read_header(replay, error) && check_frames(replay, error)) return replay;
+    return replay;
+}
+
+struct replay *replay_load(const char *path, struct error *error)
+{
+    size_t size = 0;
+    struct replay *replay = create(path, error);
+    if (!replay || file_read(path, MAX_REPLAY, &replay->text, &size, error))
+        return replay ? finish(replay, size, error) : NULL;
     replay_destroy(replay);
+    return NULL;
+}
+
+struct replay *replay_parse(const char *name, const char *text, size_t size, struct error *error)
+{
+    struct replay *replay = create(name, error);
+    if (!replay) return NULL;
+    replay->text = strndup(text, size);
+    if (replay->text) return finish(replay, size, error);
+    replay_destroy(replay);
+    fail(error, ERROR_ENVIRONMENT, "out of memory for the replay %s", name);
     return NULL;
 }
 

@@ -32,6 +32,8 @@ struct replay;
 
 /// Reads a whole replay. On failure NULL with a sentence "file:line: expected …".
 struct replay *replay_load(const char *path, struct error *error);
+/// The same from memory; `name` stands for the path.
+struct replay *replay_parse(const char *name, const char *text, size_t size, struct error *error);
 void replay_destroy(struct replay *replay);
 const struct replay_header *replay_get_header(const struct replay *replay);
 

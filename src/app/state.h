@@ -3,6 +3,7 @@
 #define APP_STATE_H
 
 #include "app/app.h"
+#include "app/demo.h"
 #include "app/pace.h"
 #include "app/personal.h"
 #include "app/replay.h"
@@ -25,7 +26,8 @@ struct app {
     struct export_job *export_job; ///< NULL where nothing is exported
     struct personal *personal;     ///< NULL where nobody sits at a window
 
-    struct replay *replay;
+    struct replay *replay; ///< of the demo too
+    struct demo demo;
     struct recording *recording;
     struct framelog *log;
     struct frame_row row; ///< of the frame in progress
@@ -56,6 +58,9 @@ void app_free(struct app *app);
 
 /// One frame: input, edit, solve, pose, draw, log.
 void app_frame(struct app *app);
+
+/// Puts a new editor on the table, in place of the one that is there, for the display's size.
+bool app_open_editor(struct app *app, struct error *error);
 
 /// Opens a scene file, or the built-in one for NULL; on failure the document on the table stays.
 bool app_open(struct app *app, const char *path, struct error *error);

@@ -33,6 +33,9 @@ int command_live(int argc, char **argv)
         {"--screenshot", NULL, "FILE.png", "save a picture of the last frame", OPTION_TEXT, &options.screenshot, 0,
          0},
         {"--frames-dir", NULL, "DIR", "save a PNG of every frame", OPTION_TEXT, &options.frames_dir, 0, 0},
+        {"--demo", NULL, NULL,
+         "show what the app does, over and over; the first key or click ends it with the start scene", OPTION_FLAG,
+         &options.demo, 0, 0},
         {"--replay", NULL, "FILE", "play recorded input", OPTION_TEXT, &options.replay, 0, 0},
         {"--record", NULL, "FILE", "record all input", OPTION_TEXT, &options.record, 0, 0},
         {"--turns", NULL, "WHICH", "first or second: draw frames in turn with another program (docs/measuring.md)",
@@ -55,6 +58,11 @@ int command_live(int argc, char **argv)
     }
     if (options.turns && strcmp(options.turns, "first") != 0 && strcmp(options.turns, "second") != 0) {
         fprintf(stderr, "wiggly live: --turns: expected first or second, got '%s'\n", options.turns);
+        return OPTIONS_WRONG;
+    }
+    if (options.demo && (options.scene || options.replay || options.record)) {
+        fprintf(stderr,
+                "wiggly live: --demo brings its own scene and input: expected no scene, --replay or --record\n");
         return OPTIONS_WRONG;
     }
     options.width = size[0];

@@ -182,7 +182,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
         if (message->seconds_left <= 0) message->text[0] = 0;
     }
     presenter_advance(&editor->core, dt, busy);
-    dialogs_advance(editor->dialogs, dt);
+    dialogs_advance(editor->dialogs, &editor->core, dt);
     transport_advance(editor->transport, &editor->core, dt);
     playback_advance(&editor->core, world, dt);
     curves_drag_apply(editor->curves, &editor->core, world);

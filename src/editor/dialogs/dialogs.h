@@ -51,8 +51,8 @@ void dialogs_welcome(struct dialogs *dialogs);
 bool dialogs_is_welcoming(const struct dialogs *dialogs);
 /// Hears of every event, for who shows keys as they are pressed.
 void dialogs_note(struct dialogs *dialogs, const struct event *event);
-/// Time passes: what is shown of that fades.
-void dialogs_advance(struct dialogs *dialogs, double dt);
+/// Time passes: what is shown of that fades, and the demo's pointer glides.
+void dialogs_advance(struct dialogs *dialogs, const struct core *core, double dt);
 /// Whether it is still to be seen.
 bool dialogs_want_frames(const struct dialogs *dialogs, const struct core *core);
 /// While presenting, and in a demo: what is pressed, its caption and pointer.

@@ -81,7 +81,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
       {"F6, Shift+F6", "resize the panels"},
       {"Ctrl+Shift+=, -, 0", "larger, smaller, reset"},
       {"F8, Shift+F8", "larger, smaller"},
-      {"F5, Tab", "present; with its panels"},
+      {"F5, Tab", "present; panels"},
       {"F10", "light or dark"},
       {"F11, F12", "full screen, screenshot"},
       {"Ctrl+Q", "quit"}}},

@@ -10,6 +10,7 @@
 #include <string.h>
 
 static const double HOLD = 1.4, FADE = 0.35; ///< seconds after the release
+static const double GLIDE = 0.08;            ///< seconds that the demo's pointer is behind
 static const float DRAG_FROM = 3;            ///< logical pixels; less is a click
 enum { HEIGHT = 36, PAD = 18, MARGIN = 14, GAP = 8 };
 
@@ -87,9 +88,12 @@ void dialogs_note(struct dialogs *dialogs, const struct event *event)
     }
 }
 
-void dialogs_advance(struct dialogs *dialogs, double dt)
+void dialogs_advance(struct dialogs *dialogs, const struct core *core, double dt)
 {
+    const float share = (float)(1 - exp(-dt / GLIDE));
     struct pressed *pressed = &dialogs->pressed;
+    pressed->pointer[0] += share * (core->pointer_x - pressed->pointer[0]);
+    pressed->pointer[1] += share * (core->pointer_y - pressed->pointer[1]);
     if (!pressed->is_down) pressed->seconds = fmax(pressed->seconds - dt, 0);
 }
 
@@ -118,11 +122,12 @@ static void show_pill(struct core *core, float bottom, const char *text, float a
 }
 
 /// The demo's pointer, with a ring while a button is down.
-static void show_pointer(struct core *core, bool is_down)
+static void show_pointer(const struct pressed *pressed, struct core *core)
 {
-    const float x = core->pointer_x, y = core->pointer_y;
+    const float x = pressed->pointer[0], y = pressed->pointer[1];
     const float arrow[8] = {x, y, x, y + 17, x + 12, y + 12, x, y};
-    if (is_down) drawlist_rounded_line(&core->list, (struct rect){x - 12, y - 12, 24, 24}, 12, 2, theme()->accent);
+    if (pressed->is_down)
+        drawlist_rounded_line(&core->list, (struct rect){x - 12, y - 12, 24, 24}, 12, 2, theme()->accent);
     drawlist_convex(&core->list, arrow, 3, theme()->text);
     drawlist_line(&core->list, arrow, 4, 1, theme()->panel);
 }
@@ -145,5 +150,5 @@ void dialogs_show_input(const struct dialogs *dialogs, struct core *core)
     }
     if (message->text[0] && core->presenter.on && core->presenter.below == 0) // the status line is out of sight
         show_pill(core, bottom, message->text, 1, message->is_error ? theme()->error : theme()->text);
-    if (pressed->is_demo) show_pointer(core, pressed->is_down);
+    if (pressed->is_demo) show_pointer(pressed, core);
 }

@@ -78,8 +78,9 @@ struct pressed {
     double seconds; ///< that it is still shown for
     bool is_down, is_drag;
     enum event_button button;
-    float x, y;   ///< of the press
-    bool is_demo; ///< nobody's hands: the pointer is shown as well
+    float x, y;       ///< of the press
+    float pointer[2]; ///< as a demo shows it: it glides where the recording jumps
+    bool is_demo;     ///< nobody's hands: the pointer is shown as well
 };
 
 struct dialogs {
