@@ -30,7 +30,7 @@ play() { # <name> [option]...
     shift
     "$WIGGLY" live --headless --scale 0.5 --replay $replay --log "$scratch/$name.csv" --result "$scratch/$name.json" "$@" $scene
 }
-"$WIGGLY" live --headless --frames 1 >/dev/null 2>&1 || { echo "  skipped: nothing is drawn here"; exit $((cases_failed > 0)); }
+"$WIGGLY" live --headless --frames 1 >/dev/null 2>&1 || { echo "skip - nothing is drawn here"; exit $((cases_failed > 0)); }
 expect 0 "a session plays by the band" play band --solver band --frames 400
 grep -qx "# solver: band" "$scratch/band.csv" && ! grep -q "# solver: chain" "$scratch/band.csv"
 ok "its log says so" $?
