@@ -40,7 +40,7 @@ static void arrange(double side)
     float lo[3], hi[3];
     struct camera camera = camera_default();
     pose_bounds(&view.tails[0].pose, lo, hi);
-    camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT);
+    camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT, 0);
     camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
     camera_lamp(&camera, view.key_from);
 }

@@ -144,7 +144,8 @@ static bool reserve(struct figure *figure)
     figure->slopes = calloc(vertices * coordinates + 1, sizeof *figure->slopes);
     figure->largest = calloc(coordinates + 1, sizeof *figure->largest);
     figure->coarse = malloc((indices + 1) * sizeof *figure->coarse);
-    return figure->tangent && figure->slopes && figure->largest && figure->coarse;
+    figure->coarse_from = malloc((indices / 3 + 1) * sizeof *figure->coarse_from);
+    return figure->tangent && figure->slopes && figure->largest && figure->coarse && figure->coarse_from;
 }
 
 uint64_t figure_new_id(void)
@@ -157,7 +158,8 @@ bool figure_derive(struct figure *figure)
 {
     const struct character *c = &figure->character;
     if (!reserve(figure) ||
-        !adjacency_create(&figure->edges, c->position, c->vertex_count, c->indices, c->index_count))
+        !adjacency_create(&figure->edges, (const float(*)[3])c->position, (const float(*)[3])c->normal,
+                          c->vertex_count, c->indices, c->index_count))
         return false;
     measure(figure);
     for (int k = 0; k < c->coordinate_count; k++) {
@@ -192,7 +194,8 @@ bool figure_create(struct figure *figure, struct character *character)
     bool good = figure_derive(figure);
     if (good) {
         find_soles(figure);
-        good = decimate(&figure->character, FIGURE_COARSE, figure->coarse, &figure->coarse_count);
+        good =
+            decimate(&figure->character, FIGURE_COARSE, figure->coarse, figure->coarse_from, &figure->coarse_count);
     }
     if (!good) figure_free(figure);
     return good;
@@ -205,6 +208,7 @@ void figure_free(struct figure *figure)
     free(figure->slopes);
     free(figure->largest);
     free(figure->coarse);
+    free(figure->coarse_from);
     adjacency_free(&figure->edges);
     *figure = (struct figure){0};
 }

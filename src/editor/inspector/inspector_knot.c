@@ -2,6 +2,7 @@
 /// the same; frames keep their distances either way.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
+#include "editor/core/picked.h"
 #include "editor/core/selection.h"
 #include "editor/inspector/inspection.h"
 #include <math.h>
@@ -87,8 +88,7 @@ static void set_number(const struct knot_field *field, struct knot *knot, double
 /// none is under way; how many.
 static int collect(struct inspection *in)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
-    core_collect(in->core, spline);
+    core_collect(in->core, in->document, false);
     return in->core->originals.count;
 }
 
@@ -98,10 +98,11 @@ static bool set_all(struct inspection *in, const struct knot_field *field, doubl
                     struct error *error)
 {
     struct originals *originals = &in->core->originals;
-    double by = value - number_of(field, &originals->knot[0]);
+    double by = value - number_of(field, &originals->list[0].knot);
     for (int i = 0; i < originals->count; i++) {
-        struct edit edit = core_edit_of(EDIT_KNOT_SET, in->core->active);
-        edit.knot = originals->knot[by > 0 ? originals->count - 1 - i : i];
+        const struct original *original = &originals->list[by > 0 ? originals->count - 1 - i : i];
+        struct edit edit = core_edit_of(EDIT_KNOT_SET, original->spline);
+        edit.knot = original->knot;
         double number = together ? number_of(field, &edit.knot) + by : value;
         set_number(field, &edit.knot, fmax(field->number.lowest, number));
         if (!history_apply(in->world->history, in->document, &edit, error)) return false;
@@ -120,7 +121,7 @@ static void change_all(struct inspection *in, enum ui_change change, const struc
     if (!history_is_open(history)) {
         uint64_t merge = change == UI_NUDGE ? core_merge_key(in->core, in->world, ui_id(field->number.name)) : 0;
         history_begin(history, field->undo, merge);
-        *possible = number_of(field, &in->core->originals.knot[0]);
+        *possible = number_of(field, &in->core->originals.list[0].knot);
     }
     bool together = change != UI_SET || field->moves;
     if (set_all(in, field, value, together, &error)) {
@@ -140,12 +141,11 @@ struct numbers {
     bool mixed;
 };
 
-static struct numbers survey(const struct inspection *in, const struct spline *spline, const struct knot_field *field)
+static struct numbers survey(const struct inspection *in, const struct knot_field *field)
 {
     struct numbers numbers = {.first = NAN};
-    for (int k = 0; k < spline->knot_count; k++) {
-        if (!selection_has(&in->core->selection, spline->knots[k].id)) continue;
-        double number = number_of(field, &spline->knots[k]);
+    for (struct knot_place at = PICKED_START; picked_next(in->core, in->document, &at);) {
+        double number = number_of(field, knot_at(in->document, at));
         if (isnan(numbers.first)) numbers.first = number;
         numbers.mixed |= number != numbers.first;
     }
@@ -171,19 +171,19 @@ static void build_field(struct inspection *in, const struct knot_field *field, s
     }
 }
 
-static bool all_sloped(const struct inspection *in, const struct spline *spline)
+static bool all_sloped(const struct inspection *in)
 {
     bool sloped = true;
-    for (int k = 0; k < spline->knot_count; k++)
-        sloped &= !selection_has(&in->core->selection, spline->knots[k].id) || spline->knots[k].has_slope;
+    for (struct knot_place at = PICKED_START; picked_next(in->core, in->document, &at);)
+        sloped &= knot_at(in->document, at)->has_slope;
     return sloped;
 }
 
-static void build_several(struct inspection *in, const struct spline *spline)
+static void build_several(struct inspection *in)
 {
-    int count = all_sloped(in, spline) ? FIELDS : FIELD_SLOPE;
+    int count = all_sloped(in) ? FIELDS : FIELD_SLOPE;
     for (int i = 0; i < count; i++) {
-        struct numbers numbers = survey(in, spline, &fields[i]); // as the field before left the document
+        struct numbers numbers = survey(in, &fields[i]); // as the field before left the document
         if (!isnan(numbers.first)) build_field(in, &fields[i], numbers);
     }
 }
@@ -270,13 +270,13 @@ void inspector_knot(struct inspection *in)
 {
     struct ui *ui = in->ui;
     const struct spline *spline = core_active_spline(in->core, in->world);
-    int count = selection_count(&in->core->selection, spline);
+    int count = picked_count(in->core, in->document);
     int single = selection_single(&in->core->selection, spline);
     if (count > 1) {
         char text[64];
         snprintf(text, sizeof text, "%d knots selected.", count);
         ui_paragraph(ui, text, theme()->text_dim);
-        build_several(in, spline);
+        build_several(in);
         build_slopes(in);
     } else if (single < 0) {
         ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
