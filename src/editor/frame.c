@@ -181,6 +181,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
 
 void editor_pose(struct editor *editor, const struct editor_world *world)
 {
+    sheet_update(editor->curves, &editor->core, world->document);
     if (!editor->fitted) {
         editor->fitted = true;
         curves_frame_all(editor->curves, &editor->core, world);
@@ -273,12 +274,12 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
         [DRAG_PIN_TIME] = CURSOR_HORIZONTAL,
     };
     static const enum mouse_cursor of_hover[] = {
-        [HOVER_NONE] = CURSOR_ARROW,   [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
-        [HOVER_CURVE] = CURSOR_HAND,   [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
-        [HOVER_BONE] = CURSOR_HAND,    [HOVER_UNITS] = CURSOR_HAND,       [HOVER_BODY] = CURSOR_MOVE,
-        [HOVER_PLAY] = CURSOR_HAND,    [HOVER_LOOP] = CURSOR_HAND,        [HOVER_SPEED] = CURSOR_HAND,
-        [HOVER_WARNING] = CURSOR_HAND, [HOVER_LIMIT] = CURSOR_VERTICAL,   [HOVER_POINT] = CURSOR_HAND,
-        [HOVER_PIN] = CURSOR_MOVE,
+        [HOVER_NONE] = CURSOR_ARROW, [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
+        [HOVER_CURVE] = CURSOR_HAND, [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
+        [HOVER_BONE] = CURSOR_HAND,  [HOVER_UNITS] = CURSOR_HAND,       [HOVER_SHEET] = CURSOR_HAND,
+        [HOVER_BODY] = CURSOR_MOVE,  [HOVER_PLAY] = CURSOR_HAND,        [HOVER_LOOP] = CURSOR_HAND,
+        [HOVER_SPEED] = CURSOR_HAND, [HOVER_WARNING] = CURSOR_HAND,     [HOVER_LIMIT] = CURSOR_VERTICAL,
+        [HOVER_POINT] = CURSOR_HAND, [HOVER_PIN] = CURSOR_MOVE,         [HOVER_ROW] = CURSOR_ARROW,
     };
     static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};

@@ -137,6 +137,13 @@ static void run_normalise(struct editor *e, const struct editor_world *w, int ar
     curves_toggle_normal(e->curves, &e->core, w);
 }
 
+static void run_sheet(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    (void)argument;
+    curves_toggle_sheet(e->curves, &e->core);
+}
+
 static void run_units(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
@@ -333,6 +340,7 @@ const struct binding key_bindings[] = {
     {.key = 'S', .run = run_scale, .argument = false},
     {.key = 'S', .mods = MOD_SHIFT, .run = run_scale, .argument = true},
     {.key = 'N', .run = run_normalise},
+    {.key = KEY_F3, .run = run_sheet},
     {.key = 'U', .any_time = true, .run = run_units},
     {.key = 'G', .any_time = true, .core = drag_toggle_snap},
     {.key = KEY_UP, .repeats = true, .core = core_nudge_parameter, .argument = 1},

@@ -13,10 +13,12 @@ enum { EDITOR_MAX_REQUESTS = 8, CORE_MAX_RECENT = 16 };
 struct layout {
     struct rect window, stage, curves, inspector, status;
     struct rect ruler;      ///< frame numbers, on top of the plot
+    struct rect sheet;      ///< the dope sheet's rows, below the ruler; empty where it is not shown
     struct rect value_axis; ///< numbers left of the plot
     struct rect plot;
     float stage_share; ///< of the height above the status line; kept when the window changes its size
     float inspector_width;
+    float sheet_height; ///< as the curves want it
 };
 
 /// Selected knots of any spline, or splines: one bit an id.
@@ -81,6 +83,8 @@ enum hover_kind {
     HOVER_CURVE,
     HOVER_RULER,
     HOVER_UNITS,
+    HOVER_SHEET, ///< the dope sheet's switch
+    HOVER_ROW,   ///< of the dope sheet, beside its marks
     HOVER_WARNING,
     HOVER_JOINT, ///< of a tail, or of a chain
     HOVER_BONE,  ///< of an imported character, without a chain

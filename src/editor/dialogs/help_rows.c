@@ -59,6 +59,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
       {"Ctrl+=, Ctrl+-", "zoom (or PgUp, PgDn)"},
       {"Home, End", "show all, the selection"},
       {"N", "normalise"},
+      {"F3", "dope sheet"},
       {"U", "frames or seconds"},
       {"G", "snap to frames or not"}}},
     {"Stage",
