@@ -172,6 +172,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
         message->seconds_left -= dt;
         if (message->seconds_left <= 0) message->text[0] = 0;
     }
+    editor->core.nudged_seconds = fmax(editor->core.nudged_seconds - dt, 0);
     transport_advance(editor->transport, &editor->core, dt);
     playback_advance(&editor->core, world, dt);
     curves_drag_apply(editor->curves, &editor->core, world);

@@ -161,6 +161,8 @@ static void run_overlay(struct editor *e, const struct editor_world *w, int argu
     (void)w;
     if (argument == 'O') {
         stage_toggle_onion(&e->core);
+    } else if (argument == KEY_F4) {
+        stage_toggle_ghost(&e->core);
     } else {
         stage_toggle_trail(&e->core);
     }
@@ -378,6 +380,7 @@ const struct binding key_bindings[] = {
     {.key = KEY_END, .run = run_frame, .argument = 1},
     {.key = 'V', .any_time = true, .run = run_look},
     {.key = 'O', .any_time = true, .run = run_overlay, .argument = 'O'},
+    {.key = KEY_F4, .any_time = true, .run = run_overlay, .argument = KEY_F4},
     {.key = 'P', .any_time = true, .run = run_overlay, .argument = 'P'},
     {.key = 'K', .run = run_brush},
     {.key = 'H', .run = run_hold},

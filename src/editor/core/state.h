@@ -59,7 +59,8 @@ struct drag {
     bool moved;              ///< past the threshold below which a press is a click
     bool lock_x, lock_y;     ///< only the frame, only the value may change
     bool snap;
-    bool stale; ///< the pointer moved since the edits were made
+    bool stale;    ///< the pointer moved since the edits were made
+    unsigned knot; ///< id of the active spline's knot that is held; 0: none
 };
 
 /// A knot as it was before the edit that moves it.
@@ -202,6 +203,7 @@ struct brush {
 /// What is shown over the stage; stays as it is when another document is opened.
 struct overlays {
     bool onion, trail;
+    bool ghost; ///< the pose at the knot that is dragged or nudged
 };
 
 struct core {
@@ -233,9 +235,10 @@ struct core {
     struct pin_selection pin;
     struct brush brush;
     struct overlays overlays;
-    bool record_armed; ///< the next drag of a body is recorded from its start
-    bool refit_stage;  ///< all of the stage is to be in sight
-    bool refit_curves; ///< all curves are to be, once they are solved
+    double nudged_seconds; ///< that the ghost of the nudged knot is still shown
+    bool record_armed;     ///< the next drag of a body is recorded from its start
+    bool refit_stage;      ///< all of the stage is to be in sight
+    bool refit_curves;     ///< all curves are to be, once they are solved
 
     unsigned serial; ///< of the document on the table
     char title[256]; ///< the file's name, or "untitled"

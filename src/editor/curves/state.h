@@ -55,7 +55,6 @@ enum box_mode { BOX_REPLACE, BOX_ADD, BOX_REMOVE };
 
 /// What a drag of knots, slopes or a box has besides what all drags have.
 struct knot_drag {
-    unsigned knot;      ///< id of the knot under the pointer at the press
     double free_frames; ///< last shift by which no knot was hit
     int handle;         ///< DRAG_SLOPE: which end, as in curves_handle()
     bool collapse;      ///< a click on a selected knot selects it alone, a drag moves all

@@ -73,7 +73,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
       {"Ctrl+Shift+arrows", "orbit"},
       {"Ctrl+Shift+=, -", "zoom (or PgUp, PgDn)"},
       {"Shift+Home", "show everything"},
-      {"O, P", "onion skin, motion arc"},
+      {"O, P; F4", "onion skin, arc; ghost"},
       {"K; J, Shift+J", "paint; chain of bones"}}},
     {"File and window",
      {{"Ctrl+Z, Ctrl+Y", "undo, redo (or Shift+Z)"},
