@@ -72,6 +72,7 @@ struct editor *editor_create(struct error *error)
     editor->core.visible = 2;
     editor->core.active = -1;
     editor->core.brush = (struct brush){.radius = 0.12, .strength = 0.4};
+    editor->core.overlays.ghost = true;
     editor->core.listener = (struct listener){hear, editor};
     editor_resize(editor, 1280, 720, 1);
     return editor;
@@ -216,7 +217,8 @@ bool editor_wants_frames(const struct editor *editor)
 {
     return editor->core.playback.playing || editor->core.drag.kind == DRAG_GRAB ||
            editor->core.drag.kind == DRAG_PAINT || stage_is_moving(editor->stage) ||
-           editor->core.message.seconds_left > 0 || curves_wants_frames(editor->curves);
+           editor->core.message.seconds_left > 0 || editor->core.nudged_seconds > 0 ||
+           curves_wants_frames(editor->curves);
 }
 
 const struct drawlist *editor_drawlist(const struct editor *editor) { return &editor->core.list; }

@@ -172,6 +172,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
         message->seconds_left -= dt;
         if (message->seconds_left <= 0) message->text[0] = 0;
     }
+    editor->core.nudged_seconds = fmax(editor->core.nudged_seconds - dt, 0);
     transport_advance(editor->transport, &editor->core, dt);
     playback_advance(&editor->core, world, dt);
     curves_drag_apply(editor->curves, &editor->core, world);
@@ -181,6 +182,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
 
 void editor_pose(struct editor *editor, const struct editor_world *world)
 {
+    sheet_update(editor->curves, &editor->core, world->document);
     if (!editor->fitted) {
         editor->fitted = true;
         curves_frame_all(editor->curves, &editor->core, world);
@@ -273,12 +275,13 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
         [DRAG_PIN_TIME] = CURSOR_HORIZONTAL,
     };
     static const enum mouse_cursor of_hover[] = {
-        [HOVER_NONE] = CURSOR_ARROW,   [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
-        [HOVER_CURVE] = CURSOR_HAND,   [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
-        [HOVER_BONE] = CURSOR_HAND,    [HOVER_UNITS] = CURSOR_HAND,       [HOVER_BODY] = CURSOR_MOVE,
-        [HOVER_PLAY] = CURSOR_HAND,    [HOVER_LOOP] = CURSOR_HAND,        [HOVER_SPEED] = CURSOR_HAND,
-        [HOVER_WARNING] = CURSOR_HAND, [HOVER_LIMIT] = CURSOR_VERTICAL,   [HOVER_POINT] = CURSOR_HAND,
-        [HOVER_PIN] = CURSOR_MOVE,     [HOVER_AUTO_KEY] = CURSOR_HAND,
+        [HOVER_NONE] = CURSOR_ARROW,    [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
+        [HOVER_CURVE] = CURSOR_HAND,    [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
+        [HOVER_BONE] = CURSOR_HAND,     [HOVER_UNITS] = CURSOR_HAND,       [HOVER_SHEET] = CURSOR_HAND,
+        [HOVER_BODY] = CURSOR_MOVE,     [HOVER_PLAY] = CURSOR_HAND,        [HOVER_LOOP] = CURSOR_HAND,
+        [HOVER_SPEED] = CURSOR_HAND,    [HOVER_WARNING] = CURSOR_HAND,     [HOVER_LIMIT] = CURSOR_VERTICAL,
+        [HOVER_POINT] = CURSOR_HAND,    [HOVER_PIN] = CURSOR_MOVE,         [HOVER_ROW] = CURSOR_ARROW,
+        [HOVER_AUTO_KEY] = CURSOR_HAND,
     };
     static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};

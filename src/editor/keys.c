@@ -138,6 +138,13 @@ static void run_normalise(struct editor *e, const struct editor_world *w, int ar
     curves_toggle_normal(e->curves, &e->core, w);
 }
 
+static void run_sheet(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    (void)argument;
+    curves_toggle_sheet(e->curves, &e->core);
+}
+
 static void run_units(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
@@ -155,6 +162,8 @@ static void run_overlay(struct editor *e, const struct editor_world *w, int argu
     (void)w;
     if (argument == 'O') {
         stage_toggle_onion(&e->core);
+    } else if (argument == KEY_F4) {
+        stage_toggle_ghost(&e->core);
     } else {
         stage_toggle_trail(&e->core);
     }
@@ -335,6 +344,7 @@ const struct binding key_bindings[] = {
     {.key = 'S', .run = run_scale, .argument = false},
     {.key = 'S', .mods = MOD_SHIFT, .run = run_scale, .argument = true},
     {.key = 'N', .run = run_normalise},
+    {.key = KEY_F3, .run = run_sheet},
     {.key = 'U', .any_time = true, .run = run_units},
     {.key = 'G', .any_time = true, .core = drag_toggle_snap},
     {.key = KEY_UP, .repeats = true, .core = core_nudge_parameter, .argument = 1},
@@ -372,6 +382,7 @@ const struct binding key_bindings[] = {
     {.key = KEY_END, .run = run_frame, .argument = 1},
     {.key = 'V', .any_time = true, .run = run_look},
     {.key = 'O', .any_time = true, .run = run_overlay, .argument = 'O'},
+    {.key = KEY_F4, .any_time = true, .run = run_overlay, .argument = KEY_F4},
     {.key = 'P', .any_time = true, .run = run_overlay, .argument = 'P'},
     {.key = 'K', .run = run_brush},
     {.key = 'H', .run = run_hold},

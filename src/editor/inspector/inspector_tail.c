@@ -215,6 +215,7 @@ static void build_view(struct inspection *in)
          &core->record_armed},
         {"onion", "onion skin", "Show the tail at the knots around the playhead (O)", &core->overlays.onion},
         {"trail", "motion arc", "Show the path of the tip, one mark per frame (P)", &core->overlays.trail},
+        {"ghost", "ghost pose", "Show the pose at the knot that is dragged or nudged (F4)", &core->overlays.ghost},
     };
     const size_t first = document_tail(in->document, 0) ? 0 : 1; // without a body nothing is recorded
     for (size_t i = first; i < sizeof toggles / sizeof toggles[0]; i++) {

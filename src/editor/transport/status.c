@@ -45,6 +45,10 @@ static const char *hover_hint(const struct core *core, const struct document *do
         return "Drag to scrub; Shift+drag to play part of the range, Shift+click to play it all";
     case HOVER_WARNING:
         return "Click to fix; Ctrl+Z undoes it";
+    case HOVER_SHEET:
+        return "Click to open or close the dope sheet (F3)";
+    case HOVER_ROW:
+        return "Click to edit this spline; double-click to insert a knot on its curve; drag to select with a box";
     case HOVER_UNITS:
         return "Click to switch between frames and seconds (U)";
     case HOVER_JOINT:
