@@ -70,7 +70,7 @@ static void test_escape_takes_a_box_back_and_a_click_clears(void **state)
     struct session s;
     session_open(&s, FIVE);
     session_click(&s, "knot(sway,3)");
-    drag_box(&s, "curve(sway,5,1.4)", "curve(sway,35,-1.2)", 0);
+    drag_box(&s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
     assert_selected(&s, "11100");
     session_key(&s, KEY_ESCAPE, 0);
     assert_selected(&s, "00010");
@@ -102,7 +102,7 @@ static void test_scaling_by_a_typed_factor(void **state)
     (void)state;
     struct session s;
     session_open(&s, FIVE);
-    box(&s, "curve(sway,5,1.4)", "curve(sway,35,-1.2)", 0);
+    box(&s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
     char *original = session_saved(&s);
     session_type(&s, "sx1.3");
     session_key(&s, KEY_ENTER, 0);
@@ -149,7 +149,7 @@ static void test_scaling_can_mirror_and_be_taken_back(void **state)
     (void)state;
     struct session s;
     session_open(&s, FIVE);
-    box(&s, "curve(sway,5,1.4)", "curve(sway,35,-1.2)", 0);
+    box(&s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
     char *original = session_saved(&s);
     session_type(&s, "sx-1");
     session_frame(&s);
@@ -170,7 +170,7 @@ static void test_scaling_never_swallows_a_knot(void **state)
     (void)state;
     struct session s;
     session_open(&s, FIVE);
-    box(&s, "curve(sway,5,1.4)", "curve(sway,35,-1.2)", 0);
+    box(&s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
     const char *const bad[] = {"2", "0", "9"};
     for (int i = 0; i < 3; i++) {
         char *original = session_saved(&s);

@@ -41,8 +41,8 @@ static void hear(void *who, const struct editor_world *world, enum news news, in
     case NEWS_DRAG_MOVES:
         curves_capture_ghost(editor->curves, &editor->core, world);
         break;
-    case NEWS_PULLED:
-        curves_include(editor->curves, &editor->core, world, spline);
+    case NEWS_EDITED:
+        curves_follow(editor->curves, spline);
         break;
     }
 }
@@ -87,7 +87,7 @@ void editor_destroy(struct editor *editor)
     free(editor->core.hidden.bits);
     free(editor->core.solo.bits);
     free(editor->core.clipboard);
-    free(editor->core.originals.knot);
+    free(editor->core.originals.list);
     free(editor);
 }
 
@@ -154,13 +154,16 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     editor->core.held_key = 0;
     editor->core.space_down = false;
     editor->core.message = (struct message){0};
-    editor->core.playback = (struct playback){.looping = true, .speed = 1};
+    editor->core.playback = (struct playback){.looping = true, .speed = 1, .playing = document->about != NULL};
     for (int s = 0; s < document->spline_count; s++) {
         editor->core.playback.playing |= spline_start(&document->splines[s]) == WIGGLY_LOOP;
     }
+    editor->core.auto_key = false;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = &document->rigs[r];
         editor->core.playback.playing |= rig->kind == RIG_MODEL && rig->model.clip;
+        for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++)
+            editor->core.auto_key |= rig->tail.position[k].track >= 0; // who animates a body goes on to
     }
     editor->core.serial = document->serial;
     editor_reserve(editor, document);

@@ -184,6 +184,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
     tooltip_advance(&editor->tooltip, dt);
     playback_advance(&editor->core, world, dt);
     curves_drag_apply(editor->curves, &editor->core, world);
+    curves_advance(editor->curves, &editor->core, dt);
     stage_advance(editor->stage, &editor->core, world, dt);
 }
 
@@ -196,6 +197,7 @@ void editor_pose(struct editor *editor, const struct editor_world *world)
     }
     if (editor->core.refit_curves) curves_frame_all(editor->curves, &editor->core, world);
     editor->core.refit_curves = false;
+    follow_edits(editor->curves, &editor->core, world);
     stage_pose(editor->stage, &editor->core, world, dialogs_cover(editor->dialogs));
 }
 
@@ -306,7 +308,7 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
         [HOVER_BONE] = CURSOR_HAND,    [HOVER_UNITS] = CURSOR_HAND,       [HOVER_BODY] = CURSOR_MOVE,
         [HOVER_PLAY] = CURSOR_HAND,    [HOVER_LOOP] = CURSOR_HAND,        [HOVER_SPEED] = CURSOR_HAND,
         [HOVER_WARNING] = CURSOR_HAND, [HOVER_LIMIT] = CURSOR_VERTICAL,   [HOVER_POINT] = CURSOR_HAND,
-        [HOVER_PIN] = CURSOR_MOVE,
+        [HOVER_PIN] = CURSOR_MOVE,     [HOVER_AUTO_KEY] = CURSOR_HAND,
     };
     static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};

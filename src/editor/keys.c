@@ -3,6 +3,7 @@
 #include "editor/core/bones.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
+#include "editor/core/drag.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
 #include "editor/core/playback.h"
@@ -146,8 +147,7 @@ static void run_units(struct editor *e, const struct editor_world *w, int argume
 
 static void run_scale(struct editor *e, const struct editor_world *w, int argument)
 {
-    (void)argument;
-    curves_scale(e->curves, &e->core, w);
+    curves_scale(e->curves, &e->core, w, argument);
 }
 
 static void run_overlay(struct editor *e, const struct editor_world *w, int argument)
@@ -257,6 +257,15 @@ static void run_neighbour(struct editor *editor, const struct editor_world *worl
     reveal(editor, core_select_neighbour(&editor->core, world, direction));
 }
 
+static void run_visit(struct editor *editor, const struct editor_world *world, int direction)
+{
+    if (has_pin(editor, world)) {
+        pins_select_neighbour(&editor->core, world, direction);
+        return;
+    }
+    reveal(editor, core_visit_neighbour(&editor->core, world, direction));
+}
+
 static void run_extend(struct editor *editor, const struct editor_world *world, int direction)
 {
     reveal(editor, core_extend_selection(&editor->core, world, direction));
@@ -315,7 +324,9 @@ const struct binding key_bindings[] = {
     {.key = KEY_BACKSPACE, .run = run_delete},
     {.key = 'A', .run = run_add},
     {.key = KEY_DELETE, .mods = MOD_SHIFT, .run = run_remove_rig},
-    {.key = 'A', .mods = MOD_CTRL, .core = core_select_all},
+    {.key = 'A', .mods = MOD_CTRL, .core = core_select_all, .argument = false},
+    {.key = 'A', .mods = CTRL_SHIFT, .core = core_select_all, .argument = true},
+    {.key = 'A', .mods = MOD_SHIFT, .core = drag_toggle_auto_key},
     {.key = KEY_ESCAPE, .run = run_select_none},
     {.key = 'C', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_COPY},
     {.key = 'X', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_CUT},
@@ -336,7 +347,8 @@ const struct binding key_bindings[] = {
     {.key = 'M', .mods = MOD_SHIFT, .core = core_cycle_choice, .argument = PARAMETER_PASSIVE},
     {.key = 'F', .mods = MOD_SHIFT, .core = core_find_frequency},
     {.key = KEY_F2, .run = run_rename},
-    {.key = 'S', .run = run_scale},
+    {.key = 'S', .run = run_scale, .argument = false},
+    {.key = 'S', .mods = MOD_SHIFT, .run = run_scale, .argument = true},
     {.key = 'N', .run = run_normalise},
     {.key = 'U', .any_time = true, .run = run_units},
     {.key = 'G', .any_time = true, .core = drag_toggle_snap},
@@ -380,6 +392,10 @@ const struct binding key_bindings[] = {
     {.key = 'H', .run = run_hold},
     {.key = KEY_PAGE_UP, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = -1},
     {.key = KEY_PAGE_DOWN, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = 1},
+    {.key = ',', .mods = MOD_ALT, .repeats = true, .run = run_visit, .argument = -1},
+    {.key = '.', .mods = MOD_ALT, .repeats = true, .run = run_visit, .argument = 1},
+    {.key = KEY_HOME, .mods = MOD_ALT, .repeats = true, .run = run_visit, .argument = -1},
+    {.key = KEY_END, .mods = MOD_ALT, .repeats = true, .run = run_visit, .argument = 1},
     {.key = 'J', .core = bones_make_chain, .argument = false},
     {.key = 'J', .mods = MOD_SHIFT, .core = bones_make_chain, .argument = true},
     {.key = 0},
@@ -419,7 +435,7 @@ static bool nudge_event(struct editor *editor, const struct editor_world *world,
         if (has_pin(editor, world)) {
             stage_nudge_pin(editor->stage, &editor->core, world, across, up);
         } else {
-            core_nudge_knots(&editor->core, world, across, 0.01 * up * editor->core.visible);
+            curves_nudge(editor->curves, &editor->core, world, across, up);
         }
         return true;
     }
@@ -473,5 +489,7 @@ bool keys_event(struct editor *editor, const struct editor_world *world, const s
     }
     if (mods == 0 && event->action == ACTION_PRESS && is_held_letter(event->key)) editor->core.held_key = event->key;
     if (nudge_event(editor, world, event)) return true;
-    return run(editor, world, key_bindings, event->key, mods, event->action == ACTION_REPEAT);
+    const bool bound = run(editor, world, key_bindings, event->key, mods, event->action == ACTION_REPEAT);
+    editor->press.used |= bound && mods & MOD_ALT; // some systems still send the character of such a key
+    return bound;
 }

@@ -7,13 +7,16 @@
 
 void knot_list_free(struct knot_list *list)
 {
+    for (int i = 0; list->splines && i < list->count; i++) free(list->splines[i]);
+    free(list->splines);
     free(list->knots);
     *list = (struct knot_list){0};
 }
 
-void print_knot(struct text *text, const struct knot *knot)
+void print_knot(struct text *text, const struct knot *knot, const char *spline)
 {
     struct members members = {text, "{ ", ", ", false};
+    if (spline) member_string(&members, "spline", spline);
     member_number(&members, "frame", knot->frame);
     member_number(&members, "value", knot->value);
     if (knot->has_slope) member_number(&members, "slope", knot->slope);
@@ -22,14 +25,14 @@ void print_knot(struct text *text, const struct knot *knot)
     text_string(text, " }");
 }
 
-char *knots_print(const struct knot *knots, int count)
+char *knots_print(const struct knot_list *list)
 {
     struct text text = {0};
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < list->count; i++) {
         text_string(&text, i > 0 ? ",\n  " : "[\n  ");
-        print_knot(&text, &knots[i]);
+        print_knot(&text, &list->knots[i], list->splines ? list->splines[i] : NULL);
     }
-    text_string(&text, count > 0 ? "\n]\n" : "[]\n");
+    text_string(&text, list->count > 0 ? "\n]\n" : "[]\n");
     text_bytes(&text, "", 1);
     if (!text.no_memory) return text.data;
     free(text.data);
@@ -42,13 +45,16 @@ static void read_array(struct reader *reader, struct value array, struct knot_li
     if (count == 0) reader_fail(reader, &array.at, "expected at least one knot, got none");
     if (count <= 0) return;
     list->knots = calloc((size_t)count, sizeof *list->knots);
-    if (!list->knots) {
+    list->splines = calloc((size_t)count, sizeof *list->splines);
+    if (!list->knots || !list->splines) {
         reader_no_memory(reader);
         return;
     }
     list->count = count;
     for (int i = 0; i < count; i++) {
-        reader_knot(reader, reader_element(&array, i), &list->knots[i]);
+        const struct value object = reader_element(&array, i), spline = reader_member(&object, "spline");
+        reader_knot(reader, object, &list->knots[i]);
+        if (spline.json) list->splines[i] = reader_name(reader, spline);
         list->knots[i].id = 0;
         list->knots[i].extra = NULL; /* the reader's document goes */
     }

@@ -8,11 +8,13 @@
 /// Knots outside a document, without ids and unknown keys.
 struct knot_list {
     struct knot *knots; ///< in the order of the text
+    char **splines;     ///< names of the splines that they are of; each, and all of it, may be NULL
     int count;
 };
 
-/// A JSON array with one knot a line, as in a scene file. The caller frees it; NULL if memory runs out.
-char *knots_print(const struct knot *knots, int count);
+/// A JSON array with one knot a line, as in a scene file; where it is known, "spline" says which one it is of. The caller frees
+/// it; NULL if memory runs out.
+char *knots_print(const struct knot_list *list);
 
 /// Reads what knots_print() writes, an object with "knots" (a scene file's spline), or CSV. If there are no knots, returns false with a
 /// sentence "name:line: …: expected …, got …" and an empty list.

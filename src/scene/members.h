@@ -29,8 +29,8 @@ typedef bool holds_tracks(const char *key);
 /// Writes the unknown keys except those that `skips` (may be NULL) says belong to tracks.
 void members_extra(struct members *members, json_t *extra, holds_tracks *skips);
 
-/// A knot on one line.
-void print_knot(struct text *text, const struct knot *knot);
+/// A knot on one line, with the name of its spline unless that is NULL.
+void print_knot(struct text *text, const struct knot *knot, const char *spline);
 
 /// A number, a track or a motion, for a file in `folder`; `extras` holds the unknown keys of the latter two, by `key`.
 void print_param(struct text *text, const struct document *document, const struct param *param, json_t *extras,

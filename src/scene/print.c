@@ -78,7 +78,7 @@ static void print_spline(struct text *text, const struct document *document, con
     member(&members, "knots");
     for (int i = 0; i < spline->knot_count; i++) {
         text_string(text, i > 0 ? ",\n        " : "[\n        ");
-        print_knot(text, &spline->knots[i]);
+        print_knot(text, &spline->knots[i], NULL);
     }
     text_string(text, spline->knot_count > 0 ? "\n      ]" : "[]");
     members_extra(&members, spline->extra, is_parameter);

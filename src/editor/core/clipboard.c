@@ -1,6 +1,7 @@
 /// Knots on the clipboard, and duplicates: copy, cut, paste at the playhead, duplicate.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
+#include "editor/core/picked.h"
 #include "editor/core/pins.h"
 #include "editor/core/selection.h"
 #include "scene/knots.h"
@@ -16,21 +17,38 @@ static void say_count(struct core *core, const char *what, int count)
     core_message(core, false, text);
 }
 
-/// The selected knots in drag.originals, which no drag needs now; how many there are.
+/// The selected knots in core's originals, which no drag needs now; how many there are.
 static int collect(struct core *core, const struct editor_world *world)
 {
-    const struct spline *spline = core_active_spline(core, world);
-    if (!spline || history_is_open(world->history)) return 0;
-    core_collect(core, spline);
+    if (history_is_open(world->history)) return 0;
+    core_collect(core, world->document, false);
     if (core->originals.count == 0) core_message(core, false, "No knots are selected.");
     return core->originals.count;
+}
+
+/// The originals as text. Those of one spline do not say which, so that they can be pasted into any.
+static char *print_originals(const struct originals *originals, const struct document *document)
+{
+    const size_t count = (size_t)originals->count;
+    const bool mixed = originals->list[0].spline != originals->list[count - 1].spline;
+    struct knot_list list = {malloc(count * sizeof *list.knots), malloc(count * sizeof *list.splines),
+                             originals->count};
+    char *text = NULL;
+    for (size_t i = 0; i < count && list.knots && list.splines; i++) {
+        list.knots[i] = originals->list[i].knot;
+        list.splines[i] = mixed ? document->splines[originals->list[i].spline].name : NULL;
+    }
+    if (list.knots && list.splines) text = knots_print(&list);
+    free(list.knots);
+    free(list.splines); // the names are the document's
+    return text;
 }
 
 bool core_copy_knots(struct core *core, const struct editor_world *world, bool cut)
 {
     int count = collect(core, world);
     if (count == 0) return false;
-    char *text = knots_print(core->originals.knot, count);
+    char *text = print_originals(&core->originals, world->document);
     if (!text) {
         core_message(core, true, "Not enough memory to copy these knots.");
         return false;
@@ -42,21 +60,21 @@ bool core_copy_knots(struct core *core, const struct editor_world *world, bool c
     return true;
 }
 
-/// Inserts copies of knots, `shift` frames later, as one step, and selects them; nothing where one cannot be inserted.
-static bool insert_all(struct core *core, const struct editor_world *world, const char *label,
-                       const struct knot *knots, int count, double shift)
+/// Inserts a copy of a knot in the open step.
+static bool insert(struct core *core, const struct editor_world *world, int spline, const struct knot *knot,
+                   double shift)
+{
+    struct edit edit = core_edit_of(EDIT_KNOT_INSERT, spline);
+    edit.knot = *knot;
+    edit.knot.id = 0;
+    edit.knot.frame += shift;
+    return core_edit(core, world, &edit);
+}
+
+/// Closes the step that inserted knots from an id on, and selects them; takes it back where it is not `good`.
+static bool end_insertion(struct core *core, const struct editor_world *world, unsigned first_id, bool good)
 {
     struct document *document = world->document;
-    unsigned first_id = document->next_id;
-    bool good = true;
-    history_begin(world->history, label, 0);
-    for (int k = 0; k < count && good; k++) {
-        struct edit edit = core_edit_of(EDIT_KNOT_INSERT, core->active);
-        edit.knot = knots[k];
-        edit.knot.id = 0;
-        edit.knot.frame += shift;
-        good = core_edit(core, world, &edit);
-    }
     if (!good) history_restart(world->history, document);
     history_end(world->history);
     if (!good) return false;
@@ -64,11 +82,22 @@ static bool insert_all(struct core *core, const struct editor_world *world, cons
     selection_clear(&core->selection);
     pins_clear(core);
     for (unsigned id = first_id; id < document->next_id; id++) selection_set(&core->selection, id, true);
+    picked_settle(core, world);
+    core_tell(core, world, NEWS_EDITED, -1);
     return true;
+}
+
+/// The spline that a knot of a list goes to: the one that it is of, or else the active one.
+static int target_of(const struct core *core, const struct document *document, const struct knot_list *list, int k)
+{
+    const char *name = list->splines ? list->splines[k] : NULL;
+    const int found = name ? document_find_spline(document, name) : -1;
+    return found >= 0 ? found : core->active;
 }
 
 void core_paste_knots(struct core *core, const struct editor_world *world, const char *text)
 {
+    const struct document *document = world->document;
     struct knot_list list;
     struct error error;
     if (!core_active_spline(core, world) || history_is_open(world->history)) return;
@@ -80,42 +109,80 @@ void core_paste_knots(struct core *core, const struct editor_world *world, const
         core_message(core, true, error.text);
         return;
     }
+    const unsigned first_id = document->next_id;
     double first = list.knots[0].frame;
+    bool good = true;
     for (int k = 1; k < list.count; k++) first = fmin(first, list.knots[k].frame);
-    double shift = round(core_frame(core, world->document)) - first;
-    if (insert_all(core, world, list.count == 1 ? "Paste knot" : "Paste knots", list.knots, list.count, shift)) {
-        say_count(core, "Pasted", list.count);
-    }
+    const double shift = round(core_frame(core, document)) - first;
+    history_begin(world->history, list.count == 1 ? "Paste knot" : "Paste knots", 0);
+    for (int k = 0; k < list.count && good; k++)
+        good = insert(core, world, target_of(core, document, &list, k), &list.knots[k], shift);
+    if (end_insertion(core, world, first_id, good)) say_count(core, "Pasted", list.count);
     knot_list_free(&list);
 }
 
-/// Whether copies of the collected knots would find free samples, `shift` frames later.
-static bool has_room(const struct core *core, const struct document *document, const struct spline *spline,
-                     double shift)
+/// Whether copies of the originals would find free samples, `shift` frames later.
+static bool has_room(const struct originals *originals, const struct document *document, double shift)
 {
-    for (int k = 0; k < core->originals.count; k++) {
-        int sample = document_sample(document, core->originals.knot[k].frame + shift);
-        if (spline_find_knot(document, spline, sample) >= 0) return false;
+    for (int i = 0; i < originals->count; i++) {
+        const struct original *original = &originals->list[i];
+        const int sample = document_sample(document, original->knot.frame + shift);
+        if (spline_find_knot(document, &document->splines[original->spline], sample) >= 0) return false;
     }
     return true;
+}
+
+/// How far behind the originals their copies go, in frames: as far as the last of them is behind the one before, or further to
+/// where nothing is in the way.
+static double copies_shift(const struct originals *originals, const struct document *document)
+{
+    double first = INFINITY, last = -INFINITY, before = -INFINITY;
+    for (int i = 0; i < originals->count; i++) {
+        const double frame = originals->list[i].knot.frame;
+        first = fmin(first, frame);
+        if (frame > last) before = last;
+        if (frame < last) before = fmax(before, frame);
+        last = fmax(last, frame);
+    }
+    const double step = isfinite(before) ? last - before : 1;
+    double shift = round(last - first + fmax(step, 1));
+    while (!has_room(originals, document, shift)) shift++;
+    return shift;
+}
+
+/// The frame on which the scene must end for the copies to fit; a loop's last sample is its first one.
+static int copies_end(const struct originals *originals, const struct document *document, double shift)
+{
+    double end = document->last_frame;
+    for (int i = 0; i < originals->count; i++) {
+        const struct original *original = &originals->list[i];
+        const bool loops = spline_start(&document->splines[original->spline]) == WIGGLY_LOOP;
+        end = fmax(end, original->knot.frame + shift + (loops ? 1.0 / document->substeps : 0));
+    }
+    return (int)fmin(ceil(end), SCENE_MAX_FRAME);
 }
 
 void core_duplicate_knots(struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
-    const struct spline *spline = core_active_spline(core, world);
     const struct originals *originals = &core->originals;
-    int count = collect(core, world);
+    const int count = collect(core, world);
     if (count == 0) return;
-    const struct knot *last = &originals->knot[count - 1];
-    double end = document_frame(document, document_last_knot_sample(document, spline));
-    double step = count > 1 ? last->frame - originals->knot[count - 2].frame : 1;
-    double shift = round(last->frame - originals->knot[0].frame + fmax(step, 1));
-    while (last->frame + shift <= end && !has_room(core, document, spline, shift)) shift++;
-    if (last->frame + shift > end) {
-        core_message(core, false, "No room for copies before the end of the range.");
-    } else if (insert_all(core, world, count == 1 ? "Duplicate knot" : "Duplicate knots", originals->knot, count,
-                          shift)) {
-        say_count(core, "Duplicated", count);
-    }
+    const double shift = copies_shift(originals, document);
+    const unsigned first_id = document->next_id;
+    struct edit range = core_edit_of(EDIT_RANGE, -1);
+    range.first = document->first_frame;
+    range.last = copies_end(originals, document, shift);
+    const bool longer = range.last > document->last_frame;
+    history_begin(world->history, count == 1 ? "Duplicate knot" : "Duplicate knots", 0);
+    bool good = !longer || core_edit(core, world, &range);
+    for (int i = 0; i < count && good; i++)
+        good = insert(core, world, originals->list[i].spline, &originals->list[i].knot, shift);
+    if (!end_insertion(core, world, first_id, good)) return;
+    say_count(core, "Duplicated", count);
+    if (!longer) return;
+    char text[96];
+    snprintf(text, sizeof text, "Duplicated %d knot%s; the scene now ends on frame %d.", count, count == 1 ? "" : "s",
+             range.last);
+    core_message(core, false, text);
 }

@@ -142,7 +142,7 @@ struct spline *core_active_spline(const struct core *core, const struct editor_w
     return exists ? &world->document->splines[core->active] : NULL;
 }
 
-void core_activate(struct core *core, const struct editor_world *world, int spline)
+void core_turn_to(struct core *core, const struct editor_world *world, int spline)
 {
     if (spline == core->active || spline < 0 || spline >= world->document->spline_count) return;
     core_tell(core, world, NEWS_ACTIVATES, spline);
@@ -150,8 +150,14 @@ void core_activate(struct core *core, const struct editor_world *world, int spli
     core->recent[0] = core->active_id;
     core->active = spline;
     core->active_id = world->document->splines[spline].id;
-    selection_clear(&core->selection);
     core_tell(core, world, NEWS_ACTIVATED, spline);
+}
+
+void core_activate(struct core *core, const struct editor_world *world, int spline)
+{
+    if (spline == core->active || spline < 0 || spline >= world->document->spline_count) return;
+    selection_clear(&core->selection);
+    core_turn_to(core, world, spline);
 }
 
 void core_set_look(struct core *core, enum look look)
@@ -187,33 +193,21 @@ static bool reserve_originals(struct originals *originals, int knots)
 {
     if (originals->capacity > 0 && knots <= originals->capacity) return true;
     int capacity = knots + knots / 2 + 64;
-    struct knot *memory = realloc(originals->knot, (size_t)capacity * sizeof *memory);
+    struct original *memory = realloc(originals->list, (size_t)capacity * sizeof *memory);
     if (!memory) return false;
-    originals->knot = memory;
+    originals->list = memory;
     originals->capacity = capacity;
     return true;
 }
 
-void core_collect(struct core *core, const struct spline *spline)
-{
-    struct originals *originals = &core->originals;
-    originals->count = 0;
-    for (int k = 0; k < spline->knot_count && originals->count < originals->capacity; k++) {
-        if (selection_has(&core->selection, spline->knots[k].id))
-            originals->knot[originals->count++] = spline->knots[k];
-    }
-}
-
 void core_reserve(struct core *core, const struct document *document)
 {
-    int most = 0;
-    for (int s = 0; s < document->spline_count; s++) {
-        if (document->splines[s].knot_count > most) most = document->splines[s].knot_count;
-    }
+    int all = 0;
+    for (int s = 0; s < document->spline_count; s++) all += document->splines[s].knot_count;
     bool enough = selection_reserve(&core->selection, document->next_id);
     enough &= selection_reserve(&core->hidden, document->next_spline_id);
     enough &= selection_reserve(&core->solo, document->next_spline_id);
-    if (!reserve_originals(&core->originals, most) || !enough) {
+    if (!reserve_originals(&core->originals, all) || !enough) {
         core_message(core, true, "Out of memory: some knots cannot be selected.");
     }
 }

@@ -33,6 +33,8 @@ void core_message(struct core *core, bool is_error, const char *text);
 struct spline *core_active_spline(const struct core *core, const struct editor_world *world);
 /// Makes a spline the active one, which drops the selection.
 void core_activate(struct core *core, const struct editor_world *world, int spline);
+/// The same, but keeps the selection.
+void core_turn_to(struct core *core, const struct editor_world *world, int spline);
 /// Chooses how the knots are shown, and says so.
 void core_set_look(struct core *core, enum look look);
 /// Frame (fractional) that is shown.
@@ -42,8 +44,6 @@ double core_position(const struct document *document, double frame);
 /// Rounds to a multiple of the power of ten at or below `resolution` (> 0): no more decimals than a mouse can mean, so that
 /// files keep short numbers.
 double core_round(double value, double resolution);
-/// Takes the selected knots of the active spline into `originals`.
-void core_collect(struct core *core, const struct spline *spline);
 /// Memory for the document's knots in selection and drags; allocates only where knots were added.
 void core_reserve(struct core *core, const struct document *document);
 

@@ -1,19 +1,21 @@
 /// Inserting, deleting and choosing knots.
 #include "editor/core/knots.h"
 #include "base/hash.h"
+#include "editor/core/arrange.h"
 #include "editor/core/core.h"
+#include "editor/core/picked.h"
 #include "editor/core/pins.h"
+#include "editor/core/playback.h"
 #include "editor/core/selection.h"
 #include <math.h>
 
 uint64_t core_merge_key(const struct core *core, const struct editor_world *world, uint64_t kind)
 {
-    const struct spline *spline = core_active_spline(core, world);
     uint64_t key = hash_bytes(HASH_START, &kind, sizeof kind);
     key = hash_bytes(key, &core->active, sizeof core->active);
-    for (int k = 0; spline && k < spline->knot_count; k++) {
-        unsigned id = spline->knots[k].id;
-        if (selection_has(&core->selection, id)) key = hash_bytes(key, &id, sizeof id);
+    for (struct knot_place at = PICKED_START; picked_next(core, world->document, &at);) {
+        unsigned id = knot_at(world->document, at)->id;
+        key = hash_bytes(key, &id, sizeof id);
     }
     return key ? key : 1;
 }
@@ -39,7 +41,9 @@ static void insert_at(struct core *core, const struct editor_world *world, const
         core_reserve(core, document);
         at = spline_find_knot(document, spline, sample);
     }
-    if (at >= 0) select_only(core, spline->knots[at].id);
+    if (at < 0) return;
+    select_only(core, spline->knots[at].id);
+    core_tell(core, world, NEWS_EDITED, -1);
 }
 
 /// The frame for a knot of the active spline: a whole one when `snap`, inside the range.
@@ -74,13 +78,13 @@ void core_insert_on_curve(struct core *core, const struct editor_world *world, d
 
 void core_remove_knots(struct core *core, const struct editor_world *world, const char *label)
 {
-    const struct spline *spline = core_active_spline(core, world);
-    if (!spline || history_is_open(world->history)) return;
+    const struct originals *originals = &core->originals;
+    if (history_is_open(world->history)) return;
+    core_collect(core, world->document, false);
     history_begin(world->history, label, 0);
-    for (int k = spline->knot_count - 1; k >= 0; k--) {
-        if (!selection_has(&core->selection, spline->knots[k].id)) continue;
-        struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, core->active);
-        edit.knot.id = spline->knots[k].id;
+    for (int i = originals->count - 1; i >= 0; i--) {
+        struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, originals->list[i].spline);
+        edit.knot.id = originals->list[i].knot.id;
         core_edit(core, world, &edit);
     }
     history_end(world->history);
@@ -90,16 +94,20 @@ void core_remove_knots(struct core *core, const struct editor_world *world, cons
 void core_delete_knots(struct core *core, const struct editor_world *world, int unused)
 {
     (void)unused;
-    int count = selection_count(&core->selection, core_active_spline(core, world));
-    core_remove_knots(core, world, count == 1 ? "Delete knot" : "Delete knots");
+    core_remove_knots(core, world, picked_count(core, world->document) == 1 ? "Delete knot" : "Delete knots");
 }
 
-void core_select_all(struct core *core, const struct editor_world *world, int unused)
+void core_select_all(struct core *core, const struct editor_world *world, int all_splines)
 {
-    (void)unused;
-    const struct spline *spline = core_active_spline(core, world);
+    const struct document *document = world->document;
     pins_clear(core);
-    for (int k = 0; spline && k < spline->knot_count; k++) selection_set(&core->selection, spline->knots[k].id, true);
+    selection_clear(&core->selection);
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct spline *spline = &document->splines[s];
+        if (all_splines ? !arrange_shows(core, document, s) : s != core->active) continue;
+        for (int k = 0; k < spline->knot_count; k++) selection_set(&core->selection, spline->knots[k].id, true);
+    }
+    picked_settle(core, world);
 }
 
 /// Index of the first knot after, or last one before, a position; -1 where there is none.
@@ -124,6 +132,22 @@ const struct knot *core_select_neighbour(struct core *core, const struct editor_
     if (next < 0 || next >= spline->knot_count) return NULL;
     select_only(core, spline->knots[next].id);
     return &spline->knots[next];
+}
+
+const struct knot *core_visit_neighbour(struct core *core, const struct editor_world *world, int direction)
+{
+    const struct document *document = world->document;
+    const struct spline *spline = core_active_spline(core, world);
+    const int next = spline ? beside(document, spline, core->playback.position, direction) : -1;
+    if (next < 0) {
+        core_message(core, false,
+                     direction < 0 ? "No knot lies before the playhead." : "No knot lies behind the playhead.");
+        return NULL;
+    }
+    const struct knot *knot = &spline->knots[next];
+    select_only(core, knot->id);
+    playback_seek(core, document, document_frame(document, document_sample(document, knot->frame)));
+    return knot;
 }
 
 const struct knot *core_extend_selection(struct core *core, const struct editor_world *world, int direction)

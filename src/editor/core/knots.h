@@ -1,4 +1,4 @@
-/// What is done to the active spline: to its selected knots, their slopes, and its parameters.
+/// What is done to the selected knots of all splines, to their slopes, and to the parameters of the active spline.
 #ifndef EDITOR_CORE_KNOTS_H
 #define EDITOR_CORE_KNOTS_H
 
@@ -14,10 +14,12 @@ void core_insert_on_curve(struct core *core, const struct editor_world *world, d
 void core_remove_knots(struct core *core, const struct editor_world *world, const char *label);
 /// Removes the selected knots.
 void core_delete_knots(struct core *core, const struct editor_world *world, int unused);
-/// Selects all knots of the active spline.
-void core_select_all(struct core *core, const struct editor_world *world, int unused);
+/// Selects all knots of the active spline, or of all that are shown.
+void core_select_all(struct core *core, const struct editor_world *world, int all_splines);
 /// Selects the selected knot's neighbour (from the playhead where not just one is selected); NULL where there is none.
 const struct knot *core_select_neighbour(struct core *core, const struct editor_world *world, int direction);
+/// Selects the first knot after the playhead (1), or the last one before it (-1), and goes there; NULL where there is none.
+const struct knot *core_visit_neighbour(struct core *core, const struct editor_world *world, int direction);
 /// Also selects the knot after the last selected one (1) or before the first one (-1); NULL if there is none.
 const struct knot *core_extend_selection(struct core *core, const struct editor_world *world, int direction);
 /// Activates the next spline in the list (1) or the previous one (-1), wrapping round.
@@ -33,8 +35,6 @@ enum slopes { SLOPES_TOGGLE, SLOPES_FLAT, SLOPES_SMOOTH };
 /// Switches them on, as the curve runs there, or off; makes them level; or aims them at the neighbours (Catmull-Rom).
 void slopes_set(struct core *core, const struct editor_world *world, int how);
 
-/// Moves the selected knots by frames and values; repeated nudges are one undo step.
-void core_nudge_knots(struct core *core, const struct editor_world *world, double frames, double value);
 /// Gives the active spline the frequency and damping that explain its knots best; where it has these, the runner-up's.
 void core_find_frequency(struct core *core, const struct editor_world *world, int unused);
 

@@ -1,65 +1,14 @@
-/// Changes by key: knots and parameters in small steps. Equal nudges of the same knots are one undo step.
+/// Changes of parameters by key, in small steps. Equal nudges are one undo step.
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/core/selection.h"
 #include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
 
-/// Kinds of nudges for core_merge_key().
-enum nudge_kind { NUDGE_FRAMES = 1, NUDGE_VALUE, NUDGE_PARAMETER = 100 };
+enum { NUDGE_PARAMETER = 100 }; ///< a kind of nudges for core_merge_key()
 
 static const double TAU = 6.283185307179586;
-
-/// Where the selected knots would collide with others, or leave the range, when shifted.
-enum shift_outcome { SHIFT_FREE, SHIFT_OCCUPIED, SHIFT_OUTSIDE };
-
-static enum shift_outcome try_shift(const struct core *core, const struct document *document,
-                                    const struct spline *spline, double frames)
-{
-    enum shift_outcome outcome = SHIFT_FREE;
-    for (int k = 0; k < spline->knot_count; k++) {
-        if (!selection_has(&core->selection, spline->knots[k].id)) continue;
-        int sample = document_sample(document, spline->knots[k].frame + frames);
-        if (sample < 0 || sample > document_last_knot_sample(document, spline)) return SHIFT_OUTSIDE;
-        int at = spline_find_knot(document, spline, sample);
-        if (at >= 0 && !selection_has(&core->selection, spline->knots[at].id)) outcome = SHIFT_OCCUPIED;
-    }
-    return outcome;
-}
-
-/// The shift itself, or the next multiple of it behind the knots that are in the way; 0 where there is no room.
-static double free_shift(const struct core *core, const struct document *document, const struct spline *spline,
-                         double frames)
-{
-    for (double shift = frames; frames != 0; shift += frames) {
-        enum shift_outcome outcome = try_shift(core, document, spline, shift);
-        if (outcome == SHIFT_FREE) return shift;
-        if (outcome == SHIFT_OUTSIDE) break;
-    }
-    return 0;
-}
-
-void core_nudge_knots(struct core *core, const struct editor_world *world, double frames, double value)
-{
-    struct spline *spline = core_active_spline(core, world);
-    if (selection_count(&core->selection, spline) == 0 || history_is_open(world->history)) return;
-    double shift = free_shift(core, world->document, spline, frames);
-    if (shift == 0 && value == 0) return;
-    uint64_t merge = core_merge_key(core, world, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE);
-    history_begin(world->history, "Nudge knots", merge);
-    for (int i = 0, count = spline->knot_count; i < count; i++) {
-        int k = shift > 0 ? count - 1 - i : i; /* from the far end, so that they do not run into each other */
-        if (!selection_has(&core->selection, spline->knots[k].id)) continue;
-        struct edit edit = core_edit_of(EDIT_KNOT_SET, core->active);
-        edit.knot = spline->knots[k];
-        edit.knot.frame += shift;
-        if (value != 0) edit.knot.value = core_round(edit.knot.value + value, 0.01 * fabs(value));
-        core_edit(core, world, &edit);
-    }
-    history_end(world->history);
-}
 
 const struct channel *core_active_channel(const struct core *core, const struct document *document, int *rig,
                                           int *channel)

@@ -1,7 +1,7 @@
 /// The slopes of the selected knots: on, off, flat, Catmull-Rom, turned and made firmer by keys.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/core/selection.h"
+#include "editor/core/picked.h"
 #include <math.h>
 
 /// Kinds of nudges for core_merge_key(), apart from those of nudge.c.
@@ -12,14 +12,14 @@ static const double TURN = 0.05, FIRMER = 1.25; ///< of the visible values, a se
 static const double SLOPE_RESOLUTION = 1e-3;    ///< of the visible values, a second
 
 /// The curve's slope at a knot, in values a second: one that leaves it as it is.
-static double slope_at(const struct core *core, const struct editor_world *world, const struct knot *knot)
+static double slope_at(const struct editor_world *world, int spline, const struct knot *knot)
 {
     int sample = document_sample(world->document, knot->frame);
-    double slope = evaluation_slope(world->evaluation, world->document, core->active, sample);
+    double slope = evaluation_slope(world->evaluation, world->document, spline, sample);
     return isfinite(slope) ? slope : 0;
 }
 
-/// A slope for one knot of the active spline, in values a second.
+/// A slope for one knot of a spline, in values a second.
 typedef double slope_rule(const struct document *document, const struct spline *spline, int k);
 
 static double flat(const struct document *document, const struct spline *spline, int k)
@@ -57,24 +57,24 @@ struct knot_change {
 
 static void change_knots(struct core *core, const struct editor_world *world, const struct knot_change *change)
 {
-    struct spline *spline = core_active_spline(core, world);
-    if (selection_count(&core->selection, spline) == 0 || history_is_open(world->history)) return;
+    const struct document *document = world->document;
+    if (history_is_open(world->history) || picked_count(core, document) == 0) return;
     history_begin(world->history, change->label, change->kind ? core_merge_key(core, world, change->kind) : 0);
-    for (int k = 0; k < spline->knot_count; k++) {
-        const struct knot *knot = &spline->knots[k];
-        if (!selection_has(&core->selection, knot->id)) continue;
-        struct edit edit = core_edit_of(EDIT_KNOT_SET, core->active);
+    for (struct knot_place at = PICKED_START; picked_next(core, document, &at);) {
+        const struct knot *knot = knot_at(document, at);
+        struct edit edit = core_edit_of(EDIT_KNOT_SET, at.spline);
         edit.knot = *knot;
-        if (change->on && !knot->has_slope) edit.knot.slope = slope_at(core, world, knot);
+        if (change->on && !knot->has_slope) edit.knot.slope = slope_at(world, at.spline, knot);
         if (!(knot->stiffness > 0)) edit.knot.stiffness = FIRM;
         edit.knot.has_slope = change->on;
-        if (change->rule) edit.knot.slope = change->rule(world->document, spline, k);
+        if (change->rule) edit.knot.slope = change->rule(document, &document->splines[at.spline], at.knot);
         bool changes = change->rule || change->slope != 0 || (change->on && !knot->has_slope);
         if (changes) edit.knot.slope = core_round(edit.knot.slope + change->slope, SLOPE_RESOLUTION * core->visible);
         edit.knot.stiffness = fmin(fmax(edit.knot.stiffness * change->stiffness, 1e-3), 1e9);
         core_edit(core, world, &edit);
     }
     history_end(world->history);
+    core_tell(core, world, NEWS_EDITED, -1);
 }
 
 void slopes_turn(struct core *core, const struct editor_world *world, int direction)
@@ -94,18 +94,18 @@ void slopes_stiffen(struct core *core, const struct editor_world *world, int dir
     change_knots(core, world, &change);
 }
 
-static bool all_sloped(const struct core *core, const struct spline *spline)
+static bool all_sloped(const struct core *core, const struct document *document)
 {
     bool all = true;
-    for (int k = 0; spline && k < spline->knot_count; k++) {
-        if (selection_has(&core->selection, spline->knots[k].id)) all &= spline->knots[k].has_slope;
+    for (struct knot_place at = PICKED_START; picked_next(core, document, &at);) {
+        all &= knot_at(document, at)->has_slope;
     }
     return all;
 }
 
 void slopes_set(struct core *core, const struct editor_world *world, int how)
 {
-    const bool off = how == SLOPES_TOGGLE && all_sloped(core, core_active_spline(core, world));
+    const bool off = how == SLOPES_TOGGLE && all_sloped(core, world->document);
     const struct knot_change changes[] = {
         [SLOPES_TOGGLE] = {.label = off ? "Slope off" : "Slope on", .on = !off, .stiffness = 1},
         [SLOPES_FLAT] = {.label = "Slope flat", .on = true, .rule = flat, .stiffness = 1},

@@ -19,7 +19,7 @@ struct layout {
     float inspector_width;
 };
 
-/// Selected knots: one bit an id. Only knots of the active spline are ever selected.
+/// Selected knots of any spline, or splines: one bit an id.
 struct selection {
     uint64_t *bits;
     unsigned capacity; ///< ids
@@ -60,9 +60,16 @@ struct drag {
     bool stale; ///< the pointer moved since the edits were made
 };
 
-/// The knots that an edit moves, as they were before it, by sample.
+/// A knot as it was before the edit that moves it.
+struct original {
+    int spline;
+    struct knot knot;
+    double equilibrium; ///< at the knot; known while it is scaled
+};
+
+/// The knots that an edit moves, by spline and in each of them by sample.
 struct originals {
-    struct knot *knot;
+    struct original *list;
     int count, capacity;
 };
 
@@ -81,6 +88,7 @@ enum hover_kind {
     HOVER_PLAY,
     HOVER_LOOP,
     HOVER_SPEED,
+    HOVER_AUTO_KEY,
     HOVER_LIMIT,
     HOVER_POINT, ///< of a rig, that can be pinned
     HOVER_PIN,   ///< on the stage or the ruler
@@ -124,7 +132,7 @@ enum news {
     NEWS_ACTIVATES,  ///< a spline is about to become the active one
     NEWS_ACTIVATED,  ///< it is
     NEWS_DRAG_MOVES, ///< a drag is about to edit
-    NEWS_PULLED,     ///< a spline has got a knot at the playhead, pulled on the stage
+    NEWS_EDITED,     ///< a spline's knots were, or where it is -1, the selected ones; they are not solved yet
 };
 
 /// Who hears it: the editor, which passes it on to its panels.
@@ -223,6 +231,7 @@ struct core {
     struct pin_selection pin;
     struct brush brush;
     struct overlays overlays;
+    bool auto_key;     ///< a body that is dragged gets knots at the playhead, else the whole shot moves
     bool record_armed; ///< the next drag of a body is recorded from its start
     bool refit_stage;  ///< all of the stage is to be in sight
     bool refit_curves; ///< all curves are to be, once they are solved

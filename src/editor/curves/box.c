@@ -1,6 +1,7 @@
 /// Box selection: a drag that starts on empty space selects the knots inside.
 #include "editor/core/arrange.h"
 #include "editor/core/drag.h"
+#include "editor/core/picked.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
 #include "editor/curves/gestures.h"
@@ -23,26 +24,34 @@ static struct rect box_rect(const struct drag *drag)
                          fabsf(drag->y - drag->start_y)};
 }
 
-void box_update(const struct curves *curves, struct core *core, const struct editor_world *world)
+/// Selects or deselects what of one spline is in the box.
+static void take_inside(const struct curves *curves, struct core *core, const struct document *document, int s)
 {
-    const struct spline *spline = arrange_seen(core, world);
     const struct rect box = box_rect(&core->drag);
-    for (int k = 0; spline && k < spline->knot_count; k++) {
-        const struct knot *knot = &spline->knots[k];
-        bool inside = rect_contains(box, curves_knot_x(curves, core, world->document, knot),
-                                    curves_y(curves, core, knot->value));
-        bool before = selection_has(&curves->before_box, knot->id);
-        bool selected = curves->knot_drag.box == BOX_REPLACE ? inside
-                        : curves->knot_drag.box == BOX_ADD   ? before || inside
-                                                             : before && !inside;
-        selection_set(&core->selection, knot->id, selected);
+    for (int k = 0; k < document->splines[s].knot_count; k++) {
+        const struct knot *knot = &document->splines[s].knots[k];
+        const float x = curves_knot_x(curves, core, document, knot), y = curves_y_of(curves, core, s, knot->value);
+        if (rect_contains(box, x, y)) selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
     }
 }
 
-void box_end(struct curves *curves, struct core *core, bool keep)
+void box_update(const struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    selection_copy(&core->selection, &curves->before_box);
+    if (curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
+    if (arrange_seen(core, world)) take_inside(curves, core, document, core->active);
+    for (int i = 0; i < curves->cache.other_count; i++) {
+        const int other = curves->cache.other_spline[i];
+        if (other < document->spline_count) take_inside(curves, core, document, other);
+    }
+}
+
+void box_end(struct curves *curves, struct core *core, const struct editor_world *world, bool keep)
 {
     if (!keep) selection_copy(&core->selection, &curves->before_box);
     if (keep && !core->drag.moved && curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
+    if (keep) picked_settle(core, world);
 }
 
 void box_show(const struct curves *curves, struct core *core)

@@ -4,6 +4,7 @@
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/knots.h"
+#include "editor/core/picked.h"
 #include "editor/core/pins.h"
 #include "editor/core/playback.h"
 #include "editor/core/selection.h"
@@ -32,6 +33,7 @@ void curves_open(struct curves *curves)
 {
     curves->cache.key = 0;
     curves->cache.range_count = 0;
+    follow_stop(curves);
     curves->warnings = (struct warnings){0};
 }
 
@@ -47,7 +49,10 @@ void curves_forget(struct curves *curves)
     curves->cache.other_count = curves->cache.count = 0;
 }
 
-bool curves_wants_frames(const struct curves *curves) { return curves->warnings.search.running; }
+bool curves_wants_frames(const struct curves *curves)
+{
+    return curves->warnings.search.running || follow_moves(curves);
+}
 
 const char *curves_hint(const struct curves *curves, const struct core *core)
 {
@@ -156,10 +161,16 @@ static void press_knot(struct curves *curves, struct core *core, const struct ed
                        const struct hover *hover, const struct event *event)
 {
     unsigned id = hover->knot;
-    core_activate(core, world, hover->spline);
     bool selected = selection_has(&core->selection, id);
+    core_turn_to(core, world, hover->spline);
+    if (event->clicks == 2) {
+        const struct spline *spline = &world->document->splines[hover->spline];
+        playback_seek(core, world->document, spline->knots[spline_find_id(spline, id)].frame);
+        return;
+    }
     if (event->mods & MOD_SHIFT) {
         selection_set(&core->selection, id, !selected);
+        picked_settle(core, world);
         if (selected) return;
     } else if (!selected) {
         selection_clear(&core->selection);
@@ -182,7 +193,8 @@ static void press_empty(struct curves *curves, struct core *core, const struct e
         core_insert_knot(core, world, curves_frame(curves, core, event->x), value, drag_snaps(core, event->mods));
         return;
     }
-    if (hover->kind == HOVER_CURVE) core_activate(core, world, hover->spline);
+    const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
+    if (hover->kind == HOVER_CURVE && !keeps) core_activate(core, world, hover->spline);
     box_begin(curves, core, event);
 }
 

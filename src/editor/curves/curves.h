@@ -28,7 +28,7 @@ void curves_open(struct curves *curves);
 bool curves_reserve(struct curves *curves, const struct core *core);
 /// Splines have new indices: drops the polylines, which use them.
 void curves_forget(struct curves *curves);
-/// Whether a search for warnings goes on.
+/// Whether a search for warnings goes on, or the view moves.
 bool curves_wants_frames(const struct curves *curves);
 /// A sentence on what is being done, or NULL.
 const char *curves_hint(const struct curves *curves, const struct core *core);
@@ -53,9 +53,12 @@ void curves_toggle_normal(struct curves *curves, struct core *core, const struct
 void curves_activate(struct curves *curves, struct core *core, int spline);
 /// Fixes the first warning.
 void curves_remedy_first(struct curves *curves, struct core *core, const struct editor_world *world);
-/// Starts to scale the selected knots with the pointer, about the middle of the selection (P: about the
-/// equilibrium at the playhead).
-void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Starts to scale the selected knots with the pointer: about the middle of the selection, or their values about the
+/// equilibrium. P goes on to the next pivot.
+void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world, bool about_equilibrium);
+/// Moves the selected knots by frames, and by hundredths of the values in sight; repeated nudges are one undo step.
+void curves_nudge(const struct curves *curves, struct core *core, const struct editor_world *world, double frames,
+                  double hundredths);
 /// Frame to logical pixels, within a few thousand of the plot.
 float curves_x(const struct curves *curves, const struct core *core, double frame);
 /// Value to logical pixels, within a few thousand of the plot.
@@ -66,8 +69,12 @@ void curves_frame_all(struct curves *curves, struct core *core, const struct edi
 void curves_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Pans just far enough to show a frame and value.
 void curves_reveal(struct curves *curves, struct core *core, double frame, double value);
-/// Shows a spline's knot at the playhead, if there is one and it is out of sight: time pans, values get room for it and its curve.
-void curves_include(struct curves *curves, struct core *core, const struct editor_world *world, int spline);
+/// All of a spline's knots, or the selected ones (-1), have been edited: once they are solved they are to be in sight.
+void curves_follow(struct curves *curves, int spline);
+/// After the solve: where what was edited has left the panel, the view is to widen.
+void follow_edits(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Time passes: the view goes on to where it is to be.
+void curves_advance(struct curves *curves, struct core *core, double dt);
 /// Moves the view with the pointer, by logical pixels.
 void curves_pan(struct curves *curves, struct core *core, double dx, double dy);
 /// Zooms about a point of the panel; factors below 1 come closer.

@@ -126,9 +126,8 @@ static void show_handle(const struct curves *curves, struct core *core, const st
     }
 }
 
-static void show_diamond(struct drawlist *list, float x, float y, bool filled, uint32_t color)
+static void show_diamond(struct drawlist *list, float x, float y, float r, bool filled, uint32_t color)
 {
-    float r = KNOT_RADIUS;
     float xy[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
     drawlist_convex(list, xy, 4, filled ? color : theme()->panel);
     drawlist_line(list, xy, 5, 1.5f, filled ? theme()->playhead : color);
@@ -180,7 +179,7 @@ static void show_knot(const struct curves *curves, struct core *core, const stru
     float y = curves_y(curves, core, knot->value);
     if (knot->has_slope && selected) show_handle(curves, core, document, knot, color);
     if (knot->has_slope && !selected) show_tick(curves, core, document, knot, color);
-    show_diamond(&core->list, x, y, selected, color);
+    show_diamond(&core->list, x, y, KNOT_RADIUS, selected, color);
     if (core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id) {
         show_ring(&core->list, x, y, HOVER_RADIUS, 1.25f, theme()->playhead);
     }
@@ -203,22 +202,27 @@ static void show_knots(const struct curves *curves, struct core *core, const str
     }
 }
 
-/// Knots of the other curves, small: a click on one makes its spline the active one.
+/// Knots of the other curves, small unless they are selected: a click on one makes its spline the active one.
 static void show_other_knots(const struct curves *curves, struct core *core, const struct document *document, int s)
 {
     const struct spline *spline = &document->splines[s];
     const struct rect *plot = &core->layout.plot;
-    uint32_t color = theme_fade(arrange_color(document, s), THEME_OTHERS);
+    const uint32_t full = arrange_color(document, s), color = theme_fade(full, THEME_OTHERS);
     float last_x = -INFINITY;
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         bool hovered = core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
+        bool selected = selection_has(&core->selection, knot->id);
         float x = curves_knot_x(curves, core, document, knot);
         float y = curves_y_of(curves, core, s, knot->value);
-        if (x < plot->x || x > plot->x + plot->w || (x - last_x < 3 && !hovered)) continue;
+        if (x < plot->x || x > plot->x + plot->w || (x - last_x < 3 && !hovered && !selected)) continue;
         last_x = x;
         const float r = OTHER_RADIUS, xy[] = {x, y - r, x + r, y, x, y + r, x - r, y};
-        drawlist_convex(&core->list, xy, 4, color);
+        if (selected) {
+            show_diamond(&core->list, x, y, KNOT_RADIUS, true, full);
+        } else {
+            drawlist_convex(&core->list, xy, 4, color);
+        }
         if (hovered) show_ring(&core->list, x, y, HOVER_RADIUS, 1.25f, theme()->playhead);
     }
 }

@@ -5,7 +5,7 @@
 #include "editor/core/drag.h"
 #include "editor/curves/state.h"
 
-/// Starts to move the selected knots of the active spline; `knot` is the one under the pointer.
+/// Starts to move the selected knots; `knot` is the one under the pointer.
 void drag_begin_knots(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
                       const struct event *event);
 /// Starts to turn the slope of a knot by an end of its handle.
@@ -42,12 +42,12 @@ void scale_show(const struct curves *curves, struct core *core);
 enum drag_answer scale_event(struct curves *curves, struct core *core, const struct editor_world *world,
                              const struct event *event);
 
-/// Starts to select knots of the active spline by a box; Shift adds them, Ctrl or Alt removes them.
+/// Starts to select knots of the drawn curves by a box; Shift adds them, Ctrl or Alt removes them.
 void box_begin(struct curves *curves, struct core *core, const struct event *event);
 /// Selects what is in the box as it is now.
 void box_update(const struct curves *curves, struct core *core, const struct editor_world *world);
 /// Ends it: a press that did not move was a click on empty; `keep` false brings the former selection back.
-void box_end(struct curves *curves, struct core *core, bool keep);
+void box_end(struct curves *curves, struct core *core, const struct editor_world *world, bool keep);
 /// The box while it grows.
 void box_show(const struct curves *curves, struct core *core);
 

@@ -1,6 +1,7 @@
 /// Drags of knots and of their slopes: edits made anew from the originals at every step. With ripple the later knots move along.
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
+#include "editor/core/picked.h"
 #include "editor/core/playback.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
@@ -13,61 +14,61 @@
 static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
 static const double LENGTH_SLACK = 8; ///< pixels by which a handle may be pulled before it says more than a slope
 
-/// Whether a knot, as it was before the drag, moves with it.
-static bool moves_along(const struct curves *curves, const struct core *core, const struct knot *knot)
-{
-    const struct knot_drag *drag = &curves->knot_drag;
-    return selection_has(&core->selection, knot->id) || (drag->ripple && knot->frame >= drag->ripple_from);
-}
-
 /// Copies all knots that move: the edits of the drag start from them.
-static void collect(struct curves *curves, struct core *core, const struct spline *spline)
+static void collect(const struct curves *curves, struct core *core, const struct document *document)
 {
-    struct originals *originals = &core->originals;
-    originals->count = 0;
-    for (int k = 0; k < spline->knot_count && originals->count < originals->capacity; k++) {
-        if (moves_along(curves, core, &spline->knots[k])) originals->knot[originals->count++] = spline->knots[k];
-    }
-    core->drag.label = originals->count == 1 ? "Move knot" : "Move knots";
+    core_collect(core, document, curves->knot_drag.ripple);
+    core->drag.label = core->originals.count == 1 ? "Move knot" : "Move knots";
 }
 
 /// R: the later knots keep their distances to the dragged ones.
 static void toggle_ripple(struct curves *curves, struct core *core, const struct editor_world *world)
 {
     struct knot_drag *drag = &curves->knot_drag;
-    const struct spline *spline = core_active_spline(core, world);
-    assert(spline && core->originals.count > 0);
     if (core->drag.moved) history_restart(world->history, world->document);
     drag->ripple = !drag->ripple;
-    drag->ripple_from = core->originals.knot[0].frame;
     drag->free_frames = 0;
     core->drag.stale = true;
-    collect(curves, core, spline);
+    collect(curves, core, world->document);
     core_message(core, false,
                  drag->ripple ? "Ripple on: later knots move too (R turns it off)."
                               : "Ripple off: later knots stay.");
 }
 
-/// The furthest shift to the left, in frames: to the first frame, or with ripple to just after the knot that stays.
-static double least_frames(const struct curves *curves, const struct core *core, const struct document *document,
-                           const struct spline *spline)
+/// The furthest shift of the first original of a spline to the left, in frames: to the first frame, or with ripple to just after
+/// the knot that stays.
+static double least_frames(const struct curves *curves, const struct document *document, const struct original *first)
 {
-    const struct knot *first = &core->originals.knot[0];
-    int sample = document_sample(document, first->frame);
+    const struct spline *spline = &document->splines[first->spline];
+    int sample = document_sample(document, first->knot.frame);
     int before = spline_lower_bound(document, spline, sample) - 1;
-    if (!curves->knot_drag.ripple || before < 0) return document->first_frame - first->frame;
+    if (!curves->knot_drag.ripple || before < 0) return document->first_frame - first->knot.frame;
     int least = document_sample(document, spline->knots[before].frame) + 1;
     return document_frame(document, least) - document_frame(document, sample);
+}
+
+/// The shifts, in frames, by which all originals stay inside the range.
+static void shift_limits(const struct curves *curves, const struct originals *originals,
+                         const struct document *document, double *least, double *most)
+{
+    *least = -INFINITY;
+    *most = INFINITY;
+    for (int i = 0; i < originals->count; i++) {
+        const struct original *original = &originals->list[i];
+        const struct spline *spline = &document->splines[original->spline];
+        const bool is_first = i == 0 || originals->list[i - 1].spline != original->spline;
+        const double end = document_frame(document, document_last_knot_sample(document, spline));
+        if (is_first) *least = fmax(*least, least_frames(curves, document, original));
+        *most = fmin(*most, end - original->knot.frame);
+    }
 }
 
 void drag_begin_knots(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
                       const struct event *event)
 {
-    const struct spline *spline = core_active_spline(core, world);
-    assert(spline);
     drag_begin(core, DRAG_KNOTS, NULL, event);
     curves->knot_drag = (struct knot_drag){.knot = knot};
-    collect(curves, core, spline);
+    collect(curves, core, world->document);
 }
 
 void drag_begin_slope(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
@@ -77,59 +78,52 @@ void drag_begin_slope(struct curves *curves, struct core *core, const struct edi
     assert(spline && core->originals.capacity > 0);
     drag_begin(core, DRAG_SLOPE, "Change slope", event);
     curves->knot_drag = (struct knot_drag){.knot = knot, .handle = handle};
-    core->originals.knot[0] = spline->knots[spline_find_id(spline, knot)];
+    core->originals.list[0] =
+        (struct original){.spline = core->active, .knot = spline->knots[spline_find_id(spline, knot)]};
     core->originals.count = 1;
 }
 
 /// The shift in frames that the pointer asks for: whole frames for the knot that is held, inside the range for all.
-static double wanted_frames(const struct curves *curves, struct core *core, const struct document *document,
-                            const struct spline *spline)
+static double wanted_frames(const struct curves *curves, struct core *core, const struct document *document)
 {
     const struct drag *drag = &core->drag;
     const struct originals *originals = &core->originals;
     if (drag->lock_y) return 0;
-    double frames = drag->moved_x / curves_pixels_per_frame(curves, core);
-    const struct knot *first = &originals->knot[0], *last = &originals->knot[originals->count - 1], *held = first;
-    for (int k = 0; k < originals->count; k++) {
-        if (originals->knot[k].id == curves->knot_drag.knot) held = &originals->knot[k];
+    double frames = drag->moved_x / curves_pixels_per_frame(curves, core), least, most;
+    const struct original *held = &originals->list[0];
+    for (int i = 0; i < originals->count; i++) {
+        if (originals->list[i].knot.id == curves->knot_drag.knot) held = &originals->list[i];
     }
-    if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->frame + frames) - held->frame;
-    double end = document_frame(document, document_last_knot_sample(document, spline));
-    double most = end - last->frame, least = least_frames(curves, core, document, spline);
+    if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->knot.frame + frames) - held->knot.frame;
+    shift_limits(curves, originals, document, &least, &most);
     if (curves->knot_drag.ripple && frames > most) {
         core_message(core, false, "The last knot has reached the end of the range. Extend the range to make room.");
     }
     return fmax(fmin(frames, most), least);
 }
 
-/// Whether no knot that stays is on a sample to which one would move.
-static bool is_free(const struct curves *curves, const struct core *core, const struct document *document,
-                    const struct spline *spline, double frames)
+/// The value of a knot that is moved by `up` on the screen, in values of the active spline; within its spline's limits.
+static double moved_value(const struct curves *curves, const struct core *core, const struct document *document,
+                          const struct original *original, double up)
 {
-    for (int k = 0; k < core->originals.count; k++) {
-        int at =
-            spline_find_knot(document, spline, document_sample(document, core->originals.knot[k].frame + frames));
-        if (at >= 0 && !moves_along(curves, core, &spline->knots[at])) return false;
-    }
-    return true;
+    const struct spline *spline = &document->splines[original->spline];
+    const double scale = normal_map(curves, core, original->spline).scale;
+    const double resolution = 0.01 / curves_pixels_per_value(curves, core) / scale;
+    const double moved = core_round(original->knot.value + up / scale, resolution);
+    return fmin(fmax(moved, spline->parameter[PARAMETER_LOW].value), spline->parameter[PARAMETER_HIGH].value);
 }
 
 /// Moves all originals; from the far end on, so that they do not run into each other.
 static bool move_knots(const struct curves *curves, const struct core *core, const struct editor_world *world,
-                       double frames, double value)
+                       double frames, double up)
 {
-    const struct spline *spline = core_active_spline(core, world);
-    double resolution = 0.01 / curves_pixels_per_value(curves, core);
     for (int i = 0; i < core->originals.count; i++) {
-        const struct knot *original = &core->originals.knot[frames > 0 ? core->originals.count - 1 - i : i];
-        struct edit edit = core_edit_of(EDIT_KNOT_SET, core->active);
-        edit.knot = *original;
+        const struct original *original = &core->originals.list[frames > 0 ? core->originals.count - 1 - i : i];
+        struct edit edit = core_edit_of(EDIT_KNOT_SET, original->spline);
+        edit.knot = original->knot;
         edit.knot.frame += frames;
-        if (value != 0 && selection_has(&core->selection, original->id)) {
-            const double moved = core_round(original->value + value, resolution);
-            edit.knot.value =
-                fmin(fmax(moved, spline->parameter[PARAMETER_LOW].value), spline->parameter[PARAMETER_HIGH].value);
-        }
+        if (up != 0 && selection_has(&core->selection, original->knot.id))
+            edit.knot.value = moved_value(curves, core, world->document, original, up);
         if (!history_apply(world->history, world->document, &edit, NULL)) return false;
     }
     return true;
@@ -137,17 +131,17 @@ static bool move_knots(const struct curves *curves, const struct core *core, con
 
 static void apply_knots(struct curves *curves, struct core *core, const struct editor_world *world)
 {
-    struct drag *drag = &core->drag;
-    const struct spline *spline = core_active_spline(core, world);
+    const struct drag *drag = &core->drag;
     history_restart(world->history, world->document);
-    if (!spline || core->originals.count == 0) return;
-    double frames = wanted_frames(curves, core, world->document, spline);
-    double value = drag->lock_x ? 0 : -drag->moved_y / curves_pixels_per_value(curves, core);
-    if (!is_free(curves, core, world->document, spline, frames)) frames = curves->knot_drag.free_frames;
-    if (!move_knots(curves, core, world, frames, value)) {
+    if (core->originals.count == 0) return;
+    double frames = wanted_frames(curves, core, world->document);
+    double up = drag->lock_x ? 0 : -drag->moved_y / curves_pixels_per_value(curves, core);
+    if (originals_room(core, world->document, retime_shift, &frames, NULL) != ROOM_FREE)
+        frames = curves->knot_drag.free_frames;
+    if (!move_knots(curves, core, world, frames, up)) {
         history_restart(world->history, world->document);
         frames = curves->knot_drag.free_frames;
-        move_knots(curves, core, world, frames, value);
+        move_knots(curves, core, world, frames, up);
     }
     curves->knot_drag.free_frames = frames;
 }
@@ -156,7 +150,7 @@ static void apply_knots(struct curves *curves, struct core *core, const struct e
 static void apply_slope(const struct curves *curves, struct core *core, const struct editor_world *world)
 {
     const struct drag *drag = &core->drag;
-    const struct knot *knot = &core->originals.knot[0];
+    const struct knot *knot = &core->originals.list[0].knot;
     float end[2];
     curves_handle(curves, core, world->document, knot, curves->knot_drag.handle, end);
     double x = curves_knot_x(curves, core, world->document, knot);
@@ -221,8 +215,10 @@ enum drag_answer curves_drag_event(struct curves *curves, struct core *core, con
 void curves_drag_end(struct curves *curves, struct core *core, const struct editor_world *world, bool keep)
 {
     const struct drag *drag = &core->drag;
+    const bool edits = drag->kind == DRAG_KNOTS || drag->kind == DRAG_SLOPE || drag->kind == DRAG_SCALE;
     if (keep) curves_drag_apply(curves, core, world);
+    if (keep && edits && drag->moved) curves_follow(curves, -1);
     if (drag->kind == DRAG_KNOTS && !drag->moved && keep) end_click(curves, core);
     if (drag->kind == DRAG_RANGE) range_end(core, keep);
-    if (drag->kind == DRAG_BOX) box_end(curves, core, keep);
+    if (drag->kind == DRAG_BOX) box_end(curves, core, world, keep);
 }

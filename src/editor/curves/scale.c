@@ -1,10 +1,11 @@
 /// Scaling the selected knots in time and value: S, then the pointer or a typed factor; one undo step.
 ///
 /// A knot (t, v) goes to (p + a·(t − p), q + b·(v − q)) about the pivot (p, q), its slope to slope·b/a, so that the shape
-/// between the knots scales with them.
+/// between the knots scales with them. About the equilibrium, q is the equilibrium of the knot's own spline at the knot: what
+/// swings about it swings b times as far.
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "editor/core/selection.h"
+#include "editor/core/picked.h"
 #include "editor/curves/curves.h"
 #include "editor/curves/gestures.h"
 #include "editor/curves/view.h"
@@ -18,60 +19,86 @@ static const double LEAST_REACH = 40; ///< pixels from the pivot that count as f
 static const double SLOPE_RESOLUTION = 1e-6; ///< of the visible values, a second
 static const double MOST = 1e4;              ///< factor
 
-/// Factors of time and value.
-struct factors {
-    double time, value;
-};
+/// The edges of the selection: lowest and highest frame, and value as it is drawn.
+static void measure(const struct curves *curves, const struct core *core, double frames[2], double values[2])
+{
+    frames[0] = values[0] = INFINITY;
+    frames[1] = values[1] = -INFINITY;
+    for (int i = 0; i < core->originals.count; i++) {
+        const struct original *original = &core->originals.list[i];
+        const struct value_map map = normal_map(curves, core, original->spline);
+        const double value = map.scale * original->knot.value + map.offset;
+        frames[0] = fmin(frames[0], original->knot.frame);
+        frames[1] = fmax(frames[1], original->knot.frame);
+        values[0] = fmin(values[0], value);
+        values[1] = fmax(values[1], value);
+    }
+}
 
-static void place_pivot(struct curves *curves, const struct core *core, const struct editor_world *world)
+/// Keeps the equilibria as they are before any edit.
+static void note_equilibria(struct curves *curves, struct core *core, const struct editor_world *world)
 {
     struct scaling *scaling = &curves->scaling;
-    const struct document *document = world->document;
-    if (scaling->about_playhead) {
-        double position = round(core->playback.position);
-        scaling->frame = document_frame(document, (int)position);
-        scaling->value = evaluation_at(world->evaluation, core->active, position).y;
-        return;
+    const struct evaluation *evaluation = world->evaluation;
+    double frames[2], values[2];
+    measure(curves, core, frames, values);
+    for (int i = 0; i < core->originals.count; i++) {
+        struct original *original = &core->originals.list[i];
+        const int sample = document_sample(world->document, original->knot.frame);
+        original->equilibrium = evaluation_at(evaluation, original->spline, sample).y;
     }
-    double low = INFINITY, high = -INFINITY;
-    for (int k = 0; k < core->originals.count; k++) {
-        low = fmin(low, core->originals.knot[k].value);
-        high = fmax(high, core->originals.knot[k].value);
-    }
-    scaling->frame = (core->originals.knot[0].frame + core->originals.knot[core->originals.count - 1].frame) / 2;
-    scaling->value = (low + high) / 2;
+    const double position = round(core->playback.position), middle = (frames[0] + frames[1]) / 2;
+    scaling->playhead[0] = document_frame(world->document, (int)position);
+    scaling->playhead[1] = evaluation_at(evaluation, core->active, position).y;
+    scaling->balance[0] = middle;
+    scaling->balance[1] = evaluation_at(evaluation, core->active, core_position(world->document, middle)).y;
 }
 
-static void say(struct curves *curves, const struct core *core, struct factors by)
+static void place_pivot(struct curves *curves, const struct core *core)
 {
-    const struct scaling *scaling = &curves->scaling;
+    struct scaling *scaling = &curves->scaling;
+    double frames[2], values[2];
+    measure(curves, core, frames, values);
+    const double middle[2] = {(frames[0] + frames[1]) / 2, (values[0] + values[1]) / 2};
+    const double *const places[PIVOTS] = {middle, scaling->playhead, scaling->balance};
+    scaling->frame = places[scaling->pivot][0];
+    scaling->value = places[scaling->pivot][1];
+}
+
+static enum pivot next_pivot(const struct scaling *scaling) { return (scaling->pivot + 1) % PIVOTS; }
+
+static void say(struct curves *curves, const struct core *core)
+{
+    static const char *const pivots[PIVOTS] = {"middle", "playhead", "equilibrium"};
+    struct scaling *scaling = &curves->scaling;
     const struct drag *drag = &core->drag;
-    char factor[48];
-    snprintf(factor, sizeof factor, "%.3g", drag->lock_y ? by.value : by.time);
-    if (scaling->typed[0]) snprintf(factor, sizeof factor, "%s_", scaling->typed);
-    const char *axis = drag->lock_x ? " time" : drag->lock_y ? " value" : "";
-    const char *pivots[] = {"middle", "playhead"};
-    snprintf(curves->scaling.sentence, sizeof scaling->sentence,
-             "Scale%s by %s about the %s (P: the %s).  X, Y;  Enter, Esc", axis, factor,
-             pivots[scaling->about_playhead], pivots[!scaling->about_playhead]);
+    char time[96] = "", value[96] = "";
+    if (!drag->lock_y) snprintf(time, sizeof time, "time × %.3g%s", scaling->by.time, scaling->stopped[0]);
+    if (!drag->lock_x) snprintf(value, sizeof value, "value × %.3g%s", scaling->by.value, scaling->stopped[1]);
+    snprintf(scaling->sentence, sizeof scaling->sentence,
+             "%s%sScale %s%s%s about the %s.  P: the %s;  X, Y;  Enter, Esc", scaling->typed,
+             scaling->typed[0] ? "_   " : "", time, *time && *value ? ", " : "", value, pivots[scaling->pivot],
+             pivots[next_pivot(scaling)]);
 }
 
-void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world)
+void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world, bool about_equilibrium)
 {
-    const struct spline *spline = core_active_spline(core, world);
-    int count = selection_count(&core->selection, spline);
-    if (count == 0) {
+    core_collect(core, world->document, false);
+    if (core->originals.count == 0) {
         core_message(core, false, "Select the knots to scale first.");
         return;
     }
     const struct event event = {.button = BUTTON_LEFT, .x = core->pointer_x, .y = core->pointer_y};
     drag_begin(core, DRAG_SCALE, "Scale knots", &event);
-    core_collect(core, spline);
-    curves->scaling = (struct scaling){.about_playhead = count == 1, .free_time = 1};
+    core->drag.lock_y = about_equilibrium;
+    const enum pivot pivot = core->originals.count == 1 ? PIVOT_PLAYHEAD : PIVOT_MIDDLE;
+    curves->scaling =
+        (struct scaling){.pivot = about_equilibrium ? PIVOT_EQUILIBRIUM : pivot, .by = {1, 1}, .free_time = 1};
     core->message.text[0] = 0;
     core->hover = (struct hover){.kind = HOVER_NONE};
-    place_pivot(curves, core, world);
-    say(curves, core, (struct factors){1, 1});
+    note_equilibria(curves, core, world);
+    place_pivot(curves, core);
+    say(curves, core);
 }
 
 /// How many times further from the pivot the pointer is than when scaling began, along one axis.
@@ -84,6 +111,18 @@ static double along(double pivot, double start, double now)
 
 static double clamped(double factor) { return fmin(fmax(factor, -MOST), MOST); }
 
+/// Takes typed factors over: one for both axes, or one for time and one for value.
+static void read_typed(const char *typed, struct factors *by)
+{
+    char *end;
+    double first = strtod(typed, &end);
+    if (end == typed) return;
+    *by = (struct factors){first, first};
+    const char *rest = end;
+    double second = strtod(rest, &end);
+    if (end != rest) by->value = second;
+}
+
 static struct factors wanted(const struct curves *curves, const struct core *core)
 {
     const struct drag *drag = &core->drag;
@@ -94,79 +133,103 @@ static struct factors wanted(const struct curves *curves, const struct core *cor
     double factor = 1 + (hypot(to_x - x, to_y - y) - hypot(drag->start_x - x, drag->start_y - y)) / before;
     if (drag->lock_x) factor = along(x, drag->start_x, to_x);
     if (drag->lock_y) factor = along(y, drag->start_y, to_y);
-    char *end;
-    double typed = strtod(scaling->typed, &end);
-    if (end != scaling->typed) factor = typed;
-    factor = clamped(factor);
-    return (struct factors){drag->lock_y ? 1 : factor, drag->lock_x ? 1 : factor};
+    struct factors by = {factor, factor};
+    read_typed(scaling->typed, &by);
+    return (struct factors){drag->lock_y ? 1 : clamped(by.time), drag->lock_x ? 1 : clamped(by.value)};
 }
 
-static double scaled_frame(const struct curves *curves, const struct core *core, const struct knot *knot,
-                           double factor)
+/// What a new frame follows from.
+struct retiming {
+    const struct curves *curves;
+    const struct core *core;
+    double factor;
+};
+
+static double scaled_frame(const void *how, const struct original *original)
 {
-    double frame = curves->scaling.frame + factor * (knot->frame - curves->scaling.frame);
-    if (factor == 1) return knot->frame;
-    return core->drag.snap ? round(frame) : frame;
+    const struct retiming *retiming = how;
+    const double pivot = retiming->curves->scaling.frame, before = original->knot.frame;
+    const double frame = pivot + retiming->factor * (before - pivot);
+    if (retiming->factor == 1) return before;
+    return retiming->core->drag.snap ? round(frame) : frame;
 }
 
-/// Whether by that factor all knots stay inside the range, apart, and off the knots that are not scaled.
-static bool is_free(const struct curves *curves, const struct core *core, const struct document *document,
-                    const struct spline *spline, double factor)
+/// The factor of time, or the last one by which all knots found room, and why.
+static double free_time(struct curves *curves, const struct core *core, const struct document *document,
+                        double factor)
 {
-    int last = document_last_knot_sample(document, spline), before = 0;
-    for (int k = 0; k < core->originals.count; k++) {
-        int sample = document_sample(document, scaled_frame(curves, core, &core->originals.knot[k], factor));
-        int at = spline_find_knot(document, spline, sample);
-        bool apart = k == 0 || (factor > 0 ? sample > before : sample < before);
-        if (sample < 0 || sample > last || !apart) return false;
-        if (at >= 0 && !selection_has(&core->selection, spline->knots[at].id)) return false;
-        before = sample;
-    }
-    return true;
+    struct scaling *scaling = &curves->scaling;
+    const struct retiming retiming = {curves, core, factor};
+    double frame = 0;
+    const enum room room = originals_room(core, document, scaled_frame, &retiming, &frame);
+    scaling->stopped[0][0] = 0;
+    if (room == ROOM_FREE) return scaling->free_time = factor;
+    snprintf(scaling->stopped[0], sizeof scaling->stopped[0],
+             room == ROOM_OUTSIDE ? " (a knot would leave the range)" : " (a knot would land on another on frame %g)",
+             frame);
+    return scaling->free_time;
 }
 
-static struct knot scaled(const struct curves *curves, const struct core *core, const struct knot *knot,
-                          struct factors by)
+/// A value scaled about the pivot, inside its spline's limits; `held` is set where one of these held it.
+static double scaled_value(const struct curves *curves, const struct core *core, const struct document *document,
+                           const struct original *original, double factor, double *held)
 {
-    struct knot to = *knot;
+    const struct scaling *scaling = &curves->scaling;
+    const struct param *parameter = document->splines[original->spline].parameter;
+    const struct value_map map = normal_map(curves, core, original->spline);
+    const double drawn = (scaling->value - map.offset) / map.scale;
+    const double pivot = scaling->pivot == PIVOT_EQUILIBRIUM ? original->equilibrium : drawn;
+    const double resolution = 0.01 / curves_pixels_per_value(curves, core) / map.scale;
+    const double value = core_round(pivot + factor * (original->knot.value - pivot), resolution);
+    const double inside = fmin(fmax(value, parameter[PARAMETER_LOW].value), parameter[PARAMETER_HIGH].value);
+    if (inside != value) *held = inside;
+    return inside;
+}
+
+static struct knot scaled(struct curves *curves, const struct core *core, const struct document *document,
+                          const struct original *original, double *held)
+{
+    const struct factors by = curves->scaling.by;
+    const struct retiming retiming = {curves, core, by.time};
+    struct knot to = original->knot;
     double visible = curves->view.value1 - curves->view.value0, steeper = by.value / by.time;
-    to.frame = scaled_frame(curves, core, knot, by.time);
-    if (by.value != 1) {
-        double value = curves->scaling.value + by.value * (knot->value - curves->scaling.value);
-        to.value = core_round(value, 0.01 / curves_pixels_per_value(curves, core));
-    }
-    if (steeper != 1) to.slope = core_round(knot->slope * steeper, SLOPE_RESOLUTION * visible);
+    to.frame = scaled_frame(&retiming, original);
+    if (by.value != 1) to.value = scaled_value(curves, core, document, original, by.value, held);
+    if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, SLOPE_RESOLUTION * visible);
     return to;
 }
 
 /// Takes the knots out and puts them in anew, so that they do not run into each other, whatever their order becomes.
-static void move_all(const struct curves *curves, struct core *core, const struct editor_world *world,
-                     struct factors by)
+static void move_all(struct curves *curves, struct core *core, const struct editor_world *world)
 {
-    for (int k = 0; k < core->originals.count && by.time != 1; k++) {
-        struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, core->active);
-        edit.knot = core->originals.knot[k];
+    struct scaling *scaling = &curves->scaling;
+    const struct originals *originals = &core->originals;
+    const bool moves = scaling->by.time != 1;
+    double held = NAN;
+    for (int i = 0; i < originals->count && moves; i++) {
+        struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, originals->list[i].spline);
+        edit.knot = originals->list[i].knot;
         core_edit(core, world, &edit);
     }
-    for (int k = 0; k < core->originals.count; k++) {
-        struct edit edit = core_edit_of(by.time != 1 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, core->active);
-        edit.knot = scaled(curves, core, &core->originals.knot[k], by);
+    for (int i = 0; i < originals->count; i++) {
+        struct edit edit = core_edit_of(moves ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, originals->list[i].spline);
+        edit.knot = scaled(curves, core, world->document, &originals->list[i], &held);
         if (core_edit(core, world, &edit)) continue;
         history_restart(world->history, world->document);
         return;
     }
+    scaling->stopped[1][0] = 0;
+    if (!isnan(held)) snprintf(scaling->stopped[1], sizeof scaling->stopped[1], " (held by the limit %.4g)", held);
 }
 
 void scale_apply(struct curves *curves, struct core *core, const struct editor_world *world)
 {
-    const struct spline *spline = core_active_spline(core, world);
+    struct scaling *scaling = &curves->scaling;
     history_restart(world->history, world->document);
-    if (!spline) return;
-    struct factors by = wanted(curves, core);
-    if (!is_free(curves, core, world->document, spline, by.time)) by.time = curves->scaling.free_time;
-    curves->scaling.free_time = by.time;
-    move_all(curves, core, world, by);
-    say(curves, core, by);
+    scaling->by = wanted(curves, core);
+    scaling->by.time = free_time(curves, core, world->document, scaling->by.time);
+    move_all(curves, core, world);
+    say(curves, core);
 }
 
 void scale_show(const struct curves *curves, struct core *core)
@@ -181,13 +244,15 @@ void scale_show(const struct curves *curves, struct core *core)
     if (!core->drag.lock_x) drawlist_line(&core->list, down, 2, 1.5f, theme()->playhead);
 }
 
-/// Digits, sign and point of a factor; by what is typed, because layouts have them on different keys.
+/// Digits, sign and point of a factor, and the space before a second one; by what is typed, because layouts have them on different keys.
 static bool type(struct scaling *scaling, uint32_t c)
 {
     size_t length = strlen(scaling->typed);
-    bool digit = c >= '0' && c <= '9', sign = c == '-' && length == 0;
-    bool point = (c == '.' || c == ',') && !strchr(scaling->typed, '.');
-    if (!(digit || sign || point) || length + 1 >= sizeof scaling->typed) return false;
+    bool digit = c >= '0' && c <= '9';
+    const char *space = strchr(scaling->typed, ' '), *number = space ? space + 1 : scaling->typed;
+    bool sign = c == '-' && !*number, point = (c == '.' || c == ',') && !strchr(number, '.');
+    bool next = c == ' ' && !space && *number;
+    if (!(digit || sign || point || next) || length + 1 >= sizeof scaling->typed) return false;
     scaling->typed[length] = (char)(c == ',' ? '.' : c);
     scaling->typed[length + 1] = 0;
     return true;
@@ -214,8 +279,8 @@ static enum drag_answer press_key(struct curves *curves, struct core *core, cons
     if (event->key == KEY_ENTER) return DRAG_KEEP;
     if (event->key == 'P') {
         if (core->drag.moved) history_restart(world->history, world->document);
-        scaling->about_playhead = !scaling->about_playhead;
-        place_pivot(curves, core, world);
+        scaling->pivot = next_pivot(scaling);
+        place_pivot(curves, core);
     } else if (event->key == KEY_BACKSPACE) {
         erase(scaling);
     } else if (!drag_lock(&core->drag, event->key)) {

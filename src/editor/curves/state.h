@@ -29,6 +29,17 @@ struct view {
     double value0, value1; ///< at its bottom and top edge
 };
 
+enum { CURVES_MAX_FOLLOWED = 8 };
+
+/// The view on its way to what was edited.
+struct following {
+    bool moves;
+    struct view goal;
+    bool selection; ///< the selected knots were edited since the last picture
+    int count;      ///< and all knots of these splines
+    int spline[CURVES_MAX_FOLLOWED];
+};
+
 /// What a box does with the knots in it.
 enum box_mode { BOX_REPLACE, BOX_ADD, BOX_REMOVE };
 
@@ -39,8 +50,7 @@ struct knot_drag {
     int handle;         ///< DRAG_SLOPE: which end, as in curves_handle()
     bool collapse;      ///< a click on a selected knot selects it alone, a drag moves all
     enum box_mode box;  ///< DRAG_BOX
-    bool ripple;        ///< DRAG_KNOTS: what comes after the first moved knot moves along in time
-    double ripple_from; ///< frame of that knot, before
+    bool ripple;        ///< DRAG_KNOTS: what comes after the first moved knot of a spline moves along in time
 };
 
 /// A drag of a limit.
@@ -56,12 +66,23 @@ struct pin_time_drag {
     double free_frame; ///< the last on which its point had no other pin
 };
 
+/// What knots are scaled about: the middle of the selection; the equilibrium at the playhead; the equilibrium at each knot.
+enum pivot { PIVOT_MIDDLE, PIVOT_PLAYHEAD, PIVOT_EQUILIBRIUM, PIVOTS };
+
+/// Factors of time and value.
+struct factors {
+    double time, value;
+};
+
 /// Scaling of the selected knots (DRAG_SCALE), about a frame and a value.
 struct scaling {
-    bool about_playhead; ///< else about the middle of the selection
-    double frame, value; ///< the pivot
+    enum pivot pivot;
+    double frame, value;            ///< of the pivot; of PIVOT_EQUILIBRIUM, from where the pointer's way is measured
+    double playhead[2], balance[2]; ///< frame and value: of the playhead's pivot; of the equilibrium in the middle
+    struct factors by;
     double free_time;    ///< last factor by which no knot was hit
-    char typed[16];      ///< a factor in place of the pointer's
+    char typed[16];      ///< one factor or, with a space between them, two in place of the pointer's
+    char stopped[2][64]; ///< why time, and value, go no further, or ""
     char sentence[256];
 };
 
@@ -125,6 +146,7 @@ struct ghost {
 
 struct curves {
     struct view view;
+    struct following following;
     struct curve_options options;
     struct selection before_box; ///< the selection when a box was begun
     struct knot_drag knot_drag;

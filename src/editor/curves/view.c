@@ -1,7 +1,7 @@
 /// What part of time and value the curves panel shows.
 #include "editor/curves/view.h"
 #include "editor/core/core.h"
-#include "editor/core/selection.h"
+#include "editor/core/picked.h"
 #include "editor/curves/curves.h"
 #include <math.h>
 
@@ -66,6 +66,12 @@ static void keep_sane(struct curves *curves, struct core *core)
     core->visible = view->value1 - view->value0;
 }
 
+void view_set(struct curves *curves, struct core *core, struct view view)
+{
+    curves->view = view;
+    keep_sane(curves, core);
+}
+
 static void include_value(double range[2], double value)
 {
     if (!isfinite(value)) return;
@@ -89,6 +95,7 @@ static void show_values(struct view *view, const double range[2])
 
 void curves_frame_all(struct curves *curves, struct core *core, const struct editor_world *world)
 {
+    follow_stop(curves);
     const struct document *document = world->document;
     const struct evaluation *evaluation = world->evaluation;
     double range[2] = {INFINITY, -INFINITY};
@@ -109,27 +116,40 @@ void curves_frame_all(struct curves *curves, struct core *core, const struct edi
     keep_sane(curves, core);
 }
 
+/// Widens a range to what a curve does in the frames that are in sight.
+static void include_part(const struct curves *curves, const struct core *core, const struct editor_world *world,
+                         int spline, double range[2])
+{
+    enum { COLUMNS = 200 };
+    const struct value_map map = normal_map(curves, core, spline);
+    for (int column = 0; column <= COLUMNS; column++) {
+        double frame = curves->view.frame0 + (curves->view.frame1 - curves->view.frame0) * column / COLUMNS;
+        wiggly_value v = evaluation_at(world->evaluation, spline, core_position(world->document, frame));
+        include_value(range, map.scale * (v.y + v.re) + map.offset);
+    }
+}
+
 void curves_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world)
 {
-    const struct spline *spline = core_active_spline(core, world);
+    const struct document *document = world->document;
     double values[2] = {INFINITY, -INFINITY};
     double frames[2] = {INFINITY, -INFINITY};
-    for (int k = 0; spline && k < spline->knot_count; k++) {
-        if (!selection_has(&core->selection, spline->knots[k].id)) continue;
-        include_value(values, spline->knots[k].value);
-        include_value(frames, spline->knots[k].frame);
+    for (struct knot_place at = PICKED_START; picked_next(core, document, &at);) {
+        const struct value_map map = normal_map(curves, core, at.spline);
+        include_value(values, map.scale * knot_at(document, at)->value + map.offset);
+        include_value(frames, knot_at(document, at)->frame);
     }
     if (frames[0] > frames[1]) {
         curves_frame_all(curves, core, world);
         return;
     }
     double margin = fmax(0.25 * (frames[1] - frames[0]), 6);
+    follow_stop(curves);
     curves->view.frame0 = frames[0] - margin;
     curves->view.frame1 = frames[1] + margin;
-    for (int column = 0; column <= 200; column++) {
-        double frame = curves->view.frame0 + (curves->view.frame1 - curves->view.frame0) * column / 200;
-        wiggly_value v = evaluation_at(world->evaluation, core->active, core_position(world->document, frame));
-        include_value(values, v.y + v.re);
+    int seen = -1;
+    for (struct knot_place at = PICKED_START; picked_next(core, document, &at); seen = at.spline) {
+        if (at.spline != seen) include_part(curves, core, world, at.spline, values);
     }
     show_values(&curves->view, values);
     keep_sane(curves, core);
@@ -137,6 +157,7 @@ void curves_frame_selection(struct curves *curves, struct core *core, const stru
 
 void curves_reveal(struct curves *curves, struct core *core, double frame, double value)
 {
+    follow_stop(curves);
     struct view *view = &curves->view;
     double frames = 0.05 * (view->frame1 - view->frame0);
     double values = 0.05 * (view->value1 - view->value0);
@@ -149,39 +170,9 @@ void curves_reveal(struct curves *curves, struct core *core, double frame, doubl
     keep_sane(curves, core);
 }
 
-/// Widens a range to all of a solved curve, as it is drawn.
-static void include_curve(const struct editor_world *world, int spline, struct value_map map, double range[2])
-{
-    const struct evaluation *evaluation = world->evaluation;
-    if (!evaluation || spline >= evaluation->count || evaluation->samples == 0) return;
-    for (int highest = 0; highest < 2; highest++) {
-        const int sample = evaluation_extreme(evaluation, spline, 0, evaluation->samples - 1, highest);
-        include_value(range, map.scale * evaluation->curves[spline].total[sample] + map.offset);
-    }
-}
-
-void curves_include(struct curves *curves, struct core *core, const struct editor_world *world, int spline)
-{
-    const struct spline *shown = &world->document->splines[spline];
-    const int at = spline_find_knot(world->document, shown, (int)round(core->playback.position));
-    if (at < 0) return;
-    const struct value_map map = normal_map(curves, core, spline);
-    const double value = map.scale * shown->knots[at].value + map.offset, frame = shown->knots[at].frame;
-    struct view *view = &curves->view;
-    double range[2] = {view->value0, view->value1};
-    if (value < range[0] || value > range[1]) {
-        include_value(range, value);
-        include_curve(world, spline, map, range);
-        const double margin = 0.06 * (range[1] - range[0]);
-        if (range[0] < view->value0) view->value0 = range[0] - margin;
-        if (range[1] > view->value1) view->value1 = range[1] + margin;
-        keep_sane(curves, core);
-    }
-    if (frame < view->frame0 || frame > view->frame1) curves_reveal(curves, core, frame, value);
-}
-
 void view_rescale(struct curves *curves, struct core *core, double scale, double offset)
 {
+    follow_stop(curves);
     curves->view.value0 = (curves->view.value0 - offset) / scale;
     curves->view.value1 = (curves->view.value1 - offset) / scale;
     keep_sane(curves, core);
@@ -189,6 +180,7 @@ void view_rescale(struct curves *curves, struct core *core, double scale, double
 
 void curves_pan(struct curves *curves, struct core *core, double dx, double dy)
 {
+    follow_stop(curves);
     struct view *view = &curves->view;
     double frames = dx / curves_pixels_per_frame(curves, core);
     double values = dy / curves_pixels_per_value(curves, core);
@@ -201,6 +193,7 @@ void curves_pan(struct curves *curves, struct core *core, double dx, double dy)
 
 void curves_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor)
 {
+    follow_stop(curves);
     struct view *view = &curves->view;
     double frame = curves_frame(curves, core, x);
     double value = curves_value(curves, core, y);

@@ -12,6 +12,12 @@ double curves_pixels_per_value(const struct curves *curves, const struct core *c
 double curves_frame(const struct curves *curves, const struct core *core, double x);
 /// Logical pixels to value.
 double curves_value(const struct curves *curves, const struct core *core, double y);
+/// Shows a part, within reason.
+void view_set(struct curves *curves, struct core *core, struct view view);
+/// The view stays where it is, whatever was edited.
+void follow_stop(struct curves *curves);
+/// Whether the view is on its way.
+bool follow_moves(const struct curves *curves);
 /// Shows the values v that were shown as scale·v + offset.
 void view_rescale(struct curves *curves, struct core *core, double scale, double offset);
 

@@ -2,6 +2,7 @@
 /// the same; frames keep their distances either way.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
+#include "editor/core/picked.h"
 #include "editor/core/selection.h"
 #include "editor/inspector/inspection.h"
 #include <math.h>
@@ -87,8 +88,7 @@ static void set_number(const struct knot_field *field, struct knot *knot, double
 /// none is under way; how many.
 static int collect(struct inspection *in)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
-    core_collect(in->core, spline);
+    core_collect(in->core, in->document, false);
     return in->core->originals.count;
 }
 
@@ -98,10 +98,11 @@ static bool set_all(struct inspection *in, const struct knot_field *field, doubl
                     struct error *error)
 {
     struct originals *originals = &in->core->originals;
-    double by = value - number_of(field, &originals->knot[0]);
+    double by = value - number_of(field, &originals->list[0].knot);
     for (int i = 0; i < originals->count; i++) {
-        struct edit edit = core_edit_of(EDIT_KNOT_SET, in->core->active);
-        edit.knot = originals->knot[by > 0 ? originals->count - 1 - i : i];
+        const struct original *original = &originals->list[by > 0 ? originals->count - 1 - i : i];
+        struct edit edit = core_edit_of(EDIT_KNOT_SET, original->spline);
+        edit.knot = original->knot;
         double number = together ? number_of(field, &edit.knot) + by : value;
         set_number(field, &edit.knot, fmax(field->number.lowest, number));
         if (!history_apply(in->world->history, in->document, &edit, error)) return false;
@@ -120,7 +121,7 @@ static void change_all(struct inspection *in, enum ui_change change, const struc
     if (!history_is_open(history)) {
         uint64_t merge = change == UI_NUDGE ? core_merge_key(in->core, in->world, ui_id(field->number.name)) : 0;
         history_begin(history, field->undo, merge);
-        *possible = number_of(field, &in->core->originals.knot[0]);
+        *possible = number_of(field, &in->core->originals.list[0].knot);
     }
     bool together = change != UI_SET || field->moves;
     if (set_all(in, field, value, together, &error)) {
@@ -140,12 +141,11 @@ struct numbers {
     bool mixed;
 };
 
-static struct numbers survey(const struct inspection *in, const struct spline *spline, const struct knot_field *field)
+static struct numbers survey(const struct inspection *in, const struct knot_field *field)
 {
     struct numbers numbers = {.first = NAN};
-    for (int k = 0; k < spline->knot_count; k++) {
-        if (!selection_has(&in->core->selection, spline->knots[k].id)) continue;
-        double number = number_of(field, &spline->knots[k]);
+    for (struct knot_place at = PICKED_START; picked_next(in->core, in->document, &at);) {
+        double number = number_of(field, knot_at(in->document, at));
         if (isnan(numbers.first)) numbers.first = number;
         numbers.mixed |= number != numbers.first;
     }
@@ -171,11 +171,11 @@ static void build_field(struct inspection *in, const struct knot_field *field, s
     }
 }
 
-static bool all_sloped(const struct inspection *in, const struct spline *spline)
+static bool all_sloped(const struct inspection *in)
 {
     bool sloped = true;
-    for (int k = 0; k < spline->knot_count; k++)
-        sloped &= !selection_has(&in->core->selection, spline->knots[k].id) || spline->knots[k].has_slope;
+    for (struct knot_place at = PICKED_START; picked_next(in->core, in->document, &at);)
+        sloped &= knot_at(in->document, at)->has_slope;
     return sloped;
 }
 
@@ -185,11 +185,11 @@ static void build_idle(struct inspection *in, const char *label, const char *tex
     ui_label(in->ui, inspector_labelled(in, label), text, theme()->text_dim);
 }
 
-static void build_several(struct inspection *in, const struct spline *spline)
+static void build_several(struct inspection *in)
 {
-    const bool sloped = all_sloped(in, spline);
+    const bool sloped = all_sloped(in);
     for (int i = 0; i < FIELDS; i++) {
-        struct numbers numbers = survey(in, spline, &fields[i]); // as the field before left the document
+        struct numbers numbers = survey(in, &fields[i]); // as the field before left the document
         if (i >= FIELD_SLOPE && !sloped) {
             build_idle(in, fields[i].number.label, i == FIELD_SLOPE ? "not all have one" : "–");
         } else if (!isnan(numbers.first)) {
@@ -280,7 +280,7 @@ static void build_slopes(struct inspection *in, bool sloped)
 
 const char *inspector_knot_title(struct inspection *in)
 {
-    const int count = selection_count(&in->core->selection, core_active_spline(in->core, in->world));
+    const int count = picked_count(in->core, in->document);
     if (count < 2) return "Knot";
     snprintf(in->inspector->knot_title, sizeof in->inspector->knot_title, "%d knots", count);
     return in->inspector->knot_title;
@@ -291,12 +291,12 @@ void inspector_knot(struct inspection *in)
 {
     struct ui *ui = in->ui;
     const struct spline *spline = core_active_spline(in->core, in->world);
-    const int count = selection_count(&in->core->selection, spline);
+    const int count = picked_count(in->core, in->document);
     const int single = selection_single(&in->core->selection, spline);
     const float end = ui->y + (FIELDS + 1) * UI_ROW;
     if (count > 1) {
-        build_several(in, spline);
-        build_slopes(in, all_sloped(in, spline));
+        build_several(in);
+        build_slopes(in, all_sloped(in));
     } else if (single < 0) {
         ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
     } else {

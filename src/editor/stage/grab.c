@@ -157,6 +157,11 @@ static void select_knot(const struct stage *stage, struct core *core, const stru
     pins_clear(core);
     selection_clear(&core->selection);
     selection_set(&core->selection, spline->knots[at].id, true);
+    core_tell(core, world, NEWS_EDITED, -1);
+    for (int a = 0; a < 2; a++) {
+        const struct grab_axis *axis = &grab->axis[a];
+        if (axis->active && axis->spline != core->active) core_tell(core, world, NEWS_EDITED, axis->spline);
+    }
 }
 
 void grab_apply(struct stage *stage, struct core *core, const struct editor_world *world)
@@ -190,12 +195,4 @@ void grab_apply(struct stage *stage, struct core *core, const struct editor_worl
     }
     grab->applied = true;
     select_knot(stage, core, world);
-}
-
-void grab_end(const struct stage *stage, const struct core *core, const struct editor_world *world)
-{
-    const struct grab *grab = &stage->grab;
-    for (int a = 0; a < 2 && grab->applied; a++) {
-        if (grab->axis[a].active) core_tell(core, world, NEWS_PULLED, grab->axis[a].spline);
-    }
 }
