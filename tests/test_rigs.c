@@ -2,6 +2,7 @@
 #include "inside.h"
 #include "panel_session.h"
 #include "rig/import.h"
+#include <unistd.h>
 
 static const char bear[] =
     "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": [{\"frame\": 0, \"value\": 1}]}, {\"name\": "
@@ -165,6 +166,26 @@ static void test_files_are_told_apart(void **state)
     document_destroy(document);
 }
 
+/// A .glb by another name is one, too; anything else is not.
+static void test_a_glb_is_told_by_its_beginning(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/wiggly-test-XXXXXX", command[128];
+    close(mkstemp(path));
+    snprintf(command, sizeof command, "cp assets/models/dog.glb %s", path);
+    assert_int_equal(system(command), 0);
+    struct error error = {0};
+    assert_true(import_suits(path));
+    assert_false(import_suits("Makefile"));
+    assert_false(import_suits("/tmp/there-is-none"));
+    struct document *document = import_scene(path, &error);
+    assert_non_null(document);
+    assert_int_equal(document->rigs[0].kind, RIG_MODEL);
+    assert_near(document->fps, 24, 0);
+    document_destroy(document);
+    unlink(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -174,6 +195,7 @@ int main(void)
         cmocka_unit_test(test_a_model_goes_with_its_chains),
         cmocka_unit_test(test_a_file_is_asked_for),
         cmocka_unit_test(test_files_are_told_apart),
+        cmocka_unit_test(test_a_glb_is_told_by_its_beginning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -274,7 +274,10 @@ void app_requests(struct app *app)
     if (history_is_saved(app->table.history) != app->shown_saved) show_title(app);
 }
 
-static bool is_scene_name(const char *name) { return path_has_end(name, ".json") || import_suits(name); }
+static bool is_scene_name(const char *name)
+{
+    return path_has_end(name, ".json") || path_has_end(name, ".glb") || path_has_end(name, ".gltf");
+}
 
 static int compare_names(const void *a, const void *b) { return strcmp(a, b); }
 

@@ -10,7 +10,21 @@ enum { STANDARD_FRAMES = 120, LEAST_FRAMES = 2, MOST_FRAMES = 100000 };
 
 static const double SMALLEST = 0.3, LARGEST = 4, USUAL = 1.6; ///< metres: characters in between keep their size
 
-bool import_suits(const char *path) { return path_has_end(path, ".glb") || path_has_end(path, ".gltf"); }
+/// Whether a file begins as a .glb does, whatever it is called.
+static bool is_glb(const char *path)
+{
+    char start[4] = "";
+    FILE *file = fopen(path, "rb");
+    if (!file) return false;
+    const bool read = fread(start, sizeof start, 1, file) == 1;
+    fclose(file);
+    return read && memcmp(start, "glTF", sizeof start) == 0;
+}
+
+bool import_suits(const char *path)
+{
+    return path_has_end(path, ".glb") || path_has_end(path, ".gltf") || is_glb(path);
+}
 
 /// How many keys of a clip lie on whole frames.
 static int keys_on_frames(const struct gltf_clip *clip, double fps)

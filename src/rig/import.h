@@ -5,11 +5,11 @@
 #include "model/gltf.h"
 #include "scene/edit.h"
 
-/// Whether a file is a character by its name: .glb or .gltf.
+/// Whether a file is a character: by its name, .glb or .gltf, or by how it begins.
 bool import_suits(const char *path);
 
-/// A new document, without a path of its own, whose one model rig shows the file. Its range is the first clip's, its frame rate the
-/// one that the clip's keys lie on. NULL with a sentence.
+/// A new document, without a path of its own, with the character of the file, as import_add() adds it. Its range is the first clip's,
+/// its frame rate the one that the clip's keys lie on. NULL with a sentence.
 struct document *import_scene(const char *path, struct error *error);
 
 /// Adds the character in a file to a document, in the history's open step: a soft one, whose first coordinate `spline` drives (-1: a new
