@@ -75,10 +75,11 @@ static void draw(const struct inspection *in, const struct each_view *view, stru
     for (int n = 0; n < count; n++) {
         line[n][0] = x_of(view, n);
         line[n][1] = y_of(view, view->angles->value[n]);
-        const float r = n == view->joint ? 3.5f : 1.5f;
-        drawlist_rounded(list, (struct rect){line[n][0] - r, line[n][1] - r, 2 * r, 2 * r}, r, theme()->accent);
+        drawlist_rect(list, (struct rect){line[n][0] - 1.5f, line[n][1] - 1.5f, 3, 3}, theme()->accent);
     }
     drawlist_line(list, line[0], count, 1.5f, theme()->accent);
+    const float *selected = line[view->joint], r = 3.5f;
+    drawlist_rounded(list, (struct rect){selected[0] - r, selected[1] - r, 2 * r, 2 * r}, r, theme()->accent);
 }
 
 /// A press takes the joint below it, from where the drag draws.
