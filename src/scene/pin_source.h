@@ -23,7 +23,7 @@ struct low_point {
     int vertex;
 };
 
-enum { LOW_POINT_ROOM = 2 * CHARACTER_MAX_DRIVES }; ///< numbers a sample that finding them takes
+enum { LOW_POINT_ROOM = 6 * CHARACTER_MAX_DRIVES + 1 }; ///< numbers a sample that finding them takes
 
 struct pin_source {
     /// Finds a pin's point as the splines are in `evaluation`, and how `count` splines move it from there (`c` may be NULL if

@@ -166,6 +166,43 @@ static void build_facts(struct inspection *in)
     }
 }
 
+/// Whether nothing of it may be below a height, and which.
+static void build_floor(struct inspection *in, const struct character_rig *rig)
+{
+    static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
+    static const struct ui_number height_row = {.name = "floor.height",
+                                                .label = "height",
+                                                .unit = "m",
+                                                .hint = "No point of the character goes lower",
+                                                .minimum = -1,
+                                                .maximum = 0,
+                                                .lowest = -INSPECTOR_NO_LIMIT,
+                                                .highest = INSPECTOR_NO_LIMIT,
+                                                .fallback = 0,
+                                                .step = 0.01,
+                                                .decimals = 3};
+    struct rect r = inspector_labelled(in, "floor");
+    int on = rig->has_floor;
+    struct edit edit = drive_edit(in, EDIT_FLOOR, &(struct drive){0});
+    edit.number = rig->has_floor ? rig->floor : rig->position[1];
+    if (ui_hovered(in->ui, r)) in->ui->hint = "Keep the whole character above a height";
+    if (ui_segments(in->ui, r, "floor", choices, 2, &on)) {
+        edit.flag = on;
+        core_step(in->core, in->world, on ? "Set floor" : "Remove floor", 0, &edit);
+        return;
+    }
+    if (!rig->has_floor) return;
+    edit.flag = true;
+    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &height_row, &edit.number);
+    inspector_change(in, change, "Set floor", height_row.name, &edit);
+    const struct floor_left *left = evaluation_floor(in->world->evaluation, edit.rig);
+    if (!left || left->depth < 1e-4) return;
+    char text[120];
+    snprintf(text, sizeof text, "Up to %.3g m below it, deepest at frame %.6g: knots and pins come first.",
+             left->depth, document_frame(in->document, left->sample));
+    ui_paragraph(in->ui, text, theme()->text_dim);
+}
+
 void inspector_character(struct inspection *in)
 {
     struct character_view *view = &in->core->characters;
@@ -184,6 +221,7 @@ void inspector_character(struct inspection *in)
         build_spline(in, &rig->drives[view->drive]);
         build_facts(in);
     }
+    build_floor(in, rig);
     build_looks(in);
     inspector_brush(in);
 }
