@@ -50,7 +50,9 @@ ok "to the same document" $?
 {
     sed '/^frames/d' $replay | sed '/^dt/q'
     printf 'frames 30\n'
-    printf '%s\n' "3 pointer @widget(section.scene)" "3 press left @widget(section.scene)" "3 release left @widget(section.scene)" \
+    printf '%s\n' "2 wheel 0 -40 @widget(look.stiff)+0,-60" \
+        "3 pointer @widget(section.scene)" "3 press left @widget(section.scene)" "3 release left @widget(section.scene)" \
+        "5 wheel 0 -40 @widget(look.stiff)+0,-60" \
         "6 pointer @widget(scene.solver.band)" "6 press left @widget(scene.solver.band)" "6 release left @widget(scene.solver.band)"
 } >"$scratch/switch.replay"
 replay=$scratch/switch.replay

@@ -182,6 +182,19 @@ static void run_rename(struct editor *e, const struct editor_world *w, int argum
     inspector_rename(e->inspector, &e->core, w);
 }
 
+static void run_add(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    (void)argument;
+    inspector_add_menu(e->inspector, &e->core);
+}
+
+static void run_remove_rig(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    inspector_remove_rig(e->inspector, &e->core, w);
+}
+
 static void run_theme(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)e;
@@ -318,6 +331,8 @@ const struct binding key_bindings[] = {
     {.key = 'I', .mods = MOD_SHIFT, .run = run_insert, .argument = true},
     {.key = KEY_DELETE, .run = run_delete},
     {.key = KEY_BACKSPACE, .run = run_delete},
+    {.key = 'A', .run = run_add},
+    {.key = KEY_DELETE, .mods = MOD_SHIFT, .run = run_remove_rig},
     {.key = 'A', .mods = MOD_CTRL, .core = core_select_all, .argument = false},
     {.key = 'A', .mods = CTRL_SHIFT, .core = core_select_all, .argument = true},
     {.key = 'A', .mods = MOD_SHIFT, .core = drag_toggle_auto_key},

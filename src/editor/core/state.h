@@ -146,11 +146,12 @@ struct listener {
     void *who;
 };
 
-/// An edit that is asked about before; ASK_REMOVE is about the active spline.
+/// What is asked about before: ASK_REMOVE is about the active spline, ASK_ADD asks for a file.
 struct ask {
-    enum { ASK_NOTHING, ASK_FPS, ASK_RANGE, ASK_REMOVE } kind;
+    enum { ASK_NOTHING, ASK_FPS, ASK_RANGE, ASK_REMOVE, ASK_RIG, ASK_ADD } kind;
     double number;
     int first, last;
+    int rig;
 };
 
 /// The character that is worked on, and how it is looked at; zero is a valid start.

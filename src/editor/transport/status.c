@@ -86,6 +86,20 @@ static const char *hover_hint(const struct core *core, const struct document *do
     return "Drag the fox, its tail or a knot. Space plays, F1 shows all keys";
 }
 
+const char *transport_hint(const struct core *core, const struct document *document)
+{
+    switch (core->hover.kind) {
+    case HOVER_PLAY:
+    case HOVER_LOOP:
+    case HOVER_SPEED:
+    case HOVER_UNITS:
+    case HOVER_WARNING:
+        return hover_hint(core, document);
+    default:
+        return NULL;
+    }
+}
+
 static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
 {
     float size = font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
