@@ -185,7 +185,7 @@ static void draw(const struct figure *figure, int map_coordinate, picture pixels
     memset(&view, 0, sizeof view);
     view.viewport = (struct rect){0, 0, WIDTH, HEIGHT};
     view.colors = theme()->stage;
-    camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT);
+    camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT, 0);
     camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
     camera_lamp(&camera, view.key_from);
     view.characters[0] = (struct stage_character){.figure = figure, .map_coordinate = map_coordinate};
@@ -254,9 +254,13 @@ static int close_all(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(they_are_read_back),         cmocka_unit_test(a_mesh_of_quads_comes_out_of_gltf),
-        cmocka_unit_test(they_are_exported_as_gltf),  cmocka_unit_test(they_are_exported_as_usd_with_quads),
-        cmocka_unit_test(they_are_seen_on_the_stage), cmocka_unit_test(coarse_triangles_keep_their_material),
+        cmocka_unit_test(they_are_read_back),
+
+        cmocka_unit_test(a_mesh_of_quads_comes_out_of_gltf),
+        cmocka_unit_test(they_are_exported_as_gltf),
+        cmocka_unit_test(they_are_exported_as_usd_with_quads),
+        cmocka_unit_test(they_are_seen_on_the_stage),
+        cmocka_unit_test(coarse_triangles_keep_their_material),
     };
     return cmocka_run_group_tests(tests, open_all, close_all);
 }

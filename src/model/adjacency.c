@@ -43,13 +43,40 @@ struct edges {
     const uint32_t *indices;
     int index_count;
     const struct spot *spots;
+    uint32_t *twin; ///< of each vertex: the next one that is the same but for its texture coordinates, in a ring
     int vertex_count;
 };
+
+/// Vertices as many as these at one place are no seam, but a mesh that has collapsed.
+enum { TWINS_MAX = 16 };
+
+static void find_twins(const struct edges *edges, const float (*normal)[3])
+{
+    for (int i = 0, end; i < edges->vertex_count; i = end) {
+        const struct spot *first = &edges->spots[i];
+        end = i + 1;
+        while (end < edges->vertex_count && spots_meet(first, &edges->spots[end]) &&
+               memcmp(normal[first->vertex], normal[edges->spots[end].vertex], sizeof *normal) == 0)
+            end++;
+        for (int n = i; n < end; n++) {
+            const int next = end - i > TWINS_MAX ? n : n + 1 < end ? n + 1 : i;
+            edges->twin[edges->spots[n].vertex] = edges->spots[next].vertex;
+        }
+    }
+}
+
+/// An edge, which the twins of both its ends share.
+static void add_shared(struct adjacency *adjacency, const struct edges *edges, int *fill, uint32_t i, uint32_t j)
+{
+    add_edge(adjacency, fill, i, j);
+    for (uint32_t twin = edges->twin[i]; twin != i; twin = edges->twin[twin]) add_edge(adjacency, fill, twin, j);
+    for (uint32_t twin = edges->twin[j]; twin != j; twin = edges->twin[twin]) add_edge(adjacency, fill, i, twin);
+}
 
 static void add_edges(struct adjacency *adjacency, const struct edges *edges, int *fill)
 {
     for (int t = 0; t < edges->index_count; t++) {
-        add_edge(adjacency, fill, edges->indices[t], edges->indices[t % 3 == 2 ? t - 2 : t + 1]);
+        add_shared(adjacency, edges, fill, edges->indices[t], edges->indices[t % 3 == 2 ? t - 2 : t + 1]);
     }
     for (int i = 0; i + 1 < edges->vertex_count; i++) {
         const struct spot *a = &edges->spots[i], *b = a + 1;
@@ -80,17 +107,18 @@ static void tidy(struct adjacency *adjacency, int vertex_count)
     adjacency->first[vertex_count] = kept;
 }
 
-bool adjacency_create(struct adjacency *adjacency, const float (*position)[3], int vertex_count,
-                      const uint32_t *indices, int index_count)
+bool adjacency_create(struct adjacency *adjacency, const float (*position)[3], const float (*normal)[3],
+                      int vertex_count, const uint32_t *indices, int index_count)
 {
     const size_t room = (size_t)vertex_count + 1;
     *adjacency = (struct adjacency){0};
     struct spot *spots = spots_sort(position, vertex_count);
     int *fill = calloc(room, sizeof *fill);
-    const struct edges edges = {indices, index_count, spots, vertex_count};
+    const struct edges edges = {indices, index_count, spots, malloc(room * sizeof *edges.twin), vertex_count};
     adjacency->first = calloc(room, sizeof *adjacency->first);
-    bool good = spots && fill && adjacency->first;
+    bool good = spots && edges.twin && fill && adjacency->first;
     if (good) {
+        find_twins(&edges, normal);
         add_edges(adjacency, &edges, fill);
         for (int i = 0; i < vertex_count; i++) adjacency->first[i + 1] = adjacency->first[i] + fill[i];
         memcpy(fill, adjacency->first, (size_t)vertex_count * sizeof *fill);
@@ -102,6 +130,7 @@ bool adjacency_create(struct adjacency *adjacency, const float (*position)[3], i
         tidy(adjacency, vertex_count);
     }
     free(spots);
+    free(edges.twin);
     free(fill);
     if (!good) adjacency_free(adjacency);
     return good;

@@ -6,15 +6,16 @@
 #include <stdint.h>
 
 /// The neighbours of vertex i are other[first[i]] … other[first[i + 1] − 1], in ascending order. Vertices at the very same place
-/// (the seams of a mesh with several normals or colours at a corner) count as neighbours too, in a chain.
+/// (the seams of a mesh with several normals or colours at a corner) count as neighbours too, in a chain. Those with the same normal besides
+/// (seams of texture coordinates) have their neighbours in common.
 struct adjacency {
     int *first;
     uint32_t *other;
 };
 
 /// false if memory is short; then there is nothing to free.
-bool adjacency_create(struct adjacency *adjacency, const float (*position)[3], int vertex_count,
-                      const uint32_t *indices, int index_count);
+bool adjacency_create(struct adjacency *adjacency, const float (*position)[3], const float (*normal)[3],
+                      int vertex_count, const uint32_t *indices, int index_count);
 
 /// Leaves an empty one, all zero.
 void adjacency_free(struct adjacency *adjacency);

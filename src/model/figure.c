@@ -158,7 +158,8 @@ bool figure_derive(struct figure *figure)
 {
     const struct character *c = &figure->character;
     if (!reserve(figure) ||
-        !adjacency_create(&figure->edges, c->position, c->vertex_count, c->indices, c->index_count))
+        !adjacency_create(&figure->edges, (const float(*)[3])c->position, (const float(*)[3])c->normal,
+                          c->vertex_count, c->indices, c->index_count))
         return false;
     measure(figure);
     for (int k = 0; k < c->coordinate_count; k++) {

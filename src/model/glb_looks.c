@@ -93,9 +93,9 @@ static bool lengthen(void *array, size_t triangles, size_t size)
 {
     void *block;
     memcpy(&block, array, sizeof block);
-    block = realloc(block, (triangles + 1) * size);
-    if (block) memcpy(array, &block, sizeof block);
-    return block;
+    void *longer = realloc(block, (triangles + 1) * size);
+    if (longer) memcpy(array, &longer, sizeof longer);
+    return longer;
 }
 
 bool glb_read_looks(struct glb *glb, const struct glb_piece *piece, struct surface *s, struct error *error)
