@@ -4,6 +4,12 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 tangent;
 layout(location = 3) in vec3 color;
+#ifdef PICTURED
+layout(location = 4) in vec2 uv;
+uniform vec4 base; // the material's colour
+out vec2 at;
+out float opacity;
+#endif
 uniform mat4 clip_from_world;
 uniform vec3 eye;
 uniform vec3 place; // from the model's space to the world's
@@ -79,6 +85,11 @@ void main()
     world_normal = across / max(length(across), 1e-9);
     phase = map_row >= 0 ? mapped_movement() : vec2(0.0);
     fur = map_row >= 0 ? phase_color(phase) : color;
+#ifdef PICTURED
+    fur *= base.rgb;
+    opacity = base.a;
+    at = uv;
+#endif
     open_sky = 0.45 + 0.55 * smoothstep(0.0, shade.y, world.y - shade.x);
     vec3 ray = world - eye;
     gl_Position = clip_from_world * vec4(world + seam * (1.5 * length(ray) * world_normal + 2.5 * ray), 1.0);

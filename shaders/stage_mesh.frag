@@ -1,11 +1,18 @@
 #version 330 core
 // Wrapped key light, hemisphere, rim. Colours are linear until the last line.
+// FURRED is the fox's tail, LIMBED its body and FACED what its face is on; PICTURED an imported character.
+#if defined(LIMBED) || defined(FACED)
+#define FURRED
+#endif
 in vec3 world;
 in vec3 world_normal;
-#ifdef FURRED // the fox
+#ifdef FURRED
 in vec3 marking; // white, dark, brown: as in model/coat.h
 in vec4 place;   // in bind space, and how much of it is the tail's
+#ifdef FACED
 uniform mat4 head_from_bind; // to the head's own space, which looks towards -z
+uniform float blink;         // how far the lids are closed
+#endif
 uniform vec3 orange, brown, white, dark;
 #else
 in vec3 fur;
@@ -17,7 +24,7 @@ uniform vec3 key_from;
 uniform vec3 earth; // the light that comes up from the ground
 uniform float seam; // 0 in the first pass
 uniform float line; // pixels: width of the phase map's lines; 0 where no phases are shown
-#ifdef PICTURED // an imported character's
+#ifdef PICTURED
 in vec2 at; // in the picture
 in float opacity;
 uniform sampler2D picture;
@@ -76,6 +83,7 @@ float strands(float grain)
     return 0.5 * woven * clamp(1.6 - 100.0 * grain, 0.0, 1.0);
 }
 
+#ifdef FACED
 // Eyes, nose and mouth, drawn on the head from the front: both sides at once. `gloss` is how wet it is.
 vec3 with_face(vec3 coat, float sharp, out float gloss)
 {
@@ -100,6 +108,12 @@ vec3 with_face(vec3 coat, float sharp, out float gloss)
     vec3 drawn = mix(coat, dark, 0.85 * front * lines);
     drawn = mix(drawn, mix(0.25 * dark, vec3(0.42, 0.15, 0.03), iris), ball);
     drawn = mix(drawn, 0.4 * dark, tip);
+    // The upper lid comes down to the lower one, its edge a lash line that bends from arch to smile.
+    float lid = mix(1.25, -0.55, blink) + (0.45 - 0.9 * blink) * (1.0 - e.x * e.x) * 0.5 - e.y;
+    float shut = covered(-0.0335 * lid, sharp) * step(0.01, blink);
+    float lash = covered(0.0042 - 0.0335 * abs(lid), min(sharp, 330.0)) * step(0.01, blink);
+    drawn = mix(drawn, mix(coat, dark, lash), ball * max(shut, lash));
+    ball *= 1.0 - max(shut, lash);
     gloss = max(ball, tip);
     // The lamp's images: fixed, as lamps are large and eyes are round; on the same side of both eyes.
     float side = in_head.x > 0.0 ? 0.009 : -0.009;
@@ -108,6 +122,7 @@ vec3 with_face(vec3 coat, float sharp, out float gloss)
     float wet = covered(0.0055 - length((in_head.xy - vec2(-0.005, -0.036)) * vec2(0.7, 1.4)), min(sharp, 250.0));
     return mix(drawn, vec3(1.3), max(ball * max(glint, 0.5 * second), 0.8 * tip * wet));
 }
+#endif
 
 vec3 coat_here(out float gloss)
 {
@@ -117,7 +132,12 @@ vec3 coat_here(out float gloss)
     vec3 coat = mix(orange, brown, clamp(marking.z + 0.10 * hair * (0.4 + marking.z), 0.0, 1.0)) * (1.0 + 0.07 * hair);
     coat = mix(coat, white * (1.0 + 0.05 * hair), covered(marking.x + TUFT * hair, min(sharp, 250.0)));
     coat = mix(coat, dark * (1.0 + 0.3 * hair), covered(marking.y + TUFT * hair, min(sharp, 250.0)));
+#ifdef FACED
     return with_face(coat, sharp, gloss);
+#else
+    gloss = 0.0;
+    return coat;
+#endif
 }
 #endif
 

@@ -11,7 +11,7 @@ static const char scene[] = "{\"frames\": [0, 48], \"splines\": ["
                             "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], "
                             "\"channels\": [{\"spline\": \"sway\"}]}]}";
 
-enum { JOINTS = 24, X = 12, Z = 14 };
+enum { JOINTS = 24, X = 12, Y = 13, Z = 14 };
 
 static const float *joint(const struct session *s, int n) { return editor_stage(s->editor)->tails[0].pose.matrix[n]; }
 
@@ -174,6 +174,7 @@ static void test_a_tracked_body_gets_a_knot(void **state)
     struct session s;
     session_open(&s, scene);
     document_tail(s.document, 0)->position[0] = param_track(1);
+    session_key(&s, 'A', MOD_SHIFT);
     session_key(&s, KEY_RIGHT, 0);
     session_key(&s, KEY_RIGHT, 0);
     assert_near(joint(&s, 0)[X], 0.1, 1e-6);
@@ -191,6 +192,80 @@ static void test_a_tracked_body_gets_a_knot(void **state)
     session_key(&s, 'Z', MOD_CTRL);
     assert_saved(&s, before);
     free(before);
+    session_close(&s);
+}
+
+/// Without auto-key all of the shot moves: every knot of what the place follows.
+static void test_without_auto_key_the_shot_moves(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    document_tail(s.document, 0)->position[0] = param_track(1);
+    session_key(&s, KEY_RIGHT, 0);
+    hold_and_drag(&s, -60, 0, 4);
+    session_key(&s, 'X', 0);
+    float x = joint(&s, 0)[X];
+    session_release(&s, BUTTON_LEFT);
+    const struct spline *walk = &s.document->splines[1];
+    assert_int_equal(walk->knot_count, 2);
+    for (int i = 0; i < 2; i++) assert_near(walk->knots[i].value, x, 1e-3);
+    assert_non_null(strstr(s.editor->core.message.text, "whole shot: x +"));
+    session_close(&s);
+}
+
+/// With it a place that was a number gets a spline, which begins where the body was, and the tail follows that through.
+static void test_auto_key_makes_a_place_follow(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    char *before = session_saved(&s);
+    session_key(&s, 'A', MOD_SHIFT);
+    for (int i = 0; i < 12; i++) session_key(&s, KEY_RIGHT, 0);
+    hold_and_drag(&s, -60, 0, 4);
+    session_key(&s, 'X', 0);
+    float x = joint(&s, 0)[X];
+    session_release(&s, BUTTON_LEFT);
+    int track = document_tail(s.document, 0)->position[0].track;
+    assert_true(track >= 0);
+    const struct spline *made = &s.document->splines[track];
+    assert_string_equal(made->name, "tail x");
+    assert_int_equal(made->knot_count, 2);
+    assert_near(made->knots[0].value, 0, 0);
+    assert_near(made->knots[1].frame, 12, 0);
+    assert_near(made->knots[1].value, x, 1e-3);
+    const struct tail *tail = document_tail(s.document, 0);
+    assert_int_equal(tail->channel_count, 2);
+    assert_int_equal(s.document->splines[tail->channels[1].spline].parameter[PARAMETER_EQUILIBRIUM].track, track);
+    assert_int_equal(document_tail(s.document, 0)->position[2].track, -1);
+    assert_string_equal(s.editor->core.message.text, "Keyed tail x at frame 12.");
+    session_key(&s, 'Z', MOD_CTRL);
+    assert_saved(&s, before);
+    free(before);
+    session_close(&s);
+}
+
+/// Ctrl lifts it; it never sinks into the ground, and its height is keyed above that.
+static void test_a_body_is_lifted(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    session_key(&s, 'A', MOD_SHIFT);
+    session_point(&s, "body(tail)");
+    session_frame(&s);
+    s.mods = MOD_CTRL;
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, 0, 80, 4);
+    assert_near(joint(&s, 0)[Y], 0.26, 1e-6);
+    session_drag(&s, 0, -200, 8);
+    float y = joint(&s, 0)[Y];
+    assert_true(y > 0.35f);
+    s.mods = 0;
+    session_release(&s, BUTTON_LEFT);
+    assert_near(joint(&s, 0)[Y], y, 1e-3);
+    assert_near(editor_stage(s.editor)->tails[0].pose.ground, 0, 0);
     session_close(&s);
 }
 
@@ -219,6 +294,9 @@ int main(void)
         cmocka_unit_test(test_a_press_as_the_tail_goes),
         cmocka_unit_test(test_axes_lock_and_shift_is_fine),
         cmocka_unit_test(test_a_tracked_body_gets_a_knot),
+        cmocka_unit_test(test_without_auto_key_the_shot_moves),
+        cmocka_unit_test(test_auto_key_makes_a_place_follow),
+        cmocka_unit_test(test_a_body_is_lifted),
         cmocka_unit_test(test_clicks_leave_the_body_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -54,7 +54,7 @@ static void a_fitted_box_fills_the_picture_from_any_side(void **state)
     for (int step = 0; step < 24; step++) {
         struct camera camera = camera_default();
         camera_orbit(&camera, 0.26f * (float)step, 0.1f * (float)(step % 12) - 0.4f);
-        camera_fit(&camera, lo, hi, viewport[2] / viewport[3]);
+        camera_fit(&camera, lo, hi, viewport[2] / viewport[3], 0);
         const struct view view = look(&camera);
         float outermost = 0.0f;
         for (int k = 0; k < 3; k++) {
@@ -75,8 +75,8 @@ static void a_broken_box_changes_nothing(void **state)
     (void)state;
     const float lo[3] = {0.0f, 0.0f, 0.0f}, flat[3] = {1.0f, 0.0f, 1.0f}, endless[3] = {1.0f, INFINITY, 1.0f};
     struct camera camera = camera_default();
-    camera_fit(&camera, lo, flat, 2.5f);
-    camera_fit(&camera, lo, endless, 2.5f);
+    camera_fit(&camera, lo, flat, 2.5f, 0);
+    camera_fit(&camera, lo, endless, 2.5f, 0);
     assert_near(camera.distance, camera_default().distance, 0.0);
     assert_near(camera.target[0], 0.0, 0.0);
 }
@@ -114,7 +114,7 @@ static void the_eye_stays_above_the_floor(void **state)
     (void)state;
     struct camera camera = camera_default();
     const float lo[3] = {-1.0f, -0.5f, -1.0f}, hi[3] = {1.0f, 1.0f, 1.0f};
-    camera_fit(&camera, lo, hi, 1.6f);
+    camera_fit(&camera, lo, hi, 1.6f, 0);
     for (int step = 0; step < 60; step++) {
         float view[16], projection[16], eye[3];
         if (step % 3 == 0) camera_orbit(&camera, 0.3f, -0.4f);

@@ -223,7 +223,14 @@ static void bad_files_get_one_sentence(void **state)
                        "{\"primitives\":[{\"attributes\":{\"POSITION\":0}}],\"extras\":{\"targetNames\":["
                        "\"a.re\",\"a.im\",\"b.re\",\"b.im\"]}}]}",
                        bin, 0),
-                   "expected at most 268435456 vertices with those of the coordinates, got 300000000");
+                   "accessors[0]: expected positions that are in the file, got none");
+    assert_refused(
+        glb("{" VIEW ",\"accessors\":[{\"componentType\":5126,\"count\":1000000,\"type\":\"VEC3\",\"sparse\":{"
+            "\"count\":1,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}}],"
+            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}],\"extras\":{\"targetNames\":["
+            "\"a.re\",\"a.im\",\"b.re\",\"b.im\"]}}]}",
+            bin, 36),
+        "expected no more data than fits a file of this size, got 3000000 times 24 bytes");
     struct character c;
     struct error error;
     make_character(&c);

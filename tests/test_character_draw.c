@@ -32,7 +32,7 @@ static void draw(const struct stage_character *character, picture pixels)
     memset(&view, 0, sizeof view);
     view.viewport = (struct rect){0, 0, WIDTH, HEIGHT};
     view.colors = theme()->stage;
-    camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT);
+    camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT, 0);
     camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
     camera_lamp(&camera, view.key_from);
     view.characters[0] = *character;

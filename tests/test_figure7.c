@@ -124,12 +124,52 @@ static void it_stands_on_its_feet(void **state)
     }
 }
 
+/// Of the mesh, each vertex moved by Re(z Ñ).
+static double volume_at(const struct character *c, const struct coordinate *n, double complex z)
+{
+    double sum = 0;
+    for (int i = 0; i < c->index_count; i += 3) {
+        double p[3][3];
+        for (int k = 0; k < 9; k++) {
+            const uint32_t v = c->indices[i + k / 3];
+            p[k / 3][k % 3] = (double)c->position[v][k % 3] + creal(z) * (double)n->re[v][k % 3] -
+                              cimag(z) * (double)n->im[v][k % 3];
+        }
+        for (int k = 0; k < 3; k++) {
+            const int l = (k + 1) % 3, m = (k + 2) % 3;
+            sum += p[0][k] * (p[1][l] * p[2][m] - p[1][m] * p[2][l]) / 6;
+        }
+    }
+    return sum;
+}
+
+/// Flesh keeps its volume: at amplitude 1 to 5 % in every phase, of every coordinate that the model has.
+static void it_keeps_its_volume(void **state)
+{
+    (void)state;
+    enum { PHASES = 36 };
+    struct scene scene = open_scene("assets/scenes/figure7.json");
+    const struct character *c = &scene.figure->character;
+    assert_int_equal(c->coordinate_count, 6);
+    for (int k = 0; k < c->coordinate_count; k++) {
+        const struct coordinate *n = &c->coordinates[k];
+        const double rest = volume_at(c, n, 0);
+        double least = 0, most = 0;
+        for (int i = 0; i < PHASES; i++) {
+            double change = volume_at(c, n, cexp(2 * M_PI * I * i / PHASES)) / rest - 1;
+            least = fmin(least, change);
+            most = fmax(most, change);
+        }
+        if (least < -0.05 || most > 0.05) fail_msg("%s: %.3f … %.3f of the volume", n->name, least, most);
+    }
+    close_scene(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hands_follow_the_body),
-        cmocka_unit_test(phases_are_smooth),
-        cmocka_unit_test(two_coordinates_follow_one_spline_of_nine_knots),
+        cmocka_unit_test(hands_follow_the_body), cmocka_unit_test(it_keeps_its_volume),
+        cmocka_unit_test(phases_are_smooth),     cmocka_unit_test(two_coordinates_follow_one_spline_of_nine_knots),
         cmocka_unit_test(it_stands_on_its_feet),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -59,7 +59,8 @@ static void test_channels(void **state)
     (void)state;
     struct session s;
     char *before = open_tall(&s);
-    panel_click(&s, "axis.up");
+    panel_click(&s, "axis.0");
+    panel_click(&s, "item.up");
     panel_click(&s, "part.displacement");
     assert_int_equal(tail(&s)->channels[0].axis, AXIS_UP);
     assert_int_equal(tail(&s)->channels[0].of, PART_DISPLACEMENT);

@@ -49,7 +49,7 @@ static void draw(const char *sampler, float from, float to, const unsigned char 
     memset(&view, 0, sizeof view);
     view.viewport = (struct rect){0, 0, WIDTH, HEIGHT};
     view.colors = theme()->stage;
-    camera_fit(&camera, lo, hi, 1);
+    camera_fit(&camera, lo, hi, 1, 0);
     camera_matrices(&camera, 1, view.view, view.projection, view.eye);
     camera_lamp(&camera, view.key_from);
     view.models[0] = (struct stage_model){.gltf = &gltf, .pose = &pose, .lo = {-1, 0, 0}, .hi = {1, 2, 0}};

@@ -77,6 +77,7 @@ static void bad_files_get_one_sentence(void **state)
         {"v 0 0\n", "form.obj:1: expected three coordinates of a vertex, got nothing"},
         {"v 0 0 0\nv 0 0 x1\n", "form.obj:2: expected a finite number, got 'x1'"},
         {"v 0 0 nan\n", "form.obj:1: expected a finite number, got 'nan'"},
+        {"v 0 0 0\nv 0 0 0 1e30 0 0\n", "form.obj:2: expected a colour from 0 to 1, got 1e+30"},
         {"v 0 0 1e99\n", "form.obj:1: expected a finite number, got '1e99'"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", "form.obj:4: expected a face of three corners or more, got 2"},
         {"v 0 0 0\nv 1 0 0\n\\\n\nf 1 2 3\n", "form.obj:5: expected a vertex from 1 to 2, got '3'"},

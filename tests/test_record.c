@@ -88,6 +88,12 @@ static void test_recorded_is_what_was_seen(void **state)
     assert_true(most > 0.1f);
     for (int i = DRAGGED + 14; i < WATCHED; i++) assert_near(tip[i], live_tip[i], 0.15 * most);
     session_key(&s, KEY_SPACE, 0);
+    for (int i = 5; i < DRAGGED; i += 5) { // from its first half-second on
+        s.editor->core.playback.position = 24.0 * (i + 1) / 60;
+        session_frame(&s);
+        assert_near(joint_x(&s, 0), live_base[i], 0.01);
+        assert_near(joint_x(&s, JOINTS) - joint_x(&s, 0), live_tip[i], 0.1 * most);
+    }
     session_key(&s, 'Z', MOD_CTRL);
     assert_saved(&s, before);
     assert_null(history_undo_label(s.history));

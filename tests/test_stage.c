@@ -40,7 +40,7 @@ static void arrange(double side)
     float lo[3], hi[3];
     struct camera camera = camera_default();
     pose_bounds(&view.tails[0].pose, lo, hi);
-    camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT);
+    camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT, 0);
     camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
     camera_lamp(&camera, view.key_from);
 }
@@ -139,22 +139,25 @@ struct skinned {
     float world[3], normal[3];
 };
 
-static GLuint compile_shader(GLenum kind, const char *name)
+/// With `define` behind its first line, "#version …".
+static GLuint compile_shader(GLenum kind, const char *name, const char *define)
 {
     const struct embedded *source = embedded_find(name);
     assert_non_null(source);
-    const GLchar *text = (const GLchar *)source->data;
+    const GLchar *text = (const GLchar *)source->data, *rest = strchr(text, '\n') + 1;
+    const GLchar *const parts[] = {text, define, rest};
+    const GLint lengths[] = {(GLint)(rest - text), (GLint)strlen(define), -1};
     GLuint shader = glCreateShader(kind);
-    glShaderSource(shader, 1, &text, NULL);
+    glShaderSource(shader, 3, parts, lengths);
     glCompileShader(shader);
     return shader;
 }
 
-static GLuint capturing_program(void)
+static GLuint capturing_program(const char *define)
 {
     static const char *const outputs[] = {"world", "world_normal"};
     const GLuint program = glCreateProgram();
-    const GLuint vertex = compile_shader(GL_VERTEX_SHADER, "shaders/stage_mesh.vert");
+    const GLuint vertex = compile_shader(GL_VERTEX_SHADER, "shaders/stage_mesh.vert", define);
     glAttachShader(program, vertex);
     glTransformFeedbackVaryings(program, 2, outputs, GL_INTERLEAVED_ATTRIBS);
     glLinkProgram(program);
@@ -166,9 +169,9 @@ static GLuint capturing_program(void)
 }
 
 /// Runs the shader over `count` vertices with the joints that the last stage_upload() left bound.
-static void skin(const struct vertex *vertices, int count, struct skinned *out)
+static void skin_part(const struct vertex *vertices, int count, const char *define, struct skinned *out)
 {
-    const GLuint program = capturing_program();
+    const GLuint program = capturing_program(define);
     const struct pose *pose = &view.tails[0].pose;
     const float length = pose_length(pose), joints = (float)(pose->count - 1);
     GLuint array, buffers[2];
@@ -180,10 +183,11 @@ static void skin(const struct vertex *vertices, int count, struct skinned *out)
     glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
     glBufferData(GL_ARRAY_BUFFER, count * (GLsizeiptr)sizeof *vertices, vertices, GL_STATIC_DRAW);
     const size_t offsets[] = {offsetof(struct vertex, position), offsetof(struct vertex, normal),
-                              offsetof(struct vertex, color), offsetof(struct vertex, bend)};
-    for (GLuint a = 0; a < 4; a++) {
+                              offsetof(struct vertex, color), offsetof(struct vertex, bend),
+                              offsetof(struct vertex, limb)};
+    for (GLuint a = 0; a < 5; a++) {
         glEnableVertexAttribArray(a);
-        glVertexAttribPointer(a, a < 3 ? 3 : 1, GL_FLOAT, GL_FALSE, sizeof *vertices, (const void *)offsets[a]);
+        glVertexAttribPointer(a, a == 3 ? 1 : 3, GL_FLOAT, GL_FALSE, sizeof *vertices, (const void *)offsets[a]);
     }
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffers[1]);
     glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, count * (GLsizeiptr)sizeof *out, NULL, GL_STATIC_READ);
@@ -202,6 +206,19 @@ static void skin(const struct vertex *vertices, int count, struct skinned *out)
     glDeleteVertexArrays(1, &array);
     glDeleteProgram(program);
     assert_int_equal(glGetError(), GL_NO_ERROR);
+}
+
+/// What bends and what does not, each by the shader that the stage draws it with.
+static void skin(const struct vertex *vertices, int count, struct skinned *out)
+{
+    struct skinned *body = calloc((size_t)count, sizeof *body);
+    assert_non_null(body);
+    skin_part(vertices, count, "#define LIMBED\n", body);
+    skin_part(vertices, count, "", out);
+    for (int i = 0; i < count; i++) {
+        if (vertices[i].bend == 0.0f) out[i] = body[i];
+    }
+    free(body);
 }
 
 static void cross(const float a[3], const float b[3], float out[3])
@@ -277,6 +294,8 @@ static void the_skin_on_the_cpu_is_the_shaders(void **state)
     static float rows[TAIL_SLOTS][3][4];
     assert_true(drawn && place && normal);
     arrange(9.0);
+    view.tails[0].pose.limbs =
+        (struct limbs){.look = 0.4f, .nod = -0.2f, .ears = {0.3f, 0.5f}, .breath = 0.05f, .stretch = -0.2f};
     draw();
     skin(mesh.vertices, mesh.vertex_count, drawn);
     tail_skin(&view.tails[0].pose, &mesh, place, normal);

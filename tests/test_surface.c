@@ -106,6 +106,10 @@ static void ply_as_text(void **state)
     assert_refused_text("c.ply", "plx\n", "c.ply: expected a PLY file");
     assert_refused_text("c.ply", PLY "element vertex 1\nproperty float x\nend_header\n1\n",
                         "vertices with x, y and z");
+    assert_refused_text("c.ply",
+                        PLY "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty float "
+                            "red\nproperty float green\nproperty float blue\nend_header\n0 0 0 0 0 1e30\n",
+                        "c.ply: vertex 1: expected a colour from 0 to 1, got 1e+30");
     assert_refused_text("c.ply", PLY "element vertex many\n",
                         "c.ply:3: expected the number of an element, got 'many'");
     assert_refused_text("c.ply",
@@ -185,6 +189,8 @@ static void off_with_colours(void **state)
     assert_refused_text("b.off", "OFF\n1 1 0\n0 0 0\n2000000000 0 0", "got the end of the file");
     assert_refused_text("b.off", "OFF\n1 1 0\n0 0 0\n3 0 0 1",
                         "b.off:4: expected the number of a vertex, from 0, got '1'");
+    assert_refused_text("b.off", "COFF\n1 1 0\n0 0 0 1e30 0 0 1\n",
+                        "b.off:3: expected a colour from 0 to 1, or to 255, got 1e+30");
     assert_refused_text("b.off", "OFFAL\n", "b.off:1: expected OFF");
     assert_refused_text("b.off", "OFF BINARY\n", "expected an OFF file as text");
 }

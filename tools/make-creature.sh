@@ -1,7 +1,7 @@
 #!/bin/sh
 # Makes assets/models/creature.glb, as anyone can from a mesh of their own: the mesh, two bursts of its base as a soft body, limbs eight
 # times softer than feet, and what the analysis finds in them. The bursts lie between the frequencies of trunk and limbs, so that limbs
-# come late. Takes about two minutes of one core. Usage: tools/make-creature.sh [build folder] [output.glb]
+# come late. Takes about a minute of one core. Usage: tools/make-creature.sh [build folder] [output.glb]
 set -eu
 export LC_ALL=C
 build=${1:-build}
@@ -15,9 +15,9 @@ shake() { # <direction> <amplitude>
         --poisson 0.45 --damping 0.2 --soft distance --seconds 3 --fps 48 -o "$work/$1.npy"
 }
 shake up 0.05
-shake side 0.1
+shake side 0.09 # a larger swing would change the volume by more than 5 % at amplitude 1: a linear shape lengthens what turns
 mkdir -p "$(dirname "$out")"
-# While its base moves a body does not swing freely, so its motion is no sum of poles: complex principal components describe it.
+# As the paper does it: by complex principal components. `--from 1.091` would give coordinates of one pole each.
 # The stage finds for itself how normals turn, so the file does without.
 "$build/wiggly" analyze "$work/up.npy" "$work/side.npy" --rest "$work/creature.obj" --fps 48 --shake up:side --method cpca --modes 3 \
     --no-normals -o "$out"

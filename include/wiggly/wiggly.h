@@ -228,6 +228,15 @@ typedef struct wiggly_pin {
     double left[3]; ///< filled: what of it is not reached
 } wiggly_pin;
 
+/// A side that a point is to stay on: Σ over the group's splines of Re(c x) is at least `least` at a sample.
+typedef struct wiggly_bound {
+    int sample;
+    const double (*c)[2]; ///< (re, im), one a spline
+    double least;
+    double push; ///< filled: how hard that is held, half of what the weighed energy rises by as `least` does; ≥ 0
+    double left; ///< filled: what is missing; ≤ 0: nothing
+} wiggly_bound;
+
 /// Splines that are solved together because points hang on several of them.
 typedef struct wiggly_group wiggly_group;
 
@@ -245,6 +254,20 @@ wiggly_status wiggly_group_create(int samples, int knots, int splines, int pins,
 /// a spline that is cubic, of calm 0 or of frequency 0 from its first knot or pin to the last.
 wiggly_status wiggly_group_solve(wiggly_group *group, const wiggly_desc *descs, const double *weights,
                                  wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count);
+
+/// The same with room for bounds.
+wiggly_status wiggly_group_create_bounded(int samples, int knots, int splines, int pins, int bounds,
+                                          wiggly_group **group);
+
+/// wiggly_group_solve() with bounds: Σ weights[s] times the energy of spline s is least among all motions that meet them, too. A bound
+/// does not count as a knot: one that presses nothing changes nothing. Behind a complex spline's last knot it presses what moves by itself. Those that
+/// knots and pins leave no way are met in part, as pins are.
+wiggly_status wiggly_group_solve_bounded(wiggly_group *group, const wiggly_desc *descs, const double *weights,
+                                         wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count,
+                                         wiggly_bound *bounds, int bound_count);
+
+/// What part of all that moves a bound's point its knots and the pins of the last solve leave free at its sample, 0 … 1.
+double wiggly_group_reach(const wiggly_group *group, const wiggly_bound *bound);
 
 /// Sets the method of all later solves; a new group has WIGGLY_CHAIN.
 void wiggly_group_set_method(wiggly_group *group, wiggly_method method);

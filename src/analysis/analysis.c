@@ -12,6 +12,9 @@ static const double least_drift = 0.02; ///< share of the motion's variance from
 static const double least_swing = 1e-9; ///< what is left without a drift: less is the rounding of float data
 static const double cancelling = 2;  ///< times the motion's power: what a component's part has only against another's
 static const double fast_from = 0.8; ///< of half the frame rate
+static const double least_gain = 0.002; ///< of the motion's power, that a steady pole explains beside the others
+/// The same after a drive: what moved much under it may have all but died away.
+static const double least_gain_afterwards = 0.0002;
 
 /// What is worked with, all on frames alone.
 struct work {
@@ -75,11 +78,12 @@ static bool find_drift(struct work *w, struct basis *basis, struct error *error)
 {
     int first = w->plan->first, frames = w->motion->frames - first;
     const double *gram = cut_gram(w);
+    const double least = first > 0 ? least_gain_afterwards : least_gain;
     if (!basis_create(basis, frames, 2 + 2 * COURSES_MAX) || !gram || !drift_append(basis))
         return fail_no_memory(error, w->motion->path);
     if (!swings(w, gram, basis, error)) return false;
     int found = subspace_poles(w->lapack, gram, frames, w->poles);
-    if (found >= 0) w->pole_count = exponentials_choose(w->poles, found, COURSES_MAX, gram, basis);
+    if (found >= 0) w->pole_count = exponentials_choose(w->poles, found, COURSES_MAX, least, gram, basis);
     if (found < 0 || w->pole_count < 0 || !drift_create(&w->drift, basis, gram) ||
         (first > 0 && !drift_extend(&w->drift, first, w->gram)))
         return fail_no_memory(error, w->motion->path);

@@ -4,7 +4,8 @@
 ///
 /// The first sum is what they leave of the motion s_t, the second what pushes them: as in a wiggly spline, but with one pole each.
 /// Motion that nothing disturbs costs no push, so that R is z^t and the fit is that of exponentials. A force changes R at rates up
-/// to about β of the pole's frequency; what is faster belongs to other poles, or is noise.
+/// to about β of the pole's frequency; what is faster belongs to other poles, or is noise. Before the frame from which on nothing
+/// drives the motion free swings are no law, and μ is 3 % of that.
 ///
 /// In turn, R given Ñ and Ñ given R are linear least squares, and each makes the sum smaller. Ñ = W S with weights W of the frames,
 /// so all that is needed of the motion is G = S Sᵀ: Ñᵢ·s_t = (W G)_it and Ñᵢ·Ñⱼ = (W G Wᵀ)_ij. R given Ñ is
@@ -17,6 +18,7 @@
 #include <string.h>
 
 static const double freedom = 0.4;      ///< β
+static const double driven = 0.03;      ///< of μ, where something drives the motion: R changes six times as fast
 static const double settled = 1e-4;     ///< change of what is left, as a share of the power, that ends the turns
 static const double least_push = 1e-12; ///< so that a shape of zero keeps the equations definite
 
@@ -30,6 +32,7 @@ struct fit {
     struct basis basis;
     double *pull;         ///< W G, 2 count × frames
     double metric[BLOCK]; ///< W G Wᵀ
+    int first;            ///< the frame from which on nothing drives the motion
     double *factors;      ///< of each frame: L, then L⁻¹ E of the block E beside it, d × d each
 };
 
@@ -63,6 +66,9 @@ static void solve_upper(const double *l, int d, double *x)
         x[i] /= l[i * d + i];
     }
 }
+
+/// How much of μ counts between frame t and the next.
+static double firmness(const struct fit *f, int t) { return t < f->first ? driven : 1; }
 
 /// μ_k of every pole, and z_k so that it does not grow.
 static void weigh_pushes(const struct fit *f, double *push, double complex *z)
@@ -105,7 +111,8 @@ static void solve_courses(struct fit *f)
         memcpy(l, f->metric, block * sizeof *l);
         for (int i = 0; i < d; i++) {
             double size = cabs(z[i / 2]);
-            l[i * d + i] += push[i / 2] * ((t > 0 ? 1 : 0) + (t < n - 1 ? size * size : 0));
+            l[i * d + i] +=
+                push[i / 2] * ((t > 0 ? firmness(f, t - 1) : 0) + (t < n - 1 ? size * size * firmness(f, t) : 0));
         }
         for (int i = 0; before && i < d; i++) {
             for (int j = 0; j <= i; j++) {
@@ -113,7 +120,7 @@ static void solve_courses(struct fit *f)
             }
         }
         factor(l, d);
-        memcpy(y, beside, block * sizeof *y);
+        for (size_t i = 0; i < block; i++) y[i] = firmness(f, t) * beside[i];
         solve_lower(l, d, y, d);
         double right[ROWS_MAX];
         for (int i = 0; i < d; i++) {
@@ -193,7 +200,7 @@ bool courses_create(struct courses *c, const struct lapack *lapack, const double
                     const double complex *poles, int count)
 {
     size_t n = (size_t)frames, d = 2 * (size_t)count;
-    struct fit fit = {.courses = c, .lapack = lapack, .gram = gram};
+    struct fit fit = {.courses = c, .lapack = lapack, .gram = gram, .first = first};
     *c = (struct courses){.frames = frames, .count = count};
     memcpy(c->pole, poles, (size_t)count * sizeof *poles);
     c->rows = malloc(d * n * sizeof *c->rows);

@@ -6,8 +6,7 @@
 enum { DRIFT = 2 }; ///< sequences of the drift, which the basis begins with
 
 static const double steady = 0.05;        ///< how far a pole of the motion may wander
-static const double least_gain = 0.002;   ///< of the motion's power
-static const double wanderer_gain = 0.01; ///< the same, of a pole that wanders
+static const double wanderer_gain = 0.01; ///< of the motion's power, at least, by a pole that wanders
 static const double cancelling = 4; ///< times the motion's power: what a pole's own part has only against another's
 
 void exponentials_fill(double complex z, int frames, double *rows)
@@ -76,15 +75,16 @@ static int find_best(const struct pole *poles, int first, int count, const doubl
     return best;
 }
 
-/// Appends the best of poles[chosen … count), as long as one gains `least` of the power. Returns the new number of chosen ones.
-static int choose_among(struct pole *poles, int chosen, int count, int most, double least, const double *gram,
-                        double power, struct basis *basis, double *room)
+/// Appends the best of poles[chosen … count), as long as one gains `least` of the power or there are fewer than `needed`. Returns
+/// the new number of chosen ones.
+static int choose_among(struct pole *poles, int chosen, int count, int needed, int most, double least,
+                        const double *gram, double power, struct basis *basis, double *room)
 {
     while (chosen < count && chosen < most) {
         double gain;
         int best = find_best(poles, chosen, count, gram, basis, room, &gain);
         struct pole pole = poles[best];
-        if (chosen > 0 && gain < least * power) break;
+        if (chosen >= needed && gain < least * power) break;
         append(basis, pole.z, room);
         if (chosen > 0 && largest_part(basis, gram, room) > cancelling * power) {
             basis->count -= 2;
@@ -97,23 +97,26 @@ static int choose_among(struct pole *poles, int chosen, int count, int most, dou
     return chosen;
 }
 
-static int choose(struct pole *poles, int count, int most, const double *gram, struct basis *basis, double *room)
+static int choose(struct pole *poles, int count, int most, double least, const double *gram, struct basis *basis,
+                  double *room)
 {
     size_t n = (size_t)basis->frames;
     double power = -basis_gain(basis, DRIFT, gram);
     int steady_count = 0;
     for (size_t t = 0; t < n; t++) power += gram[t * n + t];
     while (steady_count < count && poles[steady_count].wander < steady) steady_count++;
-    int chosen = choose_among(poles, 0, steady_count, most, least_gain, gram, power, basis, room);
+    int chosen = choose_among(poles, 0, steady_count, 0, most, least, gram, power, basis, room);
     for (int k = chosen; k + steady_count - chosen < count; k++) poles[k] = poles[k + steady_count - chosen];
-    return choose_among(poles, chosen, count - steady_count + chosen, most, wanderer_gain, gram, power, basis, room);
+    return choose_among(poles, chosen, count - steady_count + chosen, 1, most, wanderer_gain, gram, power, basis,
+                        room);
 }
 
-int exponentials_choose(struct pole *poles, int count, int most, const double *gram, struct basis *basis)
+int exponentials_choose(struct pole *poles, int count, int most, double least, const double *gram,
+                        struct basis *basis)
 {
     double *room = malloc((size_t)basis->capacity * (size_t)basis->frames * sizeof *room);
     if (!room) return -1;
-    int chosen = choose(poles, count, most, gram, basis, room);
+    int chosen = choose(poles, count, most, least, gram, basis, room);
     free(room);
     return chosen;
 }

@@ -72,16 +72,19 @@ static char *make_name(const char *path, const struct character *character)
     }
 }
 
+/// To a millionth, so that a file is the same whatever processor LAPACK ran on.
+static double rounded(double value) { return round(value * 1e6) / 1e6; }
+
 static bool keep(struct coordinate *to, const struct component *c, const struct analysis *analysis, const char *path,
                  const struct character *character, struct error *error)
 {
     to->name = make_name(path, character);
     if (!to->name) return fail_no_memory(error, path);
-    to->frequency = c->frequency;
-    to->damping = c->damping;
-    to->explained = c->explained;
-    to->pca1 = analysis->pca1;
-    to->pca2 = analysis->pca2;
+    to->frequency = rounded(c->frequency);
+    to->damping = rounded(c->damping);
+    to->explained = rounded(c->explained);
+    to->pca1 = rounded(analysis->pca1);
+    to->pca2 = rounded(analysis->pca2);
     for (int n = 0; n < 3 * c->vertices; n++) {
         to->re[n / 3][n % 3] = (float)creal(c->shape[n / 3][n % 3]);
         to->im[n / 3][n % 3] = (float)cimag(c->shape[n / 3][n % 3]);

@@ -4,7 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double MET = 1e-4; ///< of the rig's size: a chain is posed in floats
+static const double BELOW = 1e-4; ///< metres below a floor that are told
+static const double MET = 1e-4;   ///< of the rig's size: a chain is posed in floats
 
 static void tell_pin(const struct pin_left *left, int rig, int pin, void (*tell)(void *user, const char *sentence),
                      void *user)
@@ -22,6 +23,18 @@ static void tell_pin(const struct pin_left *left, int rig, int pin, void (*tell)
     tell(user, sentence);
 }
 
+static void tell_floor(const struct document *document, const struct floor_left *left, int rig,
+                       void (*tell)(void *user, const char *sentence), void *user)
+{
+    const struct rig *of = &document->rigs[rig];
+    char sentence[160];
+    if (of->kind != RIG_CHARACTER || !of->character.has_floor || !left || left->depth < BELOW) return;
+    snprintf(sentence, sizeof sentence,
+             "rigs[%d].floor: knots and pins hold the character up to %.3g m below it, deepest at frame %.6g", rig,
+             left->depth, document_frame(document, left->sample));
+    tell(user, sentence);
+}
+
 void pin_warnings(const struct document *document, const struct evaluation *evaluation,
                   void (*tell)(void *user, const char *sentence), void *user)
 {
@@ -29,12 +42,14 @@ void pin_warnings(const struct document *document, const struct evaluation *eval
         for (int i = 0; i < document->rigs[r].pin_count; i++)
             tell_pin(evaluation_pin(evaluation, document, r, i), r, i, tell, user);
     }
+    for (int r = 0; r < document->rig_count; r++)
+        tell_floor(document, evaluation_floor(evaluation, r), r, tell, user);
     for (int s = 0; s < document->spline_count; s++) {
         const struct param *parameter = document->splines[s].parameter;
         char sentence[80];
         const bool limited = isfinite(parameter[PARAMETER_LOW].value) || isfinite(parameter[PARAMETER_HIGH].value);
         if (!limited || !pins_move_spline(document, s)) continue;
-        snprintf(sentence, sizeof sentence, "splines[%d].limits: pins pass over them", s);
+        snprintf(sentence, sizeof sentence, "splines[%d].limits: pins and floors pass over them", s);
         tell(user, sentence);
     }
 }

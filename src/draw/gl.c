@@ -68,6 +68,24 @@ GLuint gl_program(const char *vertex_name, const char *fragment_name, const char
     return program;
 }
 
+GLuint gl_picture(const unsigned char *pixels, int width, int height)
+{
+    GLuint texture;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    glGenerateMipmap(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    return texture;
+}
+
+GLuint gl_white(void)
+{
+    static const unsigned char white[4] = {255, 255, 255, 255};
+    return gl_picture(white, 1, 1);
+}
+
 void gl_uniform_linear(GLint location, uint32_t color)
 {
     float linear[3];

@@ -13,6 +13,10 @@ GLuint gl_program(const char *vertex_name, const char *fragment_name, const char
 /// Side of the largest texture, texels.
 int gl_largest_texture(void);
 
+/// A texture of sRGB pixels with opacity, which repeats; and one that is a white pixel.
+GLuint gl_picture(const unsigned char *pixels, int width, int height);
+GLuint gl_white(void);
+
 /// Sets a vec3 of the program in use to a colour 0xRRGGBBAA (sRGB), made linear.
 void gl_uniform_linear(GLint location, uint32_t color);
 

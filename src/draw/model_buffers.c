@@ -99,28 +99,15 @@ static void shape_create(struct model_shape *shape, const struct gltf_part *part
     glBindVertexArray(0);
 }
 
-static GLuint picture(const unsigned char *pixels, int width, int height)
-{
-    GLuint texture;
-    glGenTextures(1, &texture);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
-    glGenerateMipmap(GL_TEXTURE_2D);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    return texture;
-}
-
 static long upload_pictures(struct model_buffers *buffers, const struct gltf *gltf)
 {
-    static const unsigned char white[4] = {255, 255, 255, 255};
     const int largest = gl_largest_texture();
     long bytes = 0;
-    buffers->white = picture(white, 1, 1);
+    buffers->white = gl_white();
     for (int i = 0; i < gltf->image_count; i++) {
         const struct gltf_image *image = &gltf->images[i];
         if (!image->pixels || image->width > largest || image->height > largest) continue;
-        buffers->pictures[i] = picture(image->pixels, image->width, image->height);
+        buffers->pictures[i] = gl_picture(image->pixels, image->width, image->height);
         bytes += 4L * image->width * image->height;
     }
     buffers->image_count = gltf->image_count;

@@ -1,4 +1,5 @@
 /// Moves soft characters on the GPU, by complex morphs.
+#include "draw/morph_looks.h"
 #include "draw/painter.h"
 #include "draw/stage.h"
 #include "draw/stage_extent.h"
@@ -24,17 +25,48 @@ struct model {
     GLsizei fine_count, coarse_count;
     int rows;         ///< of the texture, for one coordinate
     uint64_t version; ///< of the figure that is in it
+    struct morph_looks looks;
 };
 
-struct stage_morph {
+/// Skins of vertex colours and phase maps; and those with materials.
+enum { PLAIN, PICTURED, PROGRAMS };
+enum { COORDINATES_UNIT = 0, PICTURE_UNIT = 1 };
+
+struct morph_program {
     GLuint program;
     struct painter_uniforms shared;
     struct {
-        GLint place, shade, count, first_row, weight, map_row, map_axis, line;
+        GLint place, shade, count, first_row, weight, map_row, map_axis, line, base;
     } at;
+};
+
+struct stage_morph {
+    struct morph_program programs[PROGRAMS];
     struct model models[MAX_KEPT];
     long clock;
 };
+
+static bool program_create(struct morph_program *morph, const char *define, struct error *error)
+{
+    morph->program = gl_program("stage_character.vert", "stage_mesh.frag", define, error);
+    if (!morph->program) return false;
+    const struct {
+        GLint *location;
+        const char *name;
+    } uniforms[] = {
+        {&morph->at.place, "place"},         {&morph->at.shade, "shade"},   {&morph->at.count, "count"},
+        {&morph->at.first_row, "first_row"}, {&morph->at.weight, "weight"}, {&morph->at.map_row, "map_row"},
+        {&morph->at.map_axis, "map_axis"},   {&morph->at.line, "line"},     {&morph->at.base, "base"},
+    };
+    for (size_t i = 0; i < sizeof uniforms / sizeof *uniforms; i++) {
+        *uniforms[i].location = glGetUniformLocation(morph->program, uniforms[i].name);
+    }
+    morph->shared = painter_find_uniforms(morph->program);
+    glUseProgram(morph->program);
+    glUniform1i(glGetUniformLocation(morph->program, "coordinates"), COORDINATES_UNIT);
+    glUniform1i(glGetUniformLocation(morph->program, "picture"), PICTURE_UNIT);
+    return true;
+}
 
 static void *create(struct error *error)
 {
@@ -43,24 +75,12 @@ static void *create(struct error *error)
         fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
         return NULL;
     }
-    morph->program = gl_program("stage_character.vert", "stage_mesh.frag", NULL, error);
-    if (!morph->program) {
-        free(morph);
-        return NULL;
-    }
-    const struct {
-        GLint *location;
-        const char *name;
-    } uniforms[] = {
-        {&morph->at.place, "place"},         {&morph->at.shade, "shade"},   {&morph->at.count, "count"},
-        {&morph->at.first_row, "first_row"}, {&morph->at.weight, "weight"}, {&morph->at.map_row, "map_row"},
-        {&morph->at.map_axis, "map_axis"},   {&morph->at.line, "line"},
-    };
-    for (size_t i = 0; i < sizeof uniforms / sizeof *uniforms; i++) {
-        *uniforms[i].location = glGetUniformLocation(morph->program, uniforms[i].name);
-    }
-    morph->shared = painter_find_uniforms(morph->program);
-    return morph;
+    if (program_create(&morph->programs[PLAIN], NULL, error) &&
+        program_create(&morph->programs[PICTURED], "PICTURED", error))
+        return morph;
+    glDeleteProgram(morph->programs[PLAIN].program);
+    free(morph);
+    return NULL;
 }
 
 static void model_free(struct model *model)
@@ -70,6 +90,7 @@ static void model_free(struct model *model)
     glDeleteBuffers(1, &model->fine);
     glDeleteBuffers(1, &model->coarse);
     glDeleteTextures(1, &model->coordinates);
+    morph_looks_free(&model->looks);
     *model = (struct model){0};
 }
 
@@ -77,7 +98,7 @@ static void destroy(void *state)
 {
     struct stage_morph *morph = state;
     for (int i = 0; i < MAX_KEPT; i++) model_free(&morph->models[i]);
-    glDeleteProgram(morph->program);
+    for (int p = 0; p < PROGRAMS; p++) glDeleteProgram(morph->programs[p].program);
     free(morph);
 }
 
@@ -156,22 +177,41 @@ static GLuint upload_buffer(GLenum target, size_t bytes, const void *data)
     return buffer;
 }
 
-/// Uploads the four arrays of vectors one after the other.
+/// Uploads the four arrays of vectors one after the other, then texture coordinates.
 static long upload_vertices(struct model *model, const struct figure *figure)
 {
     const struct character *c = &figure->character;
     const size_t bytes = 3 * sizeof(float) * (size_t)c->vertex_count;
+    const size_t uv = c->looks.uv && !c->looks.corner ? 2 * sizeof(float) * (size_t)c->vertex_count : 0;
     const void *const arrays[] = {c->position, c->normal, figure->tangent, c->color};
-    model->vertices = upload_buffer(GL_ARRAY_BUFFER, 4 * bytes, NULL);
-    char *out = glMapBufferRange(GL_ARRAY_BUFFER, 0, (GLsizeiptr)(4 * bytes),
+    model->vertices = upload_buffer(GL_ARRAY_BUFFER, 4 * bytes + uv, NULL);
+    char *out = glMapBufferRange(GL_ARRAY_BUFFER, 0, (GLsizeiptr)(4 * bytes + uv),
                                  GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+    if (out && uv) memcpy(out + 4 * bytes, c->looks.uv, uv);
+    if (uv) {
+        glEnableVertexAttribArray(4);
+        glVertexAttribPointer(4, 2, GL_FLOAT, GL_FALSE, 0, (const void *)(4 * bytes));
+    }
     for (GLuint a = 0; a < 4; a++) {
         if (out) memcpy(out + a * bytes, arrays[a], bytes);
         glEnableVertexAttribArray(a);
         glVertexAttribPointer(a, 3, GL_FLOAT, GL_FALSE, 0, (const void *)(a * bytes));
     }
     glUnmapBuffer(GL_ARRAY_BUFFER);
-    return (long)(4 * bytes);
+    return (long)(4 * bytes + uv);
+}
+
+/// The fine or the coarse triangles, sorted by material if that is to be seen.
+static GLuint upload_triangles(struct model *model, const struct figure *figure, bool coarse)
+{
+    const struct character *c = &figure->character;
+    const size_t count = (size_t)(coarse ? figure->coarse_count : c->index_count);
+    uint32_t *sorted = model->looks.range_count > 0 ? morph_looks_sort(&model->looks, figure, coarse) : NULL;
+    if (!sorted) morph_looks_free(&model->looks);
+    const uint32_t *indices = coarse ? figure->coarse : c->indices;
+    const GLuint buffer = upload_buffer(GL_ELEMENT_ARRAY_BUFFER, sizeof *sorted * count, sorted ? sorted : indices);
+    free(sorted);
+    return buffer;
 }
 
 static long model_upload(struct model *model, const struct figure *figure)
@@ -185,9 +225,10 @@ static long model_upload(struct model *model, const struct figure *figure)
                             .coarse_count = figure->coarse_count};
     glGenVertexArrays(1, &model->vertex_array);
     glBindVertexArray(model->vertex_array);
-    long bytes = upload_vertices(model, figure) + upload_coordinates(model, figure);
-    model->coarse = upload_buffer(GL_ELEMENT_ARRAY_BUFFER, coarse, figure->coarse);
-    model->fine = upload_buffer(GL_ELEMENT_ARRAY_BUFFER, fine, c->indices);
+    long bytes = upload_vertices(model, figure) + upload_coordinates(model, figure) +
+                 morph_looks_create(&model->looks, figure);
+    model->coarse = upload_triangles(model, figure, true);
+    model->fine = upload_triangles(model, figure, false);
     glBindVertexArray(0);
     return bytes + (long)(fine + coarse);
 }
@@ -220,8 +261,40 @@ static void upload(void *state, const struct stage_view *view, long *bytes)
     }
 }
 
-static void draw_character(const struct stage_morph *morph, const struct model *model,
-                           const struct stage_character *shown, float scale)
+/// What is seen through comes last, blended, and has no seam.
+static void draw_ranges(const struct morph_program *morph, const struct model *model, bool coarse, bool blended)
+{
+    for (int r = 0; r < model->looks.range_count; r++) {
+        const struct morph_range *range = &model->looks.ranges[coarse][r];
+        if (range->count == 0 || (range->color[3] < 1) != blended) continue;
+        glUniform4fv(morph->at.base, 1, range->color);
+        glBindTexture(GL_TEXTURE_2D, range->picture);
+        glDrawElements(GL_TRIANGLES, range->count, GL_UNSIGNED_INT,
+                       (const void *)((size_t)range->first * sizeof(uint32_t)));
+    }
+}
+
+static void draw_pictured(const struct morph_program *morph, const struct model *model, bool coarse, bool is_seam)
+{
+    glActiveTexture(GL_TEXTURE0 + PICTURE_UNIT);
+    draw_ranges(morph, model, coarse, false);
+    if (!is_seam) {
+        glEnable(GL_BLEND);
+        glDepthMask(GL_FALSE);
+        draw_ranges(morph, model, coarse, true);
+        glDepthMask(GL_TRUE);
+        glDisable(GL_BLEND);
+    }
+    glActiveTexture(GL_TEXTURE0 + COORDINATES_UNIT);
+}
+
+static int program_of(const struct model *model, const struct stage_character *shown)
+{
+    return model->looks.range_count > 0 && shown->map_coordinate < 0 ? PICTURED : PLAIN;
+}
+
+static void draw_character(const struct morph_program *morph, const struct model *model,
+                           const struct stage_character *shown, float scale, bool is_seam)
 {
     const struct figure *figure = shown->figure;
     const float *p = shown->position;
@@ -242,18 +315,35 @@ static void draw_character(const struct stage_morph *morph, const struct model *
     glBindVertexArray(model->vertex_array);
     glBindTexture(GL_TEXTURE_2D, model->coordinates);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, shown->coarse ? model->coarse : model->fine);
+    if (program_of(model, shown) == PICTURED) {
+        draw_pictured(morph, model, shown->coarse, is_seam);
+        return;
+    }
     glDrawElements(GL_TRIANGLES, shown->coarse ? model->coarse_count : model->fine_count, GL_UNSIGNED_INT, NULL);
+}
+
+static const struct model *find_uploaded(const struct stage_morph *morph, const struct figure *figure)
+{
+    for (int m = 0; m < MAX_KEPT; m++) {
+        if (morph->models[m].id == figure->id) return &morph->models[m];
+    }
+    return NULL;
 }
 
 static void draw(const void *state, const struct stage_view *view, float scale, float seam)
 {
     const struct stage_morph *morph = state;
     if (view->character_count == 0) return;
-    painter_use(morph->program, &morph->shared, view, seam);
-    for (int i = 0; i < view->character_count; i++) {
-        const struct stage_character *shown = &view->characters[i];
-        for (int m = 0; m < MAX_KEPT; m++) {
-            if (morph->models[m].id == shown->figure->id) draw_character(morph, &morph->models[m], shown, scale);
+    for (int p = 0; p < PROGRAMS; p++) {
+        const struct morph_program *program = &morph->programs[p];
+        bool used = false;
+        for (int i = 0; i < view->character_count; i++) {
+            const struct stage_character *shown = &view->characters[i];
+            const struct model *model = find_uploaded(morph, shown->figure);
+            if (!model || program_of(model, shown) != p) continue;
+            if (!used) painter_use(program->program, &program->shared, view, seam);
+            used = true;
+            draw_character(program, model, shown, scale, seam > 0.0f);
         }
     }
     glBindVertexArray(0);

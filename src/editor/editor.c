@@ -158,13 +158,16 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     editor->core.held_key = 0;
     editor->core.space_down = false;
     editor->core.message = (struct message){0};
-    editor->core.playback = (struct playback){.looping = true, .speed = 1};
+    editor->core.playback = (struct playback){.looping = true, .speed = 1, .playing = document->about != NULL};
     for (int s = 0; s < document->spline_count; s++) {
         editor->core.playback.playing |= spline_start(&document->splines[s]) == WIGGLY_LOOP;
     }
+    editor->core.auto_key = false;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = &document->rigs[r];
         editor->core.playback.playing |= rig->kind == RIG_MODEL && rig->model.clip;
+        for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++)
+            editor->core.auto_key |= rig->tail.position[k].track >= 0; // who animates a body goes on to
     }
     editor->core.serial = document->serial;
     editor_reserve(editor, document);

@@ -3,6 +3,7 @@
 #include "editor/core/bones.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
+#include "editor/core/drag.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
 #include "editor/core/playback.h"
@@ -319,6 +320,7 @@ const struct binding key_bindings[] = {
     {.key = KEY_BACKSPACE, .run = run_delete},
     {.key = 'A', .mods = MOD_CTRL, .core = core_select_all, .argument = false},
     {.key = 'A', .mods = CTRL_SHIFT, .core = core_select_all, .argument = true},
+    {.key = 'A', .mods = MOD_SHIFT, .core = drag_toggle_auto_key},
     {.key = KEY_ESCAPE, .run = run_select_none},
     {.key = 'C', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_COPY},
     {.key = 'X', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_CUT},

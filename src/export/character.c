@@ -25,6 +25,19 @@ static bool add_targets(struct form *form, const struct figure *figure, int coor
     return true;
 }
 
+/// The character with those of its coordinates alone that the rig moves by.
+struct moving {
+    struct character character;
+    struct coordinate coordinates[]; ///< their shapes are the figure's
+};
+
+static bool moves_by(const struct morph *morph, int coordinate)
+{
+    bool moves = false;
+    for (int k = 0; k < morph->count; k++) moves |= morph->coordinate[k] == coordinate;
+    return moves;
+}
+
 static bool open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                  struct error *error)
 {
@@ -32,16 +45,24 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     const struct character *c = &figure->character;
     (void)posing;
     (void)rig;
-    form->character = c;
     form->vertex_count = c->vertex_count;
     form->position = (const float(*)[3])c->position;
     form->normal = (const float(*)[3])c->normal;
     form->color = (const float(*)[3])c->color;
     form->indices = c->indices;
     form->index_count = c->index_count;
+    struct moving *moving = form->owned =
+        malloc(sizeof *moving + (size_t)c->coordinate_count * sizeof *moving->coordinates);
+    form->looks = &c->looks;
     form->targets = calloc((size_t)c->coordinate_count * 2 + 1, sizeof *form->targets);
-    if (!form->targets) return fail_no_memory(error, form->name);
+    if (!moving || !form->targets) return fail_no_memory(error, form->name);
+    moving->character = *c;
+    moving->character.coordinates = moving->coordinates;
+    moving->character.coordinate_count = 0;
+    form->character = &moving->character;
     for (int k = 0; k < c->coordinate_count; k++) {
+        if (!moves_by(&pose->character.morph, k)) continue;
+        moving->coordinates[moving->character.coordinate_count++] = c->coordinates[k];
         if (!add_targets(form, figure, k)) return fail_no_memory(error, form->name);
     }
     return true;
@@ -55,6 +76,7 @@ static void close(struct form *form)
         free(form->targets[t].normal);
     }
     free(form->targets);
+    free(form->owned);
 }
 
 /// Its position is where it stands: the lowest point of the mesh at rest comes there.
@@ -68,9 +90,11 @@ static void key(const struct form *form, const struct rig_pose *pose, struct for
 {
     const struct morph *morph = &pose->character.morph;
     stand(pose, key->translation);
-    for (int t = 0; t < form->target_count; t++) key->weight[t] = 0;
-    for (int k = 0; k < morph->count; k++) {
-        for (int part = 0; part < 2; part++) key->weight[2 * morph->coordinate[k] + part] += morph->weight[k][part];
+    for (int t = 0; t < form->target_count; t++) {
+        key->weight[t] = 0;
+        for (int k = 0; k < morph->count; k++) {
+            if (morph->coordinate[k] == form->targets[t].group) key->weight[t] += morph->weight[k][t % 2];
+        }
     }
 }
 

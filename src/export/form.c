@@ -38,15 +38,17 @@ bool form_open(const struct shot *shot, int rig, struct form *form, struct error
 void form_channels(const struct shot *shot, int rig, const struct channel *channels, int count, int joints,
                    double key, form_column *column, void *user)
 {
-    static const char *const axes[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up", [AXIS_TWIST] = "twist"};
     const struct document *document = shot->posing->document;
     const char *name = form_name(&document->rigs[rig]);
     for (int c = 0; c < count; c++) {
         const struct channel *channel = &channels[c];
         const wiggly_value value = shot_value(shot, channel->spline, key);
-        for (int n = 0; n < joints; n++) {
+        if (!axis_bends(channel->axis))
+            column(user, channel_moves(channel, value, 1, shot->posing->look), "%s.%s.%s", name,
+                   axis_word(channel->axis), document->splines[channel->spline].name);
+        for (int n = 0; n < joints && axis_bends(channel->axis); n++) {
             const double angle = channel_bend(channel, value, n, joints, shot->posing->look);
-            column(user, 180 / 3.14159265358979323846 * angle, "%s.%s.%s.%d", name, axes[channel->axis],
+            column(user, 180 / 3.14159265358979323846 * angle, "%s.%s.%s.%d", name, axis_word(channel->axis),
                    document->splines[channel->spline].name, n);
         }
     }

@@ -31,7 +31,8 @@ struct form {
     const float (*position)[3], (*normal)[3], (*color)[3]; ///< colours are linear
     const uint32_t *indices;
     int index_count;
-    int joint_count; ///< 0: the mesh moves as a whole, and by its targets
+    const struct looks *looks; ///< its materials, polygons and texture coordinates, one a vertex; NULL: none
+    int joint_count;           ///< 0: the mesh moves as a whole, and by its targets
     struct form_joint *joints;
     int first_bone; ///< joints before it only carry the mesh
     float tip[3];   ///< of a chain, in its last joint
@@ -47,6 +48,7 @@ struct form {
 struct form_key {
     float translation[3]; ///< of the root, metres
     float (*rotation)[4]; ///< of each joint in its parent, unit quaternions x y z w
+    float (*scale)[3];    ///< of each joint, along its own axes; 1 unless its kind sets it
     float *weight;        ///< of each target
 };
 

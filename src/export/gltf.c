@@ -4,7 +4,7 @@
 #include "export/gltf_motion.h"
 #include "export/keys.h"
 #include "export/targets.h"
-#include "model/gltf_file.h"
+#include "model/gltf_looks.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +12,7 @@
 struct scene {
     struct shot *shot;
     struct gltf_file file;
+    struct gltf_looks looks;
     json_t *roots, *nodes, *meshes, *skins;
     struct gltf_motion motion;
     int joints, targets;
@@ -25,17 +26,11 @@ struct part {
     json_int_t mesh_node, first_joint;
 };
 
-static json_t *numbers(const float *values, int count)
+static json_t *numbers(struct scene *scene, const float *values, int count)
 {
     json_t *array = json_array();
-    for (int i = 0; i < count; i++) json_array_append_new(array, json_real((double)values[i]));
+    for (int i = 0; i < count; i++) gltf_append(&scene->file, array, json_real((double)values[i]));
     return array;
-}
-
-static json_int_t append(json_t *array, json_t *value)
-{
-    json_array_append_new(array, value);
-    return (json_int_t)json_array_size(array) - 1;
 }
 
 // --- mesh
@@ -54,18 +49,24 @@ static json_int_t add_colors(struct scene *scene, const struct form *form, float
     return add_vectors(scene, form, (const float(*)[3])scratch, false);
 }
 
+static void add_attribute(struct scene *scene, json_t *attributes, const char *name, enum gltf_elements elements,
+                          const void *data, size_t count)
+{
+    gltf_set(&scene->file, attributes, name, json_integer(gltf_file_add(&scene->file, elements, data, count, false)));
+}
+
 static json_t *make_attributes(struct scene *scene, const struct form *form, float (*scratch)[3])
 {
     const json_int_t position = add_vectors(scene, form, form->position, true);
     const json_int_t normal = add_vectors(scene, form, form->normal, false);
     json_t *attributes = json_pack("{s:I, s:I, s:I}", "POSITION", position, "NORMAL", normal, "COLOR_0",
                                    add_colors(scene, form, scratch));
-    if (form->joint_count == 0) return attributes;
     const size_t count = (size_t)form->vertex_count;
-    json_object_set_new(attributes, "JOINTS_0",
-                        json_integer(gltf_file_add(&scene->file, ELEMENTS_JOINTS, form->slots, count, false)));
-    json_object_set_new(attributes, "WEIGHTS_0",
-                        json_integer(gltf_file_add(&scene->file, ELEMENTS_WEIGHTS, form->weights, count, false)));
+    if (form->looks && form->looks->uv)
+        add_attribute(scene, attributes, "TEXCOORD_0", ELEMENTS_UVS, form->looks->uv, count);
+    if (form->joint_count == 0) return attributes;
+    add_attribute(scene, attributes, "JOINTS_0", ELEMENTS_JOINTS, form->slots, count);
+    add_attribute(scene, attributes, "WEIGHTS_0", ELEMENTS_WEIGHTS, form->weights, count);
     return attributes;
 }
 
@@ -79,24 +80,25 @@ static json_t *make_targets(struct scene *scene, const struct part *part, float 
         const json_int_t position = add_vectors(scene, form, (const float(*)[3])scratch, true);
         targets_scale(target, form->targets[target->source].normal, form->vertex_count, scratch);
         const json_int_t normal = add_vectors(scene, form, (const float(*)[3])scratch, false);
-        append(targets, json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal));
+        gltf_append(&scene->file, targets, json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal));
     }
     return targets;
 }
 
 /// What model/character.h reads: the names of the targets, and what is known of each coordinate.
-static json_t *make_extras(const struct part *part)
+static json_t *make_extras(struct scene *scene, const struct part *part)
 {
     const struct character *character = part->form->character;
     json_t *names = json_array(), *coordinates = json_array();
-    for (int t = 0; t < part->targets->count; t++) append(names, json_string(part->targets->list[t].name));
+    for (int t = 0; t < part->targets->count; t++)
+        gltf_append(&scene->file, names, json_string(part->targets->list[t].name));
     for (int i = 0; character && i < character->coordinate_count; i++) {
         const struct coordinate *c = &character->coordinates[i];
         json_t *known = json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "name", c->name, "frequency", c->frequency,
                                   "damping", c->damping, "explained", c->explained, "pca1", c->pca1, "pca2", c->pca2);
         const double scale = (double)part->targets->list[2 * i].scale;
-        if (scale != 1) json_object_set_new(known, "scale", json_real(scale));
-        append(coordinates, known);
+        if (scale != 1) gltf_set(&scene->file, known, "scale", json_real(scale));
+        gltf_append(&scene->file, coordinates, known);
     }
     return json_pack("{s:o, s:{s:o}}", "targetNames", names, "wiggly", "coordinates", coordinates);
 }
@@ -104,20 +106,20 @@ static json_t *make_extras(const struct part *part)
 static json_int_t add_mesh(struct scene *scene, const struct part *part, float (*scratch)[3])
 {
     const struct form *form = part->form;
-    json_t *attributes = make_attributes(scene, form, scratch);
-    const json_int_t indices =
-        gltf_file_add(&scene->file, ELEMENTS_INDICES, form->indices, (size_t)form->index_count, false);
-    json_t *primitive = json_pack("{s:o, s:I, s:i}", "attributes", attributes, "indices", indices, "material", 0);
-    json_t *mesh = json_pack("{s:s, s:[O]}", "name", form->name, "primitives", primitive);
+    const struct gltf_triangles triangles = {form->looks, form->indices, form->index_count};
+    json_t *attributes = make_attributes(scene, form, scratch), *targets = make_targets(scene, part, scratch);
+    json_t *mesh = json_pack("{s:s, s:o}", "name", form->name, "primitives",
+                             gltf_looks_primitives(&scene->looks, &triangles, attributes, targets));
     if (part->targets->count > 0) {
         json_t *weights = json_array();
-        for (int t = 0; t < part->targets->count; t++) append(weights, json_integer(0));
-        json_object_set_new(primitive, "targets", make_targets(scene, part, scratch));
-        json_object_set_new(mesh, "weights", weights);
-        json_object_set_new(mesh, "extras", make_extras(part));
+        for (int t = 0; t < part->targets->count; t++) gltf_append(&scene->file, weights, json_integer(0));
+        gltf_set(&scene->file, mesh, "weights", weights);
+        gltf_set(&scene->file, mesh, "extras", make_extras(scene, part));
     }
-    json_decref(primitive);
-    return append(scene->meshes, mesh);
+    if (!targets) scene->file.without_memory = true;
+    json_decref(attributes);
+    json_decref(targets);
+    return gltf_append(&scene->file, scene->meshes, mesh);
 }
 
 // --- nodes
@@ -131,15 +133,14 @@ static json_int_t add_skin(struct scene *scene, struct part *part)
     for (int j = 0; j < form->joint_count; j++) {
         const struct form_joint *joint = &form->joints[j];
         const float *place = joint->parent < 0 ? part->keys->at.translation[0] : joint->offset;
-        json_t *node = json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", numbers(place, 3), "rotation",
-                                 numbers(part->keys->at.rotation[j * part->keys->count], 4));
-        append(joints, json_integer(append(scene->nodes, node)));
+        json_t *node = json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", numbers(scene, place, 3),
+                                 "rotation", numbers(scene, part->keys->at.rotation[j * part->keys->count], 4));
+        gltf_append(&scene->file, joints, json_integer(gltf_append(&scene->file, scene->nodes, node)));
         if (joint->parent < 0) continue;
         json_t *parent = json_array_get(scene->nodes, (size_t)(part->first_joint + joint->parent));
-        if (!json_object_get(parent, "children")) json_object_set_new(parent, "children", json_array());
-        append(json_object_get(parent, "children"), json_integer(part->first_joint + j));
+        gltf_append_to(&scene->file, parent, "children", json_integer(part->first_joint + j));
     }
-    append(scene->roots, json_integer(part->first_joint));
+    gltf_append(&scene->file, scene->roots, json_integer(part->first_joint));
     float(*inverse)[16] = calloc((size_t)form->joint_count, sizeof *inverse);
     for (int j = 0; inverse && j < form->joint_count; j++) {
         for (int k = 0; k < 4; k++) inverse[j][5 * k] = 1;
@@ -149,20 +150,21 @@ static json_int_t add_skin(struct scene *scene, struct part *part)
     const json_int_t matrices =
         inverse ? gltf_file_add(&scene->file, ELEMENTS_MATRICES, inverse, (size_t)form->joint_count, false) : 0;
     free(inverse);
-    return append(scene->skins, json_pack("{s:o, s:I, s:I}", "joints", joints, "inverseBindMatrices", matrices,
-                                          "skeleton", part->first_joint));
+    return gltf_append(&scene->file, scene->skins,
+                       json_pack("{s:o, s:I, s:I}", "joints", joints, "inverseBindMatrices", matrices, "skeleton",
+                                 part->first_joint));
 }
 
 static void add_nodes(struct scene *scene, struct part *part, json_int_t mesh)
 {
     const struct form *form = part->form;
     json_t *node = json_pack("{s:s, s:I}", "name", form->name, "mesh", mesh);
-    part->mesh_node = append(scene->nodes, node);
-    append(scene->roots, json_integer(part->mesh_node));
+    part->mesh_node = gltf_append(&scene->file, scene->nodes, node);
+    gltf_append(&scene->file, scene->roots, json_integer(part->mesh_node));
     if (form->joint_count > 0) {
-        json_object_set_new(node, "skin", json_integer(add_skin(scene, part)));
+        gltf_set(&scene->file, node, "skin", json_integer(add_skin(scene, part)));
     } else {
-        json_object_set_new(node, "translation", numbers(part->keys->at.translation[0], 3));
+        gltf_set(&scene->file, node, "translation", numbers(scene, part->keys->at.translation[0], 3));
     }
 }
 
@@ -188,6 +190,15 @@ static void add_weights(struct scene *scene, const struct part *part)
     free(slopes);
 }
 
+/// Whether any key is other than at rest.
+static bool differs(const float *keys, int width, int count, const float *rest)
+{
+    for (int i = 0; i < width * count; i++) {
+        if (keys[i] != rest[i % width]) return true;
+    }
+    return false;
+}
+
 static void add_animation(struct scene *scene, const struct part *part)
 {
     const struct form *form = part->form;
@@ -197,10 +208,15 @@ static void add_animation(struct scene *scene, const struct part *part)
         gltf_motion_add(&scene->motion, form->joint_count > 0 ? part->first_joint : part->mesh_node, GLTF_TRANSLATION,
                         keys->at.translation[0], slopes, 3);
     }
-    for (int j = form->first_bone; j < form->joint_count; j++) {
-        const float *slopes = keys->slope.translation ? keys->slope.rotation[j * keys->count] : NULL;
-        gltf_motion_add(&scene->motion, part->first_joint + j, GLTF_ROTATION, keys->at.rotation[j * keys->count],
-                        slopes, 4);
+    for (int j = 0; j < form->joint_count; j++) {
+        const int at = j * keys->count;
+        const float *turns = keys->at.rotation[at], *sizes = keys->at.scale[at];
+        if (j >= form->first_bone || differs(turns, 4, keys->count, (const float[]){0, 0, 0, 1}))
+            gltf_motion_add(&scene->motion, part->first_joint + j, GLTF_ROTATION, turns,
+                            keys->slope.translation ? keys->slope.rotation[at] : NULL, 4);
+        if (differs(sizes, 3, keys->count, (const float[]){1, 1, 1}))
+            gltf_motion_add(&scene->motion, part->first_joint + j, GLTF_SCALE, sizes,
+                            keys->slope.translation ? keys->slope.scale[at] : NULL, 3);
     }
     add_weights(scene, part);
 }
@@ -231,17 +247,16 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     return done;
 }
 
-static json_t *make_root(const struct scene *scene)
+static json_t *make_root(struct scene *scene)
 {
-    json_t *material = json_pack("{s:s, s:{s:f, s:f}}", "name", "skin", "pbrMetallicRoughness", "metallicFactor", 0.0,
-                                 "roughnessFactor", 0.8);
-    json_t *root = json_pack("{s:{s:s, s:s}, s:i, s:[{s:O}], s:O, s:O, s:[o]}", "asset", "version", "2.0",
-                             "generator", "wiggly", "scene", 0, "scenes", "nodes", scene->roots, "nodes",
-                             scene->nodes, "meshes", scene->meshes, "materials", material);
-    if (json_array_size(scene->skins) > 0) json_object_set(root, "skins", scene->skins);
+    json_t *root =
+        json_pack("{s:{s:s, s:s}, s:i, s:[{s:O}], s:O, s:O}", "asset", "version", "2.0", "generator", "wiggly",
+                  "scene", 0, "scenes", "nodes", scene->roots, "nodes", scene->nodes, "meshes", scene->meshes);
+    gltf_looks_complete(&scene->looks, root);
+    if (json_array_size(scene->skins) > 0) gltf_set(&scene->file, root, "skins", json_incref(scene->skins));
     if (json_array_size(scene->motion.channels) > 0) {
         const char *name = scene->shot->clip ? scene->shot->clip : scene->shot->title;
-        json_object_set_new(root, "animations", json_pack("[o]", gltf_motion_json(&scene->motion, name)));
+        gltf_set(&scene->file, root, "animations", json_pack("[o]", gltf_motion_json(&scene->motion, name)));
     }
     return root;
 }
@@ -259,6 +274,7 @@ static bool write_scene(struct shot *shot, bool binary, FILE *out, char summary[
     struct scene scene = {.shot = shot};
     json_t **const arrays[] = {&scene.roots, &scene.nodes, &scene.meshes, &scene.skins};
     enum { ARRAYS = sizeof arrays / sizeof *arrays };
+    scene.looks.file = &scene.file;
     for (int i = 0; i < ARRAYS; i++) *arrays[i] = json_array();
     shot->total = (long)shot->key_count * shot->rig_count;
     bool done = true;
@@ -268,6 +284,7 @@ static bool write_scene(struct shot *shot, bool binary, FILE *out, char summary[
     summarise(&scene, summary);
     for (int i = 0; i < ARRAYS; i++) json_decref(*arrays[i]);
     gltf_motion_free(&scene.motion);
+    gltf_looks_free(&scene.looks);
     gltf_file_free(&scene.file);
     return done;
 }

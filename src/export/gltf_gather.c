@@ -22,14 +22,14 @@ static bool add(struct gathered *gathered, struct glb_bytes bytes, size_t *start
     return true;
 }
 
-/// Lets a view, or an extension of one, find its bytes again.
-static void move(json_t *view, const size_t *starts, size_t count)
+/// Lets a view, or an extension of one, find its bytes again. False if memory is short.
+static bool move(json_t *view, const size_t *starts, size_t count)
 {
     const int64_t buffer = glb_integer(view, "buffer", -1), offset = glb_integer(view, "byteOffset", 0);
-    if (buffer < 0 || (size_t)buffer >= count || offset < 0) return;
-    json_object_set_new(view, "buffer", json_integer(0));
-    if (starts[buffer] > 0)
-        json_object_set_new(view, "byteOffset", json_integer(offset + (json_int_t)starts[buffer]));
+    if (buffer < 0 || (size_t)buffer >= count || offset < 0) return true;
+    return json_object_set_new(view, "buffer", json_integer(0)) == 0 &&
+           (starts[buffer] == 0 ||
+            json_object_set_new(view, "byteOffset", json_integer(offset + (json_int_t)starts[buffer])) == 0);
 }
 
 static bool gather_buffers(struct gathered *gathered)
@@ -45,9 +45,9 @@ static bool gather_buffers(struct gathered *gathered)
     json_array_foreach(json_object_get(gathered->file->json, "bufferViews"), i, view)
     {
         const char *name;
-        if (!done) break;
-        move(view, starts, count);
-        json_object_foreach(json_object_get(view, "extensions"), name, extension) { move(extension, starts, count); }
+        done = done && move(view, starts, count);
+        json_object_foreach(json_object_get(view, "extensions"), name, extension) done =
+            done && move(extension, starts, count);
     }
     free(starts);
     return done;
@@ -79,11 +79,12 @@ static bool gather_image(struct gathered *gathered, json_t *views, json_t *image
     const char *kind = kind_of(picture.bytes);
     bool done = true;
     if (kind) {
-        done = add(gathered, picture.bytes, &start);
-        json_array_append_new(views, json_pack("{s:i, s:I, s:I}", "buffer", 0, "byteOffset", (json_int_t)start,
-                                               "byteLength", (json_int_t)picture.bytes.size));
-        json_object_set_new(image, "bufferView", json_integer((json_int_t)json_array_size(views) - 1));
-        json_object_set_new(image, "mimeType", json_string(kind));
+        const json_int_t view = (json_int_t)json_array_size(views);
+        done = add(gathered, picture.bytes, &start) &&
+               json_array_append_new(views, json_pack("{s:i, s:I, s:I}", "buffer", 0, "byteOffset", (json_int_t)start,
+                                                      "byteLength", (json_int_t)picture.bytes.size)) == 0 &&
+               json_object_set_new(image, "bufferView", json_integer(view)) == 0 &&
+               json_object_set_new(image, "mimeType", json_string(kind)) == 0;
         json_object_del(image, "uri");
     }
     free(picture.owned);
@@ -98,7 +99,8 @@ static bool gather_images(struct gathered *gathered)
     bool done = true;
     if (!views) views = json_array();
     json_array_foreach(json_object_get(root, "images"), i, image) done = done && gather_image(gathered, views, image);
-    if (json_array_size(views) > 0) json_object_set(root, "bufferViews", views);
+    if (json_array_size(views) > 0) done = done && json_object_set(root, "bufferViews", views) == 0;
+    done = done && views;
     json_decref(views);
     return done;
 }
@@ -107,12 +109,14 @@ bool gltf_gather(struct glb *file, struct glb_buffer *bytes, struct error *error
 {
     struct gathered gathered = {.file = file};
     if (!glb_read_buffers(file, error)) return false;
-    if (!gather_buffers(&gathered) || !gather_images(&gathered)) {
+    bool done = gather_buffers(&gathered) && gather_images(&gathered);
+    if (gathered.size > 0)
+        done = done && json_object_set_new(file->json, "buffers",
+                                           json_pack("[{s:I}]", "byteLength", (json_int_t)gathered.size)) == 0;
+    if (!done) {
         free(gathered.bytes);
         return fail_no_memory(error, file->path);
     }
-    if (gathered.size > 0)
-        json_object_set_new(file->json, "buffers", json_pack("[{s:I}]", "byteLength", (json_int_t)gathered.size));
     *bytes = (struct glb_buffer){{gathered.bytes, gathered.size}, gathered.bytes};
     return true;
 }

@@ -1,6 +1,7 @@
 /// Writes an imported character's own file with a clip more.
 #include "export/gltf_model.h"
 #include "base/file.h"
+#include "base/json.h"
 #include "base/path.h"
 #include "export/gltf_body.h"
 #include "export/gltf_gather.h"
@@ -55,7 +56,7 @@ static struct glb_bytes find_chunk(const struct glb *source)
 
 static void append_all(struct splice *splice, const char *array, const json_t *values)
 {
-    char *joined = json_dumps(values, JSON_COMPACT | JSON_REAL_PRECISION(9));
+    char *joined = json_print(values, JSON_COMPACT | JSON_REAL_PRECISION(9));
     if (joined) {
         joined[strlen(joined) - 1] = '\0'; // without the brackets
         splice_append(splice, array, joined + 1);
@@ -68,7 +69,7 @@ static void put_clip(struct splice *splice, const struct gltf *gltf, const struc
                      const char *name)
 {
     json_t *json = gltf_motion_json(motion, name);
-    char *text = json ? json_dumps(json, JSON_COMPACT) : NULL;
+    char *text = json ? json_print(json, JSON_COMPACT) : NULL;
     const int known = gltf_find_clip(gltf, name);
     if (text && known >= 0) splice_replace(splice, "animations", (size_t)known, NULL, text);
     if (text && known < 0) splice_append(splice, "animations", text);
@@ -204,7 +205,7 @@ static bool open_original(const struct shot *shot, const char *path, bool binary
     bool done;
     if (original->is_other) {
         done = gltf_gather(source, &original->first, error);
-        if (done) original->text = json_dumps(source->json, binary ? JSON_COMPACT : JSON_INDENT(1));
+        if (done) original->text = json_print(source->json, binary ? JSON_COMPACT : JSON_INDENT(1));
     } else {
         done = check_place(shot, source, error);
         if (done) original->text = text_of(source, binary);

@@ -28,10 +28,10 @@ static void put(struct gltf_motion *motion, json_int_t node, enum gltf_path path
     static const char *const paths[] = {"translation", "rotation", "scale", "weights"};
     static const char *const ways[] = {"STEP", "LINEAR", "CUBICSPLINE"};
     const json_int_t sampler = (json_int_t)json_array_size(motion->samplers);
-    json_array_append_new(motion->samplers, json_pack("{s:I, s:I, s:s}", "input", times, "output", values,
-                                                      "interpolation", ways[interpolation]));
-    json_array_append_new(motion->channels, json_pack("{s:I, s:{s:I, s:s}}", "sampler", sampler, "target", "node",
-                                                      node, "path", paths[path]));
+    gltf_append(motion->file, motion->samplers,
+                json_pack("{s:I, s:I, s:s}", "input", times, "output", values, "interpolation", ways[interpolation]));
+    gltf_append(motion->file, motion->channels,
+                json_pack("{s:I, s:{s:I, s:s}}", "sampler", sampler, "target", "node", node, "path", paths[path]));
 }
 
 /// The accessor of `count` keys, each of one row of numbers or, with tangents, of three.

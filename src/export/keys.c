@@ -6,7 +6,7 @@
 
 #define STEP (1.0 / 16) /* of differences, in keys */
 
-/// All numbers of one time in one row: translation, rotations, weights.
+/// All numbers of one time in one row: translation, rotations, scales, weights.
 struct sampler {
     const struct shot *shot;
     const struct form *form;
@@ -16,7 +16,11 @@ struct sampler {
 static bool sample(const struct sampler *from, double key, float *row, struct error *error)
 {
     struct rig_pose pose;
-    struct form_key values = {.rotation = (float(*)[4])(row + 3), .weight = row + 3 + 4 * from->form->joint_count};
+    const int joints = from->form->joint_count;
+    struct form_key values = {.rotation = (float(*)[4])(row + 3),
+                              .scale = (float(*)[3])(row + 3 + 4 * joints),
+                              .weight = row + 3 + 7 * joints};
+    for (int i = 0; i < 3 * joints; i++) row[3 + 4 * joints + i] = 1;
     if (!shot_pose(from->shot, from->rig, key, &pose, error)) return false;
     from->form->kind->key(from->form, &pose, &values);
     memcpy(row, values.translation, sizeof values.translation);
@@ -78,17 +82,20 @@ static bool reserve(struct key_values *values, const struct form *form, int coun
     const size_t keys = (size_t)count;
     values->translation = malloc((keys + 1) * sizeof *values->translation);
     values->rotation = malloc((keys * (size_t)form->joint_count + 1) * sizeof *values->rotation);
+    values->scale = malloc((keys * (size_t)form->joint_count + 1) * sizeof *values->scale);
     values->weight = malloc((keys * (size_t)form->target_count + 1) * sizeof *values->weight);
-    return values->translation && values->rotation && values->weight;
+    return values->translation && values->rotation && values->scale && values->weight;
 }
 
 /// Puts a row where formats look for it.
 static void scatter(const struct form *form, int count, int key, const float *row, struct key_values *values)
 {
-    const float *weight = row + 3 + 4 * form->joint_count;
+    const float *scale = row + 3 + 4 * form->joint_count, *weight = scale + 3 * form->joint_count;
     memcpy(values->translation[key], row, sizeof *values->translation);
     for (int j = 0; j < form->joint_count; j++)
         memcpy(values->rotation[j * count + key], row + 3 + 4 * j, sizeof *values->rotation);
+    for (int j = 0; j < form->joint_count; j++)
+        memcpy(values->scale[j * count + key], scale + 3 * j, sizeof *values->scale);
     for (int t = 0; t < form->target_count; t++) values->weight[t * count + key] = weight[t];
 }
 
@@ -124,7 +131,7 @@ static bool collect(struct shot *shot, const struct sampler *from, struct keys *
 
 bool keys_collect(struct shot *shot, int rig, const struct form *form, struct keys *keys, struct error *error)
 {
-    const struct sampler from = {shot, form, rig, 3 + 4 * form->joint_count + form->target_count};
+    const struct sampler from = {shot, form, rig, 3 + 7 * form->joint_count + form->target_count};
     const size_t width = (size_t)from.width;
     float *rows = malloc(((size_t)shot->key_count + 2) * width * sizeof *rows);
     *keys = (struct keys){.count = shot->key_count};
@@ -139,6 +146,7 @@ static void free_values(struct key_values *values)
 {
     free(values->translation);
     free(values->rotation);
+    free(values->scale);
     free(values->weight);
 }
 

@@ -8,6 +8,7 @@
 struct key_values {
     float (*translation)[3]; ///< of the root
     float (*rotation)[4];    ///< [joint · count + key], the short way from key to key
+    float (*scale)[3];       ///< [joint · count + key]
     float *weight;           ///< [target · count + key]
 };
 

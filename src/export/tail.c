@@ -14,6 +14,17 @@ struct fox {
     float (*position)[3], (*normal)[3], (*color)[3];
 };
 
+enum {
+    FIRST_LIMB = 1,
+    FIRST_BONE = FIRST_LIMB + LIMBS
+}; ///< of the joints: what carries all, the body's parts, the tail
+
+static int joint_of_slot(int slot, int joints)
+{
+    if (slot == 0) return FIRST_LIMB;
+    return slot <= joints ? FIRST_BONE + slot - 1 : FIRST_LIMB + slot - joints;
+}
+
 /// Copies what files want apart, scaled to the tail's length.
 static void copy_vertices(struct form *form, struct fox *fox, int joints, float length)
 {
@@ -25,21 +36,38 @@ static void copy_vertices(struct form *form, struct fox *fox, int joints, float 
         memcpy(fox->normal[i], normal.raw, sizeof fox->normal[i]);
         memcpy(fox->color[i], vertex->color, sizeof fox->color[i]);
         tail_influences(vertex, joints, CREATURE_TAIL_LENGTH / (float)joints, form->slots[i], form->weights[i]);
+        for (int n = 0; n < TAIL_INFLUENCES; n++)
+            form->slots[i][n] = (uint16_t)joint_of_slot(form->slots[i][n], joints);
     }
 }
 
-/// The joint that carries the animal, and those of the tail.
+/// The joint that carries the animal, those of its body's parts, and those of the tail.
 static void name_joints(struct form *form, int joints, const struct rig_pose *pose)
 {
-    const float segment = pose_length(&pose->tail) / (float)joints;
+    static const char *const names[LIMBS] = {"body", "chest", "head", "ear_l", "ear_r", "ear_tip_l", "ear_tip_r"};
+    const float length = pose_length(&pose->tail), segment = length / (float)joints;
+    float pivot[LIMBS][3];
     form->joints[0] = (struct form_joint){.parent = -1};
-    snprintf(form->joints[0].name, FORM_NAME, "%.50s_body", form->name);
+    snprintf(form->joints[0].name, FORM_NAME, "%.50s_base", form->name);
     form->tip[2] = segment;
     memcpy(form->joints[0].offset, pose->tail.matrix[0] + 12, 3 * sizeof(float));
+    limbs_pivots(length / CREATURE_TAIL_LENGTH, pivot);
+    for (int l = 0; l < LIMBS; l++) {
+        struct form_joint *joint = &form->joints[FIRST_LIMB + l];
+        const int parent = limb_parents[l];
+        joint->parent = parent < 0 ? 0 : FIRST_LIMB + parent;
+        for (int k = 0; k < 3; k++) {
+            joint->bind[k] = pivot[l][k];
+            joint->offset[k] = pivot[l][k] - (parent < 0 ? 0 : pivot[parent][k]);
+        }
+        snprintf(joint->name, FORM_NAME, "%.50s_%s", form->name, names[l]);
+    }
     for (int n = 0; n < joints; n++) {
-        form->joints[n + 1] = (struct form_joint){
-            .parent = n, .offset = {0, 0, n > 0 ? segment : 0}, .bind = {0, 0, (float)n * segment}};
-        snprintf(form->joints[n + 1].name, FORM_NAME, "%.50s_%d", form->name, n);
+        struct form_joint *joint = &form->joints[FIRST_BONE + n];
+        *joint = (struct form_joint){.parent = n > 0 ? FIRST_BONE + n - 1 : 0,
+                                     .offset = {0, 0, n > 0 ? segment : 0},
+                                     .bind = {0, 0, (float)n * segment}};
+        snprintf(joint->name, FORM_NAME, "%.50s_%d", form->name, n);
     }
 }
 
@@ -57,7 +85,7 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     fox->color = malloc(count * sizeof *fox->color);
     form->slots = malloc(count * sizeof *form->slots);
     form->weights = malloc(count * sizeof *form->weights);
-    form->joints = calloc((size_t)joints + 1, sizeof *form->joints);
+    form->joints = calloc((size_t)(FIRST_BONE + joints), sizeof *form->joints);
     if (fox->mesh.failed || !fox->position || !fox->normal || !fox->color || !form->slots || !form->weights ||
         !form->joints)
         return fail_no_memory(error, form->name);
@@ -67,8 +95,8 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     form->color = (const float(*)[3])fox->color;
     form->indices = fox->mesh.indices;
     form->index_count = fox->mesh.index_count;
-    form->joint_count = joints + 1;
-    form->first_bone = 1;
+    form->joint_count = FIRST_BONE + joints;
+    form->first_bone = FIRST_BONE;
     copy_vertices(form, fox, joints, pose_length(&pose->tail));
     name_joints(form, joints, pose);
     return true;
@@ -105,8 +133,10 @@ static void key(const struct form *form, const struct rig_pose *pose, struct for
     static const float upright[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     memcpy(key->translation, pose->tail.matrix[0] + 12, sizeof key->translation);
     memcpy(key->rotation[0], (const float[]){0, 0, 0, 1}, sizeof key->rotation[0]);
-    for (int n = 0; n + 1 < form->joint_count; n++)
-        rotation_between(n > 0 ? pose->tail.matrix[n - 1] : upright, pose->tail.matrix[n], key->rotation[n + 1]);
+    limbs_motions(&pose->tail.limbs, key->rotation + FIRST_LIMB, key->scale + FIRST_LIMB);
+    for (int n = 0; FIRST_BONE + n < form->joint_count; n++)
+        rotation_between(n > 0 ? pose->tail.matrix[n - 1] : upright, pose->tail.matrix[n],
+                         key->rotation[FIRST_BONE + n]);
 }
 
 static void vertices(const struct form *form, const struct rig_pose *pose, float (*positions)[3])

@@ -2,6 +2,7 @@
 #include "export/format.h"
 #include "export/keys.h"
 #include "export/targets.h"
+#include "export/usda_form.h"
 #include "export/usda_model.h"
 #include "export/usda_text.h"
 #include <stdlib.h>
@@ -15,21 +16,13 @@ struct prim {
     const struct file_targets *targets;
     FILE *out;
     const char *name;
+    struct usda_form *faces;
 };
 
 static void write_interpolated(FILE *out, const char *declaration, const float (*vectors)[3], int count)
 {
     usda_vectors(out, declaration, vectors, count);
     usda_by_vertex(out, 0);
-}
-
-static void write_triangles(FILE *out, const struct form *form)
-{
-    fputs("            int[] faceVertexCounts = [", out);
-    for (int i = 0; i < form->index_count; i += 3) fputs(i > 0 ? ", 3" : "3", out);
-    fputs("]\n            int[] faceVertexIndices = [", out);
-    for (int i = 0; i < form->index_count; i++) fprintf(out, "%s%u", i > 0 ? ", " : "", form->indices[i]);
-    fputs("]\n", out);
 }
 
 static void begin_sample(const struct prim *prim, int key)
@@ -117,6 +110,17 @@ static void write_translations(const struct prim *prim, int key)
     fputs("],\n", prim->out);
 }
 
+static void write_scales(const struct prim *prim, int key)
+{
+    fputs("[", prim->out);
+    for (int j = 0; j < joint_count(prim->form); j++) {
+        static const float whole[3] = {1, 1, 1};
+        const float *s = prim->form->joint_count > 0 ? prim->keys->at.scale[j * prim->keys->count + key] : whole;
+        fprintf(prim->out, "%s(%.6g, %.6g, %.6g)", j > 0 ? ", " : "", (double)s[0], (double)s[1], (double)s[2]);
+    }
+    fputs("],\n", prim->out);
+}
+
 static void write_weights(const struct prim *prim, int key)
 {
     fputs("[", prim->out);
@@ -156,9 +160,7 @@ static void write_animation(const struct prim *prim)
     write_joints(prim);
     write_samples(prim, "float3[] translations", write_translations, keys->travels ? keys->count : 1);
     write_samples(prim, "quatf[] rotations", write_rotations, prim->form->joint_count > 0 ? keys->count : 1);
-    fputs("            half3[] scales = [", prim->out);
-    for (int j = 0; j < joint_count(prim->form); j++) fputs(j > 0 ? ", (1, 1, 1)" : "(1, 1, 1)", prim->out);
-    fputs("]\n", prim->out);
+    write_samples(prim, "half3[] scales", write_scales, prim->form->joint_count > 0 ? keys->count : 1);
     if (prim->targets->count > 0) {
         write_target_names(prim, "uniform token[] blendShapes", "\"", "\"");
         write_samples(prim, "float[] blendShapeWeights", write_weights, keys->count);
@@ -213,9 +215,7 @@ static void write_mesh(const struct prim *prim, float (*scratch)[3])
     usda_vectors(prim->out, "point3f[] points", form->position, form->vertex_count);
     fputc('\n', prim->out);
     write_interpolated(prim->out, "normal3f[] normals", form->normal, form->vertex_count);
-    write_interpolated(prim->out, "color3f[] primvars:displayColor", form->color, form->vertex_count);
-    write_triangles(prim->out, form);
-    fputs("            uniform token subdivisionScheme = \"none\"\n", prim->out);
+    usda_form_faces(prim->faces);
     write_binding(prim);
     fprintf(prim->out, "            rel skel:skeleton = </scene/%s/skeleton>\n", prim->name);
     if (prim->targets->count > 0) {
@@ -224,6 +224,7 @@ static void write_mesh(const struct prim *prim, float (*scratch)[3])
         write_target_names(prim, "rel skel:blendShapeTargets", before, ">");
     }
     write_shapes(prim, scratch);
+    usda_form_subsets(prim->faces);
     fputs("        }\n", prim->out);
 }
 
@@ -249,20 +250,28 @@ static bool write_form(struct shot *shot, const struct form *form, int rig, cons
     struct file_targets targets = {0};
     if (!keys_collect(shot, rig, form, &keys, error)) return false;
     float(*scratch)[3] = malloc(((size_t)form->vertex_count + 1) * sizeof *scratch);
-    const bool done = scratch && targets_create(shot, form, &keys, &targets);
+    struct usda_form faces = {.form = form, .rig = name, .out = out};
+    bool done = (scratch && targets_create(shot, form, &keys, &targets)) || fail_no_memory(error, form->name);
     if (done) {
-        const struct prim prim = {
-            .shot = shot, .form = form, .keys = &keys, .targets = &targets, .out = out, .name = name};
+        const struct prim prim = {.shot = shot,
+                                  .form = form,
+                                  .keys = &keys,
+                                  .targets = &targets,
+                                  .out = out,
+                                  .name = name,
+                                  .faces = &faces};
         fprintf(out, "\n    def SkelRoot \"%s\"\n    {\n", name);
         write_skeleton(&prim);
         write_animation(&prim);
-        write_mesh(&prim, scratch);
+        done = usda_form_open(&faces, shot, error);
+        if (done) write_mesh(&prim, scratch);
         fputs("    }\n", out);
     }
+    usda_form_close(&faces);
     free(scratch);
     targets_free(&targets);
     keys_free(&keys);
-    return done || fail_no_memory(error, form->name);
+    return done;
 }
 
 static bool write_rig(struct shot *shot, int rig, FILE *out, struct error *error)

@@ -1,4 +1,5 @@
 /// The meshes of an imported character in a .usda file, bound to its skeletons. Vertices are in the order of its .pc2.
+#include "export/usda_look.h"
 #include "export/usda_model.h"
 #include <math.h>
 #include <stdlib.h>
@@ -133,16 +134,9 @@ static void write_subsets(const struct run *run)
     fputs("            uniform token subsetFamily:materialBind:familyType = \"nonOverlapping\"\n", out);
     for (int p = 0; p < run->count; p++) {
         const int count = run->parts[p].index_count / 3, material = run->parts[p].material;
-        fprintf(out, "\n            def GeomSubset \"part_%d\" (\n", p + 1);
-        fputs("                prepend apiSchemas = [\"MaterialBindingAPI\"]\n            )\n            {\n", out);
-        fputs("                uniform token elementType = \"face\"\n", out);
-        fputs("                uniform token familyName = \"materialBind\"\n                int[] indices = [", out);
+        usda_begin_subset(out, p + 1);
         for (int i = 0; i < count; i++) fprintf(out, "%s%d", i > 0 ? ", " : "", face + i);
-        fputs("]\n", out);
-        if (material >= 0)
-            fprintf(out, "                rel material:binding = </scene/%s/materials/%s>\n", run->model->name,
-                    run->model->materials[material]);
-        fputs("            }\n", out);
+        usda_end_subset(out, run->model->name, material >= 0 ? run->model->materials[material] : NULL);
         face += count;
     }
 }

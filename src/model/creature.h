@@ -19,8 +19,12 @@ extern const float creature_torso_lo[3], creature_torso_hi[3];
 /// large, so that a ray can be marched in steps of it.
 float creature_torso_distance(const float p[3]);
 
-/// The head's own space, which looks towards −z: bind space → it, column-major.
+/// The head's own space, which looks towards −z: bind space → it, column-major; and a place in it.
 void creature_head_from_bind(float matrix[16]);
+void creature_into_head(const float bind[3], float place[3]);
+
+/// The box in the head's own space that eyes, nose and mouth are drawn in (stage_mesh.frag).
+extern const float creature_face_lo[3], creature_face_hi[3];
 
 /// Radius of the tail at z metres from its base, bind size; 0 at the tip and beyond.
 float creature_tail_radius(float z);

@@ -20,7 +20,7 @@ struct collapse {
 struct work {
     const struct character *character;
     size_t vertex_count;
-    uint32_t *indices;
+    uint32_t *indices, *sources;
     int index_count;
     int *first;   ///< of the vertex's triangles in `around`, per vertex and one more
     int *around;  ///< triangles by vertex
@@ -156,6 +156,7 @@ static void drop_flat(struct work *work)
     for (int t = 0; t < work->index_count; t += 3) {
         const uint32_t a = work->indices[t], b = work->indices[t + 1], c = work->indices[t + 2];
         if (a == b || b == c || c == a) continue;
+        if (work->sources) work->sources[kept / 3] = work->sources[t / 3];
         work->indices[kept++] = a, work->indices[kept++] = b, work->indices[kept++] = c;
     }
     work->index_count = kept;
@@ -173,17 +174,22 @@ static int collapse_round(struct work *work, int most)
     return done;
 }
 
-bool decimate(const struct character *character, int triangles, uint32_t *indices, int *index_count)
+bool decimate(const struct character *character, int triangles, uint32_t *indices, uint32_t *sources,
+              int *index_count)
 {
     const size_t vertices = (size_t)character->vertex_count, count = (size_t)character->index_count;
-    struct work work = {
-        .character = character, .vertex_count = vertices, .indices = indices, .index_count = character->index_count};
+    struct work work = {.character = character,
+                        .vertex_count = vertices,
+                        .indices = indices,
+                        .sources = sources,
+                        .index_count = character->index_count};
     work.first = malloc((vertices + 2) * sizeof *work.first);
     work.around = malloc((count + 1) * sizeof *work.around);
     work.locked = malloc((vertices + 1) * sizeof *work.locked);
     work.collapses = malloc((vertices + 1) * sizeof *work.collapses);
     bool good = work.first && work.around && work.locked && work.collapses;
     if (good) memcpy(indices, character->indices, count * sizeof *indices);
+    for (uint32_t t = 0; sources && t < (uint32_t)count / 3; t++) sources[t] = t;
     for (int round = 0; good && round < MAX_ROUNDS && work.index_count > 3 * triangles; round++) {
         if (collapse_round(&work, (work.index_count / 3 - triangles + 1) / 2) == 0) break;
     }

@@ -75,7 +75,7 @@ static bool thin(struct mesh *mesh, int triangles)
         memcpy(c.color[i], mesh->vertices[i].color, sizeof *c.color);
     }
     int index_count = 0;
-    good = good && decimate(&c, triangles, indices, &index_count);
+    good = good && decimate(&c, triangles, indices, NULL, &index_count);
     if (good) memcpy(mesh->indices, indices, (size_t)index_count * sizeof *indices);
     if (good) mesh->index_count = index_count;
     free(indices);

@@ -144,7 +144,8 @@ static bool reserve(struct figure *figure)
     figure->slopes = calloc(vertices * coordinates + 1, sizeof *figure->slopes);
     figure->largest = calloc(coordinates + 1, sizeof *figure->largest);
     figure->coarse = malloc((indices + 1) * sizeof *figure->coarse);
-    return figure->tangent && figure->slopes && figure->largest && figure->coarse;
+    figure->coarse_from = malloc((indices / 3 + 1) * sizeof *figure->coarse_from);
+    return figure->tangent && figure->slopes && figure->largest && figure->coarse && figure->coarse_from;
 }
 
 uint64_t figure_new_id(void)
@@ -192,7 +193,8 @@ bool figure_create(struct figure *figure, struct character *character)
     bool good = figure_derive(figure);
     if (good) {
         find_soles(figure);
-        good = decimate(&figure->character, FIGURE_COARSE, figure->coarse, &figure->coarse_count);
+        good =
+            decimate(&figure->character, FIGURE_COARSE, figure->coarse, figure->coarse_from, &figure->coarse_count);
     }
     if (!good) figure_free(figure);
     return good;
@@ -205,6 +207,7 @@ void figure_free(struct figure *figure)
     free(figure->slopes);
     free(figure->largest);
     free(figure->coarse);
+    free(figure->coarse_from);
     adjacency_free(&figure->edges);
     *figure = (struct figure){0};
 }

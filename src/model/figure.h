@@ -31,7 +31,8 @@ struct figure {
     struct slope *slopes; ///< [coordinate · vertex_count + vertex]
     float (*largest)[3];  ///< per coordinate: the largest |Ñ| over all vertices in x, y and z
     uint32_t *coarse; ///< triangles over the same vertices, at most FIGURE_COARSE; the fine ones where these are few
-    int coarse_count; ///< indices
+    uint32_t *coarse_from; ///< per coarse triangle: which of the fine ones it was
+    int coarse_count;      ///< indices
     struct adjacency edges;
     float lo[3], hi[3]; ///< box at rest
     struct sole soles[FIGURE_SOLES];

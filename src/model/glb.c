@@ -1,6 +1,7 @@
 /// Opens .glb and .gltf files.
 #include "model/glb.h"
 #include "base/file.h"
+#include "base/json.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,7 +22,8 @@ static bool expected(const struct glb *glb, const char *what, struct error *erro
 static bool read_json(struct glb *glb, const char *text, size_t length, struct error *error)
 {
     json_error_t wrong;
-    glb->json = json_loadb(text, length, 0, &wrong);
+    glb->json = json_read(text, length, 0, &wrong);
+    if (!glb->json && json_error_code(&wrong) == json_error_out_of_memory) return fail_no_memory(error, glb->path);
     if (!glb->json) return fail(error, ERROR_INPUT, "%s: JSON, line %d: %s", glb->path, wrong.line, wrong.text);
     return true;
 }
@@ -80,6 +82,16 @@ static bool read_either(struct glb *glb, size_t size, struct error *error)
 bool glb_open_any(struct glb *glb, const char *path, struct error *error)
 {
     return open_file(glb, path, read_either, error);
+}
+
+bool glb_take_room(struct glb *glb, size_t count, size_t size, struct error *error)
+{
+    if (count > glb->room / size)
+        return fail(error, ERROR_INPUT,
+                    "%s: expected no more data than fits a file of this size, got %zu times %zu bytes", glb->path,
+                    count, size);
+    glb->room -= count * size;
+    return true;
 }
 
 void glb_close(struct glb *glb)

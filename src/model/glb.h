@@ -17,7 +17,7 @@ enum {
 };
 
 /// The largest file, and what may be made of a file: so many bytes, and so many for each of its own.
-enum { GLB_FILE_LIMIT = 1 << 30, GLB_ROOM = 64 << 20, GLB_GROWTH = 32 };
+enum { GLB_FILE_LIMIT = 1 << 30, GLB_ROOM = 8 << 20, GLB_GROWTH = 32 };
 
 struct glb_bytes {
     const unsigned char *at;
@@ -46,6 +46,9 @@ bool glb_open(struct glb *glb, const char *path, struct error *error);
 bool glb_open_any(struct glb *glb, const char *path, struct error *error);
 void glb_close(struct glb *glb);
 
+/// Takes so much of the room for what is about to be made of the file. False with a sentence where there is less.
+bool glb_take_room(struct glb *glb, size_t count, size_t size, struct error *error);
+
 /// The buffers that the JSON names: the chunk, files beside it and data URIs.
 bool glb_read_buffers(struct glb *glb, struct error *error);
 
@@ -55,6 +58,9 @@ bool glb_read_uri(struct glb *glb, const char *uri, struct glb_buffer *bytes, st
 
 /// A member that is a whole number ≥ 0; `otherwise` if it is missing, −1 if it is something else.
 int64_t glb_integer(const json_t *object, const char *key, int64_t otherwise);
+
+/// Whether an accessor's numbers are in the file, some of them at least: without that all are zero.
+bool glb_is_stored(const struct glb *glb, int64_t accessor);
 
 /// The bytes of a buffer view; false where there are none.
 bool glb_view(const struct glb *glb, int64_t index, struct glb_bytes *bytes);

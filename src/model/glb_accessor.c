@@ -142,6 +142,13 @@ static bool outside(const struct glb *glb, int64_t index, struct error *error)
                 glb->path, (long long)index);
 }
 
+bool glb_is_stored(const struct glb *glb, int64_t index)
+{
+    const json_t *accessors = json_object_get(glb->json, "accessors");
+    const json_t *accessor = index >= 0 ? json_array_get(accessors, (size_t)index) : NULL;
+    return json_object_get(accessor, "bufferView") || json_object_get(accessor, "sparse");
+}
+
 bool glb_numbers(const struct glb *glb, int64_t index, struct glb_numbers *numbers, struct error *error)
 {
     const json_t *accessors = json_object_get(glb->json, "accessors");

@@ -1,23 +1,21 @@
 /// Writes the dog to a .glb: one skinned mesh with a primitive per material, its skeleton, its clips.
 #include "base/file.h"
 #include "model/dog.h"
-#include "model/glb.h"
+#include "model/gltf_file.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stb/stb_image_write.h>
 #include <stdlib.h>
 
-enum { BYTE = 5121, SHORT = 5123, VERTICES = 34962, INDICES = 34963 };
+enum { BYTE = 5121, SHORT = 5123, FLOAT = 5126 };
 enum { TAG_PIXELS = 64, KEY_LIMIT = 256 };
 
 /// A file being written. The first node is the root of the skeleton, then come its joints, then the mesh.
 struct output {
     const struct dog_skeleton *skeleton;
     const struct dog_pieces *pieces;
-    FILE *binary;
-    size_t size;
-    json_t *views, *accessors;
-    bool failed; ///< memory ran short
+    struct gltf_file file;
+    json_int_t picture; ///< its buffer view
 };
 
 /// A vertex as the file has it.
@@ -28,76 +26,16 @@ struct packed {
     uint16_t weights[DOG_INFLUENCES];
 };
 
-/// What an accessor's elements are.
-struct shape {
-    const char *name; ///< SCALAR, VEC3 …
-    int type;         ///< of its components
-    bool normalized;
-    size_t offset; ///< in a vertex
+static const struct gltf_column columns[] = {
+    {"POSITION", "VEC3", 3, FLOAT, false, true, offsetof(struct packed, position)},
+    {"NORMAL", "VEC3", 3, FLOAT, false, false, offsetof(struct packed, normal)},
+    {"TEXCOORD_0", "VEC2", 2, SHORT, true, false, offsetof(struct packed, uv)},
+    {"COLOR_0", "VEC4", 4, BYTE, true, false, offsetof(struct packed, color)},
+    {"JOINTS_0", "VEC4", 4, BYTE, false, false, offsetof(struct packed, joints)},
+    {"WEIGHTS_0", "VEC4", 4, SHORT, true, false, offsetof(struct packed, weights)},
 };
 
-static const struct {
-    const char *name;
-    struct shape shape;
-} attributes[] = {
-    {"POSITION", {"VEC3", GLB_FLOAT, false, offsetof(struct packed, position)}},
-    {"NORMAL", {"VEC3", GLB_FLOAT, false, offsetof(struct packed, normal)}},
-    {"TEXCOORD_0", {"VEC2", SHORT, true, offsetof(struct packed, uv)}},
-    {"COLOR_0", {"VEC4", BYTE, true, offsetof(struct packed, color)}},
-    {"JOINTS_0", {"VEC4", BYTE, false, offsetof(struct packed, joints)}},
-    {"WEIGHTS_0", {"VEC4", SHORT, true, offsetof(struct packed, weights)}},
-};
-
-enum { PLACED = 0, PICTURED = 2 };
-
-/// Adds a buffer view; views start at multiples of 4 bytes.
-static json_int_t add_view(struct output *o, const void *bytes, size_t size, int target)
-{
-    json_t *view =
-        json_pack("{s:i, s:I, s:I}", "buffer", 0, "byteOffset", (json_int_t)o->size, "byteLength", (json_int_t)size);
-    if (target) json_object_set_new(view, "target", json_integer(target));
-    json_array_append_new(o->views, view);
-    const size_t padding = (4 - size % 4) % 4;
-    if (!bytes || fwrite(bytes, 1, size, o->binary) != size || fwrite("\0\0\0", 1, padding, o->binary) != padding)
-        o->failed = true;
-    o->size += size + padding;
-    return (json_int_t)json_array_size(o->views) - 1;
-}
-
-static json_int_t add_accessor(struct output *o, json_int_t view, int count, const struct shape *shape)
-{
-    json_t *accessor =
-        json_pack("{s:I, s:I, s:i, s:i, s:s}", "bufferView", view, "byteOffset", (json_int_t)shape->offset,
-                  "componentType", shape->type, "count", count, "type", shape->name);
-    if (shape->normalized) json_object_set_new(accessor, "normalized", json_true());
-    json_array_append_new(o->accessors, accessor);
-    return (json_int_t)json_array_size(o->accessors) - 1;
-}
-
-/// Floats in a view of their own.
-static json_int_t add_floats(struct output *o, const float *numbers, int count, int components, const char *name)
-{
-    const json_int_t view = add_view(o, numbers, (size_t)(count * components) * sizeof *numbers, 0);
-    return add_accessor(o, view, count, &(struct shape){.name = name, .type = GLB_FLOAT});
-}
-
-/// What positions and key times must state; the next element follows after `stride` floats.
-static void add_bounds(struct output *o, json_int_t accessor, const float *numbers, int count, int components,
-                       int stride)
-{
-    json_t *low = json_array(), *high = json_array(), *object = json_array_get(o->accessors, (size_t)accessor);
-    for (int k = 0; k < components; k++) {
-        float least = INFINITY, most = -INFINITY;
-        for (int i = 0; i < count; i++) {
-            least = fminf(least, numbers[i * stride + k]);
-            most = fmaxf(most, numbers[i * stride + k]);
-        }
-        json_array_append_new(low, json_real((double)least));
-        json_array_append_new(high, json_real((double)most));
-    }
-    json_object_set_new(object, "min", low);
-    json_object_set_new(object, "max", high);
-}
+enum { PICTURED = 2 };
 
 /// Weights as shorts whose sum is exactly 65535.
 static void pack_influences(const struct output *o, const struct dog_piece *piece, struct packed *packed)
@@ -139,8 +77,9 @@ static json_t *make_primitive(struct output *o, enum dog_material material)
     }
     struct packed *packed = malloc(vertices * sizeof *packed);
     uint16_t *corners = malloc(indices * sizeof *corners);
-    o->failed = o->failed || !packed || !corners || vertices > UINT16_MAX;
-    for (int p = 0; p < pieces->count && !o->failed; p++) {
+    const bool whole = packed && corners && vertices <= UINT16_MAX;
+    if (!whole) o->file.without_memory = true;
+    for (int p = 0; p < pieces->count && whole; p++) {
         const struct mesh *mesh = &pieces->pieces[p].mesh;
         if (pieces->pieces[p].material != material) continue;
         for (int i = 0; i < mesh->index_count; i++) corners[index++] = (uint16_t)(vertex + mesh->indices[i]);
@@ -148,23 +87,19 @@ static json_t *make_primitive(struct output *o, enum dog_material material)
             pack(o, &pieces->pieces[p], &mesh->vertices[v], &packed[vertex++]);
     }
     json_t *named = json_object();
-    const json_int_t view = add_view(o, packed, vertex * sizeof *packed, VERTICES);
-    json_object_set_new(json_array_get(o->views, (size_t)view), "byteStride", json_integer(sizeof *packed));
-    for (size_t a = 0; a < sizeof attributes / sizeof *attributes; a++) {
-        if (a == PICTURED && material != DOG_TAG) continue;
-        const json_int_t accessor = add_accessor(o, view, (int)vertex, &attributes[a].shape);
-        if (a == PLACED && packed)
-            add_bounds(o, accessor, packed->position, (int)vertex, 3, sizeof *packed / sizeof(float));
-        json_object_set_new(named, attributes[a].name, json_integer(accessor));
+    struct gltf_rows rows = {.data = packed, .stride = sizeof *packed, .count = vertex};
+    gltf_file_add_rows(&o->file, &rows);
+    for (size_t c = 0; c < sizeof columns / sizeof *columns; c++) {
+        if (c == PICTURED && material != DOG_TAG) continue;
+        gltf_set(&o->file, named, columns[c].name, json_integer(gltf_file_add_column(&o->file, &rows, &columns[c])));
     }
-    const json_int_t triangles = add_view(o, corners, index * sizeof *corners, INDICES);
-    const json_int_t order = add_accessor(o, triangles, (int)index, &(struct shape){.name = "SCALAR", .type = SHORT});
+    const json_int_t order = gltf_file_add(&o->file, ELEMENTS_SHORT_INDICES, corners, index, false);
     free(packed);
     free(corners);
     return json_pack("{s:o, s:I, s:i}", "attributes", named, "indices", order, "material", (int)material);
 }
 
-static json_t *make_materials(void)
+static json_t *make_materials(struct output *o)
 {
     static const struct {
         const char *name;
@@ -184,19 +119,23 @@ static json_t *make_materials(void)
         const double *rgb = materials[m].color;
         json_t *look = json_pack("{s:[f, f, f, i], s:i, s:f}", "baseColorFactor", rgb[0], rgb[1], rgb[2], 1,
                                  "metallicFactor", 0, "roughnessFactor", materials[m].roughness);
-        if (m == DOG_TAG) json_object_set_new(look, "baseColorTexture", json_pack("{s:i}", "index", 0));
+        if (m == DOG_TAG) gltf_set(&o->file, look, "baseColorTexture", json_pack("{s:i}", "index", 0));
         json_t *material = json_pack("{s:s, s:o}", "name", materials[m].name, "pbrMetallicRoughness", look);
-        if (m == DOG_GLINT) json_object_set_new(material, "emissiveFactor", json_pack("[i, i, i]", 1, 1, 1));
-        json_array_append_new(array, material);
+        if (m == DOG_GLINT) gltf_set(&o->file, material, "emissiveFactor", json_pack("[i, i, i]", 1, 1, 1));
+        gltf_append(&o->file, array, material);
     }
     return array;
 }
 
 /// The encoder hands the whole file over.
-static void add_png(void *output, void *data, int size) { add_view(output, data, (size_t)size, 0); }
+static void add_png(void *output, void *data, int size)
+{
+    struct output *o = output;
+    o->picture = gltf_file_add_bytes(&o->file, data, (size_t)size);
+}
 
-/// The tag's picture: brass with a swing that dies away, the mark of wiggly. Returns its buffer view.
-static json_int_t add_picture(struct output *o)
+/// The tag's picture: brass with a swing that dies away, the mark of wiggly.
+static void add_picture(struct output *o)
 {
     unsigned char pixels[TAG_PIXELS][TAG_PIXELS][3];
     for (int y = 0; y < TAG_PIXELS; y++) {
@@ -208,19 +147,19 @@ static json_int_t add_picture(struct output *o)
             memcpy(pixels[y][x], mark ? dark : brass, 3);
         }
     }
-    stbi_write_png_to_func(add_png, o, TAG_PIXELS, TAG_PIXELS, 3, pixels, 3 * TAG_PIXELS);
-    return (json_int_t)json_array_size(o->views) - 1;
+    if (!stbi_write_png_to_func(add_png, o, TAG_PIXELS, TAG_PIXELS, 3, pixels, 3 * TAG_PIXELS))
+        o->file.without_memory = true;
 }
 
-static json_t *vector_json(const float *numbers, int count)
+static json_t *vector_json(struct output *o, const float *numbers, int count)
 {
     json_t *array = json_array();
-    for (int k = 0; k < count; k++) json_array_append_new(array, json_real((double)numbers[k]));
+    for (int k = 0; k < count; k++) gltf_append(&o->file, array, json_real((double)numbers[k]));
     return array;
 }
 
 /// Node 0 is the root, node j + 1 joint j.
-static json_t *make_nodes(const struct output *o)
+static json_t *make_nodes(struct output *o)
 {
     const struct dog_skeleton *s = o->skeleton;
     json_t *nodes = json_pack("[{s:s}]", "name", "root");
@@ -235,14 +174,12 @@ static json_t *make_nodes(const struct output *o)
         }
         at = glms_quat_rotatev(glms_quat_inv(parent), at);
         q = glms_quat_normalize(glms_quat_mul(glms_quat_inv(parent), q));
-        json_t *node = json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", vector_json(at.raw, 3),
-                                 "rotation", vector_json(q.raw, 4));
-        json_array_append_new(nodes, node);
-        json_t *above = json_array_get(nodes, (size_t)(joint->parent + 1));
-        if (!json_object_get(above, "children")) json_object_set_new(above, "children", json_array());
-        json_array_append_new(json_object_get(above, "children"), json_integer(j + 1));
+        json_t *node = json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", vector_json(o, at.raw, 3),
+                                 "rotation", vector_json(o, q.raw, 4));
+        gltf_append(&o->file, nodes, node);
+        gltf_append_to(&o->file, json_array_get(nodes, (size_t)(joint->parent + 1)), "children", json_integer(j + 1));
     }
-    json_array_append_new(nodes, json_pack("{s:s, s:i, s:i}", "name", "dog", "mesh", 0, "skin", 0));
+    gltf_append(&o->file, nodes, json_pack("{s:s, s:i, s:i}", "name", "dog", "mesh", 0, "skin", 0));
     return nodes;
 }
 
@@ -258,21 +195,22 @@ static json_t *make_skin(struct output *o)
         const mat4s back = glms_mat4_inv(world);
         memcpy(inverse[j], &back, sizeof inverse[j]);
         for (int row = 0; row < 4; row++) inverse[j][4 * row + 3] = row == 3 ? 1.0f : 0.0f;
-        json_array_append_new(joints, json_integer(j + 1));
+        gltf_append(&o->file, joints, json_integer(j + 1));
     }
-    const json_int_t accessor = add_floats(o, inverse[0], s->count, 16, "MAT4");
+    const json_int_t accessor = gltf_file_add(&o->file, ELEMENTS_MATRICES, inverse, (size_t)s->count, false);
     return json_pack("{s:s, s:o, s:I, s:i}", "name", "dog", "joints", joints, "inverseBindMatrices", accessor,
                      "skeleton", 0);
 }
 
-static void add_channel(json_t *animation, int node, const char *path, json_int_t times, json_int_t values)
+static void add_channel(struct output *o, json_t *animation, int node, const char *path, json_int_t times,
+                        json_int_t values)
 {
     json_t *samplers = json_object_get(animation, "samplers");
     const json_int_t sampler = (json_int_t)json_array_size(samplers);
-    json_array_append_new(samplers,
-                          json_pack("{s:I, s:I, s:s}", "input", times, "output", values, "interpolation", "LINEAR"));
-    json_array_append_new(json_object_get(animation, "channels"),
-                          json_pack("{s:I, s:{s:i, s:s}}", "sampler", sampler, "target", "node", node, "path", path));
+    gltf_append(&o->file, samplers,
+                json_pack("{s:I, s:I, s:s}", "input", times, "output", values, "interpolation", "LINEAR"));
+    gltf_append(&o->file, json_object_get(animation, "channels"),
+                json_pack("{s:I, s:{s:i, s:s}}", "sampler", sampler, "target", "node", node, "path", path));
 }
 
 /// Whether any key differs from the first; makes each rotation the one of two equal quaternions that is nearer to the one before.
@@ -299,14 +237,16 @@ static json_t *make_clip(struct output *o, int clip, const struct dog_pose *pose
         times[k] = (float)k / DOG_FPS;
         memcpy(hips[k], poses[k].hips, sizeof hips[k]);
     }
-    const json_int_t input = add_floats(o, times, keys, 1, "SCALAR");
-    add_bounds(o, input, times, keys, 1, 1);
+    const size_t count = (size_t)keys;
+    const json_int_t input = gltf_file_add(&o->file, ELEMENTS_KEYS, times, count, true);
     json_t *animation = json_pack("{s:s, s:[], s:[]}", "name", dog_clips[clip].name, "channels", "samplers");
-    add_channel(animation, 1, "translation", input, add_floats(o, hips[0], keys, 3, "VEC3"));
+    add_channel(o, animation, 1, "translation", input,
+                gltf_file_add(&o->file, ELEMENTS_KEY_VECTORS, hips, count, false));
     for (int j = 0; j < o->skeleton->count; j++) {
         for (int k = 0; k < keys; k++) memcpy(rotations[k], poses[k].rotation[j], sizeof rotations[k]);
         if (!moves(rotations, keys)) continue;
-        add_channel(animation, j + 1, "rotation", input, add_floats(o, rotations[0], keys, 4, "VEC4"));
+        add_channel(o, animation, j + 1, "rotation", input,
+                    gltf_file_add(&o->file, ELEMENTS_TURNS, rotations, count, false));
     }
     return animation;
 }
@@ -324,64 +264,43 @@ static json_t *make_clips(struct output *o, struct error *error)
             fail(error, ERROR_INPUT, "clip %s, frame %d: a leg does not reach its paw", dog_clips[clip].name, k);
             return NULL;
         }
-        json_array_append_new(array, make_clip(o, clip, poses));
+        gltf_append(&o->file, array, make_clip(o, clip, poses));
     }
     return array;
 }
 
+/// NULL where memory is short, or clips are wrong.
 static json_t *make_json(struct output *o, struct error *error)
 {
-    o->views = json_array();
-    o->accessors = json_array();
     json_t *primitives = json_array();
     for (int m = 0; m < DOG_MATERIALS; m++)
-        json_array_append_new(primitives, make_primitive(o, (enum dog_material)m));
+        gltf_append(&o->file, primitives, make_primitive(o, (enum dog_material)m));
     json_t *skin = make_skin(o), *clips = make_clips(o, error);
-    const json_int_t picture = add_picture(o);
+    add_picture(o);
     return json_pack(
         "{s:{s:s, s:s}, s:i, s:[{s:[i, i]}], s:o, s:[{s:s, s:o}], s:[o], s:o, s:o, s:[{s:i, s:i}], s:[{s:i, s:i}], "
-        "s:[{s:s, s:I, s:s}], s:[{s:I}], s:o, s:o}",
+        "s:[{s:s, s:I, s:s}]}",
         "asset", "version", "2.0", "generator", "wiggly", "scene", 0, "scenes", "nodes", 0, o->skeleton->count + 1,
         "nodes", make_nodes(o), "meshes", "name", "dog", "primitives", primitives, "skins", skin, "materials",
-        make_materials(), "animations", clips, "textures", "source", 0, "sampler", 0, "samplers", "magFilter", 9729,
-        "minFilter", 9987, "images", "name", "tag", "bufferView", picture, "mimeType", "image/png", "buffers",
-        "byteLength", (json_int_t)o->size, "bufferViews", o->views, "accessors", o->accessors);
-}
-
-static bool write_chunks(const char *path, const char *text, const char *binary, size_t size, struct error *error)
-{
-    const size_t length = strlen(text), padded = (length + 3) / 4 * 4;
-    const uint32_t head[5] = {GLB_MAGIC, 2, (uint32_t)(12 + 8 + padded + 8 + size), (uint32_t)padded, GLB_JSON};
-    const uint32_t next[2] = {(uint32_t)size, GLB_BIN};
-    struct file_output file;
-    if (!file_output_open(&file, path, error)) return false;
-    fwrite(head, sizeof head, 1, file.stream);
-    fprintf(file.stream, "%s%*s", text, (int)(padded - length), "");
-    fwrite(next, sizeof next, 1, file.stream);
-    fwrite(binary, 1, size, file.stream);
-    return file_output_commit(&file, error);
+        make_materials(o), "animations", clips, "textures", "source", 0, "sampler", 0, "samplers", "magFilter", 9729,
+        "minFilter", 9987, "images", "name", "tag", "bufferView", o->picture, "mimeType", "image/png");
 }
 
 bool dog_write(const char *path, const struct dog_skeleton *skeleton, const struct dog_pieces *pieces,
                struct error *error)
 {
     struct output o = {.skeleton = skeleton, .pieces = pieces};
-    struct error clip_error = {0};
-    char *binary = NULL;
-    size_t size = 0;
-    o.binary = open_memstream(&binary, &size);
-    if (!o.binary) return fail_no_memory(error, path);
-    json_t *json = make_json(&o, &clip_error);
-    char *text = json ? json_dumps(json, JSON_COMPACT | JSON_REAL_PRECISION(9)) : NULL;
-    json_decref(json);
-    bool good = fclose(o.binary) == 0 && text && !o.failed;
-    if (!good) {
-        good = clip_error.kind ? fail(error, clip_error.kind, "%s: %s", path, clip_error.text)
-                               : fail_no_memory(error, path);
+    struct error why = {0};
+    struct file_output out;
+    if (!file_output_open(&out, path, error)) return false;
+    json_t *json = make_json(&o, &why);
+    bool done;
+    if (why.kind == ERROR_NONE && gltf_file_write(&o.file, json, true, out.stream, &why)) {
+        done = file_output_commit(&out, error);
     } else {
-        good = write_chunks(path, text, binary, size, error);
+        file_output_discard(&out);
+        done = fail(error, why.kind, "%s: %s", path, why.text);
     }
-    free(text);
-    free(binary);
-    return good;
+    gltf_file_free(&o.file);
+    return done;
 }

@@ -1,6 +1,6 @@
 /// Reads a character from a .glb file.
 #include "model/character.h"
-#include "model/glb.h"
+#include "model/glb_looks.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
@@ -64,12 +64,16 @@ static bool read_colors(const struct glb *glb, const json_t *primitive, int coun
 }
 
 /// The triangles of a primitive whose vertices start at `base`; without indices they are in order.
-static bool read_indices(const struct glb *glb, const json_t *primitive, int base, int count, struct surface *s,
+static bool read_indices(struct glb *glb, const json_t *primitive, int base, int count, struct surface *s,
                          struct error *error)
 {
     struct glb_numbers numbers = {.count = count};
     int64_t accessor = glb_integer(primitive, "indices", -1);
     if (accessor >= 0 && !read_numbers(glb, accessor, 1, 0, &numbers, error)) return false;
+    if (!glb_take_room(glb, (size_t)numbers.count, sizeof *s->indices, error)) {
+        free(numbers.values);
+        return false;
+    }
     size_t total = (size_t)s->index_count + (size_t)numbers.count;
     uint32_t *larger = total <= COUNT_LIMIT ? realloc(s->indices, (total + 1) * sizeof *larger) : NULL;
     bool good = larger && numbers.count % 3 == 0;
@@ -93,12 +97,29 @@ static bool check_primitive(const struct glb *glb, const json_t *primitive, stru
         return fail(error, ERROR_INPUT, "%s: expected a mesh that is not compressed, got Draco", glb->path);
     if (glb_integer(primitive, "mode", TRIANGLES) != TRIANGLES)
         return fail(error, ERROR_INPUT, "%s: expected a mesh of triangles, got strips, lines or points", glb->path);
-    if (vertex_count_of(glb, primitive) > 0) return true;
-    return fail(error, ERROR_INPUT, "%s: expected a mesh with positions, got none", glb->path);
+    if (vertex_count_of(glb, primitive) == 0)
+        return fail(error, ERROR_INPUT, "%s: expected a mesh with positions, got none", glb->path);
+    return glb_is_stored(glb, attribute(primitive, "POSITION")) ||
+           fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected positions that are in the file, got none",
+                glb->path, (long long)attribute(primitive, "POSITION"));
+}
+
+/// The vertices of a primitive, unless it has those of the first, then its triangles and how they look.
+static bool read_primitive(struct glb *glb, const json_t *primitive, bool shared, struct surface *s,
+                           struct error *error)
+{
+    const int base = shared ? 0 : s->vertex_count, count = (int)vertex_count_of(glb, primitive);
+    const struct glb_piece piece = {primitive, base, shared ? 0 : count, s->index_count};
+    if (!shared) {
+        if (!read_vectors(glb, attribute(primitive, "POSITION"), count, s->position + base, 1, error)) return false;
+        if (!read_colors(glb, primitive, count, s->color + base, error)) return false;
+        s->vertex_count += count;
+    }
+    return read_indices(glb, primitive, base, count, s, error) && glb_read_looks(glb, &piece, s, error);
 }
 
 /// All primitives of a mesh as one surface, with room for that many coordinates.
-static bool read_surface(const struct glb *glb, const json_t *primitives, int coordinates, struct surface *s,
+static bool read_surface(struct glb *glb, const json_t *primitives, int coordinates, struct surface *s,
                          struct error *error)
 {
     int64_t total = 0;
@@ -113,21 +134,18 @@ static bool read_surface(const struct glb *glb, const json_t *primitives, int co
     if (with_targets > COUNT_LIMIT)
         return fail(error, ERROR_INPUT, "%s: expected at most %d vertices with those of the coordinates, got %lld",
                     glb->path, COUNT_LIMIT, (long long)with_targets);
+    if (!glb_take_room(glb, (size_t)with_targets, 2 * sizeof *s->position, error)) return false;
+    if (!glb_read_materials(glb, &s->looks, error)) return false;
+    s->looks.uv_count = (int)total;
     s->position = calloc((size_t)total, sizeof *s->position);
     s->color = calloc((size_t)total, sizeof *s->color);
     if (!s->position || !s->color) return fail_no_memory(error, glb->path);
     json_array_foreach(primitives, i, primitive)
     {
-        int base = s->vertex_count, count = (int)vertex_count_of(glb, primitive);
-        if (shares(primitives, i)) {
-            if (!read_indices(glb, primitive, 0, count, s, error)) return false;
-            continue;
-        }
-        if (!read_vectors(glb, attribute(primitive, "POSITION"), count, s->position + base, 1, error)) return false;
-        if (!read_colors(glb, primitive, count, s->color + base, error)) return false;
-        if (!read_indices(glb, primitive, base, count, s, error)) return false;
-        s->vertex_count += count;
+        if (!read_primitive(glb, primitive, shares(primitives, i), s, error)) return false;
     }
+    if (!s->looks.uv) s->looks.uv_count = 0;
+    looks_drop_unused(&s->looks, s->index_count / 3);
     return true;
 }
 
@@ -297,13 +315,14 @@ static void place(struct character *c, const double matrix[16])
         }
     }
     for (int i = 0; mirrored && i + 2 < c->index_count; i += 3) {
+        if (c->looks.joined) c->looks.joined[i / 3] = 0; // a fan that is turned round begins elsewhere
         uint32_t corner = c->indices[i + 1];
         c->indices[i + 1] = c->indices[i + 2];
         c->indices[i + 2] = corner;
     }
 }
 
-static bool read_character(const struct glb *glb, struct surface *surface, struct character *c, struct error *error)
+static bool read_character(struct glb *glb, struct surface *surface, struct character *c, struct error *error)
 {
     const json_t *meshes = json_object_get(glb->json, "meshes");
     int64_t number = choose_mesh(meshes);

@@ -36,8 +36,8 @@ static void split_vertices(struct split *s, const struct character *c, struct ch
         s->indices[i] = uv == LOOKS_NONE ? c->indices[i] : find_or_add(s, chains, c->indices[i], uv);
     }
     for (int v = 0; s->uv && v < s->count; v++) {
-        const bool known = chains->uv[v] != LOOKS_NONE;
-        memcpy(s->uv[v], known ? looks->uv[chains->uv[v]] : (float[2]){0}, sizeof *s->uv);
+        const uint32_t uv = looks->corner ? chains->uv[v] : (uint32_t)v;
+        memcpy(s->uv[v], uv != LOOKS_NONE ? looks->uv[uv] : (float[2]){0}, sizeof *s->uv);
     }
 }
 
@@ -47,8 +47,8 @@ bool split_create(struct split *split, const struct character *c)
     struct chains chains = {.uv = malloc(most * sizeof *chains.uv), .next = malloc(most * sizeof *chains.next)};
     *split = (struct split){.source = malloc(most * sizeof *split->source),
                             .indices = malloc(((size_t)c->index_count + 1) * sizeof *split->indices),
-                            .uv = c->looks.corner ? malloc(most * sizeof *split->uv) : NULL};
-    const bool good = chains.uv && chains.next && split->source && split->indices && (split->uv || !c->looks.corner);
+                            .uv = c->looks.uv ? malloc(most * sizeof *split->uv) : NULL};
+    const bool good = chains.uv && chains.next && split->source && split->indices && (split->uv || !c->looks.uv);
     if (good) {
         split_vertices(split, c, &chains);
     } else {

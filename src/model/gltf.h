@@ -6,9 +6,14 @@
 
 #include "base/error.h"
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 enum { GLTF_INFLUENCES = 8 };
+
+/// An extension: those triangles of a primitive that follow each other and begin with the same vertex are one polygon, a fan. It is a
+/// proposal, and no viewer needs to know it.
+#define GLTF_POLYGONS "FB_ngon_encoding"
 
 /// Translation, rotation (unit quaternion x y z w) and scale of a node against its parent.
 struct gltf_place {
@@ -80,6 +85,7 @@ struct gltf_part {
     int index_count;
     struct gltf_target *targets; ///< as many as the mesh has
     int material;                ///< −1: plain white
+    bool has_polygons;           ///< GLTF_POLYGONS, unless flat
     bool flat;                   ///< the file has no normals, so each triangle has vertices of its own
 };
 
@@ -138,6 +144,10 @@ struct gltf {
 /// read, whatever they claim. Errors name file, place, what was expected and what was found; on error nothing is left to free.
 bool gltf_read(const char *path, struct gltf *gltf, struct error *error);
 void gltf_free(struct gltf *gltf);
+
+/// Decodes a PNG or JPEG into at most `most` bytes of pixels, which the caller frees. False with a sentence that names no file.
+bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, struct gltf_image *image,
+                       struct error *error);
 
 /// The node, or clip, with that name, or −1.
 int gltf_find_node(const struct gltf *gltf, const char *name);

@@ -20,6 +20,7 @@ struct gltf_file {
 /// What the elements of an accessor are.
 enum gltf_elements {
     ELEMENTS_INDICES,
+    ELEMENTS_SHORT_INDICES,
     ELEMENTS_VECTORS,
     ELEMENTS_UVS,
     ELEMENTS_JOINTS,
@@ -37,6 +38,26 @@ bool gltf_file_begin(struct gltf_file *file, const void *bytes, size_t size);
 json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, const void *data, size_t count,
                          bool bounds);
 
+/// Rows of a buffer view, each of which has several things of a vertex.
+struct gltf_rows {
+    const void *data;
+    size_t stride, count; ///< bytes of a row
+    json_int_t view;
+};
+
+/// One of these things. Its type is OpenGL's.
+struct gltf_column {
+    const char *name, *shape;
+    int components, type;
+    bool normalized, bounds; ///< `bounds`: of floats, states their least and largest
+    size_t offset;           ///< in a row
+};
+
+/// Adds rows, and then a column of them; returns the accessor's number.
+void gltf_file_add_rows(struct gltf_file *file, struct gltf_rows *rows);
+json_int_t gltf_file_add_column(struct gltf_file *file, const struct gltf_rows *rows,
+                                const struct gltf_column *column);
+
 /// Adds bytes that no accessor finds, as those of a picture, and returns the buffer view's number.
 json_int_t gltf_file_add_bytes(struct gltf_file *file, const void *data, size_t size);
 
@@ -44,6 +65,9 @@ json_int_t gltf_file_add_bytes(struct gltf_file *file, const void *data, size_t 
 /// from any call of the JSON library.
 json_int_t gltf_append(struct gltf_file *file, json_t *array, json_t *value);
 void gltf_set(struct gltf_file *file, json_t *object, const char *key, json_t *value);
+
+/// Appends to a member that is an array, which is made where it is missing.
+void gltf_append_to(struct gltf_file *file, json_t *object, const char *key, json_t *value);
 
 /// The bytes as a data URI; the caller frees it. NULL if memory is short.
 char *gltf_file_address(const struct gltf_file *file);

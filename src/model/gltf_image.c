@@ -31,18 +31,17 @@ static bool find_bytes(struct gltf_reader *r, const json_t *image, struct glb_bu
     return found;
 }
 
-static bool decode(struct gltf_reader *r, struct glb_bytes bytes, struct gltf_image *image, struct error *why)
+bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, struct gltf_image *image,
+                       struct error *error)
 {
-    int channels, size = bytes.size <= INT_MAX ? (int)bytes.size : 0;
-    if (!stbi_info_from_memory(bytes.at, size, &image->width, &image->height, &channels))
-        return fail(why, ERROR_INPUT, "expected PNG or JPEG: %s", stbi_failure_reason());
+    int channels, length = size <= INT_MAX ? (int)size : 0;
+    if (!stbi_info_from_memory(bytes, length, &image->width, &image->height, &channels))
+        return fail(error, ERROR_INPUT, "expected PNG or JPEG: %s", stbi_failure_reason());
     size_t pixels = (size_t)image->width * (size_t)image->height;
-    if (pixels / PIXELS_A_BYTE > bytes.size || 4 * pixels > r->pixel_room)
-        return fail(why, ERROR_INPUT, "too large with %d by %d", image->width, image->height);
-    image->pixels = stbi_load_from_memory(bytes.at, size, &image->width, &image->height, &channels, 4);
-    if (!image->pixels) return fail(why, ERROR_INPUT, "%s", stbi_failure_reason());
-    r->pixel_room -= 4 * pixels;
-    return true;
+    if (pixels / PIXELS_A_BYTE > size || 4 * pixels > most)
+        return fail(error, ERROR_INPUT, "too large with %d by %d", image->width, image->height);
+    image->pixels = stbi_load_from_memory(bytes, length, &image->width, &image->height, &channels, 4);
+    return image->pixels || fail(error, ERROR_INPUT, "%s", stbi_failure_reason());
 }
 
 /// The name for people: the image's own, or its file's.
@@ -61,7 +60,9 @@ bool gltf_read_image(struct gltf_reader *r, int number, int *index)
     struct glb_buffer bytes;
     struct error why = {0};
     if (r->image_of[number] == -2) {
-        bool decoded = find_bytes(r, json, &bytes, &why) && decode(r, bytes.bytes, image, &why);
+        bool decoded = find_bytes(r, json, &bytes, &why) &&
+                       gltf_decode_image(bytes.bytes.at, bytes.bytes.size, r->pixel_room, image, &why);
+        if (decoded) r->pixel_room -= 4 * (size_t)image->width * (size_t)image->height;
         free(bytes.owned);
         r->image_of[number] = decoded ? r->gltf->image_count++ : -1;
         if (!decoded && !gltf_not_shown(r, "image %.40s (%.60s)", name_of(json), why.text)) return false;

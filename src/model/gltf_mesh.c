@@ -147,6 +147,8 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, int mode, 
     uint32_t *corners;
     int count;
     if (in_file < 1) return gltf_bad(r, ".attributes.POSITION: expected an accessor, got none");
+    if (!glb_is_stored(&r->file, glb_integer(attributes, "POSITION", -1)))
+        return gltf_bad(r, ".attributes.POSITION: expected positions that are in the file, got none");
     if ((size_t)in_file > r->file.room / sizeof *part->position)
         return gltf_bad(r, ".attributes.POSITION: expected at most %zu vertices in a file of this size, got %lld",
                         r->file.room / sizeof *part->position, (long long)in_file);
@@ -158,6 +160,8 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, int mode, 
     if (!make_triangles(r, mode, corners, count, part)) return false;
     struct gltf_vertices vertices = {.in_file = (int)in_file, .count = (int)in_file};
     part->flat = !json_object_get(attributes, "NORMAL");
+    part->has_polygons =
+        !part->flat && json_object_get(json_object_get(primitive, "extensions"), GLTF_POLYGONS) != NULL;
     if (part->flat) {
         vertices.order = part->indices;
         vertices.count = part->index_count;

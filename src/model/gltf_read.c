@@ -139,7 +139,8 @@ static bool check_arrays(struct gltf_reader *r)
 /// Extensions whose content is shown, and those without which no mesh can be read.
 static bool is_shown(const char *extension)
 {
-    return !strcmp(extension, "KHR_mesh_quantization") || !strcmp(extension, "KHR_texture_transform");
+    return !strcmp(extension, "KHR_mesh_quantization") || !strcmp(extension, "KHR_texture_transform") ||
+           !strcmp(extension, GLTF_POLYGONS);
 }
 
 static bool packs_meshes(const char *extension)

@@ -1,6 +1,7 @@
 /// Makes one surface of all that a glTF file shows at rest.
 #include "model/gltf.h"
 #include "model/surface_readers.h"
+#include "model/vector.h"
 #include <stb/stb_image_write.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,14 +49,22 @@ static void add_part(struct surface_builder *b, const struct gltf *gltf, const s
     for (int i = 0; i < part->vertex_count && !b->failed; i++) {
         const double p[3] = {(double)position[i][0], (double)position[i][1], (double)position[i][2]};
         builder_vertex(b, p);
-        if (part->color) builder_linear_color(b, part->color[i]);
+        if (part->color) {
+            const float *c = part->color[i];
+            const float rgb[3] = {glm_clamp(c[0], 0, 1), glm_clamp(c[1], 0, 1), glm_clamp(c[2], 0, 1)};
+            builder_linear_color(b, rgb);
+        }
         if (part->uv) builder_uv(b, (double)part->uv[i][0], (double)part->uv[i][1]);
     }
-    for (int i = 0; i < part->index_count && !b->failed; i++) {
-        const uint32_t corner = part->indices[i];
-        builder_corner(b, (uint32_t)first + corner, part->uv ? (uint32_t)first_uv + corner : LOOKS_NONE);
-        if (i % 3 == 2) builder_end_polygon(b);
+    for (int i = 0; i + 2 < part->index_count && !b->failed; i += 3) {
+        const uint32_t *corner = part->indices + i;
+        const bool joined =
+            part->has_polygons && i > 0 && corner[0] == corner[-3] && corner[1] == corner[-1]; // goes on with the fan
+        if (!joined) builder_end_polygon(b);
+        for (int k = joined ? 2 : 0; k < 3; k++)
+            builder_corner(b, (uint32_t)first + corner[k], part->uv ? (uint32_t)first_uv + corner[k] : LOOKS_NONE);
     }
+    builder_end_polygon(b);
     if (part->flat && !b->failed) builder_merge(b, first); // the reader has given each triangle vertices of its own
 }
 

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILE_LIMIT = 1 << 30, SHOWN_MAX = 24, COLOR_LIMIT = 1000 };
+enum { FILE_LIMIT = 1 << 30, SHOWN_MAX = 24 };
 
 /// A file being read. `line` is cut off its text with a NUL, comments and continuations resolved.
 struct reader {
@@ -79,11 +79,10 @@ static bool read_vertex(struct reader *r, char *at)
     if (count < 3) return expected(r, "three coordinates of a vertex", "");
     builder_vertex(&r->builder, numbers);
     if (count < 6) return true;
-    for (int k = 3; k < 6; k++) {
-        char got[32];
-        snprintf(got, sizeof got, "%g", numbers[k]);
-        if (!(fabs(numbers[k]) <= COLOR_LIMIT)) return expected(r, "a colour from 0 to 1", got);
-    }
+    const double *wrong = builder_wrong_color(numbers + 3);
+    if (wrong)
+        return fail(r->error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, got %g", r->path, r->number,
+                    *wrong);
     builder_color(&r->builder, numbers + 3);
     return true;
 }

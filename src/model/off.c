@@ -50,6 +50,10 @@ static bool read_vertex(struct off *o)
         double *rgb = numbers + color;
         const bool bytes = rgb[0] > 1 || rgb[1] > 1 || rgb[2] > 1;
         for (int k = 0; k < 3; k++) rgb[k] = rgb[k] / (bytes ? 255 : 1);
+        const double *wrong = builder_wrong_color(rgb);
+        if (wrong)
+            return fail(o->words.error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, or to 255, got %g",
+                        o->words.path, o->words.line, *wrong * (bytes ? 255 : 1));
         builder_color(&o->builder, rgb);
     }
     if (o->uvs) builder_uv(&o->builder, numbers[uv], 1 - numbers[uv + 1]);

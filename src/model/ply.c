@@ -289,7 +289,13 @@ static bool read_one(struct ply *ply, const struct element *e, bool textured)
     }
     if (!e->vertices) return true;
     builder_vertex(&ply->builder, values + X);
-    if (e->has[RED] && e->has[GREEN] && e->has[BLUE]) builder_color(&ply->builder, values + RED);
+    if (e->has[RED] && e->has[GREEN] && e->has[BLUE]) {
+        const double *wrong = builder_wrong_color(values + RED);
+        if (wrong)
+            return fail(ply->words.error, ERROR_INPUT, "%s: vertex %d: expected a colour from 0 to 1, got %g",
+                        ply->words.path, ply->builder.surface->vertex_count, *wrong);
+        builder_color(&ply->builder, values + RED);
+    }
     if (e->has[U] && e->has[V]) builder_uv(&ply->builder, values[U], 1 - values[V]);
     return true;
 }

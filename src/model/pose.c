@@ -1,6 +1,7 @@
 /// Moves and measures a posed tail.
 #include "model/pose.h"
 #include "model/creature.h"
+#include "model/limbs.h"
 #include "model/vector.h"
 #include <math.h>
 
@@ -20,9 +21,10 @@ float pose_length(const struct pose *pose)
 void pose_bounds(const struct pose *pose, float lo[3], float hi[3])
 {
     const float scale = pose_length(pose) / CREATURE_TAIL_LENGTH;
+    limbs_bounds(&pose->limbs, lo, hi);
     for (int k = 0; k < 3; k++) {
-        lo[k] = pose->matrix[0][12 + k] + scale * creature_torso_lo[k];
-        hi[k] = pose->matrix[0][12 + k] + scale * creature_torso_hi[k];
+        lo[k] = pose->matrix[0][12 + k] + scale * lo[k];
+        hi[k] = pose->matrix[0][12 + k] + scale * hi[k];
     }
     for (int n = 0; n < pose->count; n++) {
         const float along = CREATURE_TAIL_LENGTH * (float)n / (float)(pose->count - 1);

@@ -4,11 +4,18 @@
 
 enum { POSE_MAX_JOINTS = 256 };
 
+/// How far the parts of the body are moved from how they were made; see limbs.h.
+struct limbs {
+    float look, nod, ears[2];     ///< radians; of the ears' roots and tips
+    float breath, stretch, blink; ///< shares
+};
+
 /// A pose: frames of joints+1 points along the tail, in metres; entry n is where joint n sits, the last one is the
 /// tip. Column-major 4×4, +z along the tail, y up. Entry n carries the bend of joint n.
 struct pose {
     int count;    ///< joints + 1
     float ground; ///< height of what the body stands on, metres
+    struct limbs limbs;
     float matrix[POSE_MAX_JOINTS + 1][16];
 };
 

@@ -35,6 +35,32 @@ void surface_free(struct surface *surface)
     *surface = (struct surface){0};
 }
 
+void looks_drop_unused(struct looks *looks, int triangles)
+{
+    bool dressed = false, polygons = false;
+    for (int t = 0; t < triangles; t++) {
+        dressed = dressed || looks->material[t] < (uint32_t)looks->material_count;
+        polygons = polygons || looks->joined[t];
+    }
+    if (!dressed) {
+        free(looks->material);
+        looks->material = NULL;
+    }
+    if (!polygons) {
+        free(looks->joined);
+        looks->joined = NULL;
+    }
+}
+
+bool looks_show(const struct looks *looks)
+{
+    for (int m = 0; looks->material && m < looks->material_count; m++) {
+        const float *c = looks->materials[m].color;
+        if (looks->materials[m].image || c[0] != 1 || c[1] != 1 || c[2] != 1 || c[3] != 1) return true;
+    }
+    return false;
+}
+
 size_t looks_image_bytes(const struct looks *looks)
 {
     size_t sum = 0;

@@ -24,7 +24,8 @@ struct looks_material {
 struct looks {
     float (*uv)[2]; ///< texture coordinates, (0, 0) the upper left of the picture
     int uv_count;
-    uint32_t *corner;   ///< per index: which texture coordinates, or LOOKS_NONE
+    uint32_t
+        *corner; ///< per index: which texture coordinates, or LOOKS_NONE; NULL: each vertex has those of its number
     uint32_t *material; ///< per triangle: which material, or LOOKS_NONE
     uint8_t *joined;    ///< per triangle: 1 where it goes on with the polygon (a fan) of the triangle before
     struct looks_material *materials;
@@ -55,6 +56,12 @@ void surface_bounds(const struct surface *surface, double lo[3], double hi[3]);
 
 /// Leaves an empty surface.
 void surface_free(struct surface *surface);
+
+/// Whether something of it is seen: a colour other than white, or a picture.
+bool looks_show(const struct looks *looks);
+
+/// Leaves out which materials triangles have where none has one, and polygons where all are triangles.
+void looks_drop_unused(struct looks *looks, int triangles);
 
 /// Bytes of all its pictures.
 size_t looks_image_bytes(const struct looks *looks);

@@ -2,10 +2,11 @@
 #include "model/surface_builder.h"
 #include "base/srgb.h"
 #include "model/adjacency.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { COUNT_LIMIT = 1 << 28 };
+enum { COUNT_LIMIT = 1 << 28, COLOR_LIMIT = 1000 };
 
 /// Room for one more element of `size` bytes; NULL, and failed, where there is none. The old block stays valid.
 static void *grow(struct surface_builder *b, void *block, size_t size, int count, int *capacity)
@@ -42,6 +43,14 @@ void builder_linear_color(struct surface_builder *b, const float rgb[3])
         const float *color = i + 1 < s->vertex_count ? white : rgb;
         if (!put(b, &s->color, i, &b->colors, color, sizeof *s->color)) return;
     }
+}
+
+const double *builder_wrong_color(const double srgb[3])
+{
+    for (int k = 0; k < 3; k++) {
+        if (!(fabs(srgb[k]) <= COLOR_LIMIT)) return &srgb[k];
+    }
+    return NULL;
 }
 
 void builder_color(struct surface_builder *b, const double srgb[3])
@@ -162,19 +171,7 @@ static void drop_unused(struct surface_builder *b)
         looks->corner = NULL;
         looks->uv_count = 0;
     }
-    bool dressed = false, polygons = false;
-    for (int t = 0; t < b->surface->index_count / 3; t++) {
-        dressed = dressed || looks->material[t] < (uint32_t)looks->material_count;
-        polygons = polygons || looks->joined[t];
-    }
-    if (!dressed) {
-        free(looks->material);
-        looks->material = NULL;
-    }
-    if (!polygons) {
-        free(looks->joined);
-        looks->joined = NULL;
-    }
+    looks_drop_unused(looks, b->surface->index_count / 3);
 }
 
 bool builder_finish(struct surface_builder *b, const char *path, const char *kind, struct error *error)

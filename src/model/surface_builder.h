@@ -19,6 +19,8 @@ void builder_vertex(struct surface_builder *builder, const double position[3]);
 
 /// Colours the newest vertex, sRGB; those before the first coloured one become white, and so do later ones without.
 void builder_color(struct surface_builder *builder, const double srgb[3]);
+/// The first of three numbers that is far from any colour (0 … 1); NULL: none is. What is beyond that could not be written and read again.
+const double *builder_wrong_color(const double srgb[3]);
 void builder_linear_color(struct surface_builder *builder, const float rgb[3]);
 
 /// Texture coordinates, numbered from 0.

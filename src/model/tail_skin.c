@@ -13,13 +13,19 @@ static void slot_rows(mat4s matrix, float along, float rows[3][4])
     memcpy(rows, matrix.raw, 3 * sizeof *rows);
 }
 
+static int slot_of_limb(float limb, int joints) { return limb > 0.0f ? joints + (int)limb : 0; }
+
 int tail_slots(const struct pose *pose, float rows[TAIL_SLOTS][3][4])
 {
     const int joints = pose->count - 1;
     const float segment = pose_length(pose) / (float)joints;
-    slot_rows(glms_translate_make(vec3_from(pose->matrix[0] + 12)), 0.0f, rows[0]);
+    const mat4s base = glms_translate_make(vec3_from(pose->matrix[0] + 12));
+    float limbs[LIMBS][16];
+    limbs_matrices(&pose->limbs, pose_length(pose) / CREATURE_TAIL_LENGTH, limbs);
     for (int n = 0; n < joints; n++) slot_rows(mat4_from(pose->matrix[n]), (float)n * segment, rows[n + 1]);
-    return joints + 1;
+    for (int l = 0; l < LIMBS; l++)
+        slot_rows(glms_mat4_mul(base, mat4_from(limbs[l])), 0.0f, rows[slot_of_limb((float)l, joints)]);
+    return joints + LIMBS;
 }
 
 /// The B-spline at a place along the tail: its first slot, which may lie before the base, weights and their slopes by metre.
@@ -65,7 +71,12 @@ void tail_influences(const struct vertex *vertex, int joints, float segment, uin
     const struct blend blend = blend_at(vertex->position[2], segment);
     memset(slot, 0, TAIL_INFLUENCES * sizeof *slot);
     memset(weight, 0, TAIL_INFLUENCES * sizeof *weight);
-    int count = add_influence(0, slot, weight, 0, 1.0f - vertex->bend);
+    int count = 0;
+    for (int i = 0; i < 2; i++) {
+        const float share = i ? vertex->limb[2] : 1.0f - vertex->limb[2];
+        count =
+            add_influence(count, slot, weight, slot_of_limb(vertex->limb[i], joints), (1.0f - vertex->bend) * share);
+    }
     for (int k = 0; k < 4; k++)
         count = add_influence(count, slot, weight, slot_of(&blend, k, joints), vertex->bend * blend.weight[k]);
 }
@@ -79,7 +90,11 @@ static struct skinned skinned_at(const struct vertex *vertex, const float bind[4
                                  int joints, float segment)
 {
     struct skinned own = {0};
-    memcpy(own.rows, rows[0], sizeof own.rows);
+    const float(*from)[4] = rows[slot_of_limb(vertex->limb[0], joints)];
+    const float(*to)[4] = rows[slot_of_limb(vertex->limb[1], joints)];
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 4; c++) own.rows[r][c] = from[r][c] + vertex->limb[2] * (to[r][c] - from[r][c]);
+    }
     if (vertex->bend <= 0.0f) return own;
     const struct blend blend = blend_at(bind[2], segment);
     for (int r = 0; r < 3; r++) {
@@ -114,7 +129,8 @@ static void turn_normal(const struct skinned *own, const float normal[3], float 
 void tail_skin(const struct pose *pose, const struct mesh *mesh, float (*positions)[3], float (*normals)[3])
 {
     float rows[TAIL_SLOTS][3][4];
-    const int joints = tail_slots(pose, rows) - 1;
+    const int joints = pose->count - 1;
+    tail_slots(pose, rows);
     const float length = pose_length(pose), scale = length / CREATURE_TAIL_LENGTH, segment = length / (float)joints;
     for (int i = 0; i < mesh->vertex_count; i++) {
         const struct vertex *v = &mesh->vertices[i];

@@ -2,6 +2,7 @@
 #include "model/coat.h"
 #include "model/creature.h"
 #include "model/isosurface.h"
+#include "model/limbs.h"
 #include "model/parts.h"
 #include "model/refine.h"
 #include "model/vector.h"
@@ -72,6 +73,9 @@ static const float head_middle[3] = {0.01f, 0.80f, -0.385f};
 const float creature_torso_lo[3] = {-0.36f, -CREATURE_BASE_HEIGHT, -0.68f};
 const float creature_torso_hi[3] = {0.36f, 1.16f - CREATURE_BASE_HEIGHT, 0.38f};
 
+const float creature_face_lo[3] = {-0.118f, -0.112f, -0.32f};
+const float creature_face_hi[3] = {0.118f, 0.066f, -0.035f};
+
 /// Standing coordinates → the head's own, before it was turned and tilted.
 static void into_head(const float p[3], float q[3])
 {
@@ -80,6 +84,11 @@ static void into_head(const float p[3], float q[3])
     q[0] = turned * cosf(HEAD_TILT) + y * sinf(HEAD_TILT);
     q[1] = y * cosf(HEAD_TILT) - turned * sinf(HEAD_TILT);
     q[2] = z * cosf(HEAD_TURN) - x * sinf(HEAD_TURN);
+}
+
+void creature_into_head(const float bind[3], float place[3])
+{
+    into_head((const float[3]){bind[0], bind[1] + CREATURE_BASE_HEIGHT, bind[2]}, place);
 }
 
 void creature_head_from_bind(float matrix[16])
@@ -134,6 +143,7 @@ static void torso_paint(struct vertex *vertex)
     coat_tail(fmaxf(p[2], 0.0f), p[1] / fmaxf(hypotf(p[0], p[1]), 1e-6f), of_tail);
     const float share = near * glm_smoothstep(-0.10f, 0.05f, p[2]);
     glm_vec3_lerp(vertex->mark, of_tail, share, vertex->mark);
+    limbs_hang(vertex);
     vertex->bend = near * glm_smoothstep(-0.25f, -0.05f, p[2]);
     coat_marked(vertex->mark, vertex->color);
     const float features = in_head[2] < 0.0f ? parts_add(face, PARTS(face), in_head, 1e3f, NULL) : 1.0f;

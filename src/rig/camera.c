@@ -101,7 +101,7 @@ static float fit_axis(const float across[EDGES], const float depth[EDGES], float
 /// A point (u, w) is in view where |u − shift| ≤ slope·(distance − w), so distance ≥ (the largest u + slope·w less
 /// the smallest u − slope·w) / 2·slope, and shift is halfway. What swings fills the middle of its box, not the
 /// corners.
-void camera_fit(struct camera *camera, const float lo[3], const float hi[3], float aspect)
+void camera_fit(struct camera *camera, const float lo[3], const float hi[3], float aspect, float top)
 {
     const vec3s size = glms_vec3_sub(vec3_from(hi), vec3_from(lo));
     for (int k = 0; k < 3; k++) {
@@ -116,8 +116,10 @@ void camera_fit(struct camera *camera, const float lo[3], const float hi[3], flo
         depth[e] = glms_vec3_dot(axes.back, middle);
     }
     const float wide = fit_axis(right, depth, HALF_FIELD * aspect / FIT_MARGIN, &shift_right);
-    const float high = fit_axis(up, depth, HALF_FIELD / FIT_MARGIN, &shift_up);
+    top = glm_clamp(top, 0.0f, 0.5f);
+    const float high = fit_axis(up, depth, HALF_FIELD * (1.0f - top) / FIT_MARGIN, &shift_up);
     camera->distance = glm_clamp(fmaxf(wide, high), MIN_DISTANCE, MAX_DISTANCE);
+    shift_up += top * HALF_FIELD * camera->distance; // the middle of what is left free
     camera->floor = lo[1];
     vec3s target = glms_vec3_center(vec3_from(lo), vec3_from(hi));
     target = glms_vec3_muladds(axes.up, shift_up, glms_vec3_muladds(axes.right, shift_right, target));

@@ -28,8 +28,9 @@ void camera_matrices(const struct camera *camera, float aspect, float view[16], 
 void camera_lamp(const struct camera *camera, float from[3]);
 
 /// Moves target and distance, keeping both angles, so that the middles of the edges of the box lo … hi lie within the
-/// picture with 15 % to spare. The box stands on the floor. An empty or broken box is left alone.
-void camera_fit(struct camera *camera, const float lo[3], const float hi[3], float aspect);
+/// picture with 15 % to spare, below the share `top` (0 … 0.5) of its height. The box stands on the floor. An empty or broken box
+/// is left alone.
+void camera_fit(struct camera *camera, const float lo[3], const float hi[3], float aspect, float top);
 
 /// Projects a point of the world to the screen; viewport is x, y, width, height. false if it is not in front of
 /// the eye.

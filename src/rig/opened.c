@@ -18,7 +18,7 @@ static bool read_any(struct opened *opened, const char *path, bool with_models, 
     *opened =
         (struct opened){.document = import_suits(path) ? import_scene(path, error) : scene_load(path, NULL, error)};
     if (!opened->document) return false;
-    if (!with_models && opened->document->motions.count == 0 && pins_count(opened->document) == 0) return true;
+    if (!with_models && opened->document->motions.count == 0 && !pins_hold_any(opened->document)) return true;
     if (read_models(opened, path, error)) return true;
     opened_free(opened);
     return false;

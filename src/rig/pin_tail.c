@@ -1,4 +1,6 @@
 /// Points of tails: the ends of their joints.
+#include "model/creature.h"
+#include "model/limbs.h"
 #include "rig/pinning_kind.h"
 #include "rig/posing_kind.h"
 #include <string.h>
@@ -37,6 +39,7 @@ static void add_bends(const struct tail *tail, const struct hinge *hinges, int c
 {
     for (int i = 0; i < tail->channel_count; i++) {
         const struct channel *channel = &tail->channels[i];
+        if (!axis_bends(channel->axis)) continue;
         for (int n = 0; channel->spline == spline && n < count; n++) {
             const double *a = hinges[n].axis[channel->axis], *at = hinges[n].at;
             const double arm[3] = {point[0] - at[0], point[1] - at[1], point[2] - at[2]};
@@ -47,23 +50,42 @@ static void add_bends(const struct tail *tail, const struct hinge *hinges, int c
     }
 }
 
+/// How the base moves with the body's stretch, metres a radian: pinning_add_channel() takes percent for degrees.
+static void find_stretch(const struct tail *tail, const struct limbs *limbs, double way[3])
+{
+    limbs_base_slope((double)limbs->stretch, tail->length / (double)CREATURE_TAIL_LENGTH, way);
+    for (int k = 0; k < 3; k++) way[k] *= 1.8 / 3.14159265358979323846;
+}
+
+static void add_stretch(const struct tail *tail, const double way[3], int spline, pin_pull c)
+{
+    for (int i = 0; i < tail->channel_count; i++) {
+        const struct channel *channel = &tail->channels[i];
+        if (channel->spline == spline && channel->axis == AXIS_STRETCH) pinning_add_channel(channel, 1, 1, way, c);
+    }
+}
+
 static bool find(const struct posing *posing, int rig, double sample, int which, const int *splines, int count,
                  pin_pull *c, struct pin_point *point)
 {
     const struct tail *tail = &posing->document->rigs[rig].tail;
     struct hinge hinges[TAIL_MAX_JOINTS];
     wiggly_value values[RIG_MAX_INPUTS];
-    double base[3];
+    double base[3], shift[3], by_stretch[3];
     if (which >= tail->joints) return false;
     for (int k = 0; k < 3; k++) {
         const wiggly_value follows = evaluation_at(posing->evaluation, tail->position[k].track, sample);
         base[k] = tail->position[k].track < 0 ? tail->position[k].value : follows.y + follows.re;
     }
     posing_values(posing, rig, sample, NULL, values);
+    const struct limbs limbs = tail_limbs(tail, values, LOOK_WIGGLY, shift);
+    find_stretch(tail, &limbs, by_stretch);
+    for (int k = 0; k < 3; k++) base[k] += shift[k];
     *point = (struct pin_point){.size = tail->length, .slack = SLACK * tail->length};
     find_hinges(tail, base, values, which + 1, hinges, point->at);
     for (int i = 0; i < count; i++) {
         add_bends(tail, hinges, which + 1, point->at, splines[i], c[i]);
+        add_stretch(tail, by_stretch, splines[i], c[i]);
         for (int k = 0; k < 3; k++) c[i][k][0] += tail->position[k].track == splines[i];
     }
     return true;

@@ -42,7 +42,15 @@ static void weigh(void *context, const struct document *document, int rig, const
     if (kind) kind->weigh(&posing, rig, splines, count, weights);
 }
 
+static bool lowest(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
+                   double ceiling, double *room, struct low_point *low)
+{
+    const struct posing posing = {.document = document, .evaluation = evaluation, .models = context};
+    return character_lowest(&posing, rig, ceiling, room, low);
+}
+
 struct pin_source pin_points(struct models *models)
 {
-    return (struct pin_source){.find = find, .weigh = weigh, .context = models, .version = models_version(models)};
+    return (struct pin_source){
+        .find = find, .weigh = weigh, .lowest = lowest, .context = models, .version = models_version(models)};
 }

@@ -11,6 +11,9 @@ struct pinning_functions {
     void (*weigh)(const struct posing *posing, int rig, const int *splines, int count, double *weights);
 };
 
+/// As pin_source.lowest().
+bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low);
+
 extern const struct pinning_functions tail_pinning, character_pinning, chain_pinning;
 
 /// Adds what a channel's spline does to a point that a bend of joint n takes along `way`, metres a radian.

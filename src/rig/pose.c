@@ -1,5 +1,6 @@
 /// Bends a tail's joints by the values of its channels.
 #include "model/creature.h"
+#include "model/limbs.h"
 #include "rig/posing_kind.h"
 #include <math.h>
 
@@ -14,6 +15,46 @@ double channel_bend(const struct channel *channel, wiggly_value value, int n, in
     return radians(angles_at(&channel->gain, n, joints)) * wiggly_lagged(value, lag);
 }
 
+double channel_moves(const struct channel *channel, wiggly_value value, int n, enum look look)
+{
+    const double lag = look == LOOK_STIFF ? 0.0 : n * radians(angles_at(&channel->lag, 0, 1));
+    if (channel->of == PART_DISPLACEMENT) value.y = 0.0;
+    return angles_at(&channel->gain, 0, 1) * wiggly_lagged(value, lag);
+}
+
+/// What the body bears, degrees and percent: however wild a spline, it stays a fox.
+static const struct {
+    double lowest, highest;
+} bearable[AXES] = {
+    [AXIS_LOOK] = {-70, 70},   [AXIS_NOD] = {-35, 35},     [AXIS_EARS] = {-30, 60},
+    [AXIS_BREATH] = {-15, 25}, [AXIS_STRETCH] = {-40, 40}, [AXIS_BLINK] = {0, 100},
+};
+
+/// Sum of the channels of an axis for a part's n-th joint, within what the body bears.
+static double moved(const struct tail *tail, const wiggly_value *values, enum look look, enum axis axis, int n)
+{
+    double sum = 0;
+    for (int c = 0; c < tail->channel_count; c++) {
+        if (tail->channels[c].axis == axis) sum += channel_moves(&tail->channels[c], values[c], n, look);
+    }
+    return fmin(fmax(sum, bearable[axis].lowest), bearable[axis].highest);
+}
+
+struct limbs tail_limbs(const struct tail *tail, const wiggly_value *values, enum look look, double shift[3])
+{
+    const double stretch = moved(tail, values, look, AXIS_STRETCH, 1) / 100;
+    struct limbs limbs = {
+        .look = (float)radians(moved(tail, values, look, AXIS_LOOK, 1)),
+        .nod = (float)radians(moved(tail, values, look, AXIS_NOD, 1)),
+        .breath = (float)moved(tail, values, look, AXIS_BREATH, 1) / 100,
+        .stretch = (float)stretch,
+        .blink = (float)moved(tail, values, look, AXIS_BLINK, 1) / 100,
+    };
+    for (int n = 0; n < 2; n++) limbs.ears[n] = (float)radians(moved(tail, values, look, AXIS_EARS, n + 1));
+    limbs_base(stretch, tail->length / (double)CREATURE_TAIL_LENGTH, shift);
+    return limbs;
+}
+
 void tail_bend_at(const struct tail *tail, const wiggly_value *values, enum look look, int n, double *side,
                   double *up)
 {
@@ -21,6 +62,7 @@ void tail_bend_at(const struct tail *tail, const wiggly_value *values, enum look
     *up = radians(angles_at(&tail->rest, n, tail->joints));
     for (int c = 0; c < tail->channel_count; c++) {
         const struct channel *channel = &tail->channels[c];
+        if (!axis_bends(channel->axis)) continue;
         *(channel->axis == AXIS_UP ? up : side) += channel_bend(channel, values[c], n, tail->joints, look);
     }
 }
@@ -44,6 +86,9 @@ void pose_tail(const struct tail *tail, const wiggly_value *values, enum look lo
     const double segment = tail->length / tail->joints, height = CREATURE_BASE_HEIGHT / CREATURE_TAIL_LENGTH;
     pose->ground = tail->position[1].track < 0 ? (float)(tail->position[1].value - height * tail->length) : 0.0f;
     pose->count = tail->joints + 1;
+    double shift[3];
+    pose->limbs = tail_limbs(tail, values, look, shift);
+    for (int k = 0; k < 3; k++) frame[12 + k] += shift[k];
     for (int n = 0; n <= tail->joints; n++) {
         if (n < tail->joints) {
             double side, up;

@@ -67,6 +67,9 @@ void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]);
 /// PART_DISPLACEMENT. LOOK_STIFF takes every lag as 0.
 double channel_bend(const struct channel *channel, wiggly_value value, int n, int joints, enum look look);
 
+/// How far a channel moves a part of the body, degrees or percent: gain·(y + Re(e^{−j·n·lag} x)), for its n-th joint from 1 on.
+double channel_moves(const struct channel *channel, wiggly_value value, int n, enum look look);
+
 /// Poses a tail at its position, with 0 for coordinates that follow a spline (see pose_move()). `values[c]` is the spline value of
 /// channel c at the time shown. Joint n bends by gain·(y + Re(e^{−j·n·lag} x)) about each channel's axis, without y for
 /// PART_DISPLACEMENT, over rest (which bends up about the `up` axis, positive lifts). LOOK_STIFF takes every lag as 0.

@@ -27,6 +27,9 @@ void posing_values(const struct posing *posing, int rig, double position, const 
 void tail_bend_at(const struct tail *tail, const wiggly_value *values, enum look look, int n, double *side,
                   double *up);
 
+/// How the body's parts are moved, and how far that moves the tail's base, metres.
+struct limbs tail_limbs(const struct tail *tail, const wiggly_value *values, enum look look, double shift[3]);
+
 /// frame = frame · R_y(side) · R_x(−up): column-major, columns x, y, z, origin. R_x is negative because a positive angle turns
 /// +z down.
 void tail_bend_frame(double frame[16], double side, double up);

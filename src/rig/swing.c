@@ -92,6 +92,7 @@ bool swing_settled(const struct swing *swing, const struct swing_filter *filter)
 bool swing_hangs(const struct tail *tail, const struct channel *channel)
 {
     if (channel->of == PART_DISPLACEMENT) return true;
+    if (!axis_bends(channel->axis)) return false;
     for (int c = 0; c < tail->channel_count; c++) {
         if (tail->channels[c].axis == channel->axis && tail->channels[c].of == PART_DISPLACEMENT) return false;
     }
@@ -123,7 +124,8 @@ void swing_direction(const struct tail *tail, enum axis axis, double direction[3
     pose_tail(&still, NULL, LOOK_WIGGLY, &pose);
     const float *base = pose.matrix[0] + 12, *tip = pose.matrix[pose.count - 1] + 12;
     const double along = (double)(tip[2] - base[2]), above = (double)(tip[1] - base[1]), length = hypot(along, above);
-    direction[0] = axis == AXIS_SIDE;
-    direction[1] = axis == AXIS_UP ? (length > 0 ? along / length : 1) : 0;
-    direction[2] = axis == AXIS_UP && length > 0 ? -above / length : 0;
+    const bool is_side = axis == AXIS_SIDE || axis == AXIS_LOOK;
+    direction[0] = is_side;
+    direction[1] = is_side ? 0 : length > 0 ? along / length : 1;
+    direction[2] = !is_side && length > 0 ? -above / length : 0;
 }

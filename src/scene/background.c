@@ -55,7 +55,7 @@ static bool uses_band(const struct spline *spline)
 bool background_serves(const struct document *document, wiggly_method method)
 {
     double samples = document_samples(document);
-    if (pins_count(document) > 0) return false;
+    if (pins_hold_any(document)) return false;
     if (samples * BAND_COST <= LONG) return false;
     if (samples * CHAIN_COST > LONG || method == WIGGLY_BAND) return document->spline_count > 0;
     for (int s = 0; s < document->spline_count; s++) {

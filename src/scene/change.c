@@ -295,6 +295,13 @@ static void swap_drives(struct change *change, struct document *document)
     for (int i = 0; i < CHARACTER_MAX_DRIVES; i++) SWAP(struct drive, rig->drives[i], change->drives.drives[i]);
 }
 
+static void swap_floor(struct change *change, struct document *document)
+{
+    struct character_rig *rig = &document->rigs[change->floor.rig].character;
+    SWAP(bool, rig->has_floor, change->floor.is_on);
+    SWAP(double, rig->floor, change->floor.height);
+}
+
 static void swap_pin(struct change *change, struct document *document)
 {
     struct rig *rig = &document->rigs[change->pin.rig];
@@ -357,6 +364,9 @@ void change_swap(struct change *change, struct document *document)
         break;
     case CHANGE_DRIVES:
         swap_drives(change, document);
+        break;
+    case CHANGE_FLOOR:
+        swap_floor(change, document);
         break;
     case CHANGE_SHEET:
         SWAP(struct paint *, document->rigs[change->sheet.rig].character.painted, change->sheet.paint);

@@ -27,6 +27,7 @@ enum change_kind {
     CHANGE_FORM,        ///< the form of angles, and how many there are
     CHANGE_ANGLE,       ///< one of their numbers: an angle, or a place of a ramp
     CHANGE_DRIVES,      ///< the drives of a character
+    CHANGE_FLOOR,       ///< the floor of a character
     CHANGE_SHEET,       ///< all of the paint on a character
     CHANGE_PAINT,       ///< a stroke on it
     CHANGE_PIN_IN,      ///< the pin is in the document: swapping takes it out and makes this a CHANGE_PIN_OUT
@@ -94,6 +95,11 @@ struct change {
             int rig, count;
             struct drive drives[CHARACTER_MAX_DRIVES];
         } drives;
+        struct {
+            int rig;
+            bool is_on;
+            double height;
+        } floor;
         struct {
             int rig;
             struct paint *paint; ///< owned; may be NULL

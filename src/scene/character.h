@@ -22,6 +22,8 @@ struct character_rig {
     double position[3];    ///< metres
     struct drive drives[CHARACTER_MAX_DRIVES];
     int drive_count;
+    bool has_floor;
+    double floor; ///< height above which all of it is kept, metres of the world
     int phases; ///< axis 0 … 2 along which its first coordinate's phases are shown at first; −1: its own colours
 };
 

@@ -40,6 +40,7 @@ enum edit_kind {
     EDIT_DRIVE,          ///< rig, channel: which drive, drive: replaces spline, amplitude and lag
     EDIT_DRIVE_ADD,      ///< rig, drive (its name is copied)
     EDIT_DRIVE_REMOVE,   ///< rig, channel: which drive
+    EDIT_FLOOR,          ///< rig, flag: whether it has one, number: its height, metres
     EDIT_PAINT_NEW, ///< rig, coordinates, vertices (of its model): replaces its paint by one that changes nothing
     EDIT_PAINT,     ///< rig, dab. All dabs of a step on one coordinate make one change
     EDIT_MODEL_ADD, ///< contents: a model rig, which becomes the last. Its name, or else its file's, gets a number if it is taken

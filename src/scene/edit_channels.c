@@ -75,7 +75,8 @@ static struct change channel_change(const struct edit *edit, const struct channe
 
 bool plan_check_axis(enum rig_kind kind, enum axis axis, struct error *error)
 {
-    if ((unsigned)axis > AXIS_TWIST) return fail(error, ERROR_INPUT, "there is no such axis");
+    if ((unsigned)axis >= AXES) return fail(error, ERROR_INPUT, "there is no such axis");
+    if (!axis_bends(axis) && kind != RIG_TAIL) return fail(error, ERROR_INPUT, "only a tail's body moves");
     return axis != AXIS_TWIST || kind != RIG_TAIL || fail(error, ERROR_INPUT, "a tail does not twist");
 }
 

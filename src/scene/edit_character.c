@@ -72,3 +72,15 @@ bool plan_drive_remove(struct document *document, const struct edit *edit, struc
     memmove(gone, gone + 1, (size_t)(change.drives.count - edit->channel) * sizeof *gone);
     return plan_add(list, &change, error);
 }
+
+bool plan_floor(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+{
+    const struct character_rig *rig = rig_of(document, edit);
+    struct change change = {.kind = CHANGE_FLOOR, .spline = -1};
+    change.floor.rig = edit->rig;
+    change.floor.is_on = edit->flag;
+    change.floor.height = edit->number + 0.0;
+    if (!isfinite(edit->number)) return fail(error, ERROR_INPUT, "a floor's height must be finite");
+    const bool same = rig->has_floor == edit->flag && rig->floor == change.floor.height;
+    return same || plan_add(list, &change, error);
+}

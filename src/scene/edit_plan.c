@@ -62,6 +62,7 @@ static const struct {
     [EDIT_DRIVE] = {plan_drive, TARGET_RIG, KIND(RIG_CHARACTER)},
     [EDIT_DRIVE_ADD] = {plan_drive_add, TARGET_RIG, KIND(RIG_CHARACTER)},
     [EDIT_DRIVE_REMOVE] = {plan_drive_remove, TARGET_RIG, KIND(RIG_CHARACTER)},
+    [EDIT_FLOOR] = {plan_floor, TARGET_RIG, KIND(RIG_CHARACTER)},
     [EDIT_PAINT_NEW] = {plan_paint_new, TARGET_RIG, KIND(RIG_CHARACTER)},
     [EDIT_PAINT] = {plan_dab, TARGET_RIG, KIND(RIG_CHARACTER)},
     [EDIT_MODEL_ADD] = {plan_model_add, TARGET_SCENE, 0},

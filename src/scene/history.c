@@ -157,11 +157,13 @@ static bool suits_pins(const struct document *document, const struct edit *edit,
     struct pin_trouble trouble;
     const bool follows = edit->kind == EDIT_PARAMETER && edit->param.track >= 0;
     const bool regroups = edit->kind == EDIT_PIN_ADD || edit->kind == EDIT_FEED || edit->kind == EDIT_CHANNEL_ADD ||
-                          edit->kind == EDIT_DRIVE || edit->kind == EDIT_DRIVE_ADD;
-    if (edit->kind == EDIT_DOCUMENT || pins_count(document) == 0) return true;
+                          edit->kind == EDIT_DRIVE || edit->kind == EDIT_DRIVE_ADD || edit->kind == EDIT_FLOOR;
+    if (edit->kind == EDIT_DOCUMENT || !pins_hold_any(document)) return true;
     if (pins_check(document, &trouble) && (!(follows || regroups) || pins_check_order(document, &trouble)))
         return true;
-    return fail(error, ERROR_INPUT, "%s: pins: %s", rig_title(&document->rigs[trouble.rig]), trouble.sentence);
+    const struct rig *rig = &document->rigs[trouble.rig];
+    return fail(error, ERROR_INPUT, "%s: %s: %s", rig_title(rig), trouble.pin >= 0 ? "pins" : trouble.member,
+                trouble.sentence);
 }
 
 bool history_apply(struct history *history, struct document *document, const struct edit *edit, struct error *error)

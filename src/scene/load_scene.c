@@ -1,5 +1,6 @@
 /// Loads a scene from a file or from text.
 #include "base/file.h"
+#include "base/json.h"
 #include "base/path.h"
 #include "scene/load.h"
 #include "scene/reader.h"
@@ -134,9 +135,9 @@ static void load_scene(struct reader *reader, json_t *json)
 /// Keeps whole numbers as integers, so that unknown keys stay exact, unless one is too large.
 static json_t *parse_json(const struct source *source, json_error_t *syntax)
 {
-    json_t *json = json_loadb(source->text, source->size, JSON_REJECT_DUPLICATES, syntax);
+    json_t *json = json_read(source->text, source->size, JSON_REJECT_DUPLICATES, syntax);
     if (json || json_error_code(syntax) != json_error_numeric_overflow) return json;
-    return json_loadb(source->text, source->size, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, syntax);
+    return json_read(source->text, source->size, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, syntax);
 }
 
 json_t *reader_parse(struct reader *reader)

@@ -1,5 +1,6 @@
 /// Finds groups of splines, and the order in which they are solved.
 #include "scene/pin_groups.h"
+#include "scene/pins.h"
 
 static void merge(int *group, int count, int into, int from)
 {
@@ -22,11 +23,12 @@ void pin_groups_find(const struct document *document, int *group)
     for (int s = 0; s < document->spline_count; s++) group[s] = -1;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = &document->rigs[r];
-        const int inputs = rig->pin_count > 0 ? rig_input_count(rig) : 0;
+        const int inputs = pins_hold_rig(rig) ? rig_input_count(rig) : 0;
         for (int i = 0; i < inputs; i++) {
-            const int spline = rig_input(rig, i);
+            const int spline = rig_point_input(rig, i);
+            if (spline < 0) continue;
             if (group[spline] < 0) group[spline] = spline;
-            join(group, document->spline_count, group[spline], group[rig_input(rig, 0)]);
+            join(group, document->spline_count, group[spline], group[rig_point_spline(rig)]);
         }
     }
 }
@@ -63,8 +65,12 @@ void pin_groups_visit_bases(const struct document *document, const int *group, i
     struct outside outside = {group, which, visit, context};
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = &document->rigs[r];
-        if (rig->pin_count == 0 || rig_input_count(rig) == 0 || group[rig_input(rig, 0)] != which) continue;
+        const int spline = pins_hold_rig(rig) ? rig_point_spline(rig) : -1;
+        if (spline < 0 || group[spline] != which) continue;
         for (int k = 0; rig->kind == RIG_TAIL && k < 3; k++) visit_outside(rig->tail.position[k].track, &outside);
+        for (int c = 0; rig->kind == RIG_TAIL && c < rig->tail.channel_count; c++) {
+            if (rig->tail.channels[c].axis == AXIS_STRETCH) visit_outside(rig->tail.channels[c].spline, &outside);
+        }
         if (rig->kind == RIG_CHAIN) visit_chains(document, &rig->chain, visit_outside, &outside);
     }
 }

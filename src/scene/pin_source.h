@@ -17,6 +17,14 @@ struct pin_point {
 /// c of each of some splines: the point moves by Re(c dx) in x, y and z.
 typedef double pin_pull[3][2];
 
+/// The lowest vertex of a character at a sample, and how high it is, metres of the world.
+struct low_point {
+    double height;
+    int vertex;
+};
+
+enum { LOW_POINT_ROOM = 2 * CHARACTER_MAX_DRIVES }; ///< numbers a sample that finding them takes
+
 struct pin_source {
     /// Finds a pin's point as the splines are in `evaluation`, and how `count` splines move it from there (`c` may be NULL if
     /// there are none). false: its model is missing, or has no such point. NULL: pins are passed over.
@@ -25,6 +33,10 @@ struct pin_source {
     /// Adds to each spline's weight the mean of |c|² over the surface of a rig at rest.
     void (*weigh)(void *context, const struct document *document, int rig, const int *splines, int count,
                   double *weights);
+    /// Finds a character's lowest vertex at every sample; those not below `ceiling` may be passed over (then the height is that,
+    /// and the vertex -1). `room` is for LOW_POINT_ROOM numbers a sample. false: its model is missing.
+    bool (*lowest)(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
+                   double ceiling, double *room, struct low_point *low);
     void *context;
     uint64_t version; ///< changes when they may give something else for the same document
 };

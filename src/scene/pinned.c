@@ -50,6 +50,7 @@ void pinned_free(struct pinned *pinned)
 {
     free_solver(pinned);
     free_splines(pinned);
+    floors_free(&pinned->floors);
     free(pinned->knots);
     *pinned = (struct pinned){0};
 }
@@ -72,7 +73,7 @@ static bool resize_splines(struct pinned *pinned, int splines)
 
 /// What a group takes.
 struct room {
-    int samples, knots, group, pins;
+    int samples, knots, group, pins, bounds;
 };
 
 static bool create_solver(struct pinned *pinned, const struct room *room)
@@ -93,8 +94,8 @@ static bool create_solver(struct pinned *pinned, const struct room *room)
         pinned->round[i].pulls = calloc(pins * splines, sizeof *pinned->round[i].pulls);
         good &= pinned->round[i].pins && pinned->round[i].pulls;
     }
-    good = good &&
-           wiggly_group_create(room->samples, room->knots, room->group, room->pins, &pinned->solver) == WIGGLY_OK;
+    good = good && wiggly_group_create_bounded(room->samples, room->knots, room->group, room->pins, room->bounds,
+                                               &pinned->solver) == WIGGLY_OK;
     if (!good) {
         free_solver(pinned);
         return false;
@@ -103,6 +104,7 @@ static bool create_solver(struct pinned *pinned, const struct room *room)
     pinned->most_knots = room->knots;
     pinned->group = room->group;
     pinned->pins = room->pins;
+    pinned->bounds = room->bounds;
     return true;
 }
 
@@ -116,12 +118,12 @@ static int doubled(int had, int needed)
 static bool resize_solver(struct pinned *pinned, const struct room *needed)
 {
     if (pinned->solver && needed->samples <= pinned->samples && needed->knots <= pinned->most_knots &&
-        needed->group <= pinned->group && needed->pins <= pinned->pins)
+        needed->group <= pinned->group && needed->pins <= pinned->pins && needed->bounds <= pinned->bounds)
         return true;
-    const struct room room = {needed->samples > pinned->samples ? needed->samples : pinned->samples,
-                              doubled(pinned->most_knots, needed->knots),
-                              needed->group > pinned->group ? needed->group : pinned->group,
-                              doubled(pinned->pins, needed->pins)};
+    const struct room room = {
+        needed->samples > pinned->samples ? needed->samples : pinned->samples,
+        doubled(pinned->most_knots, needed->knots), needed->group > pinned->group ? needed->group : pinned->group,
+        doubled(pinned->pins, needed->pins), needed->bounds > pinned->bounds ? needed->bounds : pinned->bounds};
     pinned->rigs_key = pinned->pins_key = 0;
     return create_solver(pinned, &room);
 }
@@ -149,7 +151,7 @@ bool pinned_resize(struct storage *storage, const struct document *document)
     struct pinned *pinned = &storage->pinned;
     struct room room = {.samples = document_samples(document), .pins = pins_count(document)};
     int knots = 0;
-    if (room.pins == 0) return true;
+    if (!pins_hold_any(document)) return true;
     if (!resize_splines(pinned, document->spline_count)) return false;
     pin_groups_find(document, pinned->which);
     for (int s = 0; s < document->spline_count; s++) {
@@ -159,7 +161,9 @@ bool pinned_resize(struct storage *storage, const struct document *document)
         if (pinned->which[s] >= 0 && own > room.knots) room.knots = own;
         if (group > room.group) room.group = group;
     }
-    return room.group == 0 || (resize_solver(pinned, &room) && resize_knots(pinned, knots));
+    room.bounds = floors_any(document) ? FLOORS_MOST_BOUNDS : 0;
+    return room.group == 0 || (resize_solver(pinned, &room) && resize_knots(pinned, knots) &&
+                               floors_resize(&pinned->floors, document, pinned->group));
 }
 
 /// Marks what was solved in a group, or is to be.
@@ -189,7 +193,8 @@ bool pinned_begin(struct evaluation *evaluation, const struct document *document
     struct pinned *pinned = &storage->pinned;
     struct pin_cycle cycle;
     const int count = evaluation->count, pins = pins_count(document);
-    const bool serves = pins > 0 && pinned->pins >= pins && evaluation->pins.find && !evaluation->cubic;
+    const bool serves =
+        pins_hold_any(document) && pinned->pins >= pins && evaluation->pins.find && !evaluation->cubic;
     if (pinned->splines < count || (!serves && pinned->pins_key == 0)) return false;
     for (int s = 0; s < count; s++) pinned->which[s] = -1;
     if (serves) pin_groups_find(document, pinned->which);
@@ -255,7 +260,8 @@ static void find_held(struct pinned *pinned, const struct document *document, in
     pinned->held_count = 0;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = &document->rigs[r];
-        const bool is_held = rig_input_count(rig) > 0 && pinned->which[rig_input(rig, 0)] == which;
+        const int spline = rig_point_spline(rig);
+        const bool is_held = spline >= 0 && pinned->which[spline] == which;
         for (int i = 0; is_held && i < rig->pin_count; i++)
             pinned->held[pinned->held_count++] = (struct held_pin){.rig = r, .pin = i};
     }
@@ -371,8 +377,10 @@ static bool all_linear(const struct pinned *pinned)
     return all;
 }
 
-/// Rounds from the motion without pins on; the curves are those of the round that came nearest.
-static wiggly_status approach(struct evaluation *evaluation, const struct document *document)
+/// Rounds from the motion without pins on; the curves are those of the round that came nearest, which `solved` receives: NULL for the motion
+/// without pins.
+static wiggly_status approach(struct evaluation *evaluation, const struct document *document,
+                              struct pin_round **solved)
 {
     struct pinned *pinned = &evaluation->storage->pinned;
     struct pin_round *best = &pinned->round[0], *next = &pinned->round[1];
@@ -388,9 +396,9 @@ static wiggly_status approach(struct evaluation *evaluation, const struct docume
         const bool there = arrived || fabs(now - nearest) <= STALLED * nearest;
         is_best = now <= nearest || there;
         if (is_best) {
-            struct pin_round *solved = next;
+            struct pin_round *nearer = next;
             next = best;
-            best = solved;
+            best = nearer;
             has_best = true;
             misses = 0;
             nearest = now;
@@ -401,25 +409,34 @@ static wiggly_status approach(struct evaluation *evaluation, const struct docume
             misses++;
         }
     }
+    *solved = has_best ? best : NULL;
     return is_best ? status : solve_round(evaluation, best, has_best);
 }
 
 bool pinned_solve(struct evaluation *evaluation, const struct document *document, int which, wiggly_status *status)
 {
     struct pinned *pinned = &evaluation->storage->pinned;
+    const bool has_floor = floors_concern(pinned, document, which);
     wiggly_group_set_method(pinned->solver, evaluation->storage->method);
     find_members(evaluation, document, which);
+    for (int i = 0; has_floor && i < pinned->count; i++) { // as where pins pull: they are passed over, pressed or not
+        pinned->descs[i].low = -INFINITY, pinned->descs[i].high = INFINITY;
+        pinned->descs[i].steady = 0;
+    }
     pin_groups_visit_bases(document, pinned->which, which, still, evaluation);
     find_held(pinned, document, which);
     *status = solve_round(evaluation, &pinned->round[0], false);
     if (*status >= WIGGLY_ERROR_ARGUMENT) return false;
-    find_pulls(evaluation, document, &pinned->round[1]);
+    struct pin_round *solved = &pinned->round[1];
+    find_pulls(evaluation, document, solved);
     if (all_linear(pinned)) {
-        aim(pinned, document, &pinned->round[1], 0);
-        *status = solve_round(evaluation, &pinned->round[1], true);
+        aim(pinned, document, solved, 0);
+        *status = pinned->held_count > 0 ? solve_round(evaluation, solved, true) : *status;
     } else {
-        *status = approach(evaluation, document);
+        *status = approach(evaluation, document, &solved);
     }
+    if (has_floor)
+        *status = floors_solve(evaluation, document, which, solved ? solved : &pinned->round[0], solved, *status);
     return *status < WIGGLY_ERROR_ARGUMENT;
 }
 

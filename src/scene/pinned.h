@@ -2,7 +2,7 @@
 #ifndef SCENE_PINNED_H
 #define SCENE_PINNED_H
 
-#include "scene/evaluate.h"
+#include "scene/floors.h"
 
 struct storage;
 
@@ -23,8 +23,9 @@ struct pin_round {
 
 struct pinned {
     wiggly_group *solver;
-    int samples, most_knots, group, pins; ///< its capacity; `group`: splines
-    int splines;                          ///< that there is room for below
+    int samples, most_knots, group, pins, bounds; ///< its capacity; `group`: splines
+    struct floors floors;
+    int splines; ///< that there is room for below
     int knot_capacity;
     wiggly_knot *knots; ///< of the group in hand
     int *which;         ///< for each spline, pin_groups_find()

@@ -16,12 +16,25 @@ int pins_count(const struct document *document)
     return count;
 }
 
+bool pins_hold_rig(const struct rig *rig)
+{
+    return rig->pin_count > 0 || (rig->kind == RIG_CHARACTER && rig->character.has_floor);
+}
+
+bool pins_hold_any(const struct document *document)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        if (pins_hold_rig(&document->rigs[r])) return true;
+    }
+    return false;
+}
+
 bool pins_move_spline(const struct document *document, int spline)
 {
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = &document->rigs[r];
-        for (int i = 0; rig->pin_count > 0 && i < rig_input_count(rig); i++) {
-            if (rig_input(rig, i) == spline) return true;
+        for (int i = 0; pins_hold_rig(rig) && i < rig_input_count(rig); i++) {
+            if (rig_point_input(rig, i) == spline) return true;
         }
     }
     return false;
@@ -93,7 +106,8 @@ int pins_last_sample(const struct document *document, const struct rig *rig)
 {
     const int samples = document_samples(document);
     for (int i = 0; i < rig_input_count(rig); i++) {
-        if (spline_start(&document->splines[rig_input(rig, i)]) == WIGGLY_LOOP) return samples - 2;
+        const int spline = rig_point_input(rig, i);
+        if (spline >= 0 && spline_start(&document->splines[spline]) == WIGGLY_LOOP) return samples - 2;
     }
     return samples - 1;
 }
@@ -132,9 +146,25 @@ static const char *stiffness_of(const struct spline *spline)
     return calm->track < 0 && calm->value == 0 ? "whose calm is 0" : NULL;
 }
 
+/// A character that stands below its floor would have to be lifted by its feet, which no spline moves.
+static bool check_floor(const struct rig *rig, struct pin_trouble *trouble)
+{
+    const struct character_rig *character = &rig->character;
+    if (rig->kind != RIG_CHARACTER || !character->has_floor || character->floor <= character->position[1])
+        return true;
+    trouble->member = "floor";
+    snprintf(trouble->sentence, sizeof trouble->sentence,
+             "expected a height of at most %.10g, which is what the character stands on, got %.10g",
+             character->position[1], character->floor);
+    return false;
+}
+
+static const char *member_that_holds(const struct rig *rig) { return rig->pin_count > 0 ? "pins" : "floor"; }
+
 static bool check_splines(const struct document *document, const struct rig *rig, struct pin_trouble *trouble)
 {
     for (int i = 0; i < rig_input_count(rig); i++) {
+        if (rig_point_input(rig, i) < 0) continue;
         const struct spline *spline = &document->splines[rig_input(rig, i)];
         const char *why = stiffness_of(spline);
         if (!why) continue;
@@ -153,8 +183,9 @@ bool pins_check(const struct document *document, struct pin_trouble *trouble)
             *trouble = (struct pin_trouble){.rig = r, .pin = i};
             if (!check_frame(document, rig, i, trouble)) return false;
         }
-        *trouble = (struct pin_trouble){.rig = r, .pin = -1};
-        if (rig->pin_count > 0 && !check_splines(document, rig, trouble)) return false;
+        *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = member_that_holds(rig)};
+        if (!check_floor(rig, trouble)) return false;
+        if (pins_hold_rig(rig) && !check_splines(document, rig, trouble)) return false;
     }
     return true;
 }
@@ -164,8 +195,8 @@ static int pinned_rig_of(const struct document *document, int spline)
 {
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = &document->rigs[r];
-        for (int i = 0; rig->pin_count > 0 && i < rig_input_count(rig); i++) {
-            if (rig_input(rig, i) == spline) return r;
+        for (int i = 0; pins_hold_rig(rig) && i < rig_input_count(rig); i++) {
+            if (rig_point_input(rig, i) == spline) return r;
         }
     }
     return 0;
@@ -205,6 +236,7 @@ static void name_cycle(const struct document *document, const int *group, const 
     const char *name = document->splines[cycle->spline].name, *leader = document->splines[cycle->leader].name;
     const bool is_pinned = group[cycle->spline] >= 0;
     trouble->rig = pinned_rig_of(document, is_pinned ? cycle->spline : cycle->leader);
+    trouble->member = member_that_holds(&document->rigs[trouble->rig]);
     if (is_pinned && group[cycle->spline] == group[cycle->leader]) {
         snprintf(trouble->sentence, sizeof trouble->sentence,
                  "expected splines that do not follow each other, got \"%s\", which follows \"%s\"", name, leader);
@@ -220,7 +252,7 @@ bool pins_check_order(const struct document *document, struct pin_trouble *troub
     struct search search;
     struct order_cycle tracks;
     struct pin_cycle cycle;
-    if (pins_count(document) == 0) return true;
+    if (!pins_hold_any(document)) return true;
     *trouble = (struct pin_trouble){.pin = -1};
     bool good = search_create(&search, (size_t)document->spline_count + 1);
     if (!good) {

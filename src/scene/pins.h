@@ -6,7 +6,10 @@
 
 /// Pins over all rigs.
 int pins_count(const struct document *document);
-/// Whether pins move a spline: one of a rig that has some.
+/// Whether a rig's splines are solved together: it has pins or a floor. And whether any rig's are.
+bool pins_hold_rig(const struct rig *rig);
+bool pins_hold_any(const struct document *document);
+/// Whether pins or a floor move a spline: one of a rig that has some.
 bool pins_move_spline(const struct document *document, int spline);
 
 /// Index of a rig's pin with that id, or -1.
@@ -25,10 +28,10 @@ bool pins_reserve(struct rig *rig, int count);
 void pins_insert(struct rig *rig, const struct pin *pin);
 struct pin pins_remove(struct rig *rig, unsigned id);
 
-/// What is wrong with pins: "expected …, got …", about a member of a pin, or of all of a rig's (pin is -1).
+/// What is wrong with pins: "expected …, got …", about a member of a pin, or of all of a rig's, or of its floor (pin is -1).
 struct pin_trouble {
     int rig, pin;
-    const char *member;
+    const char *member; ///< of the pin, else of the rig
     char sentence[512];
 };
 

@@ -51,6 +51,10 @@ const char *rig_title(const struct rig *rig);
 int rig_input_count(const struct rig *rig);
 int rig_input(const struct rig *rig, int input);
 
+/// The same of what moves the points of a rig that pins hold; −1 for an input that moves but the body. And the first of these, −1: none.
+int rig_point_input(const struct rig *rig, int input);
+int rig_point_spline(const struct rig *rig);
+
 /// Its channels and how many; NULL and 0 for a kind that has none.
 struct channel *rig_channels(const struct rig *rig, int *count);
 

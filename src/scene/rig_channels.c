@@ -6,9 +6,24 @@
 _Static_assert((int)SCENE_MAX_CHANNELS <= (int)RIG_MAX_INPUTS, "a channel is an input");
 
 const char *const channel_keys[] = {"spline", "axis", "of", "lag", "gain", NULL};
-const char *const tail_axes[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up", NULL};
-const char *const chain_axes[] = {[AXIS_SIDE] = "side", [AXIS_UP] = "up", [AXIS_TWIST] = "twist", NULL};
+const char *const tail_axes[] = {"side", "up", "look", "nod", "ears", "breath", "stretch", "blink", NULL};
+const char *const chain_axes[] = {"side", "up", "twist", NULL};
+static const char *const axis_words[AXES] = {
+    [AXIS_SIDE] = "side",     [AXIS_UP] = "up",           [AXIS_TWIST] = "twist",
+    [AXIS_LOOK] = "look",     [AXIS_NOD] = "nod",         [AXIS_EARS] = "ears",
+    [AXIS_BREATH] = "breath", [AXIS_STRETCH] = "stretch", [AXIS_BLINK] = "blink"};
 static const char *const parts[] = {[PART_TOTAL] = "total", [PART_DISPLACEMENT] = "displacement", NULL};
+
+bool axis_bends(enum axis axis) { return axis <= AXIS_TWIST; }
+
+const char *axis_word(enum axis axis) { return axis_words[axis]; }
+
+static enum axis axis_called(const char *word)
+{
+    int axis = AXIS_SIDE;
+    while (axis + 1 < AXES && strcmp(axis_words[axis], word) != 0) axis++;
+    return (enum axis)axis;
+}
 
 /// An array of one number a joint.
 static void load_each(struct reader *reader, struct value value, int joints, struct angles *angles)
@@ -81,7 +96,7 @@ void load_channel(struct reader *reader, const struct value *object, const char 
 {
     channel->spline = reader_spline_name(reader, reader_member(object, "spline"));
     int word = reader_word(reader, reader_member(object, "axis"), axes, AXIS_SIDE);
-    channel->axis = word < 0 ? AXIS_SIDE : (enum axis)word;
+    channel->axis = word < 0 ? AXIS_SIDE : axis_called(axes[word]);
     word = reader_word(reader, reader_member(object, "of"), parts, PART_TOTAL);
     channel->of = word < 0 ? PART_TOTAL : (enum channel_part)word;
     channel->lag.value[0] = CHANNEL_DEFAULT_LAG;
@@ -142,7 +157,7 @@ static void print_channel(struct text *text, const struct document *document, co
 {
     struct members members = {text, "{ ", ", ", false};
     member_string(&members, "spline", document->splines[channel->spline].name);
-    member_string(&members, "axis", chain_axes[channel->axis]);
+    member_string(&members, "axis", axis_word(channel->axis));
     if (channel->of != PART_TOTAL) member_string(&members, "of", parts[channel->of]);
     print_angles(&members, "lag", &channel->lag, channel->extra);
     print_angles(&members, "gain", &channel->gain, channel->extra);

@@ -7,7 +7,7 @@
 _Static_assert((int)CHARACTER_MAX_DRIVES <= (int)RIG_MAX_INPUTS, "a drive is an input");
 
 static const char *const character_keys[] = {"type",   "name",  "model", "position", "coordinates",
-                                             "phases", "paint", "pins",  NULL};
+                                             "phases", "paint", "floor", "pins",     NULL};
 static const char *const axes[] = {"x", "y", "z", NULL};
 static const char *const drive_keys[] = {"name", "spline", "amplitude", "lag", NULL};
 
@@ -29,8 +29,10 @@ static void load(struct reader *reader, const struct value *object, struct rig *
     struct character_rig *character = &rig->character;
     const struct value name = reader_member(object, "name"), coordinates = reader_member(object, "coordinates");
     const struct value phases = reader_member(object, "phases"), paint = reader_member(object, "paint");
+    const struct value floor = reader_member(object, "floor");
     if (name.json) rig->name = reader_name(reader, name);
     character->model = reader_name(reader, reader_member(object, "model"));
+    character->has_floor = floor.json && reader_number(reader, floor, false, range_any, &character->floor);
     if (paint.json) character->paint = reader_name(reader, paint);
     reader_point(reader, reader_member(object, "position"), character->position);
     character->phases = phases.json ? reader_word(reader, phases, axes, -1) : -1;
@@ -72,6 +74,7 @@ static void print(struct members *members, const struct document *document, cons
     }
     text_string(text, character->drive_count > 0 ? "\n      ]" : "[]");
     if (character->phases >= 0) member_string(members, "phases", axes[character->phases]);
+    if (character->has_floor) member_number(members, "floor", character->floor);
     if (is_painted(character)) member_path(members, "paint", document, character->paint, folder);
 }
 

@@ -40,6 +40,7 @@ static uint64_t add_tail(uint64_t hash, const struct tail *tail)
 static uint64_t add_character(uint64_t hash, const struct character_rig *character)
 {
     hash = hash_bytes(add_text(hash, character->model), character->position, sizeof character->position);
+    if (character->has_floor) hash = add_number(hash, character->floor);
     hash = hash_word(hash, character->painted ? character->painted->version : 0);
     for (int k = 0; k < character->drive_count; k++) {
         const struct drive *drive = &character->drives[k];

@@ -28,6 +28,21 @@ int rig_input(const struct rig *rig, int input)
     return kind->is_bent ? rig->bent.channels[input].spline : kind->input(rig, input);
 }
 
+int rig_point_input(const struct rig *rig, int input)
+{
+    const bool is_point = !kinds[rig->kind]->is_bent || axis_bends(rig->bent.channels[input].axis);
+    return is_point ? rig_input(rig, input) : -1;
+}
+
+int rig_point_spline(const struct rig *rig)
+{
+    const int count = rig_input_count(rig);
+    for (int i = 0; i < count; i++) {
+        if (rig_point_input(rig, i) >= 0) return rig_point_input(rig, i);
+    }
+    return -1;
+}
+
 struct channel *rig_channels(const struct rig *rig, int *count)
 {
     const bool is_bent = kinds[rig->kind]->is_bent;

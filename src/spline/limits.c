@@ -19,10 +19,15 @@ enum { FEW = 64, ROUNDS = 60, MANY = 1000 }; ///< solves
 static const double beyond = 1e-10;   ///< of the size of the total: what a sample may miss a limit by
 static const double faintest = 1e-12; ///< of the size of w: a pull that may be rounding
 
-void limits_begin(wiggly_solver *solver, const wiggly_desc *desc, const wiggly_curve *curve, wiggly_curve *all)
+void limits_begin(wiggly_solver *solver, problem *p, wiggly_desc *ordered, const wiggly_curve *curve,
+                  wiggly_curve *all)
 {
     limit_memory *m = &solver->limits;
-    for (int k = 0; k < desc->knot_count; k++) m->own[k] = desc->knots[solver->order[k]];
+    for (int k = 0; k < p->desc->knot_count; k++) m->own[k] = p->desc->knots[solver->order[k]];
+    for (int k = 0; k < p->desc->knot_count; k++) solver->order[k] = k;
+    *ordered = *p->desc;
+    ordered->knots = m->own;
+    p->desc = ordered;
     if (!curve->re) all->re = m->re;
     if (!curve->im) all->im = m->im;
 }
@@ -230,8 +235,28 @@ static enum outcome go_round(limits_work *w)
     return TIRED;
 }
 
+/// Solves with what was guessed and lets go until nothing has to be pulled: the dual method can go on from there.
+static bool settle(limits_work *w)
+{
+    double slack, noise;
+    for (bool any = true; any;) {
+        if (!limits_solve(w)) return false;
+        measure_work(w, &slack, &noise);
+        any = relax(w, &w->body, noise);
+    }
+    const limit_memory *m = &w->solver->limits;
+    for (int i = w->body.from; i <= w->body.to; i++) {
+        if (limits_hold(w, i)) m->now[i] = m->pull[i];
+    }
+    return true;
+}
+
 static enum outcome search(limits_work *w)
 {
+    double slack, noise;
+    measure_work(w, &slack, &noise);
+    limits_guess(w, slack);
+    if (w->body.held > 0 && !settle(w)) return NO_ROOM;
     enum outcome outcome = climb(w, FEW);
     if (outcome == TIRED) outcome = go_round(w);
     if (outcome != TIRED) return outcome;

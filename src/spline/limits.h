@@ -7,9 +7,10 @@
 
 static inline bool limits_are_set(const wiggly_desc *desc) { return desc->low > -INFINITY || desc->high < INFINITY; }
 
-/// Puts a limited spline's knots, which were just posed, and arrays of its own into the solver's memory; `all` is the curve with
-/// arrays where `curve` has none.
-void limits_begin(wiggly_solver *solver, const wiggly_desc *desc, const wiggly_curve *curve, wiggly_curve *all);
+/// Puts the knots of a limited spline that was just posed into the solver's memory by sample, where held samples will come between
+/// them: its description becomes `ordered`. `all` is the curve with arrays of the solver's where `curve` has none.
+void limits_begin(wiggly_solver *solver, problem *p, wiggly_desc *ordered, const wiggly_curve *curve,
+                  wiggly_curve *all);
 
 /// problem_find() of a limited spline. WIGGLY_ERROR_CAPACITY where more samples are to be held than there is room for.
 wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result);
@@ -43,6 +44,9 @@ typedef struct limits_work {
 /// Solves with the samples that are held; their `pull` becomes −½ of the energy's gradient there, by a positive factor. false where
 /// there is no room for so many.
 bool limits_solve(limits_work *work);
+
+/// Holds what is likely to be held up to the last knot, from where nothing is held and all is solved.
+void limits_guess(limits_work *work, double slack);
 
 static inline bool limits_hold(const limits_work *w, int sample) { return w->solver->limits.held[sample] & 1; }
 

@@ -4,6 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+/// A bound gives way by this much in any case: two that say nearly the same are not at odds then.
+static const double least_soft = 1e-10;
+
 /// Of the largest eigenvalue: below the first a direction is out of reach; below the second it gives way.
 static const double out_of_reach = 1e-4, firm = 0.04;
 
@@ -100,5 +103,101 @@ void pin_rows_find(pin_rows *rows, const pulled *splines, const wiggly_pin *pins
         for (to = from + 1; to < pin_count && pins[order[to]].sample == pins[order[from]].sample; to++) {
         }
         add_rows(rows, splines, pins, order + from, to - from);
+    }
+    rows->fixed = rows->count;
+}
+
+// --- bounds ----------------------------------------------------------------------------------------------------------
+
+int pin_rows_sample(const pulled *spline, int sample)
+{
+    const problem *p = &spline->problem;
+    if (p->count < 3) return -1;
+    if (p->start == WIGGLY_LOOP) return sample == p->count ? 0 : sample;
+    if (!problem_is_asked(p)) return -1;
+    if (sample < p->first) return p->first;
+    return p->settles && sample > p->latest ? p->latest : sample;
+}
+
+/// c of a bound's spline as coefficients of Re x and Im x.
+static void put_coefficients(const pulled *spline, const double c[2], double on[2])
+{
+    on[0] = c[0];
+    on[1] = spline->problem.desc->mode == WIGGLY_COMPLEX ? -c[1] : 0;
+}
+
+/// Whether the way of a bound's point in a direction of x is barred: by a knot there.
+static bool is_barred(const pulled *spline, int sample)
+{
+    const int at = pin_rows_sample(spline, sample);
+    return at >= 0 && !bound_tail_moves(&spline->tail, sample) && has_knot_at(spline->problem.desc, at);
+}
+
+/// What of a bound's way lies along a pin's row, as a square.
+static double square_along(const pin_rows *rows, const pulled *splines, const wiggly_bound *bound, const double *on)
+{
+    double product = 0, square = 0;
+    for (int s = 0; s < rows->splines; s++) {
+        double own[2];
+        put_coefficients(&splines[s], bound->c[s], own);
+        for (int part = is_barred(&splines[s], bound->sample); part < 2; part++) {
+            product += own[part] * on[2 * s + part];
+            square += on[2 * s + part] * on[2 * s + part];
+        }
+    }
+    return square > 0 ? product * product / square : 0;
+}
+
+double pin_rows_reach(const pin_rows *rows, const pulled *splines, const wiggly_bound *bound)
+{
+    double all = 0, rest = 0;
+    for (int s = 0; s < rows->splines; s++) {
+        double own[2];
+        put_coefficients(&splines[s], bound->c[s], own);
+        const bool moves =
+            pin_rows_sample(&splines[s], bound->sample) >= 0 || bound_tail_moves(&splines[s].tail, bound->sample);
+        for (int part = 0; part < 2; part++) {
+            const double square = own[part] * own[part];
+            all += square;
+            if (moves && !(part == 0 && is_barred(&splines[s], bound->sample))) rest += square;
+        }
+    }
+    for (int r = 0; r < rows->fixed; r++) {
+        if (rows->row[r].sample != bound->sample) continue;
+        rest -= square_along(rows, splines, bound, rows->on + 2 * rows->splines * r) / (1 + rows->row[r].soft);
+    }
+    return all > 0 ? fmax(0, rest / all) : 0;
+}
+
+/// Behind the last knot x is e^{p…} times what it is there.
+static void turn_to_last(const pulled *spline, int sample, double on[2])
+{
+    const problem *p = &spline->problem;
+    double re, im;
+    if (!p->settles || sample <= p->latest) return;
+    problem_fill_tail(spline->solver, p, (cplx){1, 0}, sample - p->latest, 1, &re, &im);
+    const double c[2] = {on[0], on[1]};
+    on[0] = c[0] * re + c[1] * im;
+    on[1] = c[1] * re - c[0] * im;
+}
+
+void pin_rows_add_bounds(pin_rows *rows, const pulled *splines, wiggly_bound *bounds, int bound_count)
+{
+    for (int b = 0; b < bound_count; b++) {
+        const double reach = pin_rows_reach(rows, splines, &bounds[b]);
+        bounds[b].push = 0;
+        if (!(reach >= out_of_reach)) continue;
+        double *on = rows->on + 2 * rows->splines * rows->count;
+        for (int s = 0; s < rows->splines; s++) {
+            put_coefficients(&splines[s], bounds[b].c[s], on + 2 * s);
+            turn_to_last(&splines[s], bounds[b].sample, on + 2 * s);
+        }
+        rows->row[rows->count] = (pin_row){.sample = bounds[b].sample,
+                                           .first = rows->count,
+                                           .count = 1,
+                                           .want = bounds[b].least,
+                                           .soft = softness(reach) / reach + least_soft,
+                                           .bound = &bounds[b]};
+        rows->count++;
     }
 }

@@ -6,6 +6,7 @@
 //     S = Σ_s R_sᵀ Z_s R_s / w_s,     (S + diag(φ S_max)) λ = want − Σ_s R_s x_s⁰,
 //
 // and every spline is solved once more under the pulls R_sᵀ λ / w_s.
+#include "spline/one_sided.h"
 #include "spline/pin_rows.h"
 #include "spline/symmetric.h"
 #include "spline/wide.h"
@@ -19,7 +20,7 @@ enum { MAX_ROUNDS = 3 };
 static const double near_enough = 1e-10;
 
 struct wiggly_group {
-    int splines, pins, knots; ///< capacity
+    int splines, pins, knots, bounds, places; ///< capacity; places: samples of one spline that are pulled
     pulled *pulled;
     pin_rows rows;
     int *order;         ///< of pins, by sample
@@ -31,6 +32,10 @@ struct wiggly_group {
     double *system;  ///< S, the lower triangle, then its factor
     double *soft;    ///< φ S_max of each row
     double *lambda, *miss;
+    double *want;        ///< S λ + miss: only bounds need it, and all below
+    one_sided one_sided; ///< room for its work
+    tail_row *tail_rows; ///< of the spline in hand
+    double *e, *pressed; ///< scratch of its tail
 };
 
 // --- memory ----------------------------------------------------------------------------------------------------------
@@ -56,26 +61,45 @@ static void *take(arena *a, size_t count, size_t size)
     return at;
 }
 
-static void lay_out_spline(pulled *of, arena *a, int knots, int pins)
+static void lay_out_spline(pulled *of, arena *a, int knots, int places, int pressed)
 {
-    pulled p = {.pulls = {.sample = take(a, (size_t)pins, sizeof(int)), .pull = take(a, (size_t)pins, sizeof(cplx))},
-                .place = take(a, (size_t)pins, sizeof(pull_place)),
-                .nodes = take(a, (size_t)knots + (size_t)pins + 1, sizeof(pull_node))};
+    const size_t count = (size_t)places;
+    pulled p = {.pulls = {.sample = take(a, count, sizeof(int)), .pull = take(a, count, sizeof(cplx))},
+                .place = take(a, count, sizeof(pull_place)),
+                .nodes = take(a, (size_t)knots + count + 1, sizeof(pull_node)),
+                .e = take(a, (size_t)pressed, sizeof(double))};
     if (of) *of = p;
 }
 
-static struct wiggly_group *lay_out(arena *a, int knots, int splines, int pins)
+static void lay_out_bounds(struct wiggly_group *at, arena *a, size_t rows, size_t samples)
 {
-    const size_t s = (size_t)splines, p = (size_t)pins, rows = 3 * p;
-    struct wiggly_group measured = {.splines = splines, .pins = pins, .knots = knots};
+    at->want = take(a, rows, sizeof(double));
+    at->one_sided = (one_sided){.factor = take(a, rows, rows * sizeof(double)),
+                                .now = take(a, rows, sizeof(double)),
+                                .active = take(a, rows, sizeof(int)),
+                                .is_active = take(a, rows, sizeof(bool)),
+                                .is_lost = take(a, rows, sizeof(bool))};
+    at->tail_rows = take(a, rows, sizeof(tail_row));
+    at->e = take(a, samples, sizeof(double));
+    at->pressed = take(a, samples, sizeof(double));
+}
+
+static struct wiggly_group *lay_out(arena *a, const struct wiggly_group *capacity, int samples)
+{
+    const int splines = capacity->splines, pins = capacity->pins, knots = capacity->knots;
+    const size_t s = (size_t)splines, p = (size_t)capacity->places;
+    const size_t rows = 3 * (size_t)pins + (size_t)capacity->bounds;
+    struct wiggly_group measured = *capacity;
     struct wiggly_group *g = take(a, 1, sizeof *g), *at = g ? g : &measured;
     *at = measured;
     at->pulled = take(a, s, sizeof(pulled));
-    for (int i = 0; i < splines; i++) lay_out_spline(at->pulled ? &at->pulled[i] : NULL, a, knots, pins);
+    for (int i = 0; i < splines; i++)
+        lay_out_spline(at->pulled ? &at->pulled[i] : NULL, a, knots, capacity->places,
+                       capacity->bounds > 0 ? samples : 0);
     at->rows.row = take(a, rows, sizeof(pin_row));
     at->rows.on = take(a, rows, 2 * s * sizeof(double));
-    at->rows.scratch = take(a, pin_rows_scratch(splines, pins), sizeof(double));
-    at->order = take(a, p, sizeof(int));
+    at->rows.scratch = take(a, pin_rows_scratch(splines, pins > 0 ? pins : 1), sizeof(double));
+    at->order = take(a, (size_t)pins, sizeof(int));
     at->pull_of = take(a, rows, sizeof(int));
     at->compliance = take(a, 2 * p, 2 * p * sizeof(double));
     at->alone = take(a, 2 * p, sizeof(double));
@@ -85,22 +109,34 @@ static struct wiggly_group *lay_out(arena *a, int knots, int splines, int pins)
     at->soft = take(a, rows, sizeof(double));
     at->lambda = take(a, rows, sizeof(double));
     at->miss = take(a, rows, sizeof(double));
+    if (capacity->bounds > 0) lay_out_bounds(at, a, rows, (size_t)samples);
     return g;
 }
 
 wiggly_status wiggly_group_create(int samples, int knots, int splines, int pins, wiggly_group **group)
 {
-    if (!group || samples < 1 || knots < 0 || splines < 1 || pins < 0 || knots > INT_MAX - pins ||
-        pins > WIGGLY_MOST_PINS)
+    return wiggly_group_create_bounded(samples, knots, splines, pins, 0, group);
+}
+
+wiggly_status wiggly_group_create_bounded(int samples, int knots, int splines, int pins, int bounds,
+                                          wiggly_group **group)
+{
+    if (!group || samples < 1 || knots < 0 || splines < 1 || pins < 0 || bounds < 0 || pins > WIGGLY_MOST_PINS ||
+        bounds > WIGGLY_MOST_PINS || knots > INT_MAX - pins - bounds)
         return WIGGLY_ERROR_ARGUMENT;
+    const struct wiggly_group capacity = {.splines = splines,
+                                          .pins = pins,
+                                          .knots = knots,
+                                          .bounds = bounds,
+                                          .places = pins + (bounds < samples ? bounds : samples)};
     arena size = {0};
-    lay_out(&size, knots, splines, pins);
+    lay_out(&size, &capacity, samples);
     if (size.too_large) return WIGGLY_ERROR_MEMORY;
     arena a = {.block = calloc(1, size.used)};
     if (!a.block) return WIGGLY_ERROR_MEMORY;
-    *group = lay_out(&a, knots, splines, pins);
+    *group = lay_out(&a, &capacity, samples);
     for (int s = 0; s < splines; s++) {
-        wiggly_status status = wiggly_create(samples, knots + pins, &(*group)->pulled[s].solver);
+        wiggly_status status = wiggly_create(samples, knots + capacity.places, &(*group)->pulled[s].solver);
         if (status == WIGGLY_OK) continue;
         wiggly_group_destroy(*group);
         *group = NULL;
@@ -123,6 +159,25 @@ void wiggly_group_set_method(wiggly_group *g, wiggly_method method)
 // --- what is asked ---------------------------------------------------------------------------------------------------
 
 static bool is_finite3(const double *v) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); }
+
+static wiggly_status check_bounds(const wiggly_group *g, const wiggly_desc *descs, const wiggly_curve *curves,
+                                  int spline_count, const wiggly_bound *bounds, int bound_count)
+{
+    if (bound_count < 0 || (bound_count > 0 && !bounds)) return WIGGLY_ERROR_ARGUMENT;
+    if (bound_count > g->bounds) return WIGGLY_ERROR_CAPACITY;
+    for (int s = 0; s < spline_count && bound_count > 0; s++) {
+        if (!curves[s].total || !curves[s].re || !curves[s].im) return WIGGLY_ERROR_ARGUMENT;
+    }
+    for (int b = 0; b < bound_count; b++) {
+        if (!bounds[b].c) return WIGGLY_ERROR_ARGUMENT;
+        if (!isfinite(bounds[b].least)) return WIGGLY_ERROR_NUMBER;
+        for (int s = 0; s < spline_count; s++) {
+            if (bounds[b].sample < 0 || bounds[b].sample >= descs[s].samples) return WIGGLY_ERROR_PIN;
+            if (!isfinite(bounds[b].c[s][0]) || !isfinite(bounds[b].c[s][1])) return WIGGLY_ERROR_NUMBER;
+        }
+    }
+    return WIGGLY_OK;
+}
 
 static wiggly_status check_pin(const wiggly_pin *pin, int spline_count)
 {
@@ -188,6 +243,8 @@ static void find_pulls(wiggly_group *g, int spline, const wiggly_pin *pins, int 
             pulls->sample[pulls->count++] = pin->sample;
     }
     for (int i = 0; i < pulls->count; i++) pulls->pull[i] = (cplx){0, 0};
+    pulls->earliest = pulls->count > 0 ? pulls->sample[0] : -1;
+    pulls->latest = pulls->count > 0 ? pulls->sample[pulls->count - 1] : -1;
 }
 
 /// Whether a spline can be pulled at those samples: it has a motion of its own, whose start costs something.
@@ -195,8 +252,9 @@ static bool can_be_pulled(const pulled *of)
 {
     const problem *p = &of->problem;
     const wiggly_desc *desc = p->desc;
+    const bool throughout = p->start == WIGGLY_LOOP || !problem_is_asked(p);
     double fastest = 0;
-    poles_fastest(desc, p->first, p->start == WIGGLY_LOOP ? desc->samples - 1 : p->latest, &fastest);
+    poles_fastest(desc, p->first, throughout ? desc->samples - 1 : p->latest, &fastest);
     return desc->mode != WIGGLY_CUBIC && desc->calm > 0 && fastest > 0;
 }
 
@@ -220,6 +278,7 @@ static wiggly_status pose_spline(pulled *of, const wiggly_desc *desc, double wei
     }
     if (status != WIGGLY_OK) return status;
     if (of->pulls.count > 0 && !can_be_pulled(of)) return WIGGLY_ERROR_PIN;
+    of->tail = bound_tail_of(&of->problem, weight);
     of->scale = of->problem.unit * desc->step * desc->step * desc->step / weight;
     return WIGGLY_OK;
 }
@@ -235,14 +294,63 @@ static wiggly_status pose(wiggly_group *g, const wiggly_desc *descs, const doubl
     return WIGGLY_OK;
 }
 
+/// Index of the pull on a sample; `count` where there is none.
+static int find_pull(const system_pulls *pulls, int sample)
+{
+    int from = 0, to = pulls->count;
+    if (sample < 0) return pulls->count;
+    while (from < to) {
+        const int middle = (from + to) / 2;
+        if (pulls->sample[middle] < sample)
+            from = middle + 1;
+        else
+            to = middle;
+    }
+    return from < pulls->count && pulls->sample[from] == sample ? from : pulls->count;
+}
+
+/// Pulls a spline for a bound at one of its samples; a loop's pulls all count as knots, because it has no ends.
+static void add_pull(system_pulls *pulls, int sample, bool is_loop)
+{
+    int at = pulls->count;
+    if (find_pull(pulls, sample) < pulls->count) return;
+    for (; at > 0 && pulls->sample[at - 1] > sample; at--) pulls->sample[at] = pulls->sample[at - 1];
+    pulls->sample[at] = sample;
+    pulls->pull[pulls->count++] = (cplx){0, 0};
+    if (is_loop) pulls->earliest = pulls->sample[0], pulls->latest = pulls->sample[pulls->count - 1];
+}
+
+/// Makes a posed spline ready for what bounds press.
+static wiggly_status pose_bounds(wiggly_group *g, int spline, const wiggly_bound *bounds, int bound_count)
+{
+    pulled *of = &g->pulled[spline];
+    const bool is_loop = of->problem.start == WIGGLY_LOOP;
+    bool is_moved = false;
+    for (int b = 0; b < bound_count; b++) {
+        if (bounds[b].c[spline][0] == 0 && bounds[b].c[spline][1] == 0) continue;
+        const int sample = pin_rows_sample(of, bounds[b].sample);
+        is_moved = true;
+        if (sample >= 0) add_pull(&of->pulls, sample, is_loop);
+    }
+    if (is_moved && !can_be_pulled(of)) return WIGGLY_ERROR_PIN;
+    if (of->pulls.count == 0) return WIGGLY_OK;
+    of->solver->pulls = of->problem.pulls = &of->pulls;
+    return is_loop ? problem_pose(of->solver, of->problem.desc, of->solver->y, &of->problem) : WIGGLY_OK;
+}
+
 // --- the system of the pins ------------------------------------------------------------------------------------------
 
-/// Of each row, which pull on the spline is at its sample: both are ordered.
-static void match_rows(const pin_rows *rows, const system_pulls *pulls, int *pull_of)
+/// Of each row, which pull on the spline is at its sample: pins' are ordered as pulls are.
+static void match_rows(const pin_rows *rows, const pulled *of, int *pull_of)
 {
-    for (int r = 0, i = 0; r < rows->count; r++) {
+    const system_pulls *pulls = &of->pulls;
+    for (int r = 0, i = 0; r < rows->fixed; r++) {
         while (i < pulls->count && pulls->sample[i] < rows->row[r].sample) i++;
         pull_of[r] = i < pulls->count && pulls->sample[i] == rows->row[r].sample ? i : -1;
+    }
+    for (int r = rows->fixed; r < rows->count; r++) {
+        const int i = find_pull(pulls, pin_rows_sample(of, rows->row[r].sample));
+        pull_of[r] = i < pulls->count ? i : -1;
     }
 }
 
@@ -258,7 +366,7 @@ static void add_spline(wiggly_group *g, int spline)
     const pulled *of = &g->pulled[spline];
     const pin_rows *rows = &g->rows;
     const int n = rows->count, width = 2 * of->pulls.count, columns = 2 * rows->splines;
-    match_rows(rows, &of->pulls, g->pull_of);
+    match_rows(rows, of, g->pull_of);
     for (int k = 0; k < width; k++) {
         const double *z = g->compliance + width * k;
         for (int r = 0; r < n; r++) {
@@ -277,6 +385,27 @@ static void add_spline(wiggly_group *g, int spline)
     }
 }
 
+/// Adds what bounds press behind a spline's last knot to the lower triangle of S.
+static void add_tail(wiggly_group *g, int spline)
+{
+    const bound_tail *tail = &g->pulled[spline].tail;
+    const pin_rows *rows = &g->rows;
+    for (int r = rows->fixed; r < rows->count; r++) {
+        const wiggly_bound *bound = rows->row[r].bound;
+        if (bound_tail_moves(tail, bound->sample))
+            g->tail_rows[r] = bound_tail_row(tail, bound->sample, bound->c[spline]);
+    }
+    for (int r = rows->fixed; r < rows->count; r++) {
+        if (!bound_tail_moves(tail, rows->row[r].sample)) continue;
+        memset(g->e, 0, sizeof *g->e * (size_t)tail->desc.samples);
+        bound_tail_press(tail, &g->tail_rows[r], 1, g->pressed, g->e);
+        for (int k = r; k < rows->count; k++) {
+            if (bound_tail_moves(tail, rows->row[k].sample))
+                g->system[rows->count * k + r] += bound_tail_see(tail, &g->tail_rows[k], g->e);
+        }
+    }
+}
+
 /// What each spline answers: S and what is missed without pulls. false where one cannot be solved.
 static bool respond(wiggly_group *g, int spline_count)
 {
@@ -287,6 +416,7 @@ static bool respond(wiggly_group *g, int spline_count)
     for (int s = 0; s < spline_count; s++) {
         pulled *of = &g->pulled[s];
         of->by_chain = false;
+        if (g->rows.count > g->rows.fixed) add_tail(g, s);
         if (of->pulls.count == 0) continue;
         of->by_chain = pull_chain_respond(of, g->compliance, g->alone, g->columns);
         if (of->by_chain || pull_band_respond(of, g->compliance, g->alone)) {
@@ -326,13 +456,30 @@ static void set_pulls(wiggly_group *g, int spline)
     pulled *of = &g->pulled[spline];
     const pin_rows *rows = &g->rows;
     for (int i = 0; i < of->pulls.count; i++) of->pulls.pull[i] = (cplx){0, 0};
-    match_rows(rows, &of->pulls, g->pull_of);
+    match_rows(rows, of, g->pull_of);
     for (int r = 0; r < rows->count; r++) {
         if (g->pull_of[r] < 0) continue;
         const double *on = rows->on + 2 * rows->splines * r + 2 * spline, force = of->scale * g->lambda[r];
         cplx *pull = &of->pulls.pull[g->pull_of[r]];
         pull->re += on[0] * force, pull->im += on[1] * force;
     }
+}
+
+/// Adds what bounds press behind the last knot to a curve.
+static void press_tail(wiggly_group *g, int spline, wiggly_curve *curve)
+{
+    pulled *of = &g->pulled[spline];
+    const pin_rows *rows = &g->rows;
+    bool any = false;
+    for (int r = rows->fixed; r < rows->count; r++) {
+        const wiggly_bound *bound = rows->row[r].bound;
+        if (g->lambda[r] == 0 || !bound_tail_moves(&of->tail, bound->sample)) continue;
+        if (!any) memset(of->e, 0, sizeof *of->e * (size_t)of->tail.desc.samples);
+        const tail_row row = bound_tail_row(&of->tail, bound->sample, bound->c[spline]);
+        bound_tail_press(&of->tail, &row, g->lambda[r], g->pressed, of->e);
+        any = true;
+    }
+    if (any) bound_tail_add(&of->tail, of->e, curve);
 }
 
 static wiggly_status solve_splines(wiggly_group *g, const wiggly_desc *descs, wiggly_curve *curves, int spline_count)
@@ -344,6 +491,7 @@ static wiggly_status solve_splines(wiggly_group *g, const wiggly_desc *descs, wi
         set_pulls(g, s);
         if (!of->by_chain || !pull_chain_solve(of, &curves[s]))
             status = wiggly_solve(of->solver, &descs[s], &curves[s]);
+        press_tail(g, s, &curves[s]);
         worst = status > worst ? status : worst;
     }
     return worst;
@@ -356,12 +504,27 @@ static cplx solved_x(const wiggly_solver *solver, const wiggly_curve *curve, int
                   (curve->im ? curve->im : solver->rows.gradient + solver->samples)[sample]};
 }
 
+/// Re(c x) of a bound's point.
+static double see_bound(const wiggly_bound *bound, const wiggly_curve *curves, int spline_count)
+{
+    double sum = 0;
+    for (int s = 0; s < spline_count; s++)
+        sum += bound->c[s][0] * curves[s].re[bound->sample] - bound->c[s][1] * curves[s].im[bound->sample];
+    return sum;
+}
+
 /// What the rows miss; true where that is next to nothing beside what they want.
 static bool find_miss(wiggly_group *g, const wiggly_curve *curves)
 {
     const pin_rows *rows = &g->rows;
     double most = 0, size = 0;
-    for (int r = 0; r < rows->count; r++) {
+    for (int r = rows->fixed; r < rows->count; r++) {
+        const double seen = see_bound(rows->row[r].bound, curves, rows->splines);
+        g->miss[r] = rows->row[r].want - seen - g->soft[r] * g->lambda[r];
+        size = fmax(size, fmax(fabs(rows->row[r].want), fabs(seen)));
+        if (g->lambda[r] > 0 || g->miss[r] > 0) most = fmax(most, fabs(g->miss[r]));
+    }
+    for (int r = 0; r < rows->fixed; r++) {
         const double *on = rows->on + 2 * rows->splines * r;
         double miss = rows->row[r].want - g->soft[r] * g->lambda[r];
         size = fmax(size, fabs(rows->row[r].want));
@@ -376,6 +539,59 @@ static bool find_miss(wiggly_group *g, const wiggly_curve *curves)
         most = fmax(most, fabs(miss));
     }
     return most <= near_enough * size;
+}
+
+/// λ and the curves of rows that are all met.
+static wiggly_status pull(wiggly_group *g, const wiggly_desc *descs, wiggly_curve *curves)
+{
+    const int n = g->rows.count;
+    wiggly_status status = WIGGLY_OK;
+    symmetric_factor(n, g->system);
+    for (int round = 0; round < MAX_ROUNDS; round++) {
+        symmetric_solve(n, g->system, g->miss);
+        for (int r = 0; r < n; r++) g->lambda[r] += g->miss[r];
+        status = solve_splines(g, descs, curves, g->rows.splines);
+        if (find_miss(g, curves)) break;
+    }
+    return status;
+}
+
+/// S λ + what is missed: what λ is to make of the rows, from nothing.
+static void find_want(wiggly_group *g)
+{
+    const int n = g->rows.count;
+    for (int r = 0; r < n; r++) {
+        g->want[r] = g->miss[r];
+        for (int k = 0; k < n; k++) g->want[r] += g->system[r > k ? n * r + k : n * k + r] * g->lambda[k];
+    }
+}
+
+/// λ and the curves of rows some of which are bounds'.
+static wiggly_status press(wiggly_group *g, const wiggly_desc *descs, wiggly_curve *curves)
+{
+    const pin_rows *rows = &g->rows;
+    wiggly_status status = solve_splines(g, descs, curves, rows->splines);
+    for (int round = 0; round < MAX_ROUNDS && !find_miss(g, curves); round++) {
+        double size = 0;
+        find_want(g);
+        for (int r = 0; r < rows->count; r++) size = fmax(size, fabs(g->want[r]));
+        one_sided_solve(&g->one_sided, rows->count, rows->fixed, g->system, g->want, near_enough * size, g->lambda);
+        status = solve_splines(g, descs, curves, rows->splines);
+    }
+    return status;
+}
+
+static void tell_bounds(const wiggly_group *g, const wiggly_curve *curves, int spline_count, wiggly_bound *bounds,
+                        int bound_count)
+{
+    for (int b = 0; b < bound_count; b++)
+        bounds[b].left = bounds[b].least - see_bound(&bounds[b], curves, spline_count);
+    for (int r = g->rows.fixed; r < g->rows.count; r++) g->rows.row[r].bound->push = g->lambda[r];
+}
+
+double wiggly_group_reach(const wiggly_group *g, const wiggly_bound *bound)
+{
+    return pin_rows_reach(&g->rows, g->pulled, bound);
 }
 
 static void tell_left(const wiggly_group *g, const wiggly_curve *curves, wiggly_pin *pins, int pin_count)
@@ -395,24 +611,31 @@ static void tell_left(const wiggly_group *g, const wiggly_curve *curves, wiggly_
 wiggly_status wiggly_group_solve(wiggly_group *g, const wiggly_desc *descs, const double *weights,
                                  wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count)
 {
+    return wiggly_group_solve_bounded(g, descs, weights, curves, spline_count, pins, pin_count, NULL, 0);
+}
+
+wiggly_status wiggly_group_solve_bounded(wiggly_group *g, const wiggly_desc *descs, const double *weights,
+                                         wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count,
+                                         wiggly_bound *bounds, int bound_count)
+{
     wiggly_status status = check(g, descs, weights, curves, spline_count, pins, pin_count);
+    if (status != WIGGLY_OK) return status;
+    status = check_bounds(g, descs, curves, spline_count, bounds, bound_count);
     if (status != WIGGLY_OK) return status;
     order_pins(g, pins, pin_count);
     status = pose(g, descs, weights, spline_count, pins, pin_count);
+    for (int s = 0; s < spline_count && status == WIGGLY_OK && bound_count > 0; s++)
+        status = pose_bounds(g, s, bounds, bound_count);
     if (status != WIGGLY_OK) return status;
     g->rows.splines = spline_count;
     pin_rows_find(&g->rows, g->pulled, pins, g->order, pin_count);
+    pin_rows_add_bounds(&g->rows, g->pulled, bounds, bound_count);
     const bool all = respond(g, spline_count);
     const int n = g->rows.count;
     soften(g);
-    symmetric_factor(n, g->system);
     memset(g->lambda, 0, sizeof *g->lambda * (size_t)n);
-    for (int round = 0; round < MAX_ROUNDS; round++) {
-        symmetric_solve(n, g->system, g->miss);
-        for (int r = 0; r < n; r++) g->lambda[r] += g->miss[r];
-        status = solve_splines(g, descs, curves, spline_count);
-        if (find_miss(g, curves)) break;
-    }
+    status = n > g->rows.fixed ? press(g, descs, curves) : pull(g, descs, curves);
     tell_left(g, curves, pins, pin_count);
+    if (bound_count > 0) tell_bounds(g, curves, spline_count, bounds, bound_count);
     return all ? status : WIGGLY_SINGULAR;
 }

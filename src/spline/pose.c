@@ -92,11 +92,11 @@ static bool is_settling(const wiggly_solver *solver, const problem *p)
 static void set_domain(wiggly_solver *solver, problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    int knots = desc->knot_count, pulls = p->pulls ? p->pulls->count : 0;
+    int knots = desc->knot_count, earliest = p->pulls ? p->pulls->earliest : -1;
     p->earliest = knots > 0 ? desc->knots[solver->order[0]].sample : -1;
     p->latest = knots > 0 ? desc->knots[solver->order[knots - 1]].sample : -1;
-    if (pulls > 0 && (knots == 0 || p->pulls->sample[0] < p->earliest)) p->earliest = p->pulls->sample[0];
-    if (pulls > 0 && p->pulls->sample[pulls - 1] > p->latest) p->latest = p->pulls->sample[pulls - 1];
+    if (earliest >= 0 && (knots == 0 || earliest < p->earliest)) p->earliest = earliest;
+    if (earliest >= 0 && p->pulls->latest > p->latest) p->latest = p->pulls->latest;
     bool on_rest = p->earliest == 0 || p->earliest == 1;
     p->start = desc->start == WIGGLY_REST && on_rest ? WIGGLY_FREE : desc->start;
     p->first = p->start == WIGGLY_FREE && p->earliest > 0 ? p->earliest : 0;

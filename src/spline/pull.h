@@ -3,7 +3,7 @@
 #ifndef SPLINE_PULL_H
 #define SPLINE_PULL_H
 
-#include "spline/problem.h"
+#include "spline/bound_tail.h"
 
 /// A node of the chain whose Re x need not be known: the state (Re x, Im x, Re d, Im d) is to · unknowns + known.
 typedef struct pull_node {
@@ -29,6 +29,8 @@ typedef struct pulled {
     pull_node *nodes;
     double scale; ///< of the system's compliance, to that of its weighted energy
     bool by_chain;
+    bound_tail tail; ///< what bounds press behind the last knot
+    double *e;       ///< that, one number a sample
 } pulled;
 
 /// x at pulled samples under single pulls, 2P × 2P for P pulls: row 2i is Re x at sample i, 2i + 1 Im x, likewise the columns' pulls; the

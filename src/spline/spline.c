@@ -214,7 +214,8 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     if (status != WIGGLY_OK) return status;
     const bool limited = limits_are_set(desc) && !solver->pulls; // pins come first
     const bool steady = steady_is_set(&p);
-    if (limited) limits_begin(solver, desc, curve, &all);
+    wiggly_desc ordered;
+    if (limited) limits_begin(solver, &p, &ordered, curve, &all);
     for (;;) {
         minimum result = {0};
         status = (steady ? steady_find : limited ? limits_find : problem_find)(solver, &p, &all, &result);

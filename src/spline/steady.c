@@ -62,15 +62,6 @@ static void run_on(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
     }
 }
 
-/// The description with its knots in order, as limits take them.
-static wiggly_desc in_order(wiggly_solver *solver, const wiggly_desc *desc)
-{
-    wiggly_desc ordered = *desc;
-    ordered.knots = solver->limits.own;
-    for (int k = 0; k < desc->knot_count; k++) solver->order[k] = k;
-    return ordered;
-}
-
 static void add_result(minimum *all, const minimum *one)
 {
     all->solved = all->solved && one->solved;
@@ -86,11 +77,9 @@ wiggly_status steady_find(wiggly_solver *solver, problem *p, wiggly_curve *curve
     const int from = p->first, count = p->count;
     wiggly_status status = p->status;
     double first = 0, weights = 0;
-    const wiggly_desc desc = limited ? in_order(solver, p->desc) : *p->desc;
     *result = (minimum){.solved = true};
     for (int i = 0; i < PARTS; i++) {
         problem part = *p;
-        part.desc = &desc;
         part.detune = 1 + p->desc->steady * spread * (2.0 * i / (PARTS - 1) - 1);
         problem_set_start(solver, &part);
         minimum one = {0};

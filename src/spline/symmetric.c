@@ -64,21 +64,26 @@ WIDEST static double dot(const double *restrict a, const double *restrict b, int
     return sum;
 }
 
-void symmetric_factor(int n, double *a)
+void symmetric_factor_row(int n, double *a, int i)
 {
-    for (int i = 0; i < n; i++) {
-        double *row = a + n * i, entry = row[i];
-        for (int j = 0; j < i; j++) row[j] = (row[j] - dot(row, a + n * j, j)) / a[n * j + j];
-        double pivot = entry - dot(row, row, i);
-        row[i] = pivot > lost * entry ? sqrt(pivot) : INFINITY;
-    }
+    double *row = a + n * i, entry = row[i];
+    for (int j = 0; j < i; j++) row[j] = (row[j] - dot(row, a + n * j, j)) / a[n * j + j];
+    double pivot = entry - dot(row, row, i);
+    row[i] = pivot > lost * entry ? sqrt(pivot) : INFINITY;
 }
 
-void symmetric_solve(int n, const double *a, double *b)
+void symmetric_factor(int n, double *a)
 {
-    for (int i = 0; i < n; i++) b[i] = (b[i] - dot(a + n * i, b, i)) / a[n * i + i];
-    for (int i = n - 1; i >= 0; i--) {
+    for (int i = 0; i < n; i++) symmetric_factor_row(n, a, i);
+}
+
+void symmetric_solve_part(int n, int count, const double *a, double *b)
+{
+    for (int i = 0; i < count; i++) b[i] = (b[i] - dot(a + n * i, b, i)) / a[n * i + i];
+    for (int i = count - 1; i >= 0; i--) {
         b[i] /= a[n * i + i];
         for (int j = 0; j < i; j++) b[j] -= a[n * i + j] * b[i];
     }
 }
+
+void symmetric_solve(int n, const double *a, double *b) { symmetric_solve_part(n, n, a, b); }

@@ -21,11 +21,13 @@ typedef struct slope_row {
     double weight, target;
 } slope_row;
 
-/// Pulls on x of one spline, by sample. Their samples count as knots for where it starts and ends, but hold nothing (pins.c).
+/// Pulls on x of one spline, by sample. They hold nothing, but from the first to the last pin their samples count as knots for where
+/// it starts and ends (pins.c).
 typedef struct system_pulls {
     int count;
-    int *sample; ///< of the spline
-    cplx *pull;  ///< on Re x and Im x: what is added to −½ ∇(E·h³)
+    int earliest, latest; ///< samples of pins, -1: none
+    int *sample;          ///< of the spline
+    cplx *pull;           ///< on Re x and Im x: what is added to −½ ∇(E·h³)
 } system_pulls;
 
 typedef struct system_rows {

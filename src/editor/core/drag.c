@@ -20,6 +20,16 @@ void drag_toggle_snap(struct core *core, const struct editor_world *world, int u
                                : "Snapping on: hold Ctrl to place knots between frames.");
 }
 
+void drag_toggle_auto_key(struct core *core, const struct editor_world *world, int unused)
+{
+    (void)world;
+    (void)unused;
+    core->auto_key = !core->auto_key;
+    core_message(core, false,
+                 core->auto_key ? "Auto-key on: dragging a body sets knots at the playhead."
+                                : "Auto-key off: dragging a body moves it for the whole shot.");
+}
+
 void drag_begin(struct core *core, enum drag_kind kind, const char *label, const struct event *event)
 {
     core->drag = (struct drag){.kind = kind,

@@ -11,6 +11,8 @@ enum drag_answer { DRAG_PASSES, DRAG_USED, DRAG_KEEP, DRAG_TAKE_BACK };
 bool drag_snaps(const struct core *core, unsigned mods);
 /// Snapping to frames on, off; Ctrl means the other.
 void drag_toggle_snap(struct core *core, const struct editor_world *world, int unused);
+/// Whether dragging a body sets knots, on, off.
+void drag_toggle_auto_key(struct core *core, const struct editor_world *world, int unused);
 /// Starts a drag at a press; its history step, called `label` (NULL: it edits nothing), is opened only once the pointer has moved.
 void drag_begin(struct core *core, enum drag_kind kind, const char *label, const struct event *event);
 /// The pointer left the place of the press: this is a drag, not a click. Opens its history step.

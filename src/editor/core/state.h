@@ -93,6 +93,7 @@ enum hover_kind {
     HOVER_PLAY,
     HOVER_LOOP,
     HOVER_SPEED,
+    HOVER_AUTO_KEY,
     HOVER_LIMIT,
     HOVER_POINT, ///< of a rig, that can be pinned
     HOVER_PIN,   ///< on the stage or the ruler
@@ -236,6 +237,7 @@ struct core {
     struct brush brush;
     struct overlays overlays;
     double nudged_seconds; ///< that the ghost of the nudged knot is still shown
+    bool auto_key;         ///< a body that is dragged gets knots at the playhead, else the whole shot moves
     bool record_armed;     ///< the next drag of a body is recorded from its start
     bool refit_stage;      ///< all of the stage is to be in sight
     bool refit_curves;     ///< all curves are to be, once they are solved

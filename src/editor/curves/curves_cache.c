@@ -77,7 +77,7 @@ static int fan_lags(const struct core *core, const struct editor_world *world, d
 {
     int rig, number;
     const struct channel *channel = core_active_channel(core, world->document, &rig, &number);
-    if (!channel || channel->spline != core->active) return 0;
+    if (!channel || channel->spline != core->active || !axis_bends(channel->axis)) return 0;
     const int joints = bones_joints(world, rig);
     for (int i = 0; i < CURVES_FAN; i++) {
         int joint = (joints - 1) * (i + 1) / CURVES_FAN;

@@ -82,7 +82,7 @@ void ruler_pins_show(const struct curves *curves, struct core *core, const struc
 {
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = &document->rigs[r];
-        const int spline = rig_input_count(rig) > 0 ? rig_input(rig, 0) : -1;
+        const int spline = rig_point_spline(rig);
         const uint32_t color = spline >= 0 ? arrange_color(document, spline) : theme()->text_dim;
         for (int i = 0; i < rig->pin_count; i++) {
             const struct pin *pin = &rig->pins[i];

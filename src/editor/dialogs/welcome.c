@@ -13,9 +13,9 @@ enum { HINTS = 4 };
 static const struct hint {
     const char *what, *why;
 } hints[2][HINTS] = {
-    {{"Drag a knot", "the curve hits it, and swings"},
+    {{"Drag the fox", "its tail swings after it"},
      {"Pull the tail", "this sets a knot at the playhead"},
-     {"Hold F, press ↑", "it swings faster"},
+     {"Drag a knot", "the curve hits it, and swings"},
      {"Drop a .glb", "your own: click a bone, press J"}},
     {{"Click a bone", "the first of its tail, say"},
      {"Press Shift+J", "it swings after the clip"},

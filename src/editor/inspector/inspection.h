@@ -110,7 +110,7 @@ struct angles inspector_as_ramp(const struct angles *angles, enum angle_kind kin
 void inspector_channels(struct inspection *in);
 void inspector_channel(struct inspection *in);
 
-/// The list of splines that the channel can bend by, where it is open.
-void inspector_feed_list(struct inspection *in);
+/// The list of splines that the channel can bend by, and of what it can move, where one is open.
+void inspector_channel_lists(struct inspection *in);
 
 #endif

@@ -6,7 +6,25 @@
 
 enum { ICON = 24 };
 
-static const char feed_list[] = "feed";
+static const char feed_list[] = "feed", axis_list[] = "axis";
+
+/// What a channel can do to a tail and its body, in the order of its list.
+static const struct {
+    enum axis axis;
+    struct ui_item item;
+} tail_axes[] = {
+    {AXIS_SIDE, {"side", "sideways", 0}},        {AXIS_UP, {"up", "up and down", 0}},
+    {AXIS_LOOK, {"look", "turns the head", 0}},  {AXIS_NOD, {"nod", "lifts the head", 0}},
+    {AXIS_EARS, {"ears", "lays ears back", 0}},  {AXIS_BREATH, {"breath", "widens the chest", 0}},
+    {AXIS_STRETCH, {"stretch", "stretches", 0}}, {AXIS_BLINK, {"blink", "closes the lids", 0}},
+};
+
+static const char *axis_label(enum axis axis)
+{
+    size_t a = 0;
+    while (a < sizeof tail_axes / sizeof *tail_axes && tail_axes[a].axis != axis) a++;
+    return a < sizeof tail_axes / sizeof *tail_axes ? tail_axes[a].item.label : "twist";
+}
 
 static struct edit channel_edit(const struct inspection *in, enum edit_kind kind)
 {
@@ -27,7 +45,6 @@ static const struct channel *chosen_channel(const struct inspection *in)
 
 static void build_list(struct inspection *in)
 {
-    static const char *const axes[] = {[AXIS_SIDE] = "sideways", [AXIS_UP] = "up and down", [AXIS_TWIST] = "twist"};
     struct ui *ui = in->ui;
     int count;
     const struct channel *channels = rig_channels(inspector_shown(in), &count);
@@ -35,7 +52,7 @@ static void build_list(struct inspection *in)
         const struct channel *channel = &channels[c];
         char name[32], text[192];
         snprintf(name, sizeof name, "channel.%d", c);
-        snprintf(text, sizeof text, "%s, %s", in->document->splines[channel->spline].name, axes[channel->axis]);
+        snprintf(text, sizeof text, "%s, %s", in->document->splines[channel->spline].name, axis_label(channel->axis));
         struct rect r = ui_row(ui, UI_ROW);
         if (ui_hovered(ui, r)) ui->hint = "One of the splines that bend it";
         uint32_t color = arrange_color(in->document, channel->spline);
@@ -63,21 +80,26 @@ static void build_buttons(struct inspection *in)
     }
 }
 
+static void set_axis(struct inspection *in, enum axis axis)
+{
+    struct edit edit = channel_edit(in, EDIT_AXIS);
+    edit.axis = axis;
+    core_step(in->core, in->world, "Set axis", 0, &edit);
+}
+
 static void build_choices(struct inspection *in, const struct channel *channel)
 {
-    static const struct ui_choice tail[] = {[AXIS_SIDE] = {"side", "Sideways"}, [AXIS_UP] = {"up", "Up"}};
     static const struct ui_choice chain[] = {
         [AXIS_SIDE] = {"side", "Side"}, [AXIS_UP] = {"up", "Up"}, [AXIS_TWIST] = {"twist", "Twist"}};
     static const struct ui_choice parts[] = {
         [PART_TOTAL] = {"total", "Total"}, [PART_DISPLACEMENT] = {"displacement", "Displaced"}};
     struct ui *ui = in->ui;
     int axis = (int)channel->axis, part = (int)channel->of;
-    const bool is_chain = inspector_shown(in)->kind == RIG_CHAIN;
     struct rect row = inspector_labelled(in, "axis");
-    if (ui_segments(ui, row, "axis", is_chain ? chain : tail, is_chain ? 3 : 2, &axis)) {
-        struct edit edit = channel_edit(in, EDIT_AXIS);
-        edit.axis = (enum axis)axis;
-        core_step(in->core, in->world, "Set axis", 0, &edit);
+    if (inspector_shown(in)->kind == RIG_TAIL) {
+        ui_dropdown(ui, row, axis_list, in->inspector->channel, axis_label(channel->axis), 0);
+    } else if (ui_segments(ui, row, "axis", chain, 3, &axis)) {
+        set_axis(in, (enum axis)axis);
     }
     struct rect r = inspector_labelled(in, "bends by");
     if (ui_hovered(ui, r)) ui->hint = "Total, or displacement only: use that for a tail on a moving base";
@@ -88,9 +110,24 @@ static void build_choices(struct inspection *in, const struct channel *channel)
     }
 }
 
-void inspector_feed_list(struct inspection *in)
+static void build_axis_list(struct inspection *in, const struct channel *channel)
+{
+    enum { COUNT = sizeof tail_axes / sizeof *tail_axes };
+    struct ui_item items[COUNT];
+    int row = -1;
+    if (!ui_popup_is_open(in->ui, axis_list)) return;
+    for (int a = 0; a < COUNT; a++) {
+        items[a] = tail_axes[a].item;
+        if (tail_axes[a].axis == channel->axis) row = a;
+    }
+    const int picked = ui_popup_list(in->ui, axis_list, items, COUNT, row);
+    if (picked >= 0) set_axis(in, tail_axes[picked].axis);
+}
+
+void inspector_channel_lists(struct inspection *in)
 {
     const struct channel *channel = chosen_channel(in);
+    if (channel) build_axis_list(in, channel);
     if (!ui_popup_is_open(in->ui, feed_list) || !channel) return;
     int picked = inspector_spline_list(in, feed_list, NULL, channel->spline);
     if (picked < 0) return;

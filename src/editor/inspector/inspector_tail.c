@@ -161,7 +161,7 @@ static void place_popup(struct inspection *in)
 
 void inspector_tail_lists(struct inspection *in)
 {
-    inspector_feed_list(in);
+    inspector_channel_lists(in);
     inspector_chain_lists(in);
     place_popup(in);
 }

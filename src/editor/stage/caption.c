@@ -1,4 +1,5 @@
-/// Shows the scene's description on the stage.
+/// Shows the scene's description on the stage, in a band along its upper edge that the camera leaves free.
+#include "editor/stage/overlays.h"
 #include "editor/stage/stage.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -6,41 +7,67 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MARGIN = 16, WIDEST = 440, LINE = 18, MAX_LINES = 6 };
+enum { MARGIN = 16, TOP = 10, WIDEST = 960, LINE = 18, MAX_LINES = 4, MAX_TITLE = 256 };
 
-static const float SHARE = 0.4f; ///< of the stage's width; the middle is the rig's
+/// A description in two: up to the first full stop, and the rest.
+struct caption {
+    char title[MAX_TITLE + 1];
+    const char *rest;
+};
 
-/// One line's worth of a text, at `*y`; returns what follows it.
-static const char *show_line(struct core *core, const char *text, enum font font, float size, uint32_t color,
-                             float width, float *y)
+static struct caption caption_of(const struct document *document)
 {
-    char line[257];
-    size_t length = font_line(font, size, text, width);
-    snprintf(line, sizeof line, "%.*s", (int)length, text);
-    drawlist_text(&core->list, core->layout.stage.x + MARGIN, *y, font, size, color, line);
-    *y += LINE;
-    text += length;
-    while (*text == ' ') text++;
-    return text;
+    struct caption caption;
+    const char *stop = strstr(document->about, ". ");
+    size_t length = stop ? (size_t)(stop - document->about) : strlen(document->about);
+    if (length > MAX_TITLE) length = MAX_TITLE;
+    memcpy(caption.title, document->about, length);
+    caption.title[length] = '\0';
+    caption.rest = stop ? stop + 2 : "";
+    return caption;
+}
+
+static float caption_width(struct rect place) { return fminf(WIDEST, place.w - 2 * MARGIN); }
+
+/// Takes one line of a text that is `width` wide: its length in bytes; `*text` goes on to what follows it.
+static size_t take_line(const char **text, enum font font, float width)
+{
+    size_t length = font_line(font, THEME_TEXT_NORMAL, *text, width);
+    *text += length;
+    while (**text == ' ') (*text)++;
+    return length;
+}
+
+float caption_height(struct rect place, const struct document *document)
+{
+    if (!document->about) return 0;
+    const struct caption caption = caption_of(document);
+    const char *rest = caption.rest;
+    int lines = 1;
+    while (lines < MAX_LINES && *rest) {
+        take_line(&rest, FONT_LABEL, caption_width(place));
+        lines++;
+    }
+    return (float)(MARGIN + lines * LINE);
 }
 
 void stage_show_caption(struct core *core, const struct document *document, float bottom)
 {
     if (!document->about) return;
     const struct rect place = core->layout.stage;
-    float width = fminf(WIDEST, SHARE * place.w - MARGIN), y = place.y + MARGIN + 10;
-    char title[257];
-    const char *rest = strstr(document->about, ". ");
-    size_t length = rest ? (size_t)(rest - document->about) : strlen(document->about);
-    rest = rest ? rest + 2 : "";
-    snprintf(title, sizeof title, "%.*s", (int)fminf((float)length, 256), document->about);
+    const float width = caption_width(place);
+    const struct caption caption = caption_of(document);
     struct rect clip = drawlist_push_clip(&core->list, place);
-    const char *more = title;
-    for (int line = 0; line < 2 && *more && y < bottom; line++) {
-        more = show_line(core, more, FONT_LABEL_BOLD, THEME_TEXT_NORMAL, theme()->text, width, &y);
-    }
-    for (int line = 0; line < MAX_LINES && *rest && y < bottom; line++) {
-        rest = show_line(core, rest, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, width, &y);
+    const char *rest = caption.rest;
+    float y = place.y + MARGIN + TOP;
+    drawlist_text_fit(&core->list, place.x + MARGIN, y, width, FONT_LABEL_BOLD, THEME_TEXT_NORMAL, theme()->text,
+                      caption.title);
+    for (int line = 1; line < MAX_LINES && *rest && y + LINE < bottom; line++) {
+        char text[MAX_TITLE + 1];
+        const char *from = rest;
+        y += LINE;
+        snprintf(text, sizeof text, "%.*s", (int)take_line(&rest, FONT_LABEL, width), from);
+        drawlist_text(&core->list, place.x + MARGIN, y, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, text);
     }
     drawlist_set_clip(&core->list, clip);
 }

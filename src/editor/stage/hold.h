@@ -6,14 +6,22 @@
 
 /// The body under a point of the stage (HOVER_BODY), the nearest to the eye, or HOVER_NONE.
 struct hover hold_hover(const struct stage *stage, float x, float y);
+/// How far from the eye a point of the stage meets the body of a posed tail, metres, or a negative number.
+float hold_distance(const struct stage *stage, const struct pose *pose, float x, float y);
+/// What was under a point within the last third of a second of a scene that plays: who presses there aimed at that.
+struct hover hold_moment_ago(const struct stage *stage, const struct core *core, const struct editor_world *world,
+                             float x, float y);
 /// Points of a body that are likely to be in sight, the likeliest first, on the screen; false where one is behind the eye.
 enum { HOLD_POINTS = 4 };
 bool hold_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2]);
-/// Starts to drag a body.
-void hold_begin(struct stage *stage, const struct core *core, int tail);
-/// The end of a drag, inside its step of the history: where `keep`, the document gets the new place (a number, or a knot at
-/// the playhead where a spline is followed).
+/// Starts to drag a body, over the ground or, where it `lifts`, up and across.
+void hold_begin(struct stage *stage, const struct core *core, int tail, bool lifts);
+/// X, Y or Z: along that axis only, or again freely. false for other keys.
+bool hold_lock(struct stage *stage, int key);
+/// The end of a drag, inside its step of the history: where `keep`, the document gets the recorded motion or the new place.
 void hold_release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep);
+/// The new place, metres from the old one: knots at the playhead with auto-key, else all of the shot moves. Says which.
+void place_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3]);
 /// A ring on the ground round the body that is held or can be.
 void hold_show(struct stage *stage, struct core *core);
 
@@ -33,6 +41,8 @@ wiggly_value sway_value(const struct stage *stage, int tail, int channel);
 void record_begin(struct stage *stage, struct core *core);
 /// Records where the body is, up to the playhead; stops at the end of what is played.
 void record_advance(struct stage *stage, const struct core *core, const struct editor_world *world);
+/// The path of the body that is pointed at or held, and the way that is being recorded.
+void record_show(struct stage *stage, struct core *core, const struct editor_world *world);
 /// Whether a motion was recorded.
 bool record_has_motion(const struct stage *stage);
 /// Forgets the motion.
@@ -42,8 +52,8 @@ void record_forget(struct stage *stage);
 int record_simplify(const double *values, int count, double tolerance, wiggly_method method, int *knots,
                     int capacity);
 
-/// Makes the edits, in the open step: base splines for the coordinates that moved, and channels that follow them. Then forgets
-/// the motion.
+/// Makes the edits, in the open step: base splines for the coordinates that moved, and channels that follow them. Says how many
+/// knots that took, then forgets the motion.
 void record_keep(struct stage *stage, struct core *core, const struct editor_world *world);
 
 /// Whether a tail or chain is in the document and has the joint.

@@ -1,4 +1,4 @@
-/// What is drawn over the stage: onion skin, ghost, motion arc, legend.
+/// What is drawn over the stage: caption, names, onion skin, ghost, motion arc, legend.
 #ifndef EDITOR_STAGE_OVERLAYS_H
 #define EDITOR_STAGE_OVERLAYS_H
 
@@ -17,6 +17,11 @@ void trail_show(struct stage *stage, struct core *core, const struct editor_worl
 /// The same of any point of a rig.
 void path_show(struct stage *stage, struct core *core, const struct editor_world *world, enum trail which,
                struct rig_point point);
+
+/// How much of the upper edge of a stage the scene's description takes, pixels; 0 without one.
+float caption_height(struct rect place, const struct document *document);
+/// The names of tails at their feet, in the colour of the spline that moves them, where there are several.
+void names_show(const struct stage *stage, struct core *core, const struct document *document);
 
 /// Where the legend is, when it is shown.
 struct rect characters_legend(const struct core *core);

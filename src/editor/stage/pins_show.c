@@ -31,7 +31,7 @@ static void add_pin(struct stage *stage, const struct editor_world *world, int r
     const struct document *document = world->document;
     const struct pin *pin = &document->rigs[rig].pins[at];
     const struct pin_left *left = evaluation_pin(world->evaluation, document, rig, at);
-    const int spline = rig_input_count(&document->rigs[rig]) > 0 ? rig_input(&document->rigs[rig], 0) : -1;
+    const int spline = rig_point_spline(&document->rigs[rig]);
     struct shown_pin *shown = &stage->pins[stage->pin_count++];
     *shown = (struct shown_pin){.id = pin->id, .point = {rig, pin->point}, .frame = pin->frame};
     shown->color = spline >= 0 ? arrange_color(document, spline) : theme()->text_dim;

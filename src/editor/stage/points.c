@@ -7,8 +7,9 @@
 bool point_exists(const struct editor_world *world, struct rig_point point)
 {
     const struct document *document = world->document;
-    if (point.rig < 0 || point.rig >= document->rig_count || point.at < 0) return false;
+    if (point.rig < 0 || point.rig >= document->rig_count) return false;
     const enum rig_kind kind = document->rigs[point.rig].kind;
+    if (point.at < 0) return point.at == POINT_BASE && kind == RIG_TAIL;
     if (kind == RIG_TAIL || kind == RIG_CHAIN) return point.at < bones_joints(world, point.rig);
     const int n = document_rig_number(document, point.rig);
     const struct figure *figure = kind == RIG_CHARACTER ? models_figure(world->models, n) : NULL;

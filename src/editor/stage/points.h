@@ -1,4 +1,4 @@
-/// Points of rigs: the ends of joints, the vertices of a surface.
+/// Points of rigs: where tails begin, the ends of joints, the vertices of a surface.
 #ifndef EDITOR_STAGE_POINTS_H
 #define EDITOR_STAGE_POINTS_H
 

@@ -93,14 +93,15 @@ void stage_press(struct stage *stage, struct core *core, const struct editor_wor
     if (brush_press(stage, core, world, event)) return;
     stage->pointed.hash = 0; // a press means what is there now, even while all moves
     struct hover hover = hover_now(stage, core, world, event->x, event->y);
-    stage->pressed = hover;
     const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
+    if (holds && hover.kind == HOVER_NONE) hover = hold_moment_ago(stage, core, world, event->x, event->y);
+    stage->pressed = hover;
     if (event->button == BUTTON_LEFT && hover.kind != HOVER_PIN) pins_clear(core);
     if (holds && (hover.kind == HOVER_POINT || hover.kind == HOVER_PIN)) {
         pins_begin(stage, core, world, &hover, event);
     } else if (holds && hover.kind == HOVER_BODY) {
         drag_begin(core, DRAG_BODY, "Move body", event);
-        hold_begin(stage, core, hover.tail);
+        hold_begin(stage, core, hover.tail, event->mods & MOD_CTRL);
     } else if (holds && hover.kind == HOVER_JOINT) {
         const bool is_chain = world->document->rigs[hover.rig].kind == RIG_CHAIN;
         drag_begin(core, DRAG_GRAB, is_chain ? "Pull chain" : "Pull tail", event);
@@ -151,7 +152,7 @@ enum drag_answer stage_drag_event(struct stage *stage, struct core *core, const 
         record_begin(stage, core);
         return DRAG_USED;
     }
-    return drag_lock(&core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
+    return hold_lock(stage, event->key) ? DRAG_USED : DRAG_PASSES;
 }
 
 void stage_drag_end(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)

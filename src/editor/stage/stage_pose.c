@@ -63,7 +63,8 @@ void stage_fit(struct stage *stage, const struct core *core, const struct editor
     camera_lamp(&stage->camera, stage->view.key_from); // it stays there while the camera goes round
     if (!any) return;
     for (int k = 0; k < 2; k++) stage->view.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
-    camera_fit(&stage->camera, lo, hi, core->layout.stage.w / core->layout.stage.h);
+    const struct rect place = core->layout.stage;
+    camera_fit(&stage->camera, lo, hi, place.w / place.h, caption_height(place, world->document) / place.h);
 }
 
 static uint64_t view_hash(const struct stage_view *view)
@@ -139,8 +140,10 @@ void stage_show(struct stage *stage, struct core *core, const struct editor_worl
     ghost_show(stage, core, world);
     trail_show(stage, core, world);
     characters_show(stage, core, world);
+    names_show(stage, core, world->document);
     brush_show(stage, core, world);
     hold_show(stage, core);
+    record_show(stage, core, world);
     bones_show(stage, core, world);
     show_hold(stage, core);
     pins_show(stage, core, world);

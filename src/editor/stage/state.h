@@ -55,24 +55,29 @@ struct grab {
     bool applied;             ///< the open step holds edits
 };
 
-/// The body held by the pointer, and how the pointer's way becomes one over the ground.
+/// The body held by the pointer, and how the pointer's way becomes one over the ground, or up.
 struct hold {
     int tail;
-    bool begun;              ///< the pointer has moved
-    double pixels_per_metre; ///< at the body
-    double pitch;            ///< metres up the screen for one away from the eye
-    double right[2];         ///< x and z of what is to the right on the screen
+    bool begun;                     ///< the pointer has moved
+    bool lifts;                     ///< up the screen is up, not away
+    int axis;                       ///< the only one along which it moves; −1: as the pointer does
+    double rise;                    ///< metres up the screen for one upwards
+    double lowest;                  ///< of the way upwards: there it sits on the ground
+    double pixels_per_metre;        ///< at the body
+    double pitch;                   ///< metres up the screen for one away from the eye
+    double right[2];                ///< x and z of what is to the right on the screen
+    bool hangs[SCENE_MAX_CHANNELS]; ///< channels that swing with it
+    bool loops;                     ///< so do all of their splines
 };
 
 enum { RECORD_SAMPLES = 8192 };
 
 /// The way of the held body while it is recorded.
 struct record {
-    bool running;                   ///< it goes on; ends with what is played
-    int first, count;               ///< samples
-    double way[3][RECORD_SAMPLES];  ///< metres from where the document has it
-    double seen_position, seen[3];  ///< at the last frame
-    bool hangs[SCENE_MAX_CHANNELS]; ///< channels that swung
+    bool running;                  ///< it goes on; ends with what is played
+    int first, count;              ///< samples
+    double way[3][RECORD_SAMPLES]; ///< metres from where the document has it
+    double seen_position, seen[3]; ///< at the last frame
 };
 
 /// A tail whose body is or was moved by hand.
@@ -86,13 +91,15 @@ struct sway {
 /// A point of a rig that goes where it takes it: the end of a joint of a tail or chain, or a vertex of a character.
 struct rig_point {
     int rig; ///< in the document
-    int at;  ///< the joint or vertex
+    int at;  ///< the joint or vertex; POINT_BASE: where a tail begins
 };
+
+enum { POINT_BASE = -1 };
 
 enum { TRAIL_FRAMES = 256 };
 
 /// The arcs that can be shown at once.
-enum trail { TRAIL_OF_TIP, TRAIL_OF_PIN, TRAILS };
+enum trail { TRAIL_OF_TIP, TRAIL_OF_PIN, TRAIL_OF_BODY, TRAILS };
 
 /// A point of a rig at a frame, as it was when the document was at `key`.
 struct trail_point {

@@ -6,8 +6,6 @@
 #include <assert.h>
 #include <math.h>
 
-static const float REACH = 16; ///< pixels from a tail's centre line
-
 static void take_points(const struct rig_pose *pose, int rig, struct strand *strand)
 {
     const bool is_chain = pose->kind == RIG_CHAIN;
@@ -86,25 +84,29 @@ float strand_nearest(const float a[2], const float b[2], const float p[2])
     return square > 0 ? fmaxf(0, fminf(1, along / square)) : 0;
 }
 
+void strand_nearer(const struct stage *stage, const struct core *core, const struct strand *strand, const float p[2],
+                   float *nearest, struct hover *hover)
+{
+    for (int n = 0; n + 1 < strand->count; n++) {
+        float a[2], b[2];
+        if (!strand_project(stage, core, strand, n, 0, a) || !strand_project(stage, core, strand, n, 1, b)) continue;
+        float fraction = strand_nearest(a, b, p);
+        float at[2] = {a[0] + (b[0] - a[0]) * fraction, a[1] + (b[1] - a[1]) * fraction};
+        float distance = hypotf(p[0] - at[0], p[1] - at[1]);
+        if (distance >= *nearest) continue;
+        *nearest = distance;
+        *hover = (struct hover){
+            .kind = HOVER_JOINT, .rig = strand->rig, .joint = n, .fraction = fraction, .x = at[0], .y = at[1]};
+    }
+}
+
 struct hover strand_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
     struct hover hover = {.kind = HOVER_NONE};
-    const float p[2] = {x, y};
-    float best = REACH;
+    float nearest = STRAND_REACH;
     for (int s = 0; s < stage->strand_count; s++) {
         const struct strand *strand = &stage->strands[s];
-        for (int n = 0; n + 1 < strand->count && !strand->is_chain; n++) {
-            float a[2], b[2];
-            if (!strand_project(stage, core, strand, n, 0, a) || !strand_project(stage, core, strand, n, 1, b))
-                continue;
-            float fraction = strand_nearest(a, b, p);
-            float at[2] = {a[0] + (b[0] - a[0]) * fraction, a[1] + (b[1] - a[1]) * fraction};
-            float distance = hypotf(x - at[0], y - at[1]);
-            if (distance >= best) continue;
-            best = distance;
-            hover = (struct hover){
-                .kind = HOVER_JOINT, .rig = strand->rig, .joint = n, .fraction = fraction, .x = at[0], .y = at[1]};
-        }
+        if (!strand->is_chain) strand_nearer(stage, core, strand, (const float[2]){x, y}, &nearest, &hover);
     }
     return hover;
 }

@@ -17,6 +17,11 @@ bool strand_project(const struct stage *stage, const struct core *core, const st
                     double fraction, float xy[2]);
 /// How far along the segment a … b the point nearest to p is, 0 … 1.
 float strand_nearest(const float a[2], const float b[2], const float p[2]);
+/// Pixels from its centre line within which a tail is taken.
+#define STRAND_REACH 16.0f
+/// Sets `hover` (HOVER_JOINT) and `nearest` (pixels) if a point of it is nearer to p than that.
+void strand_nearer(const struct stage *stage, const struct core *core, const struct strand *strand, const float p[2],
+                   float *nearest, struct hover *hover);
 /// The nearest point of a tail (HOVER_JOINT), or HOVER_NONE. Chains are pointed at by their bones (bone_hover()).
 struct hover strand_hover(const struct stage *stage, const struct core *core, float x, float y);
 /// The end of the joint of a tail or chain that is nearest to a point between two (HOVER_POINT); HOVER_NONE where it is behind the eye.

@@ -7,7 +7,7 @@
 #include "rig/shadow.h"
 #include <math.h>
 
-enum { BOUND_STEPS = 120, BLOBS_OF_ONE_TAIL = 16 };
+enum { BOUND_STEPS = 120, BLOBS_OF_ONE_TAIL = 20 };
 
 /// Its body in the hand, what swings after it, and `change` (may be NULL).
 static struct by_hand by_hand(const struct stage *stage, const struct core *core, const struct tail *shown, int tail,
@@ -80,6 +80,7 @@ static uint64_t hash(uint64_t sum, const struct stage_view *view)
         sum = hash_bytes(sum, &tail->joints, sizeof tail->joints);
         sum = hash_bytes(sum, &tail->length, sizeof tail->length);
         sum = hash_bytes(sum, &tail->pose.ground, sizeof tail->pose.ground);
+        sum = hash_bytes(sum, &tail->pose.limbs, sizeof tail->pose.limbs);
         sum = hash_bytes(sum, tail->pose.matrix, (size_t)tail->pose.count * sizeof tail->pose.matrix[0]);
     }
     return sum;

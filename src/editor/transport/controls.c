@@ -1,4 +1,5 @@
-/// The controls for playback at the left of the status line: play, loop, speed.
+/// The controls for playback at the left of the status line: play, loop, speed, auto-key.
+#include "editor/core/drag.h"
 #include "editor/core/playback.h"
 #include "editor/transport/state.h"
 #include "editor/transport/transport.h"
@@ -8,11 +9,11 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { MARGIN = 6, PLAY_WIDTH = 24, LOOP_WIDTH = 42, SPEED_WIDTH = 44 };
+enum { MARGIN = 6, PLAY_WIDTH = 24, LOOP_WIDTH = 42, SPEED_WIDTH = 44, AUTO_KEY_WIDTH = 64 };
 
 struct rect controls_rect(const struct core *core, enum control control)
 {
-    static const float width[TRANSPORT_COUNT] = {PLAY_WIDTH, LOOP_WIDTH, SPEED_WIDTH};
+    static const float width[TRANSPORT_COUNT] = {PLAY_WIDTH, LOOP_WIDTH, SPEED_WIDTH, AUTO_KEY_WIDTH};
     struct rect bar = core->layout.status, r = {bar.x + MARGIN, bar.y + 2, width[0], bar.h - 3};
     for (int i = 1; i <= (int)control; i++) {
         r.x += r.w;
@@ -30,7 +31,7 @@ static enum control control_at(const struct core *core, float x, float y)
 
 struct hover transport_hover(const struct core *core, float x, float y)
 {
-    static const enum hover_kind kinds[] = {HOVER_PLAY, HOVER_LOOP, HOVER_SPEED, HOVER_NONE};
+    static const enum hover_kind kinds[] = {HOVER_PLAY, HOVER_LOOP, HOVER_SPEED, HOVER_AUTO_KEY, HOVER_NONE};
     return (struct hover){.kind = kinds[control_at(core, x, y)]};
 }
 
@@ -46,6 +47,7 @@ bool transport_event(struct core *core, const struct editor_world *world, const 
     bool left = event->button == BUTTON_LEFT;
     if (control == TRANSPORT_PLAY && left) playback_toggle(core, world);
     if (control == TRANSPORT_LOOP && left) playback_toggle_loop(core, world, 0);
+    if (control == TRANSPORT_AUTO_KEY && left) drag_toggle_auto_key(core, world, 0);
     if (control == TRANSPORT_SPEED) playback_change_speed(core, world, !left ? 0 : event->mods & MOD_SHIFT ? -1 : 1);
     return true;
 }
@@ -83,5 +85,7 @@ float controls_show(struct core *core)
     paint_play_state(&core->list, play.x + 6, play.y + play.h / 2, playback->playing, hover == HOVER_PLAY);
     paint_word(core, loop, FONT_LABEL, "Loop", playback->looping, hover == HOVER_LOOP);
     paint_word(core, speed, FONT_NUMBER, text, playback->speed != 1, hover == HOVER_SPEED);
-    return speed.x + speed.w;
+    const struct rect auto_key = controls_rect(core, TRANSPORT_AUTO_KEY);
+    paint_word(core, auto_key, FONT_LABEL, "Auto-key", core->auto_key, hover == HOVER_AUTO_KEY);
+    return auto_key.x + auto_key.w;
 }

@@ -34,7 +34,7 @@ static const char *hover_hint(const struct core *core, const struct document *do
     if (core->pick.use != BONE_SELECTED) return picks[core->pick.use];
     switch (core->hover.kind) {
     case HOVER_KNOT:
-        return "Drag to move (X or Y locks an axis, R moves later knots too, Shift: fine, Ctrl: between frames)";
+        return "Drag to move (X, Y: one axis, R: later knots too, Shift: fine, Ctrl: between frames)";
     case HOVER_SLOPE:
         return "Drag to turn the slope, pull to make it firmer; T removes it";
     case HOVER_CURVE:
@@ -59,13 +59,15 @@ static const char *hover_hint(const struct core *core, const struct document *do
     case HOVER_BONE:
         return "Click to select this bone";
     case HOVER_BODY:
-        return "Drag the body and the tail follows through (X or Y locks an axis, R records)";
+        return "Drag the body and the tail follows through (Ctrl: lift it, X, Y or Z locks an axis, R records)";
     case HOVER_PLAY:
         return "Play, pause (Space)";
     case HOVER_LOOP:
         return "Loop or stop at the end (Ctrl+L)";
     case HOVER_SPEED:
         return "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)";
+    case HOVER_AUTO_KEY:
+        return "Whether dragging the body sets knots at the playhead, or moves the whole shot (Shift+A)";
     case HOVER_LIMIT:
         return "Drag the limit; the curve stays on this side of it";
     case HOVER_POINT:
@@ -81,7 +83,7 @@ static const char *hover_hint(const struct core *core, const struct document *do
         return "Point at a bone and click it to make a chain. F1 shows all keys";
     if (document->spline_count == 0) return "Ctrl+O opens a scene.  F1 shows all keys";
     if (document_next_rig(document, RIG_TAIL, 0) < 0) return "Drag a knot.  Space plays, F1 shows all keys";
-    return "Drag a knot or the tail. Space plays, F1 shows all keys";
+    return "Drag the fox, its tail or a knot. Space plays, F1 shows all keys";
 }
 
 static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)

@@ -1,0 +1,184 @@
+/// The splines that a body's position follows, and a tail that follows through on them.
+///
+/// A channel whose spline has knots of its own stays as it is: the swing that the base causes is added by a channel of its own,
+/// on a spline with the same poles. By linearity that is the same motion, and no key of the animator's changes its meaning.
+#include "editor/stage/base.h"
+#include "editor/core/core.h"
+#include "model/creature.h"
+#include "scene/order.h"
+#include <math.h>
+#include <stdio.h>
+
+enum { NAME_SIZE = 300 };
+
+static const double RESOLUTION = 1e-3; ///< metres
+static const double LEAST_SHARE = 0.05;
+
+/// "tail x", or with a number behind it where that is taken.
+static void free_name(const struct document *document, const char *base, char name[NAME_SIZE])
+{
+    snprintf(name, NAME_SIZE, "%s", base);
+    for (int n = 2; document_find_spline(document, name) >= 0; n++) snprintf(name, NAME_SIZE, "%s %d", base, n);
+}
+
+/// Adds a spline behind all others; its index, or -1.
+static int add_spline(struct core *core, const struct editor_world *world, const char *base)
+{
+    char name[NAME_SIZE];
+    free_name(world->document, base, name);
+    struct edit edit = core_edit_of(EDIT_SPLINE_ADD, world->document->spline_count);
+    edit.text = name;
+    return core_edit(core, world, &edit) ? world->document->spline_count - 1 : -1;
+}
+
+static void set_start(struct core *core, const struct editor_world *world, int spline, enum wiggly_start start)
+{
+    struct edit edit = core_parameter_edit(spline, PARAMETER_START, start);
+    core_edit(core, world, &edit);
+}
+
+void base_put_knot(struct core *core, const struct editor_world *world, int spline, int sample, double value,
+                   bool level)
+{
+    struct edit edit = core_knot_edit(world->document, spline, sample);
+    edit.knot.value = core_round(value, RESOLUTION);
+    edit.knot.has_slope = level;
+    edit.knot.slope = 0;
+    edit.knot.stiffness = level ? RECORD_STIFFNESS : KNOT_DEFAULT_STIFFNESS;
+    core_edit(core, world, &edit);
+}
+
+void base_begin(struct stage *stage, const struct editor_world *world)
+{
+    struct hold *hold = &stage->hold;
+    const struct tail *tail = document_tail(world->document, hold->tail);
+    hold->loops = tail->channel_count > 0;
+    for (int c = 0; c < tail->channel_count; c++) {
+        hold->hangs[c] = swing_hangs(tail, &tail->channels[c]);
+        hold->loops &= spline_start(&world->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
+    }
+}
+
+int base_spline(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate)
+{
+    const int tail = stage->hold.tail;
+    const struct tail *moved = document_tail(world->document, tail);
+    char name[NAME_SIZE];
+    if (moved->position[coordinate].track >= 0) return moved->position[coordinate].track;
+    snprintf(name, sizeof name, "%.250s %s",
+             world->document->rigs[document_find_rig(world->document, RIG_TAIL, tail)].name,
+             coordinate_name(coordinate));
+    int spline = add_spline(core, world, name);
+    if (spline < 0) return -1;
+    struct edit mode = core_parameter_edit(spline, PARAMETER_MODE, WIGGLY_CUBIC);
+    core_edit(core, world, &mode);
+    if (stage->hold.loops) set_start(core, world, spline, WIGGLY_LOOP);
+    return spline;
+}
+
+double base_value(const struct editor_world *world, int tail, int coordinate, int sample)
+{
+    const struct tail *moved = document_tail(world->document, tail);
+    const struct param *param = &moved->position[coordinate];
+    if (param->track >= 0) {
+        const wiggly_value value = evaluation_at(world->evaluation, param->track, sample);
+        return value.y + value.re;
+    }
+    // A height that is a number says where the ground is; one that follows a spline is above 0.
+    return coordinate == 1 ? moved->length * (double)(CREATURE_BASE_HEIGHT / CREATURE_TAIL_LENGTH) : param->value;
+}
+
+void base_follow(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
+                 int base)
+{
+    struct edit edit = core_edit_of(EDIT_POSITION, 0);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->hold.tail);
+    edit.coordinate = coordinate;
+    edit.param.track = base;
+    core_edit(core, world, &edit);
+}
+
+static void follow_base(struct core *core, const struct editor_world *world, int spline, int base)
+{
+    struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
+    edit.parameter = PARAMETER_EQUILIBRIUM;
+    edit.param.track = base;
+    core_edit(core, world, &edit);
+}
+
+static void set_angles(const struct stage *stage, struct core *core, const struct editor_world *world, int channel,
+                       enum angle_kind kind, const struct angles *angles)
+{
+    struct edit edit = core_edit_of(EDIT_ANGLES, 0);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->hold.tail);
+    edit.channel = channel;
+    edit.angle = kind;
+    edit.angles = angles;
+    core_edit(core, world, &edit);
+}
+
+/// A spline with the poles of another and no knots, driven by the base from rest (or round the loop); its index, or -1.
+static int add_follower(struct core *core, const struct editor_world *world, int model, int base)
+{
+    char name[NAME_SIZE];
+    snprintf(name, sizeof name, "%.280s follow", world->document->splines[model].name);
+    int spline = add_spline(core, world, name);
+    if (spline < 0) return -1;
+    const struct spline copied = world->document->splines[model];
+    struct edit mode = core_edit_of(EDIT_PARAMETER, spline), spring = core_edit_of(EDIT_SPRING, spline);
+    mode.parameter = PARAMETER_MODE;
+    mode.param = copied.parameter[PARAMETER_MODE];
+    spring.flag = copied.spring_friction;
+    core_edit(core, world, &mode);
+    if (spring.flag) core_edit(core, world, &spring);
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        if (p == PARAMETER_EQUILIBRIUM || p == PARAMETER_START || !spline_has(&copied, p)) continue;
+        struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
+        edit.parameter = p;
+        edit.param = copied.parameter[p];
+        core_edit(core, world, &edit);
+    }
+    set_start(core, world, spline, spline_start(&copied) == WIGGLY_LOOP ? WIGGLY_LOOP : WIGGLY_REST);
+    follow_base(core, world, spline, base);
+    return spline;
+}
+
+/// Adds a channel of the displacement beside one of the total: as it swung by hand.
+static void add_channel(const struct stage *stage, struct core *core, const struct editor_world *world,
+                        const struct channel *model, double scale, int base)
+{
+    const struct document *document = world->document;
+    struct edit edit = core_edit_of(EDIT_CHANNEL_ADD, add_follower(core, world, model->spline, base));
+    struct angles gain = model->gain;
+    const struct angles lag = model->lag;
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->hold.tail);
+    edit.axis = model->axis;
+    edit.of = PART_DISPLACEMENT;
+    if (edit.spline < 0) return;
+    for (int i = 0; i < angles_count(&gain); i++)
+        angles_set_number(&gain, i, round(angles_number(&gain, i) * scale * 1e4) / 1e4);
+    if (!core_edit(core, world, &edit)) return;
+    int added = document_tail(document, stage->hold.tail)->channel_count - 1;
+    set_angles(stage, core, world, added, ANGLE_LAG, &lag);
+    set_angles(stage, core, world, added, ANGLE_GAIN, &gain);
+}
+
+void base_hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world,
+                        int coordinate, int base)
+{
+    int index = stage->hold.tail, count = document_tail(world->document, index)->channel_count;
+    for (int c = 0; c < count; c++) {
+        const struct tail *tail = document_tail(world->document, index);
+        const struct channel channel = tail->channels[c];
+        const struct param *equilibrium = &world->document->splines[channel.spline].parameter[PARAMETER_EQUILIBRIUM];
+        double direction[3], scale = stage->sway[index].scale[c];
+        swing_direction(tail, channel.axis, direction);
+        bool swung = stage->hold.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
+        if (!swung) continue;
+        if (channel.of == PART_TOTAL) {
+            add_channel(stage, core, world, &channel, scale * direction[coordinate], base);
+        } else if (!param_follows(equilibrium)) {
+            follow_base(core, world, channel.spline, base);
+        }
+    }
+}

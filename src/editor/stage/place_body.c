@@ -1,0 +1,134 @@
+/// What the document makes of a body that was dragged and let go: knots at the playhead, or another place for the whole shot.
+#include "editor/core/core.h"
+#include "editor/stage/base.h"
+#include "editor/stage/hold.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double RESOLUTION = 1e-3; ///< metres that the document gets
+
+/// What is said afterwards.
+struct report {
+    char text[256];
+    size_t length;
+};
+
+static void say(struct report *report, const char *text)
+{
+    report->length +=
+        (size_t)snprintf(report->text + report->length, sizeof report->text - report->length, "%s", text);
+    if (report->length >= sizeof report->text) report->length = sizeof report->text - 1;
+}
+
+/// A name, after a comma where it is not the first.
+static void say_name(struct report *report, bool is_first, const char *name)
+{
+    if (!is_first) say(report, ", ");
+    say(report, name);
+}
+
+/// A knot at the playhead. A coordinate that was a number gets a spline, which begins where the body was.
+static void key_coordinate(const struct stage *stage, struct core *core, const struct editor_world *world,
+                           int coordinate, double by)
+{
+    const struct document *document = world->document;
+    const int tail = stage->hold.tail;
+    const bool is_new = document_tail(document, tail)->position[coordinate].track < 0;
+    const int spline = base_spline(stage, core, world, coordinate);
+    if (spline < 0) return;
+    int sample = document_sample(document, round(core_frame(core, document)));
+    const int last = document_last_knot_sample(document, &document->splines[spline]);
+    sample = sample > last ? last : sample < 0 ? 0 : sample;
+    const double before = base_value(world, tail, coordinate, sample);
+    if (!is_new) {
+        struct edit edit = core_knot_edit(document, spline, sample);
+        edit.knot.value = core_round(before + by, RESOLUTION);
+        core_edit(core, world, &edit);
+        core_tell(core, world, NEWS_EDITED, spline);
+        return;
+    }
+    if (sample > 1) base_put_knot(core, world, spline, 0, before, true);
+    base_put_knot(core, world, spline, sample, before + by, true);
+    base_follow(stage, core, world, coordinate, spline);
+    base_hang_channels(stage, core, world, coordinate, spline);
+    core_tell(core, world, NEWS_EDITED, spline);
+}
+
+static void key_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3])
+{
+    struct report report = {.text = ""};
+    char frame[64];
+    bool is_first = true;
+    base_begin(stage, world);
+    say(&report, "Keyed ");
+    for (int k = 0; k < 3; k++) {
+        if (offset[k] == 0) continue;
+        key_coordinate(stage, core, world, k, offset[k]);
+        const int track = document_tail(world->document, stage->hold.tail)->position[k].track;
+        if (track < 0) continue;
+        say_name(&report, is_first, world->document->splines[track].name);
+        is_first = false;
+    }
+    snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core, world->document)));
+    say(&report, frame);
+    if (!is_first) core_message(core, false, report.text);
+}
+
+/// All knots of a spline, so that what follows it moves as it did, elsewhere.
+static void shift_spline(struct core *core, const struct editor_world *world, int spline, double by)
+{
+    const int count = world->document->splines[spline].knot_count;
+    for (int i = 0; i < count; i++) {
+        struct edit edit = core_edit_of(EDIT_KNOT_SET, spline);
+        edit.knot = world->document->splines[spline].knots[i];
+        edit.knot.value = core_round(edit.knot.value + by, RESOLUTION);
+        core_edit(core, world, &edit);
+    }
+    core_tell(core, world, NEWS_EDITED, spline);
+}
+
+/// A height that is a number says where the ground is, which stays.
+static bool shift_coordinate(struct core *core, const struct editor_world *world, int tail, int coordinate, double by)
+{
+    const struct param *param = &document_tail(world->document, tail)->position[coordinate];
+    if (param->track >= 0) {
+        shift_spline(core, world, param->track, by);
+        return true;
+    }
+    if (coordinate == 1) return false;
+    struct edit edit = core_edit_of(EDIT_POSITION, 0);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
+    edit.coordinate = coordinate;
+    edit.param.value = core_round(param->value + by, RESOLUTION);
+    core_edit(core, world, &edit);
+    return true;
+}
+
+static void shift_body(struct stage *stage, struct core *core, const struct editor_world *world,
+                       const double offset[3])
+{
+    struct report report = {.text = ""};
+    bool is_first = true;
+    say(&report, "Moved for the whole shot: ");
+    for (int k = 0; k < 3; k++) {
+        char part[32];
+        if (offset[k] == 0 || !shift_coordinate(core, world, stage->hold.tail, k, offset[k])) continue;
+        snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), offset[k]);
+        say_name(&report, is_first, part);
+        is_first = false;
+    }
+    say(&report, ". Auto-key (Shift+A) sets knots instead.");
+    core_message(core, false,
+                 is_first ? "It sits on the ground again: auto-key (Shift+A) or R keeps a height." : report.text);
+}
+
+void place_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3])
+{
+    if (core->auto_key) {
+        key_body(stage, core, world, offset);
+    } else {
+        shift_body(stage, core, world, offset);
+    }
+    sway_land(stage, stage->hold.tail);
+}

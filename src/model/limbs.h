@@ -1,0 +1,37 @@
+/// The parts of the fox's body that move: chest, head and ears.
+///
+/// A vertex of the torso hangs on two of them, `limb[0]` and `limb[1]`, by 1 − `limb[2]` and `limb[2]`. Each part moves with the one that it is
+/// attached to: the ears' tips with their roots, these with the head, all with the body.
+#ifndef MODEL_LIMBS_H
+#define MODEL_LIMBS_H
+
+#include "model/mesh.h"
+#include "model/pose.h"
+
+enum limb { LIMB_BODY, LIMB_CHEST, LIMB_HEAD, LIMB_EAR, LIMB_EAR_TIP = LIMB_EAR + 2, LIMBS = LIMB_EAR_TIP + 2 };
+
+/// Where the tail's base comes to as the body stretches from its feet, at a fox of that scale; metres.
+void limbs_base(double stretch, double scale, double base[3]);
+
+/// By how much that changes for a change of the stretch.
+void limbs_base_slope(double stretch, double scale, double slope[3]);
+
+/// The part that each is attached to, −1 for the body.
+extern const int limb_parents[LIMBS];
+
+/// What each part turns and scales about, bind space at a fox of that scale.
+void limbs_pivots(float scale, float pivot[LIMBS][3]);
+
+/// How each part moves against what it is attached to: turned (a unit quaternion x y z w), and before that scaled along bind space's axes.
+void limbs_motions(const struct limbs *limbs, float turn[LIMBS][4], float size[LIMBS][3]);
+
+/// Bind space → that of the body, at its tail's base: each part's matrix, column-major, at a fox of that scale.
+void limbs_matrices(const struct limbs *limbs, float scale, float matrix[LIMBS][16]);
+
+/// Where the box around the body comes to, bind size, from its tail's base.
+void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3]);
+
+/// Says what a vertex of the torso hangs on.
+void limbs_hang(struct vertex *vertex);
+
+#endif

@@ -1,0 +1,204 @@
+/// The fox lives: splines breathe, blink, turn its head, flick its ears and squash it, and its skin follows.
+#include "model/creature.h"
+#include "model/limbs.h"
+#include "model/tail_skin.h"
+#include "near.h"
+#include "rig/opened.h"
+#include "scene/edit.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static struct opened scene;
+
+static void open_scene(const char *path)
+{
+    struct error error = {0};
+    if (!opened_read(&scene, path, &error) || !opened_solve(&scene, WIGGLY_CHAIN, &error)) fail_msg("%s", error.text);
+}
+
+static const struct pose *pose_at(double frame)
+{
+    static struct rig_pose pose;
+    const struct posing posing = {.document = scene.document, .evaluation = &scene.evaluation};
+    assert_true(rig_pose(&posing, 0, frame * scene.document->substeps, NULL, &pose));
+    return &pose.tail;
+}
+
+static void the_start_scene_breathes_and_blinks(void **state)
+{
+    (void)state;
+    open_scene("assets/scenes/tail.json");
+    float in = 0, out = 0;
+    int blinks = 0, shut = 0;
+    for (int f = 0; f <= 120; f++) {
+        const struct limbs limbs = pose_at(f)->limbs;
+        in = fmaxf(in, limbs.breath);
+        out = fminf(out, limbs.breath);
+        blinks += f > 0 && limbs.blink > 0.5f && pose_at(f - 1)->limbs.blink <= 0.5f;
+        shut += limbs.blink > 0.1f;
+    }
+    assert_near(in, 0.02, 0.004);
+    assert_near(out, -0.02, 0.004);
+    assert_int_equal(blinks, 1);
+    assert_true(shut > 1 && shut < 10);
+    opened_free(&scene);
+}
+
+/// The head turns the way that the tip swings, and later than the tail's root.
+static void the_head_looks_where_the_tail_goes(void **state)
+{
+    (void)state;
+    static const char *const paths[] = {"assets/scenes/tail.json", "assets/scenes/follow.json"};
+    for (int p = 0; p < 2; p++) {
+        open_scene(paths[p]);
+        double both = 0, looks = 0, swings = 0, steps = 0;
+        for (int f = scene.document->first_frame; f < scene.document->last_frame; f++) {
+            const struct pose *pose = pose_at(f);
+            const double look = (double)pose->limbs.look;
+            const double tip = (double)(pose->matrix[pose->count - 1][12] - pose->matrix[0][12]);
+            both += look * tip;
+            looks += look * look;
+            swings += tip * tip;
+            steps = fmax(steps, fabs((double)pose_at(f + 1)->limbs.look - look));
+        }
+        assert_true(both / sqrt(looks * swings) > 0.5);
+        assert_true(steps < 0.1); // radians a frame: it turns, and does not jerk
+        opened_free(&scene);
+    }
+}
+
+/// Lowest point of the skin.
+static float lowest(const struct pose *pose, const struct mesh *mesh, float (*place)[3])
+{
+    float low = INFINITY;
+    tail_skin(pose, mesh, place, NULL);
+    for (int v = 0; v < mesh->vertex_count; v++) low = fminf(low, place[v][1]);
+    return low;
+}
+
+/// It crouches before it leaves the ground, stretches as it rises, gives way as it lands, and its feet never sink in.
+static void a_hop_is_anticipated_and_squashes(void **state)
+{
+    (void)state;
+    struct mesh mesh = {0};
+    open_scene("assets/scenes/follow.json");
+    mesh_creature(2, &mesh);
+    float(*place)[3] = calloc((size_t)mesh.vertex_count, sizeof *place);
+    assert_non_null(place);
+    assert_true(pose_at(5)->limbs.stretch < -0.1f);
+    assert_true(pose_at(10)->limbs.stretch > 0.1f);
+    assert_true(pose_at(19)->limbs.stretch < -0.1f);
+    assert_true(fabsf(pose_at(42)->limbs.stretch) < 0.02f);
+    for (int f = 0; f <= 96; f++) assert_true(lowest(pose_at(f), &mesh, place) > -0.03f);
+    assert_true(lowest(pose_at(5), &mesh, place) < 0.02f);
+    assert_true(lowest(pose_at(12), &mesh, place) > 0.1f);
+    free(place);
+    mesh_free(&mesh);
+    opened_free(&scene);
+}
+
+/// However far the parts move, the skin stays in the pose's bounds, which cameras and redraws go by.
+static void bounds_hold_the_skin(void **state)
+{
+    (void)state;
+    static const struct limbs wild[] = {
+        {.look = 1.2f, .nod = 0.6f, .ears = {1, 1}},
+        {.look = -1.2f, .nod = -0.6f, .ears = {-0.5f, -0.5f}},
+        {.breath = 0.25f, .stretch = 0.4f},
+        {.breath = 0.25f, .stretch = -0.4f, .nod = 0.6f},
+    };
+    struct mesh mesh = {0};
+    open_scene("assets/scenes/tail.json");
+    mesh_creature(1, &mesh);
+    float(*place)[3] = calloc((size_t)mesh.vertex_count, sizeof *place);
+    assert_non_null(place);
+    for (size_t w = 0; w < sizeof wild / sizeof *wild; w++) {
+        struct pose pose = *pose_at(0);
+        float lo[3], hi[3];
+        pose.limbs = wild[w];
+        pose_bounds(&pose, lo, hi);
+        tail_skin(&pose, &mesh, place, NULL);
+        for (int v = 0; v < mesh.vertex_count; v++) {
+            if (mesh.vertices[v].bend > 0) continue;
+            for (int k = 0; k < 3; k++) assert_true(place[v][k] > lo[k] - 0.005f && place[v][k] < hi[k] + 0.005f);
+        }
+    }
+    free(place);
+    mesh_free(&mesh);
+    opened_free(&scene);
+}
+
+/// An ear bends as a chain: its tip by more than its root. What is no ear stays with the head.
+static void ears_bend_as_chains(void **state)
+{
+    (void)state;
+    const struct limbs back = {.ears = {0.3f, 0.5f}};
+    float matrix[LIMBS][16];
+    limbs_matrices(&back, 1.0f, matrix);
+    const float upright[2] = {matrix[LIMB_EAR][5], matrix[LIMB_EAR_TIP][5]};
+    assert_near(matrix[LIMB_HEAD][5], 1.0, 1e-6);
+    assert_true(upright[0] < 0.99f && upright[1] < upright[0] - 0.1f);
+}
+
+/// What moves the body bends no joint: a wild spline on the lids leaves the tail as it is.
+static void the_body_leaves_the_tail_alone(void **state)
+{
+    (void)state;
+    open_scene("assets/scenes/tail.json");
+    const struct pose before = *pose_at(30);
+    struct tail *tail = &scene.document->rigs[0].tail;
+    for (int c = 2; c < tail->channel_count; c++) tail->channels[c].gain.value[0] = 1e6;
+    const struct pose *after = pose_at(30);
+    for (int n = 0; n < before.count; n++)
+        assert_memory_equal(before.matrix[n], after->matrix[n], sizeof before.matrix[n]);
+    assert_true(after->limbs.look < 1.3f && after->limbs.blink <= 1.0f && after->limbs.blink >= 0.0f);
+    opened_free(&scene);
+}
+
+static bool try_edit(struct history *history, struct edit edit)
+{
+    struct error error = {0};
+    history_begin(history, "Edit", 0);
+    const bool possible = history_apply(history, scene.document, &edit, &error);
+    history_end(history);
+    return possible;
+}
+
+/// A channel can be given to a part of the body and back; bending chains have none, and more joints leave it as it is.
+static void axes_are_edited_and_undone(void **state)
+{
+    (void)state;
+    struct history *history = history_create();
+    open_scene("assets/scenes/tail.json");
+    const struct channel *channels = scene.document->rigs[0].tail.channels;
+    assert_true(try_edit(history, (struct edit){.kind = EDIT_AXIS, .rig = 0, .channel = 1, .axis = AXIS_NOD}));
+    assert_int_equal(channels[1].axis, AXIS_NOD);
+    assert_true(history_undo(history, scene.document));
+    assert_int_equal(scene.document->rigs[0].tail.channels[1].axis, AXIS_UP);
+    assert_false(try_edit(history, (struct edit){.kind = EDIT_AXIS, .rig = 0, .channel = 1, .axis = AXES}));
+    const double gain = scene.document->rigs[0].tail.channels[2].gain.value[0];
+    assert_true(try_edit(history, (struct edit){.kind = EDIT_JOINTS, .rig = 0, .to = 12}));
+    assert_near(scene.document->rigs[0].tail.channels[2].gain.value[0], gain, 0);
+    history_destroy(history);
+    opened_free(&scene);
+    open_scene("assets/scenes/dog.json");
+    history = history_create();
+    assert_false(try_edit(history, (struct edit){.kind = EDIT_AXIS, .rig = 1, .channel = 0, .axis = AXIS_BLINK}));
+    history_destroy(history);
+    opened_free(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_start_scene_breathes_and_blinks),
+        cmocka_unit_test(the_head_looks_where_the_tail_goes),
+        cmocka_unit_test(a_hop_is_anticipated_and_squashes),
+        cmocka_unit_test(bounds_hold_the_skin),
+        cmocka_unit_test(ears_bend_as_chains),
+        cmocka_unit_test(the_body_leaves_the_tail_alone),
+        cmocka_unit_test(axes_are_edited_and_undone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
