@@ -76,8 +76,9 @@ void presenter_arrange(const struct presenter *presenter, struct layout *l)
     l->curves.w += across;
     l->ruler.w += across;
     l->plot.w += across;
+    l->sheet.w += across;
     l->open = (struct rect){0, 0, l->curves.w, l->curves.y + down};
-    struct rect *const lower[] = {&l->curves, &l->ruler, &l->plot, &l->value_axis, &l->status};
+    struct rect *const lower[] = {&l->curves, &l->ruler, &l->sheet, &l->plot, &l->value_axis, &l->status};
     l->stage = presenter->shares ? l->open : l->window;
-    for (int i = 0; i < 5; i++) lower[i]->y += down;
+    for (int i = 0; i < (int)(sizeof lower / sizeof *lower); i++) lower[i]->y += down;
 }
