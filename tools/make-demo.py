@@ -92,7 +92,6 @@ def curves(t):
 
 def record(t):
     say(t, "R while you drag the fox: its way becomes knots")
-    key(t + 10, "Home", "ctrl")
     key(t + 20, "Left", "shift")
     hold(t + 30, 240, "body(tail)", to_and_fro(0.5, 0, 2))
     key(t + 70, "R")
