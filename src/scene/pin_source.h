@@ -23,6 +23,12 @@ struct low_point {
     int vertex;
 };
 
+/// Where a character is deepest below its floor; `depth` 0: nowhere.
+struct floor_left {
+    double depth; ///< metres
+    int sample;
+};
+
 enum { LOW_POINT_ROOM = 6 * CHARACTER_MAX_DRIVES + 1 }; ///< numbers a sample that finding them takes
 
 struct pin_source {

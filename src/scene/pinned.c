@@ -4,6 +4,7 @@
 /// the pulls at the pose of the last one that came nearer. A soft character needs one round.
 #include "scene/pinned.h"
 #include "base/hash.h"
+#include "scene/evaluate.h"
 #include "scene/pin_groups.h"
 #include "scene/pins.h"
 #include "scene/rig_key.h"
@@ -413,10 +414,33 @@ static wiggly_status approach(struct evaluation *evaluation, const struct docume
     return is_best ? status : solve_round(evaluation, best, has_best);
 }
 
+/// Solves the group once more, above its floors: `solved` is with what pins, NULL: none.
+static wiggly_status lift(struct evaluation *evaluation, const struct document *document, int which,
+                          const struct pin_round *solved, wiggly_status status)
+{
+    struct pinned *pinned = &evaluation->storage->pinned;
+    const struct floor_group group = {.solver = pinned->solver,
+                                      .source = &evaluation->pins,
+                                      .evaluation = evaluation,
+                                      .shown = evaluation->curves,
+                                      .samples = evaluation->samples,
+                                      .which = pinned->which,
+                                      .group = which,
+                                      .members = pinned->members,
+                                      .count = pinned->count,
+                                      .descs = pinned->descs,
+                                      .weights = pinned->weights,
+                                      .curves = pinned->curves,
+                                      .c = pinned->c,
+                                      .pins = solved ? solved->pins : NULL,
+                                      .pin_count = solved ? pinned->held_count : 0};
+    return floors_solve(&pinned->floors, &group, document, status);
+}
+
 bool pinned_solve(struct evaluation *evaluation, const struct document *document, int which, wiggly_status *status)
 {
     struct pinned *pinned = &evaluation->storage->pinned;
-    const bool has_floor = floors_concern(pinned, document, which);
+    const bool has_floor = floors_concern(pinned->which, document, which);
     wiggly_group_set_method(pinned->solver, evaluation->storage->method);
     find_members(evaluation, document, which);
     for (int i = 0; has_floor && i < pinned->count; i++) { // as where pins pull: they are passed over, pressed or not
@@ -435,8 +459,7 @@ bool pinned_solve(struct evaluation *evaluation, const struct document *document
     } else {
         *status = approach(evaluation, document, &solved);
     }
-    if (has_floor)
-        *status = floors_solve(evaluation, document, which, solved ? solved : &pinned->round[0], solved, *status);
+    if (has_floor) *status = lift(evaluation, document, which, solved, *status);
     return *status < WIGGLY_ERROR_ARGUMENT;
 }
 
@@ -470,4 +493,12 @@ const struct pin_left *evaluation_pin(const struct evaluation *evaluation, const
     int number = pin;
     for (int r = 0; r < rig; r++) number += document->rigs[r].pin_count;
     return storage && number < storage->pinned.left_count ? &storage->pinned.left[number] : NULL;
+}
+
+const struct floor_left *evaluation_floor(const struct evaluation *evaluation, int rig)
+{
+    const struct storage *storage = evaluation->storage;
+    return storage && storage->pinned.floors.bounds && rig < storage->pinned.floors.rigs
+               ? &storage->pinned.floors.left[rig]
+               : NULL;
 }

@@ -4,6 +4,7 @@
 
 #include "scene/floors.h"
 
+struct evaluation;
 struct storage;
 
 /// A pin of the group in hand.

@@ -13,7 +13,7 @@ struct inspector *inspector_create(void);
 void inspector_destroy(struct inspector *inspector);
 /// F2: the active spline's name can be typed.
 void inspector_rename(struct inspector *inspector, const struct core *core, const struct editor_world *world);
-/// Opens the section of that name ("section.poles").
+/// Opens a section, with all of it in sight where there is room.
 void inspector_unfold(struct inspector *inspector, const char *name);
 /// Shows a rig, with what it feels like.
 void inspector_show_rig(struct inspector *inspector, struct core *core, const struct editor_world *world, int rig);
