@@ -5,6 +5,7 @@
 #include "base/embedded.h"
 #include "base/path.h"
 #include "base/png.h"
+#include "base/printable.h"
 #include "editor/dialogs/dialog_files.h"
 #include "rig/import.h"
 #include "scene/load.h"
@@ -33,9 +34,10 @@ const char *app_path(const struct app *app) { return app->table.document->path ?
 static void show_title(struct app *app)
 {
     const char *name = app_path(app)[0] ? file_name(app_path(app)) : "untitled";
-    char title[512];
+    char title[512], shown[400];
+    printable(name, shown, sizeof shown);
     app->shown_saved = history_is_saved(app->table.history);
-    snprintf(title, sizeof title, "%s%.400s — wiggly", app->shown_saved ? "" : "*", name);
+    snprintf(title, sizeof title, "%s%s — wiggly", app->shown_saved ? "" : "*", shown);
     platform_title(app->platform, title);
 }
 
