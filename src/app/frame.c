@@ -29,6 +29,10 @@ static void handle_event(struct app *app, const struct event *event)
 {
     if (app->recording) recording_event(app->recording, app->frame, event);
     if (event->kind == EVENT_EXPOSE) app->lost = true;
+    if (event->kind == EVENT_FOCUS) {
+        theirs_look(app);
+        return;
+    }
     if (event->kind == EVENT_SIZE) app_resize(app, event->x, event->y, event->scale);
     struct editor_world world = table_world(&app->table);
     editor_event(app->table.editor, &world, event);

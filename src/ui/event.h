@@ -19,6 +19,7 @@ enum event_kind {
     EVENT_PASTE,   ///< text: the clipboard's, as the editor has asked for
     EVENT_CLOSE,   ///< the window's close button
     EVENT_EXPOSE,  ///< the window's content was lost
+    EVENT_FOCUS,   ///< the window has the keyboard again
 };
 
 enum event_action { ACTION_RELEASE, ACTION_PRESS, ACTION_REPEAT };
