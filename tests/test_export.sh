@@ -52,7 +52,7 @@ says "and says so" "interrupted; nothing was written" "$(<"$scratch/stderr")"
 # --- the validator
 
 skip() { # <why>
-    echo "ok - skipped: $1"
+    echo "skip - $1"
     exit $((cases_failed > 0))
 }
 command -v node >/dev/null && command -v npm >/dev/null || skip "there is no npm, so no glTF validator"

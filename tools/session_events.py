@@ -30,6 +30,11 @@ def click(frame, target, *mods):
     at(frame + 2, " ".join([f"release left @{target}", *mods]))
 
 
+def scroll_inspector(frame, notches):
+    """Down where notches are negative; further than it goes is as far as it goes."""
+    at(frame, f"wheel 0 {notches} @widget(look.stiff)+0,-60")
+
+
 def write(file, maker):
     """Writes the replay of a scene whose hash is the program's argument."""
     print("wiggly-replay 1\nversion 0.1.0\nsize 1280 720\nscale 1", file=file)

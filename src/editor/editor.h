@@ -18,6 +18,9 @@ void editor_open(struct editor *editor, const struct editor_world *world);
 /// active spline and the shown frame again, wherever they are now.
 void editor_refresh(struct editor *editor, const struct editor_world *world);
 
+/// The last rig was added by the app: it is shown, in the inspector and on the stage.
+void editor_show_last(struct editor *editor, const struct editor_world *world);
+
 /// Ends any drag where it is: before the app itself makes an edit.
 void editor_let_go(struct editor *editor, const struct editor_world *world);
 

@@ -145,11 +145,19 @@ static void let_go(struct editor *editor, const struct editor_world *world)
     editor->core.space_down = false;
 }
 
+/// What somebody does puts a tooltip away; moving the pointer does not.
+static bool is_interruption(const struct event *event)
+{
+    const bool pressed = (event->kind == EVENT_KEY || event->kind == EVENT_BUTTON) && event->action != ACTION_RELEASE;
+    return pressed || event->kind == EVENT_TEXT || event->kind == EVENT_WHEEL || event->kind == EVENT_SIZE;
+}
+
 /// Events go to what lies over the panels first, then to a running drag, then to the inspector. A field that is typed in takes
 /// all keys but Ctrl chords and F keys, a focused slider the arrows, Enter and digits, an open dialog all.
 void editor_event(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     note(editor, event);
+    if (is_interruption(event)) tooltip_dismiss(&editor->tooltip);
     if (event->kind == EVENT_SIZE) editor_resize(editor, event->x, event->y, event->scale);
     editor_reserve(editor, world->document);
     bool used =
@@ -172,7 +180,9 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
         message->seconds_left -= dt;
         if (message->seconds_left <= 0) message->text[0] = 0;
     }
+    editor->core.nudged_seconds = fmax(editor->core.nudged_seconds - dt, 0);
     transport_advance(editor->transport, &editor->core, dt);
+    tooltip_advance(&editor->tooltip, dt);
     playback_advance(&editor->core, world, dt);
     curves_drag_apply(editor->curves, &editor->core, world);
     curves_advance(editor->curves, &editor->core, dt);
@@ -181,6 +191,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
 
 void editor_pose(struct editor *editor, const struct editor_world *world)
 {
+    sheet_update(editor->curves, &editor->core, world->document);
     if (!editor->fitted) {
         editor->fitted = true;
         curves_frame_all(editor->curves, &editor->core, world);
@@ -228,13 +239,32 @@ static void show_grip(struct editor *editor, enum drag_kind divider, float x, fl
                      color);
 }
 
-static void show_dividers(struct editor *editor)
+static void show_stage_divider(struct editor *editor)
 {
-    const struct layout *l = &editor->core.layout;
-    drawlist_rect(&editor->core.list, (struct rect){0, l->curves.y, l->curves.w, 1}, theme()->border);
-    drawlist_rect(&editor->core.list, (struct rect){l->inspector.x, 0, 1, l->inspector.h}, theme()->border);
-    show_grip(editor, DRAG_STAGE_DIVIDER, l->curves.w / 2, l->curves.y + 0.5f);
-    show_grip(editor, DRAG_INSPECTOR_DIVIDER, l->inspector.x + 0.5f, l->inspector.h / 2);
+    const struct rect *curves = &editor->core.layout.curves;
+    drawlist_rect(&editor->core.list, (struct rect){0, curves->y, curves->w, 1}, theme()->border);
+    show_grip(editor, DRAG_STAGE_DIVIDER, curves->w / 2, curves->y + 0.5f);
+}
+
+static void show_inspector_divider(struct editor *editor)
+{
+    const struct rect *inspector = &editor->core.layout.inspector;
+    drawlist_rect(&editor->core.list, (struct rect){inspector->x, 0, 1, inspector->h}, theme()->border);
+    show_grip(editor, DRAG_INSPECTOR_DIVIDER, inspector->x + 0.5f, inspector->h / 2);
+}
+
+/// A control that the pointer is on explains itself; else the one that has the keyboard.
+static void show_tooltip(struct editor *editor, const struct editor_world *world)
+{
+    struct core *core = &editor->core;
+    const struct rect cursor = {core->pointer_x, core->pointer_y - 4, 14, 22};
+    struct rect at = cursor;
+    const char *text = inspector_hint(editor->inspector);
+    if (!text) text = transport_hint(core, world->document);
+    if (!text) text = inspector_focus_hint(editor->inspector, &at);
+    if (dialogs_cover(editor->dialogs) || core->drag.kind != DRAG_NONE) text = NULL;
+    tooltip_offer(&editor->tooltip, text, core->pointer_x, core->pointer_y, at);
+    tooltip_show(&editor->tooltip, core->layout.window, &core->list);
 }
 
 void editor_show(struct editor *editor, const struct editor_world *world)
@@ -245,11 +275,13 @@ void editor_show(struct editor *editor, const struct editor_world *world)
     stage_show_caption(&editor->core, world->document, dialogs_bottom(editor->dialogs, &editor->core));
     dialogs_show_welcome(editor->dialogs, &editor->core, world);
     curves_show(editor->curves, &editor->core, world);
+    show_stage_divider(editor); // below the inspector's menus
     inspector_show(editor->inspector, &editor->core, world, dialogs_cover(editor->dialogs));
-    show_dividers(editor);
+    show_inspector_divider(editor);
     const char *hint = inspector_hint(editor->inspector);
     transport_show(editor->transport, &editor->core, world, hint ? hint : curves_hint(editor->curves, &editor->core));
     dialogs_show(editor->dialogs, &editor->core, world);
+    show_tooltip(editor, world);
 }
 
 enum mouse_cursor editor_cursor(const struct editor *editor)
@@ -273,12 +305,13 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
         [DRAG_PIN_TIME] = CURSOR_HORIZONTAL,
     };
     static const enum mouse_cursor of_hover[] = {
-        [HOVER_NONE] = CURSOR_ARROW,   [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
-        [HOVER_CURVE] = CURSOR_HAND,   [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
-        [HOVER_BONE] = CURSOR_HAND,    [HOVER_UNITS] = CURSOR_HAND,       [HOVER_BODY] = CURSOR_MOVE,
-        [HOVER_PLAY] = CURSOR_HAND,    [HOVER_LOOP] = CURSOR_HAND,        [HOVER_SPEED] = CURSOR_HAND,
-        [HOVER_WARNING] = CURSOR_HAND, [HOVER_LIMIT] = CURSOR_VERTICAL,   [HOVER_POINT] = CURSOR_HAND,
-        [HOVER_PIN] = CURSOR_MOVE,     [HOVER_AUTO_KEY] = CURSOR_HAND,
+        [HOVER_NONE] = CURSOR_ARROW,    [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
+        [HOVER_CURVE] = CURSOR_HAND,    [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
+        [HOVER_BONE] = CURSOR_HAND,     [HOVER_UNITS] = CURSOR_HAND,       [HOVER_SHEET] = CURSOR_HAND,
+        [HOVER_BODY] = CURSOR_MOVE,     [HOVER_PLAY] = CURSOR_HAND,        [HOVER_LOOP] = CURSOR_HAND,
+        [HOVER_SPEED] = CURSOR_HAND,    [HOVER_WARNING] = CURSOR_HAND,     [HOVER_LIMIT] = CURSOR_VERTICAL,
+        [HOVER_POINT] = CURSOR_HAND,    [HOVER_PIN] = CURSOR_MOVE,         [HOVER_ROW] = CURSOR_ARROW,
+        [HOVER_AUTO_KEY] = CURSOR_HAND,
     };
     static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};

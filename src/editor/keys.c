@@ -138,6 +138,13 @@ static void run_normalise(struct editor *e, const struct editor_world *w, int ar
     curves_toggle_normal(e->curves, &e->core, w);
 }
 
+static void run_sheet(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    (void)argument;
+    curves_toggle_sheet(e->curves, &e->core);
+}
+
 static void run_units(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
@@ -155,6 +162,8 @@ static void run_overlay(struct editor *e, const struct editor_world *w, int argu
     (void)w;
     if (argument == 'O') {
         stage_toggle_onion(&e->core);
+    } else if (argument == KEY_F4) {
+        stage_toggle_ghost(&e->core);
     } else {
         stage_toggle_trail(&e->core);
     }
@@ -171,6 +180,19 @@ static void run_rename(struct editor *e, const struct editor_world *w, int argum
 {
     (void)argument;
     inspector_rename(e->inspector, &e->core, w);
+}
+
+static void run_add(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    (void)argument;
+    inspector_add_menu(e->inspector, &e->core);
+}
+
+static void run_remove_rig(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    inspector_remove_rig(e->inspector, &e->core, w);
 }
 
 static void run_theme(struct editor *e, const struct editor_world *w, int argument)
@@ -309,6 +331,8 @@ const struct binding key_bindings[] = {
     {.key = 'I', .mods = MOD_SHIFT, .run = run_insert, .argument = true},
     {.key = KEY_DELETE, .run = run_delete},
     {.key = KEY_BACKSPACE, .run = run_delete},
+    {.key = 'A', .run = run_add},
+    {.key = KEY_DELETE, .mods = MOD_SHIFT, .run = run_remove_rig},
     {.key = 'A', .mods = MOD_CTRL, .core = core_select_all, .argument = false},
     {.key = 'A', .mods = CTRL_SHIFT, .core = core_select_all, .argument = true},
     {.key = 'A', .mods = MOD_SHIFT, .core = drag_toggle_auto_key},
@@ -335,6 +359,7 @@ const struct binding key_bindings[] = {
     {.key = 'S', .run = run_scale, .argument = false},
     {.key = 'S', .mods = MOD_SHIFT, .run = run_scale, .argument = true},
     {.key = 'N', .run = run_normalise},
+    {.key = KEY_F3, .run = run_sheet},
     {.key = 'U', .any_time = true, .run = run_units},
     {.key = 'G', .any_time = true, .core = drag_toggle_snap},
     {.key = KEY_UP, .repeats = true, .core = core_nudge_parameter, .argument = 1},
@@ -372,6 +397,7 @@ const struct binding key_bindings[] = {
     {.key = KEY_END, .run = run_frame, .argument = 1},
     {.key = 'V', .any_time = true, .run = run_look},
     {.key = 'O', .any_time = true, .run = run_overlay, .argument = 'O'},
+    {.key = KEY_F4, .any_time = true, .run = run_overlay, .argument = KEY_F4},
     {.key = 'P', .any_time = true, .run = run_overlay, .argument = 'P'},
     {.key = 'K', .run = run_brush},
     {.key = 'H', .run = run_hold},

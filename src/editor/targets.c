@@ -65,6 +65,18 @@ static bool find_knot(struct place *place, struct error *error)
     return in_plot(place, document_frame(document, document_sample(document, knot->frame)), knot->value, error);
 }
 
+/// A knot's mark on the dope sheet: mark(sway,2).
+static bool find_mark(struct place *place, struct error *error)
+{
+    const struct document *document = place->world->document;
+    const struct knot *knot;
+    if (!knot_named(place, &knot, error)) return false;
+    const int spline = document_find_spline(document, place->target->name);
+    return curves_mark_point(place->editor->curves, &place->editor->core, document, spline,
+                             (int)place->target->number[0], place->xy) ||
+           fail(error, ERROR_INPUT, "the dope sheet does not show that knot of \"%s\"", place->target->name);
+}
+
 /// The end of a knot's slope handle: handle(sway,2,1), 0 before and 1 after the knot.
 static bool find_handle(struct place *place, struct error *error)
 {
@@ -249,6 +261,7 @@ static const struct target_kind {
     find_place *find;
 } kinds[] = {
     {.kind = "knot", .named = true, .numbers = 1, .find = find_knot},
+    {.kind = "mark", .named = true, .numbers = 1, .find = find_mark},
     {.kind = "handle", .named = true, .numbers = 2, .find = find_handle},
     {.kind = "curve", .named = true, .numbers = 2, .find = find_curve},
     {.kind = "warning", .named = false, .numbers = 1, .find = find_warning},

@@ -94,6 +94,12 @@ int document_samples(const struct document *document)
     return (document->last_frame - document->first_frame) * document->substeps + 1;
 }
 
+int document_longest(const struct document *document)
+{
+    const int splines = document->spline_count > 0 ? document->spline_count : 1;
+    return (SCENE_MAX_SAMPLES / splines - 1) / document->substeps;
+}
+
 double document_step(const struct document *document) { return 1 / (document->fps * document->substeps); }
 
 int document_sample(const struct document *document, double frame)
@@ -189,6 +195,15 @@ int document_find_model(const struct document *document, const char *text, bool 
         if (own && strcmp(own, text) == 0) break;
     }
     return rig;
+}
+
+bool document_follows(const struct document *document, int spline, int rig)
+{
+    const struct joint_motion *motion = document->splines[spline].parameter[PARAMETER_EQUILIBRIUM].motion;
+    if (!motion) return false;
+    if (document->rigs[rig].kind == RIG_MODEL)
+        return document_find_model(document, motion->model, motion->by_file) == rig;
+    return motion->chain && document_find_chain(document, motion->chain) == rig;
 }
 
 int document_find_chain(const struct document *document, const char *name)

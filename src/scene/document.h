@@ -94,6 +94,9 @@ const char *document_keep_text(struct document *document, const char *text);
 /// Number of samples N of every spline.
 int document_samples(const struct document *document);
 
+/// The most frames from first to last for which the splines there are stay within SCENE_MAX_SAMPLES.
+int document_longest(const struct document *document);
+
 /// Seconds between samples.
 double document_step(const struct document *document);
 
@@ -134,6 +137,9 @@ int document_find_model(const struct document *document, const char *text, bool 
 
 /// Index of the chain with that name, or -1.
 int document_find_chain(const struct document *document, const char *name);
+
+/// Whether the equilibrium of a spline follows a joint of the model or chain at `rig`.
+bool document_follows(const struct document *document, int spline, int rig);
 
 /// Index of the knot on that sample, or -1 (binary search).
 int spline_find_knot(const struct document *document, const struct spline *spline, int sample);

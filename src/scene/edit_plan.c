@@ -66,6 +66,7 @@ static const struct {
     [EDIT_PAINT_NEW] = {plan_paint_new, TARGET_RIG, KIND(RIG_CHARACTER)},
     [EDIT_PAINT] = {plan_dab, TARGET_RIG, KIND(RIG_CHARACTER)},
     [EDIT_MODEL_ADD] = {plan_model_add, TARGET_SCENE, 0},
+    [EDIT_RIG_ADD] = {plan_rig_add, TARGET_SCENE, 0},
     [EDIT_CHAIN_ADD] = {plan_chain_add, TARGET_SCENE, 0},
     [EDIT_CLIP] = {plan_clip, TARGET_RIG, KIND(RIG_MODEL)},
     [EDIT_PLACE] = {plan_place, TARGET_RIG, KIND(RIG_MODEL)},

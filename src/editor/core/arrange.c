@@ -1,6 +1,7 @@
 /// Adds, removes, reorders and retimes splines.
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
+#include "editor/core/rigs.h"
 #include "editor/core/selection.h"
 #include "scene/reference.h"
 #include "ui/theme.h"
@@ -221,7 +222,8 @@ void arrange_range(struct core *core, const struct editor_world *world, int firs
     struct edit edit = core_edit_of(EDIT_RANGE, -1);
     edit.first = first;
     edit.last = last;
-    bool possible = last >= first && last <= SCENE_MAX_FRAME && first >= -SCENE_MAX_FRAME;
+    bool possible = last >= first && last <= SCENE_MAX_FRAME && first >= -SCENE_MAX_FRAME &&
+                    (long long)last - first <= document_longest(world->document);
     if (possible && arrange_outside(world->document, first, last) > 0) {
         core->ask = (struct ask){.kind = ASK_RANGE, .first = first, .last = last};
     } else {
@@ -234,6 +236,10 @@ void arrange_answer(struct core *core, const struct editor_world *world, const s
     struct edit edit = core_edit_of(ask->kind == ASK_FPS ? EDIT_FPS : EDIT_RANGE, -1);
     switch (ask->kind) {
     case ASK_NOTHING:
+    case ASK_ADD:
+        break;
+    case ASK_RIG:
+        rigs_remove(core, world, ask->rig, answer == 0);
         break;
     case ASK_FPS:
         edit.number = ask->number;

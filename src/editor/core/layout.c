@@ -20,9 +20,11 @@ void core_layout(struct core *core)
     l->inspector = (struct rect){left, 0, right, height};
     l->status = (struct rect){0, height, l->window.w, THEME_STATUS_HEIGHT};
     float width = fmaxf(left - AXIS_WIDTH - LABEL_WIDTH, 16);
-    float plot = fmaxf(l->curves.h - RULER_HEIGHT - 1, 16);
+    float sheet = fminf(l->sheet_height, fmaxf(l->curves.h - RULER_HEIGHT - 17, 0));
+    float plot = fmaxf(l->curves.h - RULER_HEIGHT - 1 - sheet, 16);
     l->ruler = (struct rect){AXIS_WIDTH, stage + 1, width, RULER_HEIGHT};
-    l->plot = (struct rect){AXIS_WIDTH, stage + 1 + RULER_HEIGHT, width, plot};
+    l->sheet = (struct rect){AXIS_WIDTH, stage + 1 + RULER_HEIGHT, width, sheet};
+    l->plot = (struct rect){AXIS_WIDTH, stage + 1 + RULER_HEIGHT + sheet, width, plot};
     l->value_axis = (struct rect){0, l->plot.y, AXIS_WIDTH, plot};
 }
 

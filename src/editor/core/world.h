@@ -24,6 +24,7 @@ enum request_kind {
     REQUEST_NONE,
     REQUEST_NEW,
     REQUEST_OPEN,    ///< path
+    REQUEST_ADD,     ///< path: a character or model, to the scene on the table
     REQUEST_SAVE,    ///< to the document's own path, or ask
     REQUEST_SAVE_AS, ///< path
     REQUEST_FIGURE,  ///< number: a figure of the paper in place of the document, as a step of the history

@@ -14,6 +14,7 @@ struct help {
 enum dialog_kind {
     DIALOG_NONE,
     DIALOG_OPEN,
+    DIALOG_ADD, ///< a path, as the one before
     DIALOG_SAVE_AS,
     DIALOG_UNSAVED,
     DIALOG_RECOVER,

@@ -45,6 +45,10 @@ static const char *hover_hint(const struct core *core, const struct document *do
         return "Drag to scrub; Shift+drag to play part of the range, Shift+click to play it all";
     case HOVER_WARNING:
         return "Click to fix; Ctrl+Z undoes it";
+    case HOVER_SHEET:
+        return "Click to open or close the dope sheet (F3)";
+    case HOVER_ROW:
+        return "Click to edit this spline; double-click to insert a knot on its curve; drag to select with a box";
     case HOVER_UNITS:
         return "Click to switch between frames and seconds (U)";
     case HOVER_JOINT:
@@ -80,6 +84,20 @@ static const char *hover_hint(const struct core *core, const struct document *do
     if (document->spline_count == 0) return "Ctrl+O opens a scene.  F1 shows all keys";
     if (document_next_rig(document, RIG_TAIL, 0) < 0) return "Drag a knot.  Space plays, F1 shows all keys";
     return "Drag the fox, its tail or a knot. Space plays, F1 shows all keys";
+}
+
+const char *transport_hint(const struct core *core, const struct document *document)
+{
+    switch (core->hover.kind) {
+    case HOVER_PLAY:
+    case HOVER_LOOP:
+    case HOVER_SPEED:
+    case HOVER_UNITS:
+    case HOVER_WARNING:
+        return hover_hint(core, document);
+    default:
+        return NULL;
+    }
 }
 
 static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
