@@ -2,6 +2,7 @@
 #include "app/assets.h"
 #include "app/exporting.h"
 #include "app/state.h"
+#include "app/ui_scale.h"
 #include "base/embedded.h"
 #include "base/path.h"
 #include "base/png.h"
@@ -286,6 +287,8 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_FULLSCREEN:
         platform_fullscreen(app->platform, !platform_is_fullscreen(app->platform));
         return true;
+    case REQUEST_UI_SCALE:
+        return ui_scale_step(app, request->number, error);
     case REQUEST_COPY:
         app_copy(app);
         return true;

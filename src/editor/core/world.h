@@ -36,6 +36,7 @@ enum request_kind {
     REQUEST_FORGET,  ///< the same, for good
     REQUEST_SCREENSHOT,
     REQUEST_FULLSCREEN,
+    REQUEST_UI_SCALE,    ///< number: 1 larger, -1 smaller, 0 as the display's own
     REQUEST_COPY,        ///< editor_clipboard() onto the clipboard
     REQUEST_PASTE,       ///< an EVENT_PASTE with what is there
     REQUEST_EXPORT,      ///< path, wish; answered once it is done
