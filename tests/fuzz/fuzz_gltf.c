@@ -2,6 +2,7 @@
 #include "model/character.h"
 #include "rig/imported.h"
 #include "surface.h"
+#include <stdlib.h>
 #include <string.h>
 
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t most);
@@ -21,6 +22,22 @@ static void put_word(uint8_t *data, size_t word)
     memcpy(data, &bits, sizeof bits);
 }
 
+/// All that a pose of a model says.
+static void pose_at(const struct imported *imported, int clip, double time, struct gltf_pose *pose)
+{
+    const struct gltf *gltf = &imported->gltf;
+    float lo[3], hi[3];
+    gltf_pose_clip(gltf, clip, time, pose);
+    gltf_pose_world(gltf, pose);
+    gltf_bounds_at(&imported->bounds, gltf, pose, lo, hi);
+    for (int node = 0; node < gltf->node_count; node++) {
+        const size_t count = (size_t)gltf_vertex_count(gltf, node) + 1;
+        float(*vectors)[3] = malloc(2 * count * sizeof *vectors);
+        gltf_pose_vertices(gltf, pose, node, vectors, vectors + count);
+        free(vectors);
+    }
+}
+
 static void import(const char *path)
 {
     struct error error = {0};
@@ -28,11 +45,8 @@ static void import(const char *path)
     const bool good = imported_read(&imported, path, &error);
     fuzz_expect(good == (error.kind == ERROR_NONE), "a model is refused with a sentence");
     if (!good) return;
-    struct gltf_pose *pose = &imported.rest;
-    for (int clip = -1; clip < imported.gltf.clip_count; clip++) {
-        gltf_pose_clip(&imported.gltf, clip, clip < 0 ? 0 : 0.5 * imported.gltf.clips[clip].duration, pose);
-        gltf_pose_world(&imported.gltf, pose);
-    }
+    for (int clip = -1; clip < imported.gltf.clip_count && clip < 3; clip++)
+        pose_at(&imported, clip, clip < 0 ? 0 : 0.6 * imported.gltf.clips[clip].duration, &imported.rest);
     imported_free(&imported);
 }
 

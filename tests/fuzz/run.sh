@@ -1,7 +1,7 @@
 #!/bin/sh
 # Runs fuzz targets, as many at once as there are processors, each for SECONDS_EACH or over RUNS inputs. What they find, the inputs that
 # end them, is left in FOLDER/found; the inputs that reach something new in FOLDER/corpus, from where the next run goes on.
-# Memory and time are limited far above what the largest input (16 KB) may need, so a reader that believes a file's counts fails.
+# Memory and time are limited far above what the largest input (8 KB) may need, so a reader that believes a file's counts fails.
 # Usage: SECONDS_EACH=20 RUNS= run.sh <folder> <target>...
 set -u
 folder=$1
@@ -18,7 +18,7 @@ one() { # <target>
     from=$seeds/$reader
     [ "$reader" = scene ] && from="assets/scenes tests/bad"
     if [ -n "${RUNS:-}" ]; then length=-runs=$RUNS; else length=-max_total_time=$SECONDS_EACH; fi
-    "$folder/$1" "$length" -seed=1 -max_len=16384 -rss_limit_mb=512 -malloc_limit_mb=200 -timeout=10 -print_final_stats=1 \
+    "$folder/$1" "$length" -seed=1 -max_len=8192 -rss_limit_mb=512 -malloc_limit_mb=200 -timeout=10 -print_final_stats=1 \
         -artifact_prefix="$folder/found/$reader-" "$corpus" $from >"$log" 2>&1
     status=$?
     runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
