@@ -241,6 +241,13 @@ void personal_update(struct app *app)
     if (!autosave_update(app->personal->autosave, &work, clock_now(), &error)) complain(app, &error);
 }
 
+/// Whether a file was written after that time.
+static bool is_newer(const char *path, time_t time)
+{
+    const struct file_stamp stamp = file_stamp(path);
+    return stamp.is_there && stamp.modified.tv_sec > time;
+}
+
 bool personal_recover(struct app *app, struct error *error)
 {
     struct personal *personal = app->personal;
@@ -252,6 +259,8 @@ bool personal_recover(struct app *app, struct error *error)
         return fail(error, ERROR_ENVIRONMENT, "not enough memory to recover");
     }
     app_adopt(app, document);
+    app->own_file = (struct own_file){0};
+    if (!is_newer(app_path(app), personal->offered.time)) theirs_note(app);
     history_mark_unsaved(app->table.history);
     autosave_move(personal->autosave, &personal->offered.slot);
     personal->is_offered = false;

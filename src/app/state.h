@@ -9,6 +9,7 @@
 #include "app/replay.h"
 #include "app/resolution.h"
 #include "app/table.h"
+#include "app/theirs.h"
 #include "draw/draw.h"
 #include "platform/platform.h"
 #include "scene/edit.h"
@@ -20,8 +21,9 @@ struct app {
     struct draw *draw; ///< NULL: frames run to the end, but for the picture
     struct table table;
     char replaceable[1024]; ///< "save as" was asked for this existing file once
-    unsigned last_serial;   ///< of the documents that were on the table
-    unsigned sized_serial;  ///< of the document whose models were measured
+    struct own_file own_file;
+    unsigned last_serial;  ///< of the documents that were on the table
+    unsigned sized_serial; ///< of the document whose models were measured
 
     struct export_job *export_job; ///< NULL where nothing is exported
     struct personal *personal;     ///< NULL where nobody sits at a window

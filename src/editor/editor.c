@@ -273,6 +273,12 @@ void editor_offer_recovery(struct editor *editor, const struct recovery_offer *o
     dialogs_offer_recovery(editor->dialogs, offer);
 }
 
+bool editor_ask_changed(struct editor *editor, bool saving)
+{
+    if (!saving && editor->core.drag.kind != DRAG_NONE) return false;
+    return dialogs_ask_changed(editor->dialogs, &editor->core, saving);
+}
+
 void editor_welcome(struct editor *editor) { dialogs_welcome(editor->dialogs); }
 
 bool editor_is_welcoming(const struct editor *editor) { return dialogs_is_welcoming(editor->dialogs); }

@@ -19,6 +19,7 @@ enum event_kind {
     EVENT_PASTE,   ///< text: the clipboard's, as the editor has asked for
     EVENT_CLOSE,   ///< the window's close button
     EVENT_EXPOSE,  ///< the window's content was lost
+    EVENT_FOCUS,   ///< the window has the keyboard again
     EVENT_CAPTION, ///< text: what a demo is showing; empty for nothing
 };
 
