@@ -114,7 +114,7 @@ def stage(t):
     say(t, "F5: the stage alone, keys as they are pressed")
     key(t + 40, "F5")
     t += 4 * SECOND
-    say(t, "A soft bear from a simulation: each part lags in its own way")
+    say(t, "A soft bear: each part has a lag of its own")
     key(t + 20, "7", "ctrl")
     t += 7 * SECOND
     say(t, "Pins: take it by a hand, and the rest swings")
