@@ -8,7 +8,8 @@
 #include "app/replay.h"
 #include "app/resolution.h"
 #include "app/table.h"
-#include "app/theirs.h"
+#include "base/path.h"
+#include "base/stamp.h"
 #include "draw/draw.h"
 #include "platform/platform.h"
 #include "scene/edit.h"
@@ -24,6 +25,13 @@ struct demo {
     double seconds;        ///< since this round began
     long frame;            ///< of the recording
     enum theme_kind theme; ///< before
+};
+
+/// The document's own file as it was last seen: another program, or a second window, may write it.
+struct own_file {
+    char path[PATH_LIMIT];
+    struct file_stamp stamp; ///< when it was read or written last
+    struct file_stamp asked; ///< what the user was asked about at the window's focus
 };
 
 struct app {
@@ -93,6 +101,15 @@ void app_rescue(struct app *app, struct error *error);
 
 /// A new size of the window, in logical pixels of the display.
 void app_resize(struct app *app, float width, float height, float scale);
+
+/// The document and its own file say the same now, or the user has seen what is in it.
+void theirs_note(struct app *app);
+
+/// Whether the file is another one than the document came from.
+bool theirs_differs(struct app *app);
+
+/// The window has the focus again: asks what to do about a changed file, once for each change.
+void theirs_look(struct app *app);
 
 /// Lays the editor out anew for the display's size, as large as is chosen and as leaves room.
 void ui_scale_fit(struct app *app);
