@@ -88,16 +88,16 @@ static void test_a_scale_without_room_is_refused(void **state)
     struct blind b;
     blind_open(&b, NULL);
     for (int i = 0; i < 4; i++) key(&b, '=', CTRL_SHIFT);
-    assert_near(core_of(&b)->scale, 1.75, 1e-6);
+    assert_near(core_of(&b)->scale, 1.5, 1e-6);
     assert_string_equal(core_of(&b)->message.text,
-                        "200 % leaves no room for the panels: it needs a window of 1440 × 800, not 1280 × 720");
-    blind_send(&b, (struct event){.kind = EVENT_SIZE, .x = 900, .y = 600, .scale = 1});
+                        "175 % leaves no room for the panels: it needs a window of 1330 × 700, not 1280 × 720");
+    blind_send(&b, (struct event){.kind = EVENT_SIZE, .x = 1000, .y = 600, .scale = 1});
     blind_frame(&b);
     assert_near(core_of(&b)->scale, 1.25, 1e-6);
     blind_send(&b, (struct event){.kind = EVENT_SIZE, .x = 2560, .y = 1440, .scale = 2});
     blind_frame(&b);
-    assert_near(core_of(&b)->scale, 3.5, 1e-6);
-    assert_near(core_of(&b)->layout.window.w, 2560 / 1.75, 1e-2);
+    assert_near(core_of(&b)->scale, 3, 1e-6);
+    assert_near(core_of(&b)->layout.window.w, 2560 / 1.5, 1e-2);
     blind_close(&b);
 }
 

@@ -10,7 +10,7 @@ enum { STEPS = sizeof steps / sizeof *steps };
 
 static const double PRESENTING = 1.5;          ///< times what is chosen
 static const double SHARPEST = 5;              ///< device pixels a logical pixel that there is room for glyphs for
-static const double WIDTH = 720, HEIGHT = 400; ///< logical pixels that the panels need
+static const double WIDTH = 760, HEIGHT = 400; ///< logical pixels that the panels need
 
 static bool has_room(const struct app *app, double scale)
 {
