@@ -175,6 +175,8 @@ static void pins_come_first_and_the_floor_sinks_to_them(void **state)
         if (below) {
             assert_true(floor->depth >= 0.045 && floor->sample == 60);
             assert_true(lowest(&opened, 60) < -0.045);
+            assert_true(lowest(&opened, 59) < -0.02 &&
+                        lowest(&opened, 61) < -0.02); // it does not jump up to the floor
         } else {
             assert_true(floor->depth < 3e-5);
         }
