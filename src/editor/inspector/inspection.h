@@ -33,6 +33,7 @@ void inspector_knot(struct inspection *in);
 void inspector_tail(struct inspection *in);
 void inspector_character(struct inspection *in);
 void inspector_pins(struct inspection *in);
+void inspector_meadow(struct inspection *in);
 void inspector_model(struct inspection *in);
 void inspector_history(struct inspection *in);
 /// What the section on knots is called: how many are selected.
