@@ -18,19 +18,22 @@ static const double FIRST_STEP = 0.5; ///< of a rig's size: how far one round ma
 static const double STALLED = 1e-4;   ///< change of the distance squared, as a part of it, that ends the rounds
 static const double SMALLER = 0.25;   ///< factor of the step after a round that came no nearer
 
+/// Frees what a pointer leads to, and lets it lead nowhere: a failed resize leaves what the end frees again.
+#define DROP(pointer) (free(pointer), (pointer) = NULL)
+
 static void free_solver(struct pinned *pinned)
 {
     wiggly_group_destroy(pinned->solver);
-    free(pinned->descs);
-    free(pinned->curves);
-    free(pinned->weights);
-    free(pinned->members);
-    free(pinned->c);
-    free(pinned->held);
-    free(pinned->left);
+    DROP(pinned->descs);
+    DROP(pinned->curves);
+    DROP(pinned->weights);
+    DROP(pinned->members);
+    DROP(pinned->c);
+    DROP(pinned->held);
+    DROP(pinned->left);
     for (int i = 0; i < 2; i++) {
-        free(pinned->round[i].pins);
-        free(pinned->round[i].pulls);
+        DROP(pinned->round[i].pins);
+        DROP(pinned->round[i].pulls);
     }
     pinned->solver = NULL;
     pinned->group = pinned->pins = 0;
@@ -38,11 +41,11 @@ static void free_solver(struct pinned *pinned)
 
 static void free_splines(struct pinned *pinned)
 {
-    free(pinned->which);
-    free(pinned->order);
-    free(pinned->placed);
-    free(pinned->was);
-    free(pinned->weight);
+    DROP(pinned->which);
+    DROP(pinned->order);
+    DROP(pinned->placed);
+    DROP(pinned->was);
+    DROP(pinned->weight);
     pinned->splines = 0;
 }
 
