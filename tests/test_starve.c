@@ -1,10 +1,14 @@
 /// Each allocation fails once: no signal, and no success that is none.
 #include "starve.h"
 
+#include "app/state.h"
 #include "base/file.h"
+#include "base/lapack.h"
 #include "base/png.h"
 #include "commands/commands.h"
 #include "folder.h"
+#include "platform/surface.h"
+#include "scene/load.h"
 #include "ui/font.h"
 
 /// The fonts as the app reads and rasterises them.
@@ -157,10 +161,66 @@ static void simulate_and_analyze(void **state)
                               "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
     assert_true(file_write_atomic(folder_path("box.obj"), box, sizeof box - 1, NULL));
     starve_command(command_simulate, "box.npy",
-                   "simulate %s/box.obj --shake side --tets 60 --seconds 1 --fps 24 --substeps 2 -o %s/box.npy",
-                   200);
+                   "simulate %s/box.obj --shake side --tets 60 --seconds 1 --fps 24 --substeps 2 -o %s/box.npy", 200);
+    struct lapack lapack; // OpenBLAS does not survive that itself as it starts
+    char description[128];
+    if (!lapack_load(&lapack, description, sizeof description)) return;
     starve_command(command_analyze, "box.glb",
                    "analyze %s/box.npy --rest %s/box.rest.obj --fps 24 --method cpca --modes 1 -o %s/box.glb", 200);
+    lapack_unload(&lapack);
+}
+
+/// A short session: start, an edit, playing, undo, saving, opening a figure, exporting.
+static int session(void *user)
+{
+    static const struct {
+        int key;
+        unsigned mods;
+    } keys[] = {{'I', 0},        {' ', 0},        {'Z', MOD_CTRL}, {'Y', MOD_CTRL}, {'N', MOD_SHIFT}, {'S', MOD_CTRL},
+                {'3', MOD_CTRL}, {'C', MOD_CTRL}, {'F', 0},        {'O', MOD_CTRL}, {KEY_ESCAPE, 0},  {KEY_F1, 0}};
+    const char *path = user;
+    struct error error = {0};
+    struct app app = {0};
+    struct app_options options = {.scene = path, .headless = true};
+    const long at = starve_at;
+    starve_at = -1;
+    app.platform = calloc(1, sizeof *app.platform); // the window is not what is starved
+    atomic_store(&allocations, 0);
+    starve_at = at;
+    app.options = &options;
+    app.fixed_clock = true;
+    bool good = font_init(&error) && (app.table.editor = editor_create(&error)) &&
+                (app.table.history = history_create()) && (app.table.models = models_create());
+    if (good) {
+        app_connect_files(&app);
+        app_resize(&app, 1280, 720, 1);
+        good = app_open(&app, path, &error);
+    }
+    for (size_t i = 0; good && i < sizeof keys / sizeof *keys; i++) {
+        const struct event event = {
+            .kind = EVENT_KEY, .key = keys[i].key, .mods = keys[i].mods, .action = ACTION_PRESS};
+        event_queue_push(&app.platform->queue, &event);
+        app_frame(&app);
+        good = !app.failed;
+    }
+    app_free(&app);
+    starve_at = -1;
+    struct document *document = scene_load(path, NULL, &error);
+    if (!document) return 8; // old or new, but whole
+    document_destroy(document);
+    return good ? 0 : 3;
+}
+
+static void a_session(void **state)
+{
+    (void)state;
+    char path[128];
+    static const char scene[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": "
+                                "[{\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}]}], \"rigs\": "
+                                "[{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"s\"}]}";
+    snprintf(path, sizeof path, "%s", folder_path("session.json"));
+    assert_true(file_write_atomic(path, scene, sizeof scene - 1, NULL));
+    starve("a session", session, path, 400);
 }
 
 int main(void)
@@ -173,6 +233,7 @@ int main(void)
         cmocka_unit_test(export_),
         cmocka_unit_test(rig),
         cmocka_unit_test(simulate_and_analyze),
+        cmocka_unit_test(a_session),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }
