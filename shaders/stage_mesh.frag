@@ -1,7 +1,7 @@
 #version 330 core
 // Wrapped key light, hemisphere, rim. Colours are linear until the last line.
-// FURRED is the fox's tail, LIMBED its body and FACED what its face is on; PICTURED an imported character.
-#if defined(LIMBED) || defined(FACED)
+// FURRED is the fox, FACED what its face is on; PICTURED an imported character.
+#if defined(FACED)
 #define FURRED
 #endif
 in vec3 world;
