@@ -31,17 +31,17 @@ static void arrange(double side)
     view.colors = theme()->stage;
     view.tail_count = 1;
     pose_tail(&tail, &(wiggly_value){.y = 1.0}, LOOK_WIGGLY, &view.tails[0].pose);
-    struct shadow_blob blobs[STAGE_MAX_BLOBS];
-    view.blob_count = pose_blobs(&view.tails[0].pose, blobs, STAGE_MAX_BLOBS);
-    for (int b = 0; b < view.blob_count; b++) {
-        view.blobs[b] = (struct stage_blob){blobs[b].x, blobs[b].z, blobs[b].radius, blobs[b].strength};
-    }
     float lo[3], hi[3];
     struct camera camera = camera_default();
     pose_bounds(&view.tails[0].pose, lo, hi);
     camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT, 0);
     camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
     camera_lamp(&camera, view.key_from);
+    struct shadow_blob blobs[STAGE_MAX_BLOBS];
+    view.blob_count = pose_blobs(&view.tails[0].pose, view.key_from, blobs, STAGE_MAX_BLOBS);
+    for (int b = 0; b < view.blob_count; b++) {
+        view.blobs[b] = (struct stage_blob){blobs[b].x, blobs[b].z, blobs[b].radius, blobs[b].strength};
+    }
 }
 
 static void draw(void) { offscreen_draw(&view, WIDTH, HEIGHT, pixels); }
