@@ -263,7 +263,7 @@ $(B)/obj/tests/fuzz/%.o: OWN_CPPFLAGS += -Itests
 $(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)
 	$(Q)rm -f $@ && ar rcs $@ $^
 $(FUZZERS:%=$(B)/%): $(B)/%: $(B)/obj/tests/fuzz/%.o $(B)/fuzzed.a
-	$(Q)$(CC) -fsanitize=fuzzer$(comma)address$(comma)undefined $^ $(LIBS) -o $@
+	$(Q)$(CC) -fsanitize=fuzzer$(comma)address$(comma)undefined -Wl,--as-needed $^ $(LIBS) -o $@
 
 # --- generated ---------------------------------------------------------------------------------------------------------
 
