@@ -280,6 +280,33 @@ static void test_a_range_asks_for_its_knots(void **state)
     session_close(&f);
 }
 
+/// More frames than the splines' samples allow are refused in the field, and nothing is asked about knots.
+static void a_range_has_an_end(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 720);
+    panel_click(&f, "section.scene");
+    panel_enter(&f, "scene.substeps", "4");
+    const int longest = (SCENE_MAX_SAMPLES / f.document->spline_count - 1) / 4;
+    char *before = session_saved(&f), most[64];
+    panel_enter(&f, "scene.last", "999999999");
+    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_NONE);
+    snprintf(most, sizeof most, "last: expected -1000000000 … %d, got 999999999", longest);
+    assert_string_equal(f.editor->core.message.text, most);
+    panel_enter(&f, "scene.first", "-999999999");
+    snprintf(most, sizeof most, "first: expected %d … 1000000000", f.document->last_frame - longest);
+    assert_non_null(strstr(f.editor->core.message.text, most));
+    char *after = session_saved(&f);
+    assert_string_equal(after, before);
+    snprintf(most, sizeof most, "%d", longest);
+    panel_enter(&f, "scene.last", most);
+    assert_int_equal(f.document->last_frame, longest);
+    free(before);
+    free(after);
+    session_close(&f);
+}
+
 static unsigned next_random(unsigned *seed) { return (*seed = *seed * 1664525u + 1013904223u) >> 8; }
 
 static void random_input(struct session *f, unsigned *seed)
@@ -353,6 +380,7 @@ int main(void)
         cmocka_unit_test(test_a_track_is_attached_and_detached),
         cmocka_unit_test(test_frames_per_second_ask),
         cmocka_unit_test(test_a_range_asks_for_its_knots),
+        cmocka_unit_test(a_range_has_an_end),
         cmocka_unit_test(test_random_input_comes_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

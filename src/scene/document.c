@@ -94,6 +94,12 @@ int document_samples(const struct document *document)
     return (document->last_frame - document->first_frame) * document->substeps + 1;
 }
 
+int document_longest(const struct document *document)
+{
+    const int splines = document->spline_count > 0 ? document->spline_count : 1;
+    return (SCENE_MAX_SAMPLES / splines - 1) / document->substeps;
+}
+
 double document_step(const struct document *document) { return 1 / (document->fps * document->substeps); }
 
 int document_sample(const struct document *document, double frame)

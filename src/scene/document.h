@@ -94,6 +94,9 @@ const char *document_keep_text(struct document *document, const char *text);
 /// Number of samples N of every spline.
 int document_samples(const struct document *document);
 
+/// The most frames from first to last for which the splines there are stay within SCENE_MAX_SAMPLES.
+int document_longest(const struct document *document);
+
 /// Seconds between samples.
 double document_step(const struct document *document);
 

@@ -11,7 +11,8 @@ struct pin_point {
     double at[3];   ///< metres of the world
     double size;    ///< of its rig, metres
     double slack;   ///< metres that do not count
-    bool is_linear; ///< it moves by Σ Re(c x), however far
+    bool is_linear; ///< it moves by Σ Re(c x), however far; else it hangs from `base`, no farther than `reach`
+    double base[3], reach;
 };
 
 /// c of each of some splines: the point moves by Re(c dx) in x, y and z.
@@ -21,6 +22,12 @@ typedef double pin_pull[3][2];
 struct low_point {
     double height;
     int vertex;
+};
+
+/// Where a character is deepest below its floor; `depth` 0: nowhere.
+struct floor_left {
+    double depth; ///< metres
+    int sample;
 };
 
 enum { LOW_POINT_ROOM = 6 * CHARACTER_MAX_DRIVES + 1 }; ///< numbers a sample that finding them takes

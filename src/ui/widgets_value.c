@@ -77,11 +77,11 @@ static void complain_range(struct ui *ui, const struct ui_number *number, const 
 {
     char range[64];
     if (number->highest >= no_limit) {
-        snprintf(range, sizeof range, "%g or more", number->lowest);
+        snprintf(range, sizeof range, "%.10g or more", number->lowest);
     } else {
-        snprintf(range, sizeof range, "%g … %g", number->lowest, number->highest);
+        snprintf(range, sizeof range, "%.10g … %.10g", number->lowest, number->highest);
     }
-    snprintf(ui->complaint, sizeof ui->complaint, "%.40s: expected %s, got %g", what, range, typed);
+    snprintf(ui->complaint, sizeof ui->complaint, "%.40s: expected %s, got %.10g", what, range, typed);
 }
 
 /// Takes what was typed; false (with the reason in ui->complaint) if it is no number or out of range.

@@ -222,7 +222,8 @@ void arrange_range(struct core *core, const struct editor_world *world, int firs
     struct edit edit = core_edit_of(EDIT_RANGE, -1);
     edit.first = first;
     edit.last = last;
-    bool possible = last >= first && last <= SCENE_MAX_FRAME && first >= -SCENE_MAX_FRAME;
+    bool possible = last >= first && last <= SCENE_MAX_FRAME && first >= -SCENE_MAX_FRAME &&
+                    (long long)last - first <= document_longest(world->document);
     if (possible && arrange_outside(world->document, first, last) > 0) {
         core->ask = (struct ask){.kind = ASK_RANGE, .first = first, .last = last};
     } else {

@@ -13,7 +13,7 @@ struct inspector *inspector_create(void);
 void inspector_destroy(struct inspector *inspector);
 /// F2: the active spline's name can be typed.
 void inspector_rename(struct inspector *inspector, const struct core *core, const struct editor_world *world);
-/// Opens the section of that name ("section.poles").
+/// Opens a section, with all of it in sight where there is room.
 void inspector_unfold(struct inspector *inspector, const char *name);
 /// Shows a rig, with what it feels like.
 void inspector_show_rig(struct inspector *inspector, struct core *core, const struct editor_world *world, int rig);
@@ -40,6 +40,8 @@ void inspector_let_go(struct inspector *inspector, const struct editor_world *wo
 bool inspector_is_dragging(const struct inspector *inspector);
 /// Whether a value is being typed.
 bool inspector_is_typing(const struct inspector *inspector);
+/// Whether a menu is open, which may lie beside the panel.
+bool inspector_has_menu(const struct inspector *inspector);
 /// A sentence on what the pointer is over in the inspector, or NULL.
 const char *inspector_hint(const struct inspector *inspector);
 /// The same on what has the keyboard there, and where that is.

@@ -104,6 +104,7 @@ void inspector_unfold(struct inspector *inspector, const char *name)
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
         if (strcmp(sections[i].name, name) == 0) inspector->flipped[i] = sections[i].closed;
     }
+    inspector->revealed = name; // the pass that measures scrolls there
 }
 
 static void build_look(struct inspection *in, struct rect footer)
@@ -226,7 +227,6 @@ static void show_bone(struct inspection *in)
     in->inspector->seen_bone = *bone;
     if (same || !bone->any) return;
     inspector_unfold(in->inspector, "section.model");
-    in->inspector->revealed = "section.model"; // the pass that measures scrolls there
 }
 
 void inspector_show(struct inspector *inspector, struct core *core, const struct editor_world *world, bool covered)
@@ -254,6 +254,8 @@ void inspector_let_go(struct inspector *inspector, const struct editor_world *wo
 bool inspector_is_dragging(const struct inspector *inspector) { return inspector->ui.held && inspector->ui.moved; }
 
 bool inspector_is_typing(const struct inspector *inspector) { return inspector->ui.typing != 0; }
+
+bool inspector_has_menu(const struct inspector *inspector) { return inspector->ui.popup.id != 0; }
 
 const char *inspector_hint(const struct inspector *inspector) { return inspector->ui.hint; }
 

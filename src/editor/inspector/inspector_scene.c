@@ -77,7 +77,7 @@ void inspector_scene(struct inspection *in)
 {
     const struct document *document = in->document;
     double fps = document->fps;
-    int first = document->first_frame, last = document->last_frame;
+    int first = document->first_frame, last = document->last_frame, longest = document_longest(document);
     struct ui_number rate = {.name = "scene.fps",
                              .label = "rate",
                              .unit = "fps",
@@ -91,12 +91,14 @@ void inspector_scene(struct inspection *in)
     struct ui_number end = {.name = "scene.first",
                             .label = "first",
                             .hint = "First frame of the scene",
-                            .lowest = -SCENE_MAX_FRAME,
+                            .lowest = fmax(-SCENE_MAX_FRAME, (double)last - longest),
                             .highest = SCENE_MAX_FRAME,
                             .fallback = NAN,
                             .step = 1};
     if (build_whole(in, end, &first)) arrange_range(in->core, in->world, first, last);
     end.name = "scene.last";
+    end.lowest = -SCENE_MAX_FRAME;
+    end.highest = fmin(SCENE_MAX_FRAME, (double)document->first_frame + longest);
     end.label = "last";
     end.hint = "Last frame of the scene; in a loop it repeats the first";
     if (build_whole(in, end, &last)) arrange_range(in->core, in->world, document->first_frame, last);
