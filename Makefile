@@ -59,7 +59,7 @@ SOURCES := $(sort $(shell find src -name '*.c'))
 LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/base/status.c
 EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json \
     assets/scenes/figure*.json assets/scenes/dog.json assets/scenes/hands.json \
-    assets/scenes/meadow.json)
+    assets/scenes/meadow.json assets/demo/demo.replay)
 TOOLS := $(basename $(notdir $(wildcard tools/*.c)))
 TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))
 FUZZERS := $(basename $(notdir $(wildcard tests/fuzz/fuzz_*.c)))

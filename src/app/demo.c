@@ -5,7 +5,7 @@
 
 struct replay *demo_replay(struct error *error)
 {
-    const struct embedded *file = embedded_find("demo.replay");
+    const struct embedded *file = embedded_find("demo/demo.replay");
     if (file) return replay_parse("demo.replay", (const char *)file->data, file->size, error);
     fail(error, ERROR_ENVIRONMENT, "the demo is not in this build");
     return NULL;
