@@ -28,6 +28,7 @@ static int starve_on;           ///< so do those after it
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *old, size_t size);
+void *__libc_memalign(size_t alignment, size_t size);
 
 static int starves(void)
 {
@@ -38,6 +39,7 @@ static int starves(void)
 void *malloc(size_t size) { return starves() ? NULL : __libc_malloc(size); }
 void *calloc(size_t count, size_t size) { return starves() ? NULL : __libc_calloc(count, size); }
 void *realloc(void *old, size_t size) { return starves() ? NULL : __libc_realloc(old, size); }
+void *aligned_alloc(size_t alignment, size_t size) { return starves() ? NULL : __libc_memalign(alignment, size); }
 #endif
 
 /// Ends with the status of a command: 0 only if all that was asked for is done and right.

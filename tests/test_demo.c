@@ -1,5 +1,4 @@
 /// The demo: all of it can be played, it begins anew by itself, and the first touch ends it.
-#include "app/demo.h"
 #include "blind.h"
 #include "editor/dialogs/state.h"
 #include "editor/state.h"

@@ -235,16 +235,16 @@ static void paint_is_saved_beside_its_scene(void **state)
     history_begin(s.history, "Paint", 0);
     dab(&s, 30, 3, 0, 3);
     history_end(s.history);
-    save(&s, folder, "walk.json"); // its own file is written anew
-    assert_loads(&s, folder, "walk.json", "walk-paint.npy");
-    assert_false(is_there(folder, "walk-paint-2.npy"));
+    save(&s, folder, "walk.json"); // a new file takes the place of its own
+    assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
+    assert_false(is_there(folder, "walk-paint.npy"));
     save(&s, folder, "run.json"); // save as: the old one stays
     assert_loads(&s, folder, "run.json", "run-paint.npy");
     history_begin(s.history, "Paint", 0);
     dab(&s, 30, 3, 0, -3);
     history_end(s.history);
     save(&s, folder, "run.json");
-    assert_loads(&s, folder, "run.json", "run-paint.npy");
+    assert_loads(&s, folder, "run.json", "run-paint-2.npy");
     struct document *walk = load(folder, "walk.json");
     assert_near((double)document_character(walk, 0)->painted->values[VERTICES + 30][1], 3, 0);
     document_destroy(walk);
@@ -281,6 +281,64 @@ static void saving_loses_nothing(void **state)
     assert_string_equal(rig_of(&s)->paint, "walk-paint-2.npy");
     save(&s, folder, "walk.json");
     assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
+    studio_close(&s);
+    remove_folder(folder);
+}
+
+static void paint_more(struct studio *s, float lead)
+{
+    history_begin(s->history, "Paint", 0);
+    dab(s, 30, 3, 0, lead);
+    history_end(s->history);
+}
+
+/// A scene that cannot be saved keeps the paint that it had, not what is new since.
+static void paint_and_scene_are_saved_together(void **state)
+{
+    (void)state;
+    const char *folder = fresh_folder();
+    struct studio s = studio_open(scene);
+    struct error error;
+    paint_stroke(&s);
+    save(&s, folder, "walk.json");
+    assert_int_equal(rename(in(folder, "walk.json"), in(folder, "old.json")), 0);
+    assert_int_equal(mkdir(in(folder, "walk.json"), 0777), 0);
+    paint_more(&s, 3);
+    assert_false(scene_save(s.document, in(folder, "walk.json"), &error));
+    assert_int_equal(rmdir(in(folder, "walk.json")), 0);
+    while (history_undo(s.history, s.document)) continue;
+    paint_stroke(&s);
+    assert_loads(&s, folder, "old.json", "walk-paint.npy");
+    assert_false(is_there(folder, "walk-paint-2.npy"));
+    assert_int_equal(rename(in(folder, "old.json"), in(folder, "walk.json")), 0);
+    paint_more(&s, 2);
+    save(&s, folder, "walk.json");
+    assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
+    studio_close(&s);
+    remove_folder(folder);
+}
+
+/// A copy of the scene names the same paint, and goes on doing so.
+static void a_copy_keeps_its_paint(void **state)
+{
+    (void)state;
+    const char *folder = fresh_folder();
+    struct studio s = studio_open(scene);
+    char command[600];
+    paint_stroke(&s);
+    save(&s, folder, "walk.json");
+    snprintf(command, sizeof command, "cp %s %s", in(folder, "walk.json"), in(folder, "copy.json"));
+    assert_int_equal(system(command), 0);
+    assert_loads(&s, folder, "copy.json", "walk-paint.npy");
+    struct document *before = load(folder, "copy.json");
+    paint_more(&s, 3);
+    save(&s, folder, "walk.json");
+    assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
+    struct document *copy = load(folder, "copy.json");
+    assert_memory_equal(document_character(copy, 0)->painted->values, document_character(before, 0)->painted->values,
+                        sizeof(float[COORDINATES * VERTICES][2]));
+    document_destroy(before);
+    document_destroy(copy);
     studio_close(&s);
     remove_folder(folder);
 }
@@ -401,8 +459,8 @@ static void a_recovery_file_keeps_paint(void **state)
                         sizeof(float[COORDINATES * VERTICES][2]));
     assert_true(document_set_path(t.document, in(folder, "walk.json")));
     save(&t, folder, "walk.json");
-    assert_loads(&s, folder, "walk.json", "walk-paint.npy");
-    assert_false(is_there(folder, "walk-paint-2.npy"));
+    assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
+    assert_false(is_there(folder, "walk-paint.npy"));
     assert_true(recovery_write(&slot, "", text, size - 1, &error)); // cut off
     assert_null(recovery_read(&slot, &error));
     recovery_release(&slot);
@@ -515,6 +573,8 @@ int main(void)
         cmocka_unit_test(paint_that_is_no_number_is_refused),
         cmocka_unit_test(paint_is_saved_beside_its_scene),
         cmocka_unit_test(saving_loses_nothing),
+        cmocka_unit_test(paint_and_scene_are_saved_together),
+        cmocka_unit_test(a_copy_keeps_its_paint),
         cmocka_unit_test(broken_paint_is_said_and_stays_named),
         cmocka_unit_test(other_layouts_are_read),
         cmocka_unit_test(a_recovery_file_keeps_paint),

@@ -1,5 +1,4 @@
 /// Larger type, and presenting: how large everything is, panels that slide away, keys as they are pressed.
-#include "app/ui_scale.h"
 #include "blind.h"
 #include "editor/core/core.h"
 #include "editor/state.h"

@@ -1,9 +1,14 @@
 /// Each allocation fails once: no signal, and no success that is none.
 #include "starve.h"
 
+#include "app/state.h"
 #include "base/file.h"
+#include "base/lapack.h"
 #include "base/png.h"
+#include "commands/commands.h"
 #include "folder.h"
+#include "platform/surface.h"
+#include "scene/load.h"
 #include "ui/font.h"
 
 /// The fonts as the app reads and rasterises them.
@@ -47,11 +52,188 @@ static void pictures(void **state)
     starve("a picture", write_picture, path, 300);
 }
 
+/// A command line, what it writes, and what is in that with all of its memory.
+struct job {
+    const char *line;
+    int (*run)(int argc, char **argv);
+    char output[128]; ///< "" where there is none
+    char *expected;
+    size_t size;
+};
+
+static char *content(const char *path, size_t *size)
+{
+    char *data = NULL;
+    return file_read(path, (size_t)1 << 30, &data, size, NULL) ? data : NULL;
+}
+
+/// Where it says that it is done, the file is what it always is; where not, there is none, and one sentence says why.
+static int run_job(void *user)
+{
+    struct job *job = user;
+    static char words[2048];
+    char *argv[48] = {0};
+    char errors[128];
+    int argc = 0;
+    snprintf(words, sizeof words, "%s", job->line);
+    for (char *word = strtok(words, " "); word; word = strtok(NULL, " ")) argv[argc++] = word;
+    snprintf(errors, sizeof errors, "%s", folder_path("errors"));
+    const long at = starve_at;
+    starve_at = -1; // what opens a file of the test's own has memory
+    if (!getenv("STARVE_LOUD") && !(freopen(errors, "w", stderr) && freopen(errors, "a", stdout))) return 9;
+    setvbuf(stderr, NULL, _IONBF, 0);
+    if (job->output[0]) unlink(job->output);
+    atomic_store(&allocations, 0);
+    starve_at = at;
+    int status = job->run(argc, argv);
+    starve_at = -1;
+    size_t size = 0;
+    if (status == 0 && job->output[0] && job->expected) {
+        char *bytes = content(job->output, &size);
+        if (!bytes || size != job->size || memcmp(bytes, job->expected, size) != 0) status = 5;
+    } else if (status != 0 && job->output[0] && access(job->output, F_OK) == 0) {
+        char *bytes = content(job->output, &size); // the first of two files
+        if (!bytes || size != job->size || memcmp(bytes, job->expected, size) != 0) status = 6;
+    }
+    fflush(stdout);
+    if (status != 0 && status <= 3 && !getenv("STARVE_LOUD")) {
+        char *said = content(errors, &size);
+        if (!said || size == 0) status = 7;
+    }
+    return status;
+}
+
+/// A command with `%s` for the test's folder.
+static void starve_command(int (*run)(int argc, char **argv), const char *output, const char *format, long most)
+{
+    char line[1024];
+    struct job job = {.line = line, .run = run};
+    snprintf(line, sizeof line, format, folder, folder, folder, folder); // NOLINT
+    if (output) snprintf(job.output, sizeof job.output, "%s", folder_path(output));
+    const int status = starve_once(run_job, &job, -1, 0, NULL);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        fail_msg("%s: status %x with all of its memory", line, status);
+    if (output) job.expected = content(job.output, &job.size);
+    starve(line, run_job, &job, most);
+    free(job.expected);
+}
+
+static void check(void **state)
+{
+    (void)state;
+    starve_command(command_check, NULL, "check assets/scenes/tail.json", 400);
+    starve_command(command_check, NULL, "check assets/scenes/hands.json", 150);
+    starve_command(command_check, NULL, "check assets/scenes/dog.json", 100);
+}
+
+static void solve(void **state)
+{
+    (void)state;
+    starve_command(command_solve, "out.csv", "solve assets/scenes/tail.json -o %s/out.csv", 400);
+    starve_command(command_solve, "out.csv", "solve assets/scenes/hands.json -o %s/out.csv", 150);
+}
+
+static void export_(void **state)
+{
+    (void)state;
+    static const char *const endings[] = {"glb", "gltf", "usda", "bvh", "csv", "npy"};
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        char name[16], line[128];
+        snprintf(name, sizeof name, "out.%s", endings[i]);
+        snprintf(line, sizeof line, "export assets/scenes/tail.json --frames 0:3 -o %%s/out.%s", endings[i]);
+        starve_command(command_export, name, line, 150);
+    }
+    starve_command(command_export, "out.glb", "export assets/scenes/dog.json --frames 0:3 -o %s/out.glb", 100);
+    starve_command(command_export, "out.usda", "export assets/scenes/dog.json --frames 0:3 -o %s/out.usda", 100);
+}
+
+static void rig(void **state)
+{
+    (void)state;
+    starve_command(command_rig, "dog.json", "rig assets/models/dog.glb --chain tail_1:tail_8 -o %s/dog.json", 100);
+    starve_command(command_rig, "dog.glb", "rig assets/models/dog.glb --chain ear_1_L -o %s/dog.glb", 100);
+}
+
+static void simulate_and_analyze(void **state)
+{
+    (void)state;
+    static const char box[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                              "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
+    assert_true(file_write_atomic(folder_path("box.obj"), box, sizeof box - 1, NULL));
+    starve_command(command_simulate, "box.npy",
+                   "simulate %s/box.obj --shake side --tets 60 --seconds 1 --fps 24 --substeps 2 -o %s/box.npy", 200);
+    struct lapack lapack; // OpenBLAS does not survive that itself as it starts
+    char description[128];
+    if (!lapack_load(&lapack, description, sizeof description)) return;
+    starve_command(command_analyze, "box.glb",
+                   "analyze %s/box.npy --rest %s/box.rest.obj --fps 24 --method cpca --modes 1 -o %s/box.glb", 200);
+    lapack_unload(&lapack);
+}
+
+/// A short session: start, an edit, playing, undo, saving, opening a figure, exporting.
+static int session(void *user)
+{
+    static const struct {
+        int key;
+        unsigned mods;
+    } keys[] = {{'I', 0},        {' ', 0},        {'Z', MOD_CTRL}, {'Y', MOD_CTRL}, {'N', MOD_SHIFT}, {'S', MOD_CTRL},
+                {'3', MOD_CTRL}, {'C', MOD_CTRL}, {'F', 0},        {'O', MOD_CTRL}, {KEY_ESCAPE, 0},  {KEY_F1, 0}};
+    const char *path = user;
+    struct error error = {0};
+    struct app app = {0};
+    struct app_options options = {.scene = path, .headless = true};
+    const long at = starve_at;
+    starve_at = -1;
+    app.platform = calloc(1, sizeof *app.platform); // the window is not what is starved
+    atomic_store(&allocations, 0);
+    starve_at = at;
+    app.options = &options;
+    app.fixed_clock = true;
+    bool good = font_init(&error) && (app.table.editor = editor_create(&error)) &&
+                (app.table.history = history_create()) && (app.table.models = models_create());
+    if (good) {
+        app_connect_files(&app);
+        app_resize(&app, 1280, 720, 1);
+        good = app_open(&app, path, &error);
+    }
+    for (size_t i = 0; good && i < sizeof keys / sizeof *keys; i++) {
+        const struct event event = {
+            .kind = EVENT_KEY, .key = keys[i].key, .mods = keys[i].mods, .action = ACTION_PRESS};
+        event_queue_push(&app.platform->queue, &event);
+        app_frame(&app);
+        good = !app.failed;
+    }
+    app_free(&app);
+    starve_at = -1;
+    struct document *document = scene_load(path, NULL, &error);
+    if (!document) return 8; // old or new, but whole
+    document_destroy(document);
+    return good ? 0 : 3;
+}
+
+static void a_session(void **state)
+{
+    (void)state;
+    char path[128];
+    static const char scene[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": "
+                                "[{\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}]}], \"rigs\": "
+                                "[{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"s\"}]}";
+    snprintf(path, sizeof path, "%s", folder_path("session.json"));
+    assert_true(file_write_atomic(path, scene, sizeof scene - 1, NULL));
+    starve("a session", session, path, 400);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fonts),
         cmocka_unit_test(pictures),
+        cmocka_unit_test(check),
+        cmocka_unit_test(solve),
+        cmocka_unit_test(export_),
+        cmocka_unit_test(rig),
+        cmocka_unit_test(simulate_and_analyze),
+        cmocka_unit_test(a_session),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

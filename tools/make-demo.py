@@ -92,7 +92,6 @@ def curves(t):
 
 def record(t):
     say(t, "R while you drag the fox: its way becomes knots")
-    key(t + 10, "Home", "ctrl")
     key(t + 20, "Left", "shift")
     hold(t + 30, 240, "body(tail)", to_and_fro(0.5, 0, 2))
     key(t + 70, "R")
@@ -115,7 +114,7 @@ def stage(t):
     say(t, "F5: the stage alone, keys as they are pressed")
     key(t + 40, "F5")
     t += 4 * SECOND
-    say(t, "A soft bear from a simulation: each part lags in its own way")
+    say(t, "A soft bear: each part has a lag of its own")
     key(t + 20, "7", "ctrl")
     t += 7 * SECOND
     say(t, "Pins: take it by a hand, and the rest swings")

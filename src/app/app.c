@@ -1,7 +1,6 @@
 /// Starts the app, runs its frames and ends it.
 #include "app/app.h"
 #include "app/state.h"
-#include "app/ui_scale.h"
 #include "base/clock.h"
 #include "platform/process.h"
 #include "platform/turns.h"

@@ -1,5 +1,4 @@
 /// Plays the demo: which frame of it is due, its rounds, and its end.
-#include "app/demo.h"
 #include "app/state.h"
 #include "base/embedded.h"
 #include "ui/theme.h"

@@ -2,7 +2,6 @@
 #include "app/assets.h"
 #include "app/exporting.h"
 #include "app/state.h"
-#include "app/ui_scale.h"
 #include "base/embedded.h"
 #include "base/path.h"
 #include "base/png.h"

@@ -1,6 +1,5 @@
 /// One frame of the app: take input, work on the table, draw, log.
 #include "app/state.h"
-#include "app/ui_scale.h"
 #include "base/clock.h"
 #include "platform/process.h"
 #include <limits.h>

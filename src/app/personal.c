@@ -6,7 +6,6 @@
 #include "app/recent.h"
 #include "app/settings.h"
 #include "app/state.h"
-#include "app/ui_scale.h"
 #include "base/clock.h"
 #include "ui/theme.h"
 #include <math.h>

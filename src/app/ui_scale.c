@@ -1,9 +1,11 @@
 /// How large everything in the window is drawn, on top of the display's own scale.
-#include "app/ui_scale.h"
 #include "app/state.h"
 #include <math.h>
 
 static const double steps[] = {UI_SCALE_LEAST, 1, 1.25, 1.5, 1.75, 2, 2.5, UI_SCALE_MOST};
+/// Logical pixels of the layout; less shows a part of it.
+enum { UI_LEAST_WIDTH = 320, UI_LEAST_HEIGHT = 240 };
+
 enum { STEPS = sizeof steps / sizeof *steps };
 
 static const double PRESENTING = 1.5;          ///< times what is chosen

@@ -9,6 +9,7 @@
 struct row {
     FILE *out;
     bool names;
+    bool no_memory; ///< for a name
     int columns;
 };
 
@@ -39,6 +40,7 @@ static void write_column(void *user, double value, const char *format, ...)
     if (vasprintf(&name, format, arguments) < 0) name = NULL;
     va_end(arguments);
     if (name) write_name(row->out, name);
+    row->no_memory |= !name;
     free(name);
 }
 
@@ -67,6 +69,7 @@ bool csv_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struc
     struct row row = {.out = out, .names = true};
     shot->total = shot->key_count;
     if (!write_row(shot, 0, &row, error)) return false;
+    if (row.no_memory) return fail_no_memory(error, "the table");
     row.names = false;
     for (int k = 0; k < shot->key_count; k++) {
         if (!write_row(shot, k, &row, error) || !shot_proceed(shot, error)) return false;

@@ -42,6 +42,10 @@ bool opened_solve(struct opened *opened, wiggly_method method, struct error *err
     if (!evaluation_resize(&opened->evaluation, opened->document, error)) return false;
     motions_bake(&opened->evaluation, opened->document, &source);
     evaluation_update(&opened->evaluation, opened->document, NULL, false);
+    for (int i = 0; i < opened->evaluation.count; i++) {
+        if (opened->evaluation.status[i] == WIGGLY_ERROR_MEMORY)
+            return fail_no_memory(error, opened->document->splines[i].name);
+    }
     return !opened->models || models_grow(opened->models, opened->document, &opened->evaluation) ||
            fail(error, ERROR_ENVIRONMENT, "not enough memory for the meadow");
 }

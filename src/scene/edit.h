@@ -49,6 +49,7 @@ enum edit_kind {
     EDIT_CLIP,       ///< rig, text: the model's clip, or NULL
     EDIT_PLACE,      ///< rig, contents: the model's position, scale and turn
     EDIT_CHAIN,      ///< rig, contents: the chain's from, to, turn and mirror
+    EDIT_MEADOW,     ///< rig, contents: all numbers of the meadow
     EDIT_PIN_ADD,    ///< rig, pin (its id is given)
     EDIT_PIN_SET,    ///< rig, pin (found by id; frame, point and place are replaced)
     EDIT_PIN_REMOVE, ///< rig, pin.id

@@ -167,3 +167,25 @@ bool plan_chain(struct document *document, const struct edit *edit, struct chang
     const bool copied = rig->chain.from && rig->chain.to;
     return copied ? plan_rig_finish(edit->rig, rig, list, error) : plan_rig_abandon(rig, error);
 }
+
+static bool same_meadow(const struct meadow_rig *a, const struct meadow_rig *b)
+{
+    return a->count == b->count && a->seed == b->seed && a->area[0] == b->area[0] && a->area[1] == b->area[1] &&
+           a->height == b->height && a->variation == b->variation && a->lag == b->lag && a->gain == b->gain;
+}
+
+bool plan_meadow(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+{
+    const struct meadow_rig *old = &document->rigs[edit->rig].meadow, *wanted = &edit->contents->meadow;
+    const bool fits = wanted->count >= 1 && wanted->count <= MEADOW_MAX_REEDS && wanted->seed >= 0 &&
+                      wanted->height > 0 && wanted->area[0] > 0 && wanted->area[1] > 0 && wanted->variation >= 0;
+    if (!fits) return fail(error, ERROR_INPUT, "a meadow has 1 to %d reeds, an area and a height", MEADOW_MAX_REEDS);
+    if (same_meadow(old, wanted)) return true;
+    struct rig *rig = plan_rig_begin(document, edit->rig, error);
+    if (!rig) return false;
+    const int spline = rig->meadow.spline;
+    rig->meadow = *wanted;
+    rig->meadow.spline = spline;
+    rig->meadow.lag += 0.0, rig->meadow.gain += 0.0;
+    return plan_rig_finish(edit->rig, rig, list, error);
+}

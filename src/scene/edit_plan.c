@@ -71,6 +71,7 @@ static const struct {
     [EDIT_CLIP] = {plan_clip, TARGET_RIG, KIND(RIG_MODEL)},
     [EDIT_PLACE] = {plan_place, TARGET_RIG, KIND(RIG_MODEL)},
     [EDIT_CHAIN] = {plan_chain, TARGET_RIG, KIND(RIG_CHAIN)},
+    [EDIT_MEADOW] = {plan_meadow, TARGET_RIG, KIND(RIG_MEADOW)},
     [EDIT_PIN_ADD] = {plan_pin_add, TARGET_RIG, PINNED},
     [EDIT_PIN_SET] = {plan_pin_set, TARGET_RIG, PINNED},
     [EDIT_PIN_REMOVE] = {plan_pin_remove, TARGET_RIG, PINNED},

@@ -30,7 +30,8 @@ bool scene_print_into(const struct document *document, const char *folder, char 
                       size_t *size);
 
 /// Saves the paint of the document's characters, each as an .npy file beside the scene (which the document then names), and then the
-/// scene, atomically. On failure the old scene is intact and no new file is left.
+/// scene, in one step: on failure, and after a crash at any time, the old scene is intact with its old paint, or the new one is
+/// there with the new. A failure leaves no new file.
 bool scene_save(struct document *document, const char *path, struct error *error);
 
 /// Reads the paint that the document's characters name and do not have yet. If a file is missing or broken, it reads the others

@@ -17,29 +17,32 @@
 
 enum { MOST_ROUNDS = 8, FIRST_ROOM = 8 };
 
+/// Frees what a pointer leads to, and lets it lead nowhere: a failed resize leaves what the end frees again.
+#define DROP(pointer) (free(pointer), (pointer) = NULL)
+
 static void free_solver(struct pinned *pinned)
 {
     wiggly_group_destroy(pinned->solver);
-    free(pinned->descs);
-    free(pinned->curves);
-    free(pinned->weights);
-    free(pinned->members);
-    free(pinned->c);
-    free(pinned->held);
-    free(pinned->left);
-    free(pinned->round.pins);
-    free(pinned->round.pulls);
+    DROP(pinned->descs);
+    DROP(pinned->curves);
+    DROP(pinned->weights);
+    DROP(pinned->members);
+    DROP(pinned->c);
+    DROP(pinned->held);
+    DROP(pinned->left);
+    DROP(pinned->round.pins);
+    DROP(pinned->round.pulls);
     pinned->solver = NULL;
     pinned->group = pinned->pins = 0;
 }
 
 static void free_splines(struct pinned *pinned)
 {
-    free(pinned->which);
-    free(pinned->order);
-    free(pinned->placed);
-    free(pinned->was);
-    free(pinned->weight);
+    DROP(pinned->which);
+    DROP(pinned->order);
+    DROP(pinned->placed);
+    DROP(pinned->was);
+    DROP(pinned->weight);
     pinned->splines = 0;
 }
 

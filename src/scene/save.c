@@ -1,22 +1,24 @@
-/// Saves a document: first its characters' paint, each in a file beside the scene, then the scene that names them, so that a scene on
-/// disk never names paint that is missing.
+/// Saves a document in one step: paint that has changed goes to files of new names beside the scene, then the scene that names them takes
+/// the old one's place, then what only the old one named is removed. Whenever that ends, the scene on disk is the old one with
+/// the old paint, or the new one with the new.
 #include "base/file.h"
 #include "base/path.h"
 #include "scene/load.h"
 #include "scene/paint_file.h"
 #include "scene/text.h"
+#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { MAX_NAMES = 10000 };
+enum { MAX_NAMES = 10000, LARGEST_SCENE = 1 << 28 };
 
 /// A character's paint while it is saved.
 struct sheet {
     bool written;
-    bool is_new;    ///< the file did not exist before
     char *old_path; ///< the rig's, restored on failure; owned once written
     char file[PATH_LIMIT];
+    char replaced[PATH_LIMIT]; ///< the file that it stands for from now on, or ""
 };
 
 /// "walk-paint.npy" beside "walk.json", or the next free number: an existing file may belong to another scene.
@@ -45,18 +47,13 @@ static bool is_shared(const struct document *document, int index)
     return false;
 }
 
-/// Chooses the file for a rig's paint: its own if the scene keeps its path, else a new one.
-static bool choose_file(const struct document *document, int index, const char *scene, struct sheet *sheet,
-                        struct error *error)
+/// Whether a rig's paint is in a file of its own, which the scene keeps; `own` is its path then.
+static bool has_own_file(const struct document *document, int index, const char *scene, char own[PATH_LIMIT])
 {
     const struct character_rig *rig = &document->rigs[index].character;
     const bool stays = document->path && strcmp(document->path, scene) == 0;
-    if (stays && rig->paint && rig->filed != 0 && !is_shared(document, index))
-        return path_resolve(document->folder, rig->paint, sheet->file) ||
-               fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", rig->paint);
-    sheet->is_new = true;
-    return new_file(scene, sheet->file) ||
-           fail(error, ERROR_ENVIRONMENT, "%s: there is no name left for its paint", scene);
+    return stays && rig->paint && rig->filed != 0 && !is_shared(document, index) &&
+           path_resolve(document->folder, rig->paint, own) && access(own, F_OK) == 0;
 }
 
 /// Makes the rig name the new file, relative to the document's folder.
@@ -79,15 +76,47 @@ static bool save_sheet(struct document *document, int index, const char *scene, 
     struct character_rig *rig = &document->rigs[index].character;
     if (document->rigs[index].kind != RIG_CHARACTER) return true;
     if (!rig->painted || paint_is_plain(rig->painted)) return true;
-    if (!choose_file(document, index, scene, sheet, error)) return false;
-    if (!sheet->is_new && rig->filed == rig->painted->version) return true;
+    if (has_own_file(document, index, scene, sheet->replaced)) {
+        if (rig->filed == rig->painted->version) return true;
+    } else {
+        sheet->replaced[0] = '\0';
+    }
+    if (!new_file(scene, sheet->file))
+        return fail(error, ERROR_ENVIRONMENT, "%s: there is no name left for its paint", scene);
     if (!paint_write(rig->painted, sheet->file, error)) return false;
-    if (sheet->is_new && !name_file(document, rig, sheet, error)) {
+    if (!name_file(document, rig, sheet, error)) {
         unlink(sheet->file);
         return false;
     }
     sheet->written = true;
     return true;
+}
+
+/// Whether a scene in the folder may name a file: a copy of the scene may be the only one that does.
+static bool is_named(const char *folder, const char *name)
+{
+    DIR *directory = opendir(folder[0] ? folder : ".");
+    bool named = !directory;
+    const struct dirent *entry;
+    while (!named && (entry = readdir(directory)) != NULL) {
+        char path[PATH_LIMIT], *data;
+        size_t size;
+        if (!path_has_end(entry->d_name, ".json")) continue;
+        const bool read =
+            path_resolve(folder, entry->d_name, path) && file_read(path, LARGEST_SCENE, &data, &size, NULL);
+        named = !read || memmem(data, size, name, strlen(name));
+        if (read) free(data);
+    }
+    if (directory) closedir(directory);
+    return named;
+}
+
+/// Removes paint that a new file stands for, unless somebody may want it.
+static void remove_replaced(const struct sheet *sheet)
+{
+    char folder[PATH_LIMIT];
+    const char *slash = strrchr(sheet->replaced, '/');
+    if (slash && path_folder(sheet->replaced, folder) && !is_named(folder, slash + 1)) unlink(sheet->replaced);
 }
 
 /// Keeps the new names and files, or undoes both on failure.
@@ -97,9 +126,10 @@ static void finish(struct document *document, struct sheet *sheets, int count, b
         struct character_rig *rig = &document->rigs[i].character;
         struct sheet *sheet = &sheets[i];
         if (!sheet->written) continue;
-        if (saved || !sheet->is_new) {
+        if (saved) {
             rig->filed = rig->painted->version;
             free(sheet->old_path);
+            remove_replaced(sheet);
         } else {
             unlink(sheet->file);
             free(rig->paint);

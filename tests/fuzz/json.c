@@ -80,7 +80,7 @@ static json_t *number_near(const json_t *old)
                                   1000000};
     const double was = json_number_value(old);
     double next = ends[any(sizeof ends / sizeof *ends)];
-    switch (any(6)) {
+    switch (any(10)) {
     case 0:
         next = was + 1;
         break;

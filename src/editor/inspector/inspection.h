@@ -33,6 +33,7 @@ void inspector_knot(struct inspection *in);
 void inspector_tail(struct inspection *in);
 void inspector_character(struct inspection *in);
 void inspector_pins(struct inspection *in);
+void inspector_meadow(struct inspection *in);
 void inspector_model(struct inspection *in);
 void inspector_history(struct inspection *in);
 /// What the section on knots is called: how many are selected.
@@ -118,6 +119,9 @@ extern const struct angle_row angle_row_lag, angle_row_gain, angle_row_rest;
 void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles);
 
 /// The edit that replaces them.
+/// What its numbers are in: the gain of what moves the body may be in percent.
+const char *inspector_angle_unit(const struct inspection *in, const struct angle_row *row);
+
 struct edit inspector_angles_edit(const struct inspection *in, const struct angle_row *row,
                                   const struct angles *angles);
 /// Below the row of angles of each joint: their curve, and the number of one.

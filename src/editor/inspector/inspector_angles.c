@@ -50,6 +50,11 @@ struct edit inspector_angles_edit(const struct inspection *in, const struct angl
     return edit;
 }
 
+const char *inspector_angle_unit(const struct inspection *in, const struct angle_row *row)
+{
+    return row->kind == ANGLE_GAIN ? axis_unit(inspector_felt_channel(in)->axis) : "°";
+}
+
 /// By how much a slider's ends are taken further out, so that it has the angle on it; the same as long as it is dragged.
 static double reach_of(struct inspection *in, const struct angle_row *row, double angle)
 {
@@ -70,7 +75,7 @@ static void build_slider(struct inspection *in, const struct angle_row *row, con
     const double reach = lags ? 1 : reach_of(in, row, value);
     struct ui_number number = {.name = row->name,
                                .label = row->name,
-                               .unit = "°",
+                               .unit = inspector_angle_unit(in, row),
                                .hint = row->hint,
                                .minimum = reach * row->minimum,
                                .maximum = lags ? 720 : reach * row->maximum,
@@ -80,8 +85,8 @@ static void build_slider(struct inspection *in, const struct angle_row *row, con
                                .step = row->step,
                                .decimals = 1};
     if (several) {
-        snprintf(shown, sizeof shown, "%.1f → %.1f°", angles_number(angles, 0),
-                 angles_number(angles, angles->count - 1));
+        snprintf(shown, sizeof shown, "%.1f → %.1f%s", angles_number(angles, 0),
+                 angles_number(angles, angles->count - 1), number.unit);
         number.shown = shown;
     }
     enum ui_change change = ui_value(in->ui, r, &number, &value);

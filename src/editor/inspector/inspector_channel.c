@@ -95,11 +95,20 @@ static void build_buttons(struct inspection *in)
     }
 }
 
+/// A gain that was never set becomes the new axis's.
 static void set_axis(struct inspection *in, enum axis axis)
 {
+    const struct channel *channel = chosen_channel(in);
+    const struct angles gain = {.value = {axis_gain(axis)}};
+    const bool untouched = channel->gain.form == ANGLES_ONE && channel->gain.value[0] == axis_gain(channel->axis);
     struct edit edit = channel_edit(in, EDIT_AXIS);
     edit.axis = axis;
-    core_step(in->core, in->world, "Set axis", 0, &edit);
+    if (history_is_open(in->world->history)) return;
+    history_begin(in->world->history, "Set axis", 0);
+    const bool done = core_edit(in->core, in->world, &edit);
+    const struct edit with = inspector_angles_edit(in, &angle_row_gain, &gain);
+    if (done && untouched) core_edit(in->core, in->world, &with);
+    history_end(in->world->history);
 }
 
 static void build_choices(struct inspection *in, const struct channel *channel)

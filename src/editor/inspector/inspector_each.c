@@ -154,7 +154,7 @@ static void build_joint(struct inspection *in, const struct angle_row *row, cons
     snprintf(label, NAME, "joint %d", joint + 1);
     const struct ui_number number = {.name = name,
                                      .label = label,
-                                     .unit = "°",
+                                     .unit = inspector_angle_unit(in, row),
                                      .hint = "Angle of the joint that was touched last in the curve above",
                                      .lowest = -36000,
                                      .highest = 36000,

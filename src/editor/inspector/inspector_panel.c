@@ -34,6 +34,8 @@ static const char *tail_title(struct inspection *in)
 
 static bool has_character(const struct inspection *in) { return document_character(in->document, 0) != NULL; }
 
+static bool has_meadow(const struct inspection *in) { return document_find_rig(in->document, RIG_MEADOW, 0) >= 0; }
+
 static bool takes_pins(const struct inspection *in)
 {
     bool any = false;
@@ -58,6 +60,7 @@ static const struct section {
     {"section.model", "Imported character", NULL, inspector_model, inspector_model_lists, has_model, false},
     {"section.tail", NULL, tail_title, inspector_tail, inspector_tail_lists, has_tail, false},
     {"section.character", "Character", NULL, inspector_character, inspector_character_lists, has_character, false},
+    {"section.meadow", "Meadow", NULL, inspector_meadow, NULL, has_meadow, false},
     {"section.pins", "Pins", NULL, inspector_pins, NULL, takes_pins, false},
     {"section.advanced", "Advanced", NULL, inspector_advanced, NULL, has_spline, true},
     {"section.poles", "Poles and response", NULL, inspector_poles, NULL, has_spline, true},

@@ -90,11 +90,11 @@ void inspector_choose_rig(struct inspection *in, int rig)
                                            [RIG_CHAIN] = "section.tail",
                                            [RIG_CHARACTER] = "section.character",
                                            [RIG_MODEL] = "section.model",
-                                           [RIG_MEADOW] = NULL};
+                                           [RIG_MEADOW] = "section.meadow"};
     const struct rig *chosen = &in->document->rigs[rig];
     if (chosen->kind == RIG_MODEL) bones_clear(in->core);
     show_rig(in->inspector, in->core, in->document, rig);
-    if (sections[chosen->kind]) inspector_unfold(in->inspector, sections[chosen->kind]);
+    inspector_unfold(in->inspector, sections[chosen->kind]);
     if (rig_input_count(chosen) > 0) core_activate(in->core, in->world, rig_input(chosen, 0));
 }
 
