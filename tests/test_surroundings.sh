@@ -82,7 +82,7 @@ if [ "$(german bash -c 'printf %.1f 1,5' 2>/dev/null)" = "1,5" ]; then
         german "$WIGGLY" export $scene -o "$scratch/tail.$ending" --quiet && cmp "$scratch/plain" "$scratch/tail.$ending"
         ok "decimal commas: .$ending is written as elsewhere" $?
     done
-    replayed() { "$WIGGLY" live tests/replays/session.json --headless --replay tests/replays/session.replay --result "$1"; }
+    replayed() { "$WIGGLY" live tests/replays/session.json --headless --scale 0.5 --replay tests/replays/session.replay --result "$1"; }
     if replayed "$scratch/plain.json" >/dev/null 2>&1; then
         export -f replayed
         export WIGGLY
