@@ -230,7 +230,7 @@ static inline void field(struct monkey *m)
     type(m);
 }
 
-/// Rigs that come and go, and the theme.
+/// Rigs that come and go, the theme, the size of everything, and presenting.
 static inline void rig(struct monkey *m)
 {
     static const int keys[] = {KEY_DOWN, KEY_DOWN, KEY_UP, KEY_ENTER, KEY_ENTER, KEY_TAB};
@@ -238,7 +238,8 @@ static inline void rig(struct monkey *m)
     if (what == 0) {
         monkey_key(m, KEY_DELETE, MOD_SHIFT);
     } else if (what == 1) {
-        monkey_key(m, KEY_F10, 0);
+        static const int settings[] = {KEY_F10, KEY_F8, KEY_F5};
+        monkey_key(m, settings[below(m, 3)], one_in(m, 2) ? MOD_SHIFT : 0);
     } else {
         monkey_key(m, 'A', 0);
         for (int i = below(m, 6); i > 0; i--) monkey_key(m, keys[below(m, 6)], 0);
