@@ -1,6 +1,7 @@
 /// Reads the command line and hands over to one command.
 #include "base/build.h"
 #include "base/embedded.h"
+#include "base/printable.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include <stdbool.h>
@@ -70,12 +71,14 @@ static bool means_live(const char *word) { return word[0] == '-' || strpbrk(word
 static int wrong_command(const char *word)
 {
     const char *names[COMMAND_COUNT];
+    char shown[256];
+    printable(word, shown, sizeof shown);
     for (int i = 0; i < COMMAND_COUNT; i++) names[i] = commands[i].name;
     const char *nearest = options_nearest(word, names, COMMAND_COUNT);
     if (nearest) {
-        fprintf(stderr, "wiggly: unknown command %s (did you mean %s?); see wiggly --help\n", word, nearest);
+        fprintf(stderr, "wiggly: unknown command %s (did you mean %s?); see wiggly --help\n", shown, nearest);
     } else {
-        fprintf(stderr, "wiggly: unknown command %s; see wiggly --help\n", word);
+        fprintf(stderr, "wiggly: unknown command %s; see wiggly --help\n", shown);
     }
     return 2;
 }

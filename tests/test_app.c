@@ -182,12 +182,65 @@ static void a_file_outlives_a_program_that_is_killed_while_it_saves(void **state
     assert_int_equal(system(command), 0);
 }
 
+/// The last resort never writes through a link that somebody has put in its way.
+static void a_rescue_follows_no_link(void **state)
+{
+    (void)state;
+    struct blind blind;
+    char folder[64], path[96], link[128], victim[128], rescued[128];
+    open_edited(&blind, folder, path);
+    snprintf(link, sizeof link, "%s/scene.recovered.json", folder);
+    snprintf(victim, sizeof victim, "%s/victim", folder);
+    snprintf(rescued, sizeof rescued, "%s/scene.recovered-2.json", folder);
+    assert_int_equal(symlink(victim, link), 0);
+    struct error error = {0};
+    fail(&error, ERROR_ENVIRONMENT, "the end");
+    app_rescue(&blind.app, &error);
+    assert_int_not_equal(access(victim, F_OK), 0);
+    assert_non_null(strstr(error.text, rescued));
+    assert_knots_in_file(rescued, 1);
+    blind_close(&blind);
+    snprintf(victim, sizeof victim, "rm -r %s", folder);
+    assert_int_equal(system(victim), 0);
+}
+
+/// Where nothing else can be written, it is a folder that nobody could know of and that is the user's alone.
+static void the_last_place_is_ones_own(void **state)
+{
+    (void)state;
+    struct blind blind;
+    struct stat about;
+    char folder[64], path[96], *home = getenv("HOME") ? strdup(getenv("HOME")) : NULL;
+    open_edited(&blind, folder, path);
+    assert_true(document_set_path(blind.app.table.document, "/proc/scene.json"));
+    setenv("HOME", "/proc", 1);
+    struct error error = {0};
+    fail(&error, ERROR_ENVIRONMENT, "the end");
+    app_rescue(&blind.app, &error);
+    if (home) setenv("HOME", home, 1);
+    free(home);
+    char rescued[64] = "";
+    const char *place = strstr(error.text, "/tmp/wiggly-");
+    if (!place || sscanf(place, "%63[^:]", rescued) != 1) fail_msg("%s", error.text);
+    assert_knots_in_file(rescued, 1);
+    assert_int_equal(unlink(rescued), 0);
+    *strrchr(rescued, '/') = '\0';
+    assert_int_equal(stat(rescued, &about), 0);
+    assert_int_equal(about.st_mode & 0777, 0700);
+    assert_int_equal(rmdir(rescued), 0);
+    blind_close(&blind);
+    unlink(path);
+    assert_int_equal(rmdir(folder), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_figure_ends_a_drag_that_begins_in_its_frame),
         cmocka_unit_test(work_outlives_a_full_disk),
         cmocka_unit_test(work_outlives_a_folder_that_cannot_be_written),
+        cmocka_unit_test(a_rescue_follows_no_link),
+        cmocka_unit_test(the_last_place_is_ones_own),
         cmocka_unit_test(a_file_outlives_a_program_that_is_killed_while_it_saves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -139,6 +140,9 @@ static void test_left_behind(void **state)
     world_must(&world, edit_insert(SWAY, 5, 5));
     struct autosave_work work = work_of(&world);
     assert_true(autosave_flush(autosave, &work, &error));
+    struct stat about;
+    assert_int_equal(stat(autosave_path(autosave), &about), 0);
+    assert_int_equal(about.st_mode & 0777, 0600);
     assert_false(recovery_find(folder, &entry, NULL)); // the running app's own
     autosave_close(autosave, true);
     char *text = recovered_text(&entry);

@@ -4,7 +4,7 @@
 #include "textbook.h"
 #include <string.h>
 
-enum { SAMPLES = 121, SPLINES = 2, KNOTS = 4, BOUNDS = 12, GROUPS = 40 };
+enum { SAMPLES = 121, SPLINES = 2, KNOTS = 4, BOUNDS = 36, GROUPS = 40 };
 
 static struct textbook book;
 static unsigned seed;
@@ -43,7 +43,7 @@ static void make_group(struct random_group *g, unsigned which)
     for (int b = 0; b < BOUNDS; b++) {
         for (int i = 0; i < 2 * SPLINES; i++) g->c[b][i / 2][i % 2] = 2 * uniform() - 1;
         g->bound[b] =
-            (wiggly_bound){.sample = 5 + 10 * b, .c = (const double(*)[2])g->c[b], .least = 0.6 * uniform() - 0.4};
+            (wiggly_bound){.sample = 5 + 3 * b, .c = (const double(*)[2])g->c[b], .least = 0.6 * uniform() - 0.4};
         if (g->bound[b].sample % 40 == 0) g->bound[b].sample++;
     }
 }

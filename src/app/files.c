@@ -2,9 +2,11 @@
 #include "app/assets.h"
 #include "app/exporting.h"
 #include "app/state.h"
+#include "app/ui_scale.h"
 #include "base/embedded.h"
 #include "base/path.h"
 #include "base/png.h"
+#include "base/printable.h"
 #include "editor/dialogs/dialog_files.h"
 #include "rig/import.h"
 #include "scene/load.h"
@@ -33,9 +35,10 @@ const char *app_path(const struct app *app) { return app->table.document->path ?
 static void show_title(struct app *app)
 {
     const char *name = app_path(app)[0] ? file_name(app_path(app)) : "untitled";
-    char title[512];
+    char title[512], shown[400];
+    printable(name, shown, sizeof shown);
     app->shown_saved = history_is_saved(app->table.history);
-    snprintf(title, sizeof title, "%s%.400s — wiggly", app->shown_saved ? "" : "*", name);
+    snprintf(title, sizeof title, "%s%s — wiggly", app->shown_saved ? "" : "*", shown);
     platform_title(app->platform, title);
 }
 
@@ -78,6 +81,11 @@ bool app_open(struct app *app, const char *path, struct error *error)
                     strlen(path), path);
     }
     const bool imports = path && import_suits(path);
+    struct own_file read = {0}; // before it is read: what is written meanwhile is theirs
+    if (path && !imports) {
+        memcpy(read.path, path, strlen(path) + 1);
+        read.stamp = file_stamp(path);
+    }
     if (imports) {
         document = import_scene(path, error);
     } else if (path) {
@@ -93,6 +101,7 @@ bool app_open(struct app *app, const char *path, struct error *error)
         return fail_no_memory(error, path);
     }
     app_adopt(app, document);
+    app->own_file = read;
     personal_note_file(app, app_path(app));
     return true;
 }
@@ -104,6 +113,20 @@ static const struct {
 } others[OTHERS] = {
     {"dog.json", "Open the dog"}, {"hands.json", "Open the hands"}, {"meadow.json", "Open the meadow"}};
 
+/// Puts the edit's document in place of the one on the table, as a step of the history.
+static bool replace_document(struct app *app, struct edit *edit, const char *label, struct error *error)
+{
+    edit->document->serial = ++app->last_serial;
+    struct editor_world world = table_world(&app->table);
+    editor_let_go(app->table.editor, &world); // a drag may have begun since the request
+    history_begin(app->table.history, label, 0);
+    bool done = history_apply(app->table.history, app->table.document, edit, error);
+    history_end(app->table.history);
+    editor_refresh(app->table.editor, &world);
+    show_title(app);
+    return done;
+}
+
 /// Opens a figure of the paper, the dog, the hands or the meadow in place of the document: undo brings the document back, with its file.
 static bool open_figure(struct app *app, int number, struct error *error)
 {
@@ -112,16 +135,22 @@ static bool open_figure(struct app *app, int number, struct error *error)
     snprintf(name, sizeof name, "figure%d.json", number);
     if (other >= 0 && other < OTHERS) snprintf(name, sizeof name, "%s", others[other].name);
     struct edit edit = {.kind = EDIT_DOCUMENT, .document = parse_built_in(name, error)};
+    return edit.document && replace_document(app, &edit, other >= 0 ? others[other].undo : "Open a figure", error);
+}
+
+/// The document's file as somebody else has left it, in place of the document: undo brings the document back.
+static bool take_theirs(struct app *app, struct error *error)
+{
+    struct edit edit = {.kind = EDIT_DOCUMENT, .document = scene_load(app_path(app), NULL, error)};
     if (!edit.document) return false;
-    edit.document->serial = ++app->last_serial;
-    struct editor_world world = table_world(&app->table);
-    editor_let_go(app->table.editor, &world); // a drag may have begun since the request
-    history_begin(app->table.history, other >= 0 ? others[other].undo : "Open a figure", 0);
-    bool done = history_apply(app->table.history, app->table.document, &edit, error);
-    history_end(app->table.history);
-    editor_refresh(app->table.editor, &world);
-    show_title(app);
-    return done;
+    if (!document_set_path(edit.document, app_path(app))) {
+        document_destroy(edit.document);
+        return fail_no_memory(error, app_path(app));
+    }
+    if (!replace_document(app, &edit, "Take theirs", error)) return false;
+    history_mark_saved(app->table.history);
+    theirs_note(app);
+    return true;
 }
 
 /// Adds the character in a file beside what stands there, as one step of the history.
@@ -151,6 +180,7 @@ static bool save(struct app *app, const char *path, struct error *error)
         return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to continue", path);
     }
     history_mark_saved(app->table.history);
+    theirs_note(app);
     editor_set_path(app->table.editor, app_path(app));
     show_title(app);
     personal_note_file(app, app_path(app));
@@ -230,9 +260,16 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_ADD:
         return add_file(app, request->path, error);
     case REQUEST_SAVE:
+    case REQUEST_OVERWRITE:
         return save(app, app_path(app), error);
     case REQUEST_SAVE_AS:
         return may_replace(app, request->path, error) && save(app, request->path, error);
+    case REQUEST_KEEP_MINE:
+        theirs_note(app);
+        history_mark_unsaved(app->table.history);
+        return true;
+    case REQUEST_THEIRS:
+        return take_theirs(app, error);
     case REQUEST_EXPORT:
         return may_replace(app, request->path, error) && exporting_start(app, request, error);
     case REQUEST_EXPORT_STOP:
@@ -250,6 +287,8 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_FULLSCREEN:
         platform_fullscreen(app->platform, !platform_is_fullscreen(app->platform));
         return true;
+    case REQUEST_UI_SCALE:
+        return ui_scale_step(app, request->number, error);
     case REQUEST_COPY:
         app_copy(app);
         return true;
@@ -260,11 +299,20 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     return true;
 }
 
+/// Whether a request would write over what somebody else has written since: the user is asked instead.
+static bool is_asked_about(struct app *app, const struct request *request)
+{
+    const bool saves = request->kind == REQUEST_SAVE ||
+                       (request->kind == REQUEST_SAVE_AS && strcmp(request->path, app_path(app)) == 0);
+    return saves && theirs_differs(app) && editor_ask_changed(app->table.editor, true);
+}
+
 void app_requests(struct app *app)
 {
     for (;;) {
         struct request request = editor_take_request(app->table.editor);
         if (request.kind == REQUEST_NONE) break;
+        if (is_asked_about(app, &request)) continue;
         struct error error = {0};
         bool done = carry_out(app, &request, &error);
         const bool goes_on = done && request.kind == REQUEST_EXPORT;

@@ -131,6 +131,7 @@ bool recovery_write(const struct recovery_slot *slot, const char *original, cons
     struct file_output output;
     bool one_line = !strchr(original, '\n'); // else it is recovered as untitled
     if (!file_output_open(&output, slot->path, error)) return false;
+    fchmod(fileno(output.stream), 0600); // the work is nobody else's
     fprintf(output.stream, "%s %s\n", first_line, one_line ? original : "");
     fwrite(text, 1, size, output.stream);
     return file_output_commit(&output, error);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { MAX_NAMES = 1000 };
@@ -24,12 +25,14 @@ static bool write_to(const struct app *app, const struct place *place, char *pat
         int length = snprintf(path, size, "%s%s%.*s.recovered%s.json", place->folder, slash, place->name_length,
                               place->name, number);
         if (length >= (int)size) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", place->name);
-        if (access(path, F_OK) != 0) return scene_save(app->table.document, path, error);
+        struct stat about; // of the name itself: a link that leads nowhere is somebody's
+        if (lstat(path, &about) != 0) return scene_save(app->table.document, path, error);
     }
     return fail(error, ERROR_ENVIRONMENT, "%s: too many recovered scenes are there already", path);
 }
 
-/// Beside the scene's own file, else in the home folder, else in a folder that all may write to.
+/// Beside the scene's own file, else in the home folder, else in a new folder of ours where all may write: nobody can have put a link
+/// there.
 static bool write_somewhere(const struct app *app, char *path, size_t size, struct error *error)
 {
     const char *home = getenv("HOME"), *own = app_path(app)[0] ? app_path(app) : "untitled.json";
@@ -38,11 +41,16 @@ static bool write_somewhere(const struct app *app, char *path, size_t size, stru
     const struct place places[] = {
         {"", own, (int)(name - own) + stem},
         {home ? home : "", name, stem},
-        {"/tmp", name, stem},
     };
+    char shared[] = "/tmp/wiggly-XXXXXX";
     struct error first = {0};
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         if (write_to(app, &places[i], path, size, i == 0 ? &first : error)) return true;
+    }
+    const struct place last = {shared, name, stem};
+    if (mkdtemp(shared)) {
+        if (write_to(app, &last, path, size, error)) return true;
+        rmdir(shared);
     }
     *error = first;
     return false;

@@ -3,11 +3,13 @@
 #define APP_STATE_H
 
 #include "app/app.h"
+#include "app/demo.h"
 #include "app/pace.h"
 #include "app/personal.h"
 #include "app/replay.h"
 #include "app/resolution.h"
 #include "app/table.h"
+#include "app/theirs.h"
 #include "draw/draw.h"
 #include "platform/platform.h"
 #include "scene/edit.h"
@@ -19,13 +21,15 @@ struct app {
     struct draw *draw; ///< NULL: frames run to the end, but for the picture
     struct table table;
     char replaceable[1024]; ///< "save as" was asked for this existing file once
-    unsigned last_serial;   ///< of the documents that were on the table
-    unsigned sized_serial;  ///< of the document whose models were measured
+    struct own_file own_file;
+    unsigned last_serial;  ///< of the documents that were on the table
+    unsigned sized_serial; ///< of the document whose models were measured
 
     struct export_job *export_job; ///< NULL where nothing is exported
     struct personal *personal;     ///< NULL where nobody sits at a window
 
-    struct replay *replay;
+    struct replay *replay; ///< of the demo too
+    struct demo demo;
     struct recording *recording;
     struct framelog *log;
     struct frame_row row; ///< of the frame in progress
@@ -34,6 +38,11 @@ struct app {
     bool fixed_clock; ///< every frame is 1/60 s (headless, replays, recordings)
     bool was_idle;    ///< nothing moved by itself before this frame
     bool lost;        ///< the framebuffer does not hold the last frame
+    struct {
+        float width, height, scale;
+    } display;             ///< the window in logical pixels of the display, device pixels to one of them
+    double ui_scale;       ///< as chosen: how large everything is, beyond the display's scale
+    double ui_scale_shown; ///< as there is room
     struct pace pace;
     struct resolution resolution;
     double process_start; ///< on the clock
@@ -52,6 +61,9 @@ void app_free(struct app *app);
 /// One frame: input, edit, solve, pose, draw, log.
 void app_frame(struct app *app);
 
+/// Puts a new editor on the table, in place of the one that is there, for the display's size.
+bool app_open_editor(struct app *app, struct error *error);
+
 /// Opens a scene file, or the built-in one for NULL; on failure the document on the table stays.
 bool app_open(struct app *app, const char *path, struct error *error);
 
@@ -68,7 +80,7 @@ void app_requests(struct app *app);
 /// path to the error's sentence.
 void app_rescue(struct app *app, struct error *error);
 
-/// A new size of the window, in logical pixels.
+/// A new size of the window, in logical pixels of the display.
 void app_resize(struct app *app, float width, float height, float scale);
 
 /// The folder in which the editor's dialogs look for files.

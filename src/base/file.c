@@ -1,10 +1,14 @@
 /// Reads whole files, and writes them by a temporary file and a rename.
 #include "base/file.h"
+#include "base/hash.h"
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -110,6 +114,34 @@ static char *resolve_links(const char *path)
     return NULL;
 }
 
+/// Removes a file that a program which is gone was writing; another machine's is locked while it lives.
+static void remove_stale(int folder, const char *name)
+{
+    long owner;
+    int number, end = 0;
+    if (sscanf(name, ".wiggly-%ld-%d.tmp%n", &owner, &number, &end) != 2 || end == 0 || name[end]) return;
+    if (owner <= 0 || owner == (long)getpid() || kill((pid_t)owner, 0) == 0 || errno != ESRCH) return;
+    const int file = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) return;
+    if (flock(file, LOCK_EX | LOCK_NB) == 0) unlinkat(folder, name, 0);
+    close(file);
+}
+
+/// Looks for such files beside the target, once for each folder that is written to in turn.
+static void sweep(const char *target)
+{
+    static _Thread_local uint64_t swept;
+    char *path = beside(target, ".");
+    const uint64_t folder = path ? hash_bytes(HASH_START, path, strlen(path)) : swept;
+    DIR *directory = folder != swept ? opendir(path) : NULL;
+    swept = folder;
+    free(path);
+    if (!directory) return;
+    for (const struct dirent *entry; (entry = readdir(directory)) != NULL;)
+        remove_stale(dirfd(directory), entry->d_name);
+    closedir(directory);
+}
+
 /// Makes a new file beside the target; the kernel applies the umask. Returns the descriptor or -1 with errno set.
 static int create_beside(const char *target, char **temporary)
 {
@@ -120,7 +152,10 @@ static int create_beside(const char *target, char **temporary)
         *temporary = beside(target, name);
         if (!*temporary) return -1;
         int file = open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (file >= 0) return file;
+        if (file >= 0) {
+            flock(file, LOCK_EX | LOCK_NB); // a sign of life for remove_stale()
+            return file;
+        }
         int cause = errno;
         free(*temporary);
         *temporary = NULL;
@@ -143,6 +178,7 @@ static int open_output(const char *path, struct file_output *output)
     if (exists && access(path, W_OK) != 0) return -1;
     output->target = resolve_links(path);
     if (!output->target) return -1;
+    sweep(output->target);
     int file = create_beside(output->target, &output->temporary);
     if (file >= 0 && exists && fchmod(file, old.st_mode & 07777) != 0) {
         close(file);

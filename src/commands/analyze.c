@@ -331,7 +331,7 @@ int command_analyze(int argc, char **argv)
          "required: the mesh at rest (OBJ, STL, PLY, OFF, glTF), with the same vertices in the same order",
          OPTION_TEXT, &job.rest, 0, 0},
         MESH_OPTIONS(&job.opening),
-        {"--output", "-o", "FILE", "required: the character to write (.glb)", OPTION_TEXT, &job.output, 0, 0},
+        {"--output", "-o", "FILE", "required: the character to write (.glb)", OPTION_OUTPUT, &job.output, 0, 0},
         {"--fps", NULL, "N", "frames per second; required for .npy and .pc2", OPTION_REAL, &job.fps, 1e-3, 100000},
         {"--modes", NULL, "K", "coordinates per motion, most important first (1)", OPTION_INT, &job.modes, 1,
          MODES_MAX},
@@ -345,9 +345,9 @@ int command_analyze(int argc, char **argv)
         {"--from", NULL, "S", "the second from which on nothing drives the motion: poles are found there (0)",
          OPTION_REAL, &job.from, 0, 1e6},
         {"--scene", NULL, "FILE", "write a scene too, with knots that move the character as the motions did",
-         OPTION_TEXT, &job.scene, 0, 0},
+         OPTION_OUTPUT, &job.scene, 0, 0},
         {"--coordinates", NULL, "FILE", "write each coordinate's course over time and its spline's, as CSV",
-         OPTION_TEXT, &job.coordinates, 0, 0},
+         OPTION_OUTPUT, &job.coordinates, 0, 0},
     };
     const struct usage usage = {
         .command = "analyze",

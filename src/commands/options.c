@@ -1,5 +1,7 @@
 /// Parses options by a table, prints help, and suggests the nearest word.
 #include "commands/options.h"
+#include "base/path.h"
+#include "base/printable.h"
 #include "scene/evaluate.h"
 #include <errno.h>
 #include <limits.h>
@@ -8,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { WORD_MAX = 63, OPTION_MAX = 32 };
 
@@ -53,12 +56,13 @@ const char *options_nearest(const char *word, const char *const *candidates, int
 
 enum options_result options_wrong(const struct usage *usage, const char *format, ...)
 {
-    fprintf(stderr, "wiggly %s: ", usage->command);
+    char text[4096], shown[4096];
     va_list arguments;
     va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    fprintf(stderr, "; see wiggly %s --help\n", usage->command);
+    printable(text, shown, sizeof shown);
+    fprintf(stderr, "wiggly %s: %s; see wiggly %s --help\n", usage->command, shown, usage->command);
     return OPTIONS_WRONG;
 }
 
@@ -137,6 +141,7 @@ static enum options_result store(const struct usage *usage, const struct option_
         *(bool *)option->target = true;
         return OPTIONS_RUN;
     case OPTION_TEXT:
+    case OPTION_OUTPUT:
         if (!*text) return options_wrong(usage, "%s: expected %s, got nothing", option->name, option->argument);
         *(const char **)option->target = text;
         return OPTIONS_RUN;
@@ -198,6 +203,33 @@ static void print_help(const struct usage *usage)
     }
 }
 
+/// Whether two paths lead to one file; a device or a pipe takes what several write.
+static bool same_file(const char *a, const char *b)
+{
+    char first[PATH_LIMIT], second[PATH_LIMIT];
+    struct stat one, other;
+    const bool exists = stat(a, &one) == 0 && stat(b, &other) == 0;
+    if (exists) return S_ISREG(one.st_mode) && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+    return path_resolve(NULL, a, first) && path_resolve(NULL, b, second) && strcmp(first, second) == 0;
+}
+
+/// Refuses two outputs to one file, of which only the last would be left.
+static enum options_result check_outputs(const struct usage *usage)
+{
+    for (int i = 0; i < usage->option_count; i++) {
+        const struct option_spec *one = &usage->options[i];
+        const char *path = one->kind == OPTION_OUTPUT ? *(const char **)one->target : NULL;
+        for (int k = 0; path && k < i; k++) {
+            const struct option_spec *other = &usage->options[k];
+            const char *taken = other->kind == OPTION_OUTPUT ? *(const char **)other->target : NULL;
+            if (taken && same_file(path, taken))
+                return options_wrong(usage, "%s and %s: expected two files, got %s for both", other->name, one->name,
+                                     path);
+        }
+    }
+    return OPTIONS_RUN;
+}
+
 enum options_result options_parse(const struct usage *usage, int argc, char **argv, const char **operands)
 {
     int count = 0;
@@ -221,7 +253,7 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
         }
     }
     if (count < usage->operand_minimum) return options_wrong(usage, "an argument is missing: %s", usage->operands);
-    return OPTIONS_RUN;
+    return check_outputs(usage);
 }
 
 struct option_spec options_solver(wiggly_method *method)

@@ -8,6 +8,7 @@
 enum option_kind {
     OPTION_FLAG,   ///< bool: set to true; takes no value
     OPTION_TEXT,   ///< const char *: points into argv
+    OPTION_OUTPUT, ///< the same, of a file that is written: no two of a command may be one file
     OPTION_LIST,   ///< struct option_list: of texts; may be given several times
     OPTION_INT,    ///< int in [minimum, maximum]
     OPTION_REAL,   ///< double in [minimum, maximum]

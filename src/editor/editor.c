@@ -5,6 +5,7 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
+#include "editor/core/presenter.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialog_files.h"
@@ -68,6 +69,7 @@ struct editor *editor_create(struct error *error)
     editor->core.layout.inspector_width = THEME_INSPECTOR_WIDTH;
     editor->core.visible = 2;
     editor->core.active = -1;
+    editor->core.ui_scale = 1;
     editor->core.brush = (struct brush){.radius = 0.12, .strength = 0.4};
     editor->core.overlays.ghost = true;
     editor->core.listener = (struct listener){hear, editor};
@@ -95,7 +97,12 @@ void editor_destroy(struct editor *editor)
 void editor_resize(struct editor *editor, float width, float height, float scale)
 {
     editor->core.layout.window = (struct rect){0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
-    editor->core.scale = scale > 0 ? scale : 1;
+    const float before = editor->core.scale, now = scale > 0 ? scale : 1;
+    if (before > 0) { // the pointer stays where it is on the screen
+        editor->core.pointer_x *= before / now;
+        editor->core.pointer_y *= before / now;
+    }
+    editor->core.scale = now;
     core_layout(&editor->core);
 }
 
@@ -216,8 +223,13 @@ bool editor_wants_frames(const struct editor *editor)
     return editor->core.playback.playing || editor->core.drag.kind == DRAG_GRAB ||
            editor->core.drag.kind == DRAG_PAINT || stage_is_moving(editor->stage) ||
            editor->core.message.seconds_left > 0 || editor->core.nudged_seconds > 0 ||
+           presenter_is_sliding(&editor->core) || dialogs_want_frames(editor->dialogs, &editor->core) ||
            curves_wants_frames(editor->curves) || tooltip_waits(&editor->tooltip);
 }
+
+bool editor_is_presenting(const struct editor *editor) { return editor->core.presenter.on; }
+
+void editor_tell_ui_scale(struct editor *editor, double scale) { editor->core.ui_scale = scale; }
 
 const struct drawlist *editor_drawlist(const struct editor *editor) { return &editor->core.list; }
 
@@ -259,6 +271,12 @@ void editor_tell_export(struct editor *editor, long done, long total)
 void editor_offer_recovery(struct editor *editor, const struct recovery_offer *offer)
 {
     dialogs_offer_recovery(editor->dialogs, offer);
+}
+
+bool editor_ask_changed(struct editor *editor, bool saving)
+{
+    if (!saving && editor->core.drag.kind != DRAG_NONE) return false;
+    return dialogs_ask_changed(editor->dialogs, &editor->core, saving);
 }
 
 void editor_welcome(struct editor *editor) { dialogs_welcome(editor->dialogs); }

@@ -38,6 +38,11 @@ bool editor_is_welcoming(const struct editor *editor);
 void editor_panels(const struct editor *editor, double *stage_share, double *inspector_width);
 void editor_set_panels(struct editor *editor, double stage_share, double inspector_width);
 
+/// Whether it presents (F5): then it wants larger type.
+bool editor_is_presenting(const struct editor *editor);
+/// What the user has chosen of the scale, for the status line.
+void editor_tell_ui_scale(struct editor *editor, double scale);
+
 /// Logical size of the window, and device pixels a logical pixel.
 void editor_resize(struct editor *editor, float width, float height, float scale);
 

@@ -7,6 +7,7 @@
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
 #include "editor/core/playback.h"
+#include "editor/core/presenter.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
@@ -45,11 +46,17 @@ static void run_request(struct editor *e, const struct editor_world *w, int argu
     core_request(&e->core, (enum request_kind)argument, NULL);
 }
 
+static void run_ui_scale(struct editor *e, const struct editor_world *w, int direction)
+{
+    (void)w;
+    core_request_number(&e->core, REQUEST_UI_SCALE, direction);
+}
+
 static void run_figure(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
     if (argument == 2) inspector_unfold(e->inspector, "section.poles");
-    core_request_figure(&e->core, argument);
+    core_request_number(&e->core, REQUEST_FIGURE, argument);
 }
 
 static void run_insert(struct editor *e, const struct editor_world *w, int argument)
@@ -64,7 +71,7 @@ static bool has_pin(const struct editor *editor, const struct editor_world *worl
     return pins_selected(&editor->core, world->document, &rig) != NULL;
 }
 
-/// Puts the brush away; without one, stops to pick a bone, lets go of the bone or pin that is selected, or clears the selection.
+/// Puts the brush away; without one, stops to pick a bone, ends presenting, lets go of the bone or pin that is selected, or clears the selection.
 static void run_select_none(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
@@ -72,6 +79,8 @@ static void run_select_none(struct editor *e, const struct editor_world *w, int 
         characters_set_brush(&e->core, w, false);
     } else if (e->core.pick.use != BONE_SELECTED) {
         e->core.pick = (struct bone_pick){0};
+    } else if (e->core.presenter.on) {
+        presenter_toggle(&e->core, w, 0);
     } else if (e->core.bone.any) {
         bones_clear(&e->core);
     } else if (has_pin(e, w)) {
@@ -99,7 +108,7 @@ static void run_hold(struct editor *e, const struct editor_world *w, int argumen
 
 static void run_frame(struct editor *e, const struct editor_world *w, int argument)
 {
-    if (!argument && rect_contains(e->core.layout.stage, e->core.pointer_x, e->core.pointer_y)) {
+    if (!argument && core_panel_at(&e->core, e->core.pointer_x, e->core.pointer_y) == PANEL_STAGE) {
         stage_fit(e->stage, &e->core, w);
     } else if (argument) {
         curves_frame_selection(e->curves, &e->core, w);
@@ -324,6 +333,13 @@ const struct binding key_bindings[] = {
     {.key = '8', .mods = MOD_CTRL, .run = run_figure, .argument = 8},
     {.key = '9', .mods = MOD_CTRL, .run = run_figure, .argument = 9},
     {.key = '0', .mods = MOD_CTRL, .run = run_figure, .argument = 10},
+    {.key = '=', .mods = CTRL_SHIFT, .repeats = true, .run = run_ui_scale, .argument = 1},
+    {.key = '+', .mods = CTRL_SHIFT, .repeats = true, .run = run_ui_scale, .argument = 1},
+    {.key = '-', .mods = CTRL_SHIFT, .repeats = true, .run = run_ui_scale, .argument = -1},
+    {.key = '0', .mods = CTRL_SHIFT, .run = run_ui_scale, .argument = 0},
+    {.key = KEY_F8, .mods = MOD_SHIFT, .repeats = true, .run = run_ui_scale, .argument = -1},
+    {.key = KEY_F8, .repeats = true, .run = run_ui_scale, .argument = 1},
+    {.key = KEY_F5, .core = presenter_toggle},
     {.key = KEY_F10, .any_time = true, .run = run_theme},
     {.key = KEY_F11, .any_time = true, .run = run_request, .argument = REQUEST_FULLSCREEN},
     {.key = KEY_F12, .any_time = true, .run = run_request, .argument = REQUEST_SCREENSHOT},
@@ -386,9 +402,6 @@ const struct binding key_bindings[] = {
     {.key = KEY_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = run_orbit, .argument = WAY_DOWN},
     {.key = KEY_PAGE_UP, .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = 1},
     {.key = KEY_PAGE_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = -1},
-    {.key = '=', .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = 1},
-    {.key = '+', .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = 1},
-    {.key = '-', .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = -1},
     {.key = KEY_HOME, .mods = MOD_SHIFT, .run = run_fit_stage},
     {.key = 'W', .run = run_remedy},
     {.key = KEY_F6, .run = run_panel, .argument = 0},

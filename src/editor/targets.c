@@ -120,6 +120,16 @@ static bool find_stage(struct place *place, struct error *error)
     return true;
 }
 
+/// From where the pointer is, in heights of the stage: pointer(0.1,0).
+static bool find_pointer(struct place *place, struct error *error)
+{
+    (void)error;
+    const struct core *core = &place->editor->core;
+    place->xy[0] = core->pointer_x + core->layout.stage.h * (float)place->target->number[0];
+    place->xy[1] = core->pointer_y + core->layout.stage.h * (float)place->target->number[1];
+    return true;
+}
+
 /// The rig of a kind that has the target's name, and which of its kind it is; NULL where there is none. A character without a
 /// name goes by its model.
 static const struct rig *rig_named(const struct place *place, enum rig_kind kind, int *n)
@@ -267,6 +277,7 @@ static const struct target_kind {
     {.kind = "warning", .named = false, .numbers = 1, .find = find_warning},
     {.kind = "ruler", .named = false, .numbers = 1, .find = find_ruler},
     {.kind = "stage", .named = false, .numbers = 2, .find = find_stage},
+    {.kind = "pointer", .named = false, .numbers = 2, .find = find_pointer},
     {.kind = "tail", .named = true, .numbers = 1, .find = find_tail},
     {.kind = "chain", .named = true, .numbers = 1, .find = find_chain},
     {.kind = "bone", .named = true, .numbers = 0, .find = find_bone},

@@ -1,10 +1,10 @@
 /// Writes the dog to a .glb: one skinned mesh with a primitive per material, its skeleton, its clips.
 #include "base/file.h"
+#include "base/png.h"
 #include "model/dog.h"
 #include "model/gltf_file.h"
 #include "model/vector.h"
 #include <math.h>
-#include <stb/stb_image_write.h>
 #include <stdlib.h>
 
 enum { BYTE = 5121, SHORT = 5123, FLOAT = 5126 };
@@ -128,10 +128,10 @@ static json_t *make_materials(struct output *o)
 }
 
 /// The encoder hands the whole file over.
-static void add_png(void *output, void *data, int size)
+static void add_png(void *output, const void *bytes, size_t size)
 {
     struct output *o = output;
-    o->picture = gltf_file_add_bytes(&o->file, data, (size_t)size);
+    o->picture = gltf_file_add_bytes(&o->file, bytes, size);
 }
 
 /// The tag's picture: brass with a swing that dies away, the mark of wiggly.
@@ -147,7 +147,7 @@ static void add_picture(struct output *o)
             memcpy(pixels[y][x], mark ? dark : brass, 3);
         }
     }
-    if (!stbi_write_png_to_func(add_png, o, TAG_PIXELS, TAG_PIXELS, 3, pixels, 3 * TAG_PIXELS))
+    if (!png_encode(add_png, o, TAG_PIXELS, TAG_PIXELS, 3, &pixels[0][0][0], PNG_SMALL))
         o->file.without_memory = true;
 }
 

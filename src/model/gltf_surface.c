@@ -1,26 +1,24 @@
 /// Makes one surface of all that a glTF file shows at rest.
+#include "base/png.h"
 #include "model/gltf.h"
 #include "model/surface_readers.h"
 #include "model/vector.h"
-#include <stb/stb_image_write.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct encoded {
     unsigned char *bytes;
     size_t size;
-    bool failed;
 };
 
 /// The encoder hands the whole file over.
-static void keep_png(void *context, void *data, int size)
+static void keep_png(void *user, const void *bytes, size_t size)
 {
-    struct encoded *encoded = context;
-    encoded->bytes = malloc((size_t)size);
-    encoded->failed = !encoded->bytes;
+    struct encoded *encoded = user;
+    encoded->bytes = malloc(size);
     if (!encoded->bytes) return;
-    memcpy(encoded->bytes, data, (size_t)size);
-    encoded->size = (size_t)size;
+    memcpy(encoded->bytes, bytes, size);
+    encoded->size = size;
 }
 
 static uint32_t add_material(struct surface_builder *b, const struct gltf *gltf, int number)
@@ -34,8 +32,8 @@ static uint32_t add_material(struct surface_builder *b, const struct gltf *gltf,
     if (to->image || from->image < 0 || !room) return index;
     const struct gltf_image *image = &gltf->images[from->image];
     struct encoded encoded = {0};
-    stbi_write_png_to_func(keep_png, &encoded, image->width, image->height, 4, image->pixels, 4 * image->width);
-    b->failed = b->failed || encoded.failed;
+    png_encode(keep_png, &encoded, image->width, image->height, 4, image->pixels, PNG_SMALL);
+    b->failed = b->failed || !encoded.bytes;
     to->image = encoded.bytes;
     to->image_size = encoded.size;
     return index;

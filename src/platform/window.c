@@ -76,6 +76,11 @@ static void on_content_scale(GLFWwindow *handle, float x, float y)
     handle_size(of(handle));
 }
 
+static void on_focus(GLFWwindow *handle, int focused)
+{
+    if (focused) push(of(handle), (struct event){.kind = EVENT_FOCUS});
+}
+
 static void on_refresh(GLFWwindow *handle) { push(of(handle), (struct event){.kind = EVENT_EXPOSE}); }
 
 static void on_close(GLFWwindow *handle)
@@ -189,6 +194,7 @@ static void listen(GLFWwindow *handle)
     glfwSetFramebufferSizeCallback(handle, on_framebuffer_size);
     glfwSetWindowContentScaleCallback(handle, on_content_scale);
     glfwSetWindowRefreshCallback(handle, on_refresh);
+    glfwSetWindowFocusCallback(handle, on_focus);
     glfwSetWindowCloseCallback(handle, on_close);
     glfwSetKeyCallback(handle, on_key);
     glfwSetCharCallback(handle, on_character);

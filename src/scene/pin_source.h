@@ -11,7 +11,8 @@ struct pin_point {
     double at[3];   ///< metres of the world
     double size;    ///< of its rig, metres
     double slack;   ///< metres that do not count
-    bool is_linear; ///< it moves by Σ Re(c x), however far
+    bool is_linear; ///< it moves by Σ Re(c x), however far; else it hangs from `base`, no farther than `reach`
+    double base[3], reach;
 };
 
 /// c of each of some splines: the point moves by Re(c dx) in x, y and z.

@@ -98,7 +98,9 @@ bool atlas_build(float scale, struct atlas *atlas, struct error *error)
     atlas->height = setter.y + setter.row_height + GAP;
     if (atlas->height <= ATLAS_MAX_HEIGHT) atlas->coverage = calloc((size_t)atlas->height, (size_t)atlas->width);
     if (!atlas->coverage) {
+        const bool fits = atlas->height <= ATLAS_MAX_HEIGHT;
         atlas_free(atlas);
+        if (fits) return fail(error, ERROR_ENVIRONMENT, "out of memory for the fonts");
         return fail(error, ERROR_ENVIRONMENT, "the fonts do not fit into a texture at scale %g", (double)scale);
     }
     for (int i = 0; i < ENTRY_COUNT; i++) rasterise_glyph(atlas, table_entry(atlas, i));

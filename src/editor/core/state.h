@@ -16,10 +16,23 @@ struct layout {
     struct rect sheet;      ///< the dope sheet's rows, below the ruler; empty where it is not shown
     struct rect value_axis; ///< numbers left of the plot
     struct rect plot;
+    struct rect open;  ///< of the stage, what no panel covers
     float stage_share; ///< of the height above the status line; kept when the window changes its size
     float inspector_width;
     float sheet_height; ///< as the curves want it
 };
+
+/// F5: the stage fills the window, and panels slide in over it.
+struct presenter {
+    bool on;
+    bool pinned;  ///< Tab: all panels stay
+    bool shares;  ///< they take their room from the stage, until they are away again
+    bool pointed; ///< the pointer has moved since, so that it may call a panel
+    bool side_wanted, below_wanted;
+    float side, below; ///< 0 … 1: how far the inspector is in, and the curves with the status line
+};
+
+enum panel { PANEL_NONE, PANEL_STAGE, PANEL_CURVES, PANEL_INSPECTOR, PANEL_STATUS };
 
 /// Selected knots of any spline, or splines: one bit an id.
 struct selection {
@@ -94,6 +107,8 @@ enum hover_kind {
     HOVER_LOOP,
     HOVER_SPEED,
     HOVER_AUTO_KEY,
+    HOVER_UI_SCALE,
+    HOVER_PRESENT,
     HOVER_LIMIT,
     HOVER_POINT, ///< of a rig, that can be pinned
     HOVER_PIN,   ///< on the stage or the ruler
@@ -211,6 +226,8 @@ struct overlays {
 struct core {
     struct layout layout;
     float scale;
+    double ui_scale; ///< part of it that the user has chosen
+    struct presenter presenter;
     int active;                       ///< spline, -1 where there is none
     unsigned active_id;               ///< its id, by which it is found again when the list has changed
     unsigned recent[CORE_MAX_RECENT]; ///< ids of those that were active before, the last one first

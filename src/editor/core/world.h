@@ -23,16 +23,20 @@ struct editor_world {
 enum request_kind {
     REQUEST_NONE,
     REQUEST_NEW,
-    REQUEST_OPEN,    ///< path
-    REQUEST_ADD,     ///< path: a character or model, to the scene on the table
-    REQUEST_SAVE,    ///< to the document's own path, or ask
-    REQUEST_SAVE_AS, ///< path
-    REQUEST_FIGURE,  ///< number: a figure of the paper in place of the document, as a step of the history
+    REQUEST_OPEN,      ///< path
+    REQUEST_ADD,       ///< path: a character or model, to the scene on the table
+    REQUEST_SAVE,      ///< to the document's own path, or ask
+    REQUEST_SAVE_AS,   ///< path
+    REQUEST_OVERWRITE, ///< the document's own file, which somebody else has changed
+    REQUEST_KEEP_MINE, ///< the same, but not before the next REQUEST_SAVE
+    REQUEST_THEIRS,    ///< the document's file as it is now in place of the document, as a step of the history
+    REQUEST_FIGURE,    ///< number: a figure of the paper in place of the document, as a step of the history
     REQUEST_QUIT,
     REQUEST_RECOVER, ///< the work that was offered
     REQUEST_FORGET,  ///< the same, for good
     REQUEST_SCREENSHOT,
     REQUEST_FULLSCREEN,
+    REQUEST_UI_SCALE,    ///< number: 1 larger, -1 smaller, 0 as the display's own
     REQUEST_COPY,        ///< editor_clipboard() onto the clipboard
     REQUEST_PASTE,       ///< an EVENT_PASTE with what is there
     REQUEST_EXPORT,      ///< path, wish; answered once it is done

@@ -11,7 +11,8 @@ enum { LIST_ROWS = 8, BUTTON_WIDTH = 104 };
 
 static bool is_question(const struct dialog *dialog)
 {
-    return dialog->kind == DIALOG_UNSAVED || dialog->kind == DIALOG_RECOVER || dialog->kind == DIALOG_ASK;
+    return dialog->kind == DIALOG_UNSAVED || dialog->kind == DIALOG_RECOVER || dialog->kind == DIALOG_ASK ||
+           dialog->kind == DIALOG_CHANGED;
 }
 
 static void open_dialog(struct dialogs *dialogs, enum dialog_kind kind, const char *path)
@@ -145,6 +146,8 @@ static void answer(struct dialogs *dialogs, struct core *core, const struct edit
         dialog_ask_answer(dialogs, core, world, given);
     } else if (dialogs->dialog.kind == DIALOG_UNSAVED) {
         decide(dialogs, core, given);
+    } else if (dialogs->dialog.kind == DIALOG_CHANGED) {
+        dialog_changed_answer(dialogs, core, given);
     } else {
         dialog_recover_answer(dialogs, core, given);
     }
@@ -273,7 +276,8 @@ static struct rect dialog_box(struct dialogs *dialogs, struct core *core, const 
 {
     struct rect window = core->layout.window;
     struct ui *ui = &dialogs->dialog.ui;
-    float w = fminf(is_question(&dialogs->dialog) ? 440 : 560, window.w - 48);
+    const bool narrow = is_question(&dialogs->dialog) && dialogs->dialog.question.count < 4;
+    float w = fminf(narrow ? 440 : 560, window.w - 48);
     ui_begin_find(ui, (struct rect){0, 0, w, window.h}, "", NULL);
     build(dialogs, core, world);
     float h = fminf(ui->y, window.h - 16);

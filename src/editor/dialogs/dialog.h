@@ -50,6 +50,8 @@ enum unsaved_answer { UNSAVED_SAVE, UNSAVED_DISCARD, UNSAVED_CANCEL };
 
 /// DIALOG_UNSAVED: asks what to do with unsaved changes.
 void dialog_ask_unsaved(struct dialogs *dialogs, const struct core *core);
+/// DIALOG_CHANGED: what an answer does.
+void dialog_changed_answer(struct dialogs *dialogs, struct core *core, int answer);
 /// DIALOG_RECOVER: what an answer does.
 void dialog_recover_answer(struct dialogs *dialogs, struct core *core, int answer);
 

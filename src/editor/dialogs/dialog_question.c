@@ -78,6 +78,14 @@ static const struct answer recover_answers[] = {
     [RECOVER_LATER] = {"dialog.later", "Later", 'L'},
 };
 
+enum changed_answer { CHANGED_MINE, CHANGED_THEIRS, CHANGED_SAVE_AS, CHANGED_CANCEL };
+static const struct answer changed_answers[] = {
+    [CHANGED_MINE] = {"dialog.mine", "Keep mine", 'K'},
+    [CHANGED_THEIRS] = {"dialog.theirs", "Take theirs", 'T'},
+    [CHANGED_SAVE_AS] = {"dialog.other", "Save as", 'S'},
+    [CHANGED_CANCEL] = {"dialog.cancel", "Cancel", 'C'},
+};
+
 /// A question with these answers, to be given its words.
 #define QUESTION(list) ((struct question){.answers = (list), .count = sizeof(list) / sizeof(list)[0]})
 
@@ -158,6 +166,39 @@ void dialog_ask_unsaved(struct dialogs *dialogs, const struct core *core)
     snprintf(question->note, sizeof question->note,
              "Save them, or they will be lost. S saves, D discards, Esc cancels.");
     dialog_open(dialogs, DIALOG_UNSAVED);
+}
+
+bool dialogs_ask_changed(struct dialogs *dialogs, const struct core *core, bool saving)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    if (!saving && dialogs_cover(dialogs)) return false;
+    dialog->question = QUESTION(changed_answers);
+    snprintf(dialog->question.title, sizeof dialog->question.title, "%s has changed on the disk", core->title);
+    snprintf(dialog->question.note, sizeof dialog->question.note,
+             "Keep mine replaces that file %s. Take theirs opens it; undo brings yours back. Save as keeps both.",
+             saving ? "now" : "at the next save");
+    dialog_open(dialogs, DIALOG_CHANGED);
+    dialog->saving = saving;
+    dialog->choice = CHANGED_SAVE_AS;
+    return true;
+}
+
+void dialog_changed_answer(struct dialogs *dialogs, struct core *core, int answer)
+{
+    switch ((enum changed_answer)answer) {
+    case CHANGED_MINE:
+        dialog_await(dialogs, core, dialogs->dialog.saving ? REQUEST_OVERWRITE : REQUEST_KEEP_MINE, NULL);
+        break;
+    case CHANGED_THEIRS:
+        dialog_await(dialogs, core, REQUEST_THEIRS, NULL);
+        break;
+    case CHANGED_SAVE_AS:
+        dialogs_save_as(dialogs, core);
+        break;
+    case CHANGED_CANCEL:
+        dialog_close(dialogs);
+        break;
+    }
 }
 
 void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer)

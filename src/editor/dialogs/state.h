@@ -18,6 +18,7 @@ enum dialog_kind {
     DIALOG_SAVE_AS,
     DIALOG_UNSAVED,
     DIALOG_RECOVER,
+    DIALOG_CHANGED,
     DIALOG_ASK,
     DIALOG_EXPORT
 };
@@ -47,6 +48,7 @@ struct dialog {
     struct question question;
     struct request after;      ///< what to do once the work is saved or discarded; REQUEST_NONE: nothing
     enum request_kind awaited; ///< what was requested and is not answered yet; REQUEST_NONE: nothing
+    bool saving;               ///< DIALOG_CHANGED: the user has asked to save
     bool skip_text;            ///< a letter has answered: the character that comes with it is no part of a path
     char error[DIALOG_ERROR_SIZE];
     char listed[UI_TEXT_SIZE]; ///< folder whose names are in `names`
@@ -72,11 +74,25 @@ struct exporting {
     long done, total;
 };
 
+/// What was pressed last, for an audience.
+struct pressed {
+    char text[64];
+    int times;
+    double seconds; ///< that it is still shown for
+    bool is_down, is_drag;
+    enum event_button button;
+    float x, y;       ///< of the press
+    float pointer[2]; ///< as a demo shows it: it glides where the recording jumps
+    bool is_demo;     ///< nobody's hands: the pointer is shown as well
+};
+
 struct dialogs {
     struct dialog dialog;
     struct exporting exporting;
     struct help help;
-    bool welcome; ///< the card for newcomers is shown
+    struct pressed pressed;
+    char caption[160]; ///< of a demo
+    bool welcome;      ///< the card for newcomers is shown
 };
 
 #endif

@@ -40,6 +40,8 @@ void inspector_let_go(struct inspector *inspector, const struct editor_world *wo
 bool inspector_is_dragging(const struct inspector *inspector);
 /// Whether a value is being typed.
 bool inspector_is_typing(const struct inspector *inspector);
+/// Whether a menu is open, which may lie beside the panel.
+bool inspector_has_menu(const struct inspector *inspector);
 /// A sentence on what the pointer is over in the inspector, or NULL.
 const char *inspector_hint(const struct inspector *inspector);
 /// The same on what has the keyboard there, and where that is.

@@ -258,6 +258,8 @@ bool inspector_is_dragging(const struct inspector *inspector) { return inspector
 
 bool inspector_is_typing(const struct inspector *inspector) { return inspector->ui.typing != 0; }
 
+bool inspector_has_menu(const struct inspector *inspector) { return inspector->ui.popup.id != 0; }
+
 const char *inspector_hint(const struct inspector *inspector) { return inspector->ui.hint; }
 
 const char *inspector_focus_hint(const struct inspector *inspector, struct rect *at)

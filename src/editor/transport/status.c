@@ -68,6 +68,11 @@ static const char *hover_hint(const struct core *core, const struct document *do
         return "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)";
     case HOVER_AUTO_KEY:
         return "Whether dragging the body sets knots at the playhead, or moves the whole shot (Shift+A)";
+    case HOVER_UI_SCALE:
+        return "How large everything is. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, "
+               "0)";
+    case HOVER_PRESENT:
+        return "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves";
     case HOVER_LIMIT:
         return "Drag the limit; the curve stays on this side of it";
     case HOVER_POINT:

@@ -1,0 +1,50 @@
+/// Escapes what a terminal would obey.
+#include "base/printable.h"
+#include <stdio.h>
+#include <string.h>
+
+static int utf8_length(const unsigned char *s)
+{
+    int n = *s < 0x80                           ? 1
+            : (*s & 0xE0) == 0xC0 && *s >= 0xC2 ? 2
+            : (*s & 0xF0) == 0xE0               ? 3
+            : (*s & 0xF8) == 0xF0               ? 4
+                                                : 0;
+    for (int i = 1; i < n; i++) {
+        if ((s[i] & 0xC0) != 0x80) return 0;
+    }
+    return n;
+}
+
+/// U+0080 … U+009F are control characters as well: some terminals obey them.
+static int plain_length(const unsigned char *s)
+{
+    const int n = utf8_length(s);
+    const int is_control = *s < 0x20 || *s == 0x7F || (n == 2 && *s == 0xC2 && s[1] < 0xA0);
+    return is_control ? 0 : n;
+}
+
+void printable(const char *text, char *shown, size_t size)
+{
+    static const char more[] = "…";
+    size_t used = 0, cut = 0; // `cut`: where the sign for more would still fit
+    for (const unsigned char *s = (const unsigned char *)text; *s;) {
+        char piece[8];
+        int taken = plain_length(s), length = taken;
+        if (taken > 0) {
+            memcpy(piece, s, (size_t)taken);
+        } else {
+            taken = 1;
+            length = *s == '\n' ? snprintf(piece, sizeof piece, "\\n") : snprintf(piece, sizeof piece, "\\x%02x", *s);
+        }
+        if (used + sizeof more <= size) cut = used;
+        if (used + (size_t)length >= size) {
+            memcpy(shown + cut, more, sizeof more);
+            return;
+        }
+        memcpy(shown + used, piece, (size_t)length);
+        used += (size_t)length;
+        s += taken;
+    }
+    shown[used] = '\0';
+}

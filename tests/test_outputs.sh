@@ -1,0 +1,42 @@
+# What commands write: never two things to one file, nothing left behind, and no control character of a name on the terminal.
+. tests/check.sh
+WIGGLY=${WIGGLY:-build/wiggly}
+scene=assets/scenes/tail.json
+cd_name=$(basename "$scratch")
+
+expect 2 "two outputs to one file are refused" "$WIGGLY" live --headless --frames 2 --log "$scratch/a" --result "$scratch/a"
+says "in a sentence with both options" "wiggly live: --log and --result: expected two files, got $scratch/a for both" "$err"
+[ ! -e "$scratch/a" ]
+ok "before anything is written" $?
+expect 2 "by another name, too" "$WIGGLY" live --headless --frames 2 --screenshot "$scratch/../$cd_name/b" --record "$scratch/./b"
+touch "$scratch/there"
+ln -s there "$scratch/link"
+ln "$scratch/there" "$scratch/twin"
+expect 2 "and through a symbolic link" "$WIGGLY" live --headless --frames 2 --log "$scratch/link" --result "$scratch/there"
+expect 2 "and to a second name of the file" "$WIGGLY" live --headless --frames 2 --log "$scratch/twin" --result "$scratch/there"
+expect 2 "a character and its scene are two files" "$WIGGLY" analyze x.npy --rest x.obj --output "$scratch/c" --scene "$scratch/c"
+expect 2 "a character and its courses are two files" "$WIGGLY" analyze x.npy --rest x.obj --output "$scratch/c" --coordinates "$scratch/c"
+
+# A process number that the system never gives, and one that lives.
+touch "$scratch/.wiggly-999999999-0.tmp" "$scratch/.wiggly-$$-3.tmp" "$scratch/.wiggly-999999999-0.tmp.mine"
+expect 0 "a table is written" "$WIGGLY" solve $scene --output "$scratch/out.csv"
+[ ! -e "$scratch/.wiggly-999999999-0.tmp" ]
+ok "what a killed program was writing is removed" $?
+[ -e "$scratch/.wiggly-$$-3.tmp" ] && [ -e "$scratch/.wiggly-999999999-0.tmp.mine" ]
+ok "what a living one writes stays, and files of others" $?
+
+escape=$(printf '\033')
+name="$scratch/${escape}[31mred"$'\n'"two.json"
+raw() { case $err in *"$escape"*) true ;; *) false ;; esac }
+expect 1 "a name with control characters" "$WIGGLY" check "$name"
+says "is shown escaped" '\x1b[31mred\ntwo.json' "$out$err"
+expect 2 "an unknown command" "$WIGGLY" "${escape}check"
+! raw
+ok "is shown escaped" $?
+expect 2 "an unknown option" "$WIGGLY" solve "--${escape}x"
+! raw
+ok "is shown escaped" $?
+expect 2 "a value that is none" "$WIGGLY" live --frames "${escape}c"
+! raw
+ok "is shown escaped" $?
+exit $((cases_failed > 0))

@@ -1,0 +1,285 @@
+/// A file that another program, or a second window, writes while it is open here: nobody's work is overwritten without a word.
+#include "blind.h"
+#include "inside.h"
+
+#include "folder.h"
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char theirs[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"theirs\", \"knots\": []}]}";
+
+static void press(struct blind *blind, int key, unsigned mods)
+{
+    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS, .mods = mods});
+    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE, .mods = mods});
+    blind_frame(blind);
+}
+
+static void focus(struct blind *blind)
+{
+    blind_send(blind, (struct event){.kind = EVENT_FOCUS});
+    blind_frame(blind);
+}
+
+static const char *scene(void) { return folder_path("walk.json"); }
+
+static void write_scene(const char *text)
+{
+    FILE *file = fopen(scene(), "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static bool holds(const char *path, const char *name)
+{
+    char text[4096] = "", quoted[64];
+    FILE *file = fopen(path, "r");
+    if (!file) return false;
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    snprintf(quoted, sizeof quoted, "\"name\": \"%s\"", name);
+    return strstr(text, quoted) != NULL;
+}
+
+static enum dialog_kind asked(const struct blind *blind) { return blind->app.table.editor->dialogs->dialog.kind; }
+
+/// A scene with a knot that is not saved.
+static void open_mine(struct blind *blind)
+{
+    write_scene("{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"mine\", \"knots\": []}]}");
+    blind_open(blind, scene());
+    blind_frame(blind);
+    press(blind, 'I', 0);
+    assert_false(history_is_saved(blind->app.table.history));
+}
+
+static void open_changed(struct blind *blind)
+{
+    open_mine(blind);
+    write_scene(theirs);
+    press(blind, 'S', MOD_CTRL);
+    assert_int_equal(asked(blind), DIALOG_CHANGED);
+    assert_true(holds(scene(), "theirs"));
+}
+
+static void keep_mine_writes_it(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_changed(&blind);
+    press(&blind, 'K', 0);
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    assert_true(holds(scene(), "mine"));
+    assert_true(history_is_saved(blind.app.table.history));
+    press(&blind, 'I', MOD_SHIFT);
+    press(&blind, 'S', MOD_CTRL); // mine again: nothing to ask
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    blind_close(&blind);
+}
+
+static void take_theirs_can_be_undone(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_changed(&blind);
+    press(&blind, 'T', 0);
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    assert_string_equal(blind.app.table.document->splines[0].name, "theirs");
+    assert_string_equal(app_path(&blind.app), scene());
+    assert_true(history_is_saved(blind.app.table.history));
+    press(&blind, 'Z', MOD_CTRL);
+    assert_string_equal(blind.app.table.document->splines[0].name, "mine");
+    assert_int_equal(blind.app.table.document->splines[0].knot_count, 1);
+    assert_false(history_is_saved(blind.app.table.history));
+    blind_close(&blind);
+}
+
+/// Theirs is no scene any more: the sentence says so, and mine stays on the table.
+static void broken_theirs_is_not_taken(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_changed(&blind);
+    write_scene("{");
+    press(&blind, 'T', 0);
+    assert_int_equal(asked(&blind), DIALOG_CHANGED);
+    assert_non_null(strstr(blind.app.table.editor->dialogs->dialog.error, "walk.json:1"));
+    assert_string_equal(blind.app.table.document->splines[0].name, "mine");
+    press(&blind, KEY_ESCAPE, 0);
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    blind_close(&blind);
+}
+
+static void save_as_keeps_both(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_changed(&blind);
+    press(&blind, KEY_ENTER, 0); // the one that loses nothing
+    assert_int_equal(asked(&blind), DIALOG_SAVE_AS);
+    ui_text_set(&blind.app.table.editor->dialogs->dialog.ui.text, folder_path("other.json"));
+    press(&blind, KEY_ENTER, 0);
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    assert_true(holds(scene(), "theirs"));
+    assert_true(holds(folder_path("other.json"), "mine"));
+    blind_close(&blind);
+}
+
+/// "Save as" under the same name is a save, too.
+static void save_as_over_theirs_asks(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_mine(&blind);
+    write_scene(theirs);
+    press(&blind, 'S', MOD_CTRL | MOD_SHIFT);
+    press(&blind, KEY_ENTER, 0);
+    assert_int_equal(asked(&blind), DIALOG_CHANGED);
+    assert_true(holds(scene(), "theirs"));
+    blind_close(&blind);
+}
+
+static void cancel_writes_nothing(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_changed(&blind);
+    press(&blind, KEY_ESCAPE, 0);
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    assert_true(holds(scene(), "theirs"));
+    assert_false(history_is_saved(blind.app.table.history));
+    press(&blind, 'S', MOD_CTRL);
+    assert_int_equal(asked(&blind), DIALOG_CHANGED); // asked again
+    blind_close(&blind);
+}
+
+/// Saving on the way out asks as well, and the way out goes on afterwards.
+static void quitting_asks_as_well(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_mine(&blind);
+    write_scene(theirs);
+    press(&blind, 'Q', MOD_CTRL);
+    press(&blind, 'S', 0);
+    assert_int_equal(asked(&blind), DIALOG_CHANGED);
+    blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = 'K', .action = ACTION_PRESS});
+    app_frame(&blind.app);
+    app_frame(&blind.app);
+    assert_true(blind.app.quit);
+    assert_true(holds(scene(), "mine"));
+    blind_close(&blind);
+}
+
+static void focus_asks_once_a_change(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_mine(&blind);
+    focus(&blind);
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    write_scene(theirs);
+    focus(&blind);
+    assert_int_equal(asked(&blind), DIALOG_CHANGED);
+    press(&blind, KEY_ESCAPE, 0);
+    focus(&blind);
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    write_scene("{\"wiggly\": 1, \"splines\": [{\"name\": \"once more\", \"knots\": []}]}");
+    focus(&blind);
+    assert_int_equal(asked(&blind), DIALOG_CHANGED);
+    press(&blind, 'K', 0);
+    assert_true(holds(scene(), "once more")); // not before the next save
+    press(&blind, 'S', MOD_CTRL);
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    assert_true(holds(scene(), "mine"));
+    blind_close(&blind);
+}
+
+/// Touched, written over with the same content, or copied onto itself: that is no other file.
+static void the_same_content_is_no_change(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_mine(&blind);
+    press(&blind, 'S', MOD_CTRL);
+    press(&blind, 'I', MOD_SHIFT);
+    char command[400];
+    snprintf(command, sizeof command, "cp %s %s.copy && mv %s.copy %s && touch -d 2001-01-01 %s", scene(), scene(),
+             scene(), scene(), scene());
+    assert_int_equal(system(command), 0);
+    focus(&blind);
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    assert_int_equal(unlink(scene()), 0); // nor is one that is gone: saving loses nobody's work
+    focus(&blind);
+    press(&blind, 'S', MOD_CTRL);
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    assert_true(holds(scene(), "mine"));
+    blind_close(&blind);
+}
+
+/// The same size, and the same time to the second: what is in it tells.
+static void the_content_counts(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_mine(&blind);
+    struct stat about;
+    assert_int_equal(stat(scene(), &about), 0);
+    write_scene("{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"MINE\", \"knots\": []}]}");
+    assert_int_equal(utimensat(AT_FDCWD, scene(), (struct timespec[]){about.st_mtim, {about.st_mtim.tv_sec, 1}}, 0),
+                     0);
+    press(&blind, 'S', MOD_CTRL);
+    assert_int_equal(asked(&blind), DIALOG_CHANGED);
+    blind_close(&blind);
+}
+
+static void the_mouse_answers(void **state)
+{
+    (void)state;
+    static const char *const labels[] = {"Take theirs", "Save as", "Cancel", "Keep mine"};
+    for (int i = 0; i < 4; i++) {
+        struct blind blind;
+        open_changed(&blind);
+        const struct drawlist *list = editor_drawlist(blind.app.table.editor);
+        const struct draw_command *found = NULL;
+        for (int c = 0; c < list->count; c++) {
+            const struct draw_command *command = &list->commands[c];
+            if (command->kind == DRAW_TEXT && strcmp(list->text + command->first, labels[i]) == 0) found = command;
+        }
+        if (!found) fail_msg("no button “%s”", labels[i]);
+        const float x = found->x + 4, y = found->y - 4;
+        blind_send(&blind, (struct event){.kind = EVENT_POINTER, .x = x, .y = y});
+        for (int press = 1; press >= 0; press--)
+            blind_send(&blind, (struct event){.kind = EVENT_BUTTON,
+                                              .action = press ? ACTION_PRESS : ACTION_RELEASE,
+                                              .clicks = 1,
+                                              .x = x,
+                                              .y = y});
+        blind_frame(&blind);
+        assert_int_equal(asked(&blind), i == 1 ? DIALOG_SAVE_AS : DIALOG_NONE);
+        assert_int_equal(holds(scene(), "mine"), i == 3);
+        blind_close(&blind);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(keep_mine_writes_it),
+        cmocka_unit_test(take_theirs_can_be_undone),
+        cmocka_unit_test(broken_theirs_is_not_taken),
+        cmocka_unit_test(save_as_keeps_both),
+        cmocka_unit_test(save_as_over_theirs_asks),
+        cmocka_unit_test(cancel_writes_nothing),
+        cmocka_unit_test(quitting_asks_as_well),
+        cmocka_unit_test(focus_asks_once_a_change),
+        cmocka_unit_test(the_same_content_is_no_change),
+        cmocka_unit_test(the_content_counts),
+        cmocka_unit_test(the_mouse_answers),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
