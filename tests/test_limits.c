@@ -377,10 +377,12 @@ static int destroy(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_conditions_hold_in_every_mode),
-        cmocka_unit_test(what_is_right_behind_the_last_knot_is_held),   cmocka_unit_test(few_solves_are_enough),
-        cmocka_unit_test(bits_do_not_depend_on_the_way),       cmocka_unit_test(knots_need_no_order),
-        cmocka_unit_test(what_moves_by_itself_is_limited_too), cmocka_unit_test(what_cannot_be_is_an_error)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_conditions_hold_in_every_mode),
+                                       cmocka_unit_test(what_is_right_behind_the_last_knot_is_held),
+                                       cmocka_unit_test(few_solves_are_enough),
+                                       cmocka_unit_test(bits_do_not_depend_on_the_way),
+                                       cmocka_unit_test(knots_need_no_order),
+                                       cmocka_unit_test(what_moves_by_itself_is_limited_too),
+                                       cmocka_unit_test(what_cannot_be_is_an_error)};
     return cmocka_run_group_tests(tests, create, destroy);
 }
