@@ -339,6 +339,29 @@ static void what_cannot_be_is_an_error(void **state)
     wiggly_destroy(narrow);
 }
 
+/// An equilibrium far beyond the limits holds nearly all, the sample right behind the last knot too.
+static void what_is_right_behind_the_last_knot_is_held(void **state)
+{
+    (void)state;
+    static const double parts[] = {0.8, 1, 1 - 1e-12, 1 - 1e-6};
+    int held = 0;
+    for (unsigned n = 0; n < 40; n++) {
+        struct layout l;
+        make_layout(&l, n + 1000, WIGGLY_COMPLEX, 121, 1.0 / 12);
+        vary(&l, (int)n % 2, 0, MOVING);
+        limit(&l, 0.3);
+        for (int i = 0; i < l.desc.samples; i++) track[i] = l.largest * sin((0.05 + 0.001 * n) * i);
+        if (l.desc.start == WIGGLY_FREE) l.knots[0].sample = 0;
+        for (int k = 0; k < l.desc.knot_count; k++) l.knots[k].value *= 0.3 * parts[n / 2 % 4];
+        solve(&l);
+        snprintf(l.what, sizeof l.what, "layout %u", n);
+        held += solver->limits.held[l.knots[l.desc.knot_count - 1].sample + 1] != 0;
+        check_conditions(&l);
+    }
+    print_message("held behind the last knot: %d\n", held);
+    assert_true(held > 0);
+}
+
 static int create(void **state)
 {
     (void)state;
@@ -354,9 +377,12 @@ static int destroy(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_conditions_hold_in_every_mode),   cmocka_unit_test(few_solves_are_enough),
-        cmocka_unit_test(bits_do_not_depend_on_the_way),       cmocka_unit_test(knots_need_no_order),
-        cmocka_unit_test(what_moves_by_itself_is_limited_too), cmocka_unit_test(what_cannot_be_is_an_error)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_conditions_hold_in_every_mode),
+                                       cmocka_unit_test(what_is_right_behind_the_last_knot_is_held),
+                                       cmocka_unit_test(few_solves_are_enough),
+                                       cmocka_unit_test(bits_do_not_depend_on_the_way),
+                                       cmocka_unit_test(knots_need_no_order),
+                                       cmocka_unit_test(what_moves_by_itself_is_limited_too),
+                                       cmocka_unit_test(what_cannot_be_is_an_error)};
     return cmocka_run_group_tests(tests, create, destroy);
 }
